@@ -1,0 +1,295 @@
+"""The answer: fields, film numbers, status and history of a solve. Frozen; needs no solver."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from tehl.options import Options
+from tehl.problem import ContactProblem
+from tehl.scaling import Groups, Scales
+from tehl.typing import Array
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+StatusKind = Literal["converged", "not_converged", "diverged", "stalled"]
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Status:
+    """How the solve ended, as a word and as sentences.
+
+    Attributes
+    ----------
+    kind : {"converged", "not_converged", "diverged", "stalled"}
+        The outcome.
+    cause : str or None
+        Name of the cause when not converged, for programs: ``"grid_too_coarse"``.
+    message, hint : str or None
+        The cause and what to try, for people.
+    """
+
+    kind: StatusKind
+    cause: str | None = None
+    message: str | None = None
+    hint: str | None = None
+
+    @property
+    def converged(self) -> bool:
+        """Whether the result may be believed."""
+        return self.kind == "converged"
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class CycleReport:
+    """One multigrid cycle, as shown in the live table and stored in the history.
+
+    Attributes
+    ----------
+    points : (int, int)
+        Nodes (nx, ny) of the grid, of the full domain.
+    cycle : int
+        Number of the cycle on this grid, from 1.
+    residual : float
+        Mean of ``|r|`` scaled by the local diagonal, over wet nodes [-].
+    change : float
+        Largest change of pressure in this cycle, in Hertz pressures [-].
+    load_error : float
+        Relative error of the load balance [-].
+    film_central, film_minimum : float
+        H at X = Y = 0 and smallest nodal H after this cycle [-].
+    smoother : str
+        Setting of the relaxation that was used.
+    """
+
+    points: tuple[int, int]
+    cycle: int
+    residual: float
+    change: float
+    load_error: float
+    film_central: float
+    film_minimum: float
+    smoother: str
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Fields:
+    """Dimensionless fields on the full domain, arrays of shape (ny, nx).
+
+    Attributes
+    ----------
+    x, y : (nx,) and (ny,) array
+        Coordinates in Hertz half-widths [-].
+    pressure : (ny, nx) array
+        P = p / p_h [-].
+    film : (ny, nx) array
+        H = h R_x / a_x^2 [-].
+    """
+
+    x: Array
+    y: Array
+    pressure: Array
+    film: Array
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class FilmSummary:
+    """Film thickness numbers, all dimensionless H unless said.
+
+    Attributes
+    ----------
+    central : float
+        At X = Y = 0.
+    minimum : float
+        Sub-grid minimum (local quadratic fit).
+    minimum_node : float
+        Smallest nodal value.
+    minimum_at : (float, float)
+        Where the minimum is, in Hertz half-widths (Y >= 0 for a symmetric contact).
+    """
+
+    central: float
+    minimum: float
+    minimum_node: float
+    minimum_at: tuple[float, float]
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Estimate:
+    """A value with its error bar.
+
+    Attributes
+    ----------
+    value : float
+        Richardson value.
+    uncertainty : float
+        Half width of the bar: discretisation and domain parts added in quadrature.
+    discretisation, domain : float
+        The two parts.
+    observed_order : float or None
+        Order seen on three grids; None where the grids do not show one.
+    values : tuple of float
+        What the grids gave, coarse to fine.
+    """
+
+    value: float
+    uncertainty: float
+    discretisation: float
+    domain: float
+    observed_order: float | None
+    values: tuple[float, ...]
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class ErrorEstimate:
+    """Estimated errors of the film on the finest grid, without extra runs.
+
+    Attributes
+    ----------
+    discretisation_central, discretisation_minimum : float
+        From the difference to the next coarser grid of the full multigrid, relative [-].
+    iteration_central, iteration_minimum : float
+        What further cycles would still change, relative [-].
+    """
+
+    discretisation_central: float
+    discretisation_minimum: float
+    iteration_central: float
+    iteration_minimum: float
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Cost:
+    """What the solve cost.
+
+    Attributes
+    ----------
+    cpu_seconds, wall_seconds : float
+        Of the solve, without compiling and without files.
+    work : float or None
+        ``cpu_seconds`` in units of one FFT deformation on the same full grid, if it was measured.
+    """
+
+    cpu_seconds: float
+    wall_seconds: float
+    work: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Provenance:
+    """Where a result comes from: versions by package name, and when it was made (ISO 8601)."""
+
+    versions: dict[str, str]
+    created: str
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class SiFilm:
+    """Film thickness in metres."""
+
+    central: float
+    minimum: float
+    minimum_node: float
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Result:
+    """Answer of one solve.
+
+    Attributes
+    ----------
+    problem : ContactProblem
+        What was asked, in SI.
+    options : Options
+        How hard to try; ``options.domain`` as stated, the domain used is that of ``scaled``.
+    scales, groups : Scales, Groups
+        Units removed by the solver, and the dimensionless groups.
+    scaled : Fields
+        Dimensionless fields.
+    rigid_approach : float
+        H00 [-].
+    film_scaled : FilmSummary
+        Film numbers [-].
+    status : Status
+        How it ended.
+    history : tuple of CycleReport
+        Each cycle on each grid.
+    errors : ErrorEstimate or None
+        Estimated errors; None when the solve did not get far enough to tell.
+    uncertainty : dict of str to Estimate
+        Filled by a certified run: ``film_central``, ``film_minimum``, ``pressure_max`` [-].
+    cost, provenance : Cost, Provenance
+        Expense and origin.
+    """
+
+    problem: ContactProblem
+    options: Options
+    scales: Scales
+    groups: Groups
+    scaled: Fields
+    rigid_approach: float
+    film_scaled: FilmSummary
+    status: Status
+    history: tuple[CycleReport, ...]
+    errors: ErrorEstimate | None
+    cost: Cost
+    provenance: Provenance
+    uncertainty: dict[str, Estimate] = field(default_factory=dict)
+
+    @property
+    def x(self) -> Array:
+        """Coordinates along entrainment [m], shape (nx,)."""
+        return self.scaled.x * self.scales.half_width_x
+
+    @property
+    def y(self) -> Array:
+        """Coordinates across entrainment [m], shape (ny,)."""
+        return self.scaled.y * self.scales.half_width_y
+
+    @property
+    def pressure(self) -> Array:
+        """Film pressure [Pa], shape (ny, nx)."""
+        return self.scaled.pressure * self.scales.hertz_pressure
+
+    @property
+    def film_thickness(self) -> Array:
+        """Film thickness [m], shape (ny, nx)."""
+        return self.scaled.film * self.scales.film_thickness
+
+    @property
+    def film(self) -> SiFilm:
+        """Central and minimum film thickness [m]."""
+        scale, film = self.scales.film_thickness, self.film_scaled
+        return SiFilm(
+            central=film.central * scale,
+            minimum=film.minimum * scale,
+            minimum_node=film.minimum_node * scale,
+        )
+
+    @property
+    def central_film_thickness(self) -> float:
+        """Film thickness at the centre of the contact [m]."""
+        return self.film.central
+
+    @property
+    def minimum_film_thickness(self) -> float:
+        """Smallest film thickness [m], sub-grid."""
+        return self.film.minimum
+
+    def save(self, path: str | Path) -> None:
+        """Write the result to a NetCDF-4 file; nothing is left behind when writing fails."""
+        from tehl.io.store import save  # noqa: PLC0415 (a method users expect here)
+
+        save(self, path)
+
+    def to_xarray(self) -> "xr.Dataset":
+        """Return the result as a dataset with dimensions (y, x), units and names."""
+        from tehl.io.store import to_dataset  # noqa: PLC0415
+
+        return to_dataset(self)
+
+    def summary(self) -> dict[str, Any]:
+        """Return the JSON summary of the run, as ``tehl solve --json`` prints it."""
+        from tehl.io.summary import summary  # noqa: PLC0415
+
+        return summary(self)
