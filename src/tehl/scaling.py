@@ -1,6 +1,9 @@
 """Units are removed here, once: the scales of a contact and its dimensionless groups."""
 
+import math
 from dataclasses import dataclass
+
+from tehl.problem import ContactProblem
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -68,3 +71,39 @@ class Groups:
     ellipticity: float
     radius_ratio: float
     deflection_factor: float
+
+
+def scales(problem: ContactProblem) -> Scales:
+    """Return what one unit of each dimensionless quantity of ``problem`` is in SI."""
+    hertz = problem.hertz
+    return Scales(
+        half_width_x=hertz.half_width_x,
+        half_width_y=hertz.half_width_y,
+        hertz_pressure=hertz.pressure,
+        film_thickness=hertz.half_width_x**2 / problem.radius_x,
+        viscosity=problem.ambient_viscosity,
+        density=problem.ambient_density,
+        speed=problem.entrainment_speed,
+        load=problem.load,
+        temperature=problem.inlet_temperature,
+    )
+
+
+def groups(problem: ContactProblem) -> Groups:
+    """Return the dimensionless groups of ``problem``."""
+    hertz, modulus, radius = problem.hertz, problem.reduced_modulus, problem.radius_x
+    speed, material = problem.speed_group, problem.material_group
+    load = problem.load / (modulus * radius**2)
+    viscous = 12.0 * problem.ambient_viscosity * problem.entrainment_speed
+    return Groups(
+        M=load * (2.0 * speed) ** -0.75,
+        L=material * (2.0 * speed) ** 0.25,
+        U=speed,
+        W=load,
+        G=material,
+        lambda_bar=viscous * radius**2 / (hertz.half_width_x**3 * hertz.pressure),
+        alpha_bar=problem.pressure_coefficient * hertz.pressure,
+        ellipticity=hertz.ellipticity,
+        radius_ratio=radius / problem.radius_y,
+        deflection_factor=2.0 * hertz.pressure * radius / (math.pi * modulus * hertz.half_width_x),
+    )

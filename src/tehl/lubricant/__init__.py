@@ -1,0 +1,22 @@
+"""Oils: laws of viscosity, density and shear, each one a frozen model with one method."""
+
+from tehl.lubricant.density import ConstantDensity, DensityLaw, DowsonHigginson
+from tehl.lubricant.fluid import Lubricant, NamedLubricant, library, oil
+from tehl.lubricant.shear import Newtonian, ShearLaw
+from tehl.lubricant.viscosity import Barus, ConstantViscosity, Roelands, ViscosityLaw
+
+__all__ = [
+    "Barus",
+    "ConstantDensity",
+    "ConstantViscosity",
+    "DensityLaw",
+    "DowsonHigginson",
+    "Lubricant",
+    "NamedLubricant",
+    "Newtonian",
+    "Roelands",
+    "ShearLaw",
+    "ViscosityLaw",
+    "library",
+    "oil",
+]

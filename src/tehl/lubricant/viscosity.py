@@ -1,0 +1,225 @@
+"""Viscosity laws: dynamic viscosity as a function of pressure and temperature."""
+
+import math
+from typing import TYPE_CHECKING, Annotated, Literal, Self
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from tehl.units import PressureCoefficient, Ratio, Temperature, TemperatureCoefficient, Viscosity
+
+if TYPE_CHECKING:
+    from tehl.typing import Array
+
+LARGEST_EXPONENT = 600.0
+"""``exp`` of more would overflow; so thick a film is a solid for every purpose."""
+
+_ROELANDS_OFFSET = 9.67  # -ln of 6.31e-5 Pa s, the viscosity at Roelands' common point
+_ROELANDS_PRESSURE = 1.96e8  # [Pa], in the definition of z
+_PER_ROELANDS_PRESSURE = 5.1e-9  # [1/Pa], in the bracket: the rounded 1/1.96e8
+_ROELANDS_TEMPERATURE = 138.0  # [K]
+
+
+class Roelands(BaseModel):
+    r"""Roelands' law of viscosity against pressure and temperature.
+
+    .. math:: \eta = \eta_0 \exp\{(\ln\eta_0 + 9.67)
+              [(1 + 5.1\cdot10^{-9}\,p)^z \, \theta^{-S_0} - 1]\}, \quad
+              \theta = \frac{T - 138}{T_0 - 138}
+
+    Pressure in Pa, temperature in K. State the slope as ``z`` or as ``alpha``, and the fall with
+    temperature as ``S0``, as ``gamma`` or not at all (then the law knows no temperature).
+
+    Attributes
+    ----------
+    eta_0 : float
+        Viscosity at ambient pressure and ``reference_temperature`` [Pa s].
+    alpha : float or None
+        Pressure coefficient at ambient pressure [1/Pa], ``z = 1.96e8 alpha / (ln eta_0 + 9.67)``.
+    z : float or None
+        Pressure index [-].
+    gamma : float or None
+        Temperature coefficient ``-d ln eta / dT`` at the reference [1/K],
+        ``S0 = gamma (T_0 - 138) / (ln eta_0 + 9.67)``.
+    S0 : float or None
+        Temperature index [-].
+    reference_temperature : float
+        T_0 [K].
+
+    References
+    ----------
+    .. [1] C. J. A. Roelands, Correlational aspects of the viscosity-temperature-pressure
+       relationship of lubricating oils, PhD thesis, TU Delft, 1966.
+    .. [2] L. Houpert, J. Tribology 107 (1985), 241-247 (the form with alpha and S0).
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    law: Literal["roelands"] = "roelands"
+    eta_0: Viscosity
+    alpha: PressureCoefficient | None = None
+    z: Ratio | None = None
+    gamma: TemperatureCoefficient | None = None
+    S0: Ratio | None = None
+    reference_temperature: Temperature = 313.15
+
+    @model_validator(mode="after")
+    def _must_be_complete(self) -> Self:
+        if (self.alpha is None) == (self.z is None):
+            raise ValueError("needs exactly one of alpha and z")
+        if self.gamma is not None and self.S0 is not None:
+            raise ValueError("takes only one of gamma and S0")
+        if not math.log(self.eta_0) + _ROELANDS_OFFSET > 0:
+            raise ValueError(
+                f"has eta_0 = {self.eta_0:g} Pa s, but the Roelands law needs more than 6.3e-5 Pa s"
+            )
+        if not self.reference_temperature > _ROELANDS_TEMPERATURE:
+            raise ValueError(
+                f"has reference_temperature = {self.reference_temperature:g} K, but the Roelands "
+                "law needs more than 138 K"
+            )
+        return self
+
+    @property
+    def viscosity_span(self) -> float:
+        """Return ``ln eta_0 + 9.67`` [-]."""
+        return math.log(self.eta_0) + _ROELANDS_OFFSET
+
+    @property
+    def pressure_index(self) -> float:
+        """Return z [-], stated or from alpha."""
+        if self.z is not None:
+            return self.z
+        return (self.alpha or 0.0) * _ROELANDS_PRESSURE / self.viscosity_span
+
+    @property
+    def temperature_index(self) -> float:
+        """Return S0 [-], stated or from gamma; zero when neither is stated."""
+        if self.S0 is not None:
+            return self.S0
+        above = self.reference_temperature - _ROELANDS_TEMPERATURE
+        return (self.gamma or 0.0) * above / self.viscosity_span
+
+    @property
+    def pressure_coefficient(self) -> float:
+        """Return alpha [1/Pa], stated or from z."""
+        if self.alpha is not None:
+            return self.alpha
+        return (self.z or 0.0) * self.viscosity_span / _ROELANDS_PRESSURE
+
+    @property
+    def temperature_coefficient(self) -> float:
+        """Return gamma [1/K], stated or from S0."""
+        above = self.reference_temperature - _ROELANDS_TEMPERATURE
+        return self.temperature_index * self.viscosity_span / above
+
+    def viscosity(self, pressure: "Array", temperature: "Array | float") -> "Array":
+        """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K].
+
+        Arrays of one shape; ``temperature`` may be a number. Pressures must exceed -1.9e8 Pa.
+        """
+        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
+
+        growth = np.asarray(np.multiply(pressure, _PER_ROELANDS_PRESSURE))
+        growth += 1.0
+        growth = np.power(growth, self.pressure_index, out=growth)
+        if self.temperature_index > 0:
+            above = self.reference_temperature - _ROELANDS_TEMPERATURE
+            theta = (temperature - _ROELANDS_TEMPERATURE) / above
+            growth = growth * theta**-self.temperature_index
+        growth -= 1.0
+        growth *= self.viscosity_span
+        return _exponential(self.eta_0, growth)
+
+
+class Barus(BaseModel):
+    r"""Barus' law, exponential in pressure and temperature.
+
+    .. math:: \eta = \eta_0 \exp\{\alpha p - \gamma (T - T_0)\}
+
+    Attributes
+    ----------
+    eta_0 : float
+        Viscosity at ambient pressure and ``reference_temperature`` [Pa s].
+    alpha : float
+        Pressure coefficient [1/Pa].
+    gamma : float or None
+        Temperature coefficient [1/K]; None when the law knows no temperature.
+    reference_temperature : float
+        T_0 [K].
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    law: Literal["barus"] = "barus"
+    eta_0: Viscosity
+    alpha: PressureCoefficient
+    gamma: TemperatureCoefficient | None = None
+    reference_temperature: Temperature = 313.15
+
+    @property
+    def pressure_coefficient(self) -> float:
+        """Return alpha [1/Pa]."""
+        return self.alpha
+
+    @property
+    def temperature_coefficient(self) -> float:
+        """Return gamma [1/K], zero when it is not stated."""
+        return self.gamma or 0.0
+
+    def viscosity(self, pressure: "Array", temperature: "Array | float") -> "Array":
+        """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K]."""
+        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
+
+        growth = np.asarray(self.alpha * pressure, dtype=np.float64)
+        if self.temperature_coefficient > 0:
+            warmer = temperature - self.reference_temperature
+            growth = growth - self.temperature_coefficient * warmer
+        return _exponential(self.eta_0, growth)
+
+
+class ConstantViscosity(BaseModel):
+    """A liquid whose viscosity knows neither pressure nor temperature.
+
+    Attributes
+    ----------
+    eta_0 : float
+        Viscosity [Pa s].
+    reference_temperature : float
+        Temperature at which it holds [K].
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    law: Literal["constant"] = "constant"
+    eta_0: Viscosity
+    reference_temperature: Temperature = 313.15
+
+    @property
+    def pressure_coefficient(self) -> float:
+        """Return zero [1/Pa]."""
+        return 0.0
+
+    @property
+    def temperature_coefficient(self) -> float:
+        """Return zero [1/K]."""
+        return 0.0
+
+    def viscosity(self, pressure: "Array", temperature: "Array | float") -> "Array":
+        """Return eta_0 [Pa s] in the shape of ``pressure`` and ``temperature``."""
+        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
+
+        shape = np.broadcast_shapes(np.shape(pressure), np.shape(temperature))
+        return np.full(shape, self.eta_0)
+
+
+def _exponential(eta_0: float, exponent: "Array") -> "Array":
+    """Return ``eta_0 exp(exponent)`` in place, without overflow."""
+    import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
+
+    exponent = np.minimum(exponent, LARGEST_EXPONENT, out=np.asarray(exponent))
+    exponent = np.exp(exponent, out=exponent)
+    exponent *= eta_0
+    return exponent
+
+
+ViscosityLaw = Annotated[Roelands | Barus | ConstantViscosity, Field(discriminator="law")]

@@ -1,0 +1,303 @@
+"""The question: two surfaces, a lubricant, a load and a motion.
+
+The fields of :class:`ContactProblem` are the tables of the case file, so that validating the parsed
+file is the whole reading of it. What follows from them in SI is given by its properties.
+"""
+
+import math
+from collections.abc import Mapping
+from typing import Any, Self
+
+from pydantic import BaseModel, ConfigDict, model_validator
+
+from tehl.geometry import Radii, reduced_radii
+from tehl.heat import Isothermal
+from tehl.hertz import HertzContact, hertz_contact, load_of_pressure
+from tehl.lubricant import NamedLubricant
+from tehl.materials import NamedSolid, reduced_modulus
+from tehl.motion import Motion
+from tehl.roughness import Smooth
+from tehl.units import Force, Height, Length, Number, PositiveNumber, Pressure, Radius, Speed
+
+_NOT_YET = {
+    "thermal": "thermal runs are not available in this version: leave the [thermal] table out",
+    "transient": "transient runs are not available in this version: leave the [transient] table "
+    "out",
+    "roughness": "rough surfaces are not available in this version: leave roughness out, "
+    "rms_roughness may stay",
+    "temperature": "thermal runs are not available in this version: leave the temperature of the "
+    "surface out",
+}
+
+
+def _refuse_later_tables(data: Any) -> Any:
+    """Say of a table that a later version reads that this one does not."""
+    if isinstance(data, Mapping):
+        for key, sentence in _NOT_YET.items():
+            if key in data:
+                raise ValueError(sentence)
+    return data
+
+
+class Surface(BaseModel):
+    """One of the two bodies.
+
+    Attributes
+    ----------
+    material : Solid
+        A named material or a table of properties.
+    radius : float or None
+        Radius of a ball [m].
+    radius_x, radius_y : float or None
+        Radii along and across entrainment [m]; infinite is flat, negative is hollow.
+    rms_roughness : float
+        Rq [m], for the lambda ratio of a smooth calculation.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    material: NamedSolid
+    radius: Radius | None = None
+    radius_x: Radius | None = None
+    radius_y: Radius | None = None
+    rms_roughness: Height = 0.0
+
+    _later = model_validator(mode="before")(_refuse_later_tables)
+
+    @model_validator(mode="after")
+    def _radii_must_agree(self) -> Self:
+        pair = (self.radius_x, self.radius_y)
+        if self.radius is not None and pair != (None, None):
+            raise ValueError("takes either radius or the pair radius_x and radius_y")
+        if (self.radius_x is None) != (self.radius_y is None):
+            raise ValueError('needs both radius_x and radius_y ("inf" is flat)')
+        return self
+
+    @property
+    def radii(self) -> Radii | None:
+        """Return the radii of this surface, None when the contact states them."""
+        if self.radius is not None:
+            return Radii(x=self.radius, y=self.radius)
+        if self.radius_x is None or self.radius_y is None:
+            return None
+        return Radii(x=self.radius_x, y=self.radius_y)
+
+    @property
+    def roughness(self) -> Smooth:
+        """Return the heights of the surface."""
+        return Smooth()
+
+
+class Contact(BaseModel):
+    """Shape, load and motion of the contact.
+
+    Attributes
+    ----------
+    radius : float or None
+        Reduced radius of a circular contact [m].
+    radius_x, radius_y : float or None
+        Reduced radii along and across entrainment [m]. Without any radius here both surfaces
+        state theirs.
+    load, hertz_pressure, moes_load : float or None
+        Exactly one: w [N], p_h [Pa] or M [-].
+    entrainment_speed, moes_speed : float or None
+        Exactly one: u_m [m/s] or L [-].
+    slide_roll_ratio : float
+        (u_1 - u_2) / u_m [-].
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    radius: Length | None = None
+    radius_x: Length | None = None
+    radius_y: Length | None = None
+    load: Force | None = None
+    hertz_pressure: Pressure | None = None
+    moes_load: PositiveNumber | None = None
+    entrainment_speed: Speed | None = None
+    moes_speed: PositiveNumber | None = None
+    slide_roll_ratio: Number = 0.0
+
+    @model_validator(mode="after")
+    def _must_be_stated_once(self) -> Self:
+        if self.radius is not None and (self.radius_x, self.radius_y) != (None, None):
+            raise ValueError("takes either radius or the pair radius_x and radius_y")
+        if (self.radius_x is None) != (self.radius_y is None):
+            raise ValueError("needs both radius_x and radius_y")
+        self._exactly_one("load", "hertz_pressure", "moes_load")
+        self._exactly_one("entrainment_speed", "moes_speed")
+        return self
+
+    def _exactly_one(self, *names: str) -> None:
+        stated = [name for name in names if getattr(self, name) is not None]
+        if len(stated) > 1:
+            raise ValueError(f"states {' and '.join(stated)}: only one of them may be given")
+        if not stated:
+            raise ValueError(f"needs one of {', '.join(names)}")
+
+    @property
+    def radii(self) -> Radii | None:
+        """Return the reduced radii, None when the surfaces state theirs."""
+        if self.radius is not None:
+            return Radii(x=self.radius, y=self.radius)
+        if self.radius_x is None or self.radius_y is None:
+            return None
+        return Radii(x=self.radius_x, y=self.radius_y)
+
+
+class ContactProblem(BaseModel):
+    """A lubricated point contact.
+
+    Attributes
+    ----------
+    title : str
+        For people.
+    contact : Contact
+        Shape, load and motion.
+    surface_1, surface_2 : Surface
+        The bodies at z = 0 and z = h.
+    lubricant : Lubricant
+        A named oil or its laws.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    title: str = ""
+    contact: Contact
+    surface_1: Surface
+    surface_2: Surface
+    lubricant: NamedLubricant
+
+    _later = model_validator(mode="before")(_refuse_later_tables)
+
+    @model_validator(mode="after")
+    def _must_be_a_contact(self) -> Self:
+        self._check_radii()
+        if self.contact.moes_speed is not None and not self.pressure_coefficient > 0:
+            raise ValueError(
+                "contact.moes_speed fixes no speed without a pressure coefficient of the "
+                "viscosity: give entrainment_speed"
+            )
+        stated = (self.load, self.entrainment_speed, self.hertz.pressure)
+        if not all(math.isfinite(value) and value > 0 for value in stated):
+            raise ValueError("the stated load and speed are beyond the range of numbers")
+        return self
+
+    def _check_radii(self) -> None:
+        on_surfaces = [self.surface_1.radii, self.surface_2.radii]
+        if self.contact.radii is not None:
+            if on_surfaces != [None, None]:
+                raise ValueError(
+                    "radii are stated twice: leave out those of [contact], which are reduced, or "
+                    "those of the surfaces"
+                )
+            return
+        if on_surfaces == [None, None]:
+            raise ValueError("contact.radius is missing: give it, or radii of both surfaces")
+        for name, radii in zip(("surface_1", "surface_2"), on_surfaces, strict=True):
+            if radii is None:
+                raise ValueError(f'{name}.radius is missing: give it ("inf" is flat)')
+        _ = self.radii
+
+    @property
+    def radii(self) -> Radii:
+        """Return the reduced radii."""
+        first, second = self.surface_1.radii, self.surface_2.radii
+        if self.contact.radii is not None:
+            return self.contact.radii
+        if first is None or second is None:
+            raise ValueError("no radii")
+        return reduced_radii(first, second)
+
+    @property
+    def radius_x(self) -> float:
+        """Return the reduced radius along entrainment R_x [m]."""
+        return self.radii.x
+
+    @property
+    def radius_y(self) -> float:
+        """Return the reduced radius across entrainment R_y [m]."""
+        return self.radii.y
+
+    @property
+    def reduced_modulus(self) -> float:
+        """Return E' with ``2/E' = (1-nu_1^2)/E_1 + (1-nu_2^2)/E_2`` [Pa]."""
+        return reduced_modulus(self.surface_1.material, self.surface_2.material)
+
+    @property
+    def ambient_viscosity(self) -> float:
+        """Return eta_0 at ambient pressure and inlet temperature [Pa s]."""
+        return self.lubricant.viscosity.eta_0
+
+    @property
+    def ambient_density(self) -> float:
+        """Return rho_0 at ambient pressure and inlet temperature [kg/m^3]."""
+        return self.lubricant.density.ambient(self.inlet_temperature)
+
+    @property
+    def pressure_coefficient(self) -> float:
+        """Return alpha, the slope of ln eta at ambient pressure [1/Pa]."""
+        return self.lubricant.viscosity.pressure_coefficient
+
+    @property
+    def inlet_temperature(self) -> float:
+        """Return the temperature of the oil at the inlet [K]: that of the viscosity."""
+        return self.lubricant.viscosity.reference_temperature
+
+    @property
+    def heat(self) -> Isothermal:
+        """Return which heat problem goes with the film."""
+        return Isothermal(temperature=self.inlet_temperature)
+
+    @property
+    def speed_group(self) -> float:
+        """Return U = eta_0 u_m / (E' R_x) [-]."""
+        if self.contact.moes_speed is not None:
+            return 0.5 * (self.contact.moes_speed / self.material_group) ** 4
+        speed = self.contact.entrainment_speed or math.nan
+        return self.ambient_viscosity * speed / (self.reduced_modulus * self.radius_x)
+
+    @property
+    def material_group(self) -> float:
+        """Return G = alpha E' [-]."""
+        return self.pressure_coefficient * self.reduced_modulus
+
+    @property
+    def entrainment_speed(self) -> float:
+        """Return u_m = (u_1 + u_2)/2 [m/s], stated or from the Moes L."""
+        if self.contact.entrainment_speed is not None:
+            return self.contact.entrainment_speed
+        return self.speed_group * self.reduced_modulus * self.radius_x / self.ambient_viscosity
+
+    @property
+    def load(self) -> float:
+        """Return the normal load w [N], stated or from the Hertz pressure or the Moes M."""
+        if self.contact.load is not None:
+            return self.contact.load
+        if self.contact.hertz_pressure is not None:
+            pressure = self.contact.hertz_pressure
+            return load_of_pressure(pressure, self.radius_x, self.radius_y, self.reduced_modulus)
+        load_group = (self.contact.moes_load or math.nan) * (2.0 * self.speed_group) ** 0.75
+        return load_group * self.reduced_modulus * self.radius_x**2
+
+    @property
+    def slide_roll_ratio(self) -> float:
+        """Return (u_1 - u_2) / u_m [-]."""
+        return self.contact.slide_roll_ratio
+
+    @property
+    def motion(self) -> Motion:
+        """Return the speeds of both surfaces."""
+        return Motion(
+            entrainment_speed=self.entrainment_speed, slide_roll_ratio=self.slide_roll_ratio
+        )
+
+    @property
+    def hertz(self) -> HertzContact:
+        """Return the dry contact under the same load."""
+        return hertz_contact(self.load, self.radius_x, self.radius_y, self.reduced_modulus)
+
+    @property
+    def rms_roughness(self) -> float:
+        """Return the roughness of both surfaces together, sqrt(Rq_1^2 + Rq_2^2) [m]."""
+        return math.hypot(self.surface_1.rms_roughness, self.surface_2.rms_roughness)
