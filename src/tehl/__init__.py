@@ -1,0 +1,84 @@
+"""Thermal elastohydrodynamic lubrication of point contacts by full multigrid.
+
+::
+
+    problem = tehl.read_case("case.toml")
+    result = tehl.solve(problem)
+
+What this package exports is loaded when it is first asked for, so that importing it costs nothing.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from tehl import plots
+    from tehl.errors import ConvergenceError, FileFormatError, InputError, TehlError
+    from tehl.io.case import read_case
+    from tehl.io.store import load
+    from tehl.lubricant import Lubricant, oil
+    from tehl.materials import Solid, material
+    from tehl.options import Domain, Options
+    from tehl.problem import Contact, ContactProblem, Surface
+    from tehl.result import Result
+    from tehl.solver import certify, solve
+
+__all__ = [
+    "Contact",
+    "ContactProblem",
+    "ConvergenceError",
+    "Domain",
+    "FileFormatError",
+    "InputError",
+    "Lubricant",
+    "Options",
+    "Result",
+    "Solid",
+    "Surface",
+    "TehlError",
+    "__version__",
+    "certify",
+    "load",
+    "material",
+    "oil",
+    "plots",
+    "read_case",
+    "solve",
+]
+
+__version__ = "0.1.0"
+
+_HOMES = {
+    "Contact": "tehl.problem",
+    "ContactProblem": "tehl.problem",
+    "ConvergenceError": "tehl.errors",
+    "Domain": "tehl.options",
+    "FileFormatError": "tehl.errors",
+    "InputError": "tehl.errors",
+    "Lubricant": "tehl.lubricant",
+    "Options": "tehl.options",
+    "Result": "tehl.result",
+    "Solid": "tehl.materials",
+    "Surface": "tehl.problem",
+    "TehlError": "tehl.errors",
+    "certify": "tehl.solver",
+    "load": "tehl.io.store",
+    "material": "tehl.materials",
+    "oil": "tehl.lubricant",
+    "read_case": "tehl.io.case",
+    "solve": "tehl.solver",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Load an export from where it lives."""
+    if name == "plots":
+        return import_module("tehl.plots")
+    if name not in _HOMES:
+        raise AttributeError(f"module 'tehl' has no attribute {name!r}")
+    return getattr(import_module(_HOMES[name]), name)
+
+
+def __dir__() -> list[str]:
+    """Show the exports, loaded or not."""
+    return sorted({*globals(), *__all__})
