@@ -1,0 +1,1 @@
+"""Files: cases in, results in and out, exports."""

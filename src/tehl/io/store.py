@@ -1,0 +1,182 @@
+"""Results on disk (NetCDF-4) and as datasets, there and back without loss."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tehl.errors import FileFormatError, InputError
+from tehl.io.atomic import check_writable, replacing
+from tehl.io.content import FORMAT_VERSION, Variable, attributes, rebuild, variables
+from tehl.result import Result
+
+if TYPE_CHECKING:
+    import h5netcdf
+    import xarray as xr
+
+__all__ = ["check_writable", "load", "save", "to_dataset"]
+
+_HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
+
+
+def to_dataset(result: Result) -> "xr.Dataset":
+    """Return ``result`` as a dataset.
+
+    Parameters
+    ----------
+    result : Result
+        What a solve returned or :func:`load` read.
+
+    Returns
+    -------
+    xarray.Dataset
+        Fields over ``(y, x)``, history over ``cycle``; ``units`` and ``long_name`` on each
+        variable; inputs, groups, status, definitions and versions as attributes.
+    """
+    import xarray as xr  # noqa: PLC0415 (a second of import that saving and loading do without)
+
+    packed = {
+        v.name: (v.dims, v.data, {"units": v.units, "long_name": v.long_name})
+        for v in variables(result)
+    }
+    coordinates = {
+        name: packed.pop(name) for name in ("x", "y", "X", "Y", "cycle") if name in packed
+    }
+    return xr.Dataset(packed, coords=coordinates, attrs=attributes(result))
+
+
+def save(result: Result, path: str | Path) -> None:
+    """Write ``result`` to a NetCDF-4 file; whole, or not at all.
+
+    Parameters
+    ----------
+    result : Result
+        The result, converged or not; the file says which.
+    path : str or Path
+        The file; an older one is replaced.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written there.
+    """
+    import h5netcdf  # noqa: PLC0415 (0.1 s)
+
+    with replacing(path) as temporary, h5netcdf.File(temporary, "w") as file:
+        file.attrs.update(attributes(result))
+        for variable in variables(result):
+            for name, size in zip(variable.dims, variable.data.shape, strict=True):
+                if name not in file.dimensions:
+                    file.dimensions[name] = size
+            _write(file, variable.name, variable.dims, variable.data)
+            file.variables[variable.name].attrs.update(_attributes(variable))
+
+
+def _attributes(variable: Variable) -> dict[str, str]:
+    """Return the attributes of a variable; fields name their scaled coordinates as CF does."""
+    named = {"units": variable.units, "long_name": variable.long_name}
+    return {**named, "coordinates": "X Y"} if variable.dims == ("y", "x") else named
+
+
+def _write(file: "h5netcdf.File", name: str, dims: tuple[str, ...], data: NDArray[Any]) -> None:
+    import h5py  # noqa: PLC0415 (0.1 s)
+
+    if data.dtype.kind == "U":
+        file.create_variable(name, dims, h5py.string_dtype(), data=data.astype(object))
+    elif data.ndim < 2:
+        file.create_variable(name, dims, data.dtype, data=data)
+    else:
+        file.create_variable(
+            name,
+            dims,
+            data.dtype,
+            data=data,
+            chunks=data.shape,
+            compression="gzip",
+            compression_opts=1,
+            shuffle=True,
+            fletcher32=True,
+        )
+
+
+def load(path: str | Path) -> Result:
+    """Read a result that :func:`save` wrote; nothing is compiled for it.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+
+    Returns
+    -------
+    Result
+        Equal to the one saved, its fields bit by bit.
+
+    Raises
+    ------
+    InputError
+        If there is no such file.
+    FileFormatError
+        If it is truncated, foreign or of another format version.
+    """
+    source = Path(path)
+    _check_signature(source)
+    try:
+        arrays, attrs = _read(source)
+        _check_version(source, attrs)
+        return rebuild(arrays, attrs)
+    except (OSError, RuntimeError) as error:
+        raise FileFormatError(f"{source} is truncated or damaged: {_first_line(error)}") from None
+    except KeyError as error:
+        raise FileFormatError(f"{source} is not a whole tehl result: {error} is missing") from None
+    except ValueError as error:
+        raise FileFormatError(f"{source} is not a valid tehl result: {_reason(error)}") from None
+
+
+def _check_signature(source: Path) -> None:
+    if not source.is_file():
+        raise InputError(f"there is no result file {source}")
+    try:
+        with source.open("rb") as file:
+            start = file.read(len(_HDF5_SIGNATURE))
+    except OSError as error:
+        raise InputError(f"cannot read {source}: {error.strerror}") from None
+    if not start:
+        raise FileFormatError(f"{source} is empty, not a tehl result")
+    if start != _HDF5_SIGNATURE:
+        kind = "a NetCDF-3 file" if start.startswith(b"CDF") else "no NetCDF-4 file"
+        raise FileFormatError(f"{source} is {kind}, not a tehl result")
+
+
+def _read(source: Path) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
+    import h5netcdf  # noqa: PLC0415 (0.1 s)
+
+    with h5netcdf.File(source, "r", decode_vlen_strings=True) as file:
+        attrs = dict(file.attrs)
+        if "tehl_format" not in attrs:
+            raise FileFormatError(f"{source} is a NetCDF-4 file, but not a tehl result")
+        arrays = {name: np.asarray(variable[...]) for name, variable in file.variables.items()}
+    return arrays, attrs
+
+
+def _check_version(source: Path, attrs: dict[str, Any]) -> None:
+    version = int(attrs["tehl_format"])
+    if version != FORMAT_VERSION:
+        raise FileFormatError(
+            f"{source} is a tehl result of format {version} (by {attrs.get('source', 'tehl')}); "
+            f"this tehl reads format {FORMAT_VERSION}"
+        )
+
+
+def _reason(error: ValueError) -> str:
+    """Say what does not fit in one line; pydantic lists its complaints."""
+    complaints = getattr(error, "errors", None)
+    if complaints is None:
+        return _first_line(error)
+    first = complaints()[0]
+    return f"{'.'.join(str(part) for part in first['loc'])}: {first['msg']}"
+
+
+def _first_line(error: Exception) -> str:
+    return str(error).partition("\n")[0]

@@ -1,0 +1,18 @@
+"""Pictures of a result; each function returns a matplotlib figure and touches no global state."""
+
+from tehl.plots.history import residual_history
+from tehl.plots.interferogram import Optics, interferogram
+from tehl.plots.lines import centre_lines
+from tehl.plots.maps import film_map, pressure_map, pressure_surface
+from tehl.plots.save import save_all
+
+__all__ = [
+    "Optics",
+    "centre_lines",
+    "film_map",
+    "interferogram",
+    "pressure_map",
+    "pressure_surface",
+    "residual_history",
+    "save_all",
+]

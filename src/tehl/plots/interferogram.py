@@ -1,0 +1,195 @@
+"""What an optical rig would show: synthetic interferograms of the film.
+
+Light falls through a glass disc with a semi-reflecting chromium layer (and a transparent spacer, if
+any) and the oil onto the steel ball. Two beams meet again, from the chromium and from the ball:
+
+    I(lambda) = R1 + R2 + 2 sqrt(R1 R2) cos(4 pi d / lambda + phase),   d = n h + n_s h_s
+
+with R1 the reflectance of the chromium and R2 that of the ball seen twice through the chromium.
+Colours are the spectrum under the CIE 1931 observer, turned into sRGB.
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from tehl.plots.frame import MICRO, contact_axes, entrainment_arrow, figure, window_part
+from tehl.result import Result
+from tehl.typing import Array
+
+Light = Literal["white", "dichromatic", "monochromatic"]
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Optics:
+    """Light, layers and oil of an optical rig.
+
+    Attributes
+    ----------
+    light : {"white", "dichromatic", "monochromatic"}
+        A halogen lamp with white balance, two lines or the first of them.
+    wavelengths : (float, float)
+        Middle of the two lines in vacuum [m].
+    bandwidth : float
+        Width of a line (standard deviation of its Gaussian) [m].
+    colour_temperature : float
+        Of the white lamp [K].
+    refractive_index : float
+        Of the oil at ambient pressure.
+    spacer_thickness, spacer_index : float
+        Thickness [m] and refractive index of a spacer layer; none by default.
+    chromium_reflectance, chromium_transmittance : float
+        Of the semi-reflecting layer.
+    ball_reflectance : float
+        Of the ball.
+    phase : float
+        Phase between the beams at zero distance [rad]; pi makes the zeroth order dark.
+    """
+
+    light: Light = "white"
+    wavelengths: tuple[float, float] = (635e-9, 532e-9)
+    bandwidth: float = 3e-9
+    colour_temperature: float = 3200.0
+    refractive_index: float = 1.48
+    spacer_thickness: float = 0.0
+    spacer_index: float = 1.46
+    chromium_reflectance: float = 0.20
+    chromium_transmittance: float = 0.55
+    ball_reflectance: float = 0.60
+    phase: float = np.pi
+
+
+def interferogram(result: Result, optics: Optics | None = None, *, pixels: int = 900) -> Figure:
+    """Draw the film as an optical rig would show it.
+
+    Parameters
+    ----------
+    result : Result
+        What to draw.
+    optics : Optics, optional
+        Light and layers; white light by default.
+    pixels : int
+        Width of the picture of the film; the film is interpolated so that fringes stay clean.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The picture, in micrometres.
+    """
+    chosen = Optics() if optics is None else optics
+    x, y, thickness = _fine(result, chosen, pixels)
+    picture = figure(result)
+    axes = contact_axes(picture, result, edge="0.75")
+    extent = (x[0] * MICRO, x[-1] * MICRO, y[0] * MICRO, y[-1] * MICRO)
+    window = (axes.get_xlim(), axes.get_ylim())
+    axes.imshow(colours(thickness, chosen), extent=extent, origin="lower", interpolation="bilinear")
+    axes.set(xlim=window[0], ylim=window[1], title=_caption(chosen))
+    axes.title.set_fontsize(9)
+    entrainment_arrow(axes)
+    return picture
+
+
+def _caption(optics: Optics) -> str:
+    lines = [f"{wavelength * 1e9:.0f} nm" for wavelength in optics.wavelengths]
+    light = {
+        "white": f"white light, {optics.colour_temperature:.0f} K, balanced",
+        "dichromatic": f"{lines[0]} and {lines[1]}",
+        "monochromatic": lines[0],
+    }[optics.light]
+    spacer = f", spacer {optics.spacer_thickness * 1e9:.0f} nm" if optics.spacer_thickness else ""
+    return f"synthetic interferogram: {light}, n = {optics.refractive_index:g}{spacer}"
+
+
+def _fine(result: Result, optics: Optics, pixels: int) -> tuple[Array, Array, Array]:
+    """Return x, y [m] and the optical thickness [m] of the window on a grid of ``pixels``."""
+    from scipy.interpolate import RectBivariateSpline  # noqa: PLC0415 (0.3 s)
+
+    part = window_part(result)
+    x, y = result.x[part[1]], result.y[part[0]]
+    fine_x = np.linspace(x[0], x[-1], pixels)
+    fine_y = np.linspace(y[0], y[-1], max(2, round(pixels * np.ptp(y) / np.ptp(x))))
+    thickness = optical_thickness(result.film_thickness[part], optics)
+    return fine_x, fine_y, RectBivariateSpline(y, x, thickness)(fine_y, fine_x)
+
+
+def optical_thickness(film: Array, optics: Optics) -> Array:
+    """Return the optical thickness ``n h + n_s h_s`` [m] of a film [m] and the spacer."""
+    return optics.refractive_index * film + optics.spacer_index * optics.spacer_thickness
+
+
+def reflectance(thickness: Array, wavelength: Array | float, optics: Optics) -> Array:
+    """Return the part of the light that comes back, two beams interfering.
+
+    Parameters
+    ----------
+    thickness : array
+        Optical thickness [m].
+    wavelength : array or float
+        In vacuum [m]; broadcast against ``thickness``.
+    optics : Optics
+        The layers.
+    """
+    first = optics.chromium_reflectance
+    second = optics.chromium_transmittance**2 * optics.ball_reflectance
+    turn = 4.0 * np.pi * thickness / wavelength + optics.phase
+    return first + second + 2.0 * np.sqrt(first * second) * np.cos(turn)
+
+
+def colours(thickness: Array, optics: Optics) -> Array:
+    """Return the sRGB colours, 0 to 1, of an array of optical thickness [m]: one axis more.
+
+    By a table over the thickness. The brightest fringe is as bright as the screen allows.
+    """
+    top = max(float(np.nanmax(thickness)), 1e-6)
+    table = np.linspace(0.0, top, int(np.clip(top / 1e-9, 500, 20000)))
+    linear = _linear_rgb(table, optics)
+    linear = np.clip(linear / linear.max(), 0.0, 1.0)
+    screen = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+    return np.stack([np.interp(thickness, table, channel) for channel in screen.T], axis=-1)
+
+
+def _linear_rgb(thickness: Array, optics: Optics) -> Array:
+    wavelength = np.arange(380.0, 781.0) * 1e-9
+    weights = _spectrum(wavelength, optics)[:, None] * _observer(wavelength * 1e9) @ _SRGB.T
+    spectra = reflectance(thickness[:, None], wavelength[None, :], optics)
+    if optics.light == "white":
+        weights = weights / weights.sum(axis=0)
+    return np.maximum(spectra @ weights, 0.0)
+
+
+def _spectrum(wavelength: Array, optics: Optics) -> Array:
+    """Return the light of the lamp at each wavelength, on any scale."""
+    if optics.light == "white":
+        hc_over_k = 1.438777e-2
+        return wavelength**-5 / np.expm1(hc_over_k / (wavelength * optics.colour_temperature))
+    lines = optics.wavelengths[: 1 if optics.light == "monochromatic" else 2]
+    shapes = [np.exp(-0.5 * ((wavelength - line) / optics.bandwidth) ** 2) for line in lines]
+    luminosity = _observer(wavelength * 1e9)[:, 1]
+    return np.sum([shape / (shape @ luminosity) for shape in shapes], axis=0)
+
+
+def _observer(nm: Array) -> Array:
+    """Return the CIE 1931 colour matching functions, (n, 3).
+
+    Multi-lobe fit of Wyman, Sloan, Shirley (2013), J. Comput. Graph. Tech. 2(2), eq. 4.
+    """
+
+    def lobe(middle: float, below: float, above: float) -> Array:
+        return np.exp(-0.5 * ((nm - middle) / np.where(nm < middle, below, above)) ** 2)
+
+    x = 1.056 * lobe(599.8, 37.9, 31.0) + 0.362 * lobe(442.0, 16.0, 26.7)
+    y = 0.821 * lobe(568.8, 46.9, 40.5) + 0.286 * lobe(530.9, 16.3, 31.1)
+    z = 1.217 * lobe(437.0, 11.8, 36.0) + 0.681 * lobe(459.0, 26.0, 13.8)
+    return np.stack([x - 0.065 * lobe(501.1, 20.4, 26.2), y, z], axis=-1)
+
+
+# XYZ to linear sRGB (IEC 61966-2-1).
+_SRGB = np.array(
+    [
+        [3.2404542, -1.5371385, -0.4985314],
+        [-0.9692660, 1.8760108, 0.0415560],
+        [0.0556434, -0.2040259, 1.0572252],
+    ]
+)

@@ -1,0 +1,1 @@
+"""What a result implies: profiles and balances, computed after the solve."""

@@ -1,0 +1,5 @@
+"""Fixtures for all tests."""
+
+from tests.fixtures_result import certified, result, stalled
+
+__all__ = ["certified", "result", "stalled"]

@@ -1,0 +1,210 @@
+"""A stored result comes back whole, or not at all with a reason."""
+
+import json
+import math
+import subprocess
+import sys
+from dataclasses import replace
+
+import h5netcdf
+import numpy as np
+import pytest
+
+from tehl.errors import FileFormatError, InputError
+from tehl.io import store
+from tehl.io.store import check_writable, load, save, to_dataset
+from tehl.result import Result
+from tests.fixtures_result import CASE, make_result
+
+
+def assert_equal(first: Result, second: Result) -> None:
+    for name in ("x", "y", "pressure", "film"):
+        assert np.array_equal(getattr(first.scaled, name), getattr(second.scaled, name))
+    scalars = [replace(one, scaled=None, history=()) for one in (first, second)]
+    assert scalars[0] == scalars[1]
+    assert first.history == second.history
+
+
+def test_a_result_comes_back_bit_by_bit(result, tmp_path):
+    save(result, tmp_path / "out.nc")
+    assert_equal(load(tmp_path / "out.nc"), result)
+
+
+def test_a_certified_result_keeps_its_error_bars(certified, tmp_path):
+    certified.save(tmp_path / "out.nc")
+    assert load(tmp_path / "out.nc").uncertainty == certified.uncertainty
+
+
+def test_a_failed_result_comes_back_marked(stalled, tmp_path):
+    save(stalled, tmp_path / "out.nc")
+    back = load(tmp_path / "out.nc")
+    assert back.status == stalled.status
+    with h5netcdf.File(tmp_path / "out.nc") as file:
+        assert file.attrs["status"] == "stalled"
+        assert file.attrs["converged"] == 0
+
+
+def test_a_diverged_result_with_nan_is_stored(stalled, tmp_path):
+    film = replace(stalled.film_scaled, minimum=math.nan, central=math.inf)
+    fields = replace(stalled.scaled, film=np.full_like(stalled.scaled.film, math.nan))
+    save(replace(stalled, film_scaled=film, scaled=fields), tmp_path / "out.nc")
+    back = load(tmp_path / "out.nc")
+    assert math.isnan(back.film_scaled.minimum)
+    assert back.film_scaled.central == math.inf
+    assert np.isnan(back.scaled.film).all()
+
+
+def test_a_result_without_history_is_stored(result, tmp_path):
+    save(replace(result, history=(), errors=None), tmp_path / "out.nc")
+    back = load(tmp_path / "out.nc")
+    assert back.history == ()
+    assert back.errors is None
+
+
+def test_flat_surfaces_survive(tmp_path):
+    case = {
+        **CASE,
+        "contact": {"load": 80.0, "entrainment_speed": 1.5},
+        "surface_1": {"material": "steel", "radius": 0.02},
+        "surface_2": {"material": "steel", "radius": "inf"},
+    }
+    flat = make_result(33, case=case)
+    save(flat, tmp_path / "out.nc")
+    assert load(tmp_path / "out.nc").problem == flat.problem
+
+
+def test_xarray_reads_the_file_as_the_dataset(result, tmp_path):
+    import xarray as xr
+
+    save(result, tmp_path / "out.nc")
+    with xr.open_dataset(tmp_path / "out.nc", engine="h5netcdf") as stored:
+        xr.testing.assert_equal(stored.load(), to_dataset(result))
+        assert stored.film_thickness.dims == ("y", "x")
+        assert stored.film_thickness.units == "m"
+        assert "2/E' =" in stored.definitions
+        assert json.loads(stored.problem)["title"] == "Ball on disc"
+        assert all({"units", "long_name"} <= set(v.attrs) for v in stored.variables.values())
+
+
+def test_the_dataset_says_what_was_asked(result):
+    attrs = to_dataset(result).attrs
+    assert json.loads(attrs["summary"]) == result.summary()
+    assert json.loads(attrs["options"])["points"] == 65
+
+
+def test_a_file_cut_short_is_called_truncated(result, tmp_path):
+    path = tmp_path / "out.nc"
+    save(result, path)
+    whole = path.read_bytes()
+    for part in (0.3, 0.7, 0.99):
+        path.write_bytes(whole[: int(part * len(whole))])
+        with pytest.raises(FileFormatError, match="truncated or damaged"):
+            load(path)
+
+
+def test_flipped_bits_in_a_field_are_seen(result, tmp_path):
+    path = tmp_path / "out.nc"
+    save(result, path)
+    with h5netcdf.File(path) as file:
+        chunk = file.variables["P"]._h5ds.id.get_chunk_info(0)
+    data = bytearray(path.read_bytes())
+    middle = chunk.byte_offset + chunk.size // 2
+    data[middle] ^= 0xFF
+    path.write_bytes(data)
+    with pytest.raises(FileFormatError, match="truncated or damaged"):
+        load(path)
+
+
+@pytest.mark.parametrize(
+    ("content", "reason"),
+    [
+        (b"", "empty"),
+        (b"title = 1\n", "no NetCDF-4 file"),
+        (b"CDF\x01" + bytes(100), "NetCDF-3"),
+        (b"\x89HDF\r\n\x1a\n" + bytes(10), "truncated or damaged"),
+    ],
+)
+def test_foreign_files_are_refused_with_their_name(tmp_path, content, reason):
+    path = tmp_path / "foreign.nc"
+    path.write_bytes(content)
+    with pytest.raises(FileFormatError, match=rf"foreign\.nc.*{reason}"):
+        load(path)
+
+
+def test_a_netcdf_file_of_another_program_is_refused(tmp_path):
+    with h5netcdf.File(tmp_path / "other.nc", "w") as file:
+        file.dimensions = {"x": 3}
+        file.create_variable("a", ("x",), data=np.ones(3))
+    with pytest.raises(FileFormatError, match="not a tehl result"):
+        load(tmp_path / "other.nc")
+
+
+def change(path, **attrs) -> None:
+    with h5netcdf.File(path, "a") as file:
+        file.attrs.update(attrs)
+
+
+@pytest.mark.parametrize(
+    ("attrs", "reason"),
+    [
+        ({"tehl_format": 99}, "format 99"),
+        ({"state": "{}"}, "scales"),
+        ({"state": "{"}, "not a valid"),
+        ({"problem": "{}"}, "contact"),
+    ],
+)
+def test_tampered_attributes_are_named(result, tmp_path, attrs, reason):
+    save(result, tmp_path / "out.nc")
+    change(tmp_path / "out.nc", **attrs)
+    with pytest.raises(FileFormatError, match=rf"out\.nc.*{reason}"):
+        load(tmp_path / "out.nc")
+
+
+def test_a_missing_file_is_an_input_error(tmp_path):
+    with pytest.raises(InputError, match="no result file"):
+        load(tmp_path / "none.nc")
+
+
+@pytest.mark.parametrize("failure", [KeyboardInterrupt, OSError, MemoryError])
+def test_a_broken_write_leaves_nothing(result, tmp_path, monkeypatch, failure):
+    def broken(*_args):
+        raise failure
+
+    monkeypatch.setattr(store, "_write", broken)
+    with pytest.raises(failure):
+        save(result, tmp_path / "out.nc")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_broken_write_keeps_the_older_file(result, tmp_path, monkeypatch):
+    save(result, tmp_path / "out.nc")
+    before = (tmp_path / "out.nc").read_bytes()
+    monkeypatch.setattr(store, "attributes", lambda _: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        save(result, tmp_path / "out.nc")
+    assert (tmp_path / "out.nc").read_bytes() == before
+    assert len(list(tmp_path.iterdir())) == 1
+
+
+def test_a_place_that_takes_no_file_is_refused(tmp_path):
+    with pytest.raises(InputError, match="does not exist"):
+        check_writable(tmp_path / "none" / "out.nc")
+    with pytest.raises(InputError, match="is a folder"):
+        check_writable(tmp_path)
+
+
+def test_checking_makes_nothing(tmp_path):
+    check_writable(tmp_path / "out.nc")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_saving_and_loading_import_no_compiler_and_no_xarray(result, tmp_path):
+    save(result, tmp_path / "out.nc")
+    code = (
+        "import sys; from tehl.io.store import load, save; r = load(sys.argv[1]); "
+        "save(r, sys.argv[1]); "
+        "print([m for m in ('numba', 'xarray', 'pandas', 'scipy') if m in sys.modules])"
+    )
+    run = [sys.executable, "-c", code, str(tmp_path / "out.nc")]
+    answer = subprocess.run(run, capture_output=True, text=True, check=True)
+    assert answer.stdout.strip() == "[]"
