@@ -26,7 +26,7 @@ class Domain(BaseModel):
         for name, (low, high) in (("x", self.x), ("y", self.y)):
             if not (low < -1.0 and high > 1.0 and abs(low) < 1e3 and abs(high) < 1e3):
                 raise ValueError(
-                    f"domain.{name} = [{low:g}, {high:g}] cuts the contact: it must reach beyond "
+                    f"{name} = [{low:g}, {high:g}] cuts the contact: it must reach beyond "
                     "-1 and 1 (unit: Hertz half-widths)"
                 )
         return self
@@ -92,10 +92,10 @@ class Options(BaseModel):
     def _must_coarsen(self) -> Self:
         for nodes in self.shape:
             if coarsenings(nodes) < 1:
-                low = (nodes - 1) // 16 * 16 + 1
+                fewer, more = coarsenable(nodes)
                 raise ValueError(
                     f"points = {nodes} cannot be coarsened: take n 2^k + 1 with 16 <= n <= 31, "
-                    f"such as {max(low, 33)} or {low + 16} nodes"
+                    f"such as {fewer} or {more} nodes"
                 )
         return self
 
@@ -107,3 +107,11 @@ def coarsenings(nodes: int) -> int:
         intervals //= 2
         count += 1
     return count if intervals <= 31 else 0
+
+
+def coarsenable(nodes: int) -> tuple[int, int]:
+    """Return the next numbers of nodes up to and above ``nodes`` that can be coarsened."""
+    intervals = max(nodes - 1, 32)
+    step = 2 ** max(1, (intervals // 16).bit_length() - 1)
+    fewer = intervals // step * step
+    return fewer + 1, fewer + step + 1

@@ -21,12 +21,9 @@ from tehl.units import Force, Height, Length, Number, PositiveNumber, Pressure, 
 
 _NOT_YET = {
     "thermal": "thermal runs are not available in this version: leave the [thermal] table out",
-    "transient": "transient runs are not available in this version: leave the [transient] table "
-    "out",
-    "roughness": "rough surfaces are not available in this version: leave roughness out, "
-    "rms_roughness may stay",
-    "temperature": "thermal runs are not available in this version: leave the temperature of the "
-    "surface out",
+    "transient": "transient runs are not available in this version: leave the table out",
+    "roughness": "roughness is not available in this version: only rms_roughness may be stated",
+    "temperature": "temperature is not available in this version: the film keeps that of the inlet",
 }
 
 

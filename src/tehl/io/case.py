@@ -1,0 +1,323 @@
+"""Case files: TOML in, problem and options out, and every mistake told in one sentence."""
+
+import difflib
+import json
+import re
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal, TypeVar, get_args, get_origin
+
+from pydantic import BaseModel, ValidationError, create_model
+from pydantic.fields import FieldInfo
+from pydantic_core import ErrorDetails
+
+from tehl.errors import InputError
+from tehl.options import Options
+from tehl.problem import ContactProblem
+from tehl.units import Quantity
+
+_NUMERICS = "numerics"
+Model = TypeVar("Model", bound=BaseModel)
+
+
+def read_case(path: str | Path) -> ContactProblem:
+    """Return the problem of a case file; its ``[numerics]`` are checked and left.
+
+    Raises
+    ------
+    InputError
+        If the file is no case; the message names key, value, unit and what would be right.
+    """
+    problem, _ = read_case_and_options(path)
+    return problem
+
+
+def read_case_and_options(
+    path: str | Path, overrides: Sequence[str] = ()
+) -> tuple[ContactProblem, Options]:
+    """Return problem and numerical options of a case file.
+
+    Parameters
+    ----------
+    path : str or Path
+        TOML file.
+    overrides : sequence of str
+        Changes such as ``"numerics.points=513"`` or ``"contact.load=100 N"``, made before
+        anything is checked.
+
+    Raises
+    ------
+    InputError
+        If the file or a change is no case; the message names key, value, unit and what would be
+        right.
+    """
+    tables = _tables(Path(path))
+    for override in overrides:
+        _change(tables, override)
+    try:
+        return case_from_tables(tables)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from error
+
+
+def case_from_tables(tables: Mapping[str, Any]) -> tuple[ContactProblem, Options]:
+    """Return problem and options of the parsed tables of a case.
+
+    Raises
+    ------
+    InputError
+        As :func:`read_case`.
+    """
+    question = {key: value for key, value in tables.items() if key != _NUMERICS}
+    problem = _validated(ContactProblem, question, prefix="")
+    options = _validated(Options, tables.get(_NUMERICS, {}), prefix=_NUMERICS)
+    return problem, options
+
+
+def case_schema() -> dict[str, Any]:
+    """Return the JSON schema of a case file, for editors."""
+    case = create_model("Case", __base__=ContactProblem, numerics=(Options, Options()))
+    schema = case.model_json_schema()
+    schema["$schema"] = "https://json-schema.org/draft/2020-12/schema"
+    schema["description"] = "A case file of tehl; numbers are SI, strings carry units."
+    return schema
+
+
+def describe(error: ValidationError, data: object, prefix: str = "") -> str:
+    """Return the first mistake of a validation in one sentence.
+
+    Parameters
+    ----------
+    error : ValidationError
+        What pydantic found.
+    data : object
+        What it was given.
+    prefix : str
+        Key path of ``data`` in its file.
+    """
+    model = Options if error.title == Options.__name__ else ContactProblem
+    first = min(error.errors(include_url=False), key=_rank)
+    path = _path(first, data)
+    mistake = _Mistake(
+        name=".".join(str(part) for part in (prefix, *path) if part != ""),
+        path=path,
+        value=first["input"],
+        error=first,
+        models=_models_at(model, path),
+    )
+    return _TELL.get(first["type"], _pydantic_words)(mistake)
+
+
+# ---- reading
+
+
+def _tables(path: Path) -> dict[str, Any]:
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise InputError(f"{path}: there is no such case file") from None
+    except UnicodeDecodeError:
+        raise InputError(f"{path}: is no text file in UTF-8, so no case file") from None
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror})") from None
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{path}: {_syntax(str(error), text)}") from None
+
+
+def _syntax(message: str, text: str) -> str:
+    """Return the complaint of the TOML reader with the line that it is about."""
+    place = re.search(r" \(at (?:line (\d+), column \d+|end of document)\)", message)
+    lines = text.splitlines() or [""]
+    number = int(place[1]) if place and place[1] else len(lines)
+    what = message[: place.start()] if place else message
+    return f"line {number}: {lines[number - 1].strip()!r} is no TOML: {what}"
+
+
+def _change(tables: dict[str, Any], override: str) -> None:
+    """Make one change ``key.path=value`` in place."""
+    key, equals, text = (part.strip() for part in override.partition("="))
+    names = key.split(".")
+    if not equals or not all(names):
+        raise InputError(f"{override!r} is no change: give key.path=value, numerics.points=513")
+    node = tables
+    for name in names[:-1]:
+        node = node.setdefault(name, {})
+        if not isinstance(node, dict):
+            raise InputError(f"{override!r} changes a key of {name}, which is no table")
+    try:
+        node[names[-1]] = tomllib.loads(f"value = {text}")["value"]
+    except tomllib.TOMLDecodeError:
+        node[names[-1]] = text
+
+
+def _validated(model: type[Model], data: object, *, prefix: str) -> Model:
+    try:
+        return model.model_validate(data)
+    except ValidationError as error:
+        raise InputError(describe(error, data, prefix)) from error
+
+
+# ---- telling mistakes
+
+_RANKS = {"extra_forbidden": 0, "value_error": 1, "missing": 2, "literal_error": 4}
+
+
+def _rank(error: ErrorDetails) -> tuple[int, int]:
+    """Order mistakes: those that explain others first, those of an unused alternative last."""
+    kind = error["type"]
+    if kind == "literal_error" and isinstance(error["input"], dict | list):
+        return 6, 0
+    return _RANKS.get(kind, 5 if kind.endswith("_type") else 3), -len(error["loc"])
+
+
+def _path(error: ErrorDetails, data: object) -> tuple[str | int, ...]:
+    """Return the keys that lead to a mistake, without the labels of unions."""
+    path: list[str | int] = []
+    node: Any = data
+    for part in error["loc"]:
+        in_table = isinstance(node, Mapping) and part in node
+        in_list = isinstance(node, list | tuple) and isinstance(part, int) and part < len(node)
+        if in_table or in_list:
+            path.append(part)
+            node = node[part]
+    if error["type"] == "missing":
+        path.append(error["loc"][-1])
+    return tuple(path)
+
+
+def _models(annotation: object) -> Iterator[type[BaseModel]]:
+    """Yield the models an annotation may hold."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for argument in get_args(annotation):
+        yield from _models(argument)
+
+
+def _field(models: Sequence[type[BaseModel]], key: str | int) -> FieldInfo | None:
+    found = (model.model_fields[key] for model in models if key in model.model_fields)
+    return next(found, None) if isinstance(key, str) else None
+
+
+def _models_at(root: type[BaseModel], path: tuple[str | int, ...]) -> list[list[type[BaseModel]]]:
+    """Return the possible models of each step of ``path``, the root first."""
+    steps = [[root]]
+    for key in path:
+        field = _field(steps[-1], key)
+        steps.append(list(_models(field.annotation)) if field else [])
+    return steps
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class _Mistake:
+    """One mistake with what is known about it.
+
+    ``models`` are the possible models of each step of ``path``, the root first.
+    """
+
+    name: str
+    path: tuple[str | int, ...]
+    value: object
+    error: ErrorDetails
+    models: list[list[type[BaseModel]]]
+
+
+def _unknown_key(mistake: _Mistake) -> str:
+    keys = _keys(mistake.models[-2], mistake.path)
+    return f"{mistake.name} is no key of a case: {_suggest(str(mistake.path[-1]), keys)}"
+
+
+def _missing(mistake: _Mistake) -> str:
+    return f"{mistake.name} is missing{_wanted(_field(mistake.models[-2], mistake.path[-1]))}"
+
+
+def _law_missing(mistake: _Mistake) -> str:
+    known = [tag for model in mistake.models[-1] for tag in _tags(model)]
+    return f"{mistake.name}.law is missing: known are {', '.join(known)}"
+
+
+def _law_unknown(mistake: _Mistake) -> str:
+    tag, tags = mistake.error["ctx"]["tag"], mistake.error["ctx"]["expected_tags"]
+    known = re.findall(r"'([^']+)'", tags)
+    return f"{mistake.name}.law = {_shown(tag)} is not known: {_suggest(str(tag), known)}"
+
+
+def _word_unknown(mistake: _Mistake) -> str:
+    known = [
+        word.strip("'") for word in re.findall(r"'[^']+'|\d+", mistake.error["ctx"]["expected"])
+    ]
+    suggestion = _suggest(str(mistake.value), known)
+    return f"{mistake.name} = {_shown(mistake.value)} is not known: {suggestion}"
+
+
+def _own_words(mistake: _Mistake) -> str:
+    """Join a message of our own models to the key it is about."""
+    message = str(mistake.error["ctx"]["error"])
+    if not isinstance(mistake.value, Mapping):
+        return f"{mistake.name} = {_shown(mistake.value)} {message}"
+    if not mistake.name:
+        return message
+    first = re.split(r"[ .]", message, maxsplit=1)[0]
+    about_a_key = first in mistake.value or _field(mistake.models[-1], first) is not None
+    return f"{mistake.name}{'.' if about_a_key else ' '}{message}"
+
+
+def _pydantic_words(mistake: _Mistake) -> str:
+    words = mistake.error["msg"]
+    if mistake.error["type"] in ("model_type", "model_attributes_type", "dict_type"):
+        words = "must be a table"
+    for theirs, ours in _WORDING:
+        words = words.replace(theirs, ours)
+    return f"{mistake.name} = {_shown(mistake.value)} {words}"
+
+
+_WORDING = (
+    ("Input should be", "must be"),
+    ("greater than or equal to", "at least"),
+    ("less than or equal to", "at most"),
+    ("a valid integer", "a whole number"),
+    ("valid ", ""),
+    (", unable to parse string as an integer", ""),
+)
+_TELL = {
+    "extra_forbidden": _unknown_key,
+    "missing": _missing,
+    "union_tag_not_found": _law_missing,
+    "union_tag_invalid": _law_unknown,
+    "literal_error": _word_unknown,
+    "value_error": _own_words,
+}
+
+
+def _keys(models: list[type[BaseModel]], path: tuple[str | int, ...]) -> list[str]:
+    keys = [key for model in models for key in model.model_fields]
+    return [*dict.fromkeys(keys), *([_NUMERICS] if len(path) == 1 and "contact" in keys else [])]
+
+
+def _tags(model: type[BaseModel]) -> tuple[str, ...]:
+    annotation = model.model_fields["law"].annotation
+    return get_args(annotation) if get_origin(annotation) is Literal else ()
+
+
+def _suggest(word: str, known: list[str]) -> str:
+    close = difflib.get_close_matches(word, known, n=1, cutoff=0.55)
+    return f"did you mean {close[0]}?" if close else f"known are {', '.join(known)}"
+
+
+def _wanted(field: FieldInfo | None) -> str:
+    for note in field.metadata if field else []:
+        if isinstance(note, Quantity):
+            return f": give {note.name} such as {note.example}"
+    return ""
+
+
+def _shown(value: object) -> str:
+    """Return a value as the file would show it, shortened."""
+    try:
+        text = json.dumps(value, ensure_ascii=False)
+    except (TypeError, ValueError):
+        text = str(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
