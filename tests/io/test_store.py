@@ -74,8 +74,7 @@ def test_flat_surfaces_survive(tmp_path):
 
 
 def test_xarray_reads_the_file_as_the_dataset(result, tmp_path):
-    import xarray as xr
-
+    xr = pytest.importorskip("xarray")
     save(result, tmp_path / "out.nc")
     with xr.open_dataset(tmp_path / "out.nc", engine="h5netcdf") as stored:
         xr.testing.assert_equal(stored.load(), to_dataset(result))

@@ -15,7 +15,7 @@ WINDOW = ((-2.2, 1.6), (-1.7, 1.7))
 def figure(result: Result, size: tuple[float, float] = (7.0, 5.6)) -> Figure:
     """Return an empty figure under the title of ``result``, with a banner if it is no answer."""
     picture = Figure(figsize=size, layout="constrained")
-    picture.suptitle(_heading(result), fontsize=10)
+    picture.suptitle(_heading(result), fontsize=9)
     if not result.status.converged:
         _banner(picture, result)
     return picture
@@ -26,7 +26,7 @@ def subtitle(result: Result) -> str:
     groups, film, scaled = result.groups, result.film, result.film_scaled
     return (
         f"M = {groups.M:.4g}, L = {groups.L:.4g}, "
-        f"$p_h$ = {result.scales.hertz_pressure * GIGA:.3g} GPa, "
+        f"$p_h$ = {result.scales.hertz_pressure * GIGA:.3g} GPa\n"
         f"$h_c$ = {length(film.central)} ($H_c$ = {scaled.central:.4g}), "
         f"$h_{{min}}$ = {length(film.minimum)} ($H_{{min}}$ = {scaled.minimum:.4g})"
     )

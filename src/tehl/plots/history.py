@@ -2,6 +2,7 @@
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from tehl.plots.frame import figure
 from tehl.result import Result
@@ -47,6 +48,6 @@ def residual_history(result: Result) -> Figure:
         axes.annotate(
             label, (start + 0.6, 1.0), xycoords=("data", "axes fraction"), va="bottom", fontsize=7
         )
-    axes.xaxis.get_major_locator().set_params(integer=True)
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     axes.legend(fontsize=8)
     return picture

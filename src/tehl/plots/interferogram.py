@@ -110,7 +110,8 @@ def _fine(result: Result, optics: Optics, pixels: int) -> tuple[Array, Array, Ar
     x, y = result.x[part[1]], result.y[part[0]]
     fine_x = np.linspace(x[0], x[-1], pixels)
     fine_y = np.linspace(y[0], y[-1], max(2, round(pixels * np.ptp(y) / np.ptp(x))))
-    thickness = optical_thickness(result.film_thickness[part], optics)
+    film = np.nan_to_num(result.film_thickness[part], nan=0.0, posinf=0.0, neginf=0.0)
+    thickness = optical_thickness(film, optics)
     return fine_x, fine_y, RectBivariateSpline(y, x, thickness)(fine_y, fine_x)
 
 
@@ -142,7 +143,7 @@ def colours(thickness: Array, optics: Optics) -> Array:
 
     By a table over the thickness. The brightest fringe is as bright as the screen allows.
     """
-    top = max(float(np.nanmax(thickness)), 1e-6)
+    top = max(float(np.max(thickness)), 1e-6)
     table = np.linspace(0.0, top, int(np.clip(top / 1e-9, 500, 20000)))
     linear = _linear_rgb(table, optics)
     linear = np.clip(linear / linear.max(), 0.0, 1.0)

@@ -1,5 +1,8 @@
 """Pressure and film on the two centre lines, over the dry Hertz contact."""
 
+from collections.abc import Callable
+from typing import Any
+
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -50,11 +53,15 @@ def _panel(axes: Axes, result: Result, profile: Profile, window: tuple[float, fl
     central = result.film.central * MICRO
     film.set_ylim(0.0, 4.0 * central if central > 0 else None)
     scale = result.scales.hertz_pressure * GIGA
-    scaled = axes.secondary_yaxis(-0.13, functions=(lambda p: p / scale, lambda p: p * scale))
+    scaled = axes.secondary_yaxis(-0.13, functions=(_times(1 / scale), _times(scale)))
     scaled.set_ylabel("$p / p_h$", color=_PRESSURE)
     axes.set_zorder(film.get_zorder() + 1)
     axes.patch.set_visible(False)
 
 
-def _curves(axes: Axes) -> list:
+def _times(factor: float) -> Callable[[Any], Any]:
+    return lambda value: value * factor
+
+
+def _curves(axes: Axes) -> list[Any]:
     return [line for twin in axes.figure.axes[:1] + axes.figure.axes[2:3] for line in twin.lines]

@@ -1,11 +1,12 @@
 """Maps of film thickness and pressure, and the pressure as a surface."""
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator, NullFormatter, NullLocator
-from mpl_toolkits.mplot3d import Axes3D
 
 from tehl.plots.frame import (
     GIGA,
@@ -84,11 +85,16 @@ def film_levels(low: float, central: float) -> tuple[Array, Array]:
     low, central : float
         Smallest and central film, in any unit.
     """
-    fine = MaxNLocator(9, steps=[1, 2, 2.5, 5, 10]).tick_values(low, 1.1 * central)
+    fine = _nice(low, 1.1 * central, 7)
     inner = fine[(fine > low) & (fine <= 1.1 * central)]
-    wide = MaxNLocator(5, steps=[1, 2, 2.5, 5, 10]).tick_values(1.1 * central, 3.0 * central)
+    wide = _nice(1.1 * central, 3.0 * central, 5)
     outer = wide[(wide > 1.1 * central) & (wide <= 3.0 * central)]
     return inner, outer
+
+
+def _nice(low: float, high: float, count: int) -> Array:
+    locator = MaxNLocator(count, steps=[1, 2, 2.5, 5, 10])
+    return np.asarray(locator.tick_values(low, high), dtype=np.float64)
 
 
 def _mark_minimum(axes: Axes, result: Result) -> None:
@@ -129,8 +135,8 @@ def pressure_map(result: Result) -> Figure:
 
 
 def _pressure_levels(pressure: Array) -> Array:
-    top = float(np.nanmax(pressure))
-    levels = MaxNLocator(8).tick_values(0.0, top if top > 0 else 1.0)
+    top = float(np.max(pressure, initial=0.0, where=np.isfinite(pressure)))
+    levels = _nice(0.0, top if top > 0 else 1.0, 8)
     return levels[(levels > 0) & (levels < top)] if top > 0 else levels[1:]
 
 
@@ -148,7 +154,7 @@ def pressure_surface(result: Result) -> Figure:
         The picture, in micrometres and gigapascals.
     """
     picture = figure(result, (7.0, 5.8))
-    axes: Axes3D = picture.add_subplot(projection="3d", computed_zorder=False)
+    axes: Any = picture.add_subplot(projection="3d", computed_zorder=False)
     part = window_part(result)
     x, y = np.meshgrid(result.x[part[1]] * MICRO, result.y[part[0]] * MICRO)
     axes.plot_surface(
@@ -156,10 +162,10 @@ def pressure_surface(result: Result) -> Figure:
         y,
         result.pressure[part] * GIGA,
         cmap="cividis",
-        rcount=110,
-        ccount=110,
-        linewidth=0.15,
-        edgecolor=(0, 0, 0, 0.25),
+        rcount=200,
+        ccount=200,
+        linewidth=0,
+        antialiased=False,
         rasterized=True,
     )
     axes.set(xlabel="x along entrainment [µm]", ylabel="y [µm]", zlabel="p [GPa]")

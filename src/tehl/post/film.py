@@ -63,9 +63,9 @@ def _profile(result: Result, line: tuple[int, slice] | tuple[slice, int]) -> Pro
 
 
 def hertz_pressure(x: Array, y: Array) -> Array:
-    """Return the dry Hertz pressure P [-] at X, Y [Hertz half-widths].
+    r"""Return the dry Hertz pressure P [-] at X, Y [Hertz half-widths].
 
-    .. math:: P = \\sqrt{\\max(0,\\; 1 - X^2 - Y^2)}
+    .. math:: P = \sqrt{\max(0,\; 1 - X^2 - Y^2)}
     """
     return np.sqrt(np.maximum(0.0, 1.0 - x**2 - y**2))
 
@@ -78,7 +78,7 @@ def dry_gap(x: Array, y: Array, ellipticity: float) -> Array:
               \frac{ds}{\sqrt{(1+s^2)(\kappa^2+s^2)}}, \quad
               J = 2\int_0^\infty \frac{ds}{(1+s^2)^{3/2}\sqrt{\kappa^2+s^2}}
 
-    with t the confocal coordinate of the point. Gauss-Legendre on 48 points.
+    with t the confocal coordinate of the point. Gauss-Legendre on 48 points in arctan s.
 
     Parameters
     ----------
@@ -95,13 +95,13 @@ def dry_gap(x: Array, y: Array, ellipticity: float) -> Array:
     x2, y2 = np.broadcast_arrays(np.square(x), k2 * np.square(y))
     half = 0.5 * (x2 + y2 - 1.0 - k2)
     confocal = half + np.sqrt(np.maximum(half**2 - k2 + k2 * x2 + y2, 0.0))
-    end = np.sqrt(np.maximum(confocal, 0.0))
+    end = np.arctan(np.sqrt(np.maximum(confocal, 0.0)))
     nodes, weights = np.polynomial.legendre.leggauss(48)
     gap = np.zeros(end.shape)
     for node, weight in zip(0.5 * (nodes + 1.0), 0.5 * weights, strict=True):
-        s2 = (end * node) ** 2
+        s2 = np.tan(end * node) ** 2
         bracket = x2 / (1.0 + s2) + y2 / (k2 + s2) - 1.0
-        gap += weight * bracket / np.sqrt((1.0 + s2) * (k2 + s2))
+        gap += weight * bracket * np.sqrt((1.0 + s2) / (k2 + s2))
     return gap * end / _curvature_integral(k2)
 
 

@@ -1,0 +1,105 @@
+"""Pictures: what must be drawn is drawn, and nothing global is touched."""
+
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib.patches import Ellipse
+from matplotlib.text import Text
+
+from tehl import plots
+from tehl.io.store import save
+from tehl.plots.maps import film_levels
+from tehl.plots.save import PICTURES
+
+MAPS = ("film_map", "pressure_map", "interferogram")
+
+
+def texts(figure) -> str:
+    figure.draw_without_rendering()
+    return " | ".join(artist.get_text() for artist in figure.findobj(Text))
+
+
+@pytest.mark.parametrize("name", MAPS)
+def test_maps_show_the_contact_in_equal_aspect(result, name):
+    figure = getattr(plots, name)(result)
+    axes = figure.axes[0]
+    rims = [patch for patch in axes.patches if isinstance(patch, Ellipse)]
+    assert len(rims) == 1
+    assert rims[0].width == pytest.approx(2e6 * result.scales.half_width_x)
+    assert axes.get_aspect() == 1.0
+    assert "µm" in axes.get_xlabel()
+
+
+@pytest.mark.parametrize("draw", PICTURES.values(), ids=PICTURES)
+def test_each_picture_names_the_case_and_its_groups(result, draw):
+    words = texts(draw(result))
+    assert "Ball on disc" in words
+    assert "M = 75.6" in words
+
+
+@pytest.mark.parametrize("draw", PICTURES.values(), ids=PICTURES)
+def test_each_picture_of_a_failure_carries_a_banner(stalled, draw):
+    assert "NOT AN ANSWER: stalled (grid too coarse)" in texts(draw(stalled))
+
+
+def test_dollar_signs_in_a_title_are_no_formula(result):
+    problem = result.problem.model_copy(update={"title": "costs $5 and $6 \\frac"})
+    figure = plots.film_map(replace(result, problem=problem))
+    figure.canvas.draw()
+
+
+def test_contour_levels_lie_close_in_the_contact():
+    inner, outer = film_levels(0.12, 0.24)
+    assert inner.min() > 0.12
+    assert inner.max() <= 0.264
+    assert outer.max() <= 0.72
+    assert np.diff(inner).max() < np.diff(outer).min()
+
+
+def test_centre_lines_draw_film_over_the_dry_contact(result):
+    labels = [line.get_label() for axes in plots.centre_lines(result).axes for line in axes.lines]
+    assert labels.count("film") == labels.count("dry Hertz") == 2
+
+
+def test_a_film_with_holes_is_still_drawn(stalled):
+    film = stalled.scaled.film.copy()
+    film[30:34, 30:50] = -0.1
+    fields = replace(stalled.scaled, film=film, pressure=np.zeros_like(film))
+    broken = replace(stalled, scaled=fields)
+    for draw in PICTURES.values():
+        draw(broken).draw_without_rendering()
+
+
+def test_a_state_that_is_not_finite_is_still_drawn(stalled):
+    film = np.full_like(stalled.scaled.film, np.nan)
+    fields = replace(stalled.scaled, film=film, pressure=film)
+    numbers = replace(stalled.film_scaled, central=np.nan, minimum=np.nan)
+    broken = replace(stalled, scaled=fields, film_scaled=numbers)
+    for draw in PICTURES.values():
+        draw(broken).draw_without_rendering()
+
+
+def test_an_empty_history_is_said(result):
+    assert "no cycles" in texts(plots.residual_history(replace(result, history=())))
+
+
+def test_all_pictures_go_to_the_folder(result, tmp_path):
+    paths = plots.save_all(result, tmp_path / "new" / "folder", dpi=40)
+    assert [path.stem for path in paths] == list(PICTURES)
+    assert all(path.read_bytes().startswith(b"\x89PNG") for path in paths)
+    assert len(list((tmp_path / "new" / "folder").iterdir())) == len(paths)
+
+
+def test_plotting_imports_no_compiler_and_no_global_pyplot(result, tmp_path):
+    save(result, tmp_path / "out.nc")
+    code = (
+        "import sys, tehl.plots; from tehl.io.store import load; "
+        "tehl.plots.film_map(load(sys.argv[1])); "
+        "print([m for m in ('numba', 'matplotlib.pyplot', 'xarray') if m in sys.modules])"
+    )
+    run = [sys.executable, "-c", code, str(tmp_path / "out.nc")]
+    answer = subprocess.run(run, capture_output=True, text=True, check=True)
+    assert answer.stdout.strip() == "[]"
