@@ -96,7 +96,9 @@ class FilmEstimate:
     central_m, minimum_m : float
         The same in metres.
     remarks : tuple of str
-        Why the value may be off; empty inside the range of the formula.
+        Why both values may be off; empty inside the range of the formula.
+    minimum_remark : str or None
+        Why the minimum may be off though the central film is not.
     """
 
     formula: str
@@ -106,6 +108,7 @@ class FilmEstimate:
     central_m: float
     minimum_m: float | None
     remarks: tuple[str, ...]
+    minimum_remark: str | None
 
     @property
     def valid(self) -> bool:
@@ -263,6 +266,7 @@ def _estimate(formula: Formula, groups: Groups, scales: Scales) -> FilmEstimate:
         central_m=central * scales.film_thickness,
         minimum_m=None if minimum is None else minimum * scales.film_thickness,
         remarks=_remarks(formula, groups),
+        minimum_remark=_minimum_remark(formula, groups),
     )
 
 
@@ -271,12 +275,13 @@ def _remarks(formula: Formula, groups: Groups) -> tuple[str, ...]:
     here = regime(groups)
     if here not in formula.regimes:
         remarks.append(f"made for {' and '.join(formula.regimes)}, this contact is {here}")
-    if formula.minimum_limit < groups.M:
-        remarks.append(
-            f"its minimum film is too thick for M above {formula.minimum_limit:g}: the ratio of "
-            "central to minimum film grows with M"
-        )
     return tuple(remarks)
+
+
+def _minimum_remark(formula: Formula, groups: Groups) -> str | None:
+    if not groups.M > formula.minimum_limit:
+        return None
+    return f"the minimum is too thick for M above {formula.minimum_limit:g}"
 
 
 def inlet_heating_factor(problem: ContactProblem) -> float | None:

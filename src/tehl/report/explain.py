@@ -1,0 +1,264 @@
+"""The answer before the solve: what a case means, by formulas alone, at once."""
+
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from tehl.film_formulas import (
+    FilmEstimate,
+    Regime,
+    expected_central_film,
+    film_estimates,
+    inlet_heating_factor,
+    regime,
+)
+from tehl.grid import needed_points, recommended_domain
+from tehl.options import Domain, Options, coarsenable
+from tehl.problem import ContactProblem
+from tehl.report.suspicion import questions
+from tehl.scaling import Groups, Scales, groups, scales
+
+BYTES_PER_NODE = 450
+"""Peak memory of a solve by node of the finest full grid, measured; a guide."""
+
+SECONDS_PER_NODE = 0.6e-6
+"""Time of a solve by node of the finest full grid on one core of a usual machine; a guide."""
+
+_LENGTHS = ((1e-3, 1e3, "mm"), (1e-6, 1e6, "um"), (0.0, 1e9, "nm"))
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Explanation:
+    """What can be said about a case without solving it.
+
+    Attributes
+    ----------
+    problem, options : ContactProblem, Options
+        The case.
+    groups, scales : Groups, Scales
+        Its groups and units.
+    regime : str
+        Lubrication regime.
+    central_film : float
+        Central film to expect [m].
+    films : tuple of FilmEstimate
+        By each formula.
+    lambda_ratio : float or None
+        Central film over roughness of both surfaces [-]; None when no roughness is stated.
+    peclet : tuple of (float or None)
+        ``|u_s| a_x / (2 diffusivity)`` of both solids [-]; None where a property is not stated.
+    inlet_heating : float or None
+        Factor by which inlet shear heating thins the film [-].
+    domain : Domain
+        The domain that a solve takes: the one stated, else the recommended one.
+    recommended_domain : Domain
+        From the load.
+    needed_points : int
+        Nodes per direction below which the film is not resolved.
+    memory, seconds : float
+        Estimated peak memory [byte] and time [s] of a solve.
+    questions : tuple of str
+        What looks odd.
+    """
+
+    problem: ContactProblem
+    options: Options
+    groups: Groups
+    scales: Scales
+    regime: Regime
+    central_film: float
+    films: tuple[FilmEstimate, ...]
+    lambda_ratio: float | None
+    peclet: tuple[float | None, float | None]
+    inlet_heating: float | None
+    domain: Domain
+    recommended_domain: Domain
+    needed_points: int
+    memory: float
+    seconds: float
+    questions: tuple[str, ...]
+
+
+def explain(problem: ContactProblem, options: Options) -> Explanation:
+    """Return what can be said about a case without solving it."""
+    case_groups, case_scales = groups(problem), scales(problem)
+    film = expected_central_film(case_groups) * case_scales.film_thickness
+    wanted = recommended_domain(case_groups)
+    nodes = options.shape[0] * options.shape[1]
+    rough = problem.rms_roughness
+    return Explanation(
+        problem=problem,
+        options=options,
+        groups=case_groups,
+        scales=case_scales,
+        regime=regime(case_groups),
+        central_film=film,
+        films=film_estimates(case_groups, case_scales),
+        lambda_ratio=film / rough if rough > 0 else None,
+        peclet=_peclet(problem),
+        inlet_heating=inlet_heating_factor(problem),
+        domain=options.domain if isinstance(options.domain, Domain) else wanted,
+        recommended_domain=wanted,
+        needed_points=coarsenable(needed_points(case_groups) - 2)[1],
+        memory=float(BYTES_PER_NODE * nodes),
+        seconds=SECONDS_PER_NODE * nodes,
+        questions=questions(problem, options, case_groups, film),
+    )
+
+
+def _peclet(problem: ContactProblem) -> tuple[float | None, float | None]:
+    width, motion = problem.hertz.half_width_x, problem.motion
+    values = [
+        None if diffusivity is None else abs(speed) * width / (2.0 * diffusivity)
+        for speed, diffusivity in (
+            (motion.speed_1, problem.surface_1.material.diffusivity),
+            (motion.speed_2, problem.surface_2.material.diffusivity),
+        )
+    ]
+    return values[0], values[1]
+
+
+def as_summary(explanation: Explanation) -> dict[str, Any]:
+    """Return an explanation as one JSON object."""
+    case, hertz = explanation, explanation.problem.hertz
+    return {
+        "title": case.problem.title,
+        "groups": asdict(case.groups)
+        | {"hertz_pressure_pa": hertz.pressure, "hertz_half_width_m": hertz.half_width_x},
+        "hertz": asdict(hertz),
+        "load_n": case.problem.load,
+        "entrainment_speed_m_s": case.problem.entrainment_speed,
+        "reduced_modulus_pa": case.problem.reduced_modulus,
+        "radius_x_m": case.problem.radius_x,
+        "radius_y_m": case.problem.radius_y,
+        "regime": case.regime,
+        "central_film_m": case.central_film,
+        "films": [asdict(film) | {"valid": film.valid} for film in case.films],
+        "lambda_ratio": case.lambda_ratio,
+        "solid_peclet": list(case.peclet),
+        "inlet_heating_factor": case.inlet_heating,
+        "domain": case.domain.model_dump(mode="json"),
+        "recommended_domain": case.recommended_domain.model_dump(mode="json"),
+        "points": list(reversed(case.options.shape)),
+        "needed_points": case.needed_points,
+        "memory_bytes": case.memory,
+        "seconds": case.seconds,
+        "questions": list(case.questions),
+    }
+
+
+def as_text(explanation: Explanation) -> str:
+    """Return an explanation for people, in lines of plain text."""
+    sections = (
+        _about_case(explanation),
+        _about_groups(explanation),
+        _about_film(explanation),
+        _about_numerics(explanation),
+        _about_questions(explanation),
+    )
+    return "\n\n".join("\n".join(section) for section in sections)
+
+
+def _row(name: str, *values: str) -> str:
+    return f"  {name:<22}{'   '.join(value for value in values if value)}"
+
+
+def _about_case(case: Explanation) -> Iterator[str]:
+    problem, hertz = case.problem, case.problem.hertz
+    oil = problem.lubricant
+    yield problem.title or "Contact without a title"
+    yield _row("load", f"{problem.load:.4g} N")
+    yield _row(
+        "speeds",
+        f"u_m = {problem.entrainment_speed:.4g} m/s",
+        f"u_1 = {problem.motion.speed_1:.4g}",
+        f"u_2 = {problem.motion.speed_2:.4g}",
+        f"SRR = {problem.slide_roll_ratio:g}",
+    )
+    yield _row(
+        "reduced radii", f"R_x = {length(problem.radius_x)}", f"R_y = {length(problem.radius_y)}"
+    )
+    yield _row(
+        "reduced modulus",
+        f"E' = {problem.reduced_modulus / 1e9:.4g} GPa",
+        "(2/E' = sum of (1-nu^2)/E)",
+    )
+    yield _row(
+        "oil",
+        f"{oil.viscosity.law}, {oil.density.law}, {oil.shear.law}",
+        f"eta_0 = {problem.ambient_viscosity:.4g} Pa s",
+        f"alpha = {problem.pressure_coefficient * 1e9:.4g} 1/GPa",
+    )
+    yield _row(
+        "Hertz contact",
+        f"p_h = {hertz.pressure / 1e9:.4g} GPa",
+        f"a_x = {length(hertz.half_width_x)}",
+        f"a_y = {length(hertz.half_width_y)}",
+        f"approach {length(hertz.approach)}",
+    )
+
+
+def _about_groups(case: Explanation) -> Iterator[str]:
+    group = case.groups
+    yield "Groups (mean speed, R_x)"
+    yield _row("Moes", f"M = {group.M:.4g}", f"L = {group.L:.4g}")
+    yield _row("Hamrock-Dowson", f"U = {group.U:.4g}", f"W = {group.W:.4g}", f"G = {group.G:.4g}")
+    yield _row(
+        "Reynolds", f"lambda_bar = {group.lambda_bar:.4g}", f"alpha_bar = {group.alpha_bar:.4g}"
+    )
+    yield _row("shape", f"a_y/a_x = {group.ellipticity:.4g}", f"R_x/R_y = {group.radius_ratio:.4g}")
+    yield _row("regime", case.regime)
+
+
+def _about_film(case: Explanation) -> Iterator[str]:
+    yield f"{'Film by formulas':<28}{'central':<24}minimum"
+    for film in case.films:
+        central = f"{length(film.central_m)} (H {film.central:.4f})"
+        minimum = "-"
+        if film.minimum is not None and film.minimum_m is not None:
+            minimum = f"{length(film.minimum_m)} (H {film.minimum:.4f})"
+        yield f"  {film.formula:<26}{central:<24}{minimum}"
+        if film.minimum_remark:
+            yield f"      note: {film.minimum_remark}"
+        for remark in film.remarks:
+            yield f"      outside its range: {remark}"
+    if case.lambda_ratio is not None:
+        yield _row("lambda ratio", f"{case.lambda_ratio:.3g} (central film over joint Rq)")
+    if case.inlet_heating is not None:
+        yield _row("inlet heating", f"{case.inlet_heating:.3f} times the isothermal film")
+    numbers = ["not stated" if value is None else f"{value:.3g}" for value in case.peclet]
+    yield _row("solid Peclet numbers", *numbers)
+
+
+def _about_numerics(case: Explanation) -> Iterator[str]:
+    nodes_y, nodes_x = case.options.shape
+    how = "stated" if isinstance(case.options.domain, Domain) else "recommended"
+    domain, best = case.domain, case.recommended_domain
+    yield "Solve"
+    yield _row("domain", f"{_edges(domain)} Hertz half-widths, {how}")
+    if how == "stated" and domain != best:
+        yield _row("recommended", _edges(best))
+    yield _row("grid", f"{nodes_x} x {nodes_y} nodes", f"at least {case.needed_points} needed")
+    yield _row("memory, time", f"about {case.memory / 1e6:.0f} MB", f"about {case.seconds:.2g} s")
+
+
+def _edges(domain: Domain) -> str:
+    (west, east), (south, north) = domain.x, domain.y
+    return f"[{west:.4g}, {east:.4g}] x [{south:.4g}, {north:.4g}]"
+
+
+def _about_questions(case: Explanation) -> Iterator[str]:
+    if not case.questions:
+        yield "Nothing looks odd."
+        return
+    yield "Please check"
+    for question in case.questions:
+        yield f"  ? {question}"
+
+
+def length(metres: float) -> str:
+    """Return a length in the unit in which it reads well."""
+    for limit, factor, unit in _LENGTHS:
+        if abs(metres) >= limit:
+            return f"{metres * factor:.4g} {unit}"
+    return f"{metres:.4g} m"

@@ -1,0 +1,147 @@
+"""Questions about a case: values that are possible, but seldom meant."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from tehl.grid import needed_points, recommended_domain
+from tehl.options import Domain, Options, coarsenable
+from tehl.problem import ContactProblem
+from tehl.scaling import Groups
+
+
+@dataclass(frozen=True, slots=True)
+class _Usual:
+    """Range in which a quantity usually lies, in ``unit``, and what to think of outside."""
+
+    name: str
+    value: float
+    limits: tuple[float, float]
+    unit: str
+    hint: str
+    hint_above: str = ""
+
+    def question(self) -> str | None:
+        """Return the question, None inside the range."""
+        low, high = self.limits
+        if low <= self.value <= high:
+            return None
+        hint = self.hint_above if self.value > high and self.hint_above else self.hint
+        unit = f" {self.unit}" if self.unit else ""
+        return f"{self.name} is {self.value:.3g}{unit}, usual are {low:g} to {high:g}: {hint}"
+
+
+def questions(
+    problem: ContactProblem, options: Options, groups: Groups, central_film: float
+) -> tuple[str, ...]:
+    """Return what a careful reader would ask about a case, a sentence each.
+
+    Parameters
+    ----------
+    problem, options : ContactProblem, Options
+        The case.
+    groups : Groups
+        Its dimensionless groups.
+    central_film : float
+        Central film to expect [m].
+    """
+    unusual = (usual.question() for usual in _usual(problem, groups))
+    return (
+        *(question for question in unusual if question),
+        *_of_film(problem, central_film),
+        *_of_sliding(problem),
+        *_of_numerics(options, groups),
+    )
+
+
+_UNIT = "is the unit right (a bare number is SI)?"
+_MOST_ALPHA = "most oils have 10 to 30"
+_MOST_ETA = "is it in mPa s? Most oils have 0.005 to 1"
+_MOST_Z = "most oils have 0.4 to 0.8, does alpha fit eta_0?"
+_SOFT = "is the contact so soft or so lightly loaded?"
+_YIELDS = "would the solids not yield? Check load, radius and modulus"
+_NO_CONTACT = "is this an elastic contact at all?"
+_FINE = "is the load right? The film needs a very fine grid"
+_HALF_SPACE = "on this scale the solids are no half-spaces"
+_RUBBER = f"a polymer or rubber, or {_UNIT}"
+
+
+def _usual(problem: ContactProblem, groups: Groups) -> Iterator[_Usual]:
+    hertz = problem.hertz
+    slender = hertz.half_width_x / problem.radius_x
+    yield _Usual("Hertz pressure", hertz.pressure / 1e9, (0.05, 4), "GPa", _SOFT, _YIELDS)
+    yield _Usual("reduced radius_x", problem.radius_x, (1e-4, 5), "m", _UNIT)
+    yield _Usual("reduced radius_y", problem.radius_y, (1e-4, 5), "m", _UNIT)
+    yield _Usual("entrainment speed", problem.entrainment_speed, (1e-4, 100), "m/s", _UNIT)
+    yield _Usual("a_x / R_x", slender, (0, 0.2), "", _HALF_SPACE)
+    yield _Usual("Moes M", groups.M, (1, 2000), "", _NO_CONTACT, _FINE)
+    yield _Usual("Moes L", groups.L, (0, 25), "", "are speed and viscosity right?")
+    for name, surface in (("surface_1", problem.surface_1), ("surface_2", problem.surface_2)):
+        modulus = surface.material.young_modulus / 1e9
+        yield _Usual(f"{name} young_modulus", modulus, (1, 1200), "GPa", _RUBBER, _UNIT)
+    yield from _usual_of_oil(problem)
+
+
+def _usual_of_oil(problem: ContactProblem) -> Iterator[_Usual]:
+    viscosity = problem.lubricant.viscosity
+    alpha = problem.pressure_coefficient * 1e9
+    if viscosity.law != "constant":
+        yield _Usual("pressure coefficient alpha", alpha, (5, 40), "1/GPa", _MOST_ALPHA)
+    if viscosity.law == "roelands":
+        yield _Usual("Roelands z", viscosity.pressure_index, (0.2, 1), "", _MOST_Z)
+    yield _Usual("viscosity eta_0", viscosity.eta_0, (1e-3, 10), "Pa s", _MOST_ETA)
+    yield _Usual("density rho_0", problem.ambient_density, (600, 2000), "kg/m^3", _UNIT)
+
+
+def _of_film(problem: ContactProblem, central_film: float) -> Iterator[str]:
+    if central_film < 5e-9:
+        yield (
+            f"the film will be about {central_film * 1e9:.2g} nm, a few molecules: the oil is no "
+            "continuum there, is speed or viscosity too small?"
+        )
+    if problem.rms_roughness > 0 and central_film / problem.rms_roughness < 3:
+        yield (
+            f"the film is {central_film / problem.rms_roughness:.2g} times the roughness: below 3 "
+            "asperities touch, which a smooth calculation does not show"
+        )
+
+
+def _of_sliding(problem: ContactProblem) -> Iterator[str]:
+    slip = abs(problem.slide_roll_ratio)
+    if slip > 2:
+        yield (
+            f"slide_roll_ratio = {problem.slide_roll_ratio:g} moves the surfaces in opposite "
+            "directions: is it meant? It is (u_1 - u_2) / u_m, with u_m the mean speed"
+        )
+    if slip > 0.02:
+        yield (
+            "surfaces slide, but an isothermal Newtonian film does not depend on it: heat would "
+            "thin the film, and traction would be far too high"
+        )
+
+
+def _of_numerics(options: Options, groups: Groups) -> Iterator[str]:
+    if isinstance(options.domain, Domain):
+        yield from _of_domain(options.domain, recommended_domain(groups))
+    needed = needed_points(groups)
+    if min(options.shape) < needed:
+        _, more = coarsenable(needed - 2)
+        yield (
+            f"numerics.points = {min(options.shape)} is coarse for so thin a film: take {more} or "
+            "more, or expect a larger error bar or no convergence"
+        )
+
+
+def _of_domain(stated: Domain, wanted: Domain) -> Iterator[str]:
+    edges = (
+        ("inlet edge x", stated.x[0], wanted.x[0]),
+        ("outlet edge x", stated.x[1], wanted.x[1]),
+        ("side edge y", stated.y[0], wanted.y[0]),
+        ("side edge y", stated.y[1], wanted.y[1]),
+    )
+    for name, here, there in edges:
+        if abs(here) < 0.99 * abs(there) and not math.isclose(here, there):
+            yield (
+                f"numerics.domain has its {name} at {here:g}, recommended is {there:.3g}: the "
+                "error of the film from the domain may exceed 0.3 %"
+            )
