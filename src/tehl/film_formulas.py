@@ -279,7 +279,7 @@ def _remarks(formula: Formula, groups: Groups) -> tuple[str, ...]:
 
 
 def _minimum_remark(formula: Formula, groups: Groups) -> str | None:
-    if not groups.M > formula.minimum_limit:
+    if not formula.minimum_limit < groups.M:
         return None
     return f"the minimum is too thick for M above {formula.minimum_limit:g}"
 

@@ -3,11 +3,12 @@
 import difflib
 import tomllib
 from functools import cache
-from importlib import resources
-from typing import Annotated
+from pathlib import Path
+from typing import Annotated, Any
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
+from tehl.errors import InputError
 from tehl.units import Conductivity, Density, HeatCapacity, Pressure
 
 
@@ -26,7 +27,7 @@ class Solid(BaseModel):
         Where the numbers come from.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     young_modulus: Pressure
     poisson_ratio: Annotated[float, Field(gt=-1.0, le=0.5, allow_inf_nan=False)]
@@ -55,12 +56,15 @@ def reduced_modulus(first: Solid, second: Solid) -> float:
 
 
 @cache
+def _tables() -> dict[str, dict[str, Any]]:
+    """Return the tables of the library, by name."""
+    text = Path(__file__).with_name("materials.toml").read_text(encoding="utf-8")
+    return {name: {"name": name} | table for name, table in tomllib.loads(text).items()}
+
+
 def library() -> dict[str, Solid]:
     """Return the named solids, by name."""
-    text = resources.files("tehl").joinpath("materials.toml").read_text(encoding="utf-8")
-    return {
-        name: Solid(name=name, **properties) for name, properties in tomllib.loads(text).items()
-    }
+    return {name: Solid(**table) for name, table in _tables().items()}
 
 
 def material(name: str) -> Solid:
@@ -68,22 +72,28 @@ def material(name: str) -> Solid:
 
     Raises
     ------
-    ValueError
+    InputError
         If the library does not have it; the message lists what it has.
     """
-    known = library()
-    if name in known:
-        return known[name]
-    close = difflib.get_close_matches(name, known, n=1)
-    guess = f"did you mean {close[0]!r}? " if close else ""
-    raise ValueError(
-        f"is not a known material: {guess}Known are {', '.join(known)}; or give a table with "
-        "young_modulus and poisson_ratio"
-    )
+    try:
+        return Solid.model_validate(_by_name(name))
+    except ValueError as error:
+        raise InputError(f"{name!r} {error}") from None
 
 
 def _by_name(value: object) -> object:
-    return material(value) if isinstance(value, str) else value
+    """Return the table of a name, anything else as it is."""
+    if not isinstance(value, str):
+        return value
+    known = _tables()
+    if value in known:
+        return known[value]
+    close = difflib.get_close_matches(value, known, n=1)
+    guess = f"did you mean {close[0]}? " if close else ""
+    raise ValueError(
+        f"is no known solid: {guess}known are {', '.join(known)}; or give a table with "
+        "young_modulus and poisson_ratio"
+    )
 
 
 NamedSolid = Annotated[Solid, BeforeValidator(_by_name, json_schema_input_type=str | Solid)]

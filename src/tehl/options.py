@@ -16,7 +16,7 @@ class Domain(BaseModel):
         Inlet and outlet edge, and the two side edges [-].
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     x: Interval
     y: Interval
@@ -64,7 +64,7 @@ class Options(BaseModel):
         ``"auto"`` computes only y >= 0 when the problem is symmetric in y.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     points: (
         Annotated[int, Field(ge=17, le=16385)]

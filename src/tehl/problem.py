@@ -51,7 +51,7 @@ class Surface(BaseModel):
         Rq [m], for the lambda ratio of a smooth calculation.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     material: NamedSolid
     radius: Radius | None = None
@@ -103,7 +103,7 @@ class Contact(BaseModel):
         (u_1 - u_2) / u_m [-].
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     radius: Length | None = None
     radius_x: Length | None = None
@@ -157,7 +157,7 @@ class ContactProblem(BaseModel):
         A named oil or its laws.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     title: str = ""
     contact: Contact

@@ -1,7 +1,7 @@
 """The commented cases that ``tehl new`` prints."""
 
 import difflib
-from importlib import resources
+from pathlib import Path
 
 from tehl.errors import InputError
 
@@ -29,4 +29,4 @@ def template_text(name: str) -> str:
 
 
 def _text(name: str) -> str:
-    return resources.files("tehl.io").joinpath("cases", f"{name}.toml").read_text("utf-8")
+    return (Path(__file__).with_name("cases") / f"{name}.toml").read_text(encoding="utf-8")

@@ -38,7 +38,7 @@ class DowsonHigginson(BaseModel):
     .. [1] D. Dowson and G. R. Higginson, Elasto-hydrodynamic Lubrication, Pergamon, 1966.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     law: Literal["dowson-higginson"] = "dowson-higginson"
     rho_0: Density
@@ -73,7 +73,7 @@ class ConstantDensity(BaseModel):
         Density [kg/m^3].
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     law: Literal["constant"] = "constant"
     rho_0: Density

@@ -3,11 +3,12 @@
 import difflib
 import tomllib
 from functools import cache
-from importlib import resources
-from typing import Annotated
+from pathlib import Path
+from typing import Annotated, Any
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict
 
+from tehl.errors import InputError
 from tehl.lubricant.density import DensityLaw
 from tehl.lubricant.shear import Newtonian, ShearLaw
 from tehl.lubricant.viscosity import ViscosityLaw
@@ -31,7 +32,7 @@ class Lubricant(BaseModel):
         Where the numbers come from.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     viscosity: ViscosityLaw
     density: DensityLaw
@@ -43,10 +44,15 @@ class Lubricant(BaseModel):
 
 
 @cache
+def _tables() -> dict[str, dict[str, Any]]:
+    """Return the tables of the library, by name."""
+    text = Path(__file__).with_name("oils.toml").read_text(encoding="utf-8")
+    return {name: {"name": name} | table for name, table in tomllib.loads(text).items()}
+
+
 def library() -> dict[str, Lubricant]:
     """Return the named oils, by name."""
-    text = resources.files("tehl.lubricant").joinpath("oils.toml").read_text(encoding="utf-8")
-    return {name: Lubricant(name=name, **laws) for name, laws in tomllib.loads(text).items()}
+    return {name: Lubricant(**table) for name, table in _tables().items()}
 
 
 def oil(name: str) -> Lubricant:
@@ -54,22 +60,28 @@ def oil(name: str) -> Lubricant:
 
     Raises
     ------
-    ValueError
+    InputError
         If the library does not have it; the message lists what it has.
     """
-    known = library()
-    if name in known:
-        return known[name]
-    close = difflib.get_close_matches(name, known, n=1)
-    guess = f"did you mean {close[0]!r}? " if close else ""
-    raise ValueError(
-        f"is not a known oil: {guess}Known are {', '.join(known)}; or give a table with viscosity "
-        "and density"
-    )
+    try:
+        return Lubricant.model_validate(_by_name(name))
+    except ValueError as error:
+        raise InputError(f"{name!r} {error}") from None
 
 
 def _by_name(value: object) -> object:
-    return oil(value) if isinstance(value, str) else value
+    """Return the table of a name, anything else as it is."""
+    if not isinstance(value, str):
+        return value
+    known = _tables()
+    if value in known:
+        return known[value]
+    close = difflib.get_close_matches(value, known, n=1)
+    guess = f"did you mean {close[0]}? " if close else ""
+    raise ValueError(
+        f"is no known oil: {guess}known are {', '.join(known)}; or give a table with "
+        "viscosity and density"
+    )
 
 
 NamedLubricant = Annotated[

@@ -8,7 +8,7 @@ from pydantic import BaseModel, ConfigDict
 class Newtonian(BaseModel):
     """Stress is viscosity times shear rate, however large."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     law: Literal["newtonian"] = "newtonian"
 

@@ -52,7 +52,7 @@ class Roelands(BaseModel):
     .. [2] L. Houpert, J. Tribology 107 (1985), 241-247 (the form with alpha and S0).
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     law: Literal["roelands"] = "roelands"
     eta_0: Viscosity
@@ -148,7 +148,7 @@ class Barus(BaseModel):
         T_0 [K].
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     law: Literal["barus"] = "barus"
     eta_0: Viscosity
@@ -188,7 +188,7 @@ class ConstantViscosity(BaseModel):
         Temperature at which it holds [K].
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     law: Literal["constant"] = "constant"
     eta_0: Viscosity

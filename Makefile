@@ -1,0 +1,58 @@
+# make help lists what there is. Every target makes .venv first and keeps it up to date.
+# Another interpreter: make PYTHON=python3.13 test.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+DEV := $(VENV)/.stamp-dev
+DOCS := $(VENV)/.stamp-docs
+DEMO := out/demo
+
+.DEFAULT_GOAL := help
+.PHONY: help demo test check format bench docs validate clean
+
+help:  ## list the targets
+	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-10s %s\n", $$1, $$2}'
+
+$(BIN)/python:
+	$(PYTHON) -m venv $(VENV)
+
+$(DEV): pyproject.toml | $(BIN)/python
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[dev]"
+	@touch $@
+
+$(DOCS): pyproject.toml | $(BIN)/python
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[docs]"
+	@touch $@
+
+demo: $(DEV)  ## a ball on a disc: case, explanation, solution and pictures in out/demo
+	@mkdir -p $(DEMO)
+	$(BIN)/tehl new ball-on-disc > $(DEMO)/case.toml
+	$(BIN)/tehl explain $(DEMO)/case.toml
+	$(BIN)/tehl solve $(DEMO)/case.toml -o $(DEMO)/result.nc --plot $(DEMO)
+	@echo "The pictures are in $(DEMO)."
+
+test: $(DEV)  ## the tests that run each time
+	$(BIN)/python -m pytest -m "not slow"
+
+check: $(DEV)  ## style, formatting, types and floors
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+format: $(DEV)  ## let ruff write the formatting
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+bench: $(DEV)  ## one table: time, work, rate, memory, growth with the grid
+	$(BIN)/python -m benchmarks
+
+docs: $(DOCS)  ## the documentation as HTML in docs/_build
+	$(BIN)/python -m sphinx -W -b html docs docs/_build
+
+validate: $(DEV)  ## the slow comparisons with published and independent values
+	$(BIN)/python -m pytest -m slow
+
+clean:  ## remove everything that can be made again
+	rm -rf $(VENV) out docs/_build .pytest_cache .mypy_cache .ruff_cache .import_linter_cache
