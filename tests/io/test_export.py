@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from tehl.errors import InputError
-from tehl.io.export import SUFFIXES, WRITERS, export, write_csv, write_mat, write_npz, write_vtk
+from tehl.io.export import SUFFIXES, WRITERS, write, write_csv, write_mat, write_npz, write_vtk
 
 
 def rows(path) -> list[dict[str, str]]:
@@ -82,11 +82,11 @@ def test_vtk_marks_what_did_not_converge(stalled, tmp_path):
 @pytest.mark.parametrize("kind", sorted(WRITERS))
 def test_each_format_has_an_ending_and_leaves_one_file(result, tmp_path, kind):
     path = tmp_path / f"out{SUFFIXES[kind]}"
-    export(result, path, kind)
+    write(result, path, kind)
     assert list(tmp_path.iterdir()) == [path]
 
 
 def test_an_unknown_format_is_refused_with_the_known_ones(result, tmp_path):
     with pytest.raises(InputError, match="csv, npz, vtk, mat"):
-        export(result, tmp_path / "out.xls", "xls")
+        write(result, tmp_path / "out.xls", "xls")
     assert list(tmp_path.iterdir()) == []

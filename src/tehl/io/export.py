@@ -21,7 +21,7 @@ What = Literal["lines", "fields"]
 _HEADER = ("line", "x_m", "y_m", "pressure_pa", "film_thickness_m", "X", "Y", "P", "H")
 
 
-def export(result: Result, path: str | Path, kind: str) -> None:
+def write(result: Result, path: str | Path, kind: str) -> None:
     """Write ``result`` as ``kind``, with the defaults of that format.
 
     Parameters

@@ -1,0 +1,177 @@
+"""``tehl doctor``: what is installed, whether it works, and compiling ahead of time."""
+
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from tehl.problem import ContactProblem
+    from tehl.result import Result
+
+PACKAGES = (
+    "tehl",
+    "numpy",
+    "scipy",
+    "numba",
+    "llvmlite",
+    "pydantic",
+    "typer",
+    "rich",
+    "xarray",
+    "h5netcdf",
+    "h5py",
+    "matplotlib",
+)
+ENVIRONMENT = 3
+KNOWN_CENTRAL_FILM = 0.43027
+"""H at the centre for M = 20, L = 10, alpha p_h = 9.89, converged on grids up to 385 x 385."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Check:
+    """One check: its name, what was found, and whether that is well."""
+
+    name: str
+    found: str
+    passed: bool
+
+
+def doctor(
+    warm: Annotated[
+        bool, typer.Option("--warm", help="Compile all kernels now, so that no solve has to.")
+    ] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
+) -> None:
+    """Show versions and the kernel cache, and check the package against known numbers.
+
+    The checks compile the kernels if they are cold. Exit code 3 if one fails.
+    """
+    import json
+
+    facts = dict(_facts())
+    if not as_json:
+        _show(facts)
+    if warm:
+        typer.echo("compiling all kernels", err=True)
+        _warm()
+    checks = [check() for check in (_hertz, _film, _storage)]
+    if as_json:
+        found = {check.name: {"found": check.found, "passed": check.passed} for check in checks}
+        typer.echo(json.dumps({**facts, "checks": found}))
+    else:
+        _show({c.name: f"{'ok' if c.passed else 'FAILED'}: {c.found}" for c in checks})
+    if not all(check.passed for check in checks):
+        raise typer.Exit(ENVIRONMENT)
+
+
+def _show(rows: dict[str, str]) -> None:
+    for name, value in rows.items():
+        typer.echo(f"{name:<18} {value}")
+
+
+def _facts() -> Iterator[tuple[str, str]]:
+    """Yield what this installation is, by name."""
+    import platform
+    from importlib.metadata import PackageNotFoundError, version
+
+    from tehl.kernels.cache import is_cold
+
+    yield "python", f"{platform.python_version()} ({platform.python_implementation()})"
+    yield "platform", platform.platform()
+    for name in PACKAGES:
+        try:
+            yield name, version(name)
+        except PackageNotFoundError:
+            yield name, "missing"
+    yield "kernel cache", _cache_folder()
+    yield "kernels compiled", "no, the first solve compiles once" if is_cold() else "yes"
+
+
+def _cache_folder() -> str:
+    import os
+    from pathlib import Path
+
+    import tehl.kernels
+
+    beside = Path(tehl.kernels.__file__).parent / "__pycache__"
+    return os.environ.get("NUMBA_CACHE_DIR") or str(beside)
+
+
+def _problem() -> "ContactProblem":
+    """Return the steel contact of M = 20, L = 10 whose film is known."""
+    from tehl.problem import ContactProblem
+
+    steel = {"young_modulus": 2.06e11, "poisson_ratio": 0.3}
+    return ContactProblem.model_validate(
+        {
+            "title": "Self-check",
+            "contact": {"radius": 0.02, "moes_load": 20.0, "moes_speed": 10.0},
+            "surface_1": {"material": steel},
+            "surface_2": {"material": steel},
+            "lubricant": {
+                "viscosity": {"law": "roelands", "eta_0": 0.04, "alpha": 22e-9},
+                "density": {"law": "dowson-higginson", "rho_0": 890.0},
+            },
+        }
+    )
+
+
+def _solved(**numerics: Any) -> "Result":
+    from tehl.options import Domain, Options
+    from tehl.solver import solve
+
+    domain = Domain(x=(-4.5, 1.5), y=(-3.0, 3.0))
+    return solve(_problem(), Options(domain=domain, **numerics))
+
+
+def _warm() -> None:
+    """Compile by small solves, one for each way through the solver."""
+    from tehl.errors import ConvergenceError
+
+    for deformation in ("mlmi", "fft", "direct"):
+        for smoother in ("fast", "robust", "gauss-seidel"):
+            for order in (1, 2):
+                with suppress(ConvergenceError):
+                    _solved(
+                        points=33,
+                        deformation=deformation,
+                        smoother=smoother,
+                        wedge_order=order,
+                        max_cycles=1,
+                    )
+
+
+def _hertz() -> Check:
+    """Check the dry contact of a sphere against ``a^3 = 3 w R / (2 E')``."""
+    problem = _problem()
+    cube = 1.5 * problem.load * problem.radius_x / problem.reduced_modulus
+    error = abs(problem.hertz.half_width_x**3 / cube - 1.0)
+    return Check(name="Hertz contact", found=f"error {error:.1e}", passed=error < 1e-9)
+
+
+def _film() -> Check:
+    """Check a small solve against the grid-converged film of an independent solver."""
+    result = _solved(points=65)
+    ratio = result.film_scaled.central / KNOWN_CENTRAL_FILM
+    found = f"central film {100 * (ratio - 1):+.1f} % off the converged value on a coarse grid"
+    return Check(name="film, 65 x 65", found=found, passed=abs(ratio - 1.0) < 0.06)
+
+
+def _storage() -> Check:
+    """Check that a stored result comes back bit by bit."""
+    import tempfile
+    from pathlib import Path
+
+    import numpy as np
+
+    from tehl.io.store import load, save
+
+    result = _solved(points=33)
+    with tempfile.TemporaryDirectory() as folder:
+        save(result, Path(folder) / "check.nc")
+        back = load(Path(folder) / "check.nc")
+    same = np.array_equal(back.scaled.film, result.scaled.film)
+    return Check(name="storage", found="bit by bit" if same else "fields differ", passed=same)

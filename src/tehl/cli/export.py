@@ -1,0 +1,46 @@
+"""``tehl export``: a stored result in the formats of other programs."""
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+class Kind(StrEnum):
+    """Format to write."""
+
+    csv = "csv"
+    vtk = "vtk"
+    npz = "npz"
+    mat = "mat"
+
+
+class What(StrEnum):
+    """Nodes of a CSV table."""
+
+    lines = "lines"
+    fields = "fields"
+
+
+def export(
+    stored: Annotated[Path, typer.Argument(metavar="RESULT", help="Result file (.nc).")],
+    to: Annotated[Kind, typer.Option("--to", help="Format.")],
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="File; beside RESULT if left out.")
+    ] = None,
+    what: Annotated[
+        What, typer.Option(help="csv only: both centre lines, or all nodes of the fields.")
+    ] = What.lines,
+) -> None:
+    """Write a stored result as CSV, VTK (ParaView), npz (numpy) or mat (MATLAB)."""
+    from tehl.io.export import SUFFIXES, write, write_csv
+    from tehl.io.store import load
+
+    result = load(stored)
+    path = stored.with_suffix(SUFFIXES[to]) if output is None else output
+    if to is Kind.csv:
+        write_csv(result, path, what=what.value)
+    else:
+        write(result, path, to.value)
+    typer.echo(path)

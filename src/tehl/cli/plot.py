@@ -1,0 +1,24 @@
+"""``tehl plot``: pictures from a stored result."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def plot(
+    stored: Annotated[Path, typer.Argument(metavar="RESULT", help="Result file (.nc).")],
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="DIR", help="Folder; RESULT_plots if left out."),
+    ] = None,
+    dpi: Annotated[int, typer.Option(min=30, max=1200, help="Dots per inch.")] = 150,
+) -> None:
+    """Draw all pictures of a stored result; nothing is compiled or solved."""
+    from tehl.io.store import load
+    from tehl.plots.save import save_all
+
+    result = load(stored)
+    folder = stored.with_name(f"{stored.stem}_plots") if output is None else output
+    for path in save_all(result, folder, dpi=dpi):
+        typer.echo(path)

@@ -1,0 +1,125 @@
+"""What a solve shows while it runs, on stderr: a live table, plain lines or nothing."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+import typer
+
+if TYPE_CHECKING:
+    from rich.live import Live
+    from rich.table import Table
+
+    from tehl.result import CycleReport
+    from tehl.solver.monitor import Monitor
+
+_COLUMNS = (
+    "grid",
+    "cycle",
+    "residual",
+    "change",
+    "load error",
+    "H central",
+    "H min",
+    "sweeps",
+)
+COMPILE_SECONDS = 30
+"""What compiling the kernels takes on a common machine, roughly."""
+
+
+@contextmanager
+def progress(*, quiet: bool) -> Iterator["Monitor"]:
+    """Yield the monitor for a run: a table on a terminal, else lines; warn when kernels are cold.
+
+    Parameters
+    ----------
+    quiet : bool
+        Show nothing.
+    """
+    import sys
+
+    from tehl.kernels.cache import is_cold
+    from tehl.solver.monitor import SILENT
+
+    if quiet:
+        yield SILENT
+        return
+    if is_cold():
+        typer.echo(f"compiling once, about {COMPILE_SECONDS} s", err=True)
+    if not sys.stderr.isatty():
+        yield Lines()
+        return
+    with _live() as monitor:
+        yield monitor
+
+
+class Lines:
+    """A monitor that writes one plain line per cycle."""
+
+    def __init__(self) -> None:
+        self._started = False
+
+    def message(self, text: str) -> None:
+        """Write ``text``."""
+        typer.echo(text, err=True)
+
+    def cycle(self, report: "CycleReport") -> None:
+        """Write the numbers of a cycle, below a heading when it is the first."""
+        if not self._started:
+            typer.echo(_line(_COLUMNS), err=True)
+            self._started = True
+        typer.echo(_line(cells(report)), err=True)
+
+
+class LiveTable:
+    """A monitor that adds one row per cycle to a table on the terminal."""
+
+    def __init__(self, table: "Table", live: "Live") -> None:
+        self._table, self._live = table, live
+        self._grid: tuple[int, int] | None = None
+
+    def message(self, text: str) -> None:
+        """Write ``text`` above the table."""
+        self._live.console.print(text, markup=False)
+
+    def cycle(self, report: "CycleReport") -> None:
+        """Add a row; a rule parts it from the row of another grid."""
+        if self._grid not in (None, report.points):
+            self._table.add_section()
+        self._grid = report.points
+        self._table.add_row(*cells(report))
+        self._live.refresh()
+
+
+@contextmanager
+def _live() -> Iterator[LiveTable]:
+    from rich import box
+    from rich.console import Console
+    from rich.live import Live
+    from rich.table import Table
+
+    table = Table(box=box.SIMPLE_HEAD)
+    for name in _COLUMNS:
+        table.add_column(name, justify="left" if name == "sweeps" else "right")
+    console = Console(stderr=True)
+    with Live(table, console=console, auto_refresh=False, vertical_overflow="visible") as live:
+        yield LiveTable(table, live)
+
+
+def cells(report: "CycleReport") -> tuple[str, ...]:
+    """Return the numbers of a cycle as words, in the order of the columns."""
+    return (
+        "{} x {}".format(*report.points),
+        str(report.cycle),
+        f"{report.residual:.2e}",
+        f"{report.change:.2e}",
+        f"{report.load_error:.1e}",
+        f"{report.film_central:.6f}",
+        f"{report.film_minimum:.6f}",
+        report.smoother,
+    )
+
+
+def _line(words: tuple[str, ...]) -> str:
+    widths = (11, 6, 10, 12, 11, 10, 10)
+    return " ".join(f"{w:>{n}}" for w, n in zip(words, widths, strict=False)) + f"  {words[-1]}"

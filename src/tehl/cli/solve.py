@@ -1,0 +1,132 @@
+"""``tehl solve``: from a case file to a stored film."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from tehl.options import Options
+    from tehl.problem import ContactProblem
+    from tehl.result import Result
+
+INTERRUPTED, TERMINATED = 130, 143
+
+
+def solve(  # noqa: PLR0913, PLR0917 (the options of the command)
+    case: Annotated[Path, typer.Argument(help="Case file.", show_default=False)],
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", help="Result file; CASE.nc here if left out."),
+    ] = None,
+    plot: Annotated[
+        Path | None, typer.Option("--plot", metavar="DIR", help="Draw all pictures into DIR.")
+    ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the summary as one JSON object.")
+    ] = False,
+    changes: Annotated[
+        list[str], typer.Option("--set", metavar="KEY=VALUE", help="Change a key of the case.")
+    ] = [],  # noqa: B006 (typer reads the default, nobody writes it)
+    certify: Annotated[
+        bool,
+        typer.Option("--certify", help="Solve on three grids and a larger domain: error bars."),
+    ] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Show no progress.")] = False,
+) -> None:
+    """Solve a case and store the result.
+
+    Exit code 0: converged; 1: not converged, the result is stored and marked; 2: bad input,
+    nothing is written; 3: the environment failed.
+    """
+    from tehl.io.atomic import check_folder
+    from tehl.io.case import read_case_and_options
+
+    target = Path(f"{case.stem}.nc") if output is None else output
+    problem, options = read_case_and_options(case, changes)
+    _check_output(target, case)
+    if plot is not None:
+        check_folder(plot)
+    with _ending_cleanly():
+        result, failure = _run(problem, options, certify=certify, quiet=quiet)
+        result.save(target)
+        _tell(result, as_json=as_json)
+        typer.echo(f"written: {target}", err=True)
+        if plot is not None:
+            _draw(result, plot)
+    if failure is not None:
+        _explain_failure(result, failure)
+        raise typer.Exit(1)
+
+
+def _check_output(target: Path, case: Path) -> None:
+    from tehl.errors import InputError
+    from tehl.io.atomic import check_writable
+
+    if target.resolve() == case.resolve():
+        raise InputError(f"output {target} is the case file itself")
+    check_writable(target)
+
+
+def _run(
+    problem: "ContactProblem", options: "Options", *, certify: bool, quiet: bool
+) -> tuple["Result", str | None]:
+    """Return the result, and why it is no answer, None if it is one."""
+    from tehl import solver
+    from tehl.cli.progress import progress
+    from tehl.errors import ConvergenceError
+
+    work = solver.certify if certify else solver.solve
+    try:
+        with progress(quiet=quiet) as monitor:
+            return work(problem, options, monitor=monitor), None
+    except ConvergenceError as error:
+        return error.result, str(error)
+
+
+def _tell(result: "Result", *, as_json: bool) -> None:
+    import json
+
+    from tehl.cli.words import as_text
+
+    if as_json:
+        typer.echo(json.dumps(result.summary(), allow_nan=False))
+    else:
+        typer.echo(as_text(result))
+
+
+def _draw(result: "Result", folder: Path) -> None:
+    from tehl.plots.save import save_all
+
+    for path in save_all(result, folder):
+        typer.echo(f"written: {path}", err=True)
+
+
+def _explain_failure(result: "Result", failure: str) -> None:
+    status = result.status
+    typer.echo(f"tehl: not an answer ({status.kind}): {status.message or failure}", err=True)
+    if status.hint:
+        typer.echo(f"hint: {status.hint}", err=True)
+
+
+@contextmanager
+def _ending_cleanly() -> Iterator[None]:
+    """Let Ctrl-C and a kill unwind the stack, so that no temporary file stays behind."""
+    import signal
+    import threading
+
+    def terminate(_signal: int, _frame: object) -> None:
+        raise SystemExit(TERMINATED)
+
+    in_main = threading.current_thread() is threading.main_thread()
+    before = signal.signal(signal.SIGTERM, terminate) if in_main else None
+    try:
+        yield
+    except KeyboardInterrupt:
+        typer.echo("tehl: interrupted", err=True)
+        raise typer.Exit(INTERRUPTED) from None
+    finally:
+        if in_main:
+            signal.signal(signal.SIGTERM, before)

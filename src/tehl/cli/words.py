@@ -1,0 +1,64 @@
+"""A result told to people, in a few lines."""
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from tehl.result import Result
+
+
+def headline(result: "Result") -> str:
+    """Return title and outcome in one line."""
+    status = result.status
+    outcome = status.kind.replace("_", " ")
+    if status.cause:
+        outcome += f": {status.cause.replace('_', ' ')}"
+    return f"{result.problem.title or 'Lubricated point contact'} - {outcome}"
+
+
+def as_text(result: "Result") -> str:
+    """Return the numbers of ``result`` that people ask for first, one per line."""
+    groups, nx, ny = result.groups, result.scaled.x.size, result.scaled.y.size
+    x, y = result.scaled.x, result.scaled.y
+    rows = [
+        ("minimum film", _film(result, "minimum")),
+        ("central film", _film(result, "central")),
+        ("largest pressure", _pressure(result)),
+        ("groups", f"M = {groups.M:.4g}, L = {groups.L:.4g}, alpha p_h = {groups.alpha_bar:.4g}"),
+        ("grid", f"{nx} x {ny} on [{x[0]:g}, {x[-1]:g}] x [{y[0]:g}, {y[-1]:g}] half-widths"),
+        ("effort", _effort(result)),
+    ]
+    return "\n".join([headline(result), *(f"  {name:<17}{value}" for name, value in rows)])
+
+
+def _film(result: "Result", which: str) -> str:
+    metres, scaled = getattr(result.film, which), getattr(result.film_scaled, which)
+    text = f"{metres * 1e9:.4g} nm   (H = {scaled:.5g})"
+    return text + _bar(result, f"film_{which}", result.scales.film_thickness * 1e9, "nm")
+
+
+def _pressure(result: "Result") -> str:
+    highest = float(result.scaled.pressure.max())
+    giga = result.scales.hertz_pressure * 1e-9
+    text = f"{highest * giga:.4g} GPa   ({highest:.4g} p_h, p_h = {giga:.4g} GPa)"
+    return text + _bar(result, "pressure_max", giga, "GPa")
+
+
+def _bar(result: "Result", name: str, unit: float, word: str) -> str:
+    """Return the error bar: that of a certified run, else the estimate of the discretisation."""
+    estimate = result.uncertainty.get(name)
+    if estimate is not None:
+        value, width = estimate.value * unit, estimate.uncertainty * unit
+        return f"   certified {value:.5g} +- {width:.2g} {word}"
+    error = getattr(result.errors, f"discretisation_{name.removeprefix('film_')}", None)
+    return "" if error is None else f"   grid error about {100 * abs(error):.2g} %"
+
+
+def _effort(result: "Result") -> str:
+    if not result.history:
+        return f"{result.cost.cpu_seconds:.3g} s"
+    last = result.history[-1]
+    cycles = sum(report.points == last.points for report in result.history)
+    return (
+        f"{cycles} cycles on the finest grid, residual {last.residual:.1e}, "
+        f"load error {last.load_error:.1e}, {result.cost.cpu_seconds:.3g} s"
+    )

@@ -1,0 +1,293 @@
+"""A result as one HTML page that needs nothing else: for a screen, a phone and paper."""
+
+import base64
+import io
+from collections.abc import Iterable, Sequence
+from html import escape
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from tehl.film_formulas import film_estimates
+from tehl.io.atomic import check_writable, replacing
+from tehl.io.content import DEFINITIONS
+from tehl.plots.save import PICTURES
+from tehl.report.inputs import input_rows
+from tehl.result import ErrorEstimate, Estimate, Result
+
+_STYLE = """
+:root { color-scheme: light; }
+body { font: 15px/1.45 system-ui, sans-serif; color: #1b1f24; max-width: 62rem;
+       margin: 0 auto; padding: 1rem; }
+h1 { font-size: 1.5rem; margin: .2rem 0 .6rem; }
+h2 { font-size: 1.1rem; margin: 1.8rem 0 .5rem; border-bottom: 1px solid #d0d7de; }
+.status { padding: .5rem .8rem; border-radius: .3rem; font-weight: 600; }
+.good { background: #dafbe1; color: #0b4a1d; }
+.bad { background: #b3001b; color: #fff; }
+.status p { margin: .3rem 0 0; font-weight: 400; }
+.wide { overflow-x: auto; }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
+th, td { padding: .2rem .7rem .2rem 0; text-align: left; vertical-align: top;
+         border-bottom: 1px solid #eaeef2; }
+th { font-weight: 600; }
+td.number { text-align: right; white-space: nowrap; }
+.pictures { display: grid; gap: 1rem; grid-template-columns: repeat(auto-fit, minmax(19rem, 1fr)); }
+figure { margin: 0; break-inside: avoid; }
+img { width: 100%; height: auto; }
+figcaption, .small { font-size: .85rem; color: #57606a; }
+pre { white-space: pre-wrap; font-size: .85rem; }
+@media print { body { font-size: 11px; max-width: none; padding: 0; }
+               h2 { break-after: avoid; } tr { break-inside: avoid; } }
+"""
+
+_CAPTIONS = {
+    "film": "Film thickness. The dashed line is the Hertz contact; oil enters at the left.",
+    "pressure": "Pressure.",
+    "pressure_surface": "Pressure as a surface.",
+    "centre_lines": "Pressure and film on the centre lines over the dry contact.",
+    "residuals": "Convergence, grid after grid.",
+    "interferogram_white": "Synthetic interferogram, white light.",
+    "interferogram_dichromatic": "Synthetic interferogram, two lines.",
+}
+
+
+def write_report(result: Result, path: str | Path) -> None:
+    """Write ``result`` as one HTML file with its pictures inside; whole, or not at all.
+
+    Parameters
+    ----------
+    result : Result
+        What to report, converged or not.
+    path : str or Path
+        The file; an older one is replaced.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written there.
+    """
+    check_writable(path)
+    text = report_text(result)
+    with replacing(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+
+
+def report_text(result: Result, *, dpi: int = 110) -> str:
+    """Return the page as text.
+
+    Parameters
+    ----------
+    result : Result
+        What to report.
+    dpi : int
+        Dots per inch of the pictures.
+    """
+    title = escape(result.problem.title or "Lubricated point contact")
+    sections = (
+        _section("Result", _numbers(result)),
+        _section("Pictures", _pictures(result, dpi)),
+        _section("Formulas against computed", _formulas(result)),
+        _section("Inputs", _inputs(result)),
+        _section("Dimensionless groups", _groups(result)),
+        _section("Errors", _errors(result)),
+        _section("Convergence", _convergence(result)),
+        _section("Conventions", f"<pre>{escape(DEFINITIONS)}</pre>"),
+        _section("Provenance", _provenance(result)),
+    )
+    return (
+        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        f"<title>{title}</title>\n<style>{_STYLE}</style>\n</head>\n<body>\n"
+        f"<h1>{title}</h1>\n{_status(result)}\n{''.join(sections)}</body>\n</html>\n"
+    )
+
+
+def _section(title: str, body: str) -> str:
+    return f"<section>\n<h2>{title}</h2>\n{body}\n</section>\n"
+
+
+def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Return a table; cells that begin like numbers are set to the right."""
+    lines = [f"<tr>{''.join(f'<th>{escape(cell)}</th>' for cell in head)}</tr>"]
+    lines += [f"<tr>{''.join(_cell(cell) for cell in row)}</tr>" for row in rows]
+    return f'<div class="wide"><table>\n{chr(10).join(lines)}\n</table></div>'
+
+
+def _cell(text: str) -> str:
+    number = text[:1].isdigit() or text[:2].lstrip("-+±").isdigit()
+    return f"<td{' class=number' if number else ''}>{escape(text)}</td>"
+
+
+def _status(result: Result) -> str:
+    status = result.status
+    if status.converged:
+        return '<div class="status good">converged</div>'
+    cause = f": {status.cause.replace('_', ' ')}" if status.cause else ""
+    notes = "".join(f"<p>{escape(note)}</p>" for note in (status.message, status.hint) if note)
+    kind = status.kind.replace("_", " ")
+    return f'<div class="status bad">Not an answer - {escape(kind + cause)}{notes}</div>'
+
+
+def _numbers(result: Result) -> str:
+    film, scaled, scales = result.film, result.film_scaled, result.scales
+    highest = float(result.scaled.pressure.max())
+    x, y = scaled.minimum_at
+    rows = [
+        ("minimum film", f"{film.minimum * 1e9:.5g} nm", f"{scaled.minimum:.6g}", "sub-grid"),
+        ("central film", f"{film.central * 1e9:.5g} nm", f"{scaled.central:.6g}", "x = y = 0"),
+        (
+            "place of the minimum",
+            f"{x * scales.half_width_x * 1e6:.4g} µm, {y * scales.half_width_y * 1e6:.4g} µm",
+            f"{x:.4g}, {y:.4g}",
+            "x, y",
+        ),
+        (
+            "largest pressure",
+            f"{highest * scales.hertz_pressure * 1e-9:.5g} GPa",
+            f"{highest:.6g}",
+            "on the nodes",
+        ),
+    ]
+    return _table(("", "SI", "dimensionless", ""), rows)
+
+
+def _pictures(result: Result, dpi: int) -> str:
+    figures = [
+        f'<figure><img alt="{escape(caption)}" src="{_image(PICTURES[name](result), dpi)}">'
+        f"<figcaption>{escape(caption)}</figcaption></figure>"
+        for name, caption in _CAPTIONS.items()
+    ]
+    return f'<div class="pictures">\n{chr(10).join(figures)}\n</div>'
+
+
+def _image(picture: Figure, dpi: int) -> str:
+    buffer = io.BytesIO()
+    picture.savefig(buffer, format="png", dpi=dpi)
+    return f"data:image/png;base64,{base64.b64encode(buffer.getvalue()).decode('ascii')}"
+
+
+def _formulas(result: Result) -> str:
+    computed = result.film_scaled
+    rows = [("this solve", _nm(result.film.central), "", _nm(result.film.minimum), "", "")]
+    rows += [
+        (
+            f"{estimate.formula} ({estimate.source})",
+            _nm(estimate.central_m),
+            _off(estimate.central, computed.central),
+            _nm(estimate.minimum_m),
+            _off(estimate.minimum, computed.minimum),
+            "; ".join(estimate.remarks),
+        )
+        for estimate in film_estimates(result.groups, result.scales)
+    ]
+    return _table(
+        ("", "central film", "formula - solve", "minimum film", "formula - solve", "remarks"), rows
+    )
+
+
+def _nm(metres: float | None) -> str:
+    return "" if metres is None else f"{metres * 1e9:.4g} nm"
+
+
+def _off(formula: float | None, computed: float) -> str:
+    """Return by how many percent of the solve a formula lies off."""
+    if formula is None or not computed > 0:
+        return ""
+    return f"{100 * (formula / computed - 1):+.1f} %"
+
+
+def _inputs(result: Result) -> str:
+    problem, numerics = input_rows(result.problem), input_rows(result.options, "numerics.")
+    rows = [(row.path, row.value, row.unit) for row in (*problem, *numerics)]
+    return _table(("key", "value", "unit"), rows)
+
+
+def _groups(result: Result) -> str:
+    groups, scales = result.groups, result.scales
+    rows = [
+        ("M", f"{groups.M:.6g}", "Moes load"),
+        ("L", f"{groups.L:.6g}", "Moes speed (lubricant)"),
+        ("U", f"{groups.U:.6g}", "eta_0 u_m / (E' R_x)"),
+        ("W", f"{groups.W:.6g}", "w / (E' R_x²)"),
+        ("G", f"{groups.G:.6g}", "alpha E'"),
+        ("lambda_bar", f"{groups.lambda_bar:.6g}", "12 eta_0 u_m R_x² / (a_x³ p_h)"),
+        ("alpha_bar", f"{groups.alpha_bar:.6g}", "alpha p_h"),
+        ("ellipticity", f"{groups.ellipticity:.6g}", "a_y / a_x"),
+        ("p_h", f"{scales.hertz_pressure * 1e-9:.6g} GPa", "Hertz pressure"),
+        ("a_x", f"{scales.half_width_x * 1e6:.6g} µm", "Hertz half-width along entrainment"),
+        ("a_y", f"{scales.half_width_y * 1e6:.6g} µm", "Hertz half-width across entrainment"),
+        ("w", f"{scales.load:.6g} N", "load"),
+        ("u_m", f"{scales.speed:.6g} m/s", "entrainment speed"),
+    ]
+    return _table(("group", "value", ""), rows)
+
+
+def _errors(result: Result) -> str:
+    parts = [_error_bars(result)] if result.uncertainty else []
+    if result.errors is not None:
+        parts.append(_estimates(result.errors))
+    return "\n".join(parts) or "<p>No error could be estimated.</p>"
+
+
+def _error_bars(result: Result) -> str:
+    film = (result.scales.film_thickness * 1e9, "nm")
+    units = {"pressure_max": (result.scales.hertz_pressure * 1e-9, "GPa")}
+    rows = [
+        _certified(name, estimate, *units.get(name, film))
+        for name, estimate in result.uncertainty.items()
+    ]
+    head = ("certified", "value", "± all", "± grid", "± domain", "order", "on the grids")
+    return _table(head, rows)
+
+
+def _estimates(errors: ErrorEstimate) -> str:
+    grid = (errors.discretisation_central, errors.discretisation_minimum)
+    iteration = (errors.iteration_central, errors.iteration_minimum)
+    rows = [("grid", *map(_percent, grid)), ("iteration", *map(_percent, iteration))]
+    return _table(("estimated, relative", "central film", "minimum film"), rows)
+
+
+def _certified(name: str, estimate: Estimate, unit: float, word: str) -> tuple[str, ...]:
+    order = "" if estimate.observed_order is None else f"{estimate.observed_order:.2f}"
+    return (
+        name.replace("_", " "),
+        f"{estimate.value * unit:.5g} {word}",
+        f"{estimate.uncertainty * unit:.2g} {word}",
+        f"{estimate.discretisation * unit:.2g} {word}",
+        f"{estimate.domain * unit:.2g} {word}",
+        order,
+        ", ".join(f"{value * unit:.5g}" for value in estimate.values),
+    )
+
+
+def _percent(value: float) -> str:
+    return f"{100 * value:.2g} %"
+
+
+def _convergence(result: Result) -> str:
+    head = ("grid", "cycle", "residual", "change", "load error", "H central", "H min", "sweeps")
+    rows = [
+        (
+            "{} × {}".format(*report.points),
+            str(report.cycle),
+            f"{report.residual:.2e}",
+            f"{report.change:.2e}",
+            f"{report.load_error:.1e}",
+            f"{report.film_central:.6f}",
+            f"{report.film_minimum:.6f}",
+            report.smoother,
+        )
+        for report in result.history
+    ]
+    return _table(head, rows) if rows else "<p>No cycles were recorded.</p>"
+
+
+def _provenance(result: Result) -> str:
+    cost = result.cost
+    rows = [
+        ("made", result.provenance.created),
+        ("solve", f"{cost.cpu_seconds:.3g} s of one processor, {cost.wall_seconds:.3g} s in all"),
+        ("grid", f"{result.scaled.x.size} × {result.scaled.y.size} nodes"),
+        *sorted(result.provenance.versions.items()),
+    ]
+    return _table(("", ""), rows)

@@ -1,0 +1,59 @@
+"""A solver that answers at once, so that the commands can be tested alone."""
+
+import sys
+from dataclasses import replace
+from types import ModuleType, SimpleNamespace
+
+import pytest
+
+from tehl.errors import ConvergenceError
+from tests.fixtures_result import make_result
+
+
+class FakeSolver:
+    """Stands for ``tehl.solver``; ``outcome`` is a status or an exception to raise."""
+
+    def __init__(self) -> None:
+        self.outcome: object = None
+        self.calls: list[SimpleNamespace] = []
+
+    def solve(self, problem, options, *, monitor=None):
+        return self._answer("solve", problem, options, monitor)
+
+    def certify(self, problem, options, *, monitor=None):
+        return self._answer("certify", problem, options, monitor)
+
+    def _answer(self, kind, problem, options, monitor):
+        self.calls.append(SimpleNamespace(kind=kind, problem=problem, options=options))
+        result = replace(make_result(33), problem=problem, options=options)
+        monitor.message("hello")
+        for report in result.history:
+            monitor.cycle(report)
+        if isinstance(self.outcome, BaseException):
+            raise self.outcome
+        if self.outcome is not None:
+            raise ConvergenceError("it did not converge", replace(result, status=self.outcome))
+        return result
+
+
+class Silent:
+    """A monitor that says nothing."""
+
+    def message(self, text):
+        pass
+
+    def cycle(self, report):
+        pass
+
+
+@pytest.fixture
+def solver(monkeypatch) -> FakeSolver:
+    fake = FakeSolver()
+    module = ModuleType("tehl.solver")
+    module.solve, module.certify = fake.solve, fake.certify
+    monkeypatch.setitem(sys.modules, "tehl.solver", module)
+    monkeypatch.setattr("tehl.solver", module, raising=False)
+    monitor = SimpleNamespace(SILENT=Silent())
+    monkeypatch.setitem(sys.modules, "tehl.solver.monitor", monitor)
+    monkeypatch.setitem(sys.modules, "tehl.kernels.cache", SimpleNamespace(is_cold=lambda: False))
+    return fake

@@ -1,0 +1,73 @@
+"""``tehl plot``, ``export`` and ``report``: stored results in, files out."""
+
+import sys
+from types import SimpleNamespace
+
+import pytest
+
+from tehl import cli
+from tehl.io.store import save
+from tehl.plots import film_map
+
+
+@pytest.fixture
+def run(monkeypatch, capsys):
+    def call(*words: str) -> SimpleNamespace:
+        monkeypatch.setattr(sys, "argv", ["tehl", *words])
+        with pytest.raises(SystemExit) as end:
+            cli.main()
+        captured = capsys.readouterr()
+        return SimpleNamespace(code=end.value.code or 0, out=captured.out, err=captured.err)
+
+    return call
+
+
+@pytest.fixture
+def stored(result, tmp_path):
+    save(result, tmp_path / "ball.nc")
+    return tmp_path / "ball.nc"
+
+
+@pytest.mark.parametrize(
+    ("kind", "name"),
+    [("csv", "ball.csv"), ("vtk", "ball.vtr"), ("npz", "ball.npz"), ("mat", "ball.mat")],
+)
+def test_exports_land_beside_the_result(stored, run, kind, name):
+    answer = run("export", str(stored), "--to", kind)
+    assert answer.code == 0
+    assert sorted(path.name for path in stored.parent.iterdir()) == sorted(["ball.nc", name])
+
+
+def test_csv_fields_can_be_asked_for(stored, run):
+    run("export", str(stored), "--to", "csv", "--what", "fields", "-o", str(stored) + ".csv")
+    assert len((stored.parent / "ball.nc.csv").read_text().splitlines()) == 1 + 65**2
+
+
+def test_an_unknown_format_is_bad_input(stored, run):
+    assert run("export", str(stored), "--to", "xls").code == 2
+
+
+def test_plots_land_in_the_folder(stored, run, monkeypatch):
+    monkeypatch.setattr("tehl.plots.save.PICTURES", {"film": film_map})
+    assert run("plot", str(stored), "-o", str(stored.parent / "pictures"), "--dpi", "40").code == 0
+    assert [p.name for p in (stored.parent / "pictures").iterdir()] == ["film.png"]
+
+
+def test_the_report_lands_beside_the_result(stored, run, monkeypatch):
+    monkeypatch.setattr("tehl.report.html._CAPTIONS", {})
+    assert run("report", str(stored)).code == 0
+    assert "<!DOCTYPE html>" in (stored.parent / "ball.html").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("command", [["plot"], ["export", "--to", "csv"], ["report"]])
+@pytest.mark.parametrize("damage", ["truncated", "foreign", "missing"])
+def test_a_file_that_is_no_result_is_bad_input(stored, run, command, damage):
+    content = {"truncated": stored.read_bytes()[:5000], "foreign": b"title = 1"}
+    stored.unlink()
+    if damage in content:
+        stored.write_bytes(content[damage])
+    answer = run(command[0], str(stored), *command[1:])
+    assert answer.code == 2
+    assert "ball.nc" in answer.err
+    assert answer.err.count("\n") == 1
+    assert len(list(stored.parent.iterdir())) == (damage in content)

@@ -1,0 +1,183 @@
+# ruff: noqa: ARG001 (fixtures that prepare and are not read)
+"""``tehl solve``: what it writes, prints and returns, with a solver that answers at once."""
+
+import io
+import json
+import signal
+import sys
+from types import SimpleNamespace
+
+import pytest
+
+from tehl import cli
+from tehl.cli.progress import Lines, progress
+from tehl.io import store
+from tehl.io.store import load
+from tehl.result import Status
+from tests.cli.fixtures_solver import solver
+
+__all__ = ["solver"]
+
+CASE = """
+title = "Ball"
+[contact]
+radius = "20 mm"
+load = "80 N"
+entrainment_speed = "1.5 m/s"
+[surface_1]
+material = "steel"
+[surface_2]
+material = "steel"
+[lubricant]
+viscosity = { law = "roelands", eta_0 = "0.04 Pa s", alpha = "22 1/GPa" }
+density = { law = "dowson-higginson", rho_0 = "890 kg/m^3" }
+"""
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "ball.toml").write_text(CASE)
+    return tmp_path
+
+
+@pytest.fixture
+def run(monkeypatch, capsys):
+    def call(*words: str) -> SimpleNamespace:
+        monkeypatch.setattr(sys, "argv", ["tehl", *words])
+        with pytest.raises(SystemExit) as end:
+            cli.main()
+        captured = capsys.readouterr()
+        return SimpleNamespace(code=end.value.code or 0, out=captured.out, err=captured.err)
+
+    return call
+
+
+def names(folder) -> list[str]:
+    return sorted(path.name for path in folder.iterdir())
+
+
+def test_the_result_is_stored_under_the_name_of_the_case(folder, solver, run):
+    answer = run("solve", "ball.toml")
+    assert answer.code == 0
+    assert names(folder) == ["ball.nc", "ball.toml"]
+    assert load("ball.nc").status.converged
+    assert "minimum film" in answer.out
+    assert "Ball - converged" in answer.out
+
+
+def test_progress_goes_to_stderr_in_plain_lines(folder, solver, run):
+    answer = run("solve", "ball.toml")
+    assert "hello" in answer.err
+    assert "33 x 33" in answer.err
+    assert "\x1b" not in answer.err
+    assert "33 x 33 on" in answer.out
+
+
+def test_quiet_shows_no_progress(folder, solver, run):
+    assert "residual" not in run("solve", "ball.toml", "--quiet").err
+
+
+def test_json_prints_one_object_and_nothing_else(folder, solver, run):
+    answer = run("solve", "ball.toml", "--json")
+    assert json.loads(answer.out)["status"] == "converged"
+    assert answer.out.count("\n") == 1
+
+
+def test_changes_reach_the_solver(folder, solver, run):
+    run("solve", "ball.toml", "--set", "numerics.points=129", "--set", "contact.load=40 N")
+    assert solver.calls[0].options.points == 129
+    assert solver.calls[0].problem.load == 40.0
+
+
+def test_certify_takes_the_other_way(folder, solver, run):
+    run("solve", "ball.toml", "--certify")
+    assert [call.kind for call in solver.calls] == ["certify"]
+
+
+def test_a_failure_is_stored_marked_and_explained(folder, solver, run):
+    solver.outcome = Status(
+        kind="stalled", cause="grid_too_coarse", message="the grid is too coarse", hint="take 513"
+    )
+    answer = run("solve", "ball.toml", "-o", "bad.nc")
+    assert answer.code == 1
+    assert load("bad.nc").status == solver.outcome
+    assert "the grid is too coarse" in answer.err
+    assert "hint: take 513" in answer.err
+
+
+def test_a_failure_as_json_names_cause_and_hint(folder, solver, run):
+    solver.outcome = Status(kind="diverged", cause="diverged", message="m", hint="h")
+    answer = run("solve", "ball.toml", "--json")
+    content = json.loads(answer.out)
+    assert answer.code == 1
+    assert (content["status"], content["hint"]) == ("diverged", "h")
+
+
+@pytest.mark.parametrize(
+    ("words", "reason"),
+    [
+        (["none.toml"], "no such case file"),
+        (["ball.toml", "-o", "none/out.nc"], "does not exist"),
+        (["ball.toml", "-o", "."], "is a folder"),
+        (["ball.toml", "-o", "ball.toml"], "case file itself"),
+        (["ball.toml", "--plot", "ball.toml/x"], "is a file"),
+        (["ball.toml", "--set", "contact.load=-1 N"], "contact.load"),
+        (["ball.toml", "--set", "numerics.points=100"], "coarsened"),
+    ],
+)
+def test_bad_input_writes_nothing_and_solves_nothing(folder, solver, run, words, reason):
+    before = names(folder)
+    answer = run("solve", *words)
+    assert answer.code == 2
+    assert reason in answer.err
+    assert answer.err.count("\n") == 1
+    assert solver.calls == []
+    assert names(folder) == before
+
+
+def test_bad_input_as_json(folder, solver, run):
+    answer = run("solve", "none.toml", "--json")
+    assert answer.code == 2
+    assert json.loads(answer.out)["status"] == "bad_input"
+
+
+def test_an_interrupt_leaves_nothing(folder, solver, run):
+    solver.outcome = KeyboardInterrupt()
+    answer = run("solve", "ball.toml")
+    assert answer.code == 130
+    assert names(folder) == ["ball.toml"]
+
+
+def test_a_kill_while_writing_leaves_nothing(folder, solver, run, monkeypatch):
+    def killed(*_args):
+        signal.raise_signal(signal.SIGTERM)
+
+    monkeypatch.setattr(store, "_write", killed)
+    answer = run("solve", "ball.toml")
+    assert answer.code == 143
+    assert names(folder) == ["ball.toml"]
+
+
+def test_pictures_are_drawn_on_demand(folder, solver, run, monkeypatch):
+    monkeypatch.setattr("tehl.plots.save.PICTURES", {})
+    assert run("solve", "ball.toml", "--plot", "pictures").code == 0
+    assert (folder / "pictures").is_dir()
+
+
+def test_cold_kernels_are_announced(folder, solver, run, monkeypatch):
+    monkeypatch.setitem(sys.modules, "tehl.kernels.cache", SimpleNamespace(is_cold=lambda: True))
+    assert "compiling once" in run("solve", "ball.toml").err
+
+
+def test_a_terminal_gets_a_table(solver, result, monkeypatch):
+    terminal = io.StringIO()
+    terminal.isatty = lambda: True
+    monkeypatch.setattr(sys, "stderr", terminal)
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setenv("COLUMNS", "120")
+    with progress(quiet=False) as monitor:
+        assert not isinstance(monitor, Lines)
+        for report in result.history:
+            monitor.cycle(report)
+    assert "65 x 65" in terminal.getvalue()

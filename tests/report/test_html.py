@@ -1,0 +1,79 @@
+"""The report: one file, everything in it, nothing executable from a title."""
+
+from dataclasses import replace
+from html.parser import HTMLParser
+
+import pytest
+
+from tehl.report.html import report_text, write_report
+from tehl.report.inputs import input_rows
+
+VOID = {"meta", "img", "br"}
+
+
+class Page(HTMLParser):
+    """Collects tags, links and text; complains of tags that are not closed in order."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.open, self.tags, self.sources, self.words = [], [], [], []
+        self.feed(text)
+        self.close()
+        assert self.open == []
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append(tag)
+        self.sources += [value for name, value in attrs if name in ("src", "href")]
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.words.append(data)
+
+
+@pytest.fixture(scope="module")
+def page(certified):
+    return Page(report_text(certified, dpi=40))
+
+
+def test_pictures_are_inside_and_nothing_is_remote(page):
+    assert len(page.sources) == 7
+    assert all(source.startswith("data:image/png;base64,") for source in page.sources)
+
+
+def test_each_part_is_there(page):
+    words = " ".join(page.words)
+    for part in ("Inputs", "groups", "Formulas", "Errors", "Convergence", "Provenance"):
+        assert part in words
+    for fact in ("Hamrock-Dowson", "contact.load", "80", "certified", "2/E' =", "2.01"):
+        assert fact in words
+
+
+def test_a_title_cannot_bring_markup(result):
+    problem = result.problem.model_copy(update={"title": '<script>alert("x")</script> & co'})
+    page = Page(report_text(replace(result, problem=problem), dpi=40))
+    assert "script" not in page.tags
+    assert '<script>alert("x")</script> & co' in " ".join(page.words)
+
+
+def test_a_failure_is_shown_with_its_hint(stalled):
+    words = " ".join(Page(report_text(replace(stalled, errors=None), dpi=40)).words)
+    assert "Not an answer" in words
+    assert "take points = 513" in words
+    assert "No error could be estimated" in words
+
+
+def test_one_file_is_written(result, tmp_path):
+    write_report(result, tmp_path / "report.html")
+    assert [path.name for path in tmp_path.iterdir()] == ["report.html"]
+
+
+def test_inputs_carry_their_units(result):
+    rows = {row.path: (row.value, row.unit) for row in input_rows(result.problem)}
+    assert rows["contact.load"] == ("80", "N")
+    assert rows["lubricant.viscosity.eta_0"] == ("0.04", "Pa s")
+    assert rows["contact.slide_roll_ratio"] == ("0.25", "")
+    assert "contact.moes_load" not in rows
