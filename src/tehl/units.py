@@ -186,7 +186,7 @@ class Quantity:
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise ValueError(f"is not a number: {self._wanted}")
         if abs(value) > 1e300:  # so that huge integers of a case file do not overflow
-            return self._check(math.copysign(math.inf, value))
+            return self._check(math.inf if value > 0 else -math.inf)
         return self._check(float(value))
 
     @property

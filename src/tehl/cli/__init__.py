@@ -3,7 +3,6 @@
 import json
 import sys
 from importlib import import_module
-from importlib.util import find_spec
 from typing import NoReturn
 
 import typer
@@ -17,9 +16,7 @@ NOT_CONVERGED, BAD_INPUT, ENVIRONMENT = 1, 2, 3
 """Exit codes; 0 is success."""
 
 _HELP = "Thermal elastohydrodynamic lubrication of point contacts."
-_EPILOG = (
-    "Begin with: tehl new ball-on-disc > case.toml; tehl explain case.toml; tehl solve case.toml"
-)
+_EPILOG = "Begin: tehl new > case.toml, then tehl explain case.toml, then tehl solve case.toml."
 
 
 def application() -> typer.Typer:
@@ -36,8 +33,6 @@ def application() -> typer.Typer:
     )
     app.callback(invoke_without_command=True)(_common)
     for name in COMMANDS:
-        if find_spec(f"tehl.cli.{name}") is None:
-            continue
         app.command(name)(getattr(import_module(f"tehl.cli.{name}"), name))
     return app
 

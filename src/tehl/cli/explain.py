@@ -13,7 +13,7 @@ def explain(
     ] = [],  # noqa: B006 (typer reads the default, nobody writes it)
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
 ) -> None:
-    """Say at once what a case means: Hertz, groups, film formulas, grid, odd values."""
+    """Show what a case means: Hertz, groups, formulas, odd values."""
     import json
 
     from tehl.io.case import read_case_and_options

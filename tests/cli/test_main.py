@@ -1,0 +1,113 @@
+"""The command as a user meets it: output, exit codes, and what it does not load."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tehl.cli import COMMANDS, main
+
+HEAVY = ("numba", "scipy", "xarray", "matplotlib", "h5py", "pandas")
+
+
+def run(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> int:
+    """Return the exit code of ``tehl`` with ``arguments``, in this process."""
+    monkeypatch.setattr(sys, "argv", ["tehl", *arguments])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    return int(ended.value.code or 0)
+
+
+def loaded(*arguments: str) -> set[str]:
+    """Return the top-level modules that ``tehl`` loads in a process of its own."""
+    script = (
+        "import sys\n"
+        "from tehl.cli import main\n"
+        "try:\n    main()\n"
+        "except SystemExit as end:\n    assert not end.code, end.code\n"
+        "print(*{name.partition('.')[0] for name in sys.modules}, file=sys.stderr)\n"
+    )
+    command = [sys.executable, "-c", script, *arguments]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
+    return set(done.stderr.split())
+
+
+@pytest.fixture
+def case(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path):
+    run(monkeypatch, "new", "ball-on-disc")
+    path = tmp_path / "case.toml"
+    path.write_text(capsys.readouterr().out, encoding="utf-8")
+    return path
+
+
+def test_help_names_every_subcommand(monkeypatch, capsys):
+    assert run(monkeypatch, "--help") == 0
+    text = capsys.readouterr().out
+    assert all(f"\n  {name} " in text for name in COMMANDS)
+
+
+def test_help_loads_no_machinery():
+    assert not loaded("--help") & {*HEAVY, "numpy", "pydantic", "rich"}
+
+
+def test_explain_loads_no_machinery(case: Path):
+    assert not loaded("explain", str(case)) & {*HEAVY, "rich"}
+
+
+def test_new_lists_its_templates(monkeypatch, capsys):
+    assert run(monkeypatch, "new", "--list") == 0
+    assert len(capsys.readouterr().out.splitlines()) == 3
+
+
+def test_explain_speaks_to_people_and_to_programs(monkeypatch, capsys, case: Path):
+    assert run(monkeypatch, "explain", str(case)) == 0
+    assert capsys.readouterr().out
+    assert run(monkeypatch, "explain", str(case), "--json", "--set", "contact.load=100 N") == 0
+    assert json.loads(capsys.readouterr().out)["load_n"] == 100.0
+
+
+def test_the_schema_is_json(monkeypatch, capsys):
+    assert run(monkeypatch, "schema") == 0
+    assert "contact" in json.loads(capsys.readouterr().out)["properties"]
+
+
+def test_the_version_is_printed(monkeypatch, capsys):
+    assert run(monkeypatch, "--version") == 0
+    assert capsys.readouterr().out.startswith("tehl ")
+
+
+def test_bad_input_is_one_line_and_exit_code_2(monkeypatch, capsys, case: Path):
+    assert run(monkeypatch, "explain", str(case), "--set", "contact.load=80 mm") == 2
+    told = capsys.readouterr()
+    assert told.out == ""
+    assert len(told.err.splitlines()) == 1
+    assert "contact.load" in told.err
+
+
+def test_bad_input_is_an_object_with_json(monkeypatch, capsys, tmp_path: Path):
+    assert run(monkeypatch, "explain", str(tmp_path / "none.toml"), "--json") == 2
+    told = json.loads(capsys.readouterr().out)
+    assert told["status"] == "bad_input"
+    assert "no such case file" in told["message"]
+
+
+@pytest.mark.parametrize("arguments", [("explain",), ("explain", "--nonsense"), ("nonsense",)])
+def test_a_wrong_command_line_is_exit_code_2(monkeypatch, arguments: tuple[str, ...]):
+    assert run(monkeypatch, *arguments) == 2
+
+
+def test_a_broken_environment_is_exit_code_3(monkeypatch, capsys):
+    def broken() -> None:
+        raise PermissionError(13, "Permission denied", "/cache")
+
+    monkeypatch.setattr("tehl.cli.application", lambda: broken)
+    assert run(monkeypatch, "doctor") == 3
+    assert "Permission denied" in capsys.readouterr().err
+
+
+def test_python_runs_the_package_as_the_command():
+    command = [sys.executable, "-m", "tehl", "--version"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
+    assert done.stdout.startswith("tehl ")

@@ -1,0 +1,209 @@
+"""Case files: what is read, and the sentence that each mistake gets."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tehl.errors import InputError
+from tehl.io.case import case_from_tables, case_schema, read_case, read_case_and_options
+from tehl.options import Domain, coarsenable, coarsenings
+from tests.cases import ball_tables
+
+CASE = """
+title = "a ball"
+[contact]
+radius = "20 mm"
+load = "80 N"
+entrainment_speed = "1.5 m/s"
+[surface_1]
+material = "steel"
+[surface_2]
+material = { young_modulus = "82 GPa", poisson_ratio = 0.206 }
+[lubricant]
+viscosity = { law = "roelands", eta_0 = "0.04 Pa s", alpha = "22 1/GPa" }
+density = { law = "dowson-higginson", rho_0 = "890 kg/m^3" }
+[numerics]
+points = 129
+domain = { x = [-4.5, 1.5], y = [-3.0, 3.0] }
+"""
+
+
+@pytest.fixture
+def case(tmp_path: Path) -> Path:
+    path = tmp_path / "case.toml"
+    path.write_text(CASE, encoding="utf-8")
+    return path
+
+
+def test_a_case_becomes_problem_and_options(case: Path):
+    problem, options = read_case_and_options(case)
+    assert problem.title == "a ball"
+    assert problem.load == 80.0
+    assert problem.radius_x == pytest.approx(0.02)
+    assert problem.surface_1.material.name == "steel"
+    assert problem.surface_2.material.young_modulus == pytest.approx(82e9)
+    assert options.points == 129
+    assert options.domain == Domain(x=(-4.5, 1.5), y=(-3.0, 3.0))
+    assert read_case(case) == problem
+
+
+def test_changes_are_made_before_anything_is_checked(case: Path):
+    changes = (
+        "numerics.points=[257, 129]",
+        "contact.load = 100 N",
+        'lubricant="mineral-oil"',
+        "numerics.domain=auto",
+        "numerics.accuracy=tight",
+    )
+    problem, options = read_case_and_options(case, changes)
+    assert options.shape == (129, 257)
+    assert options.domain == "auto"
+    assert options.accuracy == "tight"
+    assert problem.load == 100.0
+    assert problem.lubricant.name == "mineral-oil"
+
+
+# A change of the case above, and what the sentence must hold.
+MISTAKES = [
+    ("contact.laod=80 N", "contact.laod is no key", "did you mean load?"),
+    ("numeric.points=129", "numeric is no key", "did you mean numerics?"),
+    ("numerics.tol=3", "numerics.tol is no key", "known are points"),
+    ("lubricant.viscosity.alfa=3", "lubricant.viscosity.alfa is no key", "alpha"),
+    ("contact.load='80'", 'contact.load = "80"', "lacks a unit"),
+    ("contact.load=80 mm", "has the unit of a length (mm)", 'a force such as "80 N"'),
+    ("contact.load=80 newton", "unknown unit 'newton'", '"80 N"'),
+    ("contact.load=-80 N", "contact.load", "must be positive"),
+    ("contact.load=0", "contact.load = 0", "must be positive"),
+    ("contact.load=nan", "contact.load = NaN", "not a number"),
+    ("contact.load=inf", "contact.load", "not finite"),
+    ("contact.load=true", "contact.load = true", "not a number"),
+    ("contact.hertz_pressure=1 GPa", "contact states load and hertz_pressure", "only one"),
+    ("contact.moes_speed=10", "entrainment_speed and moes_speed", "only one"),
+    ("contact.slide_roll_ratio=0.2 m", "contact.slide_roll_ratio", "plain number"),
+    ("contact=3", "contact = 3", "must be a table"),
+    ("surface_1=steel", 'surface_1 = "steel"', "must be a table"),
+    ("surface_1.material=stel", "surface_1.material", "did you mean steel?"),
+    ("surface_1.material=unobtainium", "known are steel, glass", "young_modulus"),
+    ("surface_2.material.poisson_ratio=0.7", "surface_2.material.poisson_ratio = 0.7", "at most"),
+    ("surface_1.radius=10 mm", "radii are stated twice", "reduced"),
+    ("surface_1.rms_roughness=-1 nm", "surface_1.rms_roughness", "not be negative"),
+    ("surface_1.roughness={type='wave'}", "surface_1.roughness is not available", "rms"),
+    ("surface_1.temperature=300", "surface_1.temperature is not available", "inlet"),
+    ("thermal.layers=21", "thermal runs are not available", "leave the [thermal] table out"),
+    ("transient.step='auto'", "transient runs are not available", "leave"),
+    ("lubricant=mineral-oel", "lubricant", "did you mean mineral-oil?"),
+    ("lubricant.viscosity={law='roelands'}", "lubricant.viscosity.eta_0 is missing", "Pa s"),
+    ("lubricant.viscosity={eta_0=0.04}", "lubricant.viscosity.law is missing", "barus"),
+    ("lubricant.viscosity.law='roeland'", 'lubricant.viscosity.law = "roeland"', "roelands?"),
+    ("lubricant.viscosity.z=0.6", "lubricant.viscosity needs exactly one of", "alpha and z"),
+    ("lubricant.viscosity.eta_0=1e-5 Pa s", "eta_0 = 1e-05 Pa s", "6.3e-5"),
+    ("lubricant.density.rho_0='890'", "lubricant.density.rho_0", '"890 kg/m^3"'),
+    ("lubricant.density.form='sum'", "lubricant.density.form", "known are product, additive"),
+    ("lubricant.shear.law='eyring'", "lubricant.shear.law", "newtonian"),
+    ("title=4", "title = 4", "must be a string"),
+    ("numerics=3", "numerics = 3", "must be a table"),
+    ("numerics.points=100", "numerics.points = 100", "cannot be coarsened"),
+    ("numerics.points=[129, 100]", "numerics.points = 100", "cannot be coarsened"),
+    ("numerics.points=5", "numerics.points = 5", "at least 17"),
+    ("numerics.points=many", "numerics.points", "whole number"),
+    ("numerics.domain={x=[-0.5, 1.5], y=[-3, 3]}", "numerics.domain.x", "cuts the contact"),
+    ("numerics.domain={x=[-4, nan], y=[-3, 3]}", "numerics.domain.x", "cuts the contact"),
+    ("numerics.domain={x=[-4.5, 1.5]}", "numerics.domain.y is missing", ""),
+    ("numerics.domain=big", 'numerics.domain = "big"', "auto"),
+    ("numerics.cycle='Z'", "numerics.cycle", "known are V, W, F"),
+    ("numerics.wedge_order=3", "numerics.wedge_order = 3", "known are 1, 2"),
+    ("numerics.tolerance=2", "numerics.tolerance = 2", "less than 1"),
+]
+
+
+@pytest.mark.parametrize(("change", "what", "right"), MISTAKES)
+def test_a_mistake_is_one_sentence_with_its_key(case: Path, change: str, what: str, right: str):
+    with pytest.raises(InputError) as caught:
+        read_case_and_options(case, [change])
+    message = str(caught.value)
+    assert what in message
+    assert right in message
+    assert message.startswith(str(case))
+    assert "\n" not in message
+
+
+@pytest.mark.parametrize("table", ["contact", "surface_1", "lubricant"])
+def test_a_missing_table_is_named(table: str):
+    tables = {key: value for key, value in ball_tables().items() if key != table}
+    with pytest.raises(InputError, match=f"^{table} is missing"):
+        case_from_tables(tables)
+
+
+@pytest.mark.parametrize(
+    ("key", "words"),
+    [
+        ("load", "contact needs one of load, hertz_pressure, moes_load"),
+        ("entrainment_speed", "contact needs one of entrainment_speed, moes_speed"),
+        ("radius", "contact.radius is missing"),
+    ],
+)
+def test_a_missing_part_of_the_contact_is_named(key: str, words: str):
+    tables = ball_tables()
+    del tables["contact"][key]
+    with pytest.raises(InputError, match=words):
+        case_from_tables(tables)
+
+
+def test_flat_on_flat_is_refused():
+    flat = {"material": "steel", "radius": "inf"}
+    contact = {"load": "80 N", "entrainment_speed": 1}
+    with pytest.raises(InputError, match="flat on flat"):
+        case_from_tables(ball_tables(contact=contact, surface_1=flat, surface_2=flat))
+
+
+@pytest.mark.parametrize(
+    ("text", "number", "shown"),
+    [
+        ("[contact\nload = 3", 1, "[contact"),
+        ('a = 1\nload = "80 N', 2, "80 N"),
+        ("a = 1\n\nload = 80 N", 3, "load = 80 N"),
+        ("a = 1\na = 2\n", 2, "a = 2"),
+        ("x = '''abc", 1, "abc"),
+    ],
+)
+def test_a_slip_in_toml_shows_its_line(tmp_path: Path, text: str, number: int, shown: str):
+    path = tmp_path / "slip.toml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError) as caught:
+        read_case(path)
+    assert f"line {number}: " in str(caught.value)
+    assert shown in str(caught.value)
+
+
+def test_what_is_no_file_is_told(tmp_path: Path):
+    with pytest.raises(InputError, match="no such case file"):
+        read_case(tmp_path / "none.toml")
+    with pytest.raises(InputError, match="cannot be read"):
+        read_case(tmp_path)
+    (tmp_path / "binary.toml").write_bytes(b"\x89HDF\r\n\xff\xfe")
+    with pytest.raises(InputError, match="UTF-8"):
+        read_case(tmp_path / "binary.toml")
+
+
+@pytest.mark.parametrize("change", ["numerics.points", "=3", "contact..load=3", "title.x=3"])
+def test_a_change_that_is_none_is_told(case: Path, change: str):
+    with pytest.raises(InputError, match="change"):
+        read_case_and_options(case, [change])
+
+
+def test_the_schema_knows_every_table_and_refuses_others():
+    schema = json.loads(json.dumps(case_schema()))
+    tables = {"title", "contact", "surface_1", "surface_2", "lubricant", "numerics"}
+    assert set(schema["properties"]) == tables
+    assert schema["additionalProperties"] is False
+    named = {choice.get("type") for choice in schema["properties"]["lubricant"]["anyOf"]}
+    assert "string" in named
+
+
+@pytest.mark.parametrize("nodes", range(33, 1200, 7))
+def test_the_suggested_grids_can_be_coarsened(nodes: int):
+    fewer, more = coarsenable(nodes)
+    assert fewer <= nodes < more
+    assert coarsenings(fewer) > 0
+    assert coarsenings(more) > 0

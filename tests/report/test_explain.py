@@ -1,0 +1,108 @@
+"""What is said about a case before it is solved."""
+
+import copy
+import json
+from typing import Any
+
+import pytest
+
+from tehl.film_formulas import expected_central_film
+from tehl.io.case import case_from_tables
+from tehl.report.explain import Explanation, as_summary, as_text, explain, length
+from tests.cases import ball_tables
+
+
+def explained(change: str = "", value: Any = None, **tables: Any) -> Explanation:
+    """Return the explanation of the ball on the disc with one key changed."""
+    case = copy.deepcopy(ball_tables(**tables))
+    if change:
+        node: Any = case
+        *path, last = change.split(".")
+        for name in path:
+            node = node.setdefault(name, {})
+        node[last] = value
+    return explain(*case_from_tables(case))
+
+
+def test_a_usual_case_raises_no_question():
+    assert explained().questions == ()
+
+
+def test_the_numbers_are_those_of_the_case():
+    case = explained()
+    assert case.groups.M == pytest.approx(75.6, abs=0.1)
+    assert case.central_film == pytest.approx(
+        expected_central_film(case.groups) * case.scales.film_thickness
+    )
+    # |u| a / (2 diffusivity) with the diffusivity of steel, 46 / (7850 * 470) m^2/s
+    assert case.peclet[0] == pytest.approx(1.5 * 219.7e-6 / (2 * 1.2468e-5), rel=1e-3)
+    assert case.lambda_ratio is None
+    assert case.domain == case.recommended_domain
+    assert case.memory > 0
+    assert case.seconds > 0
+
+
+def test_a_roughness_gives_a_lambda_ratio():
+    case = explained("surface_1.rms_roughness", "0.05 um")
+    assert case.lambda_ratio == pytest.approx(case.central_film / 0.05e-6)
+
+
+ODD = [
+    ("contact.load", "20 kN", "Hertz pressure"),
+    ("contact.load", "1e-3 N", "Hertz pressure"),
+    ("contact.radius", 20, "reduced radius_x"),
+    ("contact.entrainment_speed", "1500 m/s", "entrainment speed"),
+    ("contact.slide_roll_ratio", 3, "opposite"),
+    ("contact.slide_roll_ratio", 0.5, "Newtonian"),
+    ("lubricant.viscosity.eta_0", "40 Pa s", "eta_0"),
+    ("lubricant.viscosity.alpha", "220 1/GPa", "alpha"),
+    ("lubricant.density.rho_0", 0.89, "rho_0"),
+    ("surface_1.rms_roughness", "1 um", "asperities"),
+    ("surface_1.material", {"young_modulus": 2e8, "poisson_ratio": 0.3}, "young_modulus"),
+    ("contact.entrainment_speed", "0.1 mm/s", "continuum"),
+    ("numerics.points", 33, "coarse"),
+    ("numerics.domain", {"x": [-1.5, 1.5], "y": [-3, 3]}, "inlet edge"),
+    ("numerics.domain", {"x": [-4.5, 1.01], "y": [-3, 3]}, "outlet edge"),
+    ("numerics.domain", {"x": [-4.5, 1.5], "y": [-1.1, 3]}, "side edge"),
+]
+
+
+@pytest.mark.parametrize(("change", "value", "words"), ODD)
+def test_an_odd_value_is_questioned(change: str, value: object, words: str):
+    assert any(words in question for question in explained(change, value).questions)
+
+
+@pytest.mark.parametrize(("load", "speed"), [(2000, 20), (5000, 10)])
+def test_an_absurd_pressure_is_questioned(load: float, speed: float):
+    contact = {"radius": "20 mm", "moes_load": load, "moes_speed": speed}
+    case = explained(contact=contact)
+    assert case.problem.hertz.pressure > 2e9
+    assert case.questions
+
+
+def test_a_stated_domain_is_used_as_given():
+    case = explained("numerics.domain", {"x": [-2.0, 1.2], "y": [-1.5, 1.5]})
+    assert case.domain.x == (-2.0, 1.2)
+    assert case.recommended_domain.x[0] < -2.0
+
+
+def test_the_summary_is_json_and_the_text_is_not_empty():
+    for case in (explained(), explained("surface_1.rms_roughness", "0.3 um")):
+        summary = json.loads(json.dumps(as_summary(case), allow_nan=False))
+        assert summary["groups"]["M"] == pytest.approx(case.groups.M)
+        assert len(summary["films"]) == 3
+        assert len(as_text(case).splitlines()) > 20
+
+
+def test_an_ellipse_and_a_liquid_of_constant_viscosity_are_explained():
+    ellipse = {"radius_x": "20 mm", "radius_y": "10 mm", "load": 50, "entrainment_speed": 1}
+    case = explained("lubricant.viscosity", {"law": "constant", "eta_0": 0.04}, contact=ellipse)
+    assert case.groups.ellipticity < 1
+    assert as_text(case)
+
+
+@pytest.mark.parametrize(
+    ("metres", "text"), [(0.02, "20 mm"), (2.197e-4, "219.7 um"), (4.6e-7, "460 nm"), (0, "0 nm")]
+)
+def test_lengths_read_well(metres: float, text: str):
+    assert length(metres) == text

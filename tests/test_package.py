@@ -1,0 +1,46 @@
+"""What ``import tehl`` offers, and what it costs."""
+
+import subprocess
+import sys
+
+import pytest
+
+import tehl
+
+LIGHT = ["ContactProblem", "Domain", "InputError", "Options", "Solid", "read_case"]
+
+
+def fresh(script: str) -> str:
+    """Return what ``script`` prints in a process of its own."""
+    command = [sys.executable, "-c", script]
+    return subprocess.run(
+        command, capture_output=True, text=True, check=True, timeout=60
+    ).stdout.strip()
+
+
+def test_importing_the_package_loads_nothing_heavy():
+    shown = fresh("import sys, tehl; print(*{name.partition('.')[0] for name in sys.modules})")
+    heavy = {"numpy", "pydantic", "numba", "scipy", "xarray", "matplotlib", "typer"}
+    assert not set(shown.split()) & heavy
+
+
+def test_importing_the_package_takes_less_than_0_3_seconds():
+    clock = "import time; t = time.process_time(); import tehl; print(time.process_time() - t)"
+    assert min(float(fresh(clock)) for _ in range(3)) < 0.3
+
+
+@pytest.mark.parametrize("name", LIGHT)
+def test_an_export_that_states_a_case_loads_no_arrays(name: str):
+    shown = fresh(f"import sys, tehl; tehl.{name}; print(*sys.modules)")
+    assert not {"numpy", "numba", "scipy", "xarray"} & set(shown.split())
+
+
+@pytest.mark.parametrize("name", tehl.__all__)
+def test_every_export_can_be_loaded(name: str):
+    assert getattr(tehl, name) is not None
+    assert name in dir(tehl)
+
+
+def test_an_unknown_export_is_an_attribute_error():
+    with pytest.raises(AttributeError, match="nonsense"):
+        _ = tehl.nonsense
