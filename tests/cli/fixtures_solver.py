@@ -18,7 +18,7 @@ class FakeSolver:
         self.calls: list[SimpleNamespace] = []
 
     def solve(self, problem, options, *, monitor=None):
-        return self._answer("solve", problem, options, monitor)
+        return self._answer("solve", problem, options, monitor or Silent())
 
     def certify(self, problem, options, *, monitor=None):
         return self._answer("certify", problem, options, monitor)

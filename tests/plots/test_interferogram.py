@@ -31,6 +31,14 @@ def test_a_spacer_shifts_the_order():
     assert optical_thickness(np.array([0.0]), optics) == pytest.approx(219 * NM)
 
 
+def test_the_index_grows_with_the_density():
+    optics = Optics(refractive_index=1.48)
+    q = 1.2 * (1.48**2 - 1) / (1.48**2 + 2)
+    index = optical_thickness(np.array([1.0]), optics, 1.2)
+    assert index**2 == pytest.approx((1 + 2 * q) / (1 - q))
+    assert index == pytest.approx(1.598, abs=2e-3)
+
+
 def test_white_light_loses_its_colour_in_a_thick_film():
     thickness = np.linspace(0, 20e-6, 4001)
     spread = np.ptp(colours(thickness, Optics()), axis=-1)

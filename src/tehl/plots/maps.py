@@ -141,7 +141,7 @@ def _pressure_levels(pressure: Array) -> Array:
 
 
 def pressure_surface(result: Result) -> Figure:
-    """Draw the pressure as a surface, seen from the inlet side.
+    """Draw the pressure as a surface, seen from the outlet, where the spike stands.
 
     Parameters
     ----------
@@ -153,7 +153,7 @@ def pressure_surface(result: Result) -> Figure:
     matplotlib.figure.Figure
         The picture, in micrometres and gigapascals.
     """
-    picture = figure(result, (7.0, 5.8))
+    picture = figure(result, (7.0, 5.2))
     axes: Any = picture.add_subplot(projection="3d", computed_zorder=False)
     part = window_part(result)
     x, y = np.meshgrid(result.x[part[1]] * MICRO, result.y[part[0]] * MICRO)
@@ -169,6 +169,8 @@ def pressure_surface(result: Result) -> Figure:
         rasterized=True,
     )
     axes.set(xlabel="x along entrainment [µm]", ylabel="y [µm]", zlabel="p [GPa]")
-    axes.set_box_aspect((np.ptp(x), np.ptp(y), 0.6 * np.ptp(x)), zoom=0.92)
+    axes.set_box_aspect((np.ptp(x), np.ptp(y), 0.55 * np.ptp(x)), zoom=1.0)
+    axes.xaxis.set_major_locator(MaxNLocator(5))
+    axes.yaxis.set_major_locator(MaxNLocator(5))
     axes.view_init(elev=28, azim=-55)
     return picture

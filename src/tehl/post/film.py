@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl.result import Result
-from tehl.typing import Array
+from tehl.typing import Array, BoolArray
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -120,3 +120,55 @@ def pressurised_area(result: Result) -> float:
 
 def _cell_widths(axis: Array) -> Array:
     return np.gradient(axis) * np.where((axis == axis[0]) | (axis == axis[-1]), 0.5, 1.0)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class MassFlow:
+    """Mass that flows through each section x = const.
+
+    Attributes
+    ----------
+    x : (nx,) array
+        Where [m].
+    forward : (nx,) array
+        Through the section, along x [kg/s].
+    sideways : (nx,) array
+        Out of both side edges between the inlet and the section [kg/s].
+    full : (nx,) array of bool
+        Whether the film is full on this section and on all before it.
+    imbalance : float
+        Largest change of ``forward + sideways`` over full sections, relative to the flow [-];
+        zero but for the error of the grid.
+    """
+
+    x: Array
+    forward: Array
+    sideways: Array
+    full: BoolArray
+    imbalance: float
+
+
+def mass_flow(result: Result) -> MassFlow:
+    r"""Return the mass flow of the film, with the laws of its lubricant.
+
+    .. math:: m_x = \rho u_m h - \frac{\rho h^3}{12\eta} \frac{\partial p}{\partial x}, \quad
+              m_y = - \frac{\rho h^3}{12\eta} \frac{\partial p}{\partial y}
+
+    Central differences, trapezoidal rule; so second order where the pressure is smooth.
+    """
+    x, y, pressure, film = result.x, result.y, result.pressure, result.film_thickness
+    lubricant, temperature = result.problem.lubricant, result.scales.temperature
+    density = lubricant.density.density(pressure, temperature)
+    conductance = density * film**3 / (12.0 * lubricant.viscosity.viscosity(pressure, temperature))
+    slope_y, slope_x = np.gradient(pressure, y, x, edge_order=2)
+    along = density * result.scales.speed * film - conductance * slope_x
+    forward = _cell_widths(y) @ along
+    edges = conductance * slope_y
+    leaving = edges[0] - edges[-1]
+    steps = 0.5 * (leaving[1:] + leaving[:-1]) * np.diff(x)
+    sideways = np.concatenate([[0.0], np.cumsum(steps)])
+    full = np.logical_and.accumulate((result.scaled.pressure[1:-1, 1:] > 0).all(axis=0))
+    full = np.concatenate([full[:1], full])
+    total = (forward + sideways)[1:][full[1:]]
+    change = float(np.ptp(total) / np.abs(total).max()) if total.size else 0.0
+    return MassFlow(x=x, forward=forward, sideways=sideways, full=full, imbalance=change)
