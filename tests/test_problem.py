@@ -111,6 +111,8 @@ IMPOSSIBLE = [
     ("contact.entrainment_speed", None, "needs one of entrainment_speed"),
     ("contact.radius_x", 0.01, "either radius or the pair"),
     ("contact.radius", None, "contact.radius is missing"),
+    ("contact.load", 1e300, "beyond all measure"),
+    ("contact.entrainment_speed", 1e-200, "beyond all measure"),
     ("surface_1.radius", 0.01, "stated twice"),
     ("surface_1.radius_x", 0.01, "both radius_x and radius_y"),
     ("surface_1.roughness", {"type": "wave"}, "not available"),
@@ -154,4 +156,18 @@ def test_a_moes_speed_needs_a_pressure_coefficient():
     tables = ball_tables(contact={"radius": 0.02, "load": 80, "moes_speed": 10})
     tables["lubricant"]["viscosity"] = {"law": "constant", "eta_0": 0.04}
     with pytest.raises(ValidationError, match="pressure coefficient"):
+        ContactProblem.model_validate(tables)
+
+
+@pytest.mark.parametrize(("load", "value"), [("hertz_pressure", 1e200), ("moes_load", 1e-299)])
+def test_numbers_that_overflow_are_refused(load: str, value: float):
+    tables = ball_tables(contact={"radius": 0.02, load: value, "entrainment_speed": 1.0})
+    with pytest.raises(ValidationError, match="beyond all measure"):
+        ContactProblem.model_validate(tables)
+
+
+def test_a_line_contact_is_refused():
+    radii = {"radius_x": 0.02, "radius_y": 200.0}
+    tables = ball_tables(contact=radii | {"load": 80, "entrainment_speed": 1})
+    with pytest.raises(ValidationError, match="line contact"):
         ContactProblem.model_validate(tables)

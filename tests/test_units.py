@@ -76,6 +76,12 @@ def test_what_is_no_force_is_refused_with_an_example(text: object, words: str):
     assert 'give a force such as "80 N"' in str(caught.value)
 
 
+def test_a_unit_gives_the_same_bits_as_the_number_in_si():
+    assert units.PER_PRESSURE.parse("22 1/GPa") == 2.2e-8
+    assert units.HEIGHT.parse("0.05 um") == 5e-8
+    assert units.KINEMATIC_VISCOSITY.parse("68 mm^2/s") == 6.8e-5
+
+
 def test_a_plain_number_takes_no_unit():
     with pytest.raises(ValueError, match="unit of a length"):
         units.NUMBER.parse("0.2 m")

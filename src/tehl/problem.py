@@ -175,10 +175,31 @@ class ContactProblem(BaseModel):
                 "contact.moes_speed fixes no speed without a pressure coefficient of the "
                 "viscosity: give entrainment_speed"
             )
-        stated = (self.load, self.entrainment_speed, self.hertz.pressure)
-        if not all(math.isfinite(value) and value > 0 for value in stated):
-            raise ValueError("the stated load and speed are beyond the range of numbers")
+        ratio = self.radius_y / self.radius_x
+        if not 1e-3 <= ratio <= 1e3:
+            raise ValueError(
+                f"radius_y / radius_x = {ratio:.3g} is a line contact, not a point contact: it "
+                "must lie between 0.001 and 1000"
+            )
+        self._check_size()
         return self
+
+    def _check_size(self) -> None:
+        """Refuse numbers that no contact has and no arithmetic bears."""
+        try:
+            sizes = [self.radius_x, self.load, self.entrainment_speed, self.hertz.pressure]
+            twice_speed = 2.0 * self.speed_group
+            load_number = self.load / (self.reduced_modulus * self.radius_x**2 * twice_speed**0.75)
+            speed_number = self.material_group * twice_speed**0.25
+        except ArithmeticError:
+            sizes, load_number, speed_number = [], math.nan, math.nan
+        bearable = all(1e-30 < size < 1e30 for size in sizes)
+        if not (bearable and 1e-6 < load_number < 1e9 and speed_number < 1e6):
+            raise ValueError(
+                "load, speed and Hertz pressure come out beyond all measure (Moes numbers "
+                f"M = {load_number:.3g}, L = {speed_number:.3g}): check the units of contact, "
+                "materials and viscosity"
+            )
 
     def _check_radii(self) -> None:
         on_surfaces = [self.surface_1.radii, self.surface_2.radii]

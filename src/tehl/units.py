@@ -212,7 +212,7 @@ class Quantity:
             raise ValueError(f"has the unit of an angle ({unit}): {self._wanted}")
         if dimension != self.dimension:
             raise ValueError(f"has the unit of {_kind(dimension, unit)}: {self._wanted}")
-        return number * factor
+        return number if factor == 1.0 else float(f"{number * factor:.15g}")  # 22 1/GPa is 2.2e-8
 
     def _unitless(self, number: float) -> float:
         if self.unit != "-":

@@ -239,7 +239,11 @@ def _about_numerics(case: Explanation) -> Iterator[str]:
     if how == "stated" and domain != best:
         yield _row("recommended", _edges(best))
     yield _row("grid", f"{nodes_x} x {nodes_y} nodes", f"at least {case.needed_points} needed")
-    yield _row("memory, time", f"about {case.memory / 1e6:.0f} MB", f"about {case.seconds:.2g} s")
+    yield _row(
+        "memory, time",
+        f"about {case.memory / 1e6:.0f} MB",
+        f"about {case.seconds:.2g} s once loaded",
+    )
 
 
 def _edges(domain: Domain) -> str:
