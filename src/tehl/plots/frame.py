@@ -1,5 +1,7 @@
 """What all pictures of a contact share: size, title, banner, window and contact ellipse."""
 
+from textwrap import fill
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -15,10 +17,24 @@ WINDOW = ((-2.2, 1.6), (-1.7, 1.7))
 def figure(result: Result, size: tuple[float, float] = (7.0, 5.6)) -> Figure:
     """Return an empty figure under the title of ``result``, with a banner if it is no answer."""
     picture = Figure(figsize=size, layout="constrained")
-    picture.suptitle(_heading(result), fontsize=9)
+    _dress(picture, result)
+    return picture
+
+
+def map_figure(result: Result, note: str = "") -> Figure:
+    """Return an empty figure for one map, shaped as the contact; ``note`` ends the title."""
+    (west, east), (south, north) = WINDOW
+    ratio = (north - south) / (east - west) * result.groups.ellipticity
+    width, height = (4.9, 4.9 * ratio) if ratio < 1 else (4.9 / ratio, 4.9)
+    picture = Figure(figsize=(max(width + 1.8, 5.6), max(height + 1.3, 3.2)), layout="compressed")
+    _dress(picture, result, note)
+    return picture
+
+
+def _dress(picture: Figure, result: Result, note: str = "") -> None:
+    picture.suptitle(f"{_heading(result)}\n{note}".strip(), fontsize=9)
     if not result.status.converged:
         _banner(picture, result)
-    return picture
 
 
 def subtitle(result: Result) -> str:
@@ -38,7 +54,7 @@ def length(metres: float) -> str:
 
 
 def _heading(result: Result) -> str:
-    title = result.problem.title.replace("$", r"\$") or "Lubricated point contact"
+    title = fill(result.problem.title, 80).replace("$", r"\$") or "Lubricated point contact"
     return f"{title}\n{subtitle(result)}"
 
 

@@ -14,6 +14,7 @@ from tehl.plots.frame import (
     contact_axes,
     entrainment_arrow,
     figure,
+    map_figure,
     window_part,
 )
 from tehl.result import Result
@@ -36,7 +37,7 @@ def film_map(result: Result) -> Figure:
     matplotlib.figure.Figure
         The picture, in micrometres.
     """
-    picture = figure(result)
+    picture = map_figure(result)
     axes = contact_axes(picture, result)
     part = window_part(result)
     x, y = result.x[part[1]] * MICRO, result.y[part[0]] * MICRO
@@ -54,7 +55,7 @@ def film_map(result: Result) -> Figure:
     )
     inner, outer = film_levels(low, central)
     lines = axes.contour(x, y, film, levels=inner, colors="white", linewidths=0.7)
-    axes.clabel(lines, fontsize=7, fmt="%.3g")
+    axes.clabel(lines, inner[::2], fontsize=7, fmt="%.3g")
     outside = axes.contour(x, y, film, levels=outer, colors="black", linewidths=0.5, alpha=0.6)
     axes.clabel(outside, fontsize=7, fmt="%.3g")
     _mark_minimum(axes, result)
@@ -119,7 +120,7 @@ def pressure_map(result: Result) -> Figure:
     matplotlib.figure.Figure
         The picture, in micrometres and gigapascals.
     """
-    picture = figure(result)
+    picture = map_figure(result)
     axes = contact_axes(picture, result)
     part = window_part(result)
     x, y = result.x[part[1]] * MICRO, result.y[part[0]] * MICRO
@@ -169,8 +170,9 @@ def pressure_surface(result: Result) -> Figure:
         rasterized=True,
     )
     axes.set(xlabel="x along entrainment [µm]", ylabel="y [µm]", zlabel="p [GPa]")
-    axes.set_box_aspect((np.ptp(x), np.ptp(y), 0.55 * np.ptp(x)), zoom=1.0)
-    axes.xaxis.set_major_locator(MaxNLocator(5))
-    axes.yaxis.set_major_locator(MaxNLocator(5))
+    height = 0.5 * max(np.ptp(x), np.ptp(y))
+    axes.set_box_aspect((np.ptp(x), np.ptp(y), height), zoom=0.88)
+    for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
+        axis.set_major_locator(MaxNLocator(4))
     axes.view_init(elev=28, azim=-55)
     return picture
