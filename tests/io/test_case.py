@@ -106,6 +106,8 @@ MISTAKES = [
     ("numerics.points=100", "numerics.points = 100", "cannot be coarsened"),
     ("numerics.points=[129, 100]", "numerics.points = 100", "cannot be coarsened"),
     ("numerics.points=5", "numerics.points = 5", "at least 17"),
+    ("numerics.points=[129]", "numerics.points = [129]", "two numbers"),
+    ("numerics.points=[129, 129, 129]", "numerics.points", "must have at most 2"),
     ("numerics.points=many", "numerics.points", "whole number"),
     ("numerics.domain={x=[-0.5, 1.5], y=[-3, 3]}", "numerics.domain.x", "cuts the contact"),
     ("numerics.domain={x=[-4, nan], y=[-3, 3]}", "numerics.domain.x", "cuts the contact"),

@@ -231,6 +231,9 @@ def _unknown_key(mistake: _Mistake) -> str:
 
 
 def _missing(mistake: _Mistake) -> str:
+    if isinstance(mistake.path[-1], int):
+        name = mistake.name.rpartition(".")[0]
+        return f"{name} = {_shown(mistake.value)} must have two numbers"
     return f"{mistake.name} is missing{_wanted(_field(mistake.models[-2], mistake.path[-1]))}"
 
 
@@ -276,6 +279,7 @@ def _pydantic_words(mistake: _Mistake) -> str:
 
 _WORDING = (
     ("Input should be", "must be"),
+    ("Tuple should have", "must have"),
     ("greater than or equal to", "at least"),
     ("less than or equal to", "at most"),
     ("a valid integer", "a whole number"),
