@@ -5,6 +5,7 @@ from html.parser import HTMLParser
 
 import pytest
 
+from tehl.report import html
 from tehl.report.html import report_text, write_report
 from tehl.report.inputs import input_rows
 
@@ -39,6 +40,12 @@ def page(certified):
     return Page(report_text(certified, dpi=40))
 
 
+@pytest.fixture
+def one_picture(monkeypatch):
+    """Drawing all pictures takes seconds; they are tested once."""
+    monkeypatch.setattr(html, "_CAPTIONS", {"residuals": "Convergence."})
+
+
 def test_pictures_are_inside_and_nothing_is_remote(page):
     assert len(page.sources) == 7
     assert all(source.startswith("data:image/png;base64,") for source in page.sources)
@@ -52,6 +59,7 @@ def test_each_part_is_there(page):
         assert fact in words
 
 
+@pytest.mark.usefixtures("one_picture")
 def test_a_title_cannot_bring_markup(result):
     problem = result.problem.model_copy(update={"title": '<script>alert("x")</script> & co'})
     page = Page(report_text(replace(result, problem=problem), dpi=40))
@@ -59,6 +67,7 @@ def test_a_title_cannot_bring_markup(result):
     assert '<script>alert("x")</script> & co' in " ".join(page.words)
 
 
+@pytest.mark.usefixtures("one_picture")
 def test_a_failure_is_shown_with_its_hint(stalled):
     words = " ".join(Page(report_text(replace(stalled, errors=None), dpi=40)).words)
     assert "Not an answer" in words
@@ -66,6 +75,7 @@ def test_a_failure_is_shown_with_its_hint(stalled):
     assert "No error could be estimated" in words
 
 
+@pytest.mark.usefixtures("one_picture")
 def test_one_file_is_written(result, tmp_path):
     write_report(result, tmp_path / "report.html")
     assert [path.name for path in tmp_path.iterdir()] == ["report.html"]
