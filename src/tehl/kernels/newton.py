@@ -62,8 +62,8 @@ def newton_step(
     influence: Array,
     load: tuple[float, float],
     frozen: Array,
-) -> tuple[float, bool]:
-    """Take one limited Newton step on ``p`` in place; return (change of H00, whether solved).
+) -> float:
+    """Take one limited Newton step on ``p`` in place; return the change of H00.
 
     ``stencil`` is (cx, cy, w0, w1, w2, mirror); ``load`` is (cell area, missing load); nodes with
     p = 0 and residual >= 0, and ``frozen`` ones, stay as they are.
@@ -122,14 +122,14 @@ def newton_step(
         a[count, column] = load[0] * (2.0 if mirror and active[column] >= nx else 1.0)
     b[count] = load[1]
     if not solve_dense(a, b):
-        return 0.0, False
+        return 0.0
     largest = 0.0
     for column in range(count):
         largest = max(largest, abs(b[column]))
     if not largest < 1e300:
-        return 0.0, False
+        return 0.0
     scale = min(1.0, 0.3 / max(largest, 1e-300))
     for column in range(count):
         j, i = active[column] // nx, active[column] % nx
         p[j, i] = max(p[j, i] + scale * b[column], 0.0)
-    return scale * b[count], True
+    return scale * b[count]

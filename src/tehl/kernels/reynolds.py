@@ -13,6 +13,14 @@ from numba import njit
 
 from tehl.typing import Array
 
+Span = tuple[int, int]
+
+LANES = 8  # lines of one colour that are solved side by side
+PASSES = 6  # of the policy iteration, before clipping
+CHUNK = 32  # nodes copied at a time, so that their cells stay in the first cache
+EAST, ACROSS, SQUEEZE, RHO, DIPOLE, REST, P, STATE, BAND = range(9)
+UP1, UP2, U, FIELDS = BAND + 6, BAND + 7, BAND + 8, BAND + 9
+
 
 class Mesh(NamedTuple):
     """What the stencils need to know of the grid.
@@ -60,7 +68,7 @@ class Relaxation(NamedTuple):
     state: Array
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath={"contract"})
 def properties(film: Film, table: Array, step: float, floor: float) -> None:
     """Fill ``eps, rho, drho`` from ``p, h`` by cubic Hermite interpolation in ``table``.
 
@@ -68,73 +76,102 @@ def properties(film: Film, table: Array, step: float, floor: float) -> None:
     ``step``. The film enters with no less than ``floor``.
     """
     ny, nx = film.p.shape
+    flat = table.ravel()
     last = table.shape[0] - 2
+    per_step = 1.0 / step
     for j in range(ny):
+        p, h, eps, rho, drho = film.p[j], film.h[j], film.eps[j], film.rho[j], film.drho[j]
         for i in range(nx):
-            h = max(film.h[j, i], floor)
-            if film.p[j, i] <= 0.0:
-                film.eps[j, i] = table[0, 0] * h * h * h
-                film.rho[j, i] = table[0, 2]
-                film.drho[j, i] = table[0, 3] / step
-                continue
-            x = film.p[j, i] / step
-            k = min(int(x), last)
+            x = p[i] * per_step
+            x = 0.0 if x <= 0.0 else x
+            k = int(min(x, last))
             t = min(x - k, 1.0)
             s = 1.0 - t
             a0, b0 = s * s * (1.0 + 2.0 * t), s * s * t
             a1, b1 = t * t * (1.0 + 2.0 * s), -t * t * s
-            low, high = table[k], table[k + 1]
-            film.eps[j, i] = (a0 * low[0] + b0 * low[1] + a1 * high[0] + b1 * high[1]) * h * h * h
-            film.rho[j, i] = a0 * low[2] + b0 * low[3] + a1 * high[2] + b1 * high[3]
-            film.drho[j, i] = (s * low[3] + t * high[3]) / step
+            low = flat[4 * k : 4 * k + 8]
+            thick = max(h[i], floor)
+            eps[i] = (a0 * low[0] + b0 * low[1] + a1 * low[4] + b1 * low[5]) * (
+                thick * thick * thick
+            )
+            rho[i] = a0 * low[2] + b0 * low[3] + a1 * low[6] + b1 * low[7]
+            drho[i] = (s * low[3] + t * low[7]) * per_step
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath={"contract"})
 def line_operator(film: Film, mesh: Mesh, j: int, out: Array) -> None:
-    """Write L(p) on line ``j`` to ``out`` (nx,); the ends are not touched."""
+    """Write L(p) on line ``j`` to ``out`` (nx,); the ends are not touched.
+
+    Slices named after the compass start at the neighbour of node 1.
+    """
     nx = film.p.shape[1]
-    p, eps = film.p[j], film.eps[j]
     south = j - 1 if j > 0 else 1
-    p_n, p_s, eps_n, eps_s = film.p[j + 1], film.p[south], film.eps[j + 1], film.eps[south]
-    rho, h = film.rho[j], film.h[j]
+    p_w, p, p_e = film.p[j, :-2], film.p[j, 1:-1], film.p[j, 2:]
+    eps_w, eps, eps_e = film.eps[j, :-2], film.eps[j, 1:-1], film.eps[j, 2:]
+    p_n, p_s = film.p[j + 1, 1:-1], film.p[south, 1:-1]
+    eps_n, eps_s = film.eps[j + 1, 1:-1], film.eps[south, 1:-1]
     half_x, half_y = 0.5 * mesh.cx, 0.5 * mesh.cy
-    for i in range(1, nx - 1):
-        flow_x = (eps[i] + eps[i + 1]) * (p[i + 1] - p[i]) - (eps[i] + eps[i - 1]) * (
-            p[i] - p[i - 1]
-        )
-        flow_y = (eps[i] + eps_n[i]) * (p_n[i] - p[i]) - (eps[i] + eps_s[i]) * (p[i] - p_s[i])
-        out[i] = half_x * flow_x + half_y * flow_y
-    out[1] -= (mesh.w0 - mesh.w2) * (rho[1] * h[1] - rho[0] * h[0])
-    for i in range(2, nx - 1):
-        out[i] -= (
-            mesh.w0 * rho[i] * h[i]
-            + mesh.w1 * rho[i - 1] * h[i - 1]
-            + mesh.w2 * rho[i - 2] * h[i - 2]
-        )
+    target = out[1:-1]
+    for i in range(nx - 2):
+        east, west = eps[i] + eps_e[i], eps[i] + eps_w[i]
+        target[i] = half_x * (east * (p_e[i] - p[i]) - west * (p[i] - p_w[i]))
+    for i in range(nx - 2):
+        north, south_ = eps[i] + eps_n[i], eps[i] + eps_s[i]
+        target[i] += half_y * (north * (p_n[i] - p[i]) - south_ * (p[i] - p_s[i]))
+    subtract_wedge(film.rho[j], film.h[j], mesh, out)
+
+
+@njit(cache=True, fastmath={"contract"})
+def subtract_wedge(rho: Array, h: Array, mesh: Mesh, out: Array) -> None:
+    """Subtract the upstream difference of rho h along a line; of first order at node 1."""
+    w0, w1, w2 = mesh.w0, mesh.w1, mesh.w2
+    out[1] -= (w0 - w2) * (rho[1] * h[1] - rho[0] * h[0])
+    rho_c, rho_w, rho_ww = rho[2:-1], rho[1:-2], rho[:-3]
+    h_c, h_w, h_ww = h[2:-1], h[1:-2], h[:-3]
+    target = out[2:-1]
+    for i in range(target.shape[0]):
+        target[i] -= w0 * rho_c[i] * h_c[i] + w1 * rho_w[i] * h_w[i] + w2 * rho_ww[i] * h_ww[i]
 
 
 @njit(cache=True)
 def operator(film: Film, mesh: Mesh, out: Array) -> None:
     """Write L(p) to ``out`` (ny, nx), zero on the edges."""
-    ny, nx = film.p.shape
+    ny = film.p.shape[0]
     out[:] = 0.0
     for j in range(0 if mesh.mirror else 1, ny - 1):
         line_operator(film, mesh, j, out[j])
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath={"contract"})
 def line_diagonal(film: Film, mesh: Mesh, self_film: float, j: int, out: Array) -> None:
     """Write ``-dL/dp`` on the diagonal of line ``j``; ``self_film = dh/dp`` of a point on itself."""
-    nx = film.p.shape[1]
-    eps = film.eps[j]
     south = j - 1 if j > 0 else 1
-    eps_n, eps_s = film.eps[j + 1], film.eps[south]
-    for i in range(1, nx - 1):
-        out[i] = (
-            0.5 * mesh.cx * (2.0 * eps[i] + eps[i + 1] + eps[i - 1])
-            + 0.5 * mesh.cy * (2.0 * eps[i] + eps_n[i] + eps_s[i])
-            + mesh.w0 * (film.drho[j, i] * film.h[j, i] + film.rho[j, i] * self_film)
-        )
+    eps_w, eps, eps_e = film.eps[j, :-2], film.eps[j, 1:-1], film.eps[j, 2:]
+    eps_n, eps_s = film.eps[j + 1, 1:-1], film.eps[south, 1:-1]
+    rho, drho, h = film.rho[j, 1:-1], film.drho[j, 1:-1], film.h[j, 1:-1]
+    half_x, half_y = 0.5 * mesh.cx, 0.5 * mesh.cy
+    target = out[1:-1]
+    for i in range(target.shape[0]):
+        target[i] = half_x * (2.0 * eps[i] + eps_e[i] + eps_w[i])
+        target[i] += half_y * (2.0 * eps[i] + eps_n[i] + eps_s[i])
+    for i in range(target.shape[0]):
+        target[i] += mesh.w0 * (drho[i] * h[i] + rho[i] * self_film)
+
+
+@njit(cache=True, fastmath={"contract", "reassoc"}, error_model="numpy")
+def line_norm(p: Array, rhs: Array, diagonal: Array, out: Array) -> tuple[float, int]:
+    """Turn L(p) in ``out`` to ``rhs - L(p)``, zero where cavitated; return sum and count.
+
+    The sum is of ``|r|`` over the local diagonal, over nodes that are wet or ought to be.
+    """
+    total, count = 0.0, 0
+    for i in range(1, p.shape[0] - 1):
+        r = rhs[i] - out[i]
+        counts = p[i] > 0.0 or r < 0.0
+        total += abs(r) / diagonal[i] if counts else 0.0
+        count += 1 if counts else 0
+        out[i] = r if p[i] > 0.0 else 0.0
+    return total, count
 
 
 @njit(cache=True)
@@ -151,19 +188,10 @@ def residual(film: Film, mesh: Mesh, rhs: Array, self_film: float, out: Array) -
     for j in range(0 if mesh.mirror else 1, ny - 1):
         line_operator(film, mesh, j, out[j])
         line_diagonal(film, mesh, self_film, j, diagonal)
+        line_total, line_count = line_norm(film.p[j], rhs[j], diagonal, out[j])
         weight = 1 if (mesh.mirror and j == 0) else 1 + mesh.mirror
-        for i in range(1, nx - 1):
-            r = rhs[j, i] - out[j, i]
-            out[j, i] = r
-            if film.p[j, i] > 0.0:
-                total += weight * abs(r) / diagonal[i]
-                count += weight
-            elif r < 0.0:
-                total -= weight * r / diagonal[i]
-                count += weight
-                out[j, i] = 0.0
-            else:
-                out[j, i] = 0.0
+        total += weight * line_total
+        count += weight * line_count
     return total / max(count, 1)
 
 
@@ -183,133 +211,256 @@ def mark_dipoles(film: Film, mesh: Mesh, relaxation: Relaxation) -> None:
                 kind[j, i] = 1
 
 
+class Batch(NamedTuple):
+    """Lines of one colour that are solved side by side, and their workspace.
+
+    Line ``first + 2 lane`` has lane ``lane`` of ``lanes``; ``rest`` (LANES, nx) holds the
+    residuals; ``cells`` is flat: value ``field`` of node i is the LANES numbers that start at
+    ``((i + 3) FIELDS + field) LANES``. Lanes lie side by side so that each step of the elimination
+    is one vector instruction.
+    """
+
+    first: int
+    lanes: int
+    rest: Array
+    cells: Array
+
+
 @njit(cache=True)
-def line_matrix(film: Film, mesh: Mesh, relaxation: Relaxation, j: int) -> None:
-    """Fill ``band[s + 3, i]``: change of L at i per unit change of the unknown at i + s.
+def at(node: int, field: int) -> int:
+    """Return where a field begins in a slice of cells, ``node`` counted from the slice's start."""
+    return (node * FIELDS + field) * LANES
+
+
+@njit(cache=True)
+def wet_range(p: Array, frozen: Array, rest: Array) -> tuple[int, int]:
+    """Return the first and last node of a line that may change: the others are cavitated or kept.
+
+    The range is empty, (nx, 0), when there is none.
+    """
+    nx = p.shape[0]
+    for low in range(1, nx - 1):
+        if not (p[low] >= 0.0 and (frozen[low] or (p[low] == 0.0 and rest[low] >= 0.0))):
+            break
+    else:
+        return nx, 0
+    for high in range(nx - 2, low - 1, -1):
+        if not (p[high] >= 0.0 and (frozen[high] or (p[high] == 0.0 and rest[high] >= 0.0))):
+            break
+    return low, high
+
+
+@njit(cache=True)
+def load_line(
+    film: Film, mesh: Mesh, relaxation: Relaxation, batch: Batch, lane: int, span: Span
+) -> None:
+    """Write what the system of one line needs of nodes ``span[0] .. span[1] - 1`` to its lane."""
+    j = batch.first + 2 * lane
+    south = j - 1 if j > 0 else 1
+    p, eps, rho, h, drho = film.p[j], film.eps[j], film.rho[j], film.h[j], film.drho[j]
+    eps_n, eps_s = film.eps[j + 1], film.eps[south]
+    kind, frozen, rest = relaxation.kind[j], relaxation.frozen[j], batch.rest[lane]
+    half_x, half_y = 0.5 * mesh.cx, 0.5 * mesh.cy
+    for i in range(span[0], span[1]):
+        cell = batch.cells[at(i + 3, 0) : at(i + 4, 0)]
+        cell[at(0, EAST) + lane] = half_x * (eps[i] + eps[i + 1])
+        cell[at(0, ACROSS) + lane] = half_y * (2.0 * eps[i] + eps_n[i] + eps_s[i])
+        cell[at(0, SQUEEZE) + lane] = drho[i] * h[i]
+        cell[at(0, RHO) + lane] = rho[i]
+        cell[at(0, DIPOLE) + lane] = kind[i]
+        cell[at(0, REST) + lane] = rest[i]
+        cell[at(0, P) + lane] = p[i]
+        dry = 1.0 if p[i] <= 0.0 and rest[i] >= 0.0 else 0.0
+        cell[at(0, STATE) + lane] = 2.0 if frozen[i] else dry
+
+
+@njit(cache=True, fastmath={"contract"})
+def fill_band(cells: Array, mesh: Mesh, relaxation: Relaxation, low: int, high: int) -> None:
+    """Fill ``BAND + s + 3``: change of L at i per unit change of the unknown at i + s.
 
     The column follows the type of the unknown: a point changes p at one node, a dipole at its
     four neighbours too; both change the film along the line.
     """
-    nx = film.p.shape[1]
-    band, kind = relaxation.band, relaxation.kind[j]
-    point, dipole = relaxation.point, relaxation.dipole
-    eps, rho, h, drho = film.eps[j], film.rho[j], film.h[j], film.drho[j]
-    south = j - 1 if j > 0 else 1
-    eps_n, eps_s = film.eps[j + 1], film.eps[south]
-    for i in range(1, nx - 1):
+    p0, p1, p2, p3, p4 = first_five(relaxation.point)
+    d0, d1, d2, d3, d4 = first_five(relaxation.dipole)
+    d0, d1, d2, d3, d4 = d0 - p0, d1 - p1, d2 - p2, d3 - p3, d4 - p4
+    for i in range(low, high + 1):
         w0, w1, w2 = mesh.w0, mesh.w1, mesh.w2
-        far = i - 2
         if i == 1:
-            w0, w1, w2, far = w0 - w2, w2 - w0, 0.0, 0
-        east = 0.5 * mesh.cx * (eps[i] + eps[i + 1])
-        west = 0.5 * mesh.cx * (eps[i] + eps[i - 1])
-        across = 0.5 * mesh.cy * (2.0 * eps[i] + eps_n[i] + eps_s[i])
-        # dL/dp at i-2, i-1, i, i+1 and dL/dh at i-2, i-1, i
-        a_ww = -w2 * drho[far] * h[far]
-        a_w = west - w1 * drho[i - 1] * h[i - 1]
-        a_c = -east - west - across - w0 * drho[i] * h[i]
-        b_ww, b_w, b_c = -w2 * rho[far], -w1 * rho[i - 1], -w0 * rho[i]
-        for s in range(-3, 3):
-            k = i + s
-            if k < 1 or k > nx - 2:
-                band[s + 3, i] = 0.0
-            elif kind[k]:
-                value = b_ww * dipole[abs(s + 2)] + b_w * dipole[abs(s + 1)] + b_c * dipole[abs(s)]
-                if s == -3:
-                    value -= 0.25 * a_ww
-                elif s == -2:
-                    value += a_ww - 0.25 * a_w
-                elif s == -1:
-                    value += a_w - 0.25 * (a_ww + a_c)
-                elif s == 0:
-                    value += a_c - 0.25 * (a_w + east + across)
-                elif s == 1:
-                    value += east - 0.25 * a_c
-                else:
-                    value -= 0.25 * east
-                band[s + 3, i] = value
-            else:
-                value = b_ww * point[abs(s + 2)] + b_w * point[abs(s + 1)] + b_c * point[abs(s)]
-                if s == -2:
-                    value += a_ww
-                elif s == -1:
-                    value += a_w
-                elif s == 0:
-                    value += a_c
-                elif s == 1:
-                    value += east
-                band[s + 3, i] = value
+            w0, w1, w2 = w0 - w2, w2 - w0, 0.0
+        c = cells[at(i, 0) : at(i + 6, 0)]
+        for k in range(LANES):
+            # dL/dp at i-2, i-1, i, i+1 and dL/dh at i-2, i-1, i
+            east, west, across = c[at(3, EAST) + k], c[at(2, EAST) + k], c[at(3, ACROSS) + k]
+            a_ww = -w2 * c[at(1, SQUEEZE) + k]
+            a_w = west - w1 * c[at(2, SQUEEZE) + k]
+            a_c = -east - west - across - w0 * c[at(3, SQUEEZE) + k]
+            b_ww, b_w, b_c = -w2 * c[at(1, RHO) + k], -w1 * c[at(2, RHO) + k], -w0 * c[at(3, RHO) + k]
+            # columns of points, then what a dipole at i + s changes in them
+            c[at(3, BAND) + k] = b_ww * p1 + b_w * p2 + b_c * p3 + c[at(0, DIPOLE) + k] * (
+                b_ww * d1 + b_w * d2 + b_c * d3 - 0.25 * a_ww
+            )
+            c[at(3, BAND + 1) + k] = a_ww + b_ww * p0 + b_w * p1 + b_c * p2 + c[
+                at(1, DIPOLE) + k
+            ] * (b_ww * d0 + b_w * d1 + b_c * d2 - 0.25 * a_w)
+            c[at(3, BAND + 2) + k] = a_w + b_ww * p1 + b_w * p0 + b_c * p1 + c[
+                at(2, DIPOLE) + k
+            ] * (b_ww * d1 + b_w * d0 + b_c * d1 - 0.25 * (a_ww + a_c))
+            c[at(3, BAND + 3) + k] = a_c + b_ww * p2 + b_w * p1 + b_c * p0 + c[
+                at(3, DIPOLE) + k
+            ] * (b_ww * d2 + b_w * d1 + b_c * d0 - 0.25 * (a_w + east + across))
+            c[at(3, BAND + 4) + k] = east + b_ww * p3 + b_w * p2 + b_c * p1 + c[
+                at(4, DIPOLE) + k
+            ] * (b_ww * d3 + b_w * d2 + b_c * d1 - 0.25 * a_c)
+            c[at(3, BAND + 5) + k] = b_ww * p4 + b_w * p3 + b_c * p2 + c[at(5, DIPOLE) + k] * (
+                b_ww * d4 + b_w * d3 + b_c * d2 - 0.25 * east
+            )
 
 
 @njit(cache=True)
-def band_solve(band: Array, state: Array, p: Array, rhs: Array, work: Array, u: Array) -> None:
-    """Solve the six-diagonal system for ``u``, eliminating downstream without pivoting.
+def first_five(values: Array) -> tuple[float, float, float, float, float]:
+    """Return the first five numbers of an array."""
+    return values[0], values[1], values[2], values[3], values[4]
 
-    Where ``state`` is 1 the row reads u = -p, where it is 2 it reads u = 0; ``work`` is (2, nx).
+
+@njit(cache=True, fastmath={"contract"}, error_model="numpy")
+def eliminate(cells: Array, low: int, high: int) -> None:
+    """Eliminate downstream without pivoting: u_i + up1 u_{i+1} + up2 u_{i+2} = U on return.
+
+    Where the state is 1 the row reads u = -p, where it is 2 it reads u = 0.
     """
-    nx = p.shape[0]
-    a1, b1, y1 = 0.0, 0.0, 0.0  # upper coefficients and right-hand side of rows i-1, i-2, i-3
-    a2, b2, y2 = 0.0, 0.0, 0.0
-    a3, b3, y3 = 0.0, 0.0, 0.0
-    for i in range(1, nx - 1):
-        if state[i]:
-            up1, up2, y = 0.0, 0.0, -p[i] if state[i] == 1 else 0.0
-        else:
-            l3, l2, l1 = band[0, i], band[1, i], band[2, i]
-            d, up1, up2, y = band[3, i], band[4, i], band[5, i], rhs[i]
-            y -= l3 * y3
-            l2 -= l3 * a3
-            l1 -= l3 * b3
-            y -= l2 * y2
-            l1 -= l2 * a2
-            d -= l2 * b2
-            y -= l1 * y1
-            d -= l1 * a1
-            up1 -= l1 * b1
-            inverse = 1.0 / d
-            up1 *= inverse
-            up2 *= inverse
-            y *= inverse
-        work[0, i], work[1, i], u[i] = up1, up2, y
-        a3, b3, y3 = a2, b2, y2
-        a2, b2, y2 = a1, b1, y1
-        a1, b1, y1 = up1, up2, y
-    u[nx - 1] = 0.0
-    u1, u2 = 0.0, 0.0
-    for i in range(nx - 2, 0, -1):
-        u[i] -= work[0, i] * u1 + work[1, i] * u2
-        u2, u1 = u1, u[i]
+    for i in range(low, high + 1):
+        c = cells[at(i, 0) : at(i + 4, 0)]
+        for k in range(LANES):
+            state = c[at(3, STATE) + k]
+            free = state == 0.0
+            l3, l2, l1 = c[at(3, BAND) + k], c[at(3, BAND + 1) + k], c[at(3, BAND + 2) + k]
+            diagonal, y = c[at(3, BAND + 3) + k], c[at(3, REST) + k]
+            y -= l3 * c[at(0, U) + k]
+            l2 -= l3 * c[at(0, UP1) + k]
+            l1 -= l3 * c[at(0, UP2) + k]
+            y -= l2 * c[at(1, U) + k]
+            l1 -= l2 * c[at(1, UP1) + k]
+            diagonal -= l2 * c[at(1, UP2) + k]
+            y -= l1 * c[at(2, U) + k]
+            diagonal -= l1 * c[at(2, UP1) + k]
+            up1 = c[at(3, BAND + 4) + k] - l1 * c[at(2, UP2) + k]
+            inverse = 1.0 / (diagonal if free else 1.0)
+            fixed = -c[at(3, P) + k] if state == 1.0 else 0.0
+            c[at(3, UP1) + k] = up1 * inverse if free else 0.0
+            c[at(3, UP2) + k] = c[at(3, BAND + 5) + k] * inverse if free else 0.0
+            c[at(3, U) + k] = y * inverse if free else fixed
+
+
+@njit(cache=True, fastmath={"contract"})
+def substitute(cells: Array, low: int, high: int) -> None:
+    """Turn ``U`` into the solution, from the last node back to the first."""
+    for i in range(high, low - 1, -1):
+        c = cells[at(i + 3, 0) : at(i + 6, 0)]
+        for k in range(LANES):
+            c[at(0, U) + k] -= c[at(0, UP1) + k] * c[at(1, U) + k] + c[at(0, UP2) + k] * c[at(2, U) + k]
 
 
 @njit(cache=True)
-def line_complementarity(
-    band: Array, state: Array, p: Array, rhs: Array, work: Array, u: Array
-) -> None:
-    """Solve the line with p + u >= 0 by policy iteration over the cavitated nodes."""
-    nx = p.shape[0]
-    for i in range(1, nx - 1):
-        if state[i] != 2:
-            state[i] = 1 if (p[i] <= 0.0 and rhs[i] >= 0.0) else 0
-    for _ in range(6):
-        band_solve(band, state, p, rhs, work, u)
-        changed = False
-        for i in range(1, nx - 1):
-            if state[i] == 0:
-                if u[i] < -p[i]:
-                    state[i] = 1
-                    changed = True
-            elif state[i] == 1:
-                r = rhs[i]
-                for s in range(max(-3, 1 - i), min(3, nx - 1 - i)):
-                    r -= band[s + 3, i] * u[i + s]
-                if r < 0.0:
-                    state[i] = 0
-                    changed = True
+def band_solve(cells: Array, low: int, high: int) -> None:
+    """Solve the six-diagonal systems of all lanes for ``U`` on nodes low..high, zero beside them."""
+    for i in range(low, low + 3):
+        cells[at(i, UP1) : at(i + 1, 0)] = 0.0
+    for i in range(high + 4, high + 7):
+        cells[at(i, UP1) : at(i + 1, 0)] = 0.0
+    eliminate(cells, low, high)
+    substitute(cells, low, high)
+
+
+@njit(cache=True, fastmath={"contract"})
+def revise(cells: Array, i: int) -> tuple[int, int]:
+    """Revise the states at node i; return how many nodes got wet and how many dry.
+
+    Free nodes of negative pressure cavitate; cavitated nodes that lack oil to stay so are freed.
+    """
+    wet, dry = 0, 0
+    c = cells[at(i, 0) : at(i + 6, 0)]
+    for k in range(LANES):
+        state = c[at(3, STATE) + k]
+        rest = (
+            c[at(3, REST) + k]
+            - c[at(3, BAND) + k] * c[at(0, U) + k]
+            - c[at(3, BAND + 1) + k] * c[at(1, U) + k]
+            - c[at(3, BAND + 2) + k] * c[at(2, U) + k]
+            - c[at(3, BAND + 3) + k] * c[at(3, U) + k]
+            - c[at(3, BAND + 4) + k] * c[at(4, U) + k]
+            - c[at(3, BAND + 5) + k] * c[at(5, U) + k]
+        )
+        to_dry = int(state == 0.0) & int(c[at(3, U) + k] < -c[at(3, P) + k])
+        to_wet = int(state == 1.0) & int(rest < 0.0)
+        c[at(3, STATE) + k] = state + to_dry - to_wet
+        wet |= to_wet
+        dry |= to_dry
+    return wet, dry
+
+
+@njit(cache=True)
+def complementarity(cells: Array, low: int, high: int, last: int) -> tuple[int, int]:
+    """Solve the lines with p + u >= 0 by policy iteration over the cavitated nodes.
+
+    Nodes outside low..high are cavitated with p = 0 or kept; the range grows as nodes get wet and
+    is returned. ``last`` is the last node that is solved for.
+    """
+    for _ in range(PASSES):
+        band_solve(cells, low, high)
+        changed = 0
+        for i in range(max(low - 2, 1), min(high + 3, last) + 1):
+            wet, dry = revise(cells, i)
+            changed |= wet | dry
+            if wet:
+                low, high = min(low, i), max(high, i)
         if not changed:
-            return
-    band_solve(band, state, p, rhs, work, u)
-    for i in range(1, nx - 1):
-        u[i] = max(u[i], -p[i])
+            return low, high
+    band_solve(cells, low, high)
+    return low, high
+
+
+@njit(cache=True)
+def store_line(film: Film, relaxation: Relaxation, batch: Batch, lane: int, span: Span) -> None:
+    """Apply the solution of one line: points at once, dipoles to ``delta``."""
+    j = batch.first + 2 * lane
+    p, kind, delta = film.p[j], relaxation.kind[j], relaxation.delta[j]
+    for i in range(span[0], span[1]):
+        u = batch.cells[at(i + 3, U) + lane]
+        if kind[i]:
+            delta[i] = relaxation.omega_dipole * max(u, -p[i])
+        elif u <= -p[i]:
+            p[i] = 0.0
+        else:
+            p[i] += relaxation.omega_point * u
+
+
+@njit(cache=True)
+def relax_batch(
+    film: Film, mesh: Mesh, rhs: Array, relaxation: Relaxation, batch: Batch
+) -> None:
+    """Relax the lines of one batch."""
+    nx = film.p.shape[1]
+    low, high = nx, 0
+    for lane in range(batch.lanes):
+        j, rest = batch.first + 2 * lane, batch.rest[lane]
+        line_operator(film, mesh, j, rest)
+        for i in range(1, nx - 1):
+            rest[i] = rhs[j, i] - rest[i]
+        line_low, line_high = wet_range(film.p[j], relaxation.frozen[j], rest)
+        low, high = min(low, line_low), max(high, line_high)
+    if low > high:
+        return
+    # the range of the unknowns may grow by two nodes upstream and three downstream in each pass
+    first, last = max(low - 2 * PASSES, 1), min(high + 3 * PASSES, nx - 2)
+    for start in range(max(first - 3, 0), min(last + 3, nx - 1), CHUNK):
+        span = (start, min(start + CHUNK, last + 3, nx - 1))
+        for lane in range(batch.lanes):
+            load_line(film, mesh, relaxation, batch, lane, span)
+    fill_band(batch.cells, mesh, relaxation, first, last)
+    low, high = complementarity(batch.cells, low, high, nx - 2)
+    for lane in range(batch.lanes):
+        store_line(film, relaxation, batch, lane, (low, high + 1))
 
 
 @njit(cache=True)
@@ -318,27 +469,14 @@ def relax_lines(film: Film, mesh: Mesh, rhs: Array, relaxation: Relaxation) -> N
     ny, nx = film.p.shape
     first = 0 if mesh.mirror else 1
     mark_dipoles(film, mesh, relaxation)
-    r, u, work = np.empty(nx), np.zeros(nx), np.empty((2, nx))
-    delta = relaxation.delta
-    delta[:] = 0.0
+    rest, cells = np.zeros((LANES, nx)), np.zeros(at(nx + 6, 0))
+    relaxation.delta[:] = 0.0
     for colour in range(2):
-        for j in range(first + colour, ny - 1, 2):
-            line_operator(film, mesh, j, r)
-            for i in range(1, nx - 1):
-                r[i] = rhs[j, i] - r[i]
-            line_matrix(film, mesh, relaxation, j)
-            p = film.p[j]
-            for i in range(1, nx - 1):
-                relaxation.state[i] = 2 if relaxation.frozen[j, i] else 0
-            line_complementarity(relaxation.band, relaxation.state, p, r, work, u)
-            for i in range(1, nx - 1):
-                if relaxation.kind[j, i]:
-                    delta[j, i] = relaxation.omega_dipole * u[i]
-                elif u[i] <= -p[i]:
-                    p[i] = 0.0
-                else:
-                    p[i] += relaxation.omega_point * u[i]
-    add_dipoles(film.p, delta, mesh.mirror)
+        for j in range(first + colour, ny - 1, 2 * LANES):
+            lanes = min(LANES, (ny - j) // 2)
+            batch = Batch(j, lanes, rest, cells)
+            relax_batch(film, mesh, rhs, relaxation, batch)
+    add_dipoles(film.p, relaxation.delta, mesh.mirror)
 
 
 @njit(cache=True)

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from tehl.domain import needed_points, recommended_domain
 from tehl.film_formulas import (
     FilmEstimate,
     Regime,
@@ -12,7 +13,6 @@ from tehl.film_formulas import (
     inlet_heating_factor,
     regime,
 )
-from tehl.grid import needed_points, recommended_domain
 from tehl.options import Domain, Options, coarsenable
 from tehl.problem import ContactProblem
 from tehl.report.suspicion import questions

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from tehl.grid import needed_points, recommended_domain
+from tehl.domain import needed_points, recommended_domain
 from tehl.options import Domain, Options, coarsenable
 from tehl.problem import ContactProblem
 from tehl.scaling import Groups

@@ -1,0 +1,84 @@
+"""Grids: nodes on a rectangle, the last index along x; a hierarchy by halving."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from tehl.options import Domain
+from tehl.typing import Array
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Grid:
+    """Uniform nodes on a rectangle, or on its upper half when the contact is symmetric in y.
+
+    Attributes
+    ----------
+    nx, ny : int
+        Nodes per direction of the full domain.
+    domain : Domain
+        In Hertz half-widths.
+    mirror : bool
+        Only y >= 0 is held; row 0 is the symmetry line.
+    """
+
+    nx: int
+    ny: int
+    domain: Domain
+    mirror: bool
+
+    @property
+    def dx(self) -> float:
+        """Mesh width along x, in a_x."""
+        return (self.domain.x[1] - self.domain.x[0]) / (self.nx - 1)
+
+    @property
+    def dy(self) -> float:
+        """Mesh width along y, in a_y."""
+        return (self.domain.y[1] - self.domain.y[0]) / (self.ny - 1)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns that are held."""
+        return (self.ny // 2 + 1 if self.mirror else self.ny), self.nx
+
+    @property
+    def x(self) -> Array:
+        """Coordinates of the columns, (nx,)."""
+        return self.domain.x[0] + self.dx * np.arange(self.nx)
+
+    @property
+    def y(self) -> Array:
+        """Coordinates of the rows that are held."""
+        start = 0.0 if self.mirror else self.domain.y[0]
+        return start + self.dy * np.arange(self.shape[0])
+
+    def unfold(self, field: Array) -> Array:
+        """Return ``field`` on the full domain, (ny, nx)."""
+        return np.concatenate([field[:0:-1], field]) if self.mirror else field.copy()
+
+    def coarser(self) -> "Grid":
+        """Return the grid of twice the mesh width."""
+        return replace(self, nx=self.nx // 2 + 1, ny=self.ny // 2 + 1)
+
+    def can_coarsen(self) -> bool:
+        """Whether both directions halve to 16 intervals or more, and the halves still mirror."""
+        intervals = (self.nx - 1, self.ny - 1)
+        even = all(n % 2 == 0 and n // 2 >= 16 for n in intervals)
+        return even and not (self.mirror and (self.ny - 1) // 2 % 2)
+
+
+def can_mirror(shape: tuple[int, int], domain: Domain) -> bool:
+    """Whether the upper half alone can be held on every grid down to the coarsest."""
+    ny, nx = shape
+    while (ny - 1) % 2 == 0 and (nx - 1) % 2 == 0 and min(nx, ny) - 1 >= 32:
+        nx, ny = nx // 2 + 1, ny // 2 + 1
+    return (ny - 1) % 2 == 0 and domain.y[0] == -domain.y[1]
+
+
+def hierarchy(finest: Grid) -> list[Grid]:
+    """Return the grids by halving, coarsest first."""
+    grids = [finest]
+    while grids[0].can_coarsen():
+        grids.insert(0, grids[0].coarser())
+    return grids

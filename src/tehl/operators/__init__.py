@@ -1,0 +1,1 @@
+"""The discrete equations, one operator per file, thin over the compiled loops."""

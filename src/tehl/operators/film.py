@@ -1,0 +1,18 @@
+"""Film thickness equation: H = H00 + gap + elastic deflection."""
+
+import numpy as np
+
+from tehl.grid import Grid
+from tehl.scaling import Groups
+from tehl.typing import Array
+
+
+def gap(grid: Grid, groups: Groups) -> Array:
+    """Return the undeformed gap X^2/2 + D kappa^2 Y^2/2, shape ``grid.shape`` [-]."""
+    across = groups.radius_ratio * groups.ellipticity**2
+    return 0.5 * grid.x[None, :] ** 2 + 0.5 * across * grid.y[:, None] ** 2
+
+
+def hertz_pressure(grid: Grid) -> Array:
+    """Return the dry pressure sqrt(1 - X^2 - Y^2), shape ``grid.shape`` [-]."""
+    return np.sqrt(np.maximum(0.0, 1.0 - grid.x[None, :] ** 2 - grid.y[:, None] ** 2))

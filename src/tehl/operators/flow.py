@@ -1,0 +1,66 @@
+"""The lubricant as the Reynolds equation sees it: mobility and density tabulated over pressure."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl.problem import ContactProblem
+from tehl.scaling import Groups, Scales
+from tehl.typing import Array
+
+LARGEST_PRESSURE = 8.0
+NODES = 8192
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class FlowTable:
+    """Isothermal mobility rho/(eta lambda) and density rho over the dimensionless pressure.
+
+    Attributes
+    ----------
+    table : (NODES + 1, 4) array
+        Mobility, its slope times ``step``, density, its slope times ``step``.
+    step : float
+        Pressure between two rows [-].
+    """
+
+    table: Array
+    step: float
+
+
+def flow_table(problem: ContactProblem, scales: Scales, groups: Groups) -> FlowTable:
+    """Tabulate the laws of the lubricant at the inlet temperature.
+
+    The laws are written once, in SI; cubic Hermite interpolation between 8192 pressures up to
+    8 p_h keeps them to better than 1e-6 (checked in the tests), at a fraction of their price.
+    """
+    lubricant, temperature = problem.lubricant, scales.temperature
+
+    def density(pressure: Array) -> Array:
+        si = lubricant.density.density(scales.hertz_pressure * pressure, temperature)
+        return np.broadcast_to(si / scales.density, pressure.shape)
+
+    def mobility(pressure: Array) -> Array:
+        si = lubricant.viscosity.viscosity(scales.hertz_pressure * pressure, temperature)
+        return density(pressure) / (si / scales.viscosity * groups.lambda_bar)
+
+    step = LARGEST_PRESSURE / NODES
+    pressure = step * np.arange(NODES + 1)
+    columns = [
+        mobility(pressure),
+        slope(mobility, pressure, step) * step,
+        density(pressure),
+        slope(density, pressure, step) * step,
+    ]
+    return FlowTable(table=np.ascontiguousarray(np.stack(columns, axis=1)), step=step)
+
+
+def slope(law: Callable[[Array], Array], pressure: Array, step: float) -> Array:
+    """Differentiate ``law`` to fourth order with a tenth of ``step``, one-sided at p = 0."""
+    d = 0.1 * step
+    central = 8 * (law(pressure[1:] + d) - law(pressure[1:] - d))
+    central -= law(pressure[1:] + 2 * d) - law(pressure[1:] - 2 * d)
+    weights = np.array([-25.0, 48.0, -36.0, 16.0, -3.0])
+    first = weights @ law(d * np.arange(5.0))
+    return np.concatenate([[first], central]) / (12 * d)

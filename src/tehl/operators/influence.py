@@ -1,0 +1,81 @@
+"""Influence of a uniformly loaded cell: exact kernel of the elastic half-space.
+
+Each node carries a uniform pressure over its own mesh cell, whose deflection is known in closed
+form (Love 1929; Johnson 1985, Contact Mechanics, eq. 3.25).
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from tehl.grid import Grid
+from tehl.scaling import Groups
+from tehl.typing import Array
+
+
+class Influence:
+    """Deflection at node offsets (dj, di) per unit pressure on one cell.
+
+    Parameters
+    ----------
+    dx, dy : float
+        Cell sides in one unit of length, a_x.
+    factor : float
+        2 Pi / pi, the factor before the kernel sum.
+    """
+
+    def __init__(self, dx: float, dy: float, factor: float) -> None:
+        self.dx, self.dy, self.factor = dx, dy, factor
+
+    def __call__(self, dj: "ArrayLike | slice", di: "ArrayLike | slice") -> Array:
+        """Return the influence at rows ``dj`` and columns ``di`` away; slices count nodes."""
+        rows, columns = _offsets(dj), _offsets(di)
+        x, y = np.broadcast_arrays(self.dx * columns, self.dy * rows)
+        east, west = x + 0.5 * self.dx, x - 0.5 * self.dx
+        north, south = y + 0.5 * self.dy, y - 0.5 * self.dy
+        cell = _corner(east, north) - _corner(west, north)
+        cell += _corner(west, south) - _corner(east, south)
+        return self.factor * cell
+
+
+def _offsets(nodes: "ArrayLike | slice") -> Array:
+    if isinstance(nodes, slice):
+        return np.arange(nodes.start, nodes.stop, dtype=float)
+    return np.asarray(nodes, dtype=float)
+
+
+def _corner(u: Array, v: Array) -> Array:
+    """Antiderivative of 1/r over both coordinates; no corner lies on an axis."""
+    return u * np.arcsinh(v / np.abs(u)) + v * np.arcsinh(u / np.abs(v))
+
+
+def influence_of(grid: Grid, groups: Groups) -> Influence:
+    """Return the influence function of one cell of ``grid``."""
+    return Influence(grid.dx, groups.ellipticity * grid.dy, groups.deflection_factor)
+
+
+def dense_matrix(
+    shape: tuple[int, int], mirror: bool, influence: Influence, stride: tuple[int, int] = (1, 1)
+) -> Array:
+    """Return the influence of node k on node m, nodes numbered row by row, (n, n).
+
+    Parameters
+    ----------
+    shape : (int, int)
+        Rows and columns of nodes.
+    mirror : bool
+        Row 0 is a symmetry line: the image of each node counts too.
+    influence : Influence
+        Influence at node offsets.
+    stride : (int, int)
+        Nodes of ``influence`` from row to row and from column to column.
+    """
+    ny, nx = shape
+    rows, columns = np.arange(2 * ny - 1)[:, None], np.arange(nx)[None, :]
+    table = influence(stride[0] * rows, stride[1] * columns)
+    j, i = np.divmod(np.arange(ny * nx), nx)
+    across = np.abs(i[:, None] - i[None, :])
+    matrix = table[np.abs(j[:, None] - j[None, :]), across]
+    if mirror:
+        image = table[j[:, None] + j[None, :], across]
+        matrix = matrix + np.where(j[None, :] > 0, image, 0.0)
+    return np.ascontiguousarray(matrix)

@@ -1,0 +1,41 @@
+"""Reynolds equation on one grid: the stencil and what the line relaxation needs of the kernel."""
+
+from tehl.grid import Grid
+from tehl.kernels.reynolds import Mesh
+from tehl.operators.influence import Influence
+from tehl.scaling import Groups
+from tehl.typing import Array
+
+REACH = 8
+
+
+def stencil(grid: Grid, groups: Groups, wedge_order: int) -> Mesh:
+    """Return the weights of the discrete Reynolds operator.
+
+    The Poiseuille term is central, of order two; the wedge is taken upstream to order
+    ``wedge_order`` (1 or 2).
+    """
+    weights = {1: (1.0, -1.0, 0.0), 2: (1.5, -2.0, 0.5)}[wedge_order]
+    w0, w1, w2 = (w / grid.dx for w in weights)
+    return Mesh(
+        cx=1.0 / grid.dx**2,
+        cy=1.0 / (groups.ellipticity * grid.dy) ** 2,
+        w0=w0,
+        w1=w1,
+        w2=w2,
+        mirror=int(grid.mirror),
+    )
+
+
+def line_influence(influence: Influence) -> tuple[Array, Array]:
+    """Return the film along a line per unit change of one node, and of a dipole.
+
+    A dipole raises one node and lowers its four neighbours by a quarter, so that its far field
+    falls off fast: the change of film stays local.
+    """
+    line = influence(0, slice(0, REACH + 1))
+    beside = influence(1, slice(0, REACH))
+    point = line[:REACH]
+    west = line[[1, *range(REACH - 1)]]
+    dipole = point - 0.25 * (west + line[1:] + 2.0 * beside)
+    return point.copy(), dipole

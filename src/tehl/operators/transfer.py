@@ -1,0 +1,32 @@
+"""Interpolation of a converged pressure to the next finer grid of the full multigrid."""
+
+import numpy as np
+
+from tehl.grid import Grid
+from tehl.typing import Array
+
+
+def refine(pressure: Array, fine: Grid) -> Array:
+    """Return ``pressure`` interpolated to ``fine``: cubic, not negative, zero on the edges."""
+    rows = _cubic_along_x(pressure)
+    if fine.mirror:
+        rows = np.concatenate([rows[2:0:-1], rows])
+    field = _cubic_along_x(rows.T).T
+    if fine.mirror:
+        field = field[4:]
+    field = np.maximum(field, 0.0)
+    field[-1] = field[:, 0] = field[:, -1] = 0.0
+    if not fine.mirror:
+        field[0] = 0.0
+    return field
+
+
+def _cubic_along_x(values: Array) -> Array:
+    """Insert midpoints along the last axis: cubic inside, linear at the ends."""
+    fine = np.empty((*values.shape[:-1], 2 * values.shape[-1] - 1))
+    fine[..., ::2] = values
+    inner = 9.0 * (values[..., 1:-2] + values[..., 2:-1]) - values[..., :-3] - values[..., 3:]
+    fine[..., 3:-3:2] = inner / 16.0
+    fine[..., 1] = 0.5 * (values[..., 0] + values[..., 1])
+    fine[..., -2] = 0.5 * (values[..., -2] + values[..., -1])
+    return fine

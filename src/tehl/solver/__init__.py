@@ -1,0 +1,7 @@
+"""From a problem to a result: full multigrid with the full approximation scheme."""
+
+from tehl.solver.certify import certify
+from tehl.solver.monitor import SILENT, Monitor
+from tehl.solver.steady import solve
+
+__all__ = ["SILENT", "Monitor", "certify", "solve"]

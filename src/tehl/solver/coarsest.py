@@ -1,0 +1,53 @@
+"""The coarsest grid: Newton steps for pressure and rigid approach together, load in the system."""
+
+import numpy as np
+
+from tehl.kernels import reynolds
+from tehl.kernels.newton import Coarse, newton_step
+from tehl.operators.influence import dense_matrix
+from tehl.solver.level import Level
+from tehl.typing import Array
+
+PRESSURE_STEP = 1e-6
+"""Step of the derivative of the conductance by pressure; its error is of this relative size."""
+
+
+class CoarsestSolver:
+    """Joint Newton step on the coarsest level, where slow changes of the approach are cheap."""
+
+    def __init__(self, level: Level) -> None:
+        self.level = level
+        self.influence = dense_matrix(level.grid.shape, level.grid.mirror, level.influence)
+
+    def step(self) -> None:
+        """Take one Newton step of limited length in place."""
+        level = self.level
+        level.update()
+        residual = np.empty_like(level.residual)
+        reynolds.operator(level.film, level.mesh, residual)
+        np.subtract(level.rhs, residual, out=residual)
+        by_pressure, by_film = self._slopes()
+        film, mesh = level.film, level.mesh
+        change = newton_step(
+            Coarse(film.p, film.h, film.eps, film.rho, film.drho, by_pressure, by_film),
+            (mesh.cx, mesh.cy, mesh.w0, mesh.w1, mesh.w2, mesh.mirror),
+            residual,
+            self.influence,
+            (level.load.area, level.load_target - level.load.integral(film.p)),
+            level.smoother.frozen,
+        )
+        level.rigid_approach += change
+        level.stale = True
+
+    def _slopes(self) -> tuple[Array, Array]:
+        """Derivatives of the conductance by pressure and by film."""
+        level = self.level
+        film = level.film
+        scratch = (np.empty_like(film.p) for _ in range(3))
+        shifted = reynolds.Film(film.p + PRESSURE_STEP, film.h, *scratch)
+        reynolds.properties(shifted, level.flow.table, level.flow.step, level.floor)
+        by_pressure = (shifted.eps - film.eps) / PRESSURE_STEP
+        by_film = np.where(
+            film.h > level.floor, 3.0 * film.eps / np.maximum(film.h, level.floor), 0.0
+        )
+        return by_pressure, by_film

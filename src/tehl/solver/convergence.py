@@ -1,0 +1,108 @@
+"""When to stop: estimated iteration and discretisation errors of the film, stall, divergence."""
+
+from dataclasses import dataclass, field
+
+from tehl.options import Options
+from tehl.result import CycleReport, ErrorEstimate
+
+LEAST_CYCLES = 2
+SAFETY = 1.25
+"""Factor on the discretisation error where three grids show its order (Roache's index)."""
+STALL_CYCLES = 8
+STALL_FACTOR = 0.5
+
+
+@dataclass(slots=True)
+class Trace:
+    """A film number as it changes from cycle to cycle on one grid."""
+
+    values: list[float] = field(default_factory=list)
+
+    def iteration_error(self) -> float:
+        """Estimate what further cycles would still change, from the last two changes."""
+        if len(self.values) < 2:
+            return float("inf")
+        last = abs(self.values[-1] - self.values[-2])
+        rate = 0.3
+        if len(self.values) > 2:
+            before = abs(self.values[-2] - self.values[-3])
+            rate = min(max(last / before if before > 0 else 0.0, 0.2), 0.8)
+        return last * rate / (1.0 - rate)
+
+
+@dataclass(slots=True)
+class GridTrace:
+    """Central and minimum film on one grid, cycle by cycle, and the reports of the cycles."""
+
+    central: Trace = field(default_factory=Trace)
+    minimum: Trace = field(default_factory=Trace)
+    reports: list[CycleReport] = field(default_factory=list)
+
+    def note(self, central: float, minimum: float) -> None:
+        """Take the film numbers after a cycle (or before the first)."""
+        self.central.values.append(central)
+        self.minimum.values.append(minimum)
+
+
+def converged(now: GridTrace, coarser: GridTrace | None, options: Options) -> bool:
+    """Whether the cycles on this grid have done what the options ask for."""
+    if len(now.reports) < LEAST_CYCLES:
+        return False
+    if options.accuracy == "tight":
+        last = now.reports[-1]
+        return max(last.residual, last.change, abs(last.load_error)) <= options.tolerance
+    return iterated_enough(now, coarser)
+
+
+def iterated_enough(now: GridTrace, coarser: GridTrace | None) -> bool:
+    """Whether the iteration error is below a third of the discretisation error."""
+    if len(now.reports) < LEAST_CYCLES:
+        return False
+    if coarser is None:
+        return now.reports[-1].change < 1e-3
+    pairs = ((now.central, coarser.central), (now.minimum, coarser.minimum))
+    limit = max(abs(a.values[-1] - b.values[-1]) / 3.0 for a, b in pairs) / 3.0
+    return all(
+        a.iteration_error() <= max(abs(a.values[-1] - b.values[-1]) / 9.0, 0.1 * limit)
+        for a, b in pairs
+    )
+
+
+def stalled(now: GridTrace) -> bool:
+    """Whether the residual has not halved over the last cycles."""
+    residuals = [report.residual for report in now.reports]
+    if len(residuals) <= STALL_CYCLES:
+        return False
+    return residuals[-1] > STALL_FACTOR * residuals[-1 - STALL_CYCLES]
+
+
+def error_estimate(traces: list[GridTrace]) -> ErrorEstimate | None:
+    """Return relative errors of the film on the last grid; None with a single grid."""
+    if len(traces) < 2:
+        return None
+    parts = []
+    for name in ("central", "minimum"):
+        sequence = [getattr(trace, name) for trace in traces[-3:]]
+        value = abs(sequence[-1].values[-1]) or 1.0
+        bar = discretisation_bar([trace.values[-1] for trace in sequence])
+        parts.append((bar / value, sequence[-1].iteration_error() / value))
+    return ErrorEstimate(
+        discretisation_central=parts[0][0],
+        discretisation_minimum=parts[1][0],
+        iteration_central=parts[0][1],
+        iteration_minimum=parts[1][1],
+    )
+
+
+def discretisation_bar(values: list[float]) -> float:
+    """Return the error bar of the last of two or three values on grids halved each time.
+
+    A third of the last change, with a safety factor, where the three values show second order;
+    the whole change where they do not: coarse grids may be far from their limit.
+    """
+    change = abs(values[-1] - values[-2])
+    if len(values) == 3 and change > 0:
+        ratio = (values[1] - values[0]) / (values[2] - values[1])
+        if min(values) > 0.3 * values[-1] > 0 and 3.0 <= ratio <= 5.6:
+            return SAFETY * change / 3.0
+    return change

@@ -1,0 +1,58 @@
+"""Full approximation scheme: one cycle, written as the textbook writes it."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from tehl.options import Options
+from tehl.solver.level import Level
+
+EXTRA_SWEEPS = 1
+"""Sweeps added before and after on coarser levels: a V-cycle leaves error there, and they are cheap."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Cycle:
+    """What one cycle does.
+
+    Attributes
+    ----------
+    kind : {"V", "W", "F"}
+        Order of visits.
+    pre_sweeps, post_sweeps : int
+        Relaxation sweeps on the finest level of the cycle.
+    """
+
+    kind: str
+    pre_sweeps: int
+    post_sweeps: int
+
+    @classmethod
+    def of(cls, options: Options) -> "Cycle":
+        """Return the cycle that the options ask for."""
+        return cls(
+            kind=options.cycle, pre_sweeps=options.pre_sweeps, post_sweeps=options.post_sweeps
+        )
+
+    def coarse_visits(self) -> tuple["Cycle", ...]:
+        """Return the cycles to run on the next coarser level."""
+        sweeps = {"pre_sweeps": self.pre_sweeps, "post_sweeps": self.post_sweeps}
+        return tuple(
+            Cycle(kind=kind, **sweeps) for kind in {"V": "V", "W": "WW", "F": "FV"}[self.kind]
+        )
+
+
+def cycle(
+    levels: Sequence[Level], solve_coarsest: Callable[[], None], shape: Cycle, extra: int = 0
+) -> None:
+    """Run one multigrid cycle on ``levels``, coarsest first, in place."""
+    *coarser, fine = levels
+    if not coarser:
+        solve_coarsest()
+        return
+    coarse = coarser[-1]
+    fine.relax(shape.pre_sweeps + extra)
+    fine.restrict_to(coarse)
+    for visit in shape.coarse_visits():
+        cycle(coarser, solve_coarsest, visit, EXTRA_SWEEPS)
+    fine.correct_from(coarse)
+    fine.relax(shape.post_sweeps + extra)

@@ -1,0 +1,132 @@
+"""One grid with its unknowns: pressure, film and rigid approach, and their right-hand sides.
+
+On the finest grid the right-hand sides are those of the problem; on a coarser one they carry the
+full approximation scheme (Brandt 1977; Venner and Lubrecht 2000, ch. 4 and 6), for the Reynolds,
+the film and the load equation alike.
+"""
+
+import numpy as np
+
+from tehl.grid import Grid
+from tehl.kernels import reynolds, transfer
+from tehl.operators.deformation import choose
+from tehl.operators.film import gap
+from tehl.operators.flow import FlowTable
+from tehl.operators.influence import influence_of
+from tehl.operators.load import TARGET, Load
+from tehl.operators.reynolds import stencil
+from tehl.options import Options
+from tehl.scaling import Groups
+from tehl.solver.smoother import Setting, make_smoother
+
+FROZEN_BELOW = 1e-3
+"""Pressure below which a coarse node beside a cavity is left to the finer grid."""
+
+
+class Level:
+    """One grid of the hierarchy; the only mutable thing in the solver.
+
+    Parameters
+    ----------
+    grid : Grid
+        The nodes.
+    groups : Groups
+        Dimensionless groups.
+    flow : FlowTable
+        The lubricant.
+    options : Options
+        Wedge order and deformation.
+    setting : Setting
+        Of the relaxation.
+    """
+
+    def __init__(
+        self, grid: Grid, groups: Groups, flow: FlowTable, options: Options, setting: Setting
+    ) -> None:
+        self.grid, self.groups, self.flow = grid, groups, flow
+        self.mesh = stencil(grid, groups, options.wedge_order)
+        self.influence = influence_of(grid, groups)
+        self.deformation = choose(options.deformation, grid, groups)
+        self.load = Load(grid)
+        self.smoother = make_smoother(grid, self.influence, setting)
+        self.self_film = float(self.influence(0, 0))
+        self.gap = gap(grid, groups)
+        self.floor = 0.0
+        self.film = reynolds.Film(*(np.zeros(grid.shape) for _ in range(5)))
+        self.deflection, self.residual, self.rhs, self.film_rhs, self.before = (
+            np.zeros(grid.shape) for _ in range(5)
+        )
+        self.rigid_approach, self.rigid_approach_before = 0.0, 0.0
+        self.load_target = TARGET
+        self.stale = True
+
+    def pose_problem(self) -> None:
+        """Make this the finest level: the right-hand sides of the problem itself."""
+        self.rhs[:] = 0.0
+        self.film_rhs[:] = self.gap
+        self.load_target = TARGET
+        self.smoother.frozen[:] = 0
+        self.stale = True
+
+    def load_error(self) -> float:
+        """Return the relative error of the load balance."""
+        return self.load.integral(self.film.p) / self.load_target - 1.0
+
+    def update(self) -> None:
+        """Evaluate the film, then conductance and density, for the present pressure."""
+        if not self.stale:
+            return
+        self.deformation.deflect(self.film.p, self.deflection)
+        np.add(self.deflection, self.film_rhs, out=self.film.h)
+        np.add(self.film.h, self.rigid_approach, out=self.film.h)
+        self.update_properties()
+        self.stale = False
+
+    def update_properties(self) -> None:
+        """Evaluate conductance and density for the present pressure and film."""
+        reynolds.properties(self.film, self.flow.table, self.flow.step, self.floor)
+
+    def relax(self, sweeps: int) -> None:
+        """Smooth the error of pressure and film in place."""
+        for _ in range(sweeps):
+            self.update()
+            self.smoother.sweep(self.film, self.mesh, self.rhs)
+            self.stale = True
+
+    def evaluate_residual(self) -> float:
+        """Fill ``residual`` (zero where cavitated); return its scaled mean. Film is up to date."""
+        return reynolds.residual(self.film, self.mesh, self.rhs, self.self_film, self.residual)
+
+    def restrict_to(self, coarse: "Level") -> None:
+        """Send unknowns and right-hand sides of the full approximation scheme to ``coarse``."""
+        self.update()
+        self.evaluate_residual()
+        mirror = self.mesh.mirror
+        transfer.restrict_pressure(self.film.p, mirror, coarse.film.p)
+        transfer.freeze(
+            self.film.p,
+            self.smoother.frozen,
+            coarse.film.p,
+            mirror,
+            FROZEN_BELOW,
+            coarse.smoother.frozen,
+        )
+        coarse.before[:] = coarse.film.p
+        coarse.rigid_approach = coarse.rigid_approach_before = self.rigid_approach
+        coarse.film.h[:] = self.film.h[::2, ::2]
+        coarse.deformation.deflect(coarse.film.p, coarse.deflection)
+        np.subtract(coarse.film.h, coarse.deflection, out=coarse.film_rhs)
+        coarse.film_rhs -= coarse.rigid_approach
+        coarse.update_properties()
+        transfer.restrict_residual(self.residual, mirror, coarse.residual)
+        reynolds.operator(coarse.film, coarse.mesh, coarse.rhs)
+        coarse.rhs += coarse.residual
+        missing = self.load_target - self.load.integral(self.film.p)
+        coarse.load_target = missing + coarse.load.integral(coarse.film.p)
+        coarse.stale = False
+
+    def correct_from(self, coarse: "Level") -> None:
+        """Add the change that ``coarse`` found, never across the cavitation front."""
+        transfer.correct(self.film.p, coarse.film.p, coarse.before, self.mesh.mirror)
+        self.rigid_approach += coarse.rigid_approach - coarse.rigid_approach_before
+        self.stale = True

@@ -1,0 +1,143 @@
+"""Full multigrid: from the coarsest grid up, each grid starts from the next coarser solution."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from tehl.film_formulas import expected_central_film
+from tehl.grid import Grid, hierarchy
+from tehl.operators.film import hertz_pressure
+from tehl.operators.flow import FlowTable
+from tehl.operators.transfer import refine
+from tehl.options import Options
+from tehl.result import CycleReport
+from tehl.scaling import Groups
+from tehl.solver.coarsest import CoarsestSolver
+from tehl.solver.convergence import GridTrace, converged, iterated_enough, stalled
+from tehl.solver.fas import Cycle, cycle
+from tehl.solver.film_numbers import central_value
+from tehl.solver.level import Level
+from tehl.solver.monitor import Monitor
+from tehl.solver.smoother import Setting
+
+FIRST_STEPS = 6
+"""Newton steps on the coarsest grid at the start; they may cycle there, which does no harm."""
+COARSE_CYCLES = 4
+"""Most cycles on a grid that only gives the start for the next finer one."""
+FLOOR = 0.02
+"""Least film in the conductance, relative to the expected central film: coarse grids may need it."""
+
+
+class Diverged(ArithmeticError):
+    """A level holds values that are not finite."""
+
+
+class Multigrid:
+    """A hierarchy of levels, coarsest first, that knows how to cycle.
+
+    Parameters
+    ----------
+    finest : Grid
+        The grid of the answer.
+    groups : Groups
+        Dimensionless groups.
+    flow : FlowTable
+        The lubricant.
+    options : Options
+        How hard to try.
+    setting : Setting
+        Of the relaxation.
+    """
+
+    def __init__(
+        self, finest: Grid, groups: Groups, flow: FlowTable, options: Options, setting: Setting
+    ) -> None:
+        self.options, self.setting, self.groups = options, setting, groups
+        self.levels = [Level(g, groups, flow, options, setting) for g in hierarchy(finest)]
+        self.coarsest = CoarsestSolver(self.levels[0])
+        self.expected_film = expected_central_film(groups)
+        for level in self.levels:
+            level.floor = FLOOR * self.expected_film
+        self.traces: list[GridTrace] = []
+
+    @property
+    def finest(self) -> Level:
+        """The level of the answer."""
+        return self.levels[-1]
+
+    def solve(self, monitor: Monitor) -> bool:
+        """Run full multigrid; return whether the finest grid converged.
+
+        Raises
+        ------
+        Diverged
+            When a value is no longer finite.
+        """
+        self._start()
+        for count in range(2, len(self.levels) + 1):
+            coarse, fine = self.levels[count - 2 : count]
+            fine.film.p[:] = refine(coarse.film.p, fine.grid)
+            fine.rigid_approach = coarse.rigid_approach
+            self._cycle_on(self.levels[:count], monitor)
+        coarser = self.traces[-2] if len(self.traces) > 1 else None
+        return converged(self.traces[-1], coarser, self.options)
+
+    def _start(self) -> None:
+        """Dry pressure and the expected central film on the coarsest grid, then Newton."""
+        level = self.levels[0]
+        level.pose_problem()
+        level.film.p[:] = hertz_pressure(level.grid)
+        level.rigid_approach = 0.0
+        level.update()
+        level.rigid_approach = self.expected_film - central_value(level.grid, level.film.h)
+        level.stale = True
+        for _ in range(FIRST_STEPS):
+            self.coarsest.step()
+
+    def _cycle_on(self, levels: list[Level], monitor: Monitor) -> None:
+        """Cycle with the last of ``levels`` as the finest, until it is good enough."""
+        fine, last = levels[-1], levels[-1] is self.finest
+        fine.pose_problem()
+        fine.update()
+        trace, coarser = GridTrace(), (self.traces[-1] if self.traces else None)
+        self.traces.append(trace)
+        trace.note(*film_numbers(fine))
+        shape = Cycle.of(self.options)
+        done: Callable[[], bool] = lambda: (  # noqa: E731 (two ways to be done, named once)
+            converged(trace, coarser, self.options) or stalled(trace)
+            if last
+            else iterated_enough(trace, coarser)
+        )
+        for number in range(1, (self.options.max_cycles if last else COARSE_CYCLES) + 1):
+            before = fine.film.p.copy()
+            cycle(levels, self.coarsest.step, shape)
+            report = self._report(fine, before, number)
+            trace.reports.append(report)
+            trace.note(report.film_central, report.film_minimum)
+            monitor.cycle(report)
+            if done():
+                return
+
+    def _report(self, level: Level, before: np.ndarray, number: int) -> CycleReport:
+        level.update()
+        residual = level.evaluate_residual()
+        np.subtract(level.film.p, before, out=before)
+        central, minimum = film_numbers(level)
+        report = CycleReport(
+            points=(level.grid.nx, level.grid.ny),
+            cycle=number,
+            residual=residual,
+            change=float(max(before.max(), -before.min())),
+            load_error=level.load_error(),
+            film_central=central,
+            film_minimum=minimum,
+            smoother=self.setting.name,
+        )
+        if not np.isfinite([residual, report.change, report.load_error, central, minimum]).all():
+            raise Diverged
+        return report
+
+
+def film_numbers(level: Level) -> tuple[float, float]:
+    """Return central and smallest nodal film of a level."""
+    return central_value(level.grid, level.film.h), float(level.film.h.min())

@@ -1,0 +1,93 @@
+"""Relaxation of pressure on one level: the hybrid line relaxation, and plain Gauss-Seidel."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from tehl.grid import Grid
+from tehl.kernels.gauss_seidel import relax_points
+from tehl.kernels.reynolds import Film, Mesh, Relaxation, relax_lines
+from tehl.operators.influence import Influence
+from tehl.operators.reynolds import line_influence
+from tehl.typing import Array
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Setting:
+    """Numbers of the hybrid line relaxation.
+
+    Attributes
+    ----------
+    name : str
+        As in `tehl.options.Options`.
+    threshold : float
+        Conductance over mesh width squared below which a node relaxes as a dipole [-].
+    point, dipole : float
+        Under-relaxation of points (Gauss-Seidel) and of dipoles (Jacobi) [-].
+    """
+
+    name: str
+    threshold: float
+    point: float
+    dipole: float
+
+
+FAST = Setting(name="fast", threshold=1.0, point=0.8, dipole=0.6)
+ROBUST = Setting(name="robust", threshold=10.0, point=0.6, dipole=0.4)
+POINTWISE = Setting(name="gauss-seidel", threshold=0.0, point=0.5, dipole=0.0)
+SETTINGS = {setting.name: setting for setting in (FAST, ROBUST, POINTWISE)}
+
+
+class Smoother(Protocol):
+    """One sweep over the pressure of a level; the film is that of the last evaluation."""
+
+    frozen: Array
+    """Nodes that keep their pressure on this level, (ny, nx) of 0 and 1."""
+
+    def sweep(self, film: Film, mesh: Mesh, rhs: Array) -> None:
+        """Relax ``film.p`` in place."""
+        ...
+
+
+class LineSmoother:
+    """Lines along x in two colours: points where the film conducts, dipoles in the contact."""
+
+    def __init__(self, grid: Grid, influence: Influence, setting: Setting) -> None:
+        point, dipole = line_influence(influence)
+        self.frozen = np.zeros(grid.shape, np.uint8)
+        self.relaxation = Relaxation(
+            xi=setting.threshold,
+            omega_point=setting.point,
+            omega_dipole=setting.dipole,
+            point=point,
+            dipole=dipole,
+            kind=np.zeros(grid.shape, np.uint8),
+            delta=np.zeros(grid.shape),
+            frozen=self.frozen,
+            band=np.zeros((6, grid.nx)),
+            state=np.zeros(grid.nx, np.uint8),
+        )
+
+    def sweep(self, film: Film, mesh: Mesh, rhs: Array) -> None:
+        """Relax ``film.p`` in place."""
+        relax_lines(film, mesh, rhs, self.relaxation)
+
+
+class PointSmoother:
+    """Plain Gauss-Seidel, node by node: for teaching; it fails when the contact is loaded."""
+
+    def __init__(self, grid: Grid, influence: Influence, setting: Setting) -> None:
+        self.frozen = np.zeros(grid.shape, np.uint8)
+        self.point, _ = line_influence(influence)
+        self.omega = setting.point
+
+    def sweep(self, film: Film, mesh: Mesh, rhs: Array) -> None:
+        """Relax ``film.p`` in place."""
+        relax_points(film, mesh, rhs, self.point, self.omega)
+
+
+def make_smoother(grid: Grid, influence: Influence, setting: Setting) -> Smoother:
+    """Return the smoother of ``setting`` for one grid."""
+    kind = PointSmoother if setting is POINTWISE else LineSmoother
+    return kind(grid, influence, setting)

@@ -1,0 +1,167 @@
+"""Solve a steady contact: choose grids and smoother, run, judge, and give the result."""
+
+import platform
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from importlib.metadata import PackageNotFoundError, version
+
+from tehl.domain import recommended_domain
+from tehl.errors import ConvergenceError
+from tehl.grid import Grid, can_mirror
+from tehl.operators.flow import flow_table
+from tehl.options import Domain, Options
+from tehl.problem import ContactProblem
+from tehl.result import Cost, CycleReport, Fields, Provenance, Result, Status
+from tehl.scaling import Groups, groups, scales
+from tehl.solver.convergence import error_estimate
+from tehl.solver.film_numbers import film_summary
+from tehl.solver.monitor import SILENT, Monitor
+from tehl.solver.multigrid import Multigrid
+from tehl.solver.smoother import FAST, ROBUST, SETTINGS
+from tehl.solver.verdict import diverged, verdict
+
+PACKAGES = ("tehl", "numpy", "scipy", "numba")
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Attempt:
+    """What one setting of the smoother reached."""
+
+    run: Multigrid
+    status: Status
+
+
+def solve(
+    problem: ContactProblem,
+    options: Options | None = None,
+    *,
+    monitor: Monitor = SILENT,
+) -> Result:
+    """Solve a steady contact by full multigrid.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        The contact in SI.
+    options : Options
+        How hard to try; the defaults if left out.
+    monitor : Monitor
+        Told of each cycle.
+
+    Returns
+    -------
+    Result
+        Film, pressure and how well they are known.
+
+    Raises
+    ------
+    ConvergenceError
+        When the answer was not reached; its ``result`` is the last finite state, marked.
+    """
+    options = options or Options()
+    wall, cpu = time.perf_counter(), time.process_time()
+    history = _History(monitor)
+    attempts = []
+    for attempt in _attempts(problem, options, history):
+        attempts.append(attempt)
+        if attempt.status.converged:
+            break
+    best = min(attempts, key=lambda a: (not a.status.converged, a.status.kind == "diverged"))
+    cost = Cost(cpu_seconds=time.process_time() - cpu, wall_seconds=time.perf_counter() - wall)
+    result = _result(problem, options, best, tuple(history.reports), cost)
+    if not result.status.converged:
+        raise ConvergenceError(result.status.message or "not converged", result)
+    return result
+
+
+class _History:
+    """A monitor that keeps the reports and passes them on."""
+
+    def __init__(self, monitor: Monitor) -> None:
+        self.monitor = monitor
+        self.reports: list[CycleReport] = []
+
+    def message(self, text: str) -> None:
+        """Pass the remark on."""
+        self.monitor.message(text)
+
+    def cycle(self, report: CycleReport) -> None:
+        """Keep the report and pass it on."""
+        self.reports.append(report)
+        self.monitor.cycle(report)
+
+
+def _attempts(problem: ContactProblem, options: Options, monitor: Monitor) -> Iterator[Attempt]:
+    """Yield the outcome of each setting worth trying, the most promising first."""
+    case_scales, case_groups = scales(problem), groups(problem)
+    flow = flow_table(problem, case_scales, case_groups)
+    grid = finest_grid(options, case_groups)
+    settings = (FAST, ROBUST) if options.smoother == "auto" else (SETTINGS[options.smoother],)
+    for number, setting in enumerate(settings):
+        if number:
+            monitor.message(f"falling back to the {setting.name} smoother")
+        run = Multigrid(grid, case_groups, flow, options, setting)
+        yield Attempt(run=run, status=_run(run, monitor))
+
+
+def _run(run: Multigrid, monitor: Monitor) -> Status:
+    """Run and judge; a value that is not finite ends the run."""
+    try:
+        reached = run.solve(monitor)
+    except ArithmeticError:
+        return diverged(run.finest.grid, run.groups)
+    return verdict(run, not reached, error_estimate(run.traces))
+
+
+def finest_grid(options: Options, case_groups: Groups) -> Grid:
+    """Return the grid of the answer: the stated or proposed domain, half of it if symmetric."""
+    domain = options.domain
+    if not isinstance(domain, Domain):
+        domain = recommended_domain(case_groups)
+    ny, nx = options.shape
+    mirror = options.half_domain == "auto" and can_mirror(options.shape, domain)
+    return Grid(nx=nx, ny=ny, domain=domain, mirror=mirror)
+
+
+def _result(
+    problem: ContactProblem,
+    options: Options,
+    attempt: Attempt,
+    history: tuple[CycleReport, ...],
+    cost: Cost,
+) -> Result:
+    run = attempt.run
+    level, grid = run.finest, run.finest.grid
+    full = Grid(nx=grid.nx, ny=grid.ny, domain=grid.domain, mirror=False)
+    return Result(
+        problem=problem,
+        options=options,
+        scales=scales(problem),
+        groups=run.groups,
+        scaled=Fields(
+            x=full.x,
+            y=full.y,
+            pressure=grid.unfold(level.film.p),
+            film=grid.unfold(level.film.h),
+        ),
+        rigid_approach=level.rigid_approach,
+        film_scaled=film_summary(grid, level.film.h),
+        status=attempt.status,
+        history=history,
+        errors=error_estimate(run.traces) if len(run.traces) == len(run.levels) - 1 else None,
+        cost=cost,
+        provenance=provenance(),
+    )
+
+
+def provenance() -> Provenance:
+    """Return the versions at work and the time."""
+    versions = {"python": platform.python_version()}
+    for package in PACKAGES:
+        try:
+            versions[package] = version(package)
+        except PackageNotFoundError:
+            versions[package] = "unknown"
+    return Provenance(versions=versions, created=datetime.now(UTC).isoformat(timespec="seconds"))

@@ -1,0 +1,144 @@
+"""The truth about a run: whether its result may be believed, and if not, why and what to try."""
+
+import numpy as np
+
+from tehl.domain import needed_points
+from tehl.grid import Grid
+from tehl.result import ErrorEstimate, Status
+from tehl.scaling import Groups
+from tehl.solver.level import Level
+from tehl.solver.multigrid import Multigrid
+
+LARGEST_BAR = 0.5
+"""Relative discretisation error of the film beyond which a grid is called too coarse."""
+LARGEST_LOAD_ERROR = 3e-3
+STARVED = 0.9
+"""Film over fully flooded film below which an inlet is called too short."""
+
+
+def verdict(run: Multigrid, cycled_out: bool, errors: ErrorEstimate | None) -> Status:
+    """Judge the last state of a run that stayed finite.
+
+    Parameters
+    ----------
+    run : Multigrid
+        After its last cycle, film up to date.
+    cycled_out : bool
+        Whether the cycles ended without reaching what was asked.
+    errors : ErrorEstimate or None
+        Estimated errors of the film.
+    """
+    level, groups = run.finest, run.groups
+    film = level.film
+    if not (np.isfinite(film.p).all() and np.isfinite(film.h).all() and film.p.min() >= 0):
+        return diverged(level.grid, groups)
+    if not film.h.min() > level.floor:
+        return _film_not_positive(level, groups)
+    if errors is not None and errors.discretisation_minimum > LARGEST_BAR:
+        return _too_coarse(level.grid, groups, errors)
+    if cycled_out:
+        return _not_reached(run)
+    if abs(level.load_error()) > LARGEST_LOAD_ERROR:
+        return _load_not_balanced(level)
+    return inlet_status(level.grid, groups, run.traces[-1].central.values[-1])
+
+
+def diverged(grid: Grid, groups: Groups) -> Status:
+    """Return the status of a run that produced values that are not finite."""
+    return Status(
+        kind="diverged",
+        cause="diverged",
+        message=(
+            f"The iteration diverged on {grid.nx} x {grid.ny} nodes at M = {groups.M:.4g}, "
+            f"L = {groups.L:.4g}."
+        ),
+        hint=f"Try {_grid_hint(grid, groups)}, or numerics.smoother = 'robust'.",
+    )
+
+
+def _film_not_positive(level: Level, groups: Groups) -> Status:
+    grid = level.grid
+    return Status(
+        kind="not_converged",
+        cause="film_not_positive",
+        message=(
+            f"The discrete film is not positive on {grid.nx} x {grid.ny} nodes: "
+            f"smallest H = {level.film.h.min():.3g}; this grid is too coarse for the film."
+        ),
+        hint=f"Take {_grid_hint(grid, groups)}.",
+    )
+
+
+def _too_coarse(grid: Grid, groups: Groups, errors: ErrorEstimate) -> Status:
+    return Status(
+        kind="not_converged",
+        cause="grid_too_coarse",
+        message=(
+            f"The grid of {grid.nx} x {grid.ny} nodes is too coarse for the film: the minimum film "
+            f"may be wrong by {100 * errors.discretisation_minimum:.0f} %."
+        ),
+        hint=f"Take {_grid_hint(grid, groups)}.",
+    )
+
+
+def _grid_hint(grid: Grid, groups: Groups) -> str:
+    """Name the grid that is needed: the proposed one, at least twice as fine as this one."""
+    nodes = max(needed_points(groups), 2 * max(grid.nx, grid.ny) - 1)
+    return f"numerics.points = {nodes}"
+
+
+def _not_reached(run: Multigrid) -> Status:
+    reports = run.traces[-1].reports
+    last = reports[-1]
+    worst = max(
+        (("residual", last.residual), ("change per cycle", last.change),
+         ("load error", abs(last.load_error))),
+        key=lambda pair: pair[1],
+    )  # fmt: skip
+    stalled = len(reports) < run.options.max_cycles
+    return Status(
+        kind="stalled" if stalled else "not_converged",
+        cause="stalled" if stalled else "too_few_cycles",
+        message=(
+            f"After {len(reports)} cycles on {last.points[0]} x {last.points[1]} nodes the "
+            f"{worst[0]} is {worst[1]:.1e}; the tolerance is {run.options.tolerance:.1e}."
+        ),
+        hint=(
+            "Try numerics.smoother = 'robust', more points, or a larger numerics.tolerance."
+            if stalled
+            else "Raise numerics.max_cycles."
+        ),
+    )
+
+
+def _load_not_balanced(level: Level) -> Status:
+    return Status(
+        kind="not_converged",
+        cause="load_not_balanced",
+        message=(
+            f"The pressure carries {100 * (1 + level.load_error()):.2f} % of the load; "
+            f"{100 * LARGEST_LOAD_ERROR:.1f} % off is the most that is accepted."
+        ),
+        hint="Ask for numerics.accuracy = 'tight', which iterates the load balance further.",
+    )
+
+
+def inlet_status(grid: Grid, groups: Groups, central: float) -> Status:
+    """Return converged, or that the inlet edge starves the contact.
+
+    The film falls as ``((X_in - 1)/(m* - 1))^0.29`` once the inlet meniscus is nearer than
+    ``m* = 1 + 3.06 H_c^0.58`` (Hamrock and Dowson 1977, part IV).
+    """
+    inlet = -grid.domain.x[0]
+    needed = 1.0 + 3.06 * max(central, 0.0) ** 0.58
+    if ((inlet - 1.0) / (needed - 1.0)) ** 0.29 >= STARVED or inlet >= needed:
+        return Status(kind="converged")
+    return Status(
+        kind="not_converged",
+        cause="inlet_too_short",
+        message=(
+            f"The inlet edge at X = {-inlet:.3g} starves the contact (M = {groups.M:.4g}): a fully "
+            f"flooded film needs X <= {-needed:.2g} (unit: Hertz half-widths)."
+        ),
+        hint="Leave numerics.domain out: the default is wide enough.",
+    )
