@@ -255,32 +255,36 @@ def load_line(
     film: Film, mesh: Mesh, relaxation: Relaxation, batch: Batch, lane: int, span: Span
 ) -> None:
     """Write what the system of one line needs of nodes ``span[0] .. span[1] - 1`` to its lane."""
+    a, b = span
     j = batch.first + 2 * lane
     south = j - 1 if j > 0 else 1
-    p, eps, rho, h, drho = film.p[j], film.eps[j], film.rho[j], film.h[j], film.drho[j]
-    eps_n, eps_s = film.eps[j + 1], film.eps[south]
-    kind, frozen, rest = relaxation.kind[j], relaxation.frozen[j], batch.rest[lane]
+    eps, eps_e = film.eps[j, a:b], film.eps[j, a + 1 : b + 1]
+    eps_n, eps_s = film.eps[j + 1, a:b], film.eps[south, a:b]
+    p, rho, h, drho = film.p[j, a:b], film.rho[j, a:b], film.h[j, a:b], film.drho[j, a:b]
+    kind, frozen = relaxation.kind[j, a:b], relaxation.frozen[j, a:b]
+    rest = batch.rest[lane, a:b]
     half_x, half_y = 0.5 * mesh.cx, 0.5 * mesh.cy
-    for i in range(span[0], span[1]):
-        cell = batch.cells[at(i + 3, 0) : at(i + 4, 0)]
-        cell[at(0, EAST) + lane] = half_x * (eps[i] + eps[i + 1])
-        cell[at(0, ACROSS) + lane] = half_y * (2.0 * eps[i] + eps_n[i] + eps_s[i])
-        cell[at(0, SQUEEZE) + lane] = drho[i] * h[i]
-        cell[at(0, RHO) + lane] = rho[i]
-        cell[at(0, DIPOLE) + lane] = kind[i]
-        cell[at(0, REST) + lane] = rest[i]
-        cell[at(0, P) + lane] = p[i]
+    cells = batch.cells[at(a + 3, 0) + lane :]
+    for i in range(b - a):
+        cells[at(i, EAST)] = half_x * (eps[i] + eps_e[i])
+        cells[at(i, ACROSS)] = half_y * (2.0 * eps[i] + eps_n[i] + eps_s[i])
+        cells[at(i, SQUEEZE)] = drho[i] * h[i]
+        cells[at(i, RHO)] = rho[i]
+        cells[at(i, DIPOLE)] = kind[i]
+        cells[at(i, REST)] = rest[i]
+        cells[at(i, P)] = p[i]
         dry = 1.0 if p[i] <= 0.0 and rest[i] >= 0.0 else 0.0
-        cell[at(0, STATE) + lane] = 2.0 if frozen[i] else dry
+        cells[at(i, STATE)] = 2.0 if frozen[i] else dry
 
 
 @njit(cache=True, fastmath={"contract"})
-def fill_band(cells: Array, mesh: Mesh, relaxation: Relaxation, low: int, high: int) -> None:
+def fill_band(batch: Batch, mesh: Mesh, relaxation: Relaxation, low: int, high: int) -> None:
     """Fill ``BAND + s + 3``: change of L at i per unit change of the unknown at i + s.
 
     The column follows the type of the unknown: a point changes p at one node, a dipole at its
     four neighbours too; both change the film along the line.
     """
+    cells, lanes = batch.cells, batch.lanes
     p0, p1, p2, p3, p4 = first_five(relaxation.point)
     d0, d1, d2, d3, d4 = first_five(relaxation.dipole)
     d0, d1, d2, d3, d4 = d0 - p0, d1 - p1, d2 - p2, d3 - p3, d4 - p4
@@ -289,7 +293,7 @@ def fill_band(cells: Array, mesh: Mesh, relaxation: Relaxation, low: int, high: 
         if i == 1:
             w0, w1, w2 = w0 - w2, w2 - w0, 0.0
         c = cells[at(i, 0) : at(i + 6, 0)]
-        for k in range(LANES):
+        for k in range(lanes):
             # dL/dp at i-2, i-1, i, i+1 and dL/dh at i-2, i-1, i
             east, west, across = c[at(3, EAST) + k], c[at(2, EAST) + k], c[at(3, ACROSS) + k]
             a_ww = -w2 * c[at(1, SQUEEZE) + k]
@@ -324,14 +328,15 @@ def first_five(values: Array) -> tuple[float, float, float, float, float]:
 
 
 @njit(cache=True, fastmath={"contract"}, error_model="numpy")
-def eliminate(cells: Array, low: int, high: int) -> None:
+def eliminate(batch: Batch, low: int, high: int) -> None:
     """Eliminate downstream without pivoting: u_i + up1 u_{i+1} + up2 u_{i+2} = U on return.
 
     Where the state is 1 the row reads u = -p, where it is 2 it reads u = 0.
     """
+    cells, lanes = batch.cells, batch.lanes
     for i in range(low, high + 1):
         c = cells[at(i, 0) : at(i + 4, 0)]
-        for k in range(LANES):
+        for k in range(lanes):
             state = c[at(3, STATE) + k]
             free = state == 0.0
             l3, l2, l1 = c[at(3, BAND) + k], c[at(3, BAND + 1) + k], c[at(3, BAND + 2) + k]
@@ -353,34 +358,37 @@ def eliminate(cells: Array, low: int, high: int) -> None:
 
 
 @njit(cache=True, fastmath={"contract"})
-def substitute(cells: Array, low: int, high: int) -> None:
+def substitute(batch: Batch, low: int, high: int) -> None:
     """Turn ``U`` into the solution, from the last node back to the first."""
+    cells, lanes = batch.cells, batch.lanes
     for i in range(high, low - 1, -1):
         c = cells[at(i + 3, 0) : at(i + 6, 0)]
-        for k in range(LANES):
+        for k in range(lanes):
             c[at(0, U) + k] -= c[at(0, UP1) + k] * c[at(1, U) + k] + c[at(0, UP2) + k] * c[at(2, U) + k]
 
 
 @njit(cache=True)
-def band_solve(cells: Array, low: int, high: int) -> None:
+def band_solve(batch: Batch, low: int, high: int) -> None:
     """Solve the six-diagonal systems of all lanes for ``U`` on nodes low..high, zero beside them."""
+    cells = batch.cells
     for i in range(low, low + 3):
         cells[at(i, UP1) : at(i + 1, 0)] = 0.0
     for i in range(high + 4, high + 7):
         cells[at(i, UP1) : at(i + 1, 0)] = 0.0
-    eliminate(cells, low, high)
-    substitute(cells, low, high)
+    eliminate(batch, low, high)
+    substitute(batch, low, high)
 
 
 @njit(cache=True, fastmath={"contract"})
-def revise(cells: Array, i: int) -> tuple[int, int]:
+def revise(batch: Batch, i: int) -> tuple[int, int]:
     """Revise the states at node i; return how many nodes got wet and how many dry.
 
     Free nodes of negative pressure cavitate; cavitated nodes that lack oil to stay so are freed.
     """
+    cells, lanes = batch.cells, batch.lanes
     wet, dry = 0, 0
     c = cells[at(i, 0) : at(i + 6, 0)]
-    for k in range(LANES):
+    for k in range(lanes):
         state = c[at(3, STATE) + k]
         rest = (
             c[at(3, REST) + k]
@@ -400,23 +408,23 @@ def revise(cells: Array, i: int) -> tuple[int, int]:
 
 
 @njit(cache=True)
-def complementarity(cells: Array, low: int, high: int, last: int) -> tuple[int, int]:
+def complementarity(batch: Batch, low: int, high: int, last: int) -> tuple[int, int]:
     """Solve the lines with p + u >= 0 by policy iteration over the cavitated nodes.
 
     Nodes outside low..high are cavitated with p = 0 or kept; the range grows as nodes get wet and
     is returned. ``last`` is the last node that is solved for.
     """
     for _ in range(PASSES):
-        band_solve(cells, low, high)
+        band_solve(batch, low, high)
         changed = 0
         for i in range(max(low - 2, 1), min(high + 3, last) + 1):
-            wet, dry = revise(cells, i)
+            wet, dry = revise(batch, i)
             changed |= wet | dry
             if wet:
                 low, high = min(low, i), max(high, i)
         if not changed:
             return low, high
-    band_solve(cells, low, high)
+    band_solve(batch, low, high)
     return low, high
 
 
@@ -424,15 +432,14 @@ def complementarity(cells: Array, low: int, high: int, last: int) -> tuple[int, 
 def store_line(film: Film, relaxation: Relaxation, batch: Batch, lane: int, span: Span) -> None:
     """Apply the solution of one line: points at once, dipoles to ``delta``."""
     j = batch.first + 2 * lane
-    p, kind, delta = film.p[j], relaxation.kind[j], relaxation.delta[j]
-    for i in range(span[0], span[1]):
-        u = batch.cells[at(i + 3, U) + lane]
-        if kind[i]:
-            delta[i] = relaxation.omega_dipole * max(u, -p[i])
-        elif u <= -p[i]:
-            p[i] = 0.0
-        else:
-            p[i] += relaxation.omega_point * u
+    a, b = span
+    p, kind, delta = film.p[j, a:b], relaxation.kind[j, a:b], relaxation.delta[j, a:b]
+    cells = batch.cells[at(a + 3, U) + lane :]
+    for i in range(b - a):
+        u = cells[at(i, 0)]
+        moved = 0.0 if u <= -p[i] else p[i] + relaxation.omega_point * u
+        delta[i] = relaxation.omega_dipole * max(u, -p[i]) if kind[i] else 0.0
+        p[i] = p[i] if kind[i] else moved
 
 
 @njit(cache=True)
@@ -457,8 +464,8 @@ def relax_batch(
         span = (start, min(start + CHUNK, last + 3, nx - 1))
         for lane in range(batch.lanes):
             load_line(film, mesh, relaxation, batch, lane, span)
-    fill_band(batch.cells, mesh, relaxation, first, last)
-    low, high = complementarity(batch.cells, low, high, nx - 2)
+    fill_band(batch, mesh, relaxation, first, last)
+    low, high = complementarity(batch, low, high, nx - 2)
     for lane in range(batch.lanes):
         store_line(film, relaxation, batch, lane, (low, high + 1))
 

@@ -8,6 +8,8 @@ from tehl.result import CycleReport, ErrorEstimate
 LEAST_CYCLES = 2
 SAFETY = 1.25
 """Factor on the discretisation error where three grids show its order (Roache's index)."""
+LARGEST_LOAD_ERROR = 1e-3
+"""Load error at which the film is taken for balanced; it changes by a tenth of this, relatively."""
 STALL_CYCLES = 8
 STALL_FACTOR = 0.5
 
@@ -61,6 +63,8 @@ def iterated_enough(now: GridTrace, coarser: GridTrace | None) -> bool:
     if coarser is None:
         return now.reports[-1].change < 1e-3
     pairs = ((now.central, coarser.central), (now.minimum, coarser.minimum))
+    if abs(now.reports[-1].load_error) > LARGEST_LOAD_ERROR:
+        return False
     limit = max(abs(a.values[-1] - b.values[-1]) / 3.0 for a, b in pairs) / 3.0
     return all(
         a.iteration_error() <= max(abs(a.values[-1] - b.values[-1]) / 9.0, 0.1 * limit)

@@ -1,13 +1,16 @@
 """Full approximation scheme: one cycle, written as the textbook writes it."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from tehl.options import Options
 from tehl.solver.level import Level
 
 EXTRA_SWEEPS = 1
-"""Sweeps added before and after on coarser levels: a V-cycle leaves error there, and they are cheap."""
+"""Sweeps added on coarser levels: a V-cycle leaves error there, and sweeps there are cheap."""
+REVISITED = 2
+"""Coarsest levels that a V-cycle visits twice: they hardly resolve the contact, so that one visit
+overshoots the load balance (by its own size at M = 5), and a second one costs next to nothing."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -33,12 +36,12 @@ class Cycle:
             kind=options.cycle, pre_sweeps=options.pre_sweeps, post_sweeps=options.post_sweeps
         )
 
-    def coarse_visits(self) -> tuple["Cycle", ...]:
-        """Return the cycles to run on the next coarser level."""
-        sweeps = {"pre_sweeps": self.pre_sweeps, "post_sweeps": self.post_sweeps}
-        return tuple(
-            Cycle(kind=kind, **sweeps) for kind in {"V": "V", "W": "WW", "F": "FV"}[self.kind]
-        )
+    def coarse_visits(self, coarser: int) -> tuple["Cycle", ...]:
+        """Return the cycles to run on the next of ``coarser`` levels that are left below."""
+        kinds = {"V": "V", "W": "WW", "F": "FV"}[self.kind]
+        if self.kind == "V" and coarser <= REVISITED:
+            kinds = "VV"
+        return tuple(replace(self, kind=kind) for kind in kinds)
 
 
 def cycle(
@@ -52,7 +55,7 @@ def cycle(
     coarse = coarser[-1]
     fine.relax(shape.pre_sweeps + extra)
     fine.restrict_to(coarse)
-    for visit in shape.coarse_visits():
+    for visit in shape.coarse_visits(len(coarser)):
         cycle(coarser, solve_coarsest, visit, EXTRA_SWEEPS)
     fine.correct_from(coarse)
     fine.relax(shape.post_sweeps + extra)

@@ -24,12 +24,14 @@ FIRST_STEPS = 6
 """Newton steps on the coarsest grid at the start; they may cycle there, which does no harm."""
 COARSE_CYCLES = 4
 """Most cycles on a grid that only gives the start for the next finer one."""
+RUNAWAY = 100.0
+"""Load error and central film (H of an elastic contact is below 2) that no iteration comes back from."""
 FLOOR = 0.02
 """Least film in the conductance, relative to the expected central film: coarse grids may need it."""
 
 
-class Diverged(ArithmeticError):
-    """A level holds values that are not finite."""
+class DivergedError(ArithmeticError):
+    """The unknowns ran away."""
 
 
 class Multigrid:
@@ -70,8 +72,8 @@ class Multigrid:
 
         Raises
         ------
-        Diverged
-            When a value is no longer finite.
+        DivergedError
+            When the unknowns run away or are no longer finite.
         """
         self._start()
         for count in range(2, len(self.levels) + 1):
@@ -133,8 +135,8 @@ class Multigrid:
             film_minimum=minimum,
             smoother=self.setting.name,
         )
-        if not np.isfinite([residual, report.change, report.load_error, central, minimum]).all():
-            raise Diverged
+        if not (np.isfinite(residual) and abs(report.load_error) < RUNAWAY and central < RUNAWAY):
+            raise DivergedError
         return report
 
 

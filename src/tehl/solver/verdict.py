@@ -11,7 +11,6 @@ from tehl.solver.multigrid import Multigrid
 
 LARGEST_BAR = 0.5
 """Relative discretisation error of the film beyond which a grid is called too coarse."""
-LARGEST_LOAD_ERROR = 3e-3
 STARVED = 0.9
 """Film over fully flooded film below which an inlet is called too short."""
 
@@ -38,8 +37,6 @@ def verdict(run: Multigrid, cycled_out: bool, errors: ErrorEstimate | None) -> S
         return _too_coarse(level.grid, groups, errors)
     if cycled_out:
         return _not_reached(run)
-    if abs(level.load_error()) > LARGEST_LOAD_ERROR:
-        return _load_not_balanced(level)
     return inlet_status(level.grid, groups, run.traces[-1].central.values[-1])
 
 
@@ -108,18 +105,6 @@ def _not_reached(run: Multigrid) -> Status:
             if stalled
             else "Raise numerics.max_cycles."
         ),
-    )
-
-
-def _load_not_balanced(level: Level) -> Status:
-    return Status(
-        kind="not_converged",
-        cause="load_not_balanced",
-        message=(
-            f"The pressure carries {100 * (1 + level.load_error()):.2f} % of the load; "
-            f"{100 * LARGEST_LOAD_ERROR:.1f} % off is the most that is accepted."
-        ),
-        hint="Ask for numerics.accuracy = 'tight', which iterates the load balance further.",
     )
 
 
