@@ -87,15 +87,19 @@ def properties(film: Film, table: Array, step: float, floor: float) -> None:
             k = int(min(x, last))
             t = min(x - k, 1.0)
             s = 1.0 - t
-            a0, b0 = s * s * (1.0 + 2.0 * t), s * s * t
-            a1, b1 = t * t * (1.0 + 2.0 * s), -t * t * s
-            low = flat[4 * k : 4 * k + 8]
-            thick = max(h[i], floor)
-            eps[i] = (a0 * low[0] + b0 * low[1] + a1 * low[4] + b1 * low[5]) * (
-                thick * thick * thick
+            near = flat[4 * k : 4 * k + 8]
+            low, high = (
+                near[0] + t * (near[1] + 2.0 * near[0]),
+                near[4] + s * (2.0 * near[4] - near[5]),
             )
-            rho[i] = a0 * low[2] + b0 * low[3] + a1 * low[6] + b1 * low[7]
-            drho[i] = (s * low[3] + t * low[7]) * per_step
+            thick = max(h[i], floor)
+            eps[i] = (s * s * low + t * t * high) * (thick * thick * thick)
+            low, high = (
+                near[2] + t * (near[3] + 2.0 * near[2]),
+                near[6] + s * (2.0 * near[6] - near[7]),
+            )
+            rho[i] = s * s * low + t * t * high
+            drho[i] = (s * near[3] + t * near[7]) * per_step
 
 
 @njit(cache=True, fastmath={"contract"})
@@ -114,10 +118,10 @@ def line_operator(film: Film, mesh: Mesh, j: int, out: Array) -> None:
     target = out[1:-1]
     for i in range(nx - 2):
         east, west = eps[i] + eps_e[i], eps[i] + eps_w[i]
-        target[i] = half_x * (east * (p_e[i] - p[i]) - west * (p[i] - p_w[i]))
-    for i in range(nx - 2):
-        north, south_ = eps[i] + eps_n[i], eps[i] + eps_s[i]
-        target[i] += half_y * (north * (p_n[i] - p[i]) - south_ * (p[i] - p_s[i]))
+        north, back = eps[i] + eps_n[i], eps[i] + eps_s[i]
+        flow_x = east * (p_e[i] - p[i]) - west * (p[i] - p_w[i])
+        flow_y = north * (p_n[i] - p[i]) - back * (p[i] - p_s[i])
+        target[i] = half_x * flow_x + half_y * flow_y
     subtract_wedge(film.rho[j], film.h[j], mesh, out)
 
 
@@ -144,7 +148,7 @@ def operator(film: Film, mesh: Mesh, out: Array) -> None:
 
 @njit(cache=True, fastmath={"contract"})
 def line_diagonal(film: Film, mesh: Mesh, self_film: float, j: int, out: Array) -> None:
-    """Write ``-dL/dp`` on the diagonal of line ``j``; ``self_film = dh/dp`` of a point on itself."""
+    """Write ``-dL/dp`` on the diagonal of line ``j``; ``self_film``: dh/dp of a point on itself."""
     south = j - 1 if j > 0 else 1
     eps_w, eps, eps_e = film.eps[j, :-2], film.eps[j, 1:-1], film.eps[j, 2:]
     eps_n, eps_s = film.eps[j + 1, 1:-1], film.eps[south, 1:-1]
@@ -299,25 +303,52 @@ def fill_band(batch: Batch, mesh: Mesh, relaxation: Relaxation, low: int, high: 
             a_ww = -w2 * c[at(1, SQUEEZE) + k]
             a_w = west - w1 * c[at(2, SQUEEZE) + k]
             a_c = -east - west - across - w0 * c[at(3, SQUEEZE) + k]
-            b_ww, b_w, b_c = -w2 * c[at(1, RHO) + k], -w1 * c[at(2, RHO) + k], -w0 * c[at(3, RHO) + k]
-            # columns of points, then what a dipole at i + s changes in them
-            c[at(3, BAND) + k] = b_ww * p1 + b_w * p2 + b_c * p3 + c[at(0, DIPOLE) + k] * (
-                b_ww * d1 + b_w * d2 + b_c * d3 - 0.25 * a_ww
+            b_ww, b_w, b_c = (
+                -w2 * c[at(1, RHO) + k],
+                -w1 * c[at(2, RHO) + k],
+                -w0 * c[at(3, RHO) + k],
             )
-            c[at(3, BAND + 1) + k] = a_ww + b_ww * p0 + b_w * p1 + b_c * p2 + c[
-                at(1, DIPOLE) + k
-            ] * (b_ww * d0 + b_w * d1 + b_c * d2 - 0.25 * a_w)
-            c[at(3, BAND + 2) + k] = a_w + b_ww * p1 + b_w * p0 + b_c * p1 + c[
-                at(2, DIPOLE) + k
-            ] * (b_ww * d1 + b_w * d0 + b_c * d1 - 0.25 * (a_ww + a_c))
-            c[at(3, BAND + 3) + k] = a_c + b_ww * p2 + b_w * p1 + b_c * p0 + c[
-                at(3, DIPOLE) + k
-            ] * (b_ww * d2 + b_w * d1 + b_c * d0 - 0.25 * (a_w + east + across))
-            c[at(3, BAND + 4) + k] = east + b_ww * p3 + b_w * p2 + b_c * p1 + c[
-                at(4, DIPOLE) + k
-            ] * (b_ww * d3 + b_w * d2 + b_c * d1 - 0.25 * a_c)
-            c[at(3, BAND + 5) + k] = b_ww * p4 + b_w * p3 + b_c * p2 + c[at(5, DIPOLE) + k] * (
-                b_ww * d4 + b_w * d3 + b_c * d2 - 0.25 * east
+            # columns of points, then what a dipole at i + s changes in them
+            c[at(3, BAND) + k] = (
+                b_ww * p1
+                + b_w * p2
+                + b_c * p3
+                + c[at(0, DIPOLE) + k] * (b_ww * d1 + b_w * d2 + b_c * d3 - 0.25 * a_ww)
+            )
+            c[at(3, BAND + 1) + k] = (
+                a_ww
+                + b_ww * p0
+                + b_w * p1
+                + b_c * p2
+                + c[at(1, DIPOLE) + k] * (b_ww * d0 + b_w * d1 + b_c * d2 - 0.25 * a_w)
+            )
+            c[at(3, BAND + 2) + k] = (
+                a_w
+                + b_ww * p1
+                + b_w * p0
+                + b_c * p1
+                + c[at(2, DIPOLE) + k] * (b_ww * d1 + b_w * d0 + b_c * d1 - 0.25 * (a_ww + a_c))
+            )
+            c[at(3, BAND + 3) + k] = (
+                a_c
+                + b_ww * p2
+                + b_w * p1
+                + b_c * p0
+                + c[at(3, DIPOLE) + k]
+                * (b_ww * d2 + b_w * d1 + b_c * d0 - 0.25 * (a_w + east + across))
+            )
+            c[at(3, BAND + 4) + k] = (
+                east
+                + b_ww * p3
+                + b_w * p2
+                + b_c * p1
+                + c[at(4, DIPOLE) + k] * (b_ww * d3 + b_w * d2 + b_c * d1 - 0.25 * a_c)
+            )
+            c[at(3, BAND + 5) + k] = (
+                b_ww * p4
+                + b_w * p3
+                + b_c * p2
+                + c[at(5, DIPOLE) + k] * (b_ww * d4 + b_w * d3 + b_c * d2 - 0.25 * east)
             )
 
 
@@ -364,12 +395,14 @@ def substitute(batch: Batch, low: int, high: int) -> None:
     for i in range(high, low - 1, -1):
         c = cells[at(i + 3, 0) : at(i + 6, 0)]
         for k in range(lanes):
-            c[at(0, U) + k] -= c[at(0, UP1) + k] * c[at(1, U) + k] + c[at(0, UP2) + k] * c[at(2, U) + k]
+            c[at(0, U) + k] -= (
+                c[at(0, UP1) + k] * c[at(1, U) + k] + c[at(0, UP2) + k] * c[at(2, U) + k]
+            )
 
 
 @njit(cache=True)
 def band_solve(batch: Batch, low: int, high: int) -> None:
-    """Solve the six-diagonal systems of all lanes for ``U`` on nodes low..high, zero beside them."""
+    """Solve the six-diagonal systems of all lanes for ``U`` on low..high, zero beside them."""
     cells = batch.cells
     for i in range(low, low + 3):
         cells[at(i, UP1) : at(i + 1, 0)] = 0.0
@@ -379,14 +412,29 @@ def band_solve(batch: Batch, low: int, high: int) -> None:
     substitute(batch, low, high)
 
 
-@njit(cache=True, fastmath={"contract"})
-def revise(batch: Batch, i: int) -> tuple[int, int]:
-    """Revise the states at node i; return how many nodes got wet and how many dry.
+@njit(cache=True)
+def dry_out(batch: Batch, i: int) -> tuple[int, int]:
+    """Cavitate the free lanes of negative pressure at node i.
 
-    Free nodes of negative pressure cavitate; cavitated nodes that lack oil to stay so are freed.
+    Return 1 or 0 for: whether there was one, and whether any lane was cavitated before.
     """
     cells, lanes = batch.cells, batch.lanes
-    wet, dry = 0, 0
+    changed, cavitated = 0, 0
+    c = cells[at(i + 3, 0) : at(i + 4, 0)]
+    for k in range(lanes):
+        state = c[at(0, STATE) + k]
+        to_dry = int(state == 0.0) & int(c[at(0, U) + k] < -c[at(0, P) + k])
+        c[at(0, STATE) + k] = 1.0 if to_dry else (3.0 if state == 1.0 else state)
+        changed |= to_dry
+        cavitated |= int(state == 1.0)
+    return changed, cavitated
+
+
+@njit(cache=True, fastmath={"contract"})
+def wet_again(batch: Batch, i: int) -> int:
+    """Free the cavitated lanes (state 3) that lack oil at node i; return whether there was one."""
+    cells, lanes = batch.cells, batch.lanes
+    changed = 0
     c = cells[at(i, 0) : at(i + 6, 0)]
     for k in range(lanes):
         state = c[at(3, STATE) + k]
@@ -399,12 +447,11 @@ def revise(batch: Batch, i: int) -> tuple[int, int]:
             - c[at(3, BAND + 4) + k] * c[at(4, U) + k]
             - c[at(3, BAND + 5) + k] * c[at(5, U) + k]
         )
-        to_dry = int(state == 0.0) & int(c[at(3, U) + k] < -c[at(3, P) + k])
-        to_wet = int(state == 1.0) & int(rest < 0.0)
-        c[at(3, STATE) + k] = state + to_dry - to_wet
-        wet |= to_wet
-        dry |= to_dry
-    return wet, dry
+        to_wet = int(state == 3.0) & int(rest < 0.0)
+        kept = 1.0 if state == 3.0 else state
+        c[at(3, STATE) + k] = 0.0 if to_wet else kept
+        changed |= to_wet
+    return changed
 
 
 @njit(cache=True)
@@ -418,10 +465,10 @@ def complementarity(batch: Batch, low: int, high: int, last: int) -> tuple[int, 
         band_solve(batch, low, high)
         changed = 0
         for i in range(max(low - 2, 1), min(high + 3, last) + 1):
-            wet, dry = revise(batch, i)
-            changed |= wet | dry
-            if wet:
-                low, high = min(low, i), max(high, i)
+            dry, cavitated = dry_out(batch, i)
+            changed |= dry
+            if cavitated and wet_again(batch, i):
+                low, high, changed = min(low, i), max(high, i), 1
         if not changed:
             return low, high
     band_solve(batch, low, high)
@@ -443,9 +490,7 @@ def store_line(film: Film, relaxation: Relaxation, batch: Batch, lane: int, span
 
 
 @njit(cache=True)
-def relax_batch(
-    film: Film, mesh: Mesh, rhs: Array, relaxation: Relaxation, batch: Batch
-) -> None:
+def relax_batch(film: Film, mesh: Mesh, rhs: Array, relaxation: Relaxation, batch: Batch) -> None:
     """Relax the lines of one batch."""
     nx = film.p.shape[1]
     low, high = nx, 0
@@ -460,11 +505,14 @@ def relax_batch(
         return
     # the range of the unknowns may grow by two nodes upstream and three downstream in each pass
     first, last = max(low - 2 * PASSES, 1), min(high + 3 * PASSES, nx - 2)
+    filled = first
     for start in range(max(first - 3, 0), min(last + 3, nx - 1), CHUNK):
-        span = (start, min(start + CHUNK, last + 3, nx - 1))
+        stop = min(start + CHUNK, last + 3, nx - 1)
         for lane in range(batch.lanes):
-            load_line(film, mesh, relaxation, batch, lane, span)
-    fill_band(batch, mesh, relaxation, first, last)
+            load_line(film, mesh, relaxation, batch, lane, (start, stop))
+        ready = last if stop == min(last + 3, nx - 1) else stop - 3
+        fill_band(batch, mesh, relaxation, filled, ready)
+        filled = ready + 1
     low, high = complementarity(batch, low, high, nx - 2)
     for lane in range(batch.lanes):
         store_line(film, relaxation, batch, lane, (low, high + 1))
