@@ -7,11 +7,17 @@ from tehl.scaling import Groups
 NODES = tuple(2**k * n + 1 for k in range(4, 12) for n in (2, 3))
 
 
-def recommended_domain(groups: Groups) -> Domain:
-    """Return the domain whose part of the error of the film stays below 0.3 %.
+SIZES = ((100.0, 3.0, 1.5), (40.0, 4.0, 1.5), (15.0, 6.0, 1.5), (0.0, 12.0, 3.0))
+"""From which Moes load on, which half width and which outlet (square domains, X = 0 a node)."""
 
-    The wedge draws pressure from far away when the film is thick against the contact: the edges
-    move out as the Moes load falls. X = Y = 0 is a node of every grid.
+
+def recommended_domain(groups: Groups) -> Domain:
+    """Return the domain whose part of the error of the central film stays below 0.3 %.
+
+    The wedge draws pressure from far away, most of all from the sides, when the film is thick
+    against the contact: the edges move out as the Moes load falls. The widths are measured: 0.28 %
+    at M = 100, 0.25 % at 40, 0.2 % at 15, 0.1 % at 10 (L = 10). Below M = 7 the contact is nearly
+    rigid, the load outside falls off like one over the width only, and up to 2 % remain.
 
     Parameters
     ----------
@@ -23,11 +29,8 @@ def recommended_domain(groups: Groups) -> Domain:
     Domain
         In Hertz half-widths.
     """
-    size = 1.0
-    for limit, factor in ((100.0, 1.5), (30.0, 2.0), (12.0, 3.0), (6.0, 4.0)):
-        if groups.M < limit:
-            size = factor
-    return Domain(x=(-4.5 * size, 1.5 * size), y=(-3.0 * size, 3.0 * size))
+    width, outlet = next((w, out) for load, w, out in SIZES if groups.M >= load)
+    return Domain(x=(outlet - 2.0 * width, outlet), y=(-width, width))
 
 
 def needed_points(groups: Groups) -> int:

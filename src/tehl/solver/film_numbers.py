@@ -7,6 +7,15 @@ from tehl.result import FilmSummary
 from tehl.typing import Array
 
 
+REACH = 5
+"""Nodes on each side of the smallest one that the spline goes through."""
+SPAN = 1.5
+"""How far from the smallest node the minimum is looked for, in mesh widths."""
+SAMPLES = 121
+"""Places per direction at which the spline is looked at: they miss the minimum by 1e-4 of the
+fall over one mesh width."""
+
+
 def central_value(grid: Grid, field: Array) -> float:
     """Return ``field`` at X = Y = 0: the node there, else cubic interpolation."""
     columns, column_weights = _lagrange(grid.x, grid.dx)
@@ -31,7 +40,10 @@ def _lagrange(nodes: Array, spacing: float) -> tuple[Array, Array]:
 
 
 def film_summary(grid: Grid, film: Array) -> FilmSummary:
-    """Return central and minimum film; the minimum by a quadratic through its neighbours.
+    """Return central and minimum film; the minimum by a bicubic spline around its node.
+
+    The valley of a side lobe is narrow and runs askew to the grid: its floor may lie more than a
+    mesh width from the smallest node, which a quadratic through the neighbours does not see.
 
     Parameters
     ----------
@@ -40,56 +52,60 @@ def film_summary(grid: Grid, film: Array) -> FilmSummary:
     film : array of ``grid.shape``
         H [-].
     """
-    j, i = np.unravel_index(int(film.argmin()), film.shape)
-    node = float(film[j, i])
-    value, (shift_y, shift_x) = node, (0.0, 0.0)
-    patch = _patch(film, int(j), int(i), grid.mirror)
-    if patch is not None:
-        value, (shift_y, shift_x) = quadratic_minimum(patch)
+    full = grid.unfold(film)
+    row = grid.domain.y[0] + grid.dy * np.arange(grid.ny)
+    j, i = (int(n) for n in np.unravel_index(int(full.argmin()), full.shape))
+    minimum, (shift_y, shift_x) = subgrid_minimum(_patch(full, j, i))
+    at_y = float(row[j] + shift_y * grid.dy)
     return FilmSummary(
         central=central_value(grid, film),
-        minimum=min(value, node),
-        minimum_node=node,
-        minimum_at=(
-            float(grid.x[i] + shift_x * grid.dx),
-            abs(float(grid.y[j] + shift_y * grid.dy))
-            if grid.mirror
-            else float(grid.y[j] + shift_y * grid.dy),
-        ),
+        minimum=minimum,
+        minimum_node=float(full[j, i]),
+        minimum_at=(float(grid.x[i] + shift_x * grid.dx), abs(at_y) if grid.mirror else at_y),
     )
 
 
-def _patch(film: Array, j: int, i: int, mirror: bool) -> Array | None:
-    """Three by three nodes around (j, i), None where they do not exist."""
-    ny, nx = film.shape
-    rows = [abs(j - 1), j, j + 1] if mirror else [j - 1, j, j + 1]
-    if rows[0] < 0 or rows[2] >= ny or i < 1 or i > nx - 2:
-        return None
-    return film[np.ix_(rows, [i - 1, i, i + 1])]
+def _patch(full: Array, j: int, i: int) -> Array:
+    """Nodes around (j, i): ``REACH`` on each side, fewer near the edges but as many on both."""
+    ny, nx = full.shape
+    across, along = min(REACH, j, ny - 1 - j), min(REACH, i, nx - 1 - i)
+    return full[j - across : j + across + 1, i - along : i + along + 1]
 
 
-def quadratic_minimum(patch: Array) -> tuple[float, tuple[float, float]]:
-    """Return the minimum of the least-squares quadratic through 3 x 3 values, and where it is.
+def subgrid_minimum(patch: Array) -> tuple[float, tuple[float, float]]:
+    """Return the least value of a bicubic spline through ``patch``, and where it is.
 
-    The quadratic goes through the central value in the mean; where it has no minimum within one
-    mesh width, the central value is returned.
+    The place is (row, column) from the central node, in mesh widths, at most ``SPAN`` away.
     """
-    y, x = np.mgrid[-1.0:2.0, -1.0:2.0]
-    basis = np.stack([np.ones(9), x.ravel(), y.ravel(), *_squares(x.ravel(), y.ravel())], axis=1)
-    weights = np.sqrt(np.array([1, 2, 1, 2, 4, 2, 1, 2, 1.0]))
-    c, cx, cy, cxx, cxy, cyy = np.linalg.lstsq(
-        basis * weights[:, None], patch.ravel() * weights, rcond=None
-    )[0]
-    hessian = np.array([[2 * cxx, cxy], [cxy, 2 * cyy]])
-    node = float(patch[1, 1])
-    if not (hessian[0, 0] > 0 and np.linalg.det(hessian) > 0):
-        return node, (0.0, 0.0)
-    shift = -np.linalg.solve(hessian, [cx, cy])
-    if not np.abs(shift).max() <= 1.0:
-        return node, (0.0, 0.0)
-    depth = 0.5 * (cx * shift[0] + cy * shift[1])
-    return node + float(depth), (float(shift[1]), float(shift[0]))
+    rows, columns = (_sampling(n) for n in patch.shape)
+    samples = rows @ patch @ columns.T
+    j, i = np.unravel_index(int(samples.argmin()), samples.shape)
+    places = [
+        np.linspace(-SPAN, SPAN, len(m)) if len(m) > 1 else np.zeros(1) for m in (rows, columns)
+    ]
+    return float(samples[j, i]), (float(places[0][j]), float(places[1][i]))
 
 
-def _squares(x: Array, y: Array) -> tuple[Array, Array, Array]:
-    return x * x, x * y, y * y
+def _sampling(nodes: int) -> Array:
+    """Weights of a not-a-knot cubic spline through ``nodes`` unit-spaced values, at the samples."""
+    if nodes < 5:
+        return np.eye(nodes)[nodes // 2 : nodes // 2 + 1]
+    half = nodes // 2
+    bend = np.zeros((nodes, nodes))  # second derivatives = inverse(system) @ bend @ values
+    system = np.zeros((nodes, nodes))
+    for k in range(1, nodes - 1):
+        system[k, k - 1 : k + 2] = 1.0, 4.0, 1.0
+        bend[k, k - 1 : k + 2] = 6.0, -12.0, 6.0
+    system[0, :3] = system[-1, -3:] = 1.0, -2.0, 1.0
+    curvature = np.linalg.solve(system, bend)
+    place = half + np.linspace(-SPAN, SPAN, SAMPLES)
+    left = np.floor(place).astype(int)
+    t = (place - left)[:, None]
+    value = np.eye(nodes)
+    s = 1.0 - t
+    return (
+        s * value[left]
+        + t * value[left + 1]
+        + (s**3 - s) / 6.0 * curvature[left]
+        + (t**3 - t) / 6.0 * curvature[left + 1]
+    )
