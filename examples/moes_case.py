@@ -1,0 +1,58 @@
+"""The Moes numbers M and L, and the film formulas.
+
+Papers state a circular contact by its load number M and its speed number L. This script walks from
+light to heavy load at L = 10 and sets the computed central film beside the formulas of Hamrock and
+Dowson and of Nijenbanning, Venner and Moes.
+
+M and L do not fix a contact with Roelands' law: the pressure coefficient and with it the Hertz
+pressure count too. Here alpha is 22 per GPa and the viscosity 0.04 Pa s.
+"""
+
+import sys
+from functools import cache
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+import tehl
+from tehl.film_formulas import film_estimates
+
+LOADS = (10.0, 20.0, 50.0, 100.0, 200.0, 500.0)
+
+
+@cache
+def solved(load: float) -> tehl.Result:
+    """Return the film for one Moes load at L = 10."""
+    problem = tehl.ContactProblem(
+        contact=tehl.Contact(radius="20 mm", moes_load=load, moes_speed=10.0),
+        surface_1=tehl.Surface(material="steel"),
+        surface_2=tehl.Surface(material="steel"),
+        lubricant="mineral-oil",
+    )
+    return tehl.solve(problem)
+
+
+def main() -> dict[float, dict[str, float]]:
+    """Return, for each load, the central film H by the solver and by the formulas [-]."""
+    table = {}
+    for load in LOADS:
+        result = solved(load)
+        films = {
+            film.formula: film.central for film in film_estimates(result.groups, result.scales)
+        }
+        table[load] = {"computed": result.film_scaled.central, **films}
+    return table
+
+
+if __name__ == "__main__":
+    folder = Path(sys.argv[1] if len(sys.argv) > 1 else "out")
+    folder.mkdir(parents=True, exist_ok=True)
+    figure = Figure(figsize=(6.0, 4.2), layout="constrained")
+    axes = figure.add_subplot(xlabel="M", ylabel="central film H", xscale="log", yscale="log")
+    rows = main()
+    for name in rows[LOADS[0]]:
+        style = "o" if name == "computed" else "--"
+        axes.plot(LOADS, [rows[load][name] for load in LOADS], style, label=name)
+        print(f"{name:<26}", *(f"{rows[load][name]:8.4f}" for load in LOADS))
+    axes.legend(title="L = 10")
+    figure.savefig(folder / "film_against_load.png", dpi=100)
