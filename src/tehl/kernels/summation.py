@@ -34,9 +34,7 @@ class Box(NamedTuple):
 def load(p: Array, u: Array, box: Box) -> None:
     """Copy nodal sources ``p`` into the padded array ``u``."""
     ny, nx = p.shape
-    for j in range(ny):
-        for i in range(nx):
-            u[j + box.oy, i + box.ox] = p[j, i]
+    u[box.oy : box.oy + ny, box.ox : box.ox + nx] = p
     reflect(u, box)
 
 
@@ -48,76 +46,123 @@ def reflect(u: Array, box: Box) -> None:
             u[box.oy - j, :] = u[box.oy + j, :]
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath={"contract"})
 def gather_rows(u: Array, fine: Box, coarse_u: Array, coarse: Box) -> None:
     """Send sources to even rows: the transpose of interpolation."""
-    x0, x1 = fine.i0 + fine.ox, fine.i1 + fine.ox + 1
-    shift = coarse.ox - fine.ox
+    a, b = fine.i0 + fine.ox, fine.i1 + fine.ox + 1
+    begin = fine.i0 + coarse.ox
     for j in range(coarse.j0, coarse.j1 + 1):
         f = 2 * j + fine.oy
-        target = coarse_u[j + coarse.oy]
-        for x in range(x0, x1):
-            target[x + shift] = (
-                u[f, x]
-                + C1 * (u[f - 1, x] + u[f + 1, x])
-                + C3 * (u[f - 3, x] + u[f + 3, x])
-                + C5 * (u[f - 5, x] + u[f + 5, x])
-            )
+        target = coarse_u[j + coarse.oy, begin : begin + b - a]
+        mid, up1, down1 = u[f, a:b], u[f + 1, a:b], u[f - 1, a:b]
+        up3, down3, up5, down5 = u[f + 3, a:b], u[f - 3, a:b], u[f + 5, a:b], u[f - 5, a:b]
+        for x in range(b - a):
+            near = mid[x] + C1 * (up1[x] + down1[x])
+            target[x] = near + C3 * (up3[x] + down3[x]) + C5 * (up5[x] + down5[x])
     reflect(coarse_u, coarse)
 
 
+@njit(cache=True, fastmath={"contract"})
+def fold(above: Array, below: Array, out: Array) -> None:
+    """Write the sum of two rows, or one row when both are the same row."""
+    for x in range(out.shape[0]):
+        out[x] = above[x] + below[x]
+
+
+@njit(cache=True, fastmath={"contract"})
+def weigh(rows: Array, weights: Array, first: int, step: int, out: Array) -> None:
+    """Write the weighted sum of rows ``first, first + step, ...`` to ``out``, three at a time."""
+    n = weights.shape[0]
+    k = first
+    out[:] = 0.0
+    while k + 2 * step < n:
+        a, b, c = rows[k], rows[k + step], rows[k + 2 * step]
+        e0, e1, e2 = weights[k], weights[k + step], weights[k + 2 * step]
+        for x in range(out.shape[0]):
+            out[x] += e0 * a[x] + e1 * b[x] + e2 * c[x]
+        k += 3 * step
+    while k < n:
+        a, e0 = rows[k], weights[k]
+        for x in range(out.shape[0]):
+            out[x] += e0 * a[x]
+        k += step
+
+
 @njit(cache=True)
-def add_patch_rows(u: Array, table: Array, f: int, first: int, step: int, out: Array) -> None:
-    """Add the patch of sources around row ``f`` of ``u`` to ``out``, element for element."""
+def add(one: Array, out: Array) -> None:
+    """Add a row to ``out``."""
+    for x in range(out.shape[0]):
+        out[x] += one[x]
+
+
+@njit(cache=True)
+def add_pair(one: Array, other: Array, out: Array) -> None:
+    """Add two rows to ``out``."""
+    for x in range(out.shape[0]):
+        out[x] += one[x] + other[x]
+
+
+@njit(cache=True)
+def add_patch_rows(
+    u: Array, table: Array, at: tuple[int, int, int], first: int, work: Array, out: Array
+) -> None:
+    """Add the patch of sources around ``(row, start, stop) = at`` of ``u`` to ``out``.
+
+    Distances are all from 0 on (``first = 0``) or the odd ones (``first = 1``). ``work`` has
+    one row more than ``table`` and ``stop - start`` columns and those of the patch.
+    """
+    row, start, stop = at
     reach, side = table.shape[0] - 1, table.shape[1] - 1
-    n = u.shape[1]
-    fold = np.empty(n)
-    for d in range(first, reach + 1, step):
-        above, below = u[f + d], u[f - d]
-        if d == 0:
-            for x in range(n):
-                fold[x] = above[x]
+    low, high = start - side, stop + side
+    total = work[reach + 1]
+    if first == 0:
+        work[0, :] = u[row, low:high]
+    for d in range(1, reach + 1, 1 + first):
+        fold(u[row + d, low:high], u[row - d, low:high], work[d])
+    n = stop - start
+    for q in range(side + 1):
+        weigh(work, table[:, q], first, 1 + first, total)
+        if q == 0:
+            add(total[side : side + n], out[start:stop])
         else:
-            for x in range(n):
-                fold[x] = above[x] + below[x]
-        e0, e1, e2 = table[d, 0], table[d, 1], table[d, 2]
-        for x in range(side, n - side):
-            out[x] += (
-                e0 * fold[x] + e1 * (fold[x - 1] + fold[x + 1]) + e2 * (fold[x - 2] + fold[x + 2])
+            add_pair(
+                total[side + q : side + q + n], total[side - q : side - q + n], out[start:stop]
             )
-        for q in range(3, side + 1):
-            e = table[d, q]
-            for x in range(side, n - side):
-                out[x] += e * (fold[x - q] + fold[x + q])
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath={"contract"})
+def interpolate_row(w: Array, box: Box, low: int, start: int, out: Array) -> None:
+    """Interpolate midway between rows ``low`` and ``low + 1``, from column ``start`` on."""
+    stop = start + out.shape[0]
+    below = low + box.oy, low - 1 + box.oy, low - 2 + box.oy
+    if box.mirror:
+        below = low + box.oy, abs(low - 1) + box.oy, abs(low - 2) + box.oy
+    near_a, near_b = w[below[0], start:stop], w[low + 1 + box.oy, start:stop]
+    mid_a, mid_b = w[below[1], start:stop], w[low + 2 + box.oy, start:stop]
+    far_a, far_b = w[below[2], start:stop], w[low + 3 + box.oy, start:stop]
+    for x in range(stop - start):
+        near = C1 * (near_a[x] + near_b[x])
+        out[x] = near + C3 * (mid_a[x] + mid_b[x]) + C5 * (far_a[x] + far_b[x])
+
+
+@njit(cache=True, fastmath={"contract"})
 def spread_rows(u: Array, table: Array, fine: Box, coarse_w: Array, coarse: Box, w: Array) -> None:
     """Correct the sums on even rows, interpolate the odd rows and correct them.
 
     ``coarse_w`` and ``w`` have the shapes of the padded source arrays of their grids.
     """
+    start, stop = fine.i0 + fine.ox, fine.i1 + fine.ox + 1
+    work = np.empty((table.shape[0] + 1, stop - start + 2 * table.shape[1] - 2))
     for j in range(coarse.j0, coarse.j1 + 1):
-        add_patch_rows(u, table, 2 * j + fine.oy, 1, 2, coarse_w[j + coarse.oy])
+        place = (2 * j + fine.oy, start, stop)
+        add_patch_rows(u, table, place, 1, work, coarse_w[j + coarse.oy])
     for j in range(fine.j0, fine.j1 + 1):
         target = w[j + fine.oy]
         if j % 2 == 0:
-            target[:] = coarse_w[j // 2 + coarse.oy]
+            target[start:stop] = coarse_w[j // 2 + coarse.oy, start:stop]
             continue
-        low = (j - 1) // 2
-        a, b, c = low, low - 1, low - 2
-        if coarse.mirror:
-            a, b, c = abs(a), abs(b), abs(c)
-        near_a, near_b = coarse_w[a + coarse.oy], coarse_w[low + 1 + coarse.oy]
-        mid_a, mid_b = coarse_w[b + coarse.oy], coarse_w[low + 2 + coarse.oy]
-        far_a, far_b = coarse_w[c + coarse.oy], coarse_w[low + 3 + coarse.oy]
-        for x in range(target.shape[0]):
-            target[x] = (
-                C1 * (near_a[x] + near_b[x])
-                + C3 * (mid_a[x] + mid_b[x])
-                + C5 * (far_a[x] + far_b[x])
-            )
-        add_patch_rows(u, table, j + fine.oy, 0, 1, target)
+        interpolate_row(coarse_w, coarse, (j - 1) // 2, start, target[start:stop])
+        add_patch_rows(u, table, (j + fine.oy, start, stop), 0, work, target)
 
 
 @njit(cache=True)
@@ -131,94 +176,92 @@ def split_columns(u: Array, box: Box, even: Array, odd: Array) -> None:
             odd[y, a] = u[y, 2 * a + 1 + parity]
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath={"contract"})
 def gather_columns(even: Array, odd: Array, fine: Box, coarse_u: Array, coarse: Box) -> None:
     """Send sources to even columns: the transpose of interpolation."""
-    shift = fine.ox // 2
+    a, n = coarse.i0 + fine.ox // 2, coarse.i1 - coarse.i0 + 1
+    begin = coarse.i0 + coarse.ox
     for j in range(coarse.j0, coarse.j1 + 1):
-        y = j + fine.oy
-        target = coarse_u[j + coarse.oy]
-        for i in range(coarse.i0, coarse.i1 + 1):
-            a = i + shift
-            target[i + coarse.ox] = (
-                even[y, a]
-                + C1 * (odd[y, a] + odd[y, a - 1])
-                + C3 * (odd[y, a + 1] + odd[y, a - 2])
-                + C5 * (odd[y, a + 2] + odd[y, a - 3])
+        target = coarse_u[j + coarse.oy, begin : begin + n]
+        mid, side = even[j + fine.oy, a : a + n], odd[j + fine.oy, a - 3 : a + n + 2]
+        for i in range(n):
+            target[i] = (
+                mid[i]
+                + C1 * (side[i + 3] + side[i + 2])
+                + C3 * (side[i + 4] + side[i + 1])
+                + C5 * (side[i + 5] + side[i])
             )
     reflect(coarse_u, coarse)
 
 
-@njit(cache=True)
-def add_even(table_row: Array, odd: Array, n0: int, n1: int, out: Array) -> None:
-    """Add the patch of odd sources to even outputs ``out[n0:n1]`` for one folded row."""
-    reach = table_row.shape[0] - 1
-    for d in range(1, reach + 1, 2):
-        e, s = table_row[d], (d + 1) // 2
-        for a in range(n0, n1):
-            out[a] += e * (odd[a + s - 1] + odd[a - s])
+@njit(cache=True, fastmath={"contract"})
+def add_patch_columns(
+    even: Array, odd: Array, table: Array, span: tuple[int, int], sum_e: Array, sum_o: Array
+) -> None:
+    """Add the patch of sources to elements ``span`` of the sums at even and at odd columns.
 
-
-@njit(cache=True)
-def add_odd(table_row: Array, even: Array, odd: Array, n0: int, n1: int, out: Array) -> None:
-    """Add the patch of all sources to odd outputs ``out[n0:n1]`` for one folded row."""
-    reach = table_row.shape[0] - 1
-    e = table_row[0]
-    for a in range(n0, n1):
-        out[a] += e * odd[a]
-    for d in range(1, reach + 1):
-        e, s = table_row[d], d // 2
-        if d % 2:
-            for a in range(n0, n1):
-                out[a] += e * (even[a + s + 1] + even[a - s])
+    ``even`` and ``odd`` (side + 1, n) hold the sources folded about the row of the sums.
+    """
+    start, stop = span
+    total = np.empty(even.shape[1])
+    for d in range(table.shape[0]):
+        s = d // 2
+        weigh(odd, table[d], 0, 1, total)
+        if d == 0:
+            add(total[start:stop], sum_o[start:stop])
+        elif d % 2 == 0:
+            add_pair(total[start + s : stop + s], total[start - s : stop - s], sum_o[start:stop])
         else:
-            for a in range(n0, n1):
-                out[a] += e * (odd[a + s] + odd[a - s])
+            add_pair(
+                total[start + s : stop + s],
+                total[start - s - 1 : stop - s - 1],
+                sum_e[start:stop],
+            )
+            weigh(even, table[d], 0, 1, total)
+            add_pair(
+                total[start + s + 1 : stop + s + 1],
+                total[start - s : stop - s],
+                sum_o[start:stop],
+            )
 
 
-@njit(cache=True)
-def spread_columns(
+@njit(cache=True, fastmath={"contract"})
+def spread_columns(  # noqa: PLR0913, PLR0917
     even: Array, odd: Array, table: Array, fine: Box, coarse_w: Array, coarse: Box, w: Array
 ) -> None:
     """Correct the sums on even columns, interpolate the odd ones, correct and interleave them."""
-    n = even.shape[1]
-    side = table.shape[1] - 1
-    reach = table.shape[0] - 1
-    fold_e, fold_o = np.empty(n), np.empty(n)
-    sum_e, sum_o = np.empty(n), np.empty(n)
-    margin = reach // 2 + 2
-    shift = fine.ox // 2 - coarse.ox
-    parity = fine.ox % 2
+    n, side = even.shape[1], table.shape[1] - 1
+    margin = table.shape[0] // 2 + 2
+    shift, parity = fine.ox // 2, fine.ox % 2
+    start, stop = max(coarse.i0 + shift, margin), min(coarse.i1 + shift + 1, n - margin)
+    wide = slice(start - margin, stop + margin)
+    m = stop - start + 2 * margin
+    fold_e, fold_o = np.empty((side + 1, m)), np.empty((side + 1, m))
+    sum_e, sum_o = np.empty(m), np.empty(m)
     for j in range(fine.j0, fine.j1 + 1):
         y = j + fine.oy
+        fold_e[0, :], fold_o[0, :] = even[y, wide], odd[y, wide]
+        for q in range(1, side + 1):
+            fold(even[y + q, wide], even[y - q, wide], fold_e[q])
+            fold(odd[y + q, wide], odd[y - q, wide], fold_o[q])
         sum_e[:] = 0.0
         sum_o[:] = 0.0
-        row = coarse_w[j + coarse.oy]
-        for i in range(coarse.i0, coarse.i1 + 1):
-            sum_e[i + coarse.ox + shift] = row[i + coarse.ox]
-        for q in range(side + 1):
-            if q == 0:
-                fold_e[:] = even[y]
-                fold_o[:] = odd[y]
-            else:
-                for a in range(n):
-                    fold_e[a] = even[y + q, a] + even[y - q, a]
-                    fold_o[a] = odd[y + q, a] + odd[y - q, a]
-            add_even(table[:, q], fold_o, margin, n - margin, sum_e)
-            add_odd(table[:, q], fold_e, fold_o, margin, n - margin, sum_o)
-        for a in range(margin, n - margin):
+        begin = start - shift + coarse.ox
+        sum_e[margin : m - margin] = coarse_w[j + coarse.oy, begin : begin + stop - start]
+        add_patch_columns(fold_e, fold_o, table, (margin, m - margin), sum_e, sum_o)
+        for a in range(margin, m - margin):
             sum_o[a] += (
                 C1 * (sum_e[a] + sum_e[a + 1])
                 + C3 * (sum_e[a - 1] + sum_e[a + 2])
                 + C5 * (sum_e[a - 2] + sum_e[a + 3])
             )
-        target = w[y]
-        for a in range(margin, n - margin):
-            target[2 * a + parity] = sum_e[a]
-            target[2 * a + 1 + parity] = sum_o[a]
+        target = w[y, 2 * start + parity :]
+        for a in range(stop - start):
+            target[2 * a] = sum_e[a + margin]
+            target[2 * a + 1] = sum_o[a + margin]
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath={"contract", "reassoc"})
 def direct(matrix: Array, u: Array, box: Box, w: Array) -> None:
     """Sum by definition on the coarsest grid, nodes numbered row by row."""
     nx = box.i1 - box.i0 + 1
@@ -238,6 +281,4 @@ def direct(matrix: Array, u: Array, box: Box, w: Array) -> None:
 def unload(w: Array, box: Box, out: Array) -> None:
     """Copy the sums at the nodes of the grid into ``out`` (ny, nx)."""
     ny, nx = out.shape
-    for j in range(ny):
-        for i in range(nx):
-            out[j, i] = w[j + box.oy, i + box.ox]
+    out[:, :] = w[box.oy : box.oy + ny, box.ox : box.ox + nx]
