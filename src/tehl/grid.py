@@ -45,13 +45,13 @@ class Grid:
     @property
     def x(self) -> Array:
         """Coordinates of the columns, (nx,)."""
-        return self.domain.x[0] + self.dx * np.arange(self.nx)
+        return self.domain.x[0] + self.dx * np.arange(float(self.nx))
 
     @property
     def y(self) -> Array:
         """Coordinates of the rows that are held."""
         start = 0.0 if self.mirror else self.domain.y[0]
-        return start + self.dy * np.arange(self.shape[0])
+        return start + self.dy * np.arange(float(self.shape[0]))
 
     def unfold(self, field: Array) -> Array:
         """Return ``field`` on the full domain, (ny, nx)."""

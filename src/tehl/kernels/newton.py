@@ -1,7 +1,8 @@
 """Compiled Newton step for pressure and rigid approach together, on the coarsest grid.
 
 Dense in the film: every conductance and density depends on every pressure. The nodes are numbered
-row by row; ``influence[m, k]`` is the film at node m per unit pressure at node k.
+row by row; ``influence[m, k]`` is the film at node m per unit pressure at node k. The neighbours of
+a node are kept in the order here, east, west, north, south, far west.
 """
 
 from typing import NamedTuple
@@ -9,7 +10,10 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from tehl.typing import Array
+from tehl.kernels.reynolds import Mesh
+from tehl.typing import Array, IntArray
+
+HERE, EAST, WEST, NORTH, SOUTH, FAR = range(6)
 
 
 class Coarse(NamedTuple):
@@ -24,112 +28,137 @@ class Coarse(NamedTuple):
     eps_h: Array
 
 
+class System(NamedTuple):
+    """What the step solves besides the state.
+
+    ``residual`` (ny, nx) of the Reynolds equation, ``influence`` (n, n), ``frozen`` (ny, nx) of 0
+    and 1, ``area`` of a cell and the load that is missing.
+    """
+
+    residual: Array
+    influence: Array
+    frozen: Array
+    area: float
+    missing_load: float
+
+
 @njit(cache=True)
-def solve_dense(a: Array, b: Array) -> bool:
-    """Solve ``a x = b`` in place by elimination with row pivoting; ``b`` becomes x."""
+def solve_dense(a: Array, b: Array) -> None:
+    """Solve ``a x = b`` in place by elimination with row pivoting; ``b`` becomes x.
+
+    A singular matrix gives values that are not finite.
+    """
     n = b.shape[0]
     for k in range(n):
-        pivot = k
-        for i in range(k + 1, n):
-            if abs(a[i, k]) > abs(a[pivot, k]):
-                pivot = i
-        if not abs(a[pivot, k]) > 0.0:
-            return False
+        pivot = k + np.argmax(np.abs(a[k:, k]))
         if pivot != k:
-            for c in range(k, n):
-                a[k, c], a[pivot, c] = a[pivot, c], a[k, c]
+            swapped = a[k].copy()
+            a[k] = a[pivot]
+            a[pivot] = swapped
             b[k], b[pivot] = b[pivot], b[k]
-        inverse = 1.0 / a[k, k]
+        upper = a[k, k + 1 :]
         for i in range(k + 1, n):
-            factor = a[i, k] * inverse
-            if factor != 0.0:
-                for c in range(k + 1, n):
-                    a[i, c] -= factor * a[k, c]
-                b[i] -= factor * b[k]
+            factor = a[i, k] / a[k, k] if a[k, k] != 0.0 else np.nan
+            row = a[i, k + 1 :]
+            for c in range(upper.shape[0]):
+                row[c] -= factor * upper[c]
+            b[i] -= factor * b[k]
     for k in range(n - 1, -1, -1):
-        total = b[k]
-        for c in range(k + 1, n):
-            total -= a[k, c] * b[c]
-        b[k] = total / a[k, k]
-    return True
+        b[k] /= a[k, k] if a[k, k] != 0.0 else np.nan
+        for i in range(k):
+            b[i] -= a[i, k] * b[k]
 
 
 @njit(cache=True)
-def newton_step(
-    state: Coarse,
-    stencil: tuple[float, float, float, float, float, int],
-    residual: Array,
-    influence: Array,
-    load: tuple[float, float],
-    frozen: Array,
-) -> float:
-    """Take one limited Newton step on ``p`` in place; return the change of H00.
-
-    ``stencil`` is (cx, cy, w0, w1, w2, mirror); ``load`` is (cell area, missing load); nodes with
-    p = 0 and residual >= 0, and ``frozen`` ones, stay as they are.
-    """
-    cx, cy, w0, w1, w2, mirror = stencil
-    ny, nx = state.p.shape
-    size = ny * nx
-    number = np.full(size, -1, np.int64)
-    active = np.empty(size, np.int64)
+def find_active(p: Array, system: System, mirror: int) -> IntArray:
+    """Return the numbers of the nodes that may move: wet or ought to be, and not frozen."""
+    ny, nx = p.shape
+    active = np.empty(ny * nx, np.int64)
     count = 0
     for j in range(0 if mirror else 1, ny - 1):
         for i in range(1, nx - 1):
-            if (state.p[j, i] > 0.0 or residual[j, i] < 0.0) and not frozen[j, i]:
-                number[j * nx + i] = count
+            wet = p[j, i] > 0.0 or system.residual[j, i] < 0.0
+            if wet and not system.frozen[j, i]:
                 active[count] = j * nx + i
                 count += 1
-    a = np.zeros((count + 1, count + 1))
-    b = np.zeros(count + 1)
-    q = np.empty(6, np.int64)
-    by_p, by_h = np.empty(6), np.empty(6)
-    p, eps = state.p, state.eps
+    return active[:count]
+
+
+@njit(cache=True)
+def slopes(state: Coarse, mesh: Mesh, near: IntArray, by_p: Array, by_h: Array) -> None:
+    """Fill the derivatives of L at node ``near[0]`` by pressure and film of its neighbours."""
+    p, eps = state.p.ravel(), state.eps.ravel()
+    eps_p, eps_h = state.eps_p.ravel(), state.eps_h.ravel()
+    by_p[:] = 0.0
+    by_h[:] = 0.0
+    here = near[HERE]
+    for n in range(EAST, FAR):
+        c = 0.5 * (mesh.cx if n <= WEST else mesh.cy)
+        there = near[n]
+        face, drop = c * (eps[here] + eps[there]), c * (p[there] - p[here])
+        by_p[HERE] += drop * eps_p[here] - face
+        by_h[HERE] += drop * eps_h[here]
+        by_p[n] += face + drop * eps_p[there]
+        by_h[n] += drop * eps_h[there]
+    first = near[FAR] == near[WEST]
+    w0 = mesh.w0 - mesh.w2 if first else mesh.w0
+    w1 = mesh.w2 - mesh.w0 if first else mesh.w1
+    w2 = 0.0 if first else mesh.w2
+    rho, drho, h = state.rho.ravel(), state.drho.ravel(), state.h.ravel()
+    for n, w in ((HERE, w0), (WEST, w1), (FAR, w2)):
+        by_p[n] -= w * drho[near[n]] * h[near[n]]
+        by_h[n] -= w * rho[near[n]]
+
+
+@njit(cache=True)
+def assemble(state: Coarse, mesh: Mesh, system: System, active: IntArray) -> tuple[Array, Array]:
+    """Return matrix and right-hand side: a row per active node, the load balance as the last."""
+    ny, nx = state.p.shape
+    count = active.shape[0]
+    a, b = np.zeros((count + 1, count + 1)), np.zeros(count + 1)
+    near, by_p, by_h = np.empty(6, np.int64), np.empty(6), np.empty(6)
+    full = np.empty(ny * nx)
+    residual = system.residual.ravel()
+    for row in range(count):
+        here = active[row]
+        south = here - nx if here >= nx else here + nx
+        near[:] = (here, here + 1, here - 1, here + nx, south, max(here - 2, here // nx * nx))
+        slopes(state, mesh, near, by_p, by_h)
+        full[:] = 0.0
+        for n in range(6):
+            column = system.influence[near[n]]
+            for m in range(full.shape[0]):
+                full[m] += by_h[n] * column[m]
+        for n in range(6):
+            full[near[n]] += by_p[n]
+        for column_number in range(count):
+            a[row, column_number] = full[active[column_number]]
+        a[row, count] = by_h.sum()
+        b[row] = residual[here]
+    for column_number in range(count):
+        twice = mesh.mirror and active[column_number] >= nx
+        a[count, column_number] = system.area * (2.0 if twice else 1.0)
+    b[count] = system.missing_load
+    return a, b
+
+
+@njit(cache=True)
+def newton_step(state: Coarse, mesh: Mesh, system: System, longest: float) -> float:
+    """Take one Newton step on ``state.p`` in place; return the change of the rigid approach.
+
+    The step is shortened so that no pressure moves by more than ``longest``; pressures are clipped
+    at zero.
+    """
+    active = find_active(state.p, system, mesh.mirror)
+    a, b = assemble(state, mesh, system, active)
+    solve_dense(a, b)
+    count = active.shape[0]
+    largest = 0.0
+    for row in range(count):
+        largest = max(largest, abs(float(b[row])))
+    scale = min(1.0, longest / max(largest, 1e-300))
+    nx = state.p.shape[1]
     for row in range(count):
         j, i = active[row] // nx, active[row] % nx
-        south = j - 1 if j > 0 else 1
-        q[0] = j * nx + i
-        q[1], q[2] = q[0] + 1, q[0] - 1
-        q[3], q[4], q[5] = q[0] + nx, south * nx + i, j * nx + max(i - 2, 0)
-        by_p[:] = 0.0
-        by_h[:] = 0.0
-        total = 0.0
-        for n in range(1, 5):
-            jn, in_ = q[n] // nx, q[n] % nx
-            c = cx if n < 3 else cy
-            face = 0.5 * c * (eps[j, i] + eps[jn, in_])
-            drop = 0.5 * c * (p[jn, in_] - p[j, i])
-            by_p[0] -= face
-            by_p[n] += face + drop * state.eps_p[jn, in_]
-            by_h[n] += drop * state.eps_h[jn, in_]
-            total += drop
-        by_p[0] += total * state.eps_p[j, i]
-        by_h[0] += total * state.eps_h[j, i]
-        weights = (w0, w1, w2) if i > 1 else (w0 - w2, w2 - w0, 0.0)
-        for n, w in ((0, weights[0]), (2, weights[1]), (5, weights[2])):
-            jn, in_ = q[n] // nx, q[n] % nx
-            by_p[n] -= w * state.drho[jn, in_] * state.h[jn, in_]
-            by_h[n] -= w * state.rho[jn, in_]
-        for n in range(6):
-            if number[q[n]] >= 0:
-                a[row, number[q[n]]] += by_p[n]
-            if by_h[n] != 0.0:
-                for column in range(count):
-                    a[row, column] += by_h[n] * influence[q[n], active[column]]
-                a[row, count] += by_h[n]
-        b[row] = residual[j, i]
-    for column in range(count):
-        a[count, column] = load[0] * (2.0 if mirror and active[column] >= nx else 1.0)
-    b[count] = load[1]
-    if not solve_dense(a, b):
-        return 0.0
-    largest = 0.0
-    for column in range(count):
-        largest = max(largest, abs(b[column]))
-    if not largest < 1e300:
-        return 0.0
-    scale = min(1.0, 0.3 / max(largest, 1e-300))
-    for column in range(count):
-        j, i = active[column] // nx, active[column] % nx
-        p[j, i] = max(p[j, i] + scale * b[column], 0.0)
-    return scale * b[count]
+        state.p[j, i] = max(state.p[j, i] + scale * b[row], 0.0)
+    return scale * float(b[count])

@@ -64,7 +64,7 @@ def gather_rows(u: Array, fine: Box, coarse_u: Array, coarse: Box) -> None:
 
 @njit(cache=True, fastmath={"contract"})
 def fold(above: Array, below: Array, out: Array) -> None:
-    """Write the sum of two rows, or one row when both are the same row."""
+    """Write the sum of two rows."""
     for x in range(out.shape[0]):
         out[x] = above[x] + below[x]
 

@@ -76,4 +76,6 @@ def choose(name: str, grid: Grid, groups: Groups) -> Deformation:
         name = "mlmi" if min(grid.nx, grid.ny) - 1 >= MULTILEVEL_FROM else "fft"
     if name == "mlmi":
         return MultilevelDeformation(grid, influence_of(grid, groups))
-    return {"fft": FftDeformation, "direct": DirectDeformation}[name](grid, groups)
+    if name == "fft":
+        return FftDeformation(grid, groups)
+    return DirectDeformation(grid, groups)

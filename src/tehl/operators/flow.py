@@ -46,7 +46,7 @@ def flow_table(problem: ContactProblem, scales: Scales, groups: Groups) -> FlowT
         return density(pressure) / (si / scales.viscosity * groups.lambda_bar)
 
     step = LARGEST_PRESSURE / NODES
-    pressure = step * np.arange(NODES + 1)
+    pressure = step * np.arange(NODES + 1.0)
     columns = [
         mobility(pressure),
         slope(mobility, pressure, step) * step,

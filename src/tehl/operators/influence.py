@@ -4,12 +4,16 @@ Each node carries a uniform pressure over its own mesh cell, whose deflection is
 form (Love 1929; Johnson 1985, Contact Mechanics, eq. 3.25).
 """
 
+from typing import TYPE_CHECKING
+
 import numpy as np
-from numpy.typing import ArrayLike
 
 from tehl.grid import Grid
 from tehl.scaling import Groups
 from tehl.typing import Array
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 
 class Influence:

@@ -22,8 +22,8 @@ ALONG, ACROSS = 8, 2
 SMALLEST = 400
 """Nodes at which the sum is done by definition."""
 PAD = 24
-STEPS = np.array([1, 3, 5])
-WEIGHTS = np.array([150.0, -25.0, 3.0]) / 256.0
+STEPS = (1, 3, 5)
+WEIGHTS = (150.0 / 256.0, -25.0 / 256.0, 3.0 / 256.0)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -150,15 +150,14 @@ def patch_corrections(influence: Influence, step: tuple[int, int, int], growth: 
         Nodes added to both half-widths of the patch.
     """
     axis, row_stride, column_stride = step
-    along = np.arange(ALONG + growth + 1)[:, None]
-    across = np.arange(ACROSS + growth + 1)[None, :]
+    along = np.arange(ALONG + growth + 1.0)[:, None]
+    across = np.arange(ACROSS + growth + 1.0)[None, :]
 
     def kernel(d: Array, q: Array) -> Array:
         rows, columns = (d, q) if axis == 0 else (q, d)
         return influence(np.abs(rows) * row_stride, np.abs(columns) * column_stride)
 
-    interpolated = sum(
-        w * (kernel(along + k, across) + kernel(along - k, across))
-        for k, w in zip(STEPS, WEIGHTS, strict=True)
-    )
-    return np.ascontiguousarray(kernel(along, across) - interpolated)
+    missed = kernel(along, across)
+    for k, w in zip(STEPS, WEIGHTS, strict=True):
+        missed -= w * (kernel(along + k, across) + kernel(along - k, across))
+    return np.ascontiguousarray(missed)

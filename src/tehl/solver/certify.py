@@ -77,7 +77,7 @@ def _halved(options: Options, times: int) -> Options:
 
 
 def _widened(options: Options, middle: Result) -> Options:
-    """The mesh width of ``middle`` on the larger domain: the nodes of the finest grid."""
+    """Put the mesh width of ``middle`` on the larger domain, with the nodes of the finest grid."""
     x, y = middle.scaled.x, middle.scaled.y
     domain = Domain(
         x=(WIDER * float(x[0]), WIDER * float(x[-1])), y=(WIDER * float(y[0]), WIDER * float(y[-1]))

@@ -3,11 +3,13 @@
 import numpy as np
 
 from tehl.kernels import reynolds
-from tehl.kernels.newton import Coarse, newton_step
+from tehl.kernels.newton import Coarse, System, newton_step
 from tehl.operators.influence import dense_matrix
 from tehl.solver.level import Level
 from tehl.typing import Array
 
+LONGEST_STEP = 0.3
+"""Largest change of pressure in one step, in Hertz pressures."""
 PRESSURE_STEP = 1e-6
 """Step of the derivative of the conductance by pressure; its error is of this relative size."""
 
@@ -27,20 +29,25 @@ class CoarsestSolver:
         reynolds.operator(level.film, level.mesh, residual)
         np.subtract(level.rhs, residual, out=residual)
         by_pressure, by_film = self._slopes()
-        film, mesh = level.film, level.mesh
+        film = level.film
+        system = System(
+            residual=residual,
+            influence=self.influence,
+            frozen=level.smoother.frozen,
+            area=level.load.area,
+            missing_load=level.load_target - level.load.integral(film.p),
+        )
         change = newton_step(
             Coarse(film.p, film.h, film.eps, film.rho, film.drho, by_pressure, by_film),
-            (mesh.cx, mesh.cy, mesh.w0, mesh.w1, mesh.w2, mesh.mirror),
-            residual,
-            self.influence,
-            (level.load.area, level.load_target - level.load.integral(film.p)),
-            level.smoother.frozen,
+            level.mesh,
+            system,
+            LONGEST_STEP,
         )
         level.rigid_approach += change
         level.stale = True
 
     def _slopes(self) -> tuple[Array, Array]:
-        """Derivatives of the conductance by pressure and by film."""
+        """Return the derivatives of the conductance by pressure and by film."""
         level = self.level
         film = level.film
         scratch = (np.empty_like(film.p) for _ in range(3))

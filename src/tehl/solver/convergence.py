@@ -6,8 +6,9 @@ from tehl.options import Options
 from tehl.result import CycleReport, ErrorEstimate
 
 LEAST_CYCLES = 2
-SAFETY = 1.25
-"""Factor on the discretisation error where three grids show its order (Roache's index)."""
+SAFETY = 2.0
+"""Factor on the discretisation error where three grids show its order: the coarser ones are not
+iterated to the end."""
 LARGEST_LOAD_ERROR = 1e-3
 """Load error at which the film is taken for balanced; it changes by a tenth of this, relatively."""
 STALL_CYCLES = 8
@@ -83,6 +84,8 @@ def stalled(now: GridTrace) -> bool:
 def error_estimate(traces: list[GridTrace]) -> ErrorEstimate | None:
     """Return relative errors of the film on the last grid; None with a single grid."""
     if len(traces) < 2:
+        return None
+    if not traces[-1].reports or not traces[-2].reports:
         return None
     parts = []
     for name in ("central", "minimum"):

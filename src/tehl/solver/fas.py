@@ -9,8 +9,9 @@ from tehl.solver.level import Level
 EXTRA_SWEEPS = 1
 """Sweeps added on coarser levels: a V-cycle leaves error there, and sweeps there are cheap."""
 REVISITED = 2
-"""Coarsest levels that a V-cycle visits twice: they hardly resolve the contact, so that one visit
-overshoots the load balance (by its own size at M = 5), and a second one costs next to nothing."""
+"""Number of coarser levels below which a V-cycle goes down twice: the coarsest grid hardly resolves
+the contact, so that one visit overshoots the load balance (by its own size at M = 5); a second one
+through the level above it cures that and costs next to nothing."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -39,7 +40,7 @@ class Cycle:
     def coarse_visits(self, coarser: int) -> tuple["Cycle", ...]:
         """Return the cycles to run on the next of ``coarser`` levels that are left below."""
         kinds = {"V": "V", "W": "WW", "F": "FV"}[self.kind]
-        if self.kind == "V" and coarser <= REVISITED:
+        if self.kind == "V" and coarser == REVISITED:
             kinds = "VV"
         return tuple(replace(self, kind=kind) for kind in kinds)
 

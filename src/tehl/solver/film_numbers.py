@@ -4,8 +4,7 @@ import numpy as np
 
 from tehl.grid import Grid
 from tehl.result import FilmSummary
-from tehl.typing import Array
-
+from tehl.typing import Array, IntArray
 
 REACH = 5
 """Nodes on each side of the smallest one that the spline goes through."""
@@ -25,7 +24,7 @@ def central_value(grid: Grid, field: Array) -> float:
     return float(row_weights @ field[np.ix_(rows, columns)] @ column_weights)
 
 
-def _lagrange(nodes: Array, spacing: float) -> tuple[Array, Array]:
+def _lagrange(nodes: Array, spacing: float) -> tuple[IntArray, Array]:
     """Nodes next to 0 and their weights: one where it is a node, else four, to third order."""
     place = -float(nodes[0]) / spacing
     nearest = round(place)

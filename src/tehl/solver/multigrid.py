@@ -1,7 +1,5 @@
 """Full multigrid: from the coarsest grid up, each grid starts from the next coarser solution."""
 
-from collections.abc import Callable
-
 import numpy as np
 
 from tehl.film_formulas import expected_central_film
@@ -24,10 +22,12 @@ FIRST_STEPS = 6
 """Newton steps on the coarsest grid at the start; they may cycle there, which does no harm."""
 COARSE_CYCLES = 4
 """Most cycles on a grid that only gives the start for the next finer one."""
+LARGEST_CHANGE = 0.2
+"""Change of pressure in the last cycle (and load error) beyond which a grid is in disorder."""
 RUNAWAY = 100.0
-"""Load error and central film (H of an elastic contact is below 2) that no iteration comes back from."""
+"""Load error and central film that no iteration comes back from (H of a contact is below 2)."""
 FLOOR = 0.02
-"""Least film in the conductance, relative to the expected central film: coarse grids may need it."""
+"""Least film in the conductance, over the expected central film: coarse grids may need it."""
 
 
 class DivergedError(ArithmeticError):
@@ -67,34 +67,72 @@ class Multigrid:
         """The level of the answer."""
         return self.levels[-1]
 
-    def solve(self, monitor: Monitor) -> bool:
+    def solve(self, monitor: Monitor, *, patient: bool) -> bool:
         """Run full multigrid; return whether the finest grid converged.
+
+        Parameters
+        ----------
+        monitor : Monitor
+            Told of each cycle.
+        patient : bool
+            Go on to the finest grid even when the one before it is in disorder.
 
         Raises
         ------
         DivergedError
-            When the unknowns run away or are no longer finite.
+            When the unknowns run away or are no longer finite on the finest grid.
         """
-        self._start()
+        self._start_dry(self.levels[0])
+        for _ in range(FIRST_STEPS):
+            self.coarsest.step()
+        orderly = True
         for count in range(2, len(self.levels) + 1):
             coarse, fine = self.levels[count - 2 : count]
-            fine.film.p[:] = refine(coarse.film.p, fine.grid)
-            fine.rigid_approach = coarse.rigid_approach
-            self._cycle_on(self.levels[:count], monitor)
+            if orderly:
+                fine.film.p[:] = refine(coarse.film.p, fine.grid)
+                fine.rigid_approach = coarse.rigid_approach
+            else:
+                self._start_dry(fine)
+            if fine is self.finest:
+                if not (orderly or patient):
+                    raise DivergedError
+                self._cycle_on(self.levels[:count], monitor)
+            else:
+                orderly = self._prepare_on(self.levels[:count], monitor)
         coarser = self.traces[-2] if len(self.traces) > 1 else None
         return converged(self.traces[-1], coarser, self.options)
 
-    def _start(self) -> None:
-        """Dry pressure and the expected central film on the coarsest grid, then Newton."""
-        level = self.levels[0]
+    def salvage(self) -> None:
+        """Put the finest coarser state that is sound on the finest grid, by interpolation."""
+        sound = max((k for k, level in enumerate(self.levels) if _is_sound(level)), default=0)
+        for coarse, fine in zip(self.levels[sound:], self.levels[sound + 1 :], strict=False):
+            fine.film.p[:] = refine(coarse.film.p, fine.grid)
+            fine.rigid_approach = coarse.rigid_approach
+        self.finest.pose_problem()
+        self.finest.update()
+
+    def _start_dry(self, level: Level) -> None:
+        """Start from the dry pressure, at the approach that gives the expected central film."""
         level.pose_problem()
         level.film.p[:] = hertz_pressure(level.grid)
         level.rigid_approach = 0.0
         level.update()
         level.rigid_approach = self.expected_film - central_value(level.grid, level.film.h)
         level.stale = True
-        for _ in range(FIRST_STEPS):
-            self.coarsest.step()
+
+    def _prepare_on(self, levels: list[Level], monitor: Monitor) -> bool:
+        """Cycle on a coarser grid; return whether its solution is a start for the next one.
+
+        A grid that cannot resolve the film may have no sound discrete solution: then the dry
+        pressure is the better start.
+        """
+        try:
+            self._cycle_on(levels, monitor)
+        except DivergedError:
+            return False
+        first, last = self.traces[-1].reports[0], self.traces[-1].reports[-1]
+        falling = last.cycle < COARSE_CYCLES or last.residual < 0.5 * first.residual
+        return falling and last.change < LARGEST_CHANGE and abs(last.load_error) < LARGEST_CHANGE
 
     def _cycle_on(self, levels: list[Level], monitor: Monitor) -> None:
         """Cycle with the last of ``levels`` as the finest, until it is good enough."""
@@ -105,11 +143,6 @@ class Multigrid:
         self.traces.append(trace)
         trace.note(*film_numbers(fine))
         shape = Cycle.of(self.options)
-        done: Callable[[], bool] = lambda: (  # noqa: E731 (two ways to be done, named once)
-            converged(trace, coarser, self.options) or stalled(trace)
-            if last
-            else iterated_enough(trace, coarser)
-        )
         for number in range(1, (self.options.max_cycles if last else COARSE_CYCLES) + 1):
             before = fine.film.p.copy()
             cycle(levels, self.coarsest.step, shape)
@@ -117,7 +150,9 @@ class Multigrid:
             trace.reports.append(report)
             trace.note(report.film_central, report.film_minimum)
             monitor.cycle(report)
-            if done():
+            if last and (converged(trace, coarser, self.options) or stalled(trace)):
+                return
+            if not last and iterated_enough(trace, coarser):
                 return
 
     def _report(self, level: Level, before: np.ndarray, number: int) -> CycleReport:
@@ -143,3 +178,9 @@ class Multigrid:
 def film_numbers(level: Level) -> tuple[float, float]:
     """Return central and smallest nodal film of a level."""
     return central_value(level.grid, level.film.h), float(level.film.h.min())
+
+
+def _is_sound(level: Level) -> bool:
+    """Whether a level holds a finite pressure of credible size."""
+    largest = float(level.film.p.max())
+    return 0.0 < largest < RUNAWAY and bool(np.isfinite(level.rigid_approach))

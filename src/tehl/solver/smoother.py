@@ -10,7 +10,7 @@ from tehl.kernels.gauss_seidel import relax_points
 from tehl.kernels.reynolds import Film, Mesh, Relaxation, relax_lines
 from tehl.operators.influence import Influence
 from tehl.operators.reynolds import line_influence
-from tehl.typing import Array
+from tehl.typing import Array, FlagArray
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -42,7 +42,7 @@ SETTINGS = {setting.name: setting for setting in (FAST, ROBUST, POINTWISE)}
 class Smoother(Protocol):
     """One sweep over the pressure of a level; the film is that of the last evaluation."""
 
-    frozen: Array
+    frozen: FlagArray
     """Nodes that keep their pressure on this level, (ny, nx) of 0 and 1."""
 
     def sweep(self, film: Film, mesh: Mesh, rhs: Array) -> None:
@@ -89,5 +89,6 @@ class PointSmoother:
 
 def make_smoother(grid: Grid, influence: Influence, setting: Setting) -> Smoother:
     """Return the smoother of ``setting`` for one grid."""
-    kind = PointSmoother if setting is POINTWISE else LineSmoother
-    return kind(grid, influence, setting)
+    if setting is POINTWISE:
+        return PointSmoother(grid, influence, setting)
+    return LineSmoother(grid, influence, setting)

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
 
+import numpy as np
+
 from tehl.domain import recommended_domain
 from tehl.errors import ConvergenceError
 from tehl.grid import Grid, can_mirror
@@ -103,15 +105,18 @@ def _attempts(problem: ContactProblem, options: Options, monitor: Monitor) -> It
         if number:
             monitor.message(f"falling back to the {setting.name} smoother")
         run = Multigrid(grid, case_groups, flow, options, setting)
-        yield Attempt(run=run, status=_run(run, monitor))
+        last = number == len(settings) - 1
+        yield Attempt(run=run, status=_run(run, monitor, patient=last))
 
 
-def _run(run: Multigrid, monitor: Monitor) -> Status:
+def _run(run: Multigrid, monitor: Monitor, *, patient: bool) -> Status:
     """Run and judge; a value that is not finite ends the run."""
-    try:
-        reached = run.solve(monitor)
-    except ArithmeticError:
-        return diverged(run.finest.grid, run.groups)
+    with np.errstate(all="ignore"):  # a run away is judged below, not warned of on the way
+        try:
+            reached = run.solve(monitor, patient=patient)
+        except ArithmeticError:
+            run.salvage()
+            return diverged(run.finest.grid, run.groups)
     return verdict(run, not reached, error_estimate(run.traces))
 
 
