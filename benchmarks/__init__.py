@@ -1,0 +1,1 @@
+"""Time, work, rate, memory and robustness of the solver: ``python -m benchmarks``."""

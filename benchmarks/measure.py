@@ -1,0 +1,67 @@
+"""Measuring: CPU seconds of one thread, medians of repeats, the FFT unit of work."""
+
+import os
+
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+import statistics
+import time
+from collections.abc import Callable
+
+import numpy as np
+from scipy import fft
+
+from tehl.grid import Grid
+from tehl.operators.deformation import FftDeformation
+from tehl.operators.flow import flow_table
+from tehl.options import Options
+from tehl.problem import ContactProblem
+from tehl.scaling import groups, scales
+from tehl.solver.multigrid import Multigrid
+from tehl.solver.smoother import FAST, Setting
+from tehl.solver.steady import finest_grid
+
+FFT_REPEATS = 20
+
+
+def cpu_seconds(action: Callable[[], object], repeats: int) -> float:
+    """Return the median CPU seconds of ``action`` after one call that is not counted."""
+    action()
+    times = []
+    for _ in range(repeats):
+        start = time.process_time()
+        action()
+        times.append(time.process_time() - start)
+    return statistics.median(times)
+
+
+def fft_unit(points: int) -> float:
+    """Return the CPU seconds of one FFT deformation on ``points`` x ``points`` nodes.
+
+    rfft2, multiply, irfft2 of the full domain zero-padded to 2N, float64, one worker; spectrum
+    and padded array are ready; median of 20.
+    """
+    nodes = 2 * (points - 1)
+    padded = np.random.default_rng(0).random((nodes, nodes))
+    spectrum = np.ones((nodes, nodes // 2 + 1))
+
+    def deform() -> None:
+        transform = fft.rfft2(padded, workers=1)
+        transform *= spectrum
+        fft.irfft2(transform, (nodes, nodes), workers=1, overwrite_x=True)
+
+    return cpu_seconds(deform, FFT_REPEATS)
+
+
+def multigrid(problem: ContactProblem, options: Options, setting: Setting = FAST) -> Multigrid:
+    """Return the hierarchy that `tehl.solve` would cycle on."""
+    case_scales, case_groups = scales(problem), groups(problem)
+    grid = finest_grid(options, case_groups)
+    flow = flow_table(problem, case_scales, case_groups)
+    return Multigrid(grid, case_groups, flow, options, setting)
+
+
+def exact_deformation(grid: Grid, problem: ContactProblem) -> FftDeformation:
+    """Return the exact deflection on ``grid``."""
+    return FftDeformation(grid, groups(problem))

@@ -1,0 +1,68 @@
+"""Time, work in FFT units, memory, and how they grow with the grid."""
+
+import json
+import math
+import os
+import subprocess
+import sys
+
+from benchmarks.measure import cpu_seconds, fft_unit
+from benchmarks.table import Table
+from tehl.options import Options
+from tehl.problem import ContactProblem
+from tehl.solver import solve
+from tests.reference import DOMAIN, moes_contact
+
+SIZES = (129, 257, 513, 1025)
+REPEATS = {129: 15, 257: 9, 513: 7, 1025: 5}
+MEMORY_SCRIPT = """
+import json, resource, sys
+from tehl.options import Domain, Options
+from tehl.solver import solve
+from tests.reference import DOMAIN, moes_contact
+peak = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
+solve(moes_contact(200, 10), Options(points=65, domain=DOMAIN))
+before = peak()
+solve(moes_contact(200, 10), Options(points=int(sys.argv[1]), domain=DOMAIN))
+print(json.dumps([before, peak() - before]))
+"""
+
+
+def solve_seconds(problem: ContactProblem, options: Options, repeats: int) -> float:
+    """Return the median CPU seconds of whole solves, set-up of the kernels included."""
+    return cpu_seconds(lambda: solve(problem, options), repeats)
+
+
+def memory(points: int) -> tuple[float, float]:
+    """Return MB after import and warm-up, and the peak of a solve above it, in a new process."""
+    command = [sys.executable, "-c", MEMORY_SCRIPT, str(points)]
+    run = subprocess.run(command, check=True, capture_output=True, text=True, env=dict(os.environ))
+    before, above = json.loads(run.stdout)
+    return before, above
+
+
+def table(*, quick: bool = False) -> Table:
+    """Return solve time and memory at M = 200, L = 10 by grid, and at 513 for other loads."""
+    made = Table(
+        title="Speed: default accuracy, X in [-4.5, 1.5], Y in [-3, 3], L = 10, one thread",
+        columns=("M", "points", "CPU s", "FFT ms", "work", "us/node", "MB above warm process"),
+    )
+    sizes = (129, 257) if quick else SIZES
+    cases = [(200.0, n) for n in sizes] + ([] if quick else [(20.0, 513), (1000.0, 513)])
+    seconds = {}
+    for load, points in cases:
+        options = Options(points=points, domain=DOMAIN)
+        spent = solve_seconds(moes_contact(load, 10.0), options, REPEATS[points])
+        unit = fft_unit(points)
+        seconds[load, points] = spent
+        above = memory(points)[1] if load == 200.0 else None
+        made.rows.append(
+            (load, points, spent, 1e3 * unit, spent / unit, 1e6 * spent / points**2, above)
+        )
+    exponents = [
+        math.log(seconds[200.0, b] / seconds[200.0, a]) / math.log((b / a) ** 2)
+        for a, b in zip(sizes, sizes[1:], strict=False)
+    ]
+    shown = ", ".join(f"{exponent:.2f}" for exponent in exponents)
+    made.notes.append(f"exponent of CPU seconds against unknowns, grid to grid: {shown}")
+    return made

@@ -1,0 +1,23 @@
+"""Load of a pressure field."""
+
+import numpy as np
+import pytest
+
+from tehl.operators.film import hertz_pressure
+from tehl.operators.load import TARGET, Load
+from tests.operators.contacts import grid_of
+
+
+@pytest.mark.parametrize("mirror", [True, False])
+def test_hertz_pressure_carries_the_load(mirror):
+    grid = grid_of(257, 257, mirror=mirror)
+    # midpoint rule across the infinite slope at r = 1: h^(3/2) with h = 0.019
+    assert Load(grid).integral(hertz_pressure(grid)) == pytest.approx(TARGET, rel=2.6e-3)
+
+
+def test_half_a_domain_carries_the_load_of_the_full_one():
+    half, full = (grid_of(33, 41, mirror=mirror) for mirror in (True, False))
+    pressure = np.random.default_rng(0).random(half.shape)
+    assert Load(half).integral(pressure) == pytest.approx(
+        Load(full).integral(half.unfold(pressure)), rel=1e-13
+    )

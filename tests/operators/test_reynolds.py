@@ -1,0 +1,114 @@
+"""The discrete Reynolds operator against exact solutions and by its order."""
+
+import numpy as np
+import pytest
+
+from tehl.grid import Grid
+from tehl.kernels import reynolds
+from tehl.operators.influence import influence_of
+from tehl.operators.reynolds import line_influence, stencil
+from tehl.options import Domain
+from tehl.typing import Array
+from tests.operators.contacts import contact_groups, grid_of
+
+BOX = Domain(x=(-2.0, 2.0), y=(-1.5, 1.5))
+
+
+def apply(grid: Grid, fields: dict[str, Array], *, ratio: float = 1.0, wedge: int = 2) -> Array:
+    """L(p) for given p, h, eps, rho."""
+    mesh = stencil(grid, contact_groups(ratio), wedge)
+    zero = np.zeros(grid.shape)
+    film = reynolds.Film(
+        p=fields.get("p", zero),
+        h=fields.get("h", zero),
+        eps=fields.get("eps", zero),
+        rho=fields.get("rho", zero),
+        drho=zero,
+    )
+    out = np.empty(grid.shape)
+    reynolds.operator(film, mesh, out)
+    return out
+
+
+def order(error_of, coarse: int = 33, fine: int = 129) -> float:
+    return float(np.log2(error_of(coarse) / error_of(fine)) / np.log2((fine - 1) / (coarse - 1)))
+
+
+def poiseuille_error(points: int, *, mirror: bool, ratio: float) -> float:
+    grid = grid_of(points, points, mirror=mirror, domain=BOX)
+    x, y = grid.x[None, :], grid.y[:, None]
+    kappa = contact_groups(ratio).ellipticity
+    eps = 1.5 + 0.5 * np.sin(x) * np.cos(y)
+    p = np.cos(x) * np.cos(2 * y)
+    eps_x, eps_y = 0.5 * np.cos(x) * np.cos(y), -0.5 * np.sin(x) * np.sin(y)
+    p_x, p_y = -np.sin(x) * np.cos(2 * y), -2 * np.cos(x) * np.sin(2 * y)
+    exact = eps_x * p_x - eps * p + (eps_y * p_y - 4 * eps * p) / kappa**2
+    error = apply(grid, {"p": p, "eps": eps}, ratio=ratio) - exact
+    return float(np.abs(error[0 if mirror else 1 : -1, 1:-1]).max())
+
+
+@pytest.mark.parametrize("ratio", [0.5, 1.0, 3.0])
+@pytest.mark.parametrize("mirror", [True, False])
+def test_the_poiseuille_term_is_of_second_order(mirror, ratio):
+    assert order(lambda n: poiseuille_error(n, mirror=mirror, ratio=ratio)) == pytest.approx(
+        2.0, abs=0.1
+    )
+
+
+def wedge_error(points: int, wedge: int) -> float:
+    grid = grid_of(points, points, mirror=True, domain=BOX)
+    x, y = grid.x[None, :], grid.y[:, None]
+    rho, h = 1.2 + 0.1 * np.sin(x + y), 1.0 + 0.5 * x**2 + 0.5 * y**2
+    exact = -(0.1 * np.cos(x + y) * h + rho * x)
+    error = apply(grid, {"rho": rho, "h": h}, wedge=wedge) - exact
+    return float(np.abs(error[:-1, 2:-1]).max())  # the first node has only one upstream
+
+
+@pytest.mark.parametrize("wedge", [1, 2])
+def test_the_wedge_term_has_the_order_that_was_asked_for(wedge):
+    assert order(lambda n: wedge_error(n, wedge)) == pytest.approx(wedge, abs=0.1)
+
+
+@pytest.mark.parametrize("wedge", [1, 2])
+def test_the_wedge_of_a_linear_film_is_exact_from_the_first_node_on(wedge):
+    grid = grid_of(33, 33, mirror=True, domain=BOX)
+    film = 5.0 + np.broadcast_to(grid.x, grid.shape)
+    out = apply(grid, {"rho": np.ones(grid.shape), "h": film.copy()}, wedge=wedge)
+    np.testing.assert_allclose(out[:-1, 1:-1], -1.0, rtol=1e-12)
+
+
+def sommerfeld_residual(points: int) -> float:
+    """Residual of the exact full film between rigid paraboloids, over its largest term.
+
+    ``p = -(6/5) eta u_s x / h^2`` solves ``div(h^3 grad p) = 6 eta u_s h_x`` for
+    ``h = h_0 + (x^2 + y^2)/2`` (R = 1); here eps = h^3/6 eta u_s, so L(p) = 0 with p = -(6/5) x/h^2.
+    """
+    grid = grid_of(points, points, mirror=True, domain=BOX)
+    x, y = grid.x[None, :], grid.y[:, None]
+    h = 0.5 + 0.5 * (x**2 + y**2)
+    p = -1.2 * x / h**2
+    out = apply(grid, {"p": p, "h": h, "eps": h**3 / 6.0, "rho": np.ones(grid.shape)})
+    return float(np.abs(out[:-1, 2:-1]).max())
+
+
+def test_the_exact_full_film_between_paraboloids_is_met_to_second_order():
+    assert order(sommerfeld_residual, 65, 257) == pytest.approx(2.0, abs=0.15)
+    assert sommerfeld_residual(257) < 5e-3  # (h/h_0)^2 = 1e-3 times a few of the largest slope 1
+
+
+def test_half_a_domain_and_the_full_one_have_the_same_operator():
+    rng = np.random.default_rng(5)
+    half, full = (grid_of(17, 17, mirror=mirror) for mirror in (True, False))
+    fields = {name: rng.random(half.shape) for name in ("p", "h", "eps", "rho")}
+    by_half = apply(half, fields)
+    by_full = apply(full, {name: half.unfold(field) for name, field in fields.items()})
+    np.testing.assert_allclose(by_half, by_full[8:], rtol=1e-12, atol=1e-9)
+
+
+def test_a_dipole_moves_the_film_near_itself_only():
+    grid = grid_of(65, 65, mirror=True, domain=BOX)
+    point, dipole = line_influence(influence_of(grid, contact_groups()))
+    assert point[0] == point.max()
+    # a quadrupole in its far field: falls off with the third power of the distance
+    assert abs(dipole[7]) < 0.02 * dipole[0]
+    assert point[7] > 0.02 * point[0]
