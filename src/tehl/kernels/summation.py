@@ -168,12 +168,13 @@ def spread_rows(u: Array, table: Array, fine: Box, coarse_w: Array, coarse: Box,
 @njit(cache=True)
 def split_columns(u: Array, box: Box, even: Array, odd: Array) -> None:
     """De-interleave: ``even[:, a]`` holds node 2a, ``odd[:, a]`` node 2a+1, both at a + ox/2."""
-    n = even.shape[1]
     parity = box.ox % 2
+    n = min(even.shape[1], (u.shape[1] - parity) // 2)
     for y in range(u.shape[0]):
-        for a in range(n - 1):
-            even[y, a] = u[y, 2 * a + parity]
-            odd[y, a] = u[y, 2 * a + 1 + parity]
+        row, even_row, odd_row = u[y, parity:], even[y], odd[y]
+        for a in range(n):
+            even_row[a] = row[2 * a]
+            odd_row[a] = row[2 * a + 1]
 
 
 @njit(cache=True, fastmath={"contract"})
