@@ -38,8 +38,7 @@ def test_the_ball_on_disc_has_its_film():
 
 
 def test_the_moes_case_lies_within_a_tenth_of_the_formulas():
-    # Formulas differ by five per cent from each other, and all of them were fitted on coarser
-    # grids; at M = 500 they are known to be too thick.
+    # The formulas differ by five per cent among themselves at this load.
     table = example("moes_case").main()
     for name in ("Nijenbanning-Venner-Moes", "Hamrock-Dowson", "Chittenden"):
         ratio = table[100.0]["computed"] / table[100.0][name]
@@ -64,7 +63,7 @@ def test_plain_gauss_seidel_fails_where_the_hybrid_converges():
 def test_the_film_converges_with_second_order():
     found = example("grid_convergence").main()
     assert found["order"] == pytest.approx(2.0, abs=0.2)
-    # 0.43027: an independent solver on grids up to 385 x 385, known to 1e-4
+    # 0.43027: an independent solver on grids up to 385 x 385
     assert found["H at the limit"] == pytest.approx(0.43027, rel=1e-3)
 
 

@@ -1,0 +1,83 @@
+"""The gallery: run each example, show its text, what it printed and what it drew."""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import tehl
+
+PAGE = """# {title}
+
+{text}
+
+{pictures}
+
+It prints
+
+```text
+{output}
+```
+
+## The script
+
+`examples/{name}.py`; run it with `python examples/{name}.py FOLDER`.
+
+```{{literalinclude}} {script}
+:language: python
+:start-at: import
+```
+"""
+
+INDEX = """# Gallery
+
+Each page is a script of the folder `examples`; this documentation was built by running them.
+
+```{{toctree}}
+:maxdepth: 1
+
+{names}
+```
+"""
+
+
+def make(examples: Path, folder: Path) -> None:
+    """Write one page per example into ``folder``, and an index; run what is out of date."""
+    folder.mkdir(exist_ok=True)
+    scripts = sorted(examples.glob("*.py"))
+    for script in scripts:
+        page = folder / f"{script.stem}.md"
+        if not page.exists() or page.stat().st_mtime < newest(script):
+            page.write_text(page_text(script, folder), encoding="utf-8")
+    names = "\n".join(script.stem for script in scripts)
+    index = folder / "index.md"
+    if not index.exists() or index.read_text(encoding="utf-8") != INDEX.format(names=names):
+        index.write_text(INDEX.format(names=names), encoding="utf-8")
+
+
+def newest(script: Path) -> float:
+    """Return when the script, this file or the package last changed."""
+    sources = [script, Path(__file__), *Path(tehl.__file__).parent.rglob("*.py")]
+    return max(path.stat().st_mtime for path in sources)
+
+
+def page_text(script: Path, folder: Path) -> str:
+    """Run ``script`` and return its page."""
+    pictures = folder / script.stem
+    done = subprocess.run(
+        [sys.executable, str(script), str(pictures)], check=True, capture_output=True, text=True
+    )
+    doc = ast.get_docstring(ast.parse(script.read_text(encoding="utf-8"))) or script.stem
+    title, _, text = doc.partition("\n")
+    shown = [
+        f"![{title} {path.stem.replace('_', ' ')}]({script.stem}/{path.name})"
+        for path in sorted(pictures.glob("*.png"))
+    ]
+    return PAGE.format(
+        title=title.rstrip("."),
+        text=text.strip(),
+        pictures="\n\n".join(shown),
+        output=done.stdout.rstrip(),
+        name=script.stem,
+        script=f"../../examples/{script.name}",
+    )
