@@ -1,6 +1,7 @@
 """Elastic deflection: multilevel sum against FFT and the sum by definition."""
 
 import numpy as np
+from tests.reference import DOMAIN, moes_contact
 
 from benchmarks.measure import cpu_seconds
 from benchmarks.table import Cell, Table
@@ -12,7 +13,6 @@ from tehl.options import Options
 from tehl.scaling import groups
 from tehl.solver import solve
 from tehl.typing import Array
-from tests.reference import DOMAIN, moes_contact
 
 SIZES = (65, 129, 257, 513, 1025)
 LARGEST_DIRECT = 65

@@ -1,11 +1,12 @@
 """What the edges of the default domain do to the film."""
 
+from tests.reference import DOMAIN, moes_contact
+
 from benchmarks.table import Table
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.result import Result
 from tehl.solver import solve
-from tests.reference import DOMAIN, moes_contact
 
 LOADS = (5, 7, 10, 15, 20, 40, 57.21, 100, 200, 500, 1000)
 POINTS = 257

@@ -1,6 +1,9 @@
 """Convergence rate: how much one V(2,2) cycle after full multigrid takes off the error of H."""
 
+from itertools import pairwise
+
 import numpy as np
+from tests.reference import DOMAIN, moes_contact
 
 from benchmarks.measure import multigrid
 from benchmarks.table import Table
@@ -10,7 +13,6 @@ from tehl.solver.fas import Cycle, cycle
 from tehl.solver.monitor import SILENT
 from tehl.solver.multigrid import Multigrid
 from tehl.typing import Array
-from tests.reference import DOMAIN, moes_contact
 
 CASES = ((20, 10), (57.21, 10.52), (100, 12.04), (200, 10), (500, 10), (1000, 10))
 SIZES = (129, 257, 513)
@@ -63,6 +65,6 @@ def table(*, quick: bool = False) -> Table:
     for load, speed in CASES:
         errors = [errors_by_cycle(moes_contact(load, speed), n) for n in sizes]
         last = errors[-1]
-        steps = [f"{b / a:.2f}" for a, b in zip(last, last[1:], strict=False)]
+        steps = [f"{b / a:.2f}" for a, b in pairwise(last)]
         made.rows.append((load, speed, *(f"{mean_rate(e):.3f}" for e in errors), " ".join(steps)))
     return made

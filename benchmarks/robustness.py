@@ -8,13 +8,14 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+from tests.reference import moes_contact
+
 from benchmarks.table import Cell, Table
 from tehl.errors import ConvergenceError
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import Result
 from tehl.solver import solve
-from tests.reference import moes_contact
 
 LOADS = (5, 10, 20, 50, 100, 200, 500, 1000, 2000)
 SPEEDS = (1, 2, 5, 10, 15, 20)

@@ -2,26 +2,34 @@
 
 import json
 import math
-import os
 import subprocess
 import sys
+from itertools import pairwise
+from pathlib import Path
+
+from tests.reference import DOMAIN, moes_contact
 
 from benchmarks.measure import cpu_seconds, fft_unit
 from benchmarks.table import Table
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.solver import solve
-from tests.reference import DOMAIN, moes_contact
 
+ROOT = Path(__file__).parents[1]
 SIZES = (129, 257, 513, 1025)
 REPEATS = {129: 15, 257: 9, 513: 7, 1025: 5}
 MEMORY_SCRIPT = """
-import json, resource, sys
-from tehl.options import Domain, Options
+import json, sys
+from pathlib import Path
+from tehl.options import Options
 from tehl.solver import solve
 from tests.reference import DOMAIN, moes_contact
-peak = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
-solve(moes_contact(200, 10), Options(points=65, domain=DOMAIN))
+
+def peak():  # of this program alone: ru_maxrss would start at that of the parent
+    status = Path("/proc/self/status").read_text(encoding="ascii")
+    return int(status.split("VmHWM:")[1].split()[0]) / 1024.0
+
+solve(moes_contact(20, 10), Options(points=65, domain=DOMAIN))
 before = peak()
 solve(moes_contact(200, 10), Options(points=int(sys.argv[1]), domain=DOMAIN))
 print(json.dumps([before, peak() - before]))
@@ -33,10 +41,15 @@ def solve_seconds(problem: ContactProblem, options: Options, repeats: int) -> fl
     return cpu_seconds(lambda: solve(problem, options), repeats)
 
 
-def memory(points: int) -> tuple[float, float]:
-    """Return MB after import and warm-up, and the peak of a solve above it, in a new process."""
+def memory(points: int) -> tuple[float, float] | tuple[None, None]:
+    """Return MB after import and warm-up, and the peak of a solve above it, in a new process.
+
+    Neither is known on a system without ``/proc``.
+    """
+    if not Path("/proc/self/status").exists():
+        return None, None
     command = [sys.executable, "-c", MEMORY_SCRIPT, str(points)]
-    run = subprocess.run(command, check=True, capture_output=True, text=True, env=dict(os.environ))
+    run = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, cwd=ROOT)
     before, above = json.loads(run.stdout)
     return before, above
 
@@ -61,7 +74,7 @@ def table(*, quick: bool = False) -> Table:
         )
     exponents = [
         math.log(seconds[200.0, b] / seconds[200.0, a]) / math.log((b / a) ** 2)
-        for a, b in zip(sizes, sizes[1:], strict=False)
+        for a, b in pairwise(sizes)
     ]
     shown = ", ".join(f"{exponent:.2f}" for exponent in exponents)
     made.notes.append(f"exponent of CPU seconds against unknowns, grid to grid: {shown}")

@@ -17,8 +17,8 @@ from tests.reference import DOMAIN, read
 
 WIDE = Domain(x=(-4.0, 4.0), y=(-4.0, 4.0))
 MULTILEVEL_ERROR = 3e-4
-"""Of the largest deflection, everywhere and on any grid; the discretisation error of a film of 0.1 is
-above 1e-3 on grids as coarse as these. Patches of 8 x 2 leave 2e-5 (257^2) to 2e-4 (49 x 33)."""
+"""Of the largest deflection, everywhere and on any grid; the discretisation error of a film of 0.1
+is above 1e-3 on grids as coarse as these. Patches of 8 x 2 leave 2e-5 (257^2) to 2e-4 (49 x 33)."""
 SHAPES = [(33, 33), (49, 33), (33, 65), (41, 57)]
 
 

@@ -81,7 +81,7 @@ def sommerfeld_residual(points: int) -> float:
     """Residual of the exact full film between rigid paraboloids, over its largest term.
 
     ``p = -(6/5) eta u_s x / h^2`` solves ``div(h^3 grad p) = 6 eta u_s h_x`` for
-    ``h = h_0 + (x^2 + y^2)/2`` (R = 1); here eps = h^3/6 eta u_s, so L(p) = 0 with p = -(6/5) x/h^2.
+    ``h = h_0 + (x^2 + y^2)/2`` (R = 1); with eps = h^3/6 it reads L(p) = 0.
     """
     grid = grid_of(points, points, mirror=True, domain=BOX)
     x, y = grid.x[None, :], grid.y[:, None]

@@ -1,0 +1,34 @@
+"""Runs of the solver that many tests look at, each done once."""
+
+from functools import cache
+
+from tehl.operators.flow import flow_table
+from tehl.options import Options
+from tehl.problem import ContactProblem
+from tehl.result import Result
+from tehl.scaling import groups, scales
+from tehl.solver import solve
+from tehl.solver.multigrid import Multigrid
+from tehl.solver.smoother import FAST
+from tehl.solver.steady import finest_grid
+from tests.reference import DOMAIN, moes_contact
+
+TIGHT = {"accuracy": "tight", "domain": DOMAIN}
+
+
+def tight(points: int | tuple[int, int], **changes: object) -> Options:
+    """Return options of a run to 1e-6 on the domain of most published films."""
+    return Options.model_validate({"points": points, **TIGHT, **changes})
+
+
+@cache
+def film_of(load: float, speed: float, options: Options, radius_ratio: float = 1.0) -> Result:
+    """Return the result of a contact given by M and L."""
+    return solve(moes_contact(load, speed, radius_ratio=radius_ratio), options)
+
+
+def multigrid(problem: ContactProblem, options: Options) -> Multigrid:
+    """Return the hierarchy that `solve` would cycle on."""
+    numbers = groups(problem)
+    flow = flow_table(problem, scales(problem), numbers)
+    return Multigrid(finest_grid(options, numbers), numbers, flow, options, FAST)

@@ -1,0 +1,86 @@
+"""Richardson values with error bars, and the bars of a single run."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tehl.errors import InputError
+from tehl.options import Options
+from tehl.solver.certify import certify, estimate
+from tehl.solver.convergence import discretisation_bar
+from tests.reference import DOMAIN, moes_contact
+
+LIMITS = st.floats(0.01, 2.0)
+COEFFICIENTS = st.floats(-0.2, 0.2).filter(lambda c: abs(c) > 1e-6)
+
+
+def sequence(limit: float, coefficient: float, order: float) -> tuple[float, float, float]:
+    first, second, third = (limit * (1 + coefficient * 2.0 ** (-order * k)) for k in range(3))
+    return first, second, third
+
+
+@given(LIMITS, COEFFICIENTS)
+def test_an_exact_second_order_sequence_gives_its_limit(limit, coefficient):
+    found = estimate(sequence(limit, coefficient, 2.0), domain=0.0)
+    assert found.value == pytest.approx(limit, rel=1e-9)
+    assert found.observed_order == pytest.approx(2.0, abs=1e-6)
+    assert found.discretisation > 0.0
+
+
+@given(LIMITS, COEFFICIENTS, st.floats(1.5, 2.7))
+def test_the_bar_holds_the_limit_of_nearly_second_order(limit, coefficient, order):
+    found = estimate(sequence(limit, coefficient, order), domain=0.0)
+    assert abs(found.value - limit) <= found.uncertainty * (1 + 1e-6)
+
+
+@given(LIMITS, COEFFICIENTS)
+def test_a_sequence_without_order_gives_the_finest_value_and_the_whole_change(limit, coefficient):
+    values = (limit, limit * (1 + coefficient), limit)
+    found = estimate(values, domain=0.0)
+    assert found.value == values[2]
+    assert found.uncertainty == pytest.approx(abs(values[2] - values[1]))
+    assert found.observed_order is None
+
+
+def test_a_sequence_that_stands_still_has_no_bar_but_that_of_the_domain():
+    found = estimate((0.3, 0.3, 0.3), domain=0.01)
+    assert (found.value, found.uncertainty) == (0.3, 0.01)
+
+
+def test_the_parts_of_the_bar_add_in_quadrature():
+    found = estimate(sequence(1.0, 0.1, 2.0), domain=0.004)
+    assert found.uncertainty**2 == pytest.approx(found.discretisation**2 + 0.004**2)
+
+
+@given(LIMITS, COEFFICIENTS)
+def test_the_bar_of_a_second_order_run_is_a_third_of_the_change_with_a_margin(limit, coefficient):
+    values = list(sequence(limit, coefficient, 2.0))
+    bar = discretisation_bar(values)
+    # the error of the last value is a third of the last change, and one quarter is margin
+    assert bar == pytest.approx(1.25 * abs(values[2] - limit), rel=1e-6)
+
+
+@given(LIMITS, COEFFICIENTS)
+def test_the_bar_without_an_order_is_the_whole_change(limit, coefficient):
+    values = [limit, limit * (1 + coefficient)]
+    assert discretisation_bar(values) == pytest.approx(abs(values[1] - values[0]))
+
+
+@given(st.lists(st.floats(-1.0, 1.0), min_size=2, max_size=3))
+def test_the_bar_is_never_less_than_a_third_of_the_last_change(values):
+    assert discretisation_bar(values) >= abs(values[-1] - values[-2]) / 3.0
+
+
+def test_a_grid_that_cannot_be_halved_twice_is_refused():
+    with pytest.raises(InputError, match="129 nodes"):
+        certify(moes_contact(20.0, 10.0), Options(points=65))
+
+
+def test_a_certified_run_carries_bars_for_film_and_pressure():
+    result = certify(moes_contact(20.0, 10.0), Options(points=129, domain=DOMAIN))
+    assert set(result.uncertainty) == {"film_central", "film_minimum", "pressure_max"}
+    central = result.uncertainty["film_central"]
+    assert central.values[2] == result.film_scaled.central
+    assert central.observed_order == pytest.approx(2.0, abs=0.2)
+    assert 0 < central.discretisation < 0.01 * central.value
+    assert 0 < central.domain < 0.05 * central.value  # this domain costs 1 % at M = 20

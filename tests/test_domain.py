@@ -1,0 +1,67 @@
+"""Domain and points: what is proposed, and what is refused."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from pydantic import ValidationError
+
+from tehl.domain import needed_points, recommended_domain
+from tehl.options import Domain, Options, coarsenable, coarsenings
+from tehl.scaling import groups
+from tests.reference import moes_contact
+
+
+@pytest.mark.parametrize(
+    ("x", "y"),
+    [
+        ((-0.9, 1.5), (-3.0, 3.0)),
+        ((-4.5, 1.0), (-3.0, 3.0)),
+        ((-4.5, 1.5), (-3.0, 0.5)),
+        ((float("nan"), 1.5), (-3.0, 3.0)),
+        ((-4.5, float("inf")), (-3.0, 3.0)),
+    ],
+)
+def test_a_domain_that_cuts_the_contact_is_refused(x, y):
+    with pytest.raises(ValidationError, match="cuts the contact"):
+        Domain(x=x, y=y)
+
+
+@pytest.mark.parametrize("points", [67, 130, 200, (129, 131)])
+def test_points_that_cannot_be_coarsened_are_refused_with_two_that_can(points):
+    with pytest.raises(ValidationError, match=r"such as (\d+) or (\d+) nodes"):
+        Options(points=points)
+
+
+@pytest.mark.parametrize("points", [0, -129, 16, 100_001])
+def test_points_out_of_range_are_refused(points):
+    with pytest.raises(ValidationError):
+        Options(points=points)
+
+
+@given(st.integers(17, 5000))
+def test_the_nodes_proposed_in_place_of_others_can_be_coarsened(nodes):
+    fewer, more = coarsenable(nodes)
+    assert fewer <= max(nodes, 33) < more
+    assert coarsenings(fewer) >= 1
+    assert coarsenings(more) >= 1
+
+
+@pytest.mark.parametrize("load", [0.5, 5.0, 20.0, 200.0, 2000.0])
+def test_the_proposed_domain_has_the_centre_on_every_grid(load):
+    domain = recommended_domain(groups(moes_contact(load, 10.0)))
+    (left, right), (south, north) = domain.x, domain.y
+    assert -left / (right - left) * 16 == pytest.approx(round(-left / (right - left) * 16))
+    assert south == -north
+
+
+def test_the_proposed_domain_shrinks_with_load_to_the_usual_one():
+    widths = [-recommended_domain(groups(moes_contact(m, 10.0))).x[0] for m in (3, 20, 80, 500)]
+    assert widths == sorted(widths, reverse=True)
+    assert widths[-1] == 4.5
+
+
+def test_heavier_loads_need_more_points():
+    points = [needed_points(groups(moes_contact(m, 10.0))) for m in (20, 200, 2000)]
+    assert points == sorted(points)
+    assert points[0] < points[-1]
+    assert all(coarsenings(n) >= 1 for n in points)
