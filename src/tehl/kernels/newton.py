@@ -11,7 +11,7 @@ import numpy as np
 from numba import njit
 
 from tehl.kernels.reynolds import Mesh
-from tehl.typing import Array, IntArray
+from tehl.typing import Array, FlagArray, IntArray
 
 HERE, EAST, WEST, NORTH, SOUTH, FAR = range(6)
 
@@ -37,7 +37,7 @@ class System(NamedTuple):
 
     residual: Array
     influence: Array
-    frozen: Array
+    frozen: FlagArray
     area: float
     missing_load: float
 

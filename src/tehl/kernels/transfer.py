@@ -6,11 +6,11 @@ line and row -1 equals row 1.
 
 from numba import njit
 
-from tehl.typing import Array
+from tehl.typing import Array, FlagArray
 
 
 @njit(cache=True)
-def weigh(fine: Array, mirror: int, j: int, i: int) -> float:
+def weigh(fine: Array, j: int, i: int) -> float:
     """Full weighting of ``fine`` at fine node (j, i)."""
     south = j - 1 if j > 0 else 1
     return (
@@ -28,7 +28,7 @@ def restrict_residual(fine: Array, mirror: int, coarse: Array) -> None:
     coarse[:] = 0.0
     for j in range(0 if mirror else 1, ny - 1):
         for i in range(1, nx - 1):
-            coarse[j, i] = weigh(fine, mirror, 2 * j, 2 * i)
+            coarse[j, i] = weigh(fine, 2 * j, 2 * i)
 
 
 @njit(cache=True)
@@ -44,7 +44,7 @@ def restrict_pressure(fine: Array, mirror: int, coarse: Array) -> None:
             for row in (south, fj, fj + 1):
                 for column in range(fi - 1, fi + 2):
                     smallest = min(smallest, fine[row, column])
-            coarse[j, i] = weigh(fine, mirror, fj, fi) if smallest > 0.0 else fine[fj, fi]
+            coarse[j, i] = weigh(fine, fj, fi) if smallest > 0.0 else fine[fj, fi]
 
 
 @njit(cache=True)
@@ -80,7 +80,7 @@ def correct(p: Array, coarse: Array, before: Array, mirror: int) -> None:
 
 @njit(cache=True)
 def freeze(
-    fine: Array, fine_frozen: Array, coarse: Array, mirror: int, limit: float, out: Array
+    fine: Array, fine_frozen: FlagArray, coarse: Array, mirror: int, limit: float, out: FlagArray
 ) -> None:
     """Mark coarse nodes beside a cavity and of low pressure: they keep it on the coarse grid.
 

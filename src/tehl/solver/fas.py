@@ -3,15 +3,16 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
+from tehl.grid import Grid
 from tehl.options import Options
 from tehl.solver.level import Level
 
 EXTRA_SWEEPS = 1
 """Sweeps added on coarser levels: a V-cycle leaves error there, and sweeps there are cheap."""
-REVISITED = 2
-"""Number of coarser levels below which a V-cycle goes down twice: the coarsest grid hardly resolves
-the contact, so that one visit overshoots the load balance (by its own size at M = 5); a second one
-through the level above it cures that and costs next to nothing."""
+UNRESOLVED = 0.5
+"""Mesh width of the coarsest grid, in Hertz half-widths, beyond which it hardly sees the contact.
+One visit then overshoots the load balance (by its own size at M = 5); a second one, through the
+level above it, cures that and costs next to nothing."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -24,23 +25,29 @@ class Cycle:
         Order of visits.
     pre_sweeps, post_sweeps : int
         Relaxation sweeps on the finest level of the cycle.
+    twice : bool
+        A V-cycle goes down twice from the level next but one to the coarsest.
     """
 
     kind: str
     pre_sweeps: int
     post_sweeps: int
+    twice: bool = False
 
     @classmethod
-    def of(cls, options: Options) -> "Cycle":
-        """Return the cycle that the options ask for."""
+    def of(cls, options: Options, coarsest: Grid) -> "Cycle":
+        """Return the cycle that the options ask for, down to the grid ``coarsest``."""
         return cls(
-            kind=options.cycle, pre_sweeps=options.pre_sweeps, post_sweeps=options.post_sweeps
+            kind=options.cycle,
+            pre_sweeps=options.pre_sweeps,
+            post_sweeps=options.post_sweeps,
+            twice=coarsest.dx > UNRESOLVED,
         )
 
     def coarse_visits(self, coarser: int) -> tuple["Cycle", ...]:
         """Return the cycles to run on the next of ``coarser`` levels that are left below."""
         kinds = {"V": "V", "W": "WW", "F": "FV"}[self.kind]
-        if self.kind == "V" and coarser == REVISITED:
+        if self.kind == "V" and self.twice and coarser == 2:
             kinds = "VV"
         return tuple(replace(self, kind=kind) for kind in kinds)
 
