@@ -1,7 +1,10 @@
 """Settings of the documentation; ``make docs`` builds it with warnings as errors."""
 
+import re
 import sys
+from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE))
@@ -22,6 +25,8 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx.ext.mathjax",
 ]
+if find_spec("sphinx-mathjax-offline"):  # formulas without a network, where it is installed
+    extensions.append("sphinx-mathjax-offline")
 myst_enable_extensions = ["dollarmath", "amsmath", "deflist", "colon_fence"]
 myst_heading_anchors = 3
 napoleon_google_docstring = False
@@ -29,7 +34,7 @@ napoleon_use_ivar = True
 napoleon_use_rtype = False
 autodoc_typehints = "none"
 autodoc_member_order = "bysource"
-autodoc_class_signature = "separated"
+toc_object_entries_show_parents = "hide"
 add_module_names = False
 exclude_patterns = ["_build"]
 
@@ -42,6 +47,22 @@ html_theme_options = {
     "show_prev_next": True,
     "secondary_sidebar_items": ["page-toc"],
 }
+
+
+def mend(*arguments: Any) -> None:
+    """Give the sources of a docstring numbers, and keep names that share a line together."""
+    lines = arguments[-1]
+    lines[:] = [re.sub(r"^\.\. \[(\d+)\] ", r"\1. ", line).replace("]_", "]") for line in lines]
+    lines[:] = [re.sub(r"(?<=\w), (?=[\w, ]+ : )", ",", line) for line in lines]
+
+
+def setup(app: Any) -> None:
+    """Connect before the docstrings are parsed."""
+    app.connect("autodoc-process-docstring", mend, priority=400)
+    app.connect(
+        "autodoc-process-signature", lambda _app, what, *_: ("", None) if what == "class" else None
+    )
+
 
 figures.make(HERE / "theory" / "figures")
 gallery.make(HERE.parent / "examples", HERE / "gallery")

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
+from matplotlib.patches import Circle, Patch
 
 import tehl
 from tehl.kernels.reynolds import mark_dipoles
@@ -59,15 +60,21 @@ def regions() -> Figure:
     assert isinstance(smoother, LineSmoother)
     mark_dipoles(here.film, here.mesh, smoother.relaxation)
     kind = np.where(here.film.p > 0, smoother.relaxation.kind + 1.0, 0.0)
-    figure = Figure(figsize=(5.4, 4.2), layout="constrained")
-    axes = figure.add_subplot(xlabel="X", ylabel="Y", xlim=(-2, 1.5), ylim=(-1.6, 1.6))
-    axes.set_aspect("equal")
-    colours = ListedColormap(["#d9d9d9", "#4c78a8", "#e45756"])
-    mesh = axes.pcolormesh(here.grid.x, here.grid.y, kind, cmap=colours, vmin=-0.5, vmax=2.5)
-    angle = np.linspace(0, 2 * np.pi, 200)
-    axes.plot(np.cos(angle), np.sin(angle), "k--", lw=1)
-    bar = figure.colorbar(mesh, ax=axes, ticks=[0, 1, 2])
-    bar.ax.set_yticklabels(["cavitated", "points", "dipoles"])
+    figure = Figure(figsize=(5.0, 4.4), layout="constrained")
+    axes = figure.add_subplot(xlabel="X", ylabel="Y")
+    grid, colours = here.grid, ["#d9d9d9", "#4c78a8", "#e45756"]
+    (west, east), (south, north) = grid.domain.x, grid.domain.y
+    edges = (west - grid.dx / 2, east + grid.dx / 2, south - grid.dy / 2, north + grid.dy / 2)
+    axes.imshow(
+        kind, extent=edges, origin="lower", interpolation="nearest", cmap=ListedColormap(colours)
+    )
+    axes.add_patch(Circle((0, 0), 1, fill=False, ls="--"))
+    axes.set(xlim=(-2, 1.5), ylim=(-1.6, 1.6))
+    names = ("cavitated", "points", "dipoles")
+    axes.legend(
+        handles=[Patch(color=c, label=n) for c, n in zip(colours, names, strict=True)],
+        loc="upper left",
+    )
     return figure
 
 
