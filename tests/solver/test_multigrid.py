@@ -17,7 +17,7 @@ LARGEST_RATE = {20.0: 0.25, 200.0: 0.3}
 def film_errors(load: float, points: int) -> list[float]:
     """RMS error of H in r < 1.2 after full multigrid and after each of five more cycles."""
     run = multigrid(moes_contact(load, 10.0), Options(points=points, domain=DOMAIN, max_cycles=2))
-    run.solve(SILENT)
+    run.solve(SILENT, patient=True)
     grid = run.finest.grid
     inside = grid.x[None, :] ** 2 + grid.y[:, None] ** 2 < 1.2**2
     films = []
