@@ -13,6 +13,8 @@ from tehl.typing import Array
 
 MULTILEVEL_FROM = 33
 """Intervals from which the multilevel sum is the cheaper, at an error that does not count."""
+LARGEST_ASPECT = 4.0
+"""Ratio of the cell sides beyond which the patches of the multilevel sum are no longer enough."""
 
 
 class Deformation(Protocol):
@@ -73,7 +75,9 @@ def choose(name: str, grid: Grid, groups: Groups) -> Deformation:
         Ellipticity and deflection factor.
     """
     if name == "auto":
-        name = "mlmi" if min(grid.nx, grid.ny) - 1 >= MULTILEVEL_FROM else "fft"
+        aspect = groups.ellipticity * grid.dy / grid.dx
+        compact = 1.0 / LARGEST_ASPECT <= aspect <= LARGEST_ASPECT
+        name = "mlmi" if compact and min(grid.nx, grid.ny) - 1 >= MULTILEVEL_FROM else "fft"
     if name == "mlmi":
         return MultilevelDeformation(grid, influence_of(grid, groups))
     if name == "fft":

@@ -60,11 +60,10 @@ class MultilevelDeformation:
         ny, nx = grid.shape
         self.stages = [stage(0, ny - 1, 0, nx - 1, grid.mirror)]
         self.halvings: list[Halving] = []
-        stride = [1, 1]
+        stride, halved = [1, 1], [0, 0]
         while _count(self.stages[-1].box) > SMALLEST:
-            step = len(self.halvings)
-            axis, growth = step % 2, step // 2
-            patch = patch_corrections(influence, (axis, stride[0], stride[1]), growth)
+            axis = finer_axis(influence, stride)
+            patch = patch_corrections(influence, (axis, stride[0], stride[1]), halved[axis])
             columns = self.stages[-1].source.shape[1] // 2 + 2
             shape = (self.stages[-1].source.shape[0], columns) if axis == 1 else (0, 0)
             self.halvings.append(
@@ -72,6 +71,7 @@ class MultilevelDeformation:
             )
             self.stages.append(coarser(self.stages[-1].box, axis))
             stride[axis] *= 2
+            halved[axis] += 1
         last = self.stages[-1].box
         nodes = (last.j1 - last.j0 + 1, last.i1 - last.i0 + 1)
         self.matrix = dense_matrix(nodes, grid.mirror, influence, (stride[0], stride[1]))
@@ -89,6 +89,15 @@ class MultilevelDeformation:
         ):
             spread(halving, fine, coarse)
         summation.unload(stages[0].total, stages[0].box, out)
+
+
+def finer_axis(influence: Influence, stride: list[int]) -> int:
+    """Return the axis to halve: that of the smaller mesh width, so that the patch covers enough.
+
+    What interpolation along an axis misses falls off with the distance in mesh widths of that
+    axis; across it the patch then needs no more nodes.
+    """
+    return int(influence.dy * stride[0] > 1.001 * influence.dx * stride[1])
 
 
 def gather(halving: Halving, fine: Stage, coarse: Stage) -> None:

@@ -19,7 +19,7 @@ from tehl.options import Options
 from tehl.scaling import Groups
 from tehl.solver.smoother import Setting, make_smoother
 
-FROZEN_BELOW = 1e-2
+FROZEN_BELOW = 1e-3
 """Pressure below which a coarse node beside a cavity is left to the finer grid."""
 
 
