@@ -113,11 +113,12 @@ class Visitor:
 def visits() -> Figure:
     """Draw the order in which full multigrid with V-cycles visits the grids."""
     path = [0]
+    shape = Cycle(kind="V", pre_sweeps=2, post_sweeps=2)
     levels = [Visitor(number, path) for number in range(4)]
     for count in (2, 3, 4):
         path.append(count - 1)
         for _ in range(2):
-            cycle(levels[:count], lambda: path.append(0), Cycle.of(tehl.Options()))
+            cycle(levels[:count], lambda: path.append(0), shape)
     figure = Figure(figsize=(7.2, 2.8), layout="constrained")
     axes = figure.add_subplot(yticks=range(4), xticks=[])
     axes.set_yticklabels(["17", "33", "65", "129"])
