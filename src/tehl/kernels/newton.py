@@ -50,12 +50,13 @@ def solve_dense(a: Array, b: Array) -> None:
     """
     n = b.shape[0]
     for k in range(n):
-        pivot = k + np.argmax(np.abs(a[k:, k]))
-        if pivot != k:
-            swapped = a[k].copy()
-            a[k] = a[pivot]
-            a[pivot] = swapped
-            b[k], b[pivot] = b[pivot], b[k]
+        pivot = k
+        for i in range(k + 1, n):
+            if abs(a[i, k]) > abs(a[pivot, k]):
+                pivot = i
+        for c in range(k, n):
+            a[k, c], a[pivot, c] = a[pivot, c], a[k, c]
+        b[k], b[pivot] = b[pivot], b[k]
         upper = a[k, k + 1 :]
         for i in range(k + 1, n):
             factor = a[i, k] / a[k, k] if a[k, k] != 0.0 else np.nan
@@ -122,7 +123,9 @@ def assemble(state: Coarse, mesh: Mesh, system: System, active: IntArray) -> tup
     for row in range(count):
         here = active[row]
         south = here - nx if here >= nx else here + nx
-        near[:] = (here, here + 1, here - 1, here + nx, south, max(here - 2, here // nx * nx))
+        near[HERE], near[EAST], near[WEST] = here, here + 1, here - 1
+        near[NORTH], near[SOUTH] = here + nx, south
+        near[FAR] = max(here - 2, here // nx * nx)
         slopes(state, mesh, near, by_p, by_h)
         full[:] = 0.0
         for n in range(6):

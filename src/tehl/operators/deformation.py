@@ -3,7 +3,6 @@
 from typing import Protocol
 
 import numpy as np
-from scipy import fft
 
 from tehl.grid import Grid
 from tehl.operators.influence import dense_matrix, influence_of
@@ -48,8 +47,9 @@ class FftDeformation:
         rows, columns = (np.minimum(np.arange(n), n - np.arange(n)) for n in self.period)
         influence = influence_of(grid, groups)
         table = influence(np.arange(grid.ny)[:, None], np.arange(grid.nx)[None, :])
-        self.spectrum = fft.rfft2(table[np.ix_(rows, columns)]).real.copy()
-        self.padded = np.zeros(self.period)
+        self.spectrum = np.fft.rfft2(table[np.ix_(rows, columns)]).real.copy()
+        self.padded, self.convolved = np.zeros(self.period), np.zeros(self.period)
+        self.transform = np.zeros(self.spectrum.shape, complex)
 
     def deflect(self, pressure: Array, out: Array) -> None:
         """Write the deflection under ``pressure`` to ``out``."""
@@ -57,9 +57,10 @@ class FftDeformation:
         self.padded[:ny, :nx] = pressure
         if self.mirror:
             self.padded[:-ny:-1, :nx] = pressure[1:]
-        transform = fft.rfft2(self.padded)
-        transform *= self.spectrum
-        out[:] = fft.irfft2(transform, self.period, overwrite_x=True)[:ny, :nx]
+        np.fft.rfft2(self.padded, out=self.transform)
+        self.transform *= self.spectrum
+        np.fft.irfft2(self.transform, self.period, out=self.convolved)
+        out[:] = self.convolved[:ny, :nx]
 
 
 def choose(name: str, grid: Grid, groups: Groups) -> Deformation:

@@ -3,7 +3,7 @@
 import math
 from dataclasses import replace
 
-from tehl.errors import InputError
+from tehl.errors import ConvergenceError, InputError
 from tehl.options import Domain, Options, coarsenings
 from tehl.problem import ContactProblem
 from tehl.result import Cost, Estimate, Result
@@ -55,9 +55,9 @@ def certify(
     runs = []
     for number, wanted in enumerate((coarse, middle, options), start=1):
         monitor.message(f"certify: grid {number} of 3")
-        runs.append(solve(problem, wanted, monitor=monitor))
+        runs.append(_solve(problem, wanted, monitor, finest=wanted is options))
     monitor.message("certify: larger domain")
-    wide = solve(problem, _widened(options, runs[1]), monitor=monitor)
+    wide = _solve(problem, _widened(options, runs[1]), monitor, finest=False)
     everything = (*runs, wide)
     cost = Cost(
         cpu_seconds=sum(run.cost.cpu_seconds for run in everything),
@@ -69,6 +69,16 @@ def certify(
         for row in rows
     }
     return replace(runs[-1], uncertainty=uncertainty, cost=cost)
+
+
+def _solve(problem: ContactProblem, options: Options, monitor: Monitor, *, finest: bool) -> Result:
+    """Solve; a coarser grid need not resolve the film, it only has to be iterated to the end."""
+    try:
+        return solve(problem, options, monitor=monitor)
+    except ConvergenceError as error:
+        if finest or error.result.status.cause != "grid_too_coarse":
+            raise
+        return error.result
 
 
 def _halved(options: Options, times: int) -> Options:

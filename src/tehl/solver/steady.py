@@ -23,7 +23,10 @@ from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.multigrid import Multigrid
 from tehl.solver.smoother import FAST, ROBUST, SETTINGS
 from tehl.solver.verdict import diverged, verdict
+from tehl.solver.warmup import warm_up
 
+GRID_CAUSES = ("grid_too_coarse", "inlet_too_short")
+"""Causes that no other smoother cures."""
 PACKAGES = ("tehl", "numpy", "scipy", "numba")
 
 
@@ -63,12 +66,13 @@ def solve(
         When the answer was not reached; its ``result`` is the last finite state, marked.
     """
     options = options or Options()
+    warm_up()
     wall, cpu = time.perf_counter(), time.process_time()
     history = _History(monitor)
     attempts = []
     for attempt in _attempts(problem, options, history):
         attempts.append(attempt)
-        if attempt.status.converged:
+        if attempt.status.converged or attempt.status.cause in GRID_CAUSES:
             break
     best = min(attempts, key=lambda a: (not a.status.converged, a.status.kind == "diverged"))
     cost = Cost(cpu_seconds=time.process_time() - cpu, wall_seconds=time.perf_counter() - wall)
