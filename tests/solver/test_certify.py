@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from tehl.errors import InputError
 from tehl.options import Options
 from tehl.solver.certify import certify, estimate
-from tehl.solver.convergence import discretisation_bar
+from tehl.solver.convergence import SAFETY, discretisation_bar
 from tests.reference import DOMAIN, moes_contact
 
 LIMITS = st.floats(0.01, 2.0)
@@ -56,14 +56,21 @@ def test_the_parts_of_the_bar_add_in_quadrature():
 def test_the_bar_of_a_second_order_run_is_a_third_of_the_change_with_a_margin(limit, coefficient):
     values = list(sequence(limit, coefficient, 2.0))
     bar = discretisation_bar(values)
-    # the error of the last value is a third of the last change, and one quarter is margin
-    assert bar == pytest.approx(1.25 * abs(values[2] - limit), rel=1e-6)
+    # the error of the last value is a third of the last change
+    assert bar == pytest.approx(SAFETY * abs(values[2] - limit), rel=1e-6)
 
 
 @given(LIMITS, COEFFICIENTS)
 def test_the_bar_without_an_order_is_the_whole_change(limit, coefficient):
     values = [limit, limit * (1 + coefficient)]
     assert discretisation_bar(values) == pytest.approx(abs(values[1] - values[0]))
+
+
+def test_an_order_seen_while_the_value_still_changes_by_half_is_not_believed():
+    values = [0.4, 0.52, 0.55]  # last change 5 %, ratio 4
+    assert discretisation_bar(values) == pytest.approx(SAFETY * 0.01)
+    values = [3.0, 1.4, 1.0]  # ratio 4 as well, but the last change is 40 %
+    assert discretisation_bar(values) == pytest.approx(0.4)
 
 
 @given(st.lists(st.floats(-1.0, 1.0), min_size=2, max_size=3))
