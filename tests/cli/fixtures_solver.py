@@ -51,6 +51,7 @@ def solver(monkeypatch) -> FakeSolver:
     fake = FakeSolver()
     module = ModuleType("tehl.solver")
     module.solve, module.certify = fake.solve, fake.certify
+    module.with_work = lambda result: result
     monkeypatch.setitem(sys.modules, "tehl.solver", module)
     monkeypatch.setattr("tehl.solver", module, raising=False)
     monitor = SimpleNamespace(SILENT=Silent())

@@ -7,6 +7,7 @@ import pytest
 import typer
 
 from tehl.cli import doctor
+from tehl.kernels.cache import is_cold
 from tests.cli.fixtures_solver import solver
 
 __all__ = ["solver"]
@@ -40,11 +41,9 @@ def test_a_wrong_film_is_an_environment_error(solver, capsys):
     assert "FAILED" in capsys.readouterr().out
 
 
-def test_warming_runs_each_way_through_the_solver(healthy):
+def test_warming_compiles_and_then_checks():
     doctor.doctor(warm=True)
-    ways = {(c.options.deformation, c.options.smoother) for c in healthy.calls}
-    assert {"mlmi", "fft", "direct"} <= {way[0] for way in ways}
-    assert {"fast", "robust", "gauss-seidel"} <= {way[1] for way in ways}
+    assert not is_cold()
 
 
 def test_a_solver_that_breaks_is_a_finding(solver, capsys):

@@ -30,8 +30,6 @@ def relaxation_of(shape, xi=0.0, omega=(1.0, 1.0), influence=0.0):
         kind=np.zeros(shape, np.uint8),
         delta=np.zeros(shape),
         frozen=np.zeros(shape, np.uint8),
-        band=np.zeros((6, nx)),
-        state=np.zeros(nx, np.uint8),
     )
 
 

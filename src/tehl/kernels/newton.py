@@ -43,6 +43,19 @@ class System(NamedTuple):
 
 
 @njit(cache=True)
+def pivot_row(a: Array, b: Array, k: int) -> None:
+    """Swap row ``k`` with the row below that has the largest entry in column ``k``."""
+    n = b.shape[0]
+    pivot = k
+    for i in range(k + 1, n):
+        if abs(a[i, k]) > abs(a[pivot, k]):
+            pivot = i
+    for c in range(k, n):
+        a[k, c], a[pivot, c] = a[pivot, c], a[k, c]
+    b[k], b[pivot] = b[pivot], b[k]
+
+
+@njit(cache=True)
 def solve_dense(a: Array, b: Array) -> None:
     """Solve ``a x = b`` in place by elimination with row pivoting; ``b`` becomes x.
 
@@ -50,13 +63,7 @@ def solve_dense(a: Array, b: Array) -> None:
     """
     n = b.shape[0]
     for k in range(n):
-        pivot = k
-        for i in range(k + 1, n):
-            if abs(a[i, k]) > abs(a[pivot, k]):
-                pivot = i
-        for c in range(k, n):
-            a[k, c], a[pivot, c] = a[pivot, c], a[k, c]
-        b[k], b[pivot] = b[pivot], b[k]
+        pivot_row(a, b, k)
         upper = a[k, k + 1 :]
         for i in range(k + 1, n):
             factor = a[i, k] / a[k, k] if a[k, k] != 0.0 else np.nan

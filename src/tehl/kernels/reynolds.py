@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from tehl.typing import Array
+from tehl.typing import Array, FlagArray
 
 Span = tuple[int, int]
 
@@ -52,8 +52,7 @@ class Relaxation(NamedTuple):
 
     ``point[m]`` and ``dipole[m]``: film at distance m along the line per unit change of a point
     and of a dipole; ``kind`` (ny, nx) marks the dipoles; ``delta`` (ny, nx) stores them until both
-    colours are done; ``frozen`` (ny, nx) marks nodes that keep their pressure; ``band`` (6, nx)
-    and ``state`` (nx,) belong to one line.
+    colours are done; ``frozen`` (ny, nx) marks nodes that keep their pressure.
     """
 
     xi: float
@@ -61,11 +60,9 @@ class Relaxation(NamedTuple):
     omega_dipole: float
     point: Array
     dipole: Array
-    kind: Array
+    kind: FlagArray
     delta: Array
-    frozen: Array
-    band: Array
-    state: Array
+    frozen: FlagArray
 
 
 @njit(cache=True, fastmath={"contract"})

@@ -59,7 +59,8 @@ class FftDeformation:
             self.padded[:-ny:-1, :nx] = pressure[1:]
         np.fft.rfft2(self.padded, out=self.transform)
         self.transform *= self.spectrum
-        np.fft.irfft2(self.transform, self.period, out=self.convolved)
+        np.fft.ifft(self.transform, axis=0, out=self.transform)
+        np.fft.irfft(self.transform, self.period[1], axis=1, out=self.convolved)
         out[:] = self.convolved[:ny, :nx]
 
 

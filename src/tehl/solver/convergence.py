@@ -110,6 +110,7 @@ def discretisation_bar(values: list[float]) -> float:
     change = abs(values[-1] - values[-2])
     if len(values) == 3 and change > 0:
         ratio = (values[1] - values[0]) / (values[2] - values[1])
-        if min(values) > 0.3 * values[-1] > 0 and 3.0 <= ratio <= 5.6:
+        near = min(values) > 0.3 * values[-1] > 0 and change < 0.3 * values[-1]
+        if near and 3.0 <= ratio <= 5.6:
             return SAFETY * change / 3.0
     return change

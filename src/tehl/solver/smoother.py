@@ -65,8 +65,6 @@ class LineSmoother:
             kind=np.zeros(grid.shape, np.uint8),
             delta=np.zeros(grid.shape),
             frozen=self.frozen,
-            band=np.zeros((6, grid.nx)),
-            state=np.zeros(grid.nx, np.uint8),
         )
 
     def sweep(self, film: Film, mesh: Mesh, rhs: Array) -> None:
