@@ -39,6 +39,14 @@ class Status:
         """Whether the result may be believed."""
         return self.kind == "converged"
 
+    @property
+    def outcome(self) -> str:
+        """The outcome in words, with the cause where it says more: "stalled"."""
+        kind = self.kind.replace("_", " ")
+        if self.cause in (None, self.kind):
+            return kind
+        return f"{kind}: {self.cause.replace('_', ' ')}"
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class CycleReport:

@@ -150,7 +150,7 @@ def test_cycle_and_deformation_change_the_film_by_their_tolerance_only(change):
 
 
 def test_the_sum_by_definition_gives_the_film_of_the_fft():
-    fft, direct = (film_of(100.0, 10.0, tight(33, deformation=d)) for d in ("fft", "direct"))
+    fft, direct = (film_of(20.0, 10.0, tight(65, deformation=d)) for d in ("fft", "direct"))
     np.testing.assert_allclose(direct.scaled.film, fft.scaled.film, rtol=0, atol=CLOSE)
 
 

@@ -8,11 +8,7 @@ if TYPE_CHECKING:
 
 def headline(result: "Result") -> str:
     """Return title and outcome in one line."""
-    status = result.status
-    outcome = status.kind.replace("_", " ")
-    if status.cause:
-        outcome += f": {status.cause.replace('_', ' ')}"
-    return f"{result.problem.title or 'Lubricated point contact'} - {outcome}"
+    return f"{result.problem.title or 'Lubricated point contact'} - {result.status.outcome}"
 
 
 def as_text(result: "Result") -> str:

@@ -106,8 +106,8 @@ def write_npz(result: Result, path: str | Path) -> None:
 def write_mat(result: Result, path: str | Path) -> None:
     """Write all arrays, and the summary as JSON text (``jsondecode``), for MATLAB and Octave.
 
-    MATLAB knows no names that differ in case only for its users' comfort, but keeps them apart:
-    ``x`` is in metres, ``X`` in Hertz half-widths. Fields have rows along y.
+    Names differ by case, as MATLAB allows: ``x`` is in metres, ``X`` in Hertz half-widths. Fields
+    have rows along y.
 
     Parameters
     ----------

@@ -60,9 +60,7 @@ def _heading(result: Result) -> str:
 
 def _banner(picture: Figure, result: Result) -> None:
     status = result.status
-    text = f"NOT AN ANSWER: {status.kind.replace('_', ' ')}"
-    if status.cause:
-        text += f" ({status.cause.replace('_', ' ')})"
+    text = f"NOT AN ANSWER: {status.outcome}"
     picture.supxlabel(text, color="white", backgroundcolor="#b3001b", fontsize=11, weight="bold")
 
 

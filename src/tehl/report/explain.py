@@ -18,10 +18,10 @@ from tehl.problem import ContactProblem
 from tehl.report.suspicion import questions
 from tehl.scaling import Groups, Scales, groups, scales
 
-BYTES_PER_NODE = 450
+BYTES_PER_NODE = 180
 """Peak memory of a solve by node of the finest full grid, measured; a guide."""
 
-SECONDS_PER_NODE = 0.6e-6
+SECONDS_PER_NODE = 1.5e-6
 """Time of a solve by node of the finest full grid on one core of a usual machine; a guide."""
 
 _LENGTHS = ((1e-3, 1e3, "mm"), (1e-6, 1e6, "um"), (0.0, 1e9, "nm"))

@@ -122,10 +122,8 @@ def _status(result: Result) -> str:
     status = result.status
     if status.converged:
         return '<div class="status good">converged</div>'
-    cause = f": {status.cause.replace('_', ' ')}" if status.cause else ""
     notes = "".join(f"<p>{escape(note)}</p>" for note in (status.message, status.hint) if note)
-    kind = status.kind.replace("_", " ")
-    return f'<div class="status bad">Not an answer - {escape(kind + cause)}{notes}</div>'
+    return f'<div class="status bad">Not an answer - {escape(result.status.outcome)}{notes}</div>'
 
 
 def _numbers(result: Result) -> str:

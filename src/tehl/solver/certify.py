@@ -9,6 +9,7 @@ from tehl.problem import ContactProblem
 from tehl.result import Cost, Estimate, Result
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.steady import solve
+from tehl.solver.verdict import LARGEST_BAR, too_coarse
 
 WIDER = 2
 """Factor between the domain and the larger one that shows its part of the error."""
@@ -68,7 +69,12 @@ def certify(
         row[0][0]: estimate((row[0][1], row[1][1], row[2][1]), domain=abs(row[3][1] - row[1][1]))
         for row in rows
     }
-    return replace(runs[-1], uncertainty=uncertainty, cost=cost)
+    result = replace(runs[-1], uncertainty=uncertainty, cost=cost)
+    worst = max(abs(e.uncertainty / e.value) for e in uncertainty.values())
+    if worst > LARGEST_BAR:
+        status = too_coarse(result, worst)
+        raise ConvergenceError(str(status.message), replace(result, status=status))
+    return result
 
 
 def _solve(problem: ContactProblem, options: Options, monitor: Monitor, *, finest: bool) -> Result:
@@ -76,9 +82,18 @@ def _solve(problem: ContactProblem, options: Options, monitor: Monitor, *, fines
     try:
         return solve(problem, options, monitor=monitor)
     except ConvergenceError as error:
-        if finest or error.result.status.cause != "grid_too_coarse":
+        if finest or not _iterated(error.result):
             raise
         return error.result
+
+
+def _iterated(result: Result) -> bool:
+    """Whether only the grid stands between this result and an answer."""
+    if result.status.cause != "grid_too_coarse":
+        return False
+    last = result.history[-1]
+    worst = max(last.residual, last.change, abs(last.load_error))
+    return worst <= result.options.tolerance
 
 
 def _halved(options: Options, times: int) -> Options:

@@ -81,12 +81,8 @@ def stalled(now: GridTrace) -> bool:
     return residuals[-1] > STALL_FACTOR * residuals[-1 - STALL_CYCLES]
 
 
-def error_estimate(traces: list[GridTrace]) -> ErrorEstimate | None:
-    """Return relative errors of the film on the last grid; None with a single grid."""
-    if len(traces) < 2:
-        return None
-    if not traces[-1].reports or not traces[-2].reports:
-        return None
+def error_estimate(traces: list[GridTrace]) -> ErrorEstimate:
+    """Return relative errors of the film on the last of two or more grids."""
     parts = []
     for name in ("central", "minimum"):
         sequence = [getattr(trace, name) for trace in traces[-3:]]

@@ -8,10 +8,16 @@ from tehl.operators.film import hertz_pressure
 from tehl.operators.flow import FlowTable
 from tehl.operators.transfer import refine
 from tehl.options import Options
-from tehl.result import CycleReport
+from tehl.result import CycleReport, ErrorEstimate
 from tehl.scaling import Groups
 from tehl.solver.coarsest import CoarsestSolver
-from tehl.solver.convergence import GridTrace, converged, iterated_enough, stalled
+from tehl.solver.convergence import (
+    GridTrace,
+    converged,
+    error_estimate,
+    iterated_enough,
+    stalled,
+)
 from tehl.solver.fas import Cycle, cycle
 from tehl.solver.film_numbers import central_value
 from tehl.solver.level import Level
@@ -60,7 +66,14 @@ class Multigrid:
         self.expected_film = expected_central_film(groups)
         for level in self.levels:
             level.floor = FLOOR * self.expected_film
+        self.coarsest_trace = GridTrace()
         self.traces: list[GridTrace] = []
+
+    def errors(self) -> ErrorEstimate | None:
+        """Return estimated errors of the film; None before the finest grid was cycled on."""
+        if len(self.traces) < len(self.levels) - 1 or not self.traces[-1].reports:
+            return None
+        return error_estimate([self.coarsest_trace, *self.traces])
 
     @property
     def finest(self) -> Level:
@@ -85,6 +98,8 @@ class Multigrid:
         self._start_dry(self.levels[0])
         for _ in range(FIRST_STEPS):
             self.coarsest.step()
+        self.levels[0].update()
+        self.coarsest_trace.note(*film_numbers(self.levels[0]))
         orderly = True
         for count in range(2, len(self.levels) + 1):
             coarse, fine = self.levels[count - 2 : count]

@@ -17,7 +17,6 @@ from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.result import Cost, CycleReport, Fields, Provenance, Result, Status
 from tehl.scaling import Groups, groups, scales
-from tehl.solver.convergence import error_estimate
 from tehl.solver.film_numbers import film_summary
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.multigrid import Multigrid
@@ -120,8 +119,8 @@ def _run(run: Multigrid, monitor: Monitor, *, patient: bool) -> Status:
             reached = run.solve(monitor, patient=patient)
         except ArithmeticError:
             run.salvage()
-            return diverged(run.finest.grid, run.groups)
-    return verdict(run, not reached, error_estimate(run.traces))
+            return diverged(run)
+    return verdict(run, not reached, run.errors())
 
 
 def finest_grid(options: Options, case_groups: Groups) -> Grid:
@@ -159,7 +158,7 @@ def _result(
         film_scaled=film_summary(grid, level.film.h),
         status=attempt.status,
         history=history,
-        errors=error_estimate(run.traces) if len(run.traces) == len(run.levels) - 1 else None,
+        errors=run.errors(),
         cost=cost,
         provenance=provenance(),
     )

@@ -4,7 +4,8 @@ import numpy as np
 
 from tehl.domain import needed_points
 from tehl.grid import Grid
-from tehl.result import ErrorEstimate, Status
+from tehl.options import Domain
+from tehl.result import ErrorEstimate, Result, Status
 from tehl.scaling import Groups
 from tehl.solver.level import Level
 from tehl.solver.multigrid import Multigrid
@@ -30,18 +31,19 @@ def verdict(run: Multigrid, cycled_out: bool, errors: ErrorEstimate | None) -> S
     level, groups = run.finest, run.groups
     film = level.film
     if not (np.isfinite(film.p).all() and np.isfinite(film.h).all() and film.p.min() >= 0):
-        return diverged(level.grid, groups)
+        return diverged(run)
     if not film.h.min() > level.floor:
         return _film_not_positive(level, groups)
     if errors is not None and errors.discretisation_minimum > LARGEST_BAR:
-        return _too_coarse(level.grid, groups, errors)
+        return _too_coarse(level.grid, groups, errors.discretisation_minimum)
     if cycled_out:
         return _not_reached(run)
     return inlet_status(level.grid, groups, run.traces[-1].central.values[-1])
 
 
-def diverged(grid: Grid, groups: Groups) -> Status:
+def diverged(run: Multigrid) -> Status:
     """Return the status of a run that produced values that are not finite."""
+    grid, groups = run.finest.grid, run.groups
     return Status(
         kind="diverged",
         cause="diverged",
@@ -49,8 +51,19 @@ def diverged(grid: Grid, groups: Groups) -> Status:
             f"The iteration diverged on {grid.nx} x {grid.ny} nodes at M = {groups.M:.4g}, "
             f"L = {groups.L:.4g}."
         ),
-        hint=f"Try {_grid_hint(grid, groups)}, or numerics.smoother = 'robust'.",
+        hint=_smoother_hint(run) or f"Take {_grid_hint(grid, groups)}.",
     )
+
+
+def _smoother_hint(run: Multigrid) -> str:
+    """Name the smoother that was not tried, if there is one."""
+    tried = run.options.smoother
+    if tried == "gauss-seidel":
+        return (
+            "Plain Gauss-Seidel fails where the deflection rules, on any grid: leave "
+            "numerics.smoother out."
+        )
+    return "" if tried in ("auto", "robust") else "Leave numerics.smoother out: it then falls back."
 
 
 def _film_not_positive(level: Level, groups: Groups) -> Status:
@@ -66,15 +79,24 @@ def _film_not_positive(level: Level, groups: Groups) -> Status:
     )
 
 
-def _too_coarse(grid: Grid, groups: Groups, errors: ErrorEstimate) -> Status:
+def _too_coarse(grid: Grid, groups: Groups, error: float) -> Status:
     return Status(
         kind="not_converged",
         cause="grid_too_coarse",
         message=(
-            f"The grid of {grid.nx} x {grid.ny} nodes is too coarse for the film: the minimum film "
-            f"may be wrong by {100 * errors.discretisation_minimum:.0f} %."
+            f"The grid of {grid.nx} x {grid.ny} nodes is too coarse for the film, which "
+            f"may be wrong by {100 * error:.0f} %."
         ),
         hint=f"Take {_grid_hint(grid, groups)}.",
+    )
+
+
+def too_coarse(result: Result, error: float) -> Status:
+    """Return the status of a certified result whose error bars are too wide to be of use."""
+    x, y = result.scaled.x, result.scaled.y
+    domain = Domain(x=(float(x[0]), float(x[-1])), y=(float(y[0]), float(y[-1])))
+    return _too_coarse(
+        Grid(nx=x.size, ny=y.size, domain=domain, mirror=False), result.groups, error
     )
 
 
@@ -93,15 +115,20 @@ def _not_reached(run: Multigrid) -> Status:
         key=lambda pair: pair[1],
     )  # fmt: skip
     stalled = len(reports) < run.options.max_cycles
+    wanted = (
+        f"the tolerance is {run.options.tolerance:.1e}"
+        if run.options.accuracy == "tight"
+        else "the film still changes by more than a third of its discretisation error"
+    )
     return Status(
         kind="stalled" if stalled else "not_converged",
         cause="stalled" if stalled else "too_few_cycles",
         message=(
             f"After {len(reports)} cycles on {last.points[0]} x {last.points[1]} nodes the "
-            f"{worst[0]} is {worst[1]:.1e}; the tolerance is {run.options.tolerance:.1e}."
+            f"{worst[0]} is {worst[1]:.1e}; {wanted}."
         ),
         hint=(
-            "Try numerics.smoother = 'robust', more points, or a larger numerics.tolerance."
+            _smoother_hint(run) or f"Take {_grid_hint(run.finest.grid, run.groups)}."
             if stalled
             else "Raise numerics.max_cycles."
         ),
