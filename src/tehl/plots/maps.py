@@ -163,16 +163,16 @@ def pressure_surface(result: Result) -> Figure:
         y,
         result.pressure[part] * GIGA,
         cmap="cividis",
-        rcount=200,
-        ccount=200,
-        linewidth=0,
-        antialiased=False,
+        rcount=120,
+        ccount=120,
+        linewidth=0.15,
+        edgecolor=(0.0, 0.0, 0.0, 0.45),
         rasterized=True,
     )
     axes.set(xlabel="x along entrainment [µm]", ylabel="y [µm]", zlabel="p [GPa]")
     height = 0.5 * max(np.ptp(x), np.ptp(y))
-    axes.set_box_aspect((np.ptp(x), np.ptp(y), height), zoom=0.88)
+    axes.set_box_aspect((np.ptp(x), np.ptp(y), height), zoom=1.1)
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
         axis.set_major_locator(MaxNLocator(4))
-    axes.view_init(elev=28, azim=-55)
+    axes.view_init(elev=26, azim=-40)
     return picture
