@@ -24,7 +24,9 @@ RADIUS = 1.2
 
 def one_cycle(run: Multigrid) -> Array:
     """Run one cycle from the finest level; return the film inside r < 1.2."""
-    cycle(run.levels, run.coarsest.step, Cycle.of(run.options, run.levels[0].grid))
+    cycle(
+        run.levels, run.coarsest.step, Cycle.of(run.options, run.levels[0].grid, run.expected_film)
+    )
     return film_inside(run)
 
 

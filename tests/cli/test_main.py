@@ -98,8 +98,48 @@ def test_a_wrong_command_line_is_exit_code_2(monkeypatch, arguments: tuple[str, 
     assert run(monkeypatch, *arguments) == 2
 
 
+@pytest.mark.parametrize(
+    ("arguments", "what"),
+    [
+        (("solve", "--bogus"), "--bogus"),
+        (("solve",), "CASE"),
+        (("nonsense",), "nonsense"),
+        (("export", "a.nc"), "--to"),
+        (("plot", "a.nc", "--dpi", "x" * 9999), "--dpi"),
+    ],
+)
+def test_a_wrong_command_line_is_one_line_and_an_object(monkeypatch, capsys, arguments, what):
+    assert run(monkeypatch, *arguments, "--json") == 2
+    told = capsys.readouterr()
+    assert len(told.err.splitlines()) == 1
+    assert len(told.err) < 400
+    assert "--help" in told.err
+    assert json.loads(told.out)["status"] == "bad_input"
+    assert what in told.err or "--json" in told.err
+
+
+def test_a_reader_who_leaves_is_no_failure_of_ours():
+    command = f"{sys.executable} -m tehl schema | {sys.executable} -c pass; exit ${{PIPESTATUS[0]}}"
+    done = subprocess.run(
+        ["bash", "-c", command], capture_output=True, text=True, check=False, timeout=60
+    )
+    assert done.returncode in (0, 141)  # 0 when all went into the pipe before its end closed
+    assert done.stderr == ""
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
+def test_a_full_disk_behind_stdout_is_told_in_one_line():
+    command = f"{sys.executable} -m tehl schema > /dev/full"
+    done = subprocess.run(
+        ["bash", "-c", command], capture_output=True, text=True, check=False, timeout=60
+    )
+    assert done.returncode == 3
+    assert len(done.stderr.splitlines()) == 1
+    assert "No space left" in done.stderr
+
+
 def test_a_broken_environment_is_exit_code_3(monkeypatch, capsys):
-    def broken() -> None:
+    def broken(**_: object) -> None:
         raise PermissionError(13, "Permission denied", "/cache")
 
     monkeypatch.setattr("tehl.cli.application", lambda: broken)

@@ -59,6 +59,15 @@ def test_the_report_lands_beside_the_result(stored, run, monkeypatch):
     assert "<!DOCTYPE html>" in (stored.parent / "ball.html").read_text(encoding="utf-8")
 
 
+@pytest.mark.parametrize("command", [["export", "--to", "csv"], ["report"]])
+def test_the_result_itself_is_never_replaced(stored, run, command):
+    before = stored.read_bytes()
+    answer = run(command[0], str(stored), *command[1:], "-o", str(stored))
+    assert answer.code == 2
+    assert "same file as the input" in answer.err
+    assert stored.read_bytes() == before
+
+
 @pytest.mark.parametrize("command", [["plot"], ["export", "--to", "csv"], ["report"]])
 @pytest.mark.parametrize("damage", ["truncated", "foreign", "missing"])
 def test_a_file_that_is_no_result_is_bad_input(stored, run, command, damage):

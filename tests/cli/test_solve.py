@@ -1,10 +1,13 @@
 # ruff: noqa: ARG001 (fixtures that prepare and are not read)
 """``tehl solve``: what it writes, prints and returns, with a solver that answers at once."""
 
+import errno
 import io
 import json
+import os
 import signal
 import sys
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -120,13 +123,28 @@ def test_a_failure_as_json_names_cause_and_hint(folder, solver, run):
         (["none.toml"], "no such case file"),
         (["ball.toml", "-o", "none/out.nc"], "does not exist"),
         (["ball.toml", "-o", "."], "is a folder"),
-        (["ball.toml", "-o", "ball.toml"], "case file itself"),
+        (["ball.toml", "-o", "ball.toml"], "same file as the input ball.toml"),
+        (["ball.toml", "-o", "link.toml"], "same file as the input"),
+        (["ball.toml", "-o", "twin.toml"], "same file as the input"),
+        (["ball.toml", "-o", "pipe"], "is a pipe, not a file"),
+        (["ball.toml", "-o", "to_pipe"], "is a pipe, not a file"),
+        (["ball.toml", "-o", "loop"], "cannot be written"),
+        (["ball.toml", "-o", "ball.toml/out.nc"], "cannot be written: not a directory"),
+        (["ball.toml", "-o", "n" * 300], "name too long"),
+        (["ball.toml", "-o", "new", "--plot", "new"], "in each other's way"),
         (["ball.toml", "--plot", "ball.toml/x"], "is a file"),
+        (["ball.toml", "--plot", "dangling/x"], "broken link"),
         (["ball.toml", "--set", "contact.load=-1 N"], "contact.load"),
         (["ball.toml", "--set", "numerics.points=100"], "coarsened"),
     ],
 )
 def test_bad_input_writes_nothing_and_solves_nothing(folder, solver, run, words, reason):
+    (folder / "link.toml").symlink_to("ball.toml")
+    (folder / "twin.toml").hardlink_to(folder / "ball.toml")
+    os.mkfifo(folder / "pipe")
+    (folder / "to_pipe").symlink_to("pipe")
+    (folder / "loop").symlink_to("loop")
+    (folder / "dangling").symlink_to("nowhere")
     before = names(folder)
     answer = run("solve", *words)
     assert answer.code == 2
@@ -134,6 +152,39 @@ def test_bad_input_writes_nothing_and_solves_nothing(folder, solver, run, words,
     assert answer.err.count("\n") == 1
     assert solver.calls == []
     assert names(folder) == before
+
+
+def test_a_grid_beyond_the_memory_is_refused(folder, solver, run, monkeypatch):
+    monkeypatch.setattr("tehl.memory.available_memory", lambda: 1e9)
+    answer = run("solve", "ball.toml", "--set", "numerics.points=16385")
+    assert answer.code == 2
+    assert "16385 x 16385 nodes takes about 48 GB" in answer.err
+    assert "take 2305 or fewer" in answer.err
+    assert solver.calls == []
+
+
+def test_a_longest_name_is_written(folder, solver, run):
+    assert run("solve", "ball.toml", "-o", "n" * 255).code == 0
+    assert names(folder) == ["ball.toml", "n" * 255]
+
+
+def test_a_link_stays_a_link_to_the_result(folder, solver, run):
+    (folder / "old.nc").write_text("old")
+    (folder / "link.nc").symlink_to("old.nc")
+    assert run("solve", "ball.toml", "-o", "link.nc").code == 0
+    assert (folder / "link.nc").is_symlink()
+    assert load("old.nc").status.converged
+
+
+def test_a_full_disk_names_the_file_and_leaves_nothing(folder, solver, run, monkeypatch):
+    def full(*_args):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    answer = run("solve", "ball.toml", "-o", "out.nc")
+    assert answer.code == 3
+    assert "tehl: out.nc: No space left on device\n" in answer.err
+    assert names(folder) == ["ball.toml"]
 
 
 def test_bad_input_as_json(folder, solver, run):

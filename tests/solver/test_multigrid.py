@@ -24,7 +24,11 @@ def film_errors(load: float, points: int) -> list[float]:
     for _ in range(21):
         run.finest.update()
         films.append(run.finest.film.h[inside])
-        cycle(run.levels, run.coarsest.step, Cycle.of(run.options, run.levels[0].grid))
+        cycle(
+            run.levels,
+            run.coarsest.step,
+            Cycle.of(run.options, run.levels[0].grid, run.expected_film),
+        )
     return [float(np.sqrt(np.mean((film - films[-1]) ** 2))) for film in films[:6]]
 
 

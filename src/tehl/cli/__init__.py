@@ -1,9 +1,11 @@
 """The command ``tehl``: one small file per subcommand, loaded without the machinery behind it."""
 
 import json
+import os
 import sys
+from contextlib import suppress
 from importlib import import_module
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import typer
 
@@ -14,9 +16,13 @@ COMMANDS = ("new", "explain", "solve", "plot", "export", "report", "doctor", "sc
 
 NOT_CONVERGED, BAD_INPUT, ENVIRONMENT = 1, 2, 3
 """Exit codes; 0 is success."""
+NO_READER = 141
+"""Exit code when nobody reads the output any more, as shells have it."""
 
 _HELP = "Thermal elastohydrodynamic lubrication of point contacts."
 _EPILOG = "Begin: tehl new > case.toml, then tehl explain case.toml, then tehl solve case.toml."
+_WrongCommandLine: Any = typer.BadParameter.__mro__[2]
+"""Base of what a wrong command line raises; typer does not export it."""
 
 
 def application() -> typer.Typer:
@@ -39,23 +45,72 @@ def application() -> typer.Typer:
 
 def main() -> NoReturn:
     """Run the command; every error raised on purpose becomes a line and an exit code."""
+    from tehl.cli.ending import INTERRUPTED, ending_cleanly
+
     try:
-        application()()
+        with ending_cleanly():
+            code = application()(standalone_mode=False)
+            if code == INTERRUPTED:  # what typer makes of Ctrl-C
+                raise KeyboardInterrupt
+            _flush()
+    except _WrongCommandLine as error:
+        _fail(_usage(error), "bad_input", BAD_INPUT)
     except (InputError, FileFormatError) as error:
         _fail(str(error), "bad_input", BAD_INPUT)
     except ConvergenceError as error:
         _fail(str(error), error.result.status.kind, NOT_CONVERGED)
+    except MemoryError:
+        _fail("not enough memory: take fewer points", "environment", ENVIRONMENT)
+    except BrokenPipeError:
+        _drop_output()
+        raise SystemExit(NO_READER) from None
     except OSError as error:
-        _fail(str(error), "environment", ENVIRONMENT)
-    raise SystemExit(0)
+        _fail(_system_words(error), "environment", ENVIRONMENT)
+    raise SystemExit(code if isinstance(code, int) else 0)
 
 
 def _fail(message: str, status: str, code: int) -> NoReturn:
     """Tell what went wrong on stderr, with ``--json`` also as an object on stdout, and exit."""
-    typer.echo(f"tehl: {message}", err=True)
+    message = " ".join(message.split())
+    with suppress(OSError):
+        typer.echo(f"tehl: {message}", err=True)
     if "--json" in sys.argv[1:]:
-        typer.echo(json.dumps({"status": status, "message": message}))
+        with suppress(OSError):
+            typer.echo(json.dumps({"status": status, "message": message}))
+            _flush()
+    _drop_output()
     raise SystemExit(code)
+
+
+def _usage(error: Any) -> str:
+    """Return what is wrong with a command line in one sentence; without arguments, the help."""
+    message = " ".join(error.format_message().split())
+    if len(sys.argv) == 1:
+        error.show()
+        raise SystemExit(BAD_INPUT)
+    command = error.ctx.command_path if getattr(error, "ctx", None) else "tehl"
+    short = message if len(message) <= 300 else f"{message[:297]}..."
+    return f"{short.rstrip('.')}; see {command} --help"
+
+
+def _system_words(error: OSError) -> str:
+    reason = error.strerror or str(error)
+    return f"{error.filename}: {reason}" if error.filename else reason
+
+
+def _flush() -> None:
+    """Write what waits for stdout now, while a failure can still be told."""
+    if sys.stdout is not None:
+        sys.stdout.flush()
+
+
+def _drop_output() -> None:
+    """Let nothing be written at exit to a pipe without a reader or a full disk."""
+    try:
+        _flush()
+    except OSError:
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
 
 
 def _common(

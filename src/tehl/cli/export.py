@@ -34,11 +34,13 @@ def export(
     ] = What.lines,
 ) -> None:
     """Write a stored result as CSV, VTK (ParaView), npz (numpy) or mat (MATLAB)."""
+    from tehl.io.atomic import check_writable
     from tehl.io.export import SUFFIXES, write, write_csv
     from tehl.io.store import load
 
-    result = load(stored)
     path = stored.with_suffix(SUFFIXES[to]) if output is None else output
+    check_writable(path, sources=(stored,))
+    result = load(stored)
     if to is Kind.csv:
         write_csv(result, path, what=what.value)
     else:

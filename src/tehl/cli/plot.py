@@ -15,10 +15,12 @@ def plot(
     dpi: Annotated[int, typer.Option(min=30, max=1200, help="Dots per inch.")] = 150,
 ) -> None:
     """Draw all pictures of a stored result; nothing is compiled or solved."""
+    from tehl.io.atomic import check_folder
     from tehl.io.store import load
     from tehl.plots.save import save_all
 
-    result = load(stored)
     folder = stored.with_name(f"{stored.stem}_plots") if output is None else output
+    check_folder(folder)
+    result = load(stored)
     for path in save_all(result, folder, dpi=dpi):
         typer.echo(path)

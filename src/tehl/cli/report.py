@@ -13,10 +13,12 @@ def report(
     ] = None,
 ) -> None:
     """Write one self-contained HTML page: inputs, groups, pictures, formulas, convergence."""
+    from tehl.io.atomic import check_writable
     from tehl.io.store import load
     from tehl.report.html import write_report
 
-    result = load(stored)
     path = stored.with_suffix(".html") if output is None else output
+    check_writable(path, sources=(stored,))
+    result = load(stored)
     write_report(result, path)
     typer.echo(path)

@@ -1,7 +1,5 @@
 """``tehl solve``: from a case file to a stored film."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,8 +9,6 @@ if TYPE_CHECKING:
     from tehl.options import Options
     from tehl.problem import ContactProblem
     from tehl.result import Result
-
-INTERRUPTED, TERMINATED = 130, 143
 
 
 def solve(  # noqa: PLR0913, PLR0917 (the options of the command)
@@ -41,35 +37,38 @@ def solve(  # noqa: PLR0913, PLR0917 (the options of the command)
     Exit code 0: converged; 1: not converged, the result is stored and marked; 2: bad input,
     nothing is written; 3: the environment failed.
     """
-    from tehl.io.atomic import check_folder
     from tehl.io.case import read_case_and_options
+    from tehl.memory import check_memory
 
     target = Path(f"{case.stem}.nc") if output is None else output
     problem, options = read_case_and_options(case, changes)
-    _check_output(target, case)
+    _check_output(target, case, plot)
+    check_memory(options)
+    result, failure = _run(problem, options, certify=certify, quiet=quiet)
+    if as_json:
+        result = _with_work(result)
+    result.save(target)
+    _tell(result, as_json=as_json)
+    typer.echo(f"written: {target}", err=True)
     if plot is not None:
-        check_folder(plot)
-    with _ending_cleanly():
-        result, failure = _run(problem, options, certify=certify, quiet=quiet)
-        if as_json:
-            result = _with_work(result)
-        result.save(target)
-        _tell(result, as_json=as_json)
-        typer.echo(f"written: {target}", err=True)
-        if plot is not None:
-            _draw(result, plot)
+        _draw(result, plot)
     if failure is not None:
         _explain_failure(result, failure)
         raise typer.Exit(1)
 
 
-def _check_output(target: Path, case: Path) -> None:
+def _check_output(target: Path, case: Path, plot: Path | None) -> None:
     from tehl.errors import InputError
-    from tehl.io.atomic import check_writable
+    from tehl.io.atomic import check_folder, check_writable
 
-    if target.resolve() == case.resolve():
-        raise InputError(f"output {target} is the case file itself")
-    check_writable(target)
+    check_writable(target, sources=(case,))
+    if plot is None:
+        return
+    check_folder(plot)
+    if plot.resolve() in (target.resolve(), *target.resolve().parents) and not plot.is_dir():
+        raise InputError(
+            f"output {target} and the folder of pictures {plot} are in each other's way"
+        )
 
 
 def _run(
@@ -118,24 +117,3 @@ def _explain_failure(result: "Result", failure: str) -> None:
     typer.echo(f"tehl: not an answer ({status.kind}): {status.message or failure}", err=True)
     if status.hint:
         typer.echo(f"hint: {status.hint}", err=True)
-
-
-@contextmanager
-def _ending_cleanly() -> Iterator[None]:
-    """Let Ctrl-C and a kill unwind the stack, so that no temporary file stays behind."""
-    import signal
-    import threading
-
-    def terminate(_signal: int, _frame: object) -> None:
-        raise SystemExit(TERMINATED)
-
-    in_main = threading.current_thread() is threading.main_thread()
-    before = signal.signal(signal.SIGTERM, terminate) if in_main else None
-    try:
-        yield
-    except KeyboardInterrupt:
-        typer.echo("tehl: interrupted", err=True)
-        raise typer.Exit(INTERRUPTED) from None
-    finally:
-        if in_main:
-            signal.signal(signal.SIGTERM, before)

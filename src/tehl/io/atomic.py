@@ -1,12 +1,21 @@
 """Files appear whole or not at all."""
 
 import os
+import stat
 import tempfile
+import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from tehl.errors import InputError
+
+_KINDS = (
+    (stat.S_ISCHR, "a device"),
+    (stat.S_ISBLK, "a device"),
+    (stat.S_ISFIFO, "a pipe"),
+    (stat.S_ISSOCK, "a socket"),
+)
 
 
 @contextmanager
@@ -14,7 +23,7 @@ def replacing(path: str | Path) -> Iterator[Path]:
     """Yield a temporary path beside ``path``; it takes the place of ``path`` when all went well.
 
     On any exception, an interrupt included, the temporary file goes away and ``path`` stays as
-    it was.
+    it was. A link stays a link: the file that it points to is replaced.
 
     Parameters
     ----------
@@ -25,40 +34,68 @@ def replacing(path: str | Path) -> Iterator[Path]:
     ------
     InputError
         If the folder of ``path`` cannot take files.
+    OSError
+        If writing fails, with the name of the file: a full disk, a quota.
     """
-    target = Path(path)
-    check_writable(target)
-    temporary = target.with_name(f".{target.name}.{os.getpid()}.part")
+    check_writable(path)
+    target = Path(os.path.realpath(path))
+    temporary = target.with_name(f".{target.name[:40]}.{uuid.uuid4().hex[:12]}.part")
     try:
         yield temporary
         temporary.replace(target)
+    except OSError as error:
+        temporary.unlink(missing_ok=True)
+        raise OSError(error.errno, error.strerror or str(error), str(path)) from error
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
 
 
-def check_writable(path: str | Path) -> None:
+def check_writable(path: str | Path, *, sources: tuple[str | Path, ...] = ()) -> None:
     """Refuse an output file that could not be written, before any work is done for it.
 
     Parameters
     ----------
     path : str or Path
         The file to be written later.
+    sources : tuple of str or Path
+        Files that are read for it, which it must not replace.
 
     Raises
     ------
     InputError
-        If ``path`` is a folder or write-protected, or its folder is missing or takes no files.
+        If ``path`` is a source, no regular file or write-protected, or its folder is missing or
+        takes no files.
     """
-    target = Path(path)
+    shown, target = shortened(path), Path(os.path.realpath(path))
     folder = target.parent
-    if target.is_dir():
-        raise InputError(f"output {target} is a folder; give a file name, such as {target}/out.nc")
+    _check_kind(path)
     if not folder.is_dir():
-        raise InputError(f"output {target}: the folder {folder} does not exist")
-    if target.exists() and not os.access(target, os.W_OK):
-        raise InputError(f"output {target} is write-protected")
+        raise InputError(f"output {shown}: the folder {shortened(folder)} does not exist")
+    if target.exists():
+        if not os.access(target, os.W_OK):
+            raise InputError(f"output {shown} is write-protected")
+        for source in sources:
+            if Path(source).exists() and target.samefile(source):
+                raise InputError(f"output {shown} is the same file as the input {source}")
     _check_folder(folder)
+
+
+def _check_kind(path: str | Path) -> None:
+    """Refuse what exists and is no regular file, and names that no file can have."""
+    shown = shortened(path)
+    try:
+        mode = Path(path).stat().st_mode
+    except FileNotFoundError:
+        return
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise InputError(f"output {shown} cannot be written: {reason.lower()}") from None
+    if stat.S_ISDIR(mode):
+        raise InputError(f"output {shown} is a folder; give a file name, such as {shown}/out.nc")
+    if not stat.S_ISREG(mode):
+        kind = next((word for test, word in _KINDS if test(mode)), "special")
+        raise InputError(f"output {shown} is {kind}, not a file")
 
 
 def check_folder(folder: str | Path) -> None:
@@ -74,11 +111,17 @@ def check_folder(folder: str | Path) -> None:
     InputError
         If a file is in the way or the place takes no files.
     """
-    place = Path(folder)
-    while not place.exists():
-        place = place.parent
+    place, shown = Path(folder), shortened(folder)
+    try:
+        while not place.exists():
+            if place.is_symlink():
+                raise InputError(f"output folder {shown}: {shortened(place)} is a broken link")
+            place = place.parent
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise InputError(f"output folder {shown} cannot be made: {reason.lower()}") from None
     if not place.is_dir():
-        raise InputError(f"output folder {folder}: {place} is a file")
+        raise InputError(f"output folder {shown}: {shortened(place)} is a file")
     _check_folder(place)
 
 
@@ -87,4 +130,11 @@ def _check_folder(folder: Path) -> None:
         with tempfile.TemporaryFile(dir=folder):
             pass
     except OSError as error:
-        raise InputError(f"cannot write into {folder.resolve()}: {error.strerror}") from None
+        place = shortened(folder.resolve())
+        raise InputError(f"cannot write into {place}: {error.strerror}") from None
+
+
+def shortened(path: str | Path) -> str:
+    """Return a path for a message: on one line, its middle left out when it is long."""
+    text = "".join(c if c.isprintable() else "?" for c in str(path))
+    return text if len(text) <= 160 else f"{text[:60]}...{text[-80:]}"

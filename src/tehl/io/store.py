@@ -1,5 +1,6 @@
 """Results on disk (NetCDF-4) and as datasets, there and back without loss."""
 
+import io
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -61,9 +62,16 @@ def save(result: Result, path: str | Path) -> None:
     InputError
         If the file cannot be written there.
     """
+    with replacing(path) as temporary:
+        temporary.write_bytes(_image(result))
+
+
+def _image(result: Result) -> bytes:
+    """Return the content of the file; made in memory, as HDF5 does not survive a full disk."""
     import h5netcdf  # noqa: PLC0415 (0.1 s)
 
-    with replacing(path) as temporary, h5netcdf.File(temporary, "w") as file:
+    image = io.BytesIO()
+    with h5netcdf.File(image, "w") as file:
         file.attrs.update(attributes(result))
         for variable in variables(result):
             for name, size in zip(variable.dims, variable.data.shape, strict=True):
@@ -71,6 +79,7 @@ def save(result: Result, path: str | Path) -> None:
                     file.dimensions[name] = size
             _write(file, variable.name, variable.dims, variable.data)
             file.variables[variable.name].attrs.update(_attributes(variable))
+    return image.getvalue()
 
 
 def _attributes(variable: Variable) -> dict[str, str]:

@@ -13,13 +13,11 @@ from tehl.film_formulas import (
     inlet_heating_factor,
     regime,
 )
+from tehl.memory import available_memory, needed_memory
 from tehl.options import Domain, Options, coarsenable
 from tehl.problem import ContactProblem
 from tehl.report.suspicion import questions
 from tehl.scaling import Groups, Scales, groups, scales
-
-BYTES_PER_NODE = 180
-"""Peak memory of a solve by node of the finest full grid, measured; a guide."""
 
 SECONDS_PER_NODE = 1.5e-6
 """Time of a solve by node of the finest full grid on one core of a usual machine; a guide."""
@@ -100,7 +98,7 @@ def explain(problem: ContactProblem, options: Options) -> Explanation:
         domain=options.domain if isinstance(options.domain, Domain) else wanted,
         recommended_domain=wanted,
         needed_points=coarsenable(needed_points(case_groups) - 2)[1],
-        memory=float(BYTES_PER_NODE * nodes),
+        memory=needed_memory(options),
         seconds=SECONDS_PER_NODE * nodes,
         questions=questions(problem, options, case_groups, film),
     )
@@ -241,9 +239,16 @@ def _about_numerics(case: Explanation) -> Iterator[str]:
     yield _row("grid", f"{nodes_x} x {nodes_y} nodes", f"at least {case.needed_points} needed")
     yield _row(
         "memory, time",
-        f"about {case.memory / 1e6:.0f} MB",
+        f"about {case.memory / 1e6:.0f} MB{_more_than_there_is(case.memory)}",
         f"about {case.seconds:.2g} s once loaded",
     )
+
+
+def _more_than_there_is(memory: float) -> str:
+    available = available_memory()
+    if available is None or memory <= available:
+        return ""
+    return f", but {available / 1e6:.0f} MB are available"
 
 
 def _edges(domain: Domain) -> str:

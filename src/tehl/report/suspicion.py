@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from tehl.domain import needed_points, recommended_domain
+from tehl.domain import NEARLY_RIGID, needed_points, recommended_domain
 from tehl.options import Domain, Options, coarsenable
 from tehl.problem import ContactProblem
 from tehl.scaling import Groups
@@ -123,6 +123,11 @@ def _of_sliding(problem: ContactProblem) -> Iterator[str]:
 def _of_numerics(options: Options, groups: Groups) -> Iterator[str]:
     if isinstance(options.domain, Domain):
         yield from _of_domain(options.domain, recommended_domain(groups))
+    elif groups.M < NEARLY_RIGID:
+        yield (
+            f"M = {groups.M:.3g} is a nearly rigid contact, which carries part of its load far outside: "
+            "the proposed domain leaves up to 3 % of the film; --certify shows how much"
+        )
     needed = needed_points(groups)
     if min(options.shape) < needed:
         _, more = coarsenable(needed - 2)

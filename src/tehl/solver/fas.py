@@ -13,6 +13,9 @@ UNRESOLVED = 0.5
 """Mesh width of the coarsest grid, in Hertz half-widths, beyond which it hardly sees the contact.
 One visit then overshoots the load balance (by its own size at M = 5); a second one, through the
 level above it, cures that and costs next to nothing."""
+THICK = 0.25
+"""Expected central film from which that is so: of a thinner one such a grid has no sound discrete
+solution, and going there more often does harm (M = 200 and more on wide domains)."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -35,13 +38,13 @@ class Cycle:
     twice: bool = False
 
     @classmethod
-    def of(cls, options: Options, coarsest: Grid) -> "Cycle":
-        """Return the cycle that the options ask for, down to the grid ``coarsest``."""
+    def of(cls, options: Options, coarsest: Grid, film: float) -> "Cycle":
+        """Return the cycle that the options ask for, down to ``coarsest``, for an expected film."""
         return cls(
             kind=options.cycle,
             pre_sweeps=options.pre_sweeps,
             post_sweeps=options.post_sweeps,
-            twice=coarsest.dx > UNRESOLVED,
+            twice=coarsest.dx > UNRESOLVED and film > THICK,
         )
 
     def coarse_visits(self, coarser: int) -> tuple["Cycle", ...]:

@@ -157,7 +157,7 @@ class Multigrid:
         trace, coarser = GridTrace(), (self.traces[-1] if self.traces else None)
         self.traces.append(trace)
         trace.note(*film_numbers(fine))
-        shape = Cycle.of(self.options, levels[0].grid)
+        shape = Cycle.of(self.options, levels[0].grid, self.expected_film)
         for number in range(1, (self.options.max_cycles if last else COARSE_CYCLES) + 1):
             before = fine.film.p.copy()
             cycle(levels, self.coarsest.step, shape)

@@ -1,0 +1,73 @@
+"""Memory that a solve takes, and memory that there is."""
+
+import os
+from pathlib import Path
+
+from tehl.errors import InputError
+from tehl.options import Options, coarsenable
+
+BYTES_PER_NODE = 180
+"""Peak memory of a solve by node of the finest full grid, measured; a guide."""
+
+_LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
+"""Where a container says how much it may take; what it uses holds caches, so it tells nothing."""
+
+
+def needed_memory(options: Options) -> float:
+    """Return the estimated peak memory of a solve [byte]."""
+    nodes_y, nodes_x = options.shape
+    return float(BYTES_PER_NODE * nodes_y * nodes_x)
+
+
+def available_memory() -> float | None:
+    """Return the memory that can still be taken [byte], None where the system does not tell."""
+    known = [number for number in (_of_machine(), *map(_of_container, _LIMITS)) if number]
+    return min(known, default=None)
+
+
+def check_memory(options: Options) -> None:
+    """Refuse a grid that cannot fit into the memory.
+
+    Parameters
+    ----------
+    options : Options
+        With the nodes of the finest grid.
+
+    Raises
+    ------
+    InputError
+        If the estimate exceeds the memory that there is; the message names a grid that fits.
+    """
+    needed, available = needed_memory(options), available_memory()
+    if available is None or needed <= available:
+        return
+    largest = int((available / BYTES_PER_NODE) ** 0.5)
+    fitting = f": take {coarsenable(largest)[0]} or fewer" if largest > 33 else ""
+    nodes_y, nodes_x = options.shape
+    raise InputError(
+        f"numerics.points = {nodes_x} x {nodes_y} nodes takes about {needed / 1e9:.2g} GB of "
+        f"memory, and {available / 1e9:.2g} GB are available{fitting}"
+    )
+
+
+def _of_machine() -> float | None:
+    """Return the memory that no process holds, caches counted as free [byte]."""
+    try:
+        lines = Path("/proc/meminfo").read_text(encoding="ascii").splitlines()
+        facts = dict(line.split(":", 1) for line in lines if ":" in line)
+        return 1024.0 * int(facts["MemAvailable"].split()[0])
+    except (OSError, ValueError, KeyError, IndexError):
+        pass
+    try:
+        return float(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))
+    except (OSError, ValueError, AttributeError):
+        return None
+
+
+def _of_container(file: str) -> float | None:
+    """Return the limit of a control group [byte], None without one."""
+    try:
+        limit = int(Path(file).read_text(encoding="ascii"))
+    except (OSError, ValueError):
+        return None
+    return float(limit) if 0 < limit < 2**60 else None
