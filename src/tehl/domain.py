@@ -15,6 +15,8 @@ SIZES = (
     (0.0, 12.0, 3.0),
 )
 """From which Moes load on, which half width and which outlet (square for a circular contact)."""
+NEARLY_RIGID = 7.0
+"""Moes load below which the pressure reaches further than any domain that is worth computing."""
 SIXTEENTHS = (11, 12, 13, 14, 15)
 """Parts of the length that the inlet may take, so that X = 0 is a node of every grid."""
 
@@ -25,7 +27,7 @@ def recommended_domain(groups: Groups) -> Domain:
     The wedge draws pressure from far away, most of all from the sides, when the film is thick
     against the contact: the edges move out as the Moes load falls. The widths are measured: 0.2 %
     at M = 500, 0.28 % at 100, 0.25 % at 40, 0.2 % at 15, 0.1 % at 10 (L = 10). Below M = 7 the
-    contact is nearly rigid, the load outside falls off like one over the width only, and up to 2 %
+    contact is nearly rigid, the load outside falls off like one over the width only, and up to 3 %
     remain. A contact that is wide across the entrainment draws from further upstream, like the
     power 0.4 of its ellipticity (measured at radius_y / radius_x = 2 and 5).
 

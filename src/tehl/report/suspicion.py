@@ -125,8 +125,8 @@ def _of_numerics(options: Options, groups: Groups) -> Iterator[str]:
         yield from _of_domain(options.domain, recommended_domain(groups))
     elif groups.M < NEARLY_RIGID:
         yield (
-            f"M = {groups.M:.3g} is a nearly rigid contact, which carries part of its load far outside: "
-            "the proposed domain leaves up to 3 % of the film; --certify shows how much"
+            f"M = {groups.M:.3g} is a nearly rigid contact, with part of its load far outside: the "
+            "proposed domain leaves up to 3 % of the film; --certify shows how much"
         )
     needed = needed_points(groups)
     if min(options.shape) < needed:
