@@ -102,10 +102,10 @@ def test_a_wrong_command_line_is_exit_code_2(monkeypatch, arguments: tuple[str, 
     ("arguments", "what"),
     [
         (("solve", "--bogus"), "--bogus"),
-        (("solve",), "CASE"),
+        (("solve",), "argument"),
         (("nonsense",), "nonsense"),
-        (("export", "a.nc"), "--to"),
-        (("plot", "a.nc", "--dpi", "x" * 9999), "--dpi"),
+        (("export", "a.nc"), "--json"),
+        (("solve", "--" + "x" * 9999), "..."),
     ],
 )
 def test_a_wrong_command_line_is_one_line_and_an_object(monkeypatch, capsys, arguments, what):
@@ -115,7 +115,7 @@ def test_a_wrong_command_line_is_one_line_and_an_object(monkeypatch, capsys, arg
     assert len(told.err) < 400
     assert "--help" in told.err
     assert json.loads(told.out)["status"] == "bad_input"
-    assert what in told.err or "--json" in told.err
+    assert what in told.err
 
 
 def test_a_reader_who_leaves_is_no_failure_of_ours():

@@ -207,3 +207,19 @@ def test_saving_and_loading_import_no_compiler_and_no_xarray(result, tmp_path):
     run = [sys.executable, "-c", code, str(tmp_path / "out.nc")]
     answer = subprocess.run(run, capture_output=True, text=True, check=True)
     assert answer.stdout.strip() == "[]"
+
+
+def test_a_damaged_byte_anywhere_is_told_in_one_line_or_does_no_harm(result, tmp_path):
+    save(result, tmp_path / "out.nc")
+    whole = (tmp_path / "out.nc").read_bytes()
+    for place in range(8, min(len(whole), 4000), 61):
+        data = bytearray(whole)
+        data[place] ^= 0xFF
+        (tmp_path / "bad.nc").write_bytes(data)
+        try:
+            load(tmp_path / "bad.nc")
+        except FileFormatError as error:
+            message = str(error)
+            assert "bad.nc" in message
+            assert "\n" not in message
+            assert "Unable" not in message or "truncated or damaged" in message

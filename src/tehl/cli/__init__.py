@@ -9,7 +9,7 @@ from typing import Any, NoReturn
 
 import typer
 
-from tehl.errors import ConvergenceError, FileFormatError, InputError
+from tehl.errors import ConvergenceError, TehlError
 
 COMMANDS = ("new", "explain", "solve", "plot", "export", "report", "doctor", "schema")
 """Module of this package, function in it and word on the command line; in the order of the help."""
@@ -45,28 +45,44 @@ def application() -> typer.Typer:
 
 def main() -> NoReturn:
     """Run the command; every error raised on purpose becomes a line and an exit code."""
-    from tehl.cli.ending import INTERRUPTED, ending_cleanly
-
     try:
-        with ending_cleanly():
-            code = application()(standalone_mode=False)
-            if code == INTERRUPTED:  # what typer makes of Ctrl-C
-                raise KeyboardInterrupt
-            _flush()
-    except _WrongCommandLine as error:
-        _fail(_usage(error), "bad_input", BAD_INPUT)
-    except (InputError, FileFormatError) as error:
-        _fail(str(error), "bad_input", BAD_INPUT)
-    except ConvergenceError as error:
-        _fail(str(error), error.result.status.kind, NOT_CONVERGED)
-    except MemoryError:
-        _fail("not enough memory: take fewer points", "environment", ENVIRONMENT)
+        code = _run()
     except BrokenPipeError:
         _drop_output()
         raise SystemExit(NO_READER) from None
-    except OSError as error:
-        _fail(_system_words(error), "environment", ENVIRONMENT)
-    raise SystemExit(code if isinstance(code, int) else 0)
+    except (_WrongCommandLine, TehlError, MemoryError, OSError) as error:
+        _fail(*_told(error))
+    raise SystemExit(code)
+
+
+def _run() -> int:
+    """Return the exit code of the command."""
+    from tehl.cli.ending import INTERRUPTED, ending_cleanly
+
+    with ending_cleanly():
+        try:
+            code = application()(prog_name="tehl", standalone_mode=False)
+        except SystemExit as end:
+            if isinstance(end.__context__, BrokenPipeError):  # typer takes it and ends with 1
+                raise end.__context__ from None
+            raise
+        if code == INTERRUPTED:  # what typer makes of Ctrl-C
+            raise KeyboardInterrupt
+        _flush()
+    return code if isinstance(code, int) else 0
+
+
+def _told(error: BaseException) -> tuple[str, str, int]:
+    """Return message, status and exit code of an error."""
+    if isinstance(error, _WrongCommandLine):
+        return _usage(error), "bad_input", BAD_INPUT
+    if isinstance(error, ConvergenceError):
+        return str(error), error.result.status.kind, NOT_CONVERGED
+    if isinstance(error, TehlError):
+        return str(error), "bad_input", BAD_INPUT
+    if isinstance(error, OSError):
+        return _system_words(error), "environment", ENVIRONMENT
+    return "not enough memory: take fewer points", "environment", ENVIRONMENT
 
 
 def _fail(message: str, status: str, code: int) -> NoReturn:

@@ -131,16 +131,16 @@ def load(path: str | Path) -> Result:
     """
     source = Path(path)
     _check_signature(source)
+    arrays, attrs = _read(source)
+    _check_version(source, attrs)
     try:
-        arrays, attrs = _read(source)
-        _check_version(source, attrs)
         return rebuild(arrays, attrs)
-    except (OSError, RuntimeError) as error:
-        raise FileFormatError(f"{source} is truncated or damaged: {_first_line(error)}") from None
     except KeyError as error:
         raise FileFormatError(f"{source} is not a whole tehl result: {error} is missing") from None
     except ValueError as error:
         raise FileFormatError(f"{source} is not a valid tehl result: {_reason(error)}") from None
+    except (TypeError, AttributeError, IndexError) as error:
+        raise _damaged(source, error) from None
 
 
 def _check_signature(source: Path) -> None:
@@ -159,18 +159,37 @@ def _check_signature(source: Path) -> None:
 
 
 def _read(source: Path) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
-    import h5netcdf  # noqa: PLC0415 (0.1 s)
+    import h5py  # noqa: PLC0415 (0.1 s; h5netcdf complains on stderr of a broken file)
 
-    with h5netcdf.File(source, "r", decode_vlen_strings=True) as file:
-        attrs = dict(file.attrs)
-        if "tehl_format" not in attrs:
-            raise FileFormatError(f"{source} is a NetCDF-4 file, but not a tehl result")
-        arrays = {name: np.asarray(variable[...]) for name, variable in file.variables.items()}
+    try:
+        with h5py.File(source, "r") as file:
+            attrs = {name: _plain(value) for name, value in file.attrs.items()}
+            arrays = {name: _array(data) for name, data in file.items()}
+    except Exception as error:  # a broken file breaks these libraries in any way
+        raise _damaged(source, error) from None
+    if "tehl_format" not in attrs:
+        raise FileFormatError(f"{source} is a NetCDF-4 file, but not a tehl result")
     return arrays, attrs
 
 
+def _damaged(source: Path, error: Exception) -> FileFormatError:
+    return FileFormatError(f"{source} is truncated or damaged: {_first_line(error)}")
+
+
+def _array(data: Any) -> NDArray[Any]:
+    return np.asarray(data[...] if data.dtype.kind != "O" else data.asstr()[...])
+
+
+def _plain(value: Any) -> Any:
+    """Return an attribute as h5netcdf wrote it, a number out of its array of one."""
+    return value.item() if isinstance(value, np.ndarray) and value.size == 1 else value
+
+
 def _check_version(source: Path, attrs: dict[str, Any]) -> None:
-    version = int(attrs["tehl_format"])
+    try:
+        version = int(attrs["tehl_format"])
+    except (TypeError, ValueError) as error:
+        raise _damaged(source, error) from None
     if version != FORMAT_VERSION:
         raise FileFormatError(
             f"{source} is a tehl result of format {version} (by {attrs.get('source', 'tehl')}); "
@@ -188,4 +207,5 @@ def _reason(error: ValueError) -> str:
 
 
 def _first_line(error: Exception) -> str:
-    return str(error).partition("\n")[0]
+    text = str(error.args[0]) if isinstance(error, KeyError) and error.args else str(error)
+    return text.partition("\n")[0][:200]
