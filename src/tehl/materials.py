@@ -2,6 +2,7 @@
 
 import difflib
 import tomllib
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from typing import Annotated, Any
@@ -30,7 +31,7 @@ class Solid(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     young_modulus: Pressure
-    poisson_ratio: Annotated[float, Field(gt=-1.0, le=0.5, allow_inf_nan=False)]
+    poisson_ratio: Annotated[float, Field(gt=-1.0, le=0.5, allow_inf_nan=False, examples=[0.3])]
     density: Density | None = None
     heat_capacity: HeatCapacity | None = None
     conductivity: Conductivity | None = None
@@ -82,10 +83,15 @@ def material(name: str) -> Solid:
 
 
 def _by_name(value: object) -> object:
-    """Return the table of a name, anything else as it is."""
-    if not isinstance(value, str):
+    """Return the table of a name, a table as it is."""
+    if isinstance(value, Mapping | Solid):
         return value
     known = _tables()
+    if not isinstance(value, str):
+        raise ValueError(
+            f"must be the name of a solid ({', '.join(known)}) or a table with young_modulus and "
+            "poisson_ratio"
+        )
     if value in known:
         return known[value]
     close = difflib.get_close_matches(value, known, n=1)

@@ -1,10 +1,26 @@
 """How hard to try: the numerical choices of a run, the ``[numerics]`` table of a case file."""
 
+import math
 from typing import Annotated, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
-Interval = tuple[float, float]
+
+def _not_a_truth(value: object) -> object:
+    """Refuse true and false, which Python takes for 1 and 0."""
+    if isinstance(value, bool):
+        raise ValueError("is not a number")
+    return value
+
+
+Real = Annotated[float, BeforeValidator(_not_a_truth)]
+Count = Annotated[int, BeforeValidator(_not_a_truth)]
+Nodes = Annotated[Count, Field(ge=17, le=16385)]
+Interval = tuple[Real, Real]
+LARGEST_COARSEST = 64
+"""Most intervals along one direction of the coarsest grid, which is solved densely."""
+FARTHEST = 1e3
+"""Hertz half-widths within which a domain must stay."""
 
 
 class Domain(BaseModel):
@@ -23,13 +39,23 @@ class Domain(BaseModel):
 
     @model_validator(mode="after")
     def _must_hold_the_contact(self) -> Self:
-        for name, (low, high) in (("x", self.x), ("y", self.y)):
-            if not (low < -1.0 and high > 1.0 and abs(low) < 1e3 and abs(high) < 1e3):
-                raise ValueError(
-                    f"{name} = [{low:g}, {high:g}] cuts the contact: it must reach beyond "
-                    "-1 and 1 (unit: Hertz half-widths)"
-                )
+        for name, edges in (("x", self.x), ("y", self.y)):
+            if fault := _fault_of_edges(*edges):
+                raise ValueError(f"{name} = [{edges[0]:g}, {edges[1]:g}] {fault}")
         return self
+
+
+def _fault_of_edges(low: float, high: float) -> str:
+    """Return what is wrong with two edges of a domain, nothing if they will do."""
+    if not (math.isfinite(low) and math.isfinite(high)):
+        return "must be two finite numbers, in Hertz half-widths, such as [-4.5, 1.5]"
+    if low >= high:
+        return f"must begin with its lower edge: [{high:g}, {low:g}] (unit: Hertz half-widths)"
+    if not (low < -1.0 and high > 1.0):
+        return "cuts the contact: it must reach beyond -1 and 1 (unit: Hertz half-widths)"
+    if not max(-low, high) < FARTHEST:
+        return f"is too large: it must stay within {FARTHEST:g} Hertz half-widths"
+    return ""
 
 
 class Options(BaseModel):
@@ -47,7 +73,7 @@ class Options(BaseModel):
     cycle : {"V", "W", "F"}
         Multigrid cycle.
     pre_sweeps, post_sweeps : int
-        Relaxation sweeps before and after the coarse-grid correction.
+        Relaxation sweeps before and after the coarse-grid correction; one of them at least.
     wedge_order : {1, 2}
         Order of the upstream difference of the wedge term.
     smoother : {"auto", "fast", "robust", "gauss-seidel"}
@@ -66,20 +92,17 @@ class Options(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
-    points: (
-        Annotated[int, Field(ge=17, le=16385)]
-        | tuple[Annotated[int, Field(ge=17, le=16385)], Annotated[int, Field(ge=17, le=16385)]]
-    ) = 257
+    points: Nodes | tuple[Nodes, Nodes] = 257
     domain: Domain | Literal["auto"] = "auto"
     deformation: Literal["auto", "mlmi", "fft", "direct"] = "auto"
     cycle: Literal["V", "W", "F"] = "V"
-    pre_sweeps: Annotated[int, Field(ge=0, le=10)] = 2
-    post_sweeps: Annotated[int, Field(ge=0, le=10)] = 2
+    pre_sweeps: Annotated[Count, Field(ge=0, le=10)] = 2
+    post_sweeps: Annotated[Count, Field(ge=0, le=10)] = 2
     wedge_order: Literal[1, 2] = 2
     smoother: Literal["auto", "fast", "robust", "gauss-seidel"] = "auto"
     accuracy: Literal["discretisation", "tight"] = "discretisation"
-    tolerance: Annotated[float, Field(gt=0, lt=1)] = 1e-6
-    max_cycles: Annotated[int, Field(ge=1, le=1000)] = 40
+    tolerance: Annotated[Real, Field(gt=0, lt=1)] = 1e-6
+    max_cycles: Annotated[Count, Field(ge=1, le=1000)] = 40
     half_domain: Literal["auto", "never"] = "auto"
 
     @property
@@ -97,6 +120,21 @@ class Options(BaseModel):
                     f"points = {nodes} cannot be coarsened: take n 2^k + 1 with 16 <= n <= 31, "
                     f"such as {fewer} or {more} nodes"
                 )
+        common = min(coarsenings(nodes) for nodes in self.shape)
+        if max(self.shape) - 1 > LARGEST_COARSEST * 2**common:
+            raise ValueError(
+                f"points = {self.points} differ too much: the finer direction may have 4 times the "
+                "nodes of the other at most"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _must_relax(self) -> Self:
+        if self.pre_sweeps + self.post_sweeps < 1:
+            raise ValueError(
+                "pre_sweeps = post_sweeps = 0 leaves nothing that smooths: one of them must be 1 "
+                "or more"
+            )
         return self
 
 

@@ -10,7 +10,7 @@ from typing import Any, Self
 
 from pydantic import BaseModel, ConfigDict, model_validator
 
-from tehl.geometry import Radii, reduced_radii
+from tehl.geometry import Radii, reduced_radii, reduced_radius
 from tehl.heat import Isothermal
 from tehl.hertz import HertzContact, hertz_contact, load_of_pressure
 from tehl.lubricant import NamedLubricant
@@ -215,7 +215,16 @@ class ContactProblem(BaseModel):
         for name, radii in zip(("surface_1", "surface_2"), on_surfaces, strict=True):
             if radii is None:
                 raise ValueError(f'{name}.radius is missing: give it ("inf" is flat)')
-        _ = self.radii
+        for axis in ("x", "y"):
+            try:
+                reduced_radius(*(getattr(radii, axis) for radii in on_surfaces))
+            except ValueError as error:
+                keys = " and ".join(self._radius_key(n, axis) for n in ("surface_1", "surface_2"))
+                raise ValueError(f"{keys}: {error}") from None
+
+    def _radius_key(self, surface: str, axis: str) -> str:
+        stated_once = getattr(self, surface).radius is not None
+        return f"{surface}.radius" if stated_once else f"{surface}.radius_{axis}"
 
     @property
     def radii(self) -> Radii:

@@ -61,6 +61,9 @@ _CELSIUS = ("degC", "°C", "C")
 _ZERO_CELSIUS = 273.15
 _ANGLE_UNITS = ("rad", "deg", "°")
 
+LONGEST_UNIT = 40
+"""Characters of a unit."""
+
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _TOKEN = re.compile(r"\s*(?:(\*\*|[*/()^·])|([+-]?\d+)|([A-Za-zµμ°%]+|-))")
 _SUPERSCRIPTS = str.maketrans({"²": "^2", "³": "^3", "⁻": "-", "¹": "1"})
@@ -204,6 +207,15 @@ class Quantity:
             return self._unitless(number)
         if self.unit == "K" and unit in _CELSIUS:
             return number + _ZERO_CELSIUS
+        factor = self._factor(unit)
+        return number if factor == 1.0 else float(f"{number * factor:.15g}")  # 22 1/GPa is 2.2e-8
+
+    def _factor(self, unit: str) -> float:
+        """Return the factor from ``unit`` to SI."""
+        if len(unit) > LONGEST_UNIT:
+            raise ValueError(f"has an unreadable unit: {self._wanted}")
+        if re.match(r",\d", unit):
+            raise ValueError(f"has a comma in its number, write a point: {self._wanted}")
         try:
             factor, dimension = _UnitReader(unit).read()
         except ValueError as error:
@@ -212,7 +224,7 @@ class Quantity:
             raise ValueError(f"has the unit of an angle ({unit}): {self._wanted}")
         if dimension != self.dimension:
             raise ValueError(f"has the unit of {_kind(dimension, unit)}: {self._wanted}")
-        return number if factor == 1.0 else float(f"{number * factor:.15g}")  # 22 1/GPa is 2.2e-8
+        return factor
 
     def _unitless(self, number: float) -> float:
         if self.unit != "-":

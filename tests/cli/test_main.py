@@ -147,6 +147,15 @@ def test_a_broken_environment_is_exit_code_3(monkeypatch, capsys):
     assert "Permission denied" in capsys.readouterr().err
 
 
+def test_a_missing_package_is_exit_code_3(monkeypatch, capsys):
+    def broken(**_: object) -> None:
+        raise ModuleNotFoundError("No module named 'numba'", name="numba")
+
+    monkeypatch.setattr("tehl.cli.application", lambda: broken)
+    assert run(monkeypatch, "doctor") == 3
+    assert "numba is not installed" in capsys.readouterr().err
+
+
 def test_python_runs_the_package_as_the_command():
     command = [sys.executable, "-m", "tehl", "--version"]
     done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)

@@ -1,6 +1,7 @@
 """Case files: what is read, and the sentence that each mistake gets."""
 
 import json
+import os
 from pathlib import Path
 
 import pytest
@@ -110,7 +111,33 @@ MISTAKES = [
     ("numerics.points=[129, 129, 129]", "numerics.points", "must have at most 2"),
     ("numerics.points=many", "numerics.points", "whole number"),
     ("numerics.domain={x=[-0.5, 1.5], y=[-3, 3]}", "numerics.domain.x", "cuts the contact"),
-    ("numerics.domain={x=[-4, nan], y=[-3, 3]}", "numerics.domain.x", "cuts the contact"),
+    ("numerics.domain={x=[-4, nan], y=[-3, 3]}", "numerics.domain.x", "two finite numbers"),
+    ("numerics.domain={x=[-inf, 1.5], y=[-3, 3]}", "numerics.domain.x", "two finite numbers"),
+    ("numerics.domain={x=[1.5, -4.5], y=[-3, 3]}", "numerics.domain.x", "begin with its lower"),
+    ("numerics.domain={x=[-1e5, 1.5], y=[-3, 3]}", "numerics.domain.x", "within 1000 Hertz"),
+    ("numerics.domain={x=3, y=[-3, 3]}", "numerics.domain.x = 3", "a list of two numbers"),
+    ("numerics.domain={x=[-4, 2, 3], y=[-3, 3]}", "numerics.domain.x", "at most 2 numbers"),
+    ("numerics.domain=wide", 'numerics.domain = "wide"', "or a table with x and y"),
+    ("numerics.points=true", "numerics.points = true", "is not a number"),
+    ("numerics.max_cycles=true", "numerics.max_cycles = true", "is not a number"),
+    (f"numerics.points={'9' * 400}", "numerics.points = 999", "at most 16385"),
+    (f"contact.load={'9' * 5000}", "contact.load", '"80 N"'),
+    (f"contact.load=80 {'(' * 5000}", "contact.load", "unreadable unit"),
+    (f"contact.load={'[' * 100}{']' * 100}", "contact.load = [[[", '"80 N"'),
+    (f"contact.load={'[' * 5000}", "nested too deep", ""),
+    ("contact.load=80,5 N", "comma", "write a point"),
+    ("contact.load=80\udcff N", "no text in UTF-8", ""),
+    ("points=33", "points is no key", "did you mean numerics.points?"),
+    ("contact.points=33", "contact.points is no key", "did you mean numerics.points?"),
+    ("x" * 100_000 + "=3", "xxx... is no key", "known are title"),
+    ("contact.a\nb=3", 'contact."a\\nb" is no key', "load"),
+    ("a." * 2000 + "b=3", "2001 parts", ""),
+    ("contact.load=1\nx=2", "contact.load", '"80 N"'),
+    ("surface_1.material=5", "surface_1.material = 5 must be the name", "or a table with young"),
+    ("surface_1.material=[]", "surface_1.material = [] must be the name", "steel"),
+    ("surface_1.material={young_modulus=2e11}", "poisson_ratio is missing", "such as 0.3"),
+    ("lubricant=true", "lubricant = true must be the name", "mineral-oil"),
+    ("lubricant={}", "lubricant.viscosity is missing", "one of roelands, barus"),
     ("numerics.domain={x=[-4.5, 1.5]}", "numerics.domain.y is missing", ""),
     ("numerics.domain=big", 'numerics.domain = "big"', "auto"),
     ("numerics.cycle='Z'", "numerics.cycle", "known are V, W, F"),
@@ -152,6 +179,19 @@ def test_a_missing_part_of_the_contact_is_named(key: str, words: str):
         case_from_tables(tables)
 
 
+def test_a_table_that_is_none_is_told_before_what_is_missing():
+    with pytest.raises(InputError, match=r'^contact = "x" must be a table'):
+        case_from_tables({"contact": "x"})
+
+
+def test_surfaces_that_do_not_curve_apart_are_named():
+    contact = {"load": "80 N", "entrainment_speed": 1}
+    hollow = {"material": "steel", "radius_x": "-20 mm", "radius_y": "20 mm"}
+    flat = {"material": "steel", "radius": "inf"}
+    with pytest.raises(InputError, match=r"^surface_1.radius_x and surface_2.radius: .* -0.02 m"):
+        case_from_tables(ball_tables(contact=contact, surface_1=hollow, surface_2=flat))
+
+
 def test_flat_on_flat_is_refused():
     flat = {"material": "steel", "radius": "inf"}
     contact = {"load": "80 N", "entrainment_speed": 1}
@@ -186,6 +226,50 @@ def test_what_is_no_file_is_told(tmp_path: Path):
     (tmp_path / "binary.toml").write_bytes(b"\x89HDF\r\n\xff\xfe")
     with pytest.raises(InputError, match="UTF-8"):
         read_case(tmp_path / "binary.toml")
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"a = " + b"[" * 5000, "nested too deep"),
+        (b"a = " + b"9" * 5000, "too many digits"),
+        (b"x" * 100_000, "line 1: 'xxx"),
+        (bytes(5000), "line 1: "),
+        (b"\xff\xfea\x00", "UTF-8"),
+        (b"#" * 2_000_000, "larger than 1 MB"),
+        (b'"a\\nb" = 3', "is no key"),
+    ],
+)
+def test_a_strange_file_is_told_in_one_short_line(tmp_path: Path, content: bytes, words: str):
+    path = tmp_path / "strange.toml"
+    path.write_bytes(content)
+    with pytest.raises(InputError) as caught:
+        read_case(path)
+    message = str(caught.value)
+    assert words in message
+    assert message.startswith(str(path))
+    assert "\n" not in message
+    assert len(message) < 300 + len(str(path))
+
+
+def test_a_byte_order_mark_is_no_mistake(case: Path):
+    text = case.read_bytes()
+    case.write_bytes(b"\xef\xbb\xbf" + text)
+    assert read_case(case).load == 80.0
+
+
+def test_a_named_pipe_is_refused_at_once(tmp_path: Path):
+    os.mkfifo(tmp_path / "pipe.toml")
+    with pytest.raises(InputError, match="is no file"):
+        read_case(tmp_path / "pipe.toml")
+
+
+def test_a_case_comes_through_a_pipe_without_a_name(case: Path):
+    reading, writing = os.pipe()
+    os.write(writing, case.read_bytes())
+    os.close(writing)
+    assert read_case(f"/dev/fd/{reading}").load == 80.0
+    os.close(reading)
 
 
 @pytest.mark.parametrize("change", ["numerics.points", "=3", "contact..load=3", "title.x=3"])

@@ -50,7 +50,7 @@ def main() -> NoReturn:
     except BrokenPipeError:
         _drop_output()
         raise SystemExit(NO_READER) from None
-    except (_WrongCommandLine, TehlError, MemoryError, OSError) as error:
+    except (_WrongCommandLine, TehlError, MemoryError, OSError, ModuleNotFoundError) as error:
         _fail(*_told(error))
     raise SystemExit(code)
 
@@ -82,6 +82,8 @@ def _told(error: BaseException) -> tuple[str, str, int]:
         return str(error), "bad_input", BAD_INPUT
     if isinstance(error, OSError):
         return _system_words(error), "environment", ENVIRONMENT
+    if isinstance(error, ModuleNotFoundError):
+        return f"{error.name} is not installed; see tehl doctor", "environment", ENVIRONMENT
     return "not enough memory: take fewer points", "environment", ENVIRONMENT
 
 
@@ -100,13 +102,13 @@ def _fail(message: str, status: str, code: int) -> NoReturn:
 
 def _usage(error: Any) -> str:
     """Return what is wrong with a command line in one sentence; without arguments, the help."""
-    message = " ".join(error.format_message().split())
+    message = " ".join(error.format_message().split()).removesuffix(".")
     if len(sys.argv) == 1:
         error.show()
         raise SystemExit(BAD_INPUT)
     command = error.ctx.command_path if getattr(error, "ctx", None) else "tehl"
     short = message if len(message) <= 300 else f"{message[:297]}..."
-    return f"{short.rstrip('.')}; see {command} --help"
+    return f"{short}; see {command} --help"
 
 
 def _system_words(error: OSError) -> str:

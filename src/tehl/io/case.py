@@ -2,7 +2,9 @@
 
 import difflib
 import json
+import os
 import re
+import stat
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -14,11 +16,16 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from tehl.errors import InputError
+from tehl.io.atomic import shortened
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.units import Quantity
 
 _NUMERICS = "numerics"
+_LARGEST = 10**6
+"""Bytes of a case file."""
+_DEEPEST = 8
+"""Parts of the key path of a change."""
 Model = TypeVar("Model", bound=BaseModel)
 
 
@@ -53,13 +60,15 @@ def read_case_and_options(
         If the file or a change is no case; the message names key, value, unit and what would be
         right.
     """
-    tables = _tables(Path(path))
-    for override in overrides:
-        _change(tables, override)
     try:
+        tables = _tables(Path(path))
+        for override in overrides:
+            _change(tables, override)
         return case_from_tables(tables)
     except InputError as error:
-        raise InputError(f"{path}: {error}") from error
+        raise InputError(f"{shortened(path)}: {error}") from error
+    except RecursionError:
+        raise InputError(f"{shortened(path)}: is nested too deep for a case") from None
 
 
 def case_from_tables(tables: Mapping[str, Any]) -> tuple[ContactProblem, Options]:
@@ -101,7 +110,7 @@ def describe(error: ValidationError, data: object, prefix: str = "") -> str:
     first = min(error.errors(include_url=False), key=_rank)
     path = _path(first, data)
     mistake = _Mistake(
-        name=".".join(str(part) for part in (prefix, *path) if part != ""),
+        name=".".join(_key(part) for part in ((prefix, *path) if prefix else path)),
         path=path,
         value=first["input"],
         error=first,
@@ -114,44 +123,71 @@ def describe(error: ValidationError, data: object, prefix: str = "") -> str:
 
 
 def _tables(path: Path) -> dict[str, Any]:
-    try:
-        text = path.read_text(encoding="utf-8")
-    except FileNotFoundError:
-        raise InputError(f"{path}: there is no such case file") from None
-    except UnicodeDecodeError:
-        raise InputError(f"{path}: is no text file in UTF-8, so no case file") from None
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror})") from None
+    text = _text(path)
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{path}: {_syntax(str(error), text)}") from None
+        raise InputError(_syntax(str(error), text)) from None
+    except ValueError:  # what Python says of an integer of thousands of digits
+        raise InputError("a number has too many digits") from None
+
+
+def _text(path: Path) -> str:
+    """Return the text of a case file, which may come through a pipe without a name."""
+    try:
+        mode = path.stat().st_mode
+        named = stat.S_ISFIFO(mode) and Path(os.path.realpath(path)).exists()
+        if named or stat.S_ISCHR(mode) or stat.S_ISBLK(mode) or stat.S_ISSOCK(mode):
+            raise InputError("is no file, so no case file")
+        with path.open("rb") as file:
+            content = file.read(_LARGEST + 1)
+    except FileNotFoundError:
+        raise InputError("there is no such case file") from None
+    except OSError as error:
+        raise InputError(f"cannot be read ({error.strerror})") from None
+    if len(content) > _LARGEST:
+        raise InputError(f"is larger than {_LARGEST // 10**6} MB, so no case file")
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise InputError("is no text file in UTF-8, so no case file") from None
 
 
 def _syntax(message: str, text: str) -> str:
     """Return the complaint of the TOML reader with the line that it is about."""
     place = re.search(r" \(at (?:line (\d+), column \d+|end of document)\)", message)
-    lines = text.splitlines() or [""]
-    number = int(place[1]) if place and place[1] else len(lines)
+    lines = text.split("\n")
+    number = int(place[1]) if place and place[1] else len(text.rstrip("\n").split("\n"))
     what = message[: place.start()] if place else message
-    return f"line {number}: {lines[number - 1].strip()!r} is no TOML: {what}"
+    line = _short(repr(lines[number - 1].strip()), 60)
+    return f"line {number}: {line} is no TOML: {_short(what, 100)}"
 
 
 def _change(tables: dict[str, Any], override: str) -> None:
     """Make one change ``key.path=value`` in place."""
     key, equals, text = (part.strip() for part in override.partition("="))
-    names = key.split(".")
+    names, shown = key.split("."), _shown(override)
     if not equals or not all(names):
-        raise InputError(f"{override!r} is no change: give key.path=value, numerics.points=513")
+        raise InputError(f"{shown} is no change: give key.path=value, numerics.points=513")
+    if any("\ud800" <= letter <= "\udfff" for letter in override):
+        raise InputError(f"{shown} is no text in UTF-8")
+    if len(names) > _DEEPEST:
+        raise InputError(f"{shown} changes no key of a case: it has {len(names)} parts")
     node = tables
     for name in names[:-1]:
         node = node.setdefault(name, {})
         if not isinstance(node, dict):
-            raise InputError(f"{override!r} changes a key of {name}, which is no table")
+            raise InputError(f"{shown} changes a key of {_short(name, 40)}, which is no table")
+    node[names[-1]] = _value(text)
+
+
+def _value(text: str) -> object:
+    """Return a value as TOML reads it, and what is no TOML as a word."""
     try:
-        node[names[-1]] = tomllib.loads(f"value = {text}")["value"]
-    except tomllib.TOMLDecodeError:
-        node[names[-1]] = text
+        tables = tomllib.loads(f"value = {text}")
+    except ValueError:
+        return text
+    return tables["value"] if len(tables) == 1 else text
 
 
 def _validated(model: type[Model], data: object, *, prefix: str) -> Model:
@@ -163,12 +199,15 @@ def _validated(model: type[Model], data: object, *, prefix: str) -> Model:
 
 # ---- telling mistakes
 
+_NO_TABLE = ("model_type", "model_attributes_type", "dict_type")
 _RANKS = {"extra_forbidden": 0, "value_error": 1, "missing": 2, "literal_error": 4}
 
 
 def _rank(error: ErrorDetails) -> tuple[int, int]:
     """Order mistakes: those that explain others first, those of an unused alternative last."""
     kind = error["type"]
+    if kind in _NO_TABLE and len(error["loc"]) == 1:  # deeper ones may be of a union
+        return 0, 0
     if kind == "literal_error" and isinstance(error["input"], dict | list):
         return 6, 0
     return _RANKS.get(kind, 5 if kind.endswith("_type") else 3), -len(error["loc"])
@@ -226,14 +265,21 @@ class _Mistake:
 
 
 def _unknown_key(mistake: _Mistake) -> str:
-    keys = _keys(mistake.models[-2], mistake.path)
-    return f"{mistake.name} is no key of a case: {_suggest(str(mistake.path[-1]), keys)}"
+    keys, word = _keys(mistake.models[-2], mistake.path), str(mistake.path[-1])
+    near = difflib.get_close_matches(word, keys, n=1, cutoff=0.55)
+    alike = [path for path in _key_paths() if path.split(".")[-1] == word]
+    elsewhere = alike if not near and len(word) > 1 else []
+    suggestion = f"did you mean {elsewhere[0]}?" if elsewhere else _suggest(word, keys)
+    return f"{mistake.name} is no key of a case: {suggestion}"
 
 
 def _missing(mistake: _Mistake) -> str:
     if isinstance(mistake.path[-1], int):
         name = mistake.name.rpartition(".")[0]
         return f"{name} = {_shown(mistake.value)} must have two numbers"
+    laws = [tag for model in mistake.models[-1] for tag in _tags(model)]
+    if laws:
+        return f"{mistake.name} is missing: give a table with law, one of {', '.join(laws)}"
     return f"{mistake.name} is missing{_wanted(_field(mistake.models[-2], mistake.path[-1]))}"
 
 
@@ -253,7 +299,9 @@ def _word_unknown(mistake: _Mistake) -> str:
         word.strip("'") for word in re.findall(r"'[^']+'|\d+", mistake.error["ctx"]["expected"])
     ]
     suggestion = _suggest(str(mistake.value), known)
-    return f"{mistake.name} = {_shown(mistake.value)} is not known: {suggestion}"
+    keys = [key for model in mistake.models[-1] for key in model.model_fields]
+    table = f", or a table with {' and '.join(keys)}" if keys else ""
+    return f"{mistake.name} = {_shown(mistake.value)} is not known: {suggestion}{table}"
 
 
 def _own_words(mistake: _Mistake) -> str:
@@ -270,10 +318,10 @@ def _own_words(mistake: _Mistake) -> str:
 
 def _pydantic_words(mistake: _Mistake) -> str:
     words = mistake.error["msg"]
-    if mistake.error["type"] in ("model_type", "model_attributes_type", "dict_type"):
+    if mistake.error["type"] in _NO_TABLE:
         words = "must be a table"
     for theirs, ours in _WORDING:
-        words = words.replace(theirs, ours)
+        words = re.sub(theirs, ours, words)
     return f"{mistake.name} = {_shown(mistake.value)} {words}"
 
 
@@ -283,8 +331,10 @@ _WORDING = (
     ("greater than or equal to", "at least"),
     ("less than or equal to", "at most"),
     ("a valid integer", "a whole number"),
+    ("a valid tuple", "a list of two numbers"),
     ("valid ", ""),
-    (", unable to parse string as an integer", ""),
+    (", unable to parse .*|, got a number with a fractional part", ""),
+    ("items after validation.*", "numbers"),
 )
 _TELL = {
     "extra_forbidden": _unknown_key,
@@ -302,26 +352,63 @@ def _keys(models: list[type[BaseModel]], path: tuple[str | int, ...]) -> list[st
 
 
 def _tags(model: type[BaseModel]) -> tuple[str, ...]:
-    annotation = model.model_fields["law"].annotation
+    law = model.model_fields.get("law")
+    annotation = law.annotation if law else None
     return get_args(annotation) if get_origin(annotation) is Literal else ()
 
 
+def _key_paths() -> Iterator[str]:
+    """Yield the path of every key of a case."""
+    yield from _paths_below(ContactProblem, "")
+    yield from _paths_below(Options, f"{_NUMERICS}.")
+
+
+def _paths_below(model: type[BaseModel], prefix: str) -> Iterator[str]:
+    for key, field in model.model_fields.items():
+        yield f"{prefix}{key}"
+        for deeper in _models(field.annotation):
+            yield from _paths_below(deeper, f"{prefix}{key}.")
+
+
 def _suggest(word: str, known: list[str]) -> str:
-    close = difflib.get_close_matches(word, known, n=1, cutoff=0.55)
+    close = difflib.get_close_matches(word[:100], known, n=1, cutoff=0.55)
     return f"did you mean {close[0]}?" if close else f"known are {', '.join(known)}"
 
 
 def _wanted(field: FieldInfo | None) -> str:
-    for note in field.metadata if field else []:
+    if field is None:
+        return ""
+    for note in field.metadata:
         if isinstance(note, Quantity):
             return f": give {note.name} such as {note.example}"
-    return ""
+    return f": give a number such as {field.examples[0]}" if field.examples else ""
+
+
+def _key(part: str | int) -> str:
+    """Return a part of a key path as the file would show it, shortened."""
+    text = str(part)
+    bare = re.fullmatch(r"[A-Za-z0-9_-]+", text)
+    return _short(text if bare else json.dumps(text), 60)
 
 
 def _shown(value: object) -> str:
     """Return a value as the file would show it, shortened."""
     try:
         text = json.dumps(value, ensure_ascii=False)
+    except RecursionError:
+        text = "a table or list of many floors"
     except (TypeError, ValueError):
-        text = str(value)
-    return text if len(text) <= 60 else f"{text[:57]}..."
+        text = _plain(value)
+    return _short("".join(c if c.isprintable() else "?" for c in text), 60)
+
+
+def _plain(value: object) -> str:
+    """Return a value that JSON does not know as text."""
+    try:
+        return str(value)
+    except ValueError:  # what Python says of an integer of thousands of digits
+        return "a number of thousands of digits"
+
+
+def _short(text: str, length: int) -> str:
+    return text if len(text) <= length else f"{text[: length - 3]}..."

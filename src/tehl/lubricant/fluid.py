@@ -2,6 +2,7 @@
 
 import difflib
 import tomllib
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from typing import Annotated, Any
@@ -70,10 +71,14 @@ def oil(name: str) -> Lubricant:
 
 
 def _by_name(value: object) -> object:
-    """Return the table of a name, anything else as it is."""
-    if not isinstance(value, str):
+    """Return the table of a name, a table as it is."""
+    if isinstance(value, Mapping | Lubricant):
         return value
     known = _tables()
+    if not isinstance(value, str):
+        raise ValueError(
+            f"must be the name of an oil ({', '.join(known)}) or a table with viscosity and density"
+        )
     if value in known:
         return known[value]
     close = difflib.get_close_matches(value, known, n=1)
