@@ -46,7 +46,7 @@ def progress(*, quiet: bool) -> Iterator["Monitor"]:
         return
     if is_cold():
         typer.echo(f"compiling once, about {COMPILE_SECONDS} s", err=True)
-    if not sys.stderr.isatty():
+    if sys.stderr is None or not sys.stderr.isatty():
         yield Lines()
         return
     with _live() as monitor:
