@@ -4,6 +4,7 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+RUN := $(VENV)/.stamp-run
 DEV := $(VENV)/.stamp-dev
 DOCS := $(VENV)/.stamp-docs
 DEMO := out/demo
@@ -17,6 +18,10 @@ help:  ## list the targets
 $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)
 
+$(RUN): pyproject.toml | $(BIN)/python
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
+	@touch $@
+
 $(DEV): pyproject.toml | $(BIN)/python
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[dev]"
 	@touch $@
@@ -25,7 +30,7 @@ $(DOCS): pyproject.toml | $(BIN)/python
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[docs]"
 	@touch $@
 
-demo: $(DEV)  ## a ball on a disc: case, explanation, solution and pictures in out/demo
+demo: $(RUN)  ## a ball on a disc: case, explanation, solution and pictures in out/demo
 	@mkdir -p $(DEMO)
 	$(BIN)/tehl new ball-on-disc > $(DEMO)/case.toml
 	$(BIN)/tehl explain $(DEMO)/case.toml

@@ -7,7 +7,7 @@ import pytest
 
 import tehl
 
-LIGHT = ["ContactProblem", "Domain", "InputError", "Options", "Solid", "read_case"]
+LIGHT = ["ContactProblem", "Domain", "InputError", "Options", "Solid", "read_case_and_options"]
 
 
 def fresh(script: str) -> str:
@@ -39,6 +39,10 @@ def test_an_export_that_states_a_case_loads_no_arrays(name: str):
 def test_every_export_can_be_loaded(name: str):
     assert getattr(tehl, name) is not None
     assert name in dir(tehl)
+
+
+def test_only_what_is_offered_is_listed():
+    assert dir(tehl) == sorted(tehl.__all__)
 
 
 def test_an_unknown_export_is_an_attribute_error():

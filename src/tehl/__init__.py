@@ -1,9 +1,9 @@
-"""Thermal elastohydrodynamic lubrication of point contacts by full multigrid.
+"""Elastohydrodynamic lubrication of point contacts by full multigrid.
 
 ::
 
-    problem = tehl.read_case("case.toml")
-    result = tehl.solve(problem)
+    problem, options = tehl.read_case_and_options("case.toml")
+    result = tehl.solve(problem, options)
 
 What this package exports is loaded when it is first asked for, so that importing it costs nothing.
 """
@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from tehl import plots
     from tehl.errors import ConvergenceError, FileFormatError, InputError, TehlError
-    from tehl.io.case import read_case
+    from tehl.io.case import read_case, read_case_and_options
     from tehl.io.store import load
     from tehl.lubricant import Lubricant, oil
     from tehl.materials import Solid, material
@@ -43,6 +43,7 @@ __all__ = [
     "oil",
     "plots",
     "read_case",
+    "read_case_and_options",
     "solve",
 ]
 
@@ -66,6 +67,7 @@ _HOMES = {
     "material": "tehl.materials",
     "oil": "tehl.lubricant",
     "read_case": "tehl.io.case",
+    "read_case_and_options": "tehl.io.case",
     "solve": "tehl.solver",
 }
 
@@ -80,5 +82,5 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    """Show the exports, loaded or not."""
-    return sorted({*globals(), *__all__})
+    """Show the exports, loaded or not, and nothing else."""
+    return sorted(__all__)
