@@ -38,3 +38,7 @@ class ConvergenceError(TehlError):
     def __init__(self, message: str, result: "Result") -> None:
         super().__init__(message)
         self.result = result
+
+    def __reduce__(self) -> tuple[type["ConvergenceError"], tuple[str, "Result"]]:
+        """Travel between processes whole."""
+        return type(self), (str(self), self.result)

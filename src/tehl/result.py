@@ -82,7 +82,7 @@ class CycleReport:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Fields:
-    """Dimensionless fields on the full domain, arrays of shape (ny, nx).
+    """Dimensionless fields on the full domain, arrays of shape (ny, nx) that cannot be written.
 
     Attributes
     ----------
@@ -98,6 +98,10 @@ class Fields:
     y: Array
     pressure: Array
     film: Array
+
+    def __post_init__(self) -> None:
+        for array in (self.x, self.y, self.pressure, self.film):
+            array.flags.writeable = False
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

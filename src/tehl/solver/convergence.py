@@ -1,6 +1,7 @@
 """When to stop: estimated iteration and discretisation errors of the film, stall, divergence."""
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 from tehl.options import Options
 from tehl.result import CycleReport, ErrorEstimate
@@ -81,13 +82,14 @@ def stalled(now: GridTrace) -> bool:
     return residuals[-1] > STALL_FACTOR * residuals[-1 - STALL_CYCLES]
 
 
-def error_estimate(traces: list[GridTrace]) -> ErrorEstimate:
-    """Return relative errors of the film on the last of two or more grids."""
+def error_estimate(traces: list[GridTrace], order: int) -> ErrorEstimate:
+    """Return relative errors of the film on the last of two or more grids, for a wedge order."""
     parts = []
     for name in ("central", "minimum"):
         sequence = [getattr(trace, name) for trace in traces[-3:]]
         value = abs(sequence[-1].values[-1]) or 1.0
-        bar = discretisation_bar([trace.values[-1] for trace in sequence])
+        values = [trace.values[-1] for trace in sequence]
+        bar = discretisation_bar(values) if order > 1 else first_order_bar(values)
         parts.append((bar / value, sequence[-1].iteration_error() / value))
     return ErrorEstimate(
         discretisation_central=parts[0][0],
@@ -95,6 +97,15 @@ def error_estimate(traces: list[GridTrace]) -> ErrorEstimate:
         iteration_central=parts[0][1],
         iteration_minimum=parts[1][1],
     )
+
+
+def first_order_bar(values: list[float]) -> float:
+    """Return the error bar of a scheme with a first-order wedge: twice the largest change.
+
+    Its error of first order and that of second order have opposite signs and cancel on coarse
+    grids, so that the last change alone says too little.
+    """
+    return 2.0 * max(abs(b - a) for a, b in pairwise(values))
 
 
 def discretisation_bar(values: list[float]) -> float:

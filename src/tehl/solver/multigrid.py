@@ -73,7 +73,8 @@ class Multigrid:
         """Return estimated errors of the film; None before the finest grid was cycled on."""
         if len(self.traces) < len(self.levels) - 1 or not self.traces[-1].reports:
             return None
-        return error_estimate([self.coarsest_trace, *self.traces])
+        order = self.options.wedge_order
+        return error_estimate([self.coarsest_trace, *self.traces], order)
 
     @property
     def finest(self) -> Level:
@@ -120,6 +121,8 @@ class Multigrid:
     def salvage(self) -> None:
         """Put the finest coarser state that is sound on the finest grid, by interpolation."""
         sound = max((k for k, level in enumerate(self.levels) if _is_sound(level)), default=0)
+        if not _is_sound(self.levels[sound]):
+            self._start_dry(self.levels[0])
         for coarse, fine in zip(self.levels[sound:], self.levels[sound + 1 :], strict=False):
             fine.film.p[:] = refine(coarse.film.p, fine.grid)
             fine.rigid_approach = coarse.rigid_approach

@@ -24,7 +24,7 @@ from tehl.solver.smoother import FAST, ROBUST, SETTINGS
 from tehl.solver.verdict import diverged, verdict
 from tehl.solver.warmup import warm_up
 
-GRID_CAUSES = ("grid_too_coarse", "inlet_too_short")
+GRID_CAUSES = ("grid_too_coarse", "domain_too_small", "inlet_too_short", "sides_too_close")
 """Causes that no other smoother cures."""
 PACKAGES = ("tehl", "numpy", "scipy", "numba")
 

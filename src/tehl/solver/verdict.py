@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tehl.domain import needed_points
+from tehl.domain import domain_error, needed_points
 from tehl.grid import Grid
 from tehl.options import Domain
 from tehl.result import ErrorEstimate, Result, Status
@@ -12,8 +12,10 @@ from tehl.solver.multigrid import Multigrid
 
 LARGEST_BAR = 0.5
 """Relative discretisation error of the film beyond which a grid is called too coarse."""
+LARGEST_DOMAIN_ERROR = 0.1
+"""Estimated part of the central film beyond which a domain is called too small."""
 STARVED = 0.9
-"""Film over fully flooded film below which an inlet is called too short."""
+"""Film over fully flooded film below which an edge is called too close."""
 
 
 def verdict(run: Multigrid, cycled_out: bool, errors: ErrorEstimate | None) -> Status:
@@ -38,7 +40,10 @@ def verdict(run: Multigrid, cycled_out: bool, errors: ErrorEstimate | None) -> S
         return _too_coarse(level.grid, groups, errors.discretisation_minimum)
     if cycled_out:
         return _not_reached(run)
-    return inlet_status(level.grid, groups, run.traces[-1].central.values[-1])
+    left_out = domain_error(groups, level.grid.domain)
+    if left_out > LARGEST_DOMAIN_ERROR:
+        return _domain_too_small(groups, left_out)
+    return edge_status(level.grid, groups, run.traces[-1].central.values[-1])
 
 
 def diverged(run: Multigrid) -> Status:
@@ -135,22 +140,44 @@ def _not_reached(run: Multigrid) -> Status:
     )
 
 
-def inlet_status(grid: Grid, groups: Groups, central: float) -> Status:
-    """Return converged, or that the inlet edge starves the contact.
-
-    The film falls as ``((X_in - 1)/(m* - 1))^0.29`` once the inlet meniscus is nearer than
-    ``m* = 1 + 3.06 H_c^0.58`` (Hamrock and Dowson 1977, part IV).
-    """
-    inlet = -grid.domain.x[0]
-    needed = 1.0 + 3.06 * max(central, 0.0) ** 0.58
-    if ((inlet - 1.0) / (needed - 1.0)) ** 0.29 >= STARVED or inlet >= needed:
-        return Status(kind="converged")
+def _domain_too_small(groups: Groups, left_out: float) -> Status:
     return Status(
         kind="not_converged",
-        cause="inlet_too_short",
+        cause="domain_too_small",
         message=(
-            f"The inlet edge at X = {-inlet:.3g} starves the contact (M = {groups.M:.4g}): a fully "
-            f"flooded film needs X <= {-needed:.2g} (unit: Hertz half-widths)."
+            f"At M = {groups.M:.4g} the contact is nearly rigid and carries load far outside the "
+            f"domain: the film may be {100 * left_out:.0f} % too thin."
         ),
-        hint="Leave numerics.domain out: the default is wide enough.",
+        hint=(
+            "Widen numerics.domain with numerics.points in proportion, or take the formula of "
+            "`tehl explain`, which is exact for a rigid contact."
+        ),
     )
+
+
+def edge_status(grid: Grid, groups: Groups, central: float) -> Status:
+    """Return converged, or which edge starves the contact.
+
+    The film falls as ``((X - 1)/(m* - 1))^0.29`` once the meniscus is nearer than
+    ``m* = 1 + 3.06 H_c^0.58`` (Hamrock and Dowson 1977, part IV, for the inlet; taken for the sides
+    too).
+    """
+    needed = 1.0 + 3.06 * max(central, 0.0) ** 0.58
+    edges = (
+        ("inlet_too_short", "inlet edge at X", grid.domain.x[0]),
+        ("sides_too_close", "side edge at Y", grid.domain.y[0]),
+        ("sides_too_close", "side edge at Y", grid.domain.y[1]),
+    )
+    for cause, name, place in edges:
+        distance = abs(place)
+        if distance < needed and ((distance - 1.0) / (needed - 1.0)) ** 0.29 < STARVED:
+            return Status(
+                kind="not_converged",
+                cause=cause,
+                message=(
+                    f"The {name} = {place:.3g} starves the contact (M = {groups.M:.4g}): a fully "
+                    f"flooded film needs {needed:.2g} or more (unit: Hertz half-widths)."
+                ),
+                hint="Leave numerics.domain out: the default is wide enough.",
+            )
+    return Status(kind="converged")

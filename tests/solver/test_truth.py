@@ -1,0 +1,94 @@
+"""What a run says of itself: causes, bars and states that must not flatter."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+from tehl.domain import domain_error, recommended_domain
+from tehl.errors import ConvergenceError
+from tehl.options import Domain, Options
+from tehl.problem import ContactProblem
+from tehl.scaling import groups
+from tehl.solver import solve
+from tehl.solver.certify import estimate, with_growing_spike
+from tehl.solver.convergence import first_order_bar
+
+
+def moes(load: float, speed: float = 10.0) -> ContactProblem:
+    return ContactProblem.model_validate(
+        {
+            "contact": {"radius": 0.02, "moes_load": load, "moes_speed": speed},
+            "surface_1": {"material": "steel"},
+            "surface_2": {"material": "steel"},
+            "lubricant": {
+                "viscosity": {"law": "roelands", "eta_0": 0.04, "alpha": 22e-9},
+                "density": {"law": "dowson-higginson", "rho_0": 890},
+            },
+        }
+    )
+
+
+def failure(load: float, **numerics) -> ConvergenceError:
+    with pytest.raises(ConvergenceError) as caught:
+        solve(moes(load), Options(**numerics))
+    return caught.value
+
+
+def test_a_nearly_rigid_contact_is_told_that_its_domain_is_too_small():
+    status = failure(1.0, points=65).result.status
+    assert status.cause == "domain_too_small"
+    assert "formula" in (status.hint or "")
+
+
+def test_side_edges_beside_the_contact_are_told():
+    narrow = Domain(x=(-4.5, 1.5), y=(-1.01, 1.01))
+    assert failure(100.0, points=(129, 65), domain=narrow).result.status.cause == "sides_too_close"
+
+
+def test_a_domain_twice_as_wide_leaves_out_half_as_much():
+    case = groups(moes(3.0))
+    near = recommended_domain(case)
+    far = Domain(x=(2 * near.x[0], 2 * near.x[1]), y=(2 * near.y[0], 2 * near.y[1]))
+    assert domain_error(case, far) == pytest.approx(0.5 * domain_error(case, near))
+
+
+@pytest.mark.parametrize("load", [5.0, 10.0, 100.0])
+def test_the_proposed_domain_is_accepted_from_light_loads_on(load):
+    case = groups(moes(load))
+    assert domain_error(case, recommended_domain(case)) < 0.1
+
+
+def test_the_smallest_grid_has_an_error_bar_too():
+    result = failure(100.0, points=33).result
+    assert result.errors is not None
+    assert result.errors.discretisation_minimum > 0.5
+
+
+def test_a_run_away_ends_in_a_finite_state():
+    result = failure(100.0, points=65, domain=Domain(x=(-4.5, 900.0), y=(-3.0, 3.0))).result
+    assert np.isfinite(result.scaled.film).all()
+    assert np.isfinite(result.scaled.pressure).all()
+
+
+def test_the_bar_of_a_first_order_wedge_covers_the_larger_change():
+    assert first_order_bar([1.0, 1.3, 1.2]) == pytest.approx(0.6)
+
+
+def test_a_growing_spike_widens_the_bar_of_the_largest_pressure():
+    flat = estimate((1.0, 1.01, 1.0125), domain=0.0)
+    assert with_growing_spike(flat, 0.7, 0.71) == flat
+    assert with_growing_spike(flat, 0.8, 1.0).uncertainty > 0.3
+
+
+def test_a_failure_travels_between_processes_whole():
+    error = failure(100.0, points=33)
+    back = pickle.loads(pickle.dumps(error))
+    assert str(back) == str(error)
+    np.testing.assert_array_equal(back.result.scaled.film, error.result.scaled.film)
+
+
+def test_the_fields_of_a_result_cannot_be_written():
+    result = solve(moes(20.0), Options(points=65))
+    with pytest.raises(ValueError, match="read-only"):
+        result.scaled.film[0, 0] = 9.0
