@@ -25,8 +25,8 @@ def solved() -> tehl.Result:
     with tempfile.TemporaryDirectory() as folder:
         case = Path(folder) / "gear.toml"
         case.write_text(template_text("gear-ellipse"), encoding="utf-8")
-        problem = tehl.read_case(case)
-    return tehl.solve(problem, tehl.Options(points=257))
+        problem, options = tehl.read_case_and_options(case)
+    return tehl.solve(problem, options)
 
 
 def main() -> dict[str, float]:

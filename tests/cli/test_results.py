@@ -43,6 +43,18 @@ def test_csv_fields_can_be_asked_for(stored, run):
     assert len((stored.parent / "ball.nc.csv").read_text().splitlines()) == 1 + 65**2
 
 
+def test_the_ending_of_the_output_tells_the_format(stored, run):
+    assert run("export", str(stored), "-o", str(stored.parent / "film.vtr")).code == 0
+    assert (stored.parent / "film.vtr").read_text().startswith("<?xml")
+
+
+@pytest.mark.parametrize("words", [[], ["-o", "film.txt"], ["--to", "vtk", "-o", "film.vtk"]])
+def test_a_format_that_is_not_told_or_does_not_fit_is_bad_input(stored, run, words):
+    answer = run("export", str(stored), *words)
+    assert answer.code == 2
+    assert answer.err.count("\n") == 1
+
+
 def test_an_unknown_format_is_bad_input(stored, run):
     assert run("export", str(stored), "--to", "xls").code == 2
 
@@ -61,6 +73,7 @@ def test_the_report_lands_beside_the_result(stored, run, monkeypatch):
 
 @pytest.mark.parametrize("command", [["export", "--to", "csv"], ["report"]])
 def test_the_result_itself_is_never_replaced(stored, run, command):
+    stored = stored.rename(stored.with_suffix(".csv"))
     before = stored.read_bytes()
     answer = run(command[0], str(stored), *command[1:], "-o", str(stored))
     assert answer.code == 2

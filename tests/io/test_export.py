@@ -9,7 +9,16 @@ import numpy as np
 import pytest
 
 from tehl.errors import InputError
-from tehl.io.export import SUFFIXES, WRITERS, write, write_csv, write_mat, write_npz, write_vtk
+from tehl.io.export import (
+    SUFFIXES,
+    WRITERS,
+    kind_of,
+    write,
+    write_csv,
+    write_mat,
+    write_npz,
+    write_vtk,
+)
 
 
 def rows(path) -> list[dict[str, str]]:
@@ -33,6 +42,7 @@ def test_csv_fields_hold_every_node(result, tmp_path):
     table = rows(tmp_path / "fields.csv")
     pressure = np.array([float(row["pressure_pa"]) for row in table])
     assert np.array_equal(pressure.reshape(65, 65), result.pressure)
+    assert all(all(row.values()) for row in table)
 
 
 def test_npz_holds_arrays_and_summary(result, tmp_path):
@@ -84,6 +94,27 @@ def test_each_format_has_an_ending_and_leaves_one_file(result, tmp_path, kind):
     path = tmp_path / f"out{SUFFIXES[kind]}"
     write(result, path, kind)
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_the_ending_tells_the_format():
+    assert kind_of("a.csv", None) == kind_of("a.CSV", "csv") == kind_of(None, "csv") == "csv"
+    assert kind_of("a.vtr", None) == "vtk"
+
+
+@pytest.mark.parametrize(
+    ("path", "stated", "words"),
+    [
+        ("a.vtk", "vtk", "ends in .vtr"),
+        ("a.vts", None, "ends in .vtr"),
+        ("a.csv", "npz", "ends in .npz"),
+        ("a", "csv", "ends in .csv"),
+        ("a.txt", None, "tells no format"),
+        (None, None, "state a format"),
+    ],
+)
+def test_an_ending_that_does_not_fit_is_refused(path, stated, words):
+    with pytest.raises(InputError, match=words):
+        kind_of(path, stated)
 
 
 def test_an_unknown_format_is_refused_with_the_known_ones(result, tmp_path):

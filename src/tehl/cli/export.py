@@ -25,7 +25,9 @@ class What(StrEnum):
 
 def export(
     stored: Annotated[Path, typer.Argument(metavar="RESULT", help="Result file (.nc).")],
-    to: Annotated[Kind, typer.Option("--to", help="Format.")],
+    to: Annotated[
+        Kind | None, typer.Option("--to", help="Format; by the ending of -o if left out.")
+    ] = None,
     output: Annotated[
         Path | None, typer.Option("-o", "--output", help="File; beside RESULT if left out.")
     ] = None,
@@ -35,14 +37,15 @@ def export(
 ) -> None:
     """Write a stored result as CSV, VTK (ParaView), npz (numpy) or mat (MATLAB)."""
     from tehl.io.atomic import check_writable
-    from tehl.io.export import SUFFIXES, write, write_csv
+    from tehl.io.export import SUFFIXES, kind_of, write, write_csv
     from tehl.io.store import load
 
-    path = stored.with_suffix(SUFFIXES[to]) if output is None else output
+    kind = kind_of(output, None if to is None else to.value)
+    path = stored.with_suffix(SUFFIXES[kind]) if output is None else output
     check_writable(path, sources=(stored,))
     result = load(stored)
-    if to is Kind.csv:
+    if kind == "csv":
         write_csv(result, path, what=what.value)
     else:
-        write(result, path, to.value)
+        write(result, path, kind)
     typer.echo(path)

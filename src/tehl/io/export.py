@@ -18,7 +18,7 @@ from tehl.result import Result
 
 What = Literal["lines", "fields"]
 
-_HEADER = ("line", "x_m", "y_m", "pressure_pa", "film_thickness_m", "X", "Y", "P", "H")
+_HEADER = ("x_m", "y_m", "pressure_pa", "film_thickness_m", "X", "Y", "P", "H")
 
 
 def write(result: Result, path: str | Path, kind: str) -> None:
@@ -43,12 +43,48 @@ def write(result: Result, path: str | Path, kind: str) -> None:
     WRITERS[kind](result, path)
 
 
+def kind_of(path: str | Path | None, stated: str | None) -> str:
+    """Return the format of an export, from what is stated and from the ending of its file.
+
+    Parameters
+    ----------
+    path : str, Path or None
+        The file; None when it gets the ending of its format.
+    stated : {"csv", "npz", "vtk", "mat"} or None
+        The format; None where the ending of the file tells it.
+
+    Raises
+    ------
+    InputError
+        If neither tells a format, or if they do not fit: programs choose a reader by the ending.
+    """
+    endings = ", ".join(SUFFIXES.values())
+    if path is None:
+        if stated is None:
+            raise InputError(f"state a format (--to) or a file (-o) with the ending {endings}")
+        return stated
+    suffix = Path(path).suffix
+    deduced = next((kind for kind, end in SUFFIXES.items() if end == suffix.lower()), None)
+    if stated is None and deduced is not None:
+        return deduced
+    if stated is None and suffix.lower() in _OTHER_VTK:
+        stated = "vtk"
+    if stated is None:
+        raise InputError(f"output {path}: its ending tells no format; state --to or use {endings}")
+    if stated != deduced:
+        why = " (an XML rectilinear grid)" if stated == "vtk" else ""
+        raise InputError(
+            f"output {path}: a file of format {stated}{why} ends in {SUFFIXES[stated]}"
+        )
+    return stated
+
+
 def write_csv(result: Result, path: str | Path, *, what: What = "lines") -> None:
     """Write a table with one row per node, as any spreadsheet reads it.
 
-    ``"lines"`` gives the two grid lines nearest to the axes: first ``line = x`` (along
-    entrainment, Y = 0), then ``line = y`` (across, X = 0). ``"fields"`` gives all nodes in long
-    form, ``line`` empty, x running fastest. Columns carry their unit in their name; X, Y, P and H
+    ``"lines"`` gives the two grid lines nearest to the axes, told apart by a column more: first
+    ``line = x`` (along entrainment, Y = 0), then ``line = y`` (across, X = 0). ``"fields"`` gives
+    all nodes in long form, x running fastest. Columns carry their unit in their name; X, Y, P and H
     are dimensionless. Numbers are written so that reading them gives back the same bits.
 
     Parameters
@@ -60,25 +96,26 @@ def write_csv(result: Result, path: str | Path, *, what: What = "lines") -> None
     what : {"lines", "fields"}
         Which nodes.
     """
-    rows = _line_rows(result) if what == "lines" else _field_rows(result)
+    lines = what == "lines"
+    header = ("line", *_HEADER) if lines else _HEADER
+    rows = _line_rows(result) if lines else _rows(result, (slice(None), slice(None)))
     with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
-        writer.writerow(_HEADER)
+        writer.writerow(header)
         writer.writerows(rows)
 
 
 def _line_rows(result: Result) -> Iterator[tuple[Any, ...]]:
     row = int(np.argmin(np.abs(result.scaled.y)))
     column = int(np.argmin(np.abs(result.scaled.x)))
-    yield from _rows(result, "x", (slice(row, row + 1), slice(None)))
-    yield from _rows(result, "y", (slice(None), slice(column, column + 1)))
+    for name, part in (
+        ("x", (slice(row, row + 1), slice(None))),
+        ("y", (slice(None), slice(column, column + 1))),
+    ):
+        yield from ((name, *numbers) for numbers in _rows(result, part))
 
 
-def _field_rows(result: Result) -> Iterator[tuple[Any, ...]]:
-    yield from _rows(result, "", (slice(None), slice(None)))
-
-
-def _rows(result: Result, name: str, part: tuple[slice, slice]) -> Iterator[tuple[Any, ...]]:
+def _rows(result: Result, part: tuple[slice, slice]) -> Iterator[tuple[Any, ...]]:
     x, y = np.meshgrid(result.x, result.y)
     scaled_x, scaled_y = np.meshgrid(result.scaled.x, result.scaled.y)
     fields = (x, y, result.pressure, result.film_thickness, scaled_x, scaled_y)
@@ -86,7 +123,7 @@ def _rows(result: Result, name: str, part: tuple[slice, slice]) -> Iterator[tupl
         field[part].ravel().tolist()
         for field in (*fields, result.scaled.pressure, result.scaled.film)
     ]
-    return ((name, *numbers) for numbers in zip(*columns, strict=True))
+    return zip(*columns, strict=True)
 
 
 def write_npz(result: Result, path: str | Path) -> None:
@@ -162,3 +199,4 @@ WRITERS: dict[str, Callable[[Result, str | Path], None]] = {
 }
 
 SUFFIXES = {"csv": ".csv", "npz": ".npz", "vtk": ".vtr", "mat": ".mat"}
+_OTHER_VTK = (".vtk", ".vts", ".vti", ".vtu")
