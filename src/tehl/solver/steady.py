@@ -12,6 +12,7 @@ import numpy as np
 from tehl.domain import recommended_domain
 from tehl.errors import ConvergenceError
 from tehl.grid import Grid, can_mirror
+from tehl.memory import check_memory
 from tehl.operators.flow import flow_table
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
@@ -63,8 +64,11 @@ def solve(
     ------
     ConvergenceError
         When the answer was not reached; its ``result`` is the last finite state, marked.
+    InputError
+        When the grid does not fit into the memory.
     """
     options = options or Options()
+    check_memory(options)
     warm_up()
     wall, cpu = time.perf_counter(), time.process_time()
     history = _History(monitor)
