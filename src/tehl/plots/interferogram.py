@@ -15,7 +15,14 @@ from typing import Literal
 import numpy as np
 from matplotlib.figure import Figure
 
-from tehl.plots.frame import MICRO, contact_axes, entrainment_arrow, map_figure, window_part
+from tehl.plots.frame import (
+    MICRO,
+    contact_axes,
+    entrainment_arrow,
+    legend_above,
+    map_figure,
+    window_part,
+)
 from tehl.result import Result
 from tehl.typing import Array
 
@@ -81,12 +88,13 @@ def interferogram(result: Result, optics: Optics | None = None, *, pixels: int =
     chosen = Optics() if optics is None else optics
     x, y, thickness = _fine(result, chosen, pixels)
     picture = map_figure(result, _caption(chosen))
-    axes = contact_axes(picture, result, edge="0.75")
+    axes = contact_axes(picture, result)
     extent = (x[0] * MICRO, x[-1] * MICRO, y[0] * MICRO, y[-1] * MICRO)
     window = (axes.get_xlim(), axes.get_ylim())
     axes.imshow(colours(thickness, chosen), extent=extent, origin="lower", interpolation="bilinear")
     axes.set(xlim=window[0], ylim=window[1])
     entrainment_arrow(axes)
+    legend_above(axes)
     return picture
 
 

@@ -1,6 +1,5 @@
 """Pressure and film on the two centre lines, over the dry Hertz contact."""
 
-from collections.abc import Callable
 from typing import Any
 
 from matplotlib.axes import Axes
@@ -24,7 +23,7 @@ def centre_lines(result: Result) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Two panels, each with the pressure [GPa, and p / p_h] and the film [um] on twin axes.
+        Two panels, each with the pressure [GPa] and the film [um] on twin axes.
     """
     picture = figure(result, (7.2, 7.2))
     upper, lower = picture.subplots(2, 1)
@@ -32,7 +31,9 @@ def centre_lines(result: Result) -> Figure:
     _panel(lower, result, profile_y(result), WINDOW[1])
     upper.set_xlabel("x along entrainment [µm]  (y = 0)")
     lower.set_xlabel("y [µm]  (x = 0)")
-    upper.legend(handles=_curves(upper), loc="upper left", fontsize=8, framealpha=0.9)
+    picture.legend(
+        handles=_curves(upper), loc="outside lower center", ncols=4, fontsize=8, frameon=False
+    )
     return picture
 
 
@@ -52,15 +53,8 @@ def _panel(axes: Axes, result: Result, profile: Profile, window: tuple[float, fl
     film.set_ylabel("film h [µm]", color=_FILM)
     central = result.film.central * MICRO
     film.set_ylim(0.0, 4.0 * central if central > 0 else None)
-    scale = result.scales.hertz_pressure * GIGA
-    scaled = axes.secondary_yaxis(-0.13, functions=(_times(1 / scale), _times(scale)))
-    scaled.set_ylabel("$p / p_h$", color=_PRESSURE)
     axes.set_zorder(film.get_zorder() + 1)
     axes.patch.set_visible(False)
-
-
-def _times(factor: float) -> Callable[[Any], Any]:
-    return lambda value: value * factor
 
 
 def _curves(axes: Axes) -> list[Any]:

@@ -6,26 +6,37 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator, NullFormatter, NullLocator
 
 from tehl.plots.frame import (
     GIGA,
     MICRO,
+    STEPS,
+    colour_axes,
     contact_axes,
     entrainment_arrow,
     figure,
+    legend_above,
     map_figure,
+    span_part,
     window_part,
 )
 from tehl.result import Result
 from tehl.typing import Array
 
+_REACH = 1.4
+_PROFILES = 45
+
+_Levels = tuple[Array, Array]
+
 
 def film_map(result: Result) -> Figure:
     """Draw the film thickness with labelled contour lines and the Hertz contact.
 
-    Colours are logarithmic and end at three times the central film, contour lines lie close below
-    1.1 times the central film, so that the horseshoe and the side lobes show.
+    Colours are logarithmic, from just below the minimum film to 1.6 times the central film, and
+    contour lines lie close below 1.1 times the central film, so that the horseshoe and the side
+    lobes show.
 
     Parameters
     ----------
@@ -43,29 +54,30 @@ def film_map(result: Result) -> Figure:
     x, y = result.x[part[1]] * MICRO, result.y[part[0]] * MICRO
     film = result.film_thickness[part] * MICRO
     low, central = _film_range(result, film)
-    top = 3.0 * central
+    bottom, top = 0.95 * low, 1.6 * central
     mesh = axes.pcolormesh(
-        x,
-        y,
-        np.clip(film, low, top),
-        shading="gouraud",
-        cmap="viridis",
-        norm=LogNorm(low, top),
-        rasterized=True,
+        x, y, film.clip(bottom, top), shading="gouraud", norm=LogNorm(bottom, top), rasterized=True
     )
-    inner, outer = film_levels(low, central)
-    lines = axes.contour(x, y, film, levels=inner, colors="white", linewidths=0.7)
-    axes.clabel(lines, inner[::2], fontsize=7, fmt="%.3g")
-    outside = axes.contour(x, y, film, levels=outer, colors="black", linewidths=0.5, alpha=0.6)
-    axes.clabel(outside, fontsize=7, fmt="%.3g")
-    _mark_minimum(axes, result)
-    entrainment_arrow(axes, "black")
-    ticks = np.unique(np.concatenate([inner, outer]))
-    bar = picture.colorbar(mesh, ax=axes, extend="max", label="film thickness h [µm]", ticks=ticks)
+    _film_contours(axes, x, y, film, film_levels(low, central))
+    legend_above(axes, *_mark_minimum(axes, result))
+    entrainment_arrow(axes)
+    bar = picture.colorbar(mesh, cax=colour_axes(axes), extend="max", label="film thickness h [µm]")
+    ticks = _nice(low, top, 8)
     bar.ax.yaxis.set_minor_locator(NullLocator())
     bar.ax.yaxis.set_minor_formatter(NullFormatter())
+    ticks = ticks[(ticks >= bottom) & (ticks <= top)]
     bar.ax.set_yticks(ticks, [f"{tick:.4g}" for tick in ticks], fontsize=8)
     return picture
+
+
+def _film_contours(axes: Axes, x: Array, y: Array, film: Array, levels: _Levels) -> None:
+    """Draw the contour lines; slender contacts have no room for labels."""
+    inner, outer = levels
+    lines = axes.contour(x, y, film, levels=inner, colors="white", linewidths=0.7)
+    outside = axes.contour(x, y, film, levels=outer, colors="black", linewidths=0.5, alpha=0.6)
+    if 0.5 < np.ptp(axes.get_ylim()) / np.ptp(axes.get_xlim()) < 2.0:
+        axes.clabel(lines, inner[1::2], fontsize=7, fmt="%.3g")
+        axes.clabel(outside, fontsize=7, fmt="%.3g")
 
 
 def _film_range(result: Result, film: Array) -> tuple[float, float]:
@@ -86,7 +98,7 @@ def film_levels(low: float, central: float) -> tuple[Array, Array]:
     low, central : float
         Smallest and central film, in any unit.
     """
-    fine = _nice(low, 1.1 * central, 7)
+    fine = _nice(low, 1.1 * central, 6)
     inner = fine[(fine > low) & (fine <= 1.1 * central)]
     wide = _nice(1.1 * central, 3.0 * central, 5)
     outer = wide[(wide > 1.1 * central) & (wide <= 3.0 * central)]
@@ -94,21 +106,30 @@ def film_levels(low: float, central: float) -> tuple[Array, Array]:
 
 
 def _nice(low: float, high: float, count: int) -> Array:
-    locator = MaxNLocator(count, steps=[1, 2, 2.5, 5, 10])
+    locator = MaxNLocator(count, steps=STEPS)
     return np.asarray(locator.tick_values(low, high), dtype=np.float64)
 
 
-def _mark_minimum(axes: Axes, result: Result) -> None:
+def _mark_minimum(axes: Axes, result: Result) -> list[Line2D]:
+    """Mark the minimum film, on both sides of a symmetric contact; return the marks."""
     x, y = result.film_scaled.minimum_at
-    place = (x * result.scales.half_width_x * MICRO, y * result.scales.half_width_y * MICRO)
-    axes.plot(
-        *place, marker="+", color="red", ms=9, mew=1.6, zorder=7, label="$h_{min}$", ls="none"
+    film = result.scaled.film
+    across = (y, -y) if y and np.allclose(film, film[::-1], equal_nan=True) else (y,)
+    return axes.plot(
+        np.full(len(across), x * result.scales.half_width_x * MICRO),
+        np.array(across) * result.scales.half_width_y * MICRO,
+        "r+",
+        ms=6,
+        mew=1.3,
+        zorder=7,
+        label="minimum film",
     )
-    axes.legend(loc="upper left", fontsize=8, framealpha=0.8)
 
 
 def pressure_map(result: Result) -> Figure:
-    """Draw the pressure as a map with contour lines and the Hertz contact.
+    """Draw the pressure as a map with contour lines, named on the colour bar.
+
+    Lines follow a slightly smoothed copy of the pressure.
 
     Parameters
     ----------
@@ -126,13 +147,29 @@ def pressure_map(result: Result) -> Figure:
     x, y = result.x[part[1]] * MICRO, result.y[part[0]] * MICRO
     pressure = result.pressure[part] * GIGA
     mesh = axes.pcolormesh(x, y, pressure, shading="gouraud", cmap="cividis", rasterized=True)
-    lines = axes.contour(
-        x, y, pressure, levels=_pressure_levels(pressure), colors="black", linewidths=0.5
-    )
-    axes.clabel(lines, fontsize=7, fmt="%.3g")
+    levels = _pressure_levels(pressure)
+    lines = axes.contour(x, y, _smoothed(pressure), levels=levels, colors="black", linewidths=0.6)
     entrainment_arrow(axes)
-    picture.colorbar(mesh, ax=axes, label="pressure p [GPa]")
+    legend_above(axes)
+    bar = picture.colorbar(mesh, cax=colour_axes(axes), label="pressure p [GPa]")
+    if levels.size:
+        bar.add_lines(lines)
+    bar.set_ticks([0.0, *levels])
     return picture
+
+
+def _smoothed(field: Array) -> Array:
+    """Return ``field`` after a binomial filter of two nodes' reach.
+
+    A ridge thinner than the nodes that carry it would else break into islands.
+    """
+    for axis in (0, 1):
+        for _ in range(2):
+            wide = np.pad(field, [(1, 1) if axis == side else (0, 0) for side in (0, 1)], "edge")
+            count = field.shape[axis]
+            below, here, above = (wide.take(range(i, i + count), axis) for i in range(3))
+            field = 0.25 * below + 0.5 * here + 0.25 * above
+    return field
 
 
 def _pressure_levels(pressure: Array) -> Array:
@@ -142,7 +179,10 @@ def _pressure_levels(pressure: Array) -> Array:
 
 
 def pressure_surface(result: Result) -> Figure:
-    """Draw the pressure as a surface, seen from the outlet, where the spike stands.
+    """Draw the pressure as profiles along x, one behind another, seen from the outlet.
+
+    The profiles are rows of the stored field: nothing is interpolated, and the spike stands free.
+    Wide contacts are shortened to 2.5 times their breadth, the axes tell.
 
     Parameters
     ----------
@@ -154,25 +194,34 @@ def pressure_surface(result: Result) -> Figure:
     matplotlib.figure.Figure
         The picture, in micrometres and gigapascals.
     """
-    picture = figure(result, (7.0, 5.2))
+    picture = figure(result, (7.0, 5.4))
     axes: Any = picture.add_subplot(projection="3d", computed_zorder=False)
-    part = window_part(result)
-    x, y = np.meshgrid(result.x[part[1]] * MICRO, result.y[part[0]] * MICRO)
-    axes.plot_surface(
-        x,
-        y,
-        result.pressure[part] * GIGA,
-        cmap="cividis",
-        rcount=120,
-        ccount=120,
-        linewidth=0.15,
-        edgecolor=(0.0, 0.0, 0.0, 0.45),
-        rasterized=True,
-    )
-    axes.set(xlabel="x along entrainment [µm]", ylabel="y [µm]", zlabel="p [GPa]")
-    height = 0.5 * max(np.ptp(x), np.ptp(y))
-    axes.set_box_aspect((np.ptp(x), np.ptp(y), height), zoom=1.1)
+    columns = span_part(result.scaled.x, -_REACH, _REACH)
+    every = np.arange(result.scaled.y.size)[span_part(result.scaled.y, -_REACH, _REACH)]
+    rows = np.unique(np.linspace(every[0], every[-1], _PROFILES).round().astype(int))
+    x, y = result.x[columns] * MICRO, result.y[rows] * MICRO
+    pressure = np.nan_to_num(result.pressure[rows][:, columns] * GIGA)
+    top = max(float(pressure.max()), 1e-9)
+    axes.add_collection3d(_curtains(x, y, pressure))
+    axes.set(xlim=x[[0, -1]], ylim=y[[0, -1]], zlim=(0.0, 1.02 * top))
+    axes.set_xlabel("x [µm]", labelpad=8)
+    axes.set_ylabel("y [µm]", labelpad=8)
+    axes.set_zlabel("p [GPa]")
+    wide = float(np.clip(np.ptp(y) / np.ptp(x), 0.4, 2.5))
+    axes.set_box_aspect((1.0, wide, 0.62 * max(1.0, wide)), zoom=1.15)
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
-        axis.set_major_locator(MaxNLocator(4))
-    axes.view_init(elev=26, azim=-40)
+        axis.set_major_locator(MaxNLocator(4, steps=STEPS))
+    axes.view_init(elev=27, azim=-52)
     return picture
+
+
+def _curtains(x: Array, y: Array, pressure: Array) -> Any:
+    """Return one polygon below each profile."""
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # noqa: PLC0415 (0.1 s)
+
+    ends = np.concatenate([x[:1], x, x[-1:]])
+    curtains = [
+        np.column_stack([ends, np.full(ends.size, place), np.pad(row, 1)])
+        for place, row in zip(y, pressure, strict=True)
+    ]
+    return Poly3DCollection(curtains, facecolors="#dbe6f2", edgecolors="#16325c", linewidths=0.6)
