@@ -110,9 +110,25 @@ def test_a_formula_out_of_its_range_says_so():
     assert not nvm.valid
     assert not hamrock.valid
     assert chittenden.valid
-    assert chittenden.minimum_remark
+    assert "much too thick" in chittenden.minimum_remark
+    assert nvm.minimum_remark is None
     soft = moes_problem(100, 0.1)
     assert not film_estimates(groups(soft), scales(soft))[1].valid
+
+
+@pytest.mark.parametrize(
+    ("ratio", "load", "words"), [(1, 150, "too thick"), (1, 50, None), (5, 50, "either way")]
+)
+def test_the_minimum_carries_the_remark_of_its_shape(ratio: float, load: float, words: str | None):
+    problem = moes_problem(load, 10, radius_x=0.02, radius_y=0.02 * ratio)
+    _, hamrock, _ = film_estimates(groups(problem), scales(problem))
+    remark = hamrock.minimum_remark
+    assert remark is None if words is None else words in remark
+
+
+def test_a_nearly_straight_contact_is_outside_every_range():
+    problem = moes_problem(100, 10, radius_x=0.02, radius_y=2.0)
+    assert not any(film.valid for film in film_estimates(groups(problem), scales(problem)))
 
 
 def test_an_oil_without_pressure_effect_has_a_film():

@@ -25,9 +25,18 @@ Regime = Literal[
 ]
 
 
+WIDE, SLENDER = 0.7, 1.4
+"""R_x/R_y up to and from which a contact is no circle to the formulas for the minimum film.
+
+Against solves at L = 10 (mineral oil, steel) both are 0 to 5 % off at R_x/R_y = 0.2 and M = 50 to
+150, 13 % too thick at 0.4 and M = 300, and up to 6 % too thin for an incompressible Barus liquid at
+0.5 and M = 50. At R_x/R_y = 2 and M = 150 they are 50 % too thick.
+"""
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Range:
-    """Range of one group over which a formula holds.
+    """Range of one group over which a formula holds, or over which it was compared with solves.
 
     Attributes
     ----------
@@ -72,7 +81,8 @@ class Formula:
     ranges : tuple of Range
         Groups it was made for.
     minimum_limit : float
-        Moes load above which its minimum film is known to be too thick.
+        Moes load above which its minimum film is known to be too thick, for contacts that are not
+        wide.
     """
 
     name: str
@@ -228,7 +238,7 @@ FORMULAS = (
             "rigid-piezoviscous",
             "elastic-piezoviscous",
         ),
-        ranges=(Range(group="radius_ratio", low=0.0, high=1.0),),
+        ranges=(Range(group="radius_ratio", low=0.04, high=1.0),),
     ),
     Formula(
         name="Hamrock-Dowson",
@@ -279,9 +289,14 @@ def _remarks(formula: Formula, groups: Groups) -> tuple[str, ...]:
 
 
 def _minimum_remark(formula: Formula, groups: Groups) -> str | None:
+    if math.isinf(formula.minimum_limit):
+        return None
+    if groups.radius_ratio < WIDE:
+        return "the minimum may be wrong by several percent, either way, in so wide a contact"
     if not formula.minimum_limit < groups.M:
         return None
-    return f"the minimum is too thick for M above {formula.minimum_limit:g}"
+    how = " and much too thick in slender contacts" if groups.radius_ratio > SLENDER else ""
+    return f"the minimum is too thick for M above {formula.minimum_limit:g}{how}"
 
 
 def inlet_heating_factor(problem: ContactProblem) -> float | None:

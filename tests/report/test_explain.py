@@ -2,6 +2,7 @@
 
 import copy
 import json
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -47,6 +48,7 @@ def test_a_roughness_gives_a_lambda_ratio():
     assert case.lambda_ratio == pytest.approx(case.central_film / 0.05e-6)
 
 
+LINE = {"radius_x": "20 mm", "radius_y": "2 m", "load": "8 kN", "entrainment_speed": "1.5 m/s"}
 ODD = [
     ("contact.load", "20 kN", "Hertz pressure"),
     ("contact.load", "1e-3 N", "Hertz pressure"),
@@ -61,6 +63,7 @@ ODD = [
     ("surface_1.material", {"young_modulus": 2e8, "poisson_ratio": 0.3}, "young_modulus"),
     ("contact.entrainment_speed", "0.1 mm/s", "continuum"),
     ("numerics.points", 33, "coarse"),
+    ("contact", LINE, "line contact"),
     ("numerics.domain", {"x": [-1.5, 1.5], "y": [-3, 3]}, "inlet edge"),
     ("numerics.domain", {"x": [-4.5, 1.01], "y": [-3, 3]}, "outlet edge"),
     ("numerics.domain", {"x": [-4.5, 1.5], "y": [-1.1, 3]}, "side edge"),
@@ -92,6 +95,13 @@ def test_the_summary_is_json_and_the_text_is_not_empty():
         assert summary["groups"]["M"] == pytest.approx(case.groups.M)
         assert len(summary["films"]) == 3
         assert len(as_text(case).splitlines()) > 20
+
+
+def test_a_contact_that_no_formula_was_made_for_is_not_called_usual():
+    case = explained()
+    assert as_text(case).endswith("Nothing looks odd.")
+    foreign = tuple(replace(film, remarks=("elsewhere",)) for film in case.films)
+    assert "no film formula" in as_text(replace(case, films=foreign))
 
 
 def test_an_ellipse_and_a_liquid_of_constant_viscosity_are_explained():

@@ -2,13 +2,15 @@
 
 from typing import TYPE_CHECKING
 
+from tehl.report.explain import UNTITLED, length_unit
+
 if TYPE_CHECKING:
     from tehl.result import Result
 
 
 def headline(result: "Result") -> str:
     """Return title and outcome in one line."""
-    return f"{result.problem.title or 'Lubricated point contact'} - {result.status.outcome}"
+    return f"{result.problem.title or UNTITLED} - {result.status.outcome}"
 
 
 def as_text(result: "Result") -> str:
@@ -28,8 +30,9 @@ def as_text(result: "Result") -> str:
 
 def _film(result: "Result", which: str) -> str:
     metres, scaled = getattr(result.film, which), getattr(result.film_scaled, which)
-    text = f"{metres * 1e9:.4g} nm   (H = {scaled:.5g})"
-    return text + _bar(result, f"film_{which}", result.scales.film_thickness * 1e9, "nm")
+    factor, unit = length_unit(metres)
+    text = f"{metres * factor:.4g} {unit}   (H = {scaled:.5g})"
+    return text + _bar(result, f"film_{which}", result.scales.film_thickness * factor, unit)
 
 
 def _pressure(result: "Result") -> str:
@@ -43,8 +46,17 @@ def _bar(result: "Result", name: str, unit: float, word: str) -> str:
     """Return the error bar: that of a certified run, else the estimate of the discretisation."""
     estimate = result.uncertainty.get(name)
     if estimate is not None:
-        value, width = estimate.value * unit, estimate.uncertainty * unit
-        return f"   certified {value:.5g} +- {width:.2g} {word}"
+        value, width, grid, domain = (
+            number * unit
+            for number in (
+                estimate.value,
+                estimate.uncertainty,
+                estimate.discretisation,
+                estimate.domain,
+            )
+        )
+        parts = f"grid {grid:.2g}, domain {domain:.2g}"
+        return f"   certified {value:.5g} +- {width:.2g} {word} ({parts})"
     error = getattr(result.errors, f"discretisation_{name.removeprefix('film_')}", None)
     return "" if error is None else f"   grid error about {100 * abs(error):.2g} %"
 

@@ -22,6 +22,9 @@ from tehl.scaling import Groups, Scales, groups, scales
 SECONDS_PER_NODE = 1.5e-6
 """Time of a solve by node of the finest full grid on one core of a usual machine; a guide."""
 
+UNTITLED = "Lubricated point contact"
+"""Title of a case that has none."""
+
 _LENGTHS = ((1e-3, 1e3, "mm"), (1e-6, 1e6, "um"), (0.0, 1e9, "nm"))
 
 
@@ -164,7 +167,7 @@ def _row(name: str, *values: str) -> str:
 def _about_case(case: Explanation) -> Iterator[str]:
     problem, hertz = case.problem, case.problem.hertz
     oil = problem.lubricant
-    yield problem.title or "Contact without a title"
+    yield problem.title or UNTITLED
     yield _row("load", f"{problem.load:.4g} N")
     yield _row(
         "speeds",
@@ -258,7 +261,10 @@ def _edges(domain: Domain) -> str:
 
 def _about_questions(case: Explanation) -> Iterator[str]:
     if not case.questions:
-        yield "Nothing looks odd."
+        if not any(film.valid for film in case.films):
+            yield "No value looks odd, but no film formula was made for this contact."
+        else:
+            yield "Nothing looks odd."
         return
     yield "Please check"
     for question in case.questions:
@@ -267,7 +273,12 @@ def _about_questions(case: Explanation) -> Iterator[str]:
 
 def length(metres: float) -> str:
     """Return a length in the unit in which it reads well."""
-    for limit, factor, unit in _LENGTHS:
-        if abs(metres) >= limit:
-            return f"{metres * factor:.4g} {unit}"
-    return f"{metres:.4g} m"
+    factor, unit = length_unit(metres)
+    return f"{metres * factor:.4g} {unit}"
+
+
+def length_unit(metres: float) -> tuple[float, str]:
+    """Return the factor from metres to the unit in which a length reads well, and that unit."""
+    return next(
+        ((factor, unit) for limit, factor, unit in _LENGTHS if abs(metres) >= limit), (1.0, "m")
+    )

@@ -63,6 +63,8 @@ _YIELDS = "would the solids not yield? Check load, radius and modulus"
 _NO_CONTACT = "is this an elastic contact at all?"
 _FINE = "is the load right? The film needs a very fine grid"
 _HALF_SPACE = "on this scale the solids are no half-spaces"
+_SLENDER = "are radius_x and radius_y in the right order?"
+_NO_POINT = "wider contacts may not converge; a line contact is not computed"
 _RUBBER = f"a polymer or rubber, or {_UNIT}"
 
 
@@ -74,6 +76,7 @@ def _usual(problem: ContactProblem, groups: Groups) -> Iterator[_Usual]:
     yield _Usual("reduced radius_y", problem.radius_y, (1e-4, 5), "m", _UNIT)
     yield _Usual("entrainment speed", problem.entrainment_speed, (1e-4, 100), "m/s", _UNIT)
     yield _Usual("a_x / R_x", slender, (0, 0.2), "", _HALF_SPACE)
+    yield _Usual("a_y / a_x", groups.ellipticity, (0.05, 10), "", _SLENDER, _NO_POINT)
     yield _Usual("Moes M", groups.M, (1, 2000), "", _NO_CONTACT, _FINE)
     yield _Usual("Moes L", groups.L, (0, 25), "", "are speed and viscosity right?")
     for name, surface in (("surface_1", problem.surface_1), ("surface_2", problem.surface_2)):
