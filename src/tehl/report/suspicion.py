@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from tehl.domain import NEARLY_RIGID, needed_points, recommended_domain
+from tehl.domain import NEARLY_RIGID, domain_error, needed_points, recommended_domain
 from tehl.options import Domain, Options, coarsenable
 from tehl.problem import ContactProblem
 from tehl.scaling import Groups
@@ -127,9 +127,11 @@ def _of_numerics(options: Options, groups: Groups) -> Iterator[str]:
     if isinstance(options.domain, Domain):
         yield from _of_domain(options.domain, recommended_domain(groups))
     elif groups.M < NEARLY_RIGID:
+        left_out = domain_error(groups, recommended_domain(groups))
         yield (
             f"M = {groups.M:.3g} is a nearly rigid contact, with part of its load far outside: the "
-            "proposed domain leaves up to 3 % of the film; --certify shows how much"
+            f"proposed domain leaves out about {_percent(left_out)} % of the film; --certify "
+            "measures it"
         )
     needed = needed_points(groups)
     if min(options.shape) < needed:
@@ -138,6 +140,10 @@ def _of_numerics(options: Options, groups: Groups) -> Iterator[str]:
             f"numerics.points = {min(options.shape)} is coarse for so thin a film: take {more} or "
             "more, or expect a larger error bar or no convergence"
         )
+
+
+def _percent(part: float) -> str:
+    return f"{100 * part:.1g}" if part < 0.1 else f"{100 * part:.0f}"
 
 
 def _of_domain(stated: Domain, wanted: Domain) -> Iterator[str]:
