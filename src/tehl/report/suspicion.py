@@ -130,8 +130,7 @@ def _of_numerics(options: Options, groups: Groups) -> Iterator[str]:
         left_out = domain_error(groups, recommended_domain(groups))
         yield (
             f"M = {groups.M:.3g} is a nearly rigid contact, with part of its load far outside: the "
-            f"proposed domain leaves out about {_percent(left_out)} % of the film; --certify "
-            "measures it"
+            f"proposed domain leaves out {_part(left_out)} of the film; --certify measures it"
         )
     needed = needed_points(groups)
     if min(options.shape) < needed:
@@ -142,8 +141,8 @@ def _of_numerics(options: Options, groups: Groups) -> Iterator[str]:
         )
 
 
-def _percent(part: float) -> str:
-    return f"{100 * part:.1g}" if part < 0.1 else f"{100 * part:.0f}"
+def _part(part: float) -> str:
+    return "more than half" if part > 0.5 else f"about {100 * part:.2g} %"
 
 
 def _of_domain(stated: Domain, wanted: Domain) -> Iterator[str]:
