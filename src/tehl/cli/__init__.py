@@ -19,7 +19,7 @@ NOT_CONVERGED, BAD_INPUT, ENVIRONMENT = 1, 2, 3
 NO_READER = 141
 """Exit code when nobody reads the output any more, as shells have it."""
 
-_HELP = "Thermal elastohydrodynamic lubrication of point contacts."
+_HELP = "Elastohydrodynamic lubrication of point contacts by full multigrid."
 _EPILOG = "Begin: tehl new > case.toml, then tehl explain case.toml, then tehl solve case.toml."
 _WrongCommandLine: Any = typer.BadParameter.__mro__[2]
 """Base of what a wrong command line raises; typer does not export it."""
