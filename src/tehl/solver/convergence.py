@@ -12,6 +12,9 @@ SAFETY = 2.0
 iterated to the end."""
 LARGEST_LOAD_ERROR = 1e-3
 """Load error at which the film is taken for balanced; it changes by a tenth of this, relatively."""
+LARGEST_CHANGE = 0.2
+"""Change of pressure per cycle, in Hertz pressures, beyond which a grid is in disorder: a spike
+that shifts by a node changes by less."""
 STALL_CYCLES = 8
 STALL_FACTOR = 0.5
 
@@ -65,7 +68,8 @@ def iterated_enough(now: GridTrace, coarser: GridTrace | None) -> bool:
     if coarser is None:
         return now.reports[-1].change < 1e-3
     pairs = ((now.central, coarser.central), (now.minimum, coarser.minimum))
-    if abs(now.reports[-1].load_error) > LARGEST_LOAD_ERROR:
+    last = now.reports[-1]
+    if abs(last.load_error) > LARGEST_LOAD_ERROR or last.change > LARGEST_CHANGE:
         return False
     limit = max(abs(a.values[-1] - b.values[-1]) / 3.0 for a, b in pairs) / 3.0
     return all(

@@ -12,6 +12,7 @@ from tehl.result import CycleReport, ErrorEstimate
 from tehl.scaling import Groups
 from tehl.solver.coarsest import CoarsestSolver
 from tehl.solver.convergence import (
+    LARGEST_CHANGE,
     GridTrace,
     converged,
     error_estimate,
@@ -28,8 +29,6 @@ FIRST_STEPS = 6
 """Newton steps on the coarsest grid at the start; they may cycle there, which does no harm."""
 COARSE_CYCLES = 4
 """Most cycles on a grid that only gives the start for the next finer one."""
-LARGEST_CHANGE = 0.2
-"""Change of pressure in the last cycle (and load error) beyond which a grid is in disorder."""
 RUNAWAY = 100.0
 """Load error and central film that no iteration comes back from (H of a contact is below 2)."""
 FLOOR = 0.02

@@ -34,7 +34,7 @@ class Setting:
 
 
 FAST = Setting(name="fast", threshold=1.0, point=0.7, dipole=0.6)
-ROBUST = Setting(name="robust", threshold=3.0, point=0.5, dipole=0.35)
+ROBUST = Setting(name="robust", threshold=1.0, point=0.4, dipole=0.3)
 POINTWISE = Setting(name="gauss-seidel", threshold=0.0, point=0.5, dipole=0.0)
 SETTINGS = {setting.name: setting for setting in (FAST, ROBUST, POINTWISE)}
 
