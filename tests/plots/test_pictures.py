@@ -103,3 +103,17 @@ def test_plotting_imports_no_compiler_and_no_global_pyplot(result, tmp_path):
     run = [sys.executable, "-c", code, str(tmp_path / "out.nc")]
     answer = subprocess.run(run, capture_output=True, text=True, check=True)
     assert answer.stdout.strip() == "[]"
+
+
+def test_both_minima_of_a_symmetric_contact_are_marked(result):
+    axes = plots.film_map(result).axes[0]
+    marks = next(line for line in axes.lines if line.get_label() == "minimum film")
+    assert marks.get_ydata().sum() == pytest.approx(0.0)
+    assert len(marks.get_ydata()) == 2
+
+
+def test_the_colours_of_the_film_are_spent_on_the_contact(result):
+    mesh = plots.film_map(result).axes[0].collections[0]
+    low, high = mesh.get_clim()
+    assert high == pytest.approx(1.6e6 * result.film.central)
+    assert 0.9e6 * result.film.minimum < low < 1e6 * result.film.minimum_node

@@ -87,3 +87,19 @@ def test_inputs_carry_their_units(result):
     assert rows["lubricant.viscosity.eta_0"] == ("0.04", "Pa s")
     assert rows["contact.slide_roll_ratio"] == ("0.25", "")
     assert "contact.moes_load" not in rows
+    assert rows["lubricant.viscosity.alpha"][1] == "1/GPa"
+    assert rows["surface_1.material.young_modulus"] == ("206", "GPa")
+
+
+@pytest.mark.usefixtures("one_picture")
+def test_a_certified_value_stands_first_with_its_bar(certified):
+    words = " ".join(Page(report_text(certified, dpi=40)).words)
+    assert words.index("±") < words.index("Formulas against computed")
+
+
+@pytest.mark.usefixtures("one_picture")
+def test_a_negative_film_is_no_result(stalled):
+    numbers = replace(stalled.film_scaled, central=0.1, minimum=-0.1)
+    text = report_text(replace(stalled, film_scaled=numbers), dpi=40)
+    assert "There is no film to report" in text
+    assert "this solve" not in text

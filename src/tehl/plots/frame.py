@@ -51,10 +51,14 @@ def _dress(picture: Figure, result: Result, note: str = "") -> None:
 def subtitle(result: Result) -> str:
     """Return the groups and film numbers that belong under each title."""
     groups, film, scaled = result.groups, result.film, result.film_scaled
-    return (
+    about = (
         f"M = {groups.M:.4g}, L = {groups.L:.4g}, "
         f"$p_h$ = {result.scales.hertz_pressure * GIGA:.3g} GPa\n"
-        f"$h_c$ = {length(film.central)} ($H_c$ = {scaled.central:.4g}), "
+    )
+    if not (result.status.converged or film.minimum > 0):
+        return f"{about}no film: the iterate is not positive"
+    return (
+        f"{about}$h_c$ = {length(film.central)} ($H_c$ = {scaled.central:.4g}), "
         f"$h_{{min}}$ = {length(film.minimum)} ($H_{{min}}$ = {scaled.minimum:.4g})"
     )
 

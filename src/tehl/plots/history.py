@@ -49,5 +49,5 @@ def residual_history(result: Result) -> Figure:
             label, (start + 0.6, 1.0), xycoords=("data", "axes fraction"), va="bottom", fontsize=7
         )
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-    picture.legend(loc="outside lower center", ncols=3, fontsize=8, frameon=False)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=3, fontsize=8, frameon=False)
     return picture

@@ -31,8 +31,13 @@ def centre_lines(result: Result) -> Figure:
     _panel(lower, result, profile_y(result), WINDOW[1])
     upper.set_xlabel("x along entrainment [µm]  (y = 0)")
     lower.set_xlabel("y [µm]  (x = 0)")
-    picture.legend(
-        handles=_curves(upper), loc="outside lower center", ncols=4, fontsize=8, frameon=False
+    lower.legend(
+        handles=_curves(upper),
+        loc="upper center",
+        bbox_to_anchor=(0.5, -0.15),
+        ncols=4,
+        fontsize=8,
+        frameon=False,
     )
     return picture
 

@@ -112,6 +112,8 @@ def _nice(low: float, high: float, count: int) -> Array:
 
 def _mark_minimum(axes: Axes, result: Result) -> list[Line2D]:
     """Mark the minimum film, on both sides of a symmetric contact; return the marks."""
+    if not result.film.minimum > 0:
+        return []
     x, y = result.film_scaled.minimum_at
     film = result.scaled.film
     across = (y, -y) if y and np.allclose(film, film[::-1], equal_nan=True) else (y,)
@@ -204,11 +206,11 @@ def pressure_surface(result: Result) -> Figure:
     top = max(float(pressure.max()), 1e-9)
     axes.add_collection3d(_curtains(x, y, pressure))
     axes.set(xlim=x[[0, -1]], ylim=y[[0, -1]], zlim=(0.0, 1.02 * top))
-    axes.set_xlabel("x [µm]", labelpad=8)
-    axes.set_ylabel("y [µm]", labelpad=8)
+    axes.set_xlabel("x [µm]", labelpad=3)
+    axes.set_ylabel("y [µm]", labelpad=5)
     axes.set_zlabel("p [GPa]")
     wide = float(np.clip(np.ptp(y) / np.ptp(x), 0.4, 2.5))
-    axes.set_box_aspect((1.0, wide, 0.62 * max(1.0, wide)), zoom=1.15)
+    axes.set_box_aspect((1.0, wide, 0.62 * max(1.0, wide)), zoom=1.15 if wide < 2.0 else 0.98)
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
         axis.set_major_locator(MaxNLocator(4, steps=STEPS))
     axes.view_init(elev=27, azim=-52)

@@ -31,11 +31,18 @@ th, td { padding: .2rem .7rem .2rem 0; text-align: left; vertical-align: top;
          border-bottom: 1px solid #eaeef2; }
 th { font-weight: 600; }
 td.number { text-align: right; white-space: nowrap; }
-.pictures { display: grid; gap: 1rem; grid-template-columns: repeat(auto-fit, minmax(19rem, 1fr)); }
-figure { margin: 0; break-inside: avoid; }
-img { width: 100%; height: auto; }
+.pictures { display: grid; gap: 2rem; grid-template-columns: minmax(0, 1fr); }
+figure { margin: 0; min-width: 0; break-inside: avoid; }
+img { max-width: 100%; height: auto; }
+h1, .status { overflow-wrap: anywhere; }
+td.text { max-width: 26rem; overflow-wrap: break-word; }
+h3 { font-size: .95rem; margin: 1rem 0 .2rem; }
 figcaption, .small { font-size: .85rem; color: #57606a; }
 pre { white-space: pre-wrap; font-size: .85rem; }
+@media (min-width: 90rem) { body { max-width: 84rem; }
+               .pictures { grid-template-columns: repeat(2, minmax(0, 1fr)); } }
+@media (max-width: 40rem) { body { padding: .6rem; font-size: 14px; }
+               th, td { padding-right: .5rem; } td.text { max-width: 60vw; } }
 @media print { body { font-size: 11px; max-width: none; padding: 0; }
                h2 { break-after: avoid; } tr { break-inside: avoid; } }
 """
@@ -43,7 +50,7 @@ pre { white-space: pre-wrap; font-size: .85rem; }
 _CAPTIONS = {
     "film": "Film thickness. The dashed line is the Hertz contact; oil enters at the left.",
     "pressure": "Pressure.",
-    "pressure_surface": "Pressure as a surface.",
+    "pressure_surface": "Pressure along x, one profile behind another.",
     "centre_lines": "Pressure and film on the centre lines over the dry contact.",
     "residuals": "Convergence, grid after grid.",
     "interferogram_white": "Synthetic interferogram, white light.",
@@ -115,7 +122,7 @@ def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 def _cell(text: str) -> str:
     number = text[:1].isdigit() or text[:2].lstrip("-+±").isdigit()
-    return f"<td{' class=number' if number else ''}>{escape(text)}</td>"
+    return f"<td class={'number' if number else 'text'}>{escape(text)}</td>"
 
 
 def _status(result: Result) -> str:
@@ -126,27 +133,42 @@ def _status(result: Result) -> str:
     return f'<div class="status bad">Not an answer - {escape(result.status.outcome)}{notes}</div>'
 
 
+def _has_film(result: Result) -> bool:
+    return result.status.converged or result.film.minimum > 0
+
+
 def _numbers(result: Result) -> str:
-    film, scaled, scales = result.film, result.film_scaled, result.scales
-    highest = float(result.scaled.pressure.max())
+    if not _has_film(result):
+        return "<p>There is no film to report: the last iterate is not positive.</p>"
+    scaled, scales = result.film_scaled, result.scales
+    highest, errors = float(result.scaled.pressure.max()), result.errors
+    nanometre, gigapascal = scales.film_thickness * 1e9, scales.hertz_pressure * 1e-9
     x, y = scaled.minimum_at
+    place = f"{x * scales.half_width_x * 1e6:.4g}, {y * scales.half_width_y * 1e6:.4g} µm"
+    grid: tuple[float | None, float | None] = (None, None)
+    if errors is not None:
+        grid = (errors.discretisation_minimum, errors.discretisation_central)
+    bars = result.uncertainty
     rows = [
-        ("minimum film", f"{film.minimum * 1e9:.5g} nm", f"{scaled.minimum:.6g}", "sub-grid"),
-        ("central film", f"{film.central * 1e9:.5g} nm", f"{scaled.central:.6g}", "x = y = 0"),
-        (
-            "place of the minimum",
-            f"{x * scales.half_width_x * 1e6:.4g} µm, {y * scales.half_width_y * 1e6:.4g} µm",
-            f"{x:.4g}, {y:.4g}",
-            "x, y",
-        ),
-        (
-            "largest pressure",
-            f"{highest * scales.hertz_pressure * 1e-9:.5g} GPa",
-            f"{highest:.6g}",
-            "on the nodes",
-        ),
+        _value("minimum film", scaled.minimum, nanometre, "nm", grid[0], bars.get("film_minimum")),
+        _value("central film", scaled.central, nanometre, "nm", grid[1], bars.get("film_central")),
+        _value("largest pressure", highest, gigapascal, "GPa", None, bars.get("pressure_max")),
     ]
-    return _table(("", "SI", "dimensionless", ""), rows)
+    certified = ["certified"] if bars else []
+    shown = [row if bars else (row[0], *row[2:]) for row in rows]
+    table = _table(("", *certified, "on this grid", "grid error", "dimensionless"), shown)
+    return f"{table}<p class=small>The minimum lies at x, y = {place} ({x:.4g}, {y:.4g}).</p>"
+
+
+def _value(
+    name: str, scaled: float, unit: float, word: str, error: float | None, bar: Estimate | None
+) -> tuple[str, str, str, str, str]:
+    """Return a row: certified value with its bar, value on this grid, its error, scaled value."""
+    certified = ""
+    if bar is not None:
+        certified = f"{bar.value * unit:.5g} ± {bar.uncertainty * unit:.2g} {word}"
+    about = "not estimated" if error is None else f"about {_percent(error)}"
+    return name, certified, f"{scaled * unit:.4g} {word}", about, f"{scaled:.5g}"
 
 
 def _pictures(result: Result, dpi: int) -> str:
@@ -166,7 +188,9 @@ def _image(picture: Figure, dpi: int) -> str:
 
 def _formulas(result: Result) -> str:
     computed = result.film_scaled
-    rows = [("this solve", _nm(result.film.central), "", _nm(result.film.minimum), "", "")]
+    rows = []
+    if _has_film(result):
+        rows = [("this solve", _nm(result.film.central), "", _nm(result.film.minimum), "", "")]
     rows += [
         (
             f"{estimate.formula} ({estimate.source})",
@@ -195,9 +219,17 @@ def _off(formula: float | None, computed: float) -> str:
 
 
 def _inputs(result: Result) -> str:
-    problem, numerics = input_rows(result.problem), input_rows(result.options, "numerics.")
-    rows = [(row.path, row.value, row.unit) for row in (*problem, *numerics)]
-    return _table(("key", "value", "unit"), rows)
+    """Return one table for each part of the case: contact, surfaces, lubricant, numerics."""
+    rows = (*input_rows(result.problem), *input_rows(result.options, "numerics."))
+    parts: dict[str, list[tuple[str, str]]] = {}
+    for row in rows:
+        value = f"{row.value} {row.unit}".strip()
+        parts.setdefault(row.path.split(".")[0], []).append((row.path, value))
+    return "\n".join(
+        f"<h3>{escape(part.replace('_', ' '))}</h3>\n{_table(('key', 'value'), part_rows)}"
+        for part, part_rows in parts.items()
+        if part != "title"
+    )
 
 
 def _groups(result: Result) -> str:

@@ -1,5 +1,6 @@
 """The inputs of a case as rows of a table, each with its unit."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, get_args
@@ -26,6 +27,14 @@ class InputRow:
     unit: str
 
 
+_READABLE: dict[str, tuple[tuple[float, float, str], ...]] = {
+    "Pa": ((1e9, 1e-9, "GPa"), (1e6, 1e-6, "MPa")),
+    "1/Pa": ((1e-12, 1e9, "1/GPa"),),
+    "m": ((1.0, 1.0, "m"), (1e-3, 1e3, "mm"), (1e-7, 1e6, "µm"), (1e-12, 1e9, "nm")),
+}
+"""By SI unit, from the largest: least value, factor and unit that reads well."""
+
+
 def input_rows(model: BaseModel, prefix: str = "") -> Iterator[InputRow]:
     """Yield the stated values of a model and of the models in it; nothing for None.
 
@@ -42,7 +51,17 @@ def input_rows(model: BaseModel, prefix: str = "") -> Iterator[InputRow]:
             yield from input_rows(value, f"{prefix}{name}.")
         elif value is not None and value != "":
             unit = _unit(field.annotation, field.metadata)
-            yield InputRow(path=f"{prefix}{name}", value=_shown(value), unit=unit)
+            yield InputRow(path=f"{prefix}{name}", **_readable(value, unit))
+
+
+def _readable(value: Any, unit: str) -> dict[str, str]:
+    """Return value and unit as text, large and small ones with a prefix."""
+    if isinstance(value, float) and math.isfinite(value):
+        for least, factor, better in _READABLE.get(unit, ()):
+            if abs(value) >= least:
+                return {"value": _shown(value * factor), "unit": better}
+    endless = isinstance(value, float) and math.isinf(value)
+    return {"value": _shown(value), "unit": "" if endless else unit}
 
 
 def _unit(annotation: Any, metadata: list[Any]) -> str:
