@@ -9,6 +9,9 @@ from tehl.options import Domain, Options, coarsenable
 from tehl.problem import ContactProblem
 from tehl.scaling import Groups
 
+ROUNDING = 1e-9
+"""Part of a limit by which a value may miss it: groups come back from SI with rounding."""
+
 
 @dataclass(frozen=True, slots=True)
 class _Usual:
@@ -24,7 +27,7 @@ class _Usual:
     def question(self) -> str | None:
         """Return the question, None inside the range."""
         low, high = self.limits
-        if low <= self.value <= high:
+        if low * (1.0 - ROUNDING) <= self.value <= high * (1.0 + ROUNDING):
             return None
         hint = self.hint_above if self.value > high and self.hint_above else self.hint
         unit = f" {self.unit}" if self.unit else ""
