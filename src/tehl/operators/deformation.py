@@ -10,8 +10,9 @@ from tehl.operators.multilevel import MultilevelDeformation
 from tehl.scaling import Groups
 from tehl.typing import Array
 
-MULTILEVEL_FROM = 33
-"""Intervals from which the multilevel sum is the cheaper, at an error that does not count."""
+MULTILEVEL_FROM = {True: 128, False: 256}
+"""Intervals from which the multilevel sum is the cheaper, on half (True) and on the full domain, at
+an error that does not count."""
 LARGEST_ASPECT = 4.0
 """Ratio of the cell sides beyond which the patches of the multilevel sum are no longer enough."""
 
@@ -79,7 +80,8 @@ def choose(name: str, grid: Grid, groups: Groups) -> Deformation:
     if name == "auto":
         aspect = groups.ellipticity * grid.dy / grid.dx
         compact = 1.0 / LARGEST_ASPECT <= aspect <= LARGEST_ASPECT
-        name = "mlmi" if compact and min(grid.nx, grid.ny) - 1 >= MULTILEVEL_FROM else "fft"
+        large = min(grid.nx, grid.ny) - 1 >= MULTILEVEL_FROM[grid.mirror]
+        name = "mlmi" if compact and large else "fft"
     if name == "mlmi":
         return MultilevelDeformation(grid, influence_of(grid, groups))
     if name == "fft":
