@@ -150,7 +150,7 @@ def _domain_too_small(groups: Groups, left_out: float) -> Status:
         ),
         hint=(
             "Widen numerics.domain with numerics.points in proportion, or take the formula of "
-            "`tehl explain`, which is exact for a rigid contact."
+            "Nijenbanning, Venner and Moes in `tehl explain`, which covers rigid contacts."
         ),
     )
 
