@@ -290,6 +290,10 @@ LENGTH = Quantity(name="a length", unit="m", example='"20 mm"')
 HEIGHT = Quantity(name="a length", unit="m", example='"0.05 um"', sign="non-negative")
 RADIUS = Quantity(name="a radius", unit="m", example='"20 mm"', sign="any", flat=True)
 PRESSURE = Quantity(name="a pressure", unit="Pa", example='"0.8 GPa"')
+STRESS = Quantity(name="a shear stress", unit="Pa", example='"5 MPa"')
+NON_NEGATIVE_STRESS = Quantity(
+    name="a shear stress", unit="Pa", example='"5 MPa"', sign="non-negative"
+)
 FORCE = Quantity(name="a force", unit="N", example='"80 N"')
 SPEED = Quantity(name="a speed", unit="m/s", example='"1.5 m/s"')
 VISCOSITY = Quantity(name="a viscosity", unit="Pa s", example='"0.04 Pa s"')
@@ -308,6 +312,7 @@ ANGLE = Quantity(name="an angle", unit="rad", example='"45 deg"', sign="any")
 NUMBER = Quantity(name="a plain number", unit="-", example="0.25", sign="any")
 POSITIVE_NUMBER = Quantity(name="a plain number", unit="-", example="100")
 RATIO = Quantity(name="a plain number", unit="-", example="0.6", sign="non-negative")
+STRESS_SLOPE = Quantity(name="a plain number", unit="-", example="0.04", sign="non-negative")
 
 _KINDS = (
     LENGTH,
@@ -328,6 +333,8 @@ Length = Annotated[float, LENGTH]
 Height = Annotated[float, HEIGHT]
 Radius = Annotated[float, RADIUS]
 Pressure = Annotated[float, PRESSURE]
+Stress = Annotated[float, STRESS]
+NonNegativeStress = Annotated[float, NON_NEGATIVE_STRESS]
 Force = Annotated[float, FORCE]
 Speed = Annotated[float, SPEED]
 Viscosity = Annotated[float, VISCOSITY]
@@ -341,3 +348,4 @@ Angle = Annotated[float, ANGLE]
 Number = Annotated[float, NUMBER]
 PositiveNumber = Annotated[float, POSITIVE_NUMBER]
 Ratio = Annotated[float, RATIO]
+StressSlope = Annotated[float, STRESS_SLOPE]

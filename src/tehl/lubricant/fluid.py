@@ -25,8 +25,8 @@ class Lubricant(BaseModel):
         Law with the method ``viscosity(pressure, temperature)``.
     density : DowsonHigginson or ConstantDensity
         Law with the method ``density(pressure, temperature)``.
-    shear : Newtonian
-        Law of the shear stress.
+    shear : Newtonian, Eyring, Carreau or Limiting
+        Law of the shear stress, see :mod:`tehl.lubricant.shear`.
     conductivity, heat_capacity : float or None
         [W/m/K] and [J/kg/K]; only needed when heat is computed.
     name, source : str or None
