@@ -5,11 +5,13 @@ import json
 import math
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
+from tehl.heat import FilmEnergy
 from tehl.problem import ContactProblem
 from tehl.scaling import groups
 from tests.cases import ball_tables, moes_problem
@@ -91,6 +93,75 @@ def test_the_temperature_of_the_film_is_that_of_the_viscosity():
     assert problem().heat.temperature == pytest.approx(313.15)
 
 
+def hot(thermal: dict[str, Any] | None = None, **changes: Any) -> ContactProblem:
+    return problem(lubricant="mineral-oil", thermal=thermal or {}, **changes)
+
+
+def test_a_thermal_table_makes_a_heat_problem_of_its_own():
+    heat = hot().heat
+    assert isinstance(heat, FilmEnergy)
+    assert (heat.temperature, heat.bulk_1, heat.bulk_2) == (313.15, 313.15, 313.15)
+    assert (heat.reynolds, heat.layers, heat.scheme) == ("generalised", 9, "chebyshev")
+    assert hot({"scheme": "uniform"}).heat.layers == 21  # type: ignore[union-attr]
+    assert hot({"scheme": "uniform", "layers": 41}).heat.layers == 41  # type: ignore[union-attr]
+
+
+def test_solids_may_be_warmer_than_the_oil():
+    warm = {"material": "steel", "temperature": "80 degC"}
+    heat = hot({"temperature": "60 degC"}, surface_1=warm).heat
+    assert isinstance(heat, FilmEnergy)
+    assert (heat.temperature, heat.bulk_1, heat.bulk_2) == pytest.approx((333.15, 353.15, 333.15))
+
+
+def test_the_oil_enters_at_the_stated_temperature_and_the_laws_keep_theirs():
+    tables = ball_tables()
+    tables["lubricant"]["viscosity"]["gamma"] = 0.042
+    tables["lubricant"]["density"]["beta"] = 6.5e-4
+    cold = ContactProblem.model_validate(tables)
+    assert cold.ambient_viscosity == 0.04
+    assert cold.pressure_coefficient == 22e-9
+    assert cold.ambient_density == 890.0
+    tables["lubricant"]["temperature"] = "80 degC"
+    warm = ContactProblem.model_validate(tables)
+    oil, none = warm.lubricant, np.zeros(1)
+    assert warm.heat.temperature == pytest.approx(353.15)
+    assert warm.ambient_viscosity == pytest.approx(oil.viscosity.viscosity(none, 353.15)[0])
+    assert warm.ambient_density == pytest.approx(oil.density.density(none, 353.15)[0])
+    assert warm.ambient_viscosity < 0.3 * cold.ambient_viscosity
+    assert warm.pressure_coefficient < cold.pressure_coefficient
+    assert warm.temperature_coefficient < cold.temperature_coefficient
+    assert warm.load == cold.load
+
+
+def test_the_temperature_of_the_oil_is_stated_once():
+    oil = {**ball_tables()["lubricant"], "temperature": 330.0}
+    oil["viscosity"] = oil["viscosity"] | {"gamma": 0.04}
+    oil |= {"conductivity": 0.14, "heat_capacity": 2000}
+    assert problem(lubricant=oil, thermal={"temperature": 330.0}).inlet_temperature == 330.0
+    with pytest.raises(ValidationError, match="state one of them"):
+        problem(lubricant=oil, thermal={"temperature": 331.0})
+
+
+def test_heat_needs_all_its_properties():
+    rigid = {"young_modulus": 2e11, "poisson_ratio": 0.3}
+    with pytest.raises(ValidationError, match=r"surface_2.material.density is missing.*kg/m\^3"):
+        hot(surface_2={"material": rigid})
+    with pytest.raises(ValidationError, match=r"lubricant.heat_capacity is missing.*J/kg/K"):
+        problem(thermal={}, lubricant={**ball_tables()["lubricant"], "conductivity": 0.14})
+    oil = {**ball_tables()["lubricant"], "conductivity": 0.14, "heat_capacity": 2000}
+    with pytest.raises(ValidationError, match="add gamma"):
+        problem(thermal={}, lubricant=oil)
+
+
+def test_a_thermal_problem_returns_from_json_as_it_was():
+    table = {"value": "0.154 W/m/K", "slope": "1.4 1/GPa", "saturation": "0.34 1/GPa"}
+    oil = {**ball_tables()["lubricant"], "conductivity": table, "heat_capacity": 2000}
+    oil["viscosity"] = oil["viscosity"] | {"gamma": 0.04}
+    oil["shear"] = {"law": "eyring", "stress": "5 MPa"}
+    stated = problem(lubricant=oil, thermal={"temperature": "50 degC", "sources": "full"})
+    assert ContactProblem.model_validate(json.loads(stated.model_dump_json())) == stated
+
+
 def test_roughnesses_add_as_squares():
     rough = problem(
         surface_1={"material": "steel", "rms_roughness": "0.3 um"},
@@ -116,8 +187,10 @@ IMPOSSIBLE = [
     ("surface_1.radius", 0.01, "stated twice"),
     ("surface_1.radius_x", 0.01, "both radius_x and radius_y"),
     ("surface_1.roughness", {"type": "wave"}, "not available"),
-    ("surface_1.temperature", 300.0, "not available"),
-    ("thermal", {"layers": 21}, "thermal runs are not available"),
+    ("surface_1.temperature", 300.0, "surface_1.temperature counts in thermal runs only"),
+    ("thermal", {"layers": 21}, "lubricant.conductivity is missing"),
+    ("lubricant.temperature", 40, "kelvin"),
+    ("lubricant.temperature", 350.0, "add gamma"),
     ("transient", {}, "transient runs are not available"),
 ]
 

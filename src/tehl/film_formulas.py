@@ -309,10 +309,10 @@ def inlet_heating_factor(problem: ContactProblem) -> float | None:
         temperature coefficient of the oil, or surfaces that move in opposite directions.
     """
     oil = problem.lubricant
-    coefficient = oil.viscosity.temperature_coefficient
+    coefficient, conductivity = problem.temperature_coefficient, oil.ambient_conductivity
     slip = 0.5 * abs(problem.slide_roll_ratio)
-    if oil.conductivity is None or not coefficient > 0 or slip > 1.0:
+    if conductivity is None or not coefficient > 0 or slip > 1.0:
         return None
     heating = problem.ambient_viscosity * coefficient * problem.entrainment_speed**2
-    loading = heating / oil.conductivity
+    loading = heating / conductivity
     return 1.0 / (1.0 + 0.241 * (1.0 + 14.8 * slip**0.83) * loading**0.64)

@@ -1,11 +1,51 @@
 """Which heat problem goes with the film; not how it is solved."""
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from tehl.units import Temperature
 
 ReynoldsForm = Literal["generalised", "mean", "mean-all"]
 AcrossScheme = Literal["chebyshev", "uniform"]
 SourceForm = Literal["auto", "line", "full"]
+
+
+LAYERS: dict[AcrossScheme, int] = {"chebyshev": 9, "uniform": 21}
+"""Nodes across the film when the case does not state them."""
+
+
+class Thermal(BaseModel):
+    """The table ``[thermal]`` of a case: heat is computed, and how.
+
+    Attributes
+    ----------
+    temperature : float or None
+        Temperature of the oil at the inlet [K]; None when ``lubricant.temperature`` says it, or
+        the reference temperature of the viscosity does.
+    reynolds : {"generalised", "mean", "mean-all"}
+        Form of the Reynolds equation, see :class:`FilmEnergy`.
+    layers : int or None
+        Nodes across the film, both surfaces included; None takes what suits the scheme.
+    scheme : {"chebyshev", "uniform"}
+        Collocation at Chebyshev nodes, or differences between uniform layers.
+    sources : {"auto", "line", "full"}
+        How the solids conduct, see :class:`FilmEnergy`.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
+    temperature: Temperature | None = None
+    reynolds: ReynoldsForm = "generalised"
+    layers: Annotated[int, Field(ge=5, le=81, strict=True, examples=[9])] | None = None
+    scheme: AcrossScheme = "chebyshev"
+    sources: SourceForm = "auto"
+
+    @property
+    def nodes(self) -> int:
+        """Return the nodes across the film, stated or usual."""
+        return LAYERS[self.scheme] if self.layers is None else self.layers
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -11,20 +11,35 @@ from typing import Any, Self
 from pydantic import BaseModel, ConfigDict, model_validator
 
 from tehl.geometry import Radii, reduced_radii, reduced_radius
-from tehl.heat import Isothermal
+from tehl.heat import FilmEnergy, Isothermal, Thermal
 from tehl.hertz import HertzContact, hertz_contact, load_of_pressure
 from tehl.lubricant import NamedLubricant
 from tehl.materials import NamedSolid, reduced_modulus
 from tehl.motion import Motion
 from tehl.roughness import Smooth
-from tehl.units import Force, Height, Length, Number, PositiveNumber, Pressure, Radius, Speed
+from tehl.units import (
+    CONDUCTIVITY,
+    DENSITY,
+    HEAT_CAPACITY,
+    Force,
+    Height,
+    Length,
+    Number,
+    PositiveNumber,
+    Pressure,
+    Quantity,
+    Radius,
+    Speed,
+    Temperature,
+)
 
 _NOT_YET = {
-    "thermal": "thermal runs are not available in this version: leave the [thermal] table out",
     "transient": "transient runs are not available in this version: leave the table out",
     "roughness": "roughness is not available in this version: only rms_roughness may be stated",
-    "temperature": "temperature is not available in this version: the film keeps that of the inlet",
 }
+
+_THERMAL = {"density": DENSITY, "heat_capacity": HEAT_CAPACITY, "conductivity": CONDUCTIVITY}
+_COLDEST, _HOTTEST = 200.0, 800.0  # [K], of an oil or a solid
 
 
 def _refuse_later_tables(data: Any) -> Any:
@@ -49,6 +64,8 @@ class Surface(BaseModel):
         Radii along and across entrainment [m]; infinite is flat, negative is hollow.
     rms_roughness : float
         Rq [m], for the lambda ratio of a smooth calculation.
+    temperature : float or None
+        Temperature far from the contact [K], in thermal runs; None is that of the oil at the inlet.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
@@ -58,6 +75,7 @@ class Surface(BaseModel):
     radius_x: Radius | None = None
     radius_y: Radius | None = None
     rms_roughness: Height = 0.0
+    temperature: Temperature | None = None
 
     _later = model_validator(mode="before")(_refuse_later_tables)
 
@@ -155,6 +173,8 @@ class ContactProblem(BaseModel):
         The bodies at z = 0 and z = h.
     lubricant : Lubricant
         A named oil or its laws.
+    thermal : Thermal or None
+        How heat is computed; None is an isothermal film.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
@@ -164,12 +184,15 @@ class ContactProblem(BaseModel):
     surface_1: Surface
     surface_2: Surface
     lubricant: NamedLubricant
+    thermal: Thermal | None = None
 
     _later = model_validator(mode="before")(_refuse_later_tables)
 
     @model_validator(mode="after")
     def _must_be_a_contact(self) -> Self:
         self._check_radii()
+        self._check_temperatures()
+        self._check_heat()
         if self.contact.moes_speed is not None and not self.pressure_coefficient > 0:
             raise ValueError(
                 "contact.moes_speed fixes no speed without a pressure coefficient of the "
@@ -199,6 +222,67 @@ class ContactProblem(BaseModel):
                 "load, speed and Hertz pressure come out beyond all measure (Moes numbers "
                 f"M = {load_number:.3g}, L = {speed_number:.3g}): check the units of contact, "
                 "materials and viscosity"
+            )
+
+    def _check_temperatures(self) -> None:
+        for key, value in self._stated_temperatures().items():
+            if not _COLDEST <= value <= _HOTTEST:
+                raise ValueError(
+                    f"{key} = {value:g} K is no temperature of a lubricated contact: a bare number "
+                    'is in kelvin, write "40 degC"'
+                )
+        oil, heat = self.lubricant.temperature, self.thermal.temperature if self.thermal else None
+        if oil is not None and heat is not None and oil != heat:
+            raise ValueError(
+                f"lubricant.temperature = {oil:g} K and thermal.temperature = {heat:g} K are both "
+                "the temperature of the oil at the inlet: state one of them"
+            )
+        law = self.lubricant.viscosity
+        warmer = abs(self.inlet_temperature - law.reference_temperature)
+        if warmer > 0 and not law.temperature_coefficient > 0 and law.law != "constant":
+            raise ValueError(
+                f"lubricant.viscosity holds at {law.reference_temperature:g} K and knows no "
+                f"temperature, but the oil enters at {self.inlet_temperature:g} K: add gamma, such "
+                'as "0.04 1/K"'
+            )
+
+    def _stated_temperatures(self) -> dict[str, float]:
+        """Return the temperatures that the case states [K], by key path."""
+        stated = {
+            "lubricant.temperature": self.lubricant.temperature,
+            "thermal.temperature": self.thermal.temperature if self.thermal else None,
+            "surface_1.temperature": self.surface_1.temperature,
+            "surface_2.temperature": self.surface_2.temperature,
+        }
+        return {key: value for key, value in stated.items() if value is not None}
+
+    def _check_heat(self) -> None:
+        """Refuse heat without the properties that it takes."""
+        solids = {"surface_1": self.surface_1, "surface_2": self.surface_2}
+        if self.thermal is None:
+            for key, surface in solids.items():
+                if surface.temperature is not None:
+                    raise ValueError(
+                        f"{key}.temperature counts in thermal runs only: add a [thermal] table, "
+                        "or state lubricant.temperature for an isothermal film"
+                    )
+            return
+        for key, surface in solids.items():
+            for name, quantity in _THERMAL.items():
+                self._need(f"{key}.material.{name}", getattr(surface.material, name), quantity)
+        self._need("lubricant.conductivity", self.lubricant.conductivity, CONDUCTIVITY)
+        self._need("lubricant.heat_capacity", self.lubricant.heat_capacity, HEAT_CAPACITY)
+        if not self.lubricant.viscosity.temperature_coefficient > 0:
+            raise ValueError(
+                "lubricant.viscosity knows no temperature, which a thermal run needs: add gamma, "
+                'such as "0.04 1/K", or take law = "walther"'
+            )
+
+    def _need(self, key: str, value: object, quantity: Quantity) -> None:
+        if value is None:
+            raise ValueError(
+                f"{key} is missing, which a thermal run needs: give {quantity.name} such as "
+                f"{quantity.example}"
             )
 
     def _check_radii(self) -> None:
@@ -254,7 +338,7 @@ class ContactProblem(BaseModel):
     @property
     def ambient_viscosity(self) -> float:
         """Return eta_0 at ambient pressure and inlet temperature [Pa s]."""
-        return self.lubricant.viscosity.eta_0
+        return self.lubricant.viscosity.ambient(self.inlet_temperature)
 
     @property
     def ambient_density(self) -> float:
@@ -263,18 +347,42 @@ class ContactProblem(BaseModel):
 
     @property
     def pressure_coefficient(self) -> float:
-        """Return alpha, the slope of ln eta at ambient pressure [1/Pa]."""
-        return self.lubricant.viscosity.pressure_coefficient
+        """Return alpha, the slope of ln eta at ambient pressure and inlet temperature [1/Pa]."""
+        return self.lubricant.viscosity.pressure_coefficient_at(self.inlet_temperature)
+
+    @property
+    def temperature_coefficient(self) -> float:
+        """Return -d ln eta / dT at ambient pressure and inlet temperature [1/K]."""
+        return self.lubricant.viscosity.temperature_coefficient_at(self.inlet_temperature)
 
     @property
     def inlet_temperature(self) -> float:
-        """Return the temperature of the oil at the inlet [K]: that of the viscosity."""
+        """Return the temperature of the oil at the inlet [K], stated or that of the viscosity."""
+        in_table = self.thermal.temperature if self.thermal else None
+        for stated in (in_table, self.lubricant.temperature):
+            if stated is not None:
+                return stated
         return self.lubricant.viscosity.reference_temperature
 
     @property
-    def heat(self) -> Isothermal:
+    def heat(self) -> Isothermal | FilmEnergy:
         """Return which heat problem goes with the film."""
-        return Isothermal(temperature=self.inlet_temperature)
+        inlet, bulk = (
+            self.inlet_temperature,
+            (self.surface_1.temperature, self.surface_2.temperature),
+        )
+        if self.thermal is None:
+            return Isothermal(temperature=inlet)
+        first, second = (inlet if stated is None else stated for stated in bulk)
+        return FilmEnergy(
+            temperature=inlet,
+            bulk_1=first,
+            bulk_2=second,
+            reynolds=self.thermal.reynolds,
+            layers=self.thermal.nodes,
+            scheme=self.thermal.scheme,
+            sources=self.thermal.sources,
+        )
 
     @property
     def speed_group(self) -> float:

@@ -90,8 +90,24 @@ MISTAKES = [
     ("surface_1.radius=10 mm", "radii are stated twice", "reduced"),
     ("surface_1.rms_roughness=-1 nm", "surface_1.rms_roughness", "not be negative"),
     ("surface_1.roughness={type='wave'}", "surface_1.roughness is not available", "rms"),
-    ("surface_1.temperature=300", "surface_1.temperature is not available", "inlet"),
-    ("thermal.layers=21", "thermal runs are not available", "leave the [thermal] table out"),
+    ("surface_1.temperature=300", "surface_1.temperature counts in thermal", "[thermal]"),
+    ("surface_1.temperature=40", "surface_1.temperature = 40 K", '"40 degC"'),
+    ("lubricant.temperature=40", "lubricant.temperature = 40 K", '"40 degC"'),
+    ("lubricant.temperature=350", "lubricant.viscosity holds at 313.15 K", "add gamma"),
+    ("lubricant.temperature='80 bar'", "lubricant.temperature", '"40 degC"'),
+    ("thermal=3", "thermal = 3", "must be a table"),
+    ("thermal={}", "surface_2.material.density is missing", '"890 kg/m^3"'),
+    ("thermal.temperature=40", "thermal.temperature = 40 K", '"40 degC"'),
+    ("thermal.layer=21", "thermal.layer is no key", "did you mean layers?"),
+    ("thermal.layers=4", "thermal.layers = 4", "at least 5"),
+    ("thermal.layers=99", "thermal.layers = 99", "at most 81"),
+    ("thermal.layers='9'", 'thermal.layers = "9"', "whole number"),
+    ("thermal.reynolds='average'", "thermal.reynolds", "known are generalised, mean"),
+    ("thermal.scheme='cheby'", "thermal.scheme", "did you mean chebyshev?"),
+    ("thermal.sources='lines'", "thermal.sources", "did you mean line?"),
+    ("lubricant.conductivity='0.14'", "lubricant.conductivity", "W/m/K"),
+    ("lubricant.conductivity={value=0.14}", "lubricant.conductivity.slope is missing", "1/GPa"),
+    ("lubricant.heat_capacity={value=0, slope=0}", "lubricant.heat_capacity.value = 0", "J/kg/K"),
     ("transient.step='auto'", "transient runs are not available", "leave"),
     ("lubricant=mineral-oel", "lubricant", "did you mean mineral-oil?"),
     ("lubricant.viscosity={law='roelands'}", "lubricant.viscosity.eta_0 is missing", "Pa s"),
@@ -287,7 +303,7 @@ def test_a_change_that_is_none_is_told(case: Path, change: str):
 
 def test_the_schema_knows_every_table_and_refuses_others():
     schema = json.loads(json.dumps(case_schema()))
-    tables = {"title", "contact", "surface_1", "surface_2", "lubricant", "numerics"}
+    tables = {"title", "contact", "surface_1", "surface_2", "lubricant", "thermal", "numerics"}
     assert set(schema["properties"]) == tables
     assert schema["additionalProperties"] is False
     named = {choice.get("type") for choice in schema["properties"]["lubricant"]["anyOf"]}

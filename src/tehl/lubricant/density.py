@@ -10,6 +10,10 @@ if TYPE_CHECKING:
     from tehl.typing import Array
 
 
+LARGEST_LOSS = 0.9
+"""Most of the ambient density that heat may take, far beyond where a law holds."""
+
+
 class DowsonHigginson(BaseModel):
     r"""Dowson and Higginson's law, with a linear fall with temperature.
 
@@ -50,7 +54,8 @@ class DowsonHigginson(BaseModel):
 
     def ambient(self, temperature: float) -> float:
         """Return the density [kg/m^3] at ambient pressure and ``temperature`` [K]."""
-        return self.rho_0 * (1.0 - self.beta * (temperature - self.reference_temperature))
+        loss = self.beta * (temperature - self.reference_temperature)
+        return self.rho_0 * (1.0 - min(loss, LARGEST_LOSS))
 
     def density(self, pressure: "Array", temperature: "Array | float") -> "Array":
         """Return the density [kg/m^3] at ``pressure`` [Pa] and ``temperature`` [K]."""
@@ -60,6 +65,7 @@ class DowsonHigginson(BaseModel):
         ratio = 1.0 + self.slope * pressure / (1.0 + self.saturation * pressure)
         if self.beta > 0:
             loss = self.beta * (temperature - self.reference_temperature)
+            loss = np.minimum(loss, LARGEST_LOSS)
             ratio = ratio - loss if self.form == "additive" else ratio * (1.0 - loss)
         return self.rho_0 * ratio
 

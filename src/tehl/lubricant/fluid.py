@@ -5,15 +5,75 @@ import tomllib
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Tag
 
 from tehl.errors import InputError
 from tehl.lubricant.density import DensityLaw
 from tehl.lubricant.shear import Newtonian, ShearLaw
 from tehl.lubricant.viscosity import ViscosityLaw
-from tehl.units import Conductivity, HeatCapacity
+from tehl.units import Conductivity, HeatCapacity, PressureCoefficient, Temperature
+
+if TYPE_CHECKING:
+    from tehl.typing import Array
+
+
+class ConductivityOfPressure(BaseModel):
+    """A thermal conductivity that grows with pressure, ``value (1 + s p / (1 + c p))``.
+
+    Attributes
+    ----------
+    value : float
+        At ambient pressure [W/m/K].
+    slope, saturation : float
+        s and c [1/Pa].
+
+    References
+    ----------
+    .. [1] R. Larsson and O. Andersson, Proc. IMechE Part J 214 (2000), 337-342.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
+    value: Conductivity
+    slope: PressureCoefficient
+    saturation: PressureCoefficient = 0.0
+
+
+class HeatCapacityOfPressure(BaseModel):
+    """A heat capacity that grows with pressure, ``value (1 + s p / (1 + c p))``.
+
+    Per mass, as everywhere in this package. What is measured is usually the capacity of a volume,
+    which grows with the density too.
+
+    Attributes
+    ----------
+    value : float
+        At ambient pressure [J/kg/K].
+    slope, saturation : float
+        s and c [1/Pa].
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
+    value: HeatCapacity
+    slope: PressureCoefficient
+    saturation: PressureCoefficient = 0.0
+
+
+def _number_or_table(value: object) -> str:
+    return "table" if isinstance(value, Mapping | BaseModel) else "number"
+
+
+AnyConductivity = Annotated[
+    Annotated[Conductivity, Tag("number")] | Annotated[ConductivityOfPressure, Tag("table")],
+    Discriminator(_number_or_table),
+]
+AnyHeatCapacity = Annotated[
+    Annotated[HeatCapacity, Tag("number")] | Annotated[HeatCapacityOfPressure, Tag("table")],
+    Discriminator(_number_or_table),
+]
 
 
 class Lubricant(BaseModel):
@@ -27,8 +87,11 @@ class Lubricant(BaseModel):
         Law with the method ``density(pressure, temperature)``.
     shear : Newtonian, Eyring, Carreau or Limiting
         Law of the shear stress, see :mod:`tehl.lubricant.shear`.
-    conductivity, heat_capacity : float or None
-        [W/m/K] and [J/kg/K]; only needed when heat is computed.
+    conductivity, heat_capacity : float, table or None
+        [W/m/K] and [J/kg/K]; only needed when heat is computed. Numbers, or tables for properties
+        that grow with pressure: see :meth:`conductivity_at` and :meth:`heat_capacity_at`.
+    temperature : float or None
+        Temperature of the oil at the inlet [K]; None is the reference temperature of the viscosity.
     name, source : str or None
         Where the numbers come from.
     """
@@ -38,10 +101,61 @@ class Lubricant(BaseModel):
     viscosity: ViscosityLaw
     density: DensityLaw
     shear: ShearLaw = Newtonian()
-    conductivity: Conductivity | None = None
-    heat_capacity: HeatCapacity | None = None
+    conductivity: AnyConductivity | None = None
+    heat_capacity: AnyHeatCapacity | None = None
+    temperature: Temperature | None = None
     name: str | None = None
     source: str | None = None
+
+    @property
+    def ambient_conductivity(self) -> float | None:
+        """Return the thermal conductivity at ambient pressure [W/m/K], None if not stated."""
+        return _ambient(self.conductivity)
+
+    @property
+    def ambient_heat_capacity(self) -> float | None:
+        """Return the heat capacity at ambient pressure [J/kg/K], None if not stated."""
+        return _ambient(self.heat_capacity)
+
+    def conductivity_at(self, pressure: "Array") -> "Array":
+        """Return the thermal conductivity [W/m/K] at ``pressure`` [Pa].
+
+        Raises
+        ------
+        InputError
+            If the oil states none.
+        """
+        return _grown(self.conductivity, "conductivity", pressure)
+
+    def heat_capacity_at(self, pressure: "Array") -> "Array":
+        """Return the heat capacity [J/kg/K] at ``pressure`` [Pa].
+
+        Raises
+        ------
+        InputError
+            If the oil states none.
+        """
+        return _grown(self.heat_capacity, "heat_capacity", pressure)
+
+
+Property = float | ConductivityOfPressure | HeatCapacityOfPressure | None
+
+
+def _ambient(stated: Property) -> float | None:
+    return stated.value if isinstance(stated, BaseModel) else stated
+
+
+def _grown(stated: Property, name: str, pressure: "Array") -> "Array":
+    """Return a property at ``pressure`` [Pa]."""
+    import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
+
+    if stated is None:
+        raise InputError(f"lubricant.{name} is missing: heat is not computed without it")
+    if isinstance(stated, BaseModel):
+        pressure = np.asarray(pressure, dtype=np.float64)
+        growth = stated.slope * pressure / (1.0 + stated.saturation * pressure)
+        return stated.value * (1.0 + growth)
+    return np.full(np.shape(pressure), stated)
 
 
 @cache

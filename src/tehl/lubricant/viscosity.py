@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 
 LARGEST_EXPONENT = 600.0
 """``exp`` of more would overflow; so thick a film is a solid for every purpose."""
+LEAST_THETA = 0.01
+"""Least ``(T - 138)/(T_0 - 138)``: Roelands' law ends at 138 K."""
 
 _ROELANDS_OFFSET = 9.67  # -ln of 6.31e-5 Pa s, the viscosity at Roelands' common point
 _ROELANDS_PRESSURE = 1.96e8  # [Pa], in the definition of z
@@ -112,6 +114,31 @@ class Roelands(BaseModel):
         above = self.reference_temperature - _ROELANDS_TEMPERATURE
         return self.temperature_index * self.viscosity_span / above
 
+    @property
+    def temperature_law(self) -> str:
+        """Return the name of the law and of its fall with temperature."""
+        return _temperature_law("roelands", "S0", self.temperature_index)
+
+    def ambient(self, temperature: float) -> float:
+        """Return the viscosity [Pa s] at ambient pressure and ``temperature`` [K]."""
+        growth = self.viscosity_span * (self._thinner(temperature) - 1.0)
+        return _exponential_at(self.eta_0, growth)
+
+    def pressure_coefficient_at(self, temperature: float) -> float:
+        """Return ``d ln eta / dp`` [1/Pa] at ambient pressure and ``temperature`` [K]."""
+        return self.pressure_coefficient * self._thinner(temperature)
+
+    def temperature_coefficient_at(self, temperature: float) -> float:
+        """Return ``-d ln eta / dT`` [1/K] at ambient pressure and ``temperature`` [K]."""
+        return self.temperature_coefficient * self._thinner(temperature) / self._theta(temperature)
+
+    def _theta(self, temperature: float) -> float:
+        above = self.reference_temperature - _ROELANDS_TEMPERATURE
+        return max((temperature - _ROELANDS_TEMPERATURE) / above, LEAST_THETA)
+
+    def _thinner(self, temperature: float) -> float:
+        return float(self._theta(temperature) ** -self.temperature_index)
+
     def viscosity(self, pressure: "Array", temperature: "Array | float") -> "Array":
         """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K].
 
@@ -124,7 +151,7 @@ class Roelands(BaseModel):
         growth = np.power(growth, self.pressure_index, out=growth)
         if self.temperature_index > 0:
             above = self.reference_temperature - _ROELANDS_TEMPERATURE
-            theta = (temperature - _ROELANDS_TEMPERATURE) / above
+            theta = np.maximum((temperature - _ROELANDS_TEMPERATURE) / above, LEAST_THETA)
             growth = growth * theta**-self.temperature_index
         growth -= 1.0
         growth *= self.viscosity_span
@@ -166,6 +193,26 @@ class Barus(BaseModel):
         """Return gamma [1/K], zero when it is not stated."""
         return self.gamma or 0.0
 
+    @property
+    def temperature_law(self) -> str:
+        """Return the name of the law and of its fall with temperature."""
+        return _temperature_law("barus", "gamma", self.temperature_coefficient)
+
+    def ambient(self, temperature: float) -> float:
+        """Return the viscosity [Pa s] at ambient pressure and ``temperature`` [K]."""
+        warmer = temperature - self.reference_temperature
+        return _exponential_at(self.eta_0, -self.temperature_coefficient * warmer)
+
+    def pressure_coefficient_at(self, temperature: float) -> float:
+        """Return alpha [1/Pa] at any ``temperature`` [K]."""
+        del temperature
+        return self.alpha
+
+    def temperature_coefficient_at(self, temperature: float) -> float:
+        """Return gamma [1/K] at any ``temperature`` [K]."""
+        del temperature
+        return self.temperature_coefficient
+
     def viscosity(self, pressure: "Array", temperature: "Array | float") -> "Array":
         """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K]."""
         import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
@@ -204,6 +251,26 @@ class ConstantViscosity(BaseModel):
         """Return zero [1/K]."""
         return 0.0
 
+    @property
+    def temperature_law(self) -> str:
+        """Return the name of the law and of its fall with temperature."""
+        return _temperature_law("constant", "", 0.0)
+
+    def ambient(self, temperature: float) -> float:
+        """Return eta_0 [Pa s] at any ``temperature`` [K]."""
+        del temperature
+        return self.eta_0
+
+    def pressure_coefficient_at(self, temperature: float) -> float:
+        """Return zero [1/Pa] at any ``temperature`` [K]."""
+        del temperature
+        return 0.0
+
+    def temperature_coefficient_at(self, temperature: float) -> float:
+        """Return zero [1/K] at any ``temperature`` [K]."""
+        del temperature
+        return 0.0
+
     def viscosity(self, pressure: "Array", temperature: "Array | float") -> "Array":
         """Return eta_0 [Pa s] in the shape of ``pressure`` and ``temperature``."""
         import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
@@ -213,13 +280,23 @@ class ConstantViscosity(BaseModel):
 
 
 def _exponential(eta_0: float, exponent: "Array") -> "Array":
-    """Return ``eta_0 exp(exponent)`` in place, without overflow."""
+    """Return ``eta_0 exp(exponent)`` in place, without overflow or underflow."""
     import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
 
-    exponent = np.minimum(exponent, LARGEST_EXPONENT, out=np.asarray(exponent))
+    exponent = np.asarray(exponent)
+    exponent = np.clip(exponent, -LARGEST_EXPONENT, LARGEST_EXPONENT, out=exponent)
     exponent = np.exp(exponent, out=exponent)
     exponent *= eta_0
     return exponent
+
+
+def _exponential_at(eta_0: float, exponent: float) -> float:
+    """Return ``eta_0 exp(exponent)`` of numbers, without overflow or underflow."""
+    return eta_0 * math.exp(min(max(exponent, -LARGEST_EXPONENT), LARGEST_EXPONENT))
+
+
+def _temperature_law(law: str, how: str, coefficient: float) -> str:
+    return f"{law}, {how if coefficient > 0 else 'no temperature'}"
 
 
 ViscosityLaw = Annotated[Roelands | Barus | ConstantViscosity, Field(discriminator="law")]
