@@ -1,5 +1,6 @@
 """Fixtures for all tests."""
 
 from tests.fixtures_result import certified, result, stalled
+from tests.fixtures_thermal import sheared, thermal
 
-__all__ = ["certified", "result", "stalled"]
+__all__ = ["certified", "result", "sheared", "stalled", "thermal"]

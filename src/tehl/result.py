@@ -1,8 +1,11 @@
 """The answer: fields, film numbers, status and history of a solve. Frozen; needs no solver."""
 
 from dataclasses import dataclass, field
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
 
 from tehl.options import Options
 from tehl.problem import ContactProblem
@@ -11,6 +14,9 @@ from tehl.typing import Array
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from tehl.post.heat import Temperature
+    from tehl.post.traction import Traction
 
 StatusKind = Literal["converged", "not_converged", "diverged", "stalled"]
 
@@ -105,6 +111,20 @@ class Fields:
     def __post_init__(self) -> None:
         for array in (self.x, self.y, self.pressure, self.film):
             array.flags.writeable = False
+
+    def at_origin(self, values: Array) -> float:
+        """Return ``values`` at X = Y = 0, by the parabolas through the nearest three nodes."""
+        rows, row_weights = _parabola(self.y)
+        columns, column_weights = _parabola(self.x)
+        return float(row_weights @ values[rows, columns] @ column_weights)
+
+
+def _parabola(axis: Array) -> tuple[slice, Array]:
+    """Return three nodes near 0 and the weights of their values at 0."""
+    middle = int(np.clip(np.argmin(np.abs(axis)), 1, axis.size - 2))
+    t = -axis[middle] / (axis[middle + 1] - axis[middle])
+    weights = np.array([t * (t - 1) / 2, 1 - t**2, t * (t + 1) / 2])
+    return slice(middle - 1, middle + 2), weights
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -388,6 +408,18 @@ class Result:
         """Smallest film thickness [m], sub-grid."""
         return self.film.minimum
 
+    @property
+    def traction(self) -> "Traction | None":
+        """Traction coefficients, None where there are no shear stresses."""
+        found: Traction | None = _post("traction").traction(self)
+        return found
+
+    @property
+    def temperature(self) -> "Temperature | None":
+        """Temperatures of the film, None for an isothermal run."""
+        found: Temperature | None = _post("heat").temperature(self)
+        return found
+
     def save(self, path: str | Path) -> None:
         """Write the result to a NetCDF-4 file; nothing is left behind when writing fails."""
         from tehl.io.store import save  # noqa: PLC0415 (a method users expect here)
@@ -405,3 +437,8 @@ class Result:
         from tehl.io.summary import summary  # noqa: PLC0415
 
         return summary(self)
+
+
+def _post(name: str) -> Any:
+    """Return a module of ``tehl.post``, for the properties that users expect on a result."""
+    return import_module(f"tehl.post.{name}")

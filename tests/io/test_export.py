@@ -89,6 +89,59 @@ def test_vtk_marks_what_did_not_converge(stalled, tmp_path):
     assert decoded(root.find(".//FieldData/DataArray")).tolist() == [0.0]
 
 
+def test_the_maps_of_a_thermal_film_are_columns_and_point_arrays(thermal, tmp_path):
+    write_csv(thermal, tmp_path / "lines.csv")
+    write_vtk(thermal, tmp_path / "out.vtr")
+    table = [row for row in rows(tmp_path / "lines.csv") if row["line"] == "x"]
+    root = ET.parse(tmp_path / "out.vtr").getroot()
+    arrays = {e.attrib["Name"]: decoded(e) for e in root.iter("DataArray")}
+    row = int(np.argmin(np.abs(thermal.scaled.y)))
+    for name, column, field in (
+        ("temperature_mid", "temperature_mid_k", thermal.temperature.mid_film),
+        ("temperature_2", "temperature_2_k", thermal.heat.temperature[-1]),
+        ("heat_flux_1", "heat_flux_1_w_m2", thermal.heat.flux_1),
+        ("shear_stress_mid", "shear_stress_mid_pa", thermal.shear.mid_film),
+        ("shear_thinning", "shear_thinning", thermal.shear.thinning),
+    ):
+        assert [float(r[column]) for r in table] == field[row].tolist()
+        assert np.array_equal(arrays[name].reshape(65, 65), field)
+
+
+def test_an_isothermal_table_has_no_columns_of_heat(result, tmp_path):
+    write_csv(result, tmp_path / "lines.csv")
+    assert list(rows(tmp_path / "lines.csv")[0])[-1] == "H"
+
+
+def test_npz_and_mat_hold_the_layers(thermal, tmp_path):
+    io = pytest.importorskip("scipy.io")
+    write_npz(thermal, tmp_path / "out.npz")
+    write_mat(thermal, tmp_path / "out.mat")
+    with np.load(tmp_path / "out.npz", allow_pickle=False) as stored:
+        assert np.array_equal(stored["temperature"], thermal.heat.temperature)
+    stored = io.loadmat(tmp_path / "out.mat")
+    assert np.array_equal(stored["temperature"], thermal.heat.temperature)
+    assert np.array_equal(stored["shear_stress_1"], thermal.shear.surface_1)
+
+
+def test_the_volume_of_the_film_has_its_nodes_in_metres(thermal, tmp_path):
+    write_vtk(thermal, tmp_path / "out.vts")
+    root = ET.parse(tmp_path / "out.vts").getroot()
+    assert root.attrib["type"] == "StructuredGrid"
+    assert root.find("StructuredGrid").attrib["WholeExtent"] == "0 64 0 64 0 8"
+    arrays = {e.attrib["Name"]: decoded(e) for e in root.iter("DataArray")}
+    points = arrays["points"].reshape(9, 65, 65, 3)
+    assert np.array_equal(points[3, 7, :, 0], thermal.x)
+    assert np.array_equal(points[-1, :, :, 2], thermal.film_thickness)
+    assert np.array_equal(arrays["temperature"].reshape(9, 65, 65), thermal.heat.temperature)
+    assert np.array_equal(arrays["pressure"].reshape(9, 65, 65)[4], thermal.pressure)
+
+
+def test_the_volume_of_an_isothermal_film_has_two_layers(result, tmp_path):
+    write_vtk(result, tmp_path / "out.vts")
+    root = ET.parse(tmp_path / "out.vts").getroot()
+    assert root.find("StructuredGrid").attrib["WholeExtent"] == "0 64 0 64 0 1"
+
+
 @pytest.mark.parametrize("kind", sorted(WRITERS))
 def test_each_format_has_an_ending_and_leaves_one_file(result, tmp_path, kind):
     path = tmp_path / f"out{SUFFIXES[kind]}"
@@ -98,14 +151,14 @@ def test_each_format_has_an_ending_and_leaves_one_file(result, tmp_path, kind):
 
 def test_the_ending_tells_the_format():
     assert kind_of("a.csv", None) == kind_of("a.CSV", "csv") == kind_of(None, "csv") == "csv"
-    assert kind_of("a.vtr", None) == "vtk"
+    assert kind_of("a.vtr", None) == kind_of("a.vts", "vtk") == "vtk"
 
 
 @pytest.mark.parametrize(
     ("path", "stated", "words"),
     [
         ("a.vtk", "vtk", "ends in .vtr"),
-        ("a.vts", None, "ends in .vtr"),
+        ("a.vtu", None, "ends in .vtr"),
         ("a.csv", "npz", "ends in .npz"),
         ("a", "csv", "ends in .csv"),
         ("a.txt", None, "tells no format"),

@@ -5,8 +5,10 @@ import math
 import subprocess
 import sys
 from dataclasses import replace
+from pathlib import Path
 
 import h5netcdf
+import h5py
 import numpy as np
 import pytest
 
@@ -20,13 +22,80 @@ from tests.fixtures_result import CASE, make_result
 def assert_equal(first: Result, second: Result) -> None:
     for name in ("x", "y", "pressure", "film"):
         assert np.array_equal(getattr(first.scaled, name), getattr(second.scaled, name))
-    scalars = [replace(one, scaled=None, history=()) for one in (first, second)]
+    scalars = [
+        replace(one, scaled=None, history=(), shear=None, heat=None) for one in (first, second)
+    ]
     assert scalars[0] == scalars[1]
     assert first.history == second.history
 
 
 def test_a_result_comes_back_bit_by_bit(result, tmp_path):
     save(result, tmp_path / "out.nc")
+    assert_equal(load(tmp_path / "out.nc"), result)
+
+
+def test_shear_and_heat_come_back_bit_by_bit(thermal, tmp_path):
+    save(thermal, tmp_path / "out.nc")
+    back = load(tmp_path / "out.nc")
+    assert_equal(back, thermal)
+    for name in ("surface_1", "mid_film", "surface_2", "across", "thinning"):
+        assert np.array_equal(getattr(back.shear, name), getattr(thermal.shear, name))
+    for name in ("zeta", "weights", "temperature", "flux_1", "flux_2"):
+        assert np.array_equal(getattr(back.heat, name), getattr(thermal.heat, name))
+    for name in ("balance", "solid_peclet", "sources"):
+        assert getattr(back.heat, name) == getattr(thermal.heat, name)
+    assert back.history[-1].temperature_change == 0.0125
+
+
+def test_shear_without_heat_comes_back(sheared, tmp_path):
+    save(sheared, tmp_path / "out.nc")
+    back = load(tmp_path / "out.nc")
+    assert np.array_equal(back.shear.mid_film, sheared.shear.mid_film)
+    assert back.heat is None
+
+
+def test_a_thermal_file_explains_itself(thermal, tmp_path):
+    xr = pytest.importorskip("xarray")
+    save(thermal, tmp_path / "out.nc")
+    with xr.open_dataset(tmp_path / "out.nc", engine="h5netcdf") as stored:
+        xr.testing.assert_equal(stored.load(), to_dataset(thermal))
+        assert stored.temperature.dims == ("zeta", "y", "x")
+        assert (stored.temperature.units, stored.heat_flux_1.units) == ("K", "W/m^2")
+        assert "zeta" in stored.coords
+        assert stored.shear_stress_mid.long_name == "tau_zx at z = h/2"
+        assert all({"units", "long_name"} <= set(v.attrs) for v in stored.variables.values())
+
+
+def test_a_file_of_format_1_is_read():
+    """Written by version 0.1.0 before it knew shear and heat: save(make_result(33))."""
+    back = load(Path(__file__).with_name("data") / "format_1.nc")
+    assert back.film_scaled.central == pytest.approx(0.1, abs=0.01)
+    assert (back.shear, back.heat, back.traction, back.temperature) == (None, None, None, None)
+    assert [report.temperature_change for report in back.history] == [0.0] * 6
+
+
+@pytest.mark.parametrize(("name", "points"), [("temperature", (9, 65, 65)), ("zeta", (9,))])
+def test_layers_that_cannot_be_are_refused(thermal, tmp_path, name, points):
+    save(thermal, tmp_path / "out.nc")
+    with h5netcdf.File(tmp_path / "out.nc", "a") as file:
+        file.variables[name][...] = np.full(points, np.nan)
+    with pytest.raises(FileFormatError, match=name):
+        load(tmp_path / "out.nc")
+
+
+def test_a_file_without_its_fluxes_is_not_whole(thermal, tmp_path):
+    save(thermal, tmp_path / "out.nc")
+    with h5py.File(tmp_path / "out.nc", "a") as file:
+        del file["heat_flux_1"]
+    with pytest.raises(FileFormatError, match="'heat_flux_1' is missing"):
+        load(tmp_path / "out.nc")
+
+
+def test_more_blocks_go_into_the_summary_of_the_file(result, tmp_path):
+    save(result, tmp_path / "out.nc", extra={"isothermal": {"ratio": math.nan}})
+    with h5netcdf.File(tmp_path / "out.nc") as file:
+        stored = json.loads(file.attrs["summary"])
+    assert stored == result.summary() | {"isothermal": {"ratio": None}}
     assert_equal(load(tmp_path / "out.nc"), result)
 
 

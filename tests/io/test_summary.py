@@ -27,6 +27,45 @@ def test_temperature_and_traction_do_not_apply(result):
     content = summary(result)
     assert content["temperature"] is None
     assert content["traction"] is None
+    assert content["heat"] is None
+    assert content["convergence"]["heat_balance_error"] is None
+    assert content["laws"]["reynolds"] == "isothermal"
+
+
+THERMAL_KEYS = {
+    "temperature": "film_rise_max_k mid_film_rise_central_k surface_1_rise_max_k "
+    "surface_2_rise_max_k film_rise_max_at mean_rise_central_k inlet_k",
+    "traction": "surface_1 mid_film surface_2 sliding rolling closure_error friction_power_w",
+    "heat": "shear_w compression_w surface_1_w surface_2_w carried_out_w solid_peclet sources",
+}
+
+
+@pytest.mark.parametrize("block", THERMAL_KEYS)
+def test_the_keys_of_a_thermal_run_are_there(thermal, block):
+    assert set(THERMAL_KEYS[block].split()) <= set(summary(thermal)[block])
+
+
+def test_the_numbers_of_a_thermal_run_are_those_of_the_result(thermal):
+    content = summary(thermal)
+    assert content["temperature"]["film_rise_max_k"] == thermal.temperature.film_rise_max
+    assert content["traction"]["surface_1"] == thermal.traction.surface_1
+    assert content["heat"]["sources"] == ["line", "full"]
+    assert content["convergence"]["heat_balance_error"] == thermal.heat.balance.error
+    json.dumps(content, allow_nan=False)
+
+
+def test_traction_needs_no_heat(sheared):
+    content = summary(sheared)
+    assert content["traction"]["mid_film"] < 0
+    assert content["temperature"] is None
+
+
+def test_error_bars_of_heat_and_traction_mirror_theirs(certified, thermal):
+    bar = certified.uncertainty["film_central"]
+    names = ("film_rise_max", "traction_mid_film")
+    blocks = summary(replace(thermal, uncertainty=dict.fromkeys(names, bar)))["uncertainty"]
+    assert blocks["temperature"]["film_rise_max_k"]["value"] == 0.101
+    assert blocks["traction"]["mid_film"]["uncertainty"] == 0.002
 
 
 def test_film_in_metres_and_in_units_of_moes(result):

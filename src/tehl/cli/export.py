@@ -35,7 +35,11 @@ def export(
         What, typer.Option(help="csv only: both centre lines, or all nodes of the fields.")
     ] = What.lines,
 ) -> None:
-    """Write a stored result as CSV, VTK (ParaView), npz (numpy) or mat (MATLAB)."""
+    """Write a stored result as CSV, VTK (ParaView), npz (numpy) or mat (MATLAB).
+
+    VTK: the ending .vtr gives the plane of the film, .vts the film as a volume with its
+    temperatures.
+    """
     from tehl.io.atomic import check_writable
     from tehl.io.export import SUFFIXES, kind_of, write, write_csv
     from tehl.io.store import load

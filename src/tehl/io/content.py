@@ -2,6 +2,7 @@
 
 import json
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -18,14 +19,20 @@ from tehl.result import (
     ErrorEstimate,
     Estimate,
     Fields,
+    FilmHeat,
+    FilmShear,
     FilmSummary,
+    HeatBalance,
     Provenance,
     Result,
     Status,
 )
 from tehl.scaling import Groups, Scales
+from tehl.typing import Array
 
-FORMAT_VERSION = 1
+FORMAT_VERSION = 2
+READABLE = (1, 2)
+"""Formats that are read: 1 knows neither shear stresses nor temperatures."""
 
 DEFINITIONS = """\
 reduced modulus E': 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 (twice the contact modulus E*)
@@ -35,7 +42,10 @@ Hertz: p_h = 3 w/(2 pi a_x a_y); for a circle a^3 = 3 w R/(2 E')
 dimensionless: X = x/a_x, Y = y/a_y, P = p/p_h, H = h R_x/a_x^2
 Moes: M = W (2U)^(-3/4), L = G (2U)^(1/4); U = eta_0 u_m/(E' R_x), W = w/(E' R_x^2), G = alpha E'
 pressure is gauge, positive in compression; cavitation by complementarity (p >= 0)
-h_central is the film at x = y = 0; h_min is the sub-grid minimum"""
+h_central is the film at x = y = 0; h_min is the sub-grid minimum
+shear stress: tau = eta du/dz, negative for SRR > 0; traction is its integral over p > 0 by the load
+temperature in kelvin over (zeta, y, x), zeta = z/h; rises are over the oil at the inlet
+heat flux and powers into the solids are positive where the film heats them"""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -47,7 +57,7 @@ class Variable:
     name : str
         Its name in the file.
     dims : tuple of str
-        Names of its dimensions: ``"y"``, ``"x"``, ``"cycle"``.
+        Names of its dimensions: ``"zeta"``, ``"y"``, ``"x"``, ``"cycle"``.
     data : array
         The numbers (or words).
     units, long_name : str
@@ -59,6 +69,15 @@ class Variable:
     data: NDArray[Any]
     units: str
     long_name: str
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class HeatState:
+    """The scalars of :class:`tehl.result.FilmHeat`."""
+
+    balance: HeatBalance
+    solid_peclet: tuple[float, float]
+    sources: tuple[str, str]
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -74,7 +93,11 @@ class State:
     cost: Cost
     provenance: Provenance
     uncertainty: dict[str, Estimate]
+    heat: HeatState | None = None
 
+
+_SCALARS = tuple(f.name for f in fields(State) if f.name != "heat")
+"""Fields of the state that are those of the result."""
 
 _CYCLE = (
     ("points_x", "1", "nodes of the grid in x", np.int64),
@@ -86,11 +109,28 @@ _CYCLE = (
     ("film_central", "1", "H at X = Y = 0 after the cycle", np.float64),
     ("film_minimum", "1", "smallest nodal H after the cycle", np.float64),
     ("smoother", "1", "setting of the relaxation", np.str_),
+    ("temperature_change", "K", "largest change of the film temperature in the cycle", np.float64),
 )
+
+_SHEAR = (
+    ("surface_1", "shear_stress_1", "Pa", "tau_zx at z = 0, on surface 1"),
+    ("mid_film", "shear_stress_mid", "Pa", "tau_zx at z = h/2"),
+    ("surface_2", "shear_stress_2", "Pa", "tau_zx at z = h, on surface 2"),
+    ("across", "shear_stress_across", "Pa", "tau_zy at z = h/2"),
+    ("thinning", "shear_thinning", "1", "effective over Newtonian viscosity at z = h/2"),
+)
+_HEAT = (
+    ("zeta", "zeta", ("zeta",), "1", "z / h, 0 on surface 1"),
+    ("weights", "zeta_weights", ("zeta",), "1", "weights of the mean across the film"),
+    ("temperature", "temperature", ("zeta", "y", "x"), "K", "temperature of the film"),
+    ("flux_1", "heat_flux_1", ("y", "x"), "W/m^2", "heat conducted into surface 1"),
+    ("flux_2", "heat_flux_2", ("y", "x"), "W/m^2", "heat conducted into surface 2"),
+)
+"""Fields of the result, names in the file, dimensions, units and what they are."""
 
 
 def variables(result: Result) -> tuple[Variable, ...]:
-    """Return the arrays of ``result``: coordinates, fields, then the history."""
+    """Return the arrays of ``result``: coordinates, fields, shear and heat if any, the history."""
     scaled = result.scaled
     rows: tuple[tuple[str, tuple[str, ...], NDArray[Any], str, str], ...] = (
         ("x", ("x",), result.x, "m", "coordinate along entrainment"),
@@ -103,12 +143,35 @@ def variables(result: Result) -> tuple[Variable, ...]:
         ("H", ("y", "x"), scaled.film, "1", "h R_x / a_x^2"),
     )
     named = (Variable(name=n, dims=d, data=a, units=u, long_name=t) for n, d, a, u, t in rows)
-    return (*named, *_history_variables(result.history))
+    return (
+        *named,
+        *_shear_variables(result.shear),
+        *_heat_variables(result.heat),
+        *_history_variables(result.history),
+    )
+
+
+def _shear_variables(shear: FilmShear | None) -> Iterator[Variable]:
+    if shear is None:
+        return
+    for field, name, units, text in _SHEAR:
+        data = getattr(shear, field)
+        yield Variable(name=name, dims=("y", "x"), data=data, units=units, long_name=text)
+
+
+def _heat_variables(heat: FilmHeat | None) -> Iterator[Variable]:
+    if heat is None:
+        return
+    for field, name, dims, units, text in _HEAT:
+        data = getattr(heat, field)
+        yield Variable(name=name, dims=dims, data=data, units=units, long_name=text)
 
 
 def attributes(result: Result) -> dict[str, str | int]:
     """Return the attributes of ``result``: what was asked, the scalars, definitions, versions."""
-    state = State(**{f.name: getattr(result, f.name) for f in fields(State)})
+    state = State(
+        **{name: getattr(result, name) for name in _SCALARS}, heat=_heat_state(result.heat)
+    )
     return {
         "tehl_format": FORMAT_VERSION,
         "title": result.problem.title,
@@ -141,25 +204,73 @@ def rebuild(arrays: dict[str, NDArray[Any]], attrs: dict[str, Any]) -> Result:
         If something is missing or does not fit; the message names it.
     """
     state = TypeAdapter(State).validate_python(json.loads(attrs["state"]))
+    reader = _Reader(arrays=arrays, finite=state.status.converged)
+    scaled = _fields(reader)
     return Result(
         problem=ContactProblem.model_validate(json.loads(attrs["problem"])),
         options=Options.model_validate(json.loads(attrs["options"])),
-        scaled=_fields(arrays, state.status),
+        scaled=scaled,
         history=_history(arrays),
-        **{f.name: getattr(state, f.name) for f in fields(State)},
+        shear=_shear(reader, scaled.pressure.shape),
+        heat=_heat(reader, scaled.pressure.shape, state.heat),
+        **{name: getattr(state, name) for name in _SCALARS},
     )
 
 
-def _fields(arrays: dict[str, NDArray[Any]], status: Status) -> Fields:
-    x, y, pressure, film = (np.asarray(arrays[name], np.float64) for name in ("X", "Y", "P", "H"))
-    for name, field in (("P", pressure), ("H", film)):
-        if field.shape != (y.size, x.size):
-            raise ValueError(f"{name} has shape {field.shape}, not {(y.size, x.size)}")
-        if status.converged and not np.isfinite(field).all():
+def _heat_state(heat: FilmHeat | None) -> HeatState | None:
+    if heat is None:
+        return None
+    return HeatState(balance=heat.balance, solid_peclet=heat.solid_peclet, sources=heat.sources)
+
+
+def _fields(reader: "_Reader") -> Fields:
+    x, y = reader.axis("X"), reader.axis("Y")
+    shape = (y.size, x.size)
+    return Fields(x=x, y=y, pressure=reader.field("P", shape), film=reader.field("H", shape))
+
+
+def _shear(reader: "_Reader", shape: tuple[int, ...]) -> FilmShear | None:
+    if _SHEAR[0][1] not in reader.arrays:
+        return None
+    return FilmShear(**{field: reader.field(name, shape) for field, name, *_ in _SHEAR})
+
+
+def _heat(reader: "_Reader", shape: tuple[int, ...], state: HeatState | None) -> FilmHeat | None:
+    if state is None:
+        return None
+    zeta = reader.axis("zeta")
+    sizes = {"zeta": zeta.size, "y": shape[0], "x": shape[1]}
+    found = {
+        field: reader.field(name, tuple(sizes[dim] for dim in dims))
+        for field, name, dims, *_ in _HEAT
+    }
+    return FilmHeat(
+        **found, balance=state.balance, solid_peclet=state.solid_peclet, sources=state.sources
+    )
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class _Reader:
+    """Takes arrays out of a file and looks whether they can be what they claim to be."""
+
+    arrays: dict[str, NDArray[Any]]
+    finite: bool
+
+    def axis(self, name: str) -> Array:
+        """Return a coordinate; it must increase."""
+        values = np.asarray(self.arrays[name], np.float64)
+        if not (values.ndim == 1 and (np.diff(values) > 0).all()):
+            raise ValueError(f"the coordinate {name} does not increase")
+        return values
+
+    def field(self, name: str, shape: tuple[int, ...]) -> Array:
+        """Return a field; it must fit to the coordinates, and be finite in a converged result."""
+        values = np.asarray(self.arrays[name], np.float64)
+        if values.shape != shape:
+            raise ValueError(f"{name} has shape {values.shape}, not {shape}")
+        if self.finite and not np.isfinite(values).all():
             raise ValueError(f"{name} holds values that are not finite, though it says converged")
-    if not ((np.diff(x) > 0).all() and (np.diff(y) > 0).all()):
-        raise ValueError("the coordinates X, Y do not increase")
-    return Fields(x=x, y=y, pressure=pressure, film=film)
+        return values
 
 
 def _history_variables(history: tuple[CycleReport, ...]) -> tuple[Variable, ...]:
@@ -173,6 +284,7 @@ def _history_variables(history: tuple[CycleReport, ...]) -> tuple[Variable, ...]
         "film_central",
         "film_minimum",
         "smoother",
+        "temperature_change",
     )
     rows = [(*r.points, *(getattr(r, name) for name in names)) for r in history]
     index = Variable(
@@ -201,7 +313,8 @@ def _history_variables(history: tuple[CycleReport, ...]) -> tuple[Variable, ...]
 def _history(arrays: dict[str, NDArray[Any]]) -> tuple[CycleReport, ...]:
     if "cycle" not in arrays:
         return ()
-    columns = [arrays[f"history_{name}"].tolist() for name, *_ in _CYCLE]
+    known = {"history_temperature_change": np.zeros(arrays["cycle"].size)} | arrays  # format 1
+    columns = [known[f"history_{name}"].tolist() for name, *_ in _CYCLE]
     return tuple(
         CycleReport(
             points=(row[0], row[1]),
@@ -212,6 +325,7 @@ def _history(arrays: dict[str, NDArray[Any]]) -> tuple[CycleReport, ...]:
             film_central=row[6],
             film_minimum=row[7],
             smoother=str(row[8]),
+            temperature_change=row[9],
         )
         for row in zip(*columns, strict=True)
     )

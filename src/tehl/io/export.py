@@ -13,12 +13,28 @@ from tehl.errors import InputError
 from tehl.io.atomic import replacing
 from tehl.io.content import variables
 from tehl.io.summary import summary
-from tehl.io.vtk import rectilinear_grid
+from tehl.io.vtk import rectilinear_grid, structured_grid
 from tehl.result import Result
+from tehl.typing import Array
 
 What = Literal["lines", "fields"]
 
-_HEADER = ("x_m", "y_m", "pressure_pa", "film_thickness_m", "X", "Y", "P", "H")
+_SHEAR = (
+    ("shear_stress_1", "pa"),
+    ("shear_stress_mid", "pa"),
+    ("shear_stress_2", "pa"),
+    ("shear_stress_across", "pa"),
+    ("shear_thinning", ""),
+)
+_HEAT = (
+    ("temperature_1", "k"),
+    ("temperature_mid", "k"),
+    ("temperature_2", "k"),
+    ("temperature_mean", "k"),
+    ("heat_flux_1", "w_m2"),
+    ("heat_flux_2", "w_m2"),
+)
+"""Maps that go with a film if it has them, and their units as endings of columns."""
 
 
 def write(result: Result, path: str | Path, kind: str) -> None:
@@ -64,7 +80,8 @@ def kind_of(path: str | Path | None, stated: str | None) -> str:
             raise InputError(f"state a format (--to) or a file (-o) with the ending {endings}")
         return stated
     suffix = Path(path).suffix
-    deduced = next((kind for kind, end in SUFFIXES.items() if end == suffix.lower()), None)
+    ends = {end: kind for kind, end in SUFFIXES.items()} | {_VOLUME: "vtk"}
+    deduced = ends.get(suffix.lower())
     if stated is None and deduced is not None:
         return deduced
     if stated is None and suffix.lower() in _OTHER_VTK:
@@ -72,9 +89,9 @@ def kind_of(path: str | Path | None, stated: str | None) -> str:
     if stated is None:
         raise InputError(f"output {path}: its ending tells no format; state --to or use {endings}")
     if stated != deduced:
-        why = " (an XML rectilinear grid)" if stated == "vtk" else ""
+        volume = f" (the plane) or {_VOLUME} (the film as a volume)" if stated == "vtk" else ""
         raise InputError(
-            f"output {path}: a file of format {stated}{why} ends in {SUFFIXES[stated]}"
+            f"output {path}: a file of format {stated} ends in {SUFFIXES[stated]}{volume}"
         )
     return stated
 
@@ -84,8 +101,10 @@ def write_csv(result: Result, path: str | Path, *, what: What = "lines") -> None
 
     ``"lines"`` gives the two grid lines nearest to the axes, told apart by a column more: first
     ``line = x`` (along entrainment, Y = 0), then ``line = y`` (across, X = 0). ``"fields"`` gives
-    all nodes in long form, x running fastest. Columns carry their unit in their name; X, Y, P and H
-    are dimensionless. Numbers are written so that reading them gives back the same bits.
+    all nodes in long form, x running fastest. Columns carry their unit in their name; X, Y, P, H
+    and shear_thinning are dimensionless. Shear stresses and temperatures follow if there are any:
+    on surface 1, at mid-film, on surface 2. Numbers are written so that reading them gives back the
+    same bits.
 
     Parameters
     ----------
@@ -97,33 +116,56 @@ def write_csv(result: Result, path: str | Path, *, what: What = "lines") -> None
         Which nodes.
     """
     lines = what == "lines"
-    header = ("line", *_HEADER) if lines else _HEADER
-    rows = _line_rows(result) if lines else _rows(result, (slice(None), slice(None)))
+    columns = _columns(result)
+    rows = _line_rows(result, columns) if lines else _rows(columns, (slice(None), slice(None)))
     with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
-        writer.writerow(header)
+        writer.writerow(("line", *columns) if lines else columns)
         writer.writerows(rows)
 
 
-def _line_rows(result: Result) -> Iterator[tuple[Any, ...]]:
+def _columns(result: Result) -> dict[str, Array]:
+    """Return the maps of a table, (ny, nx) each, by the name of their column."""
+    x, y = np.meshgrid(result.x, result.y)
+    scaled_x, scaled_y = np.meshgrid(result.scaled.x, result.scaled.y)
+    return {
+        "x_m": x,
+        "y_m": y,
+        "pressure_pa": result.pressure,
+        "film_thickness_m": result.film_thickness,
+        "X": scaled_x,
+        "Y": scaled_y,
+        "P": result.scaled.pressure,
+        "H": result.scaled.film,
+        **{f"{name}_{unit}".rstrip("_"): field for name, unit, field in _more_maps(result)},
+    }
+
+
+def _more_maps(result: Result) -> Iterator[tuple[str, str, Array]]:
+    """Yield name, unit and map of what the film has of shear and heat."""
+    shear, heat, temperature = result.shear, result.heat, result.temperature
+    if shear is not None:
+        stresses = (shear.surface_1, shear.mid_film, shear.surface_2, shear.across, shear.thinning)
+        yield from ((*named, field) for named, field in zip(_SHEAR, stresses, strict=True))
+    if heat is not None and temperature is not None:
+        first, second = heat.temperature[0], heat.temperature[-1]
+        layers = (first, temperature.mid_film, second, temperature.mean)
+        fields = (*layers, heat.flux_1, heat.flux_2)
+        yield from ((*named, field) for named, field in zip(_HEAT, fields, strict=True))
+
+
+def _line_rows(result: Result, columns: dict[str, Array]) -> Iterator[tuple[Any, ...]]:
     row = int(np.argmin(np.abs(result.scaled.y)))
     column = int(np.argmin(np.abs(result.scaled.x)))
     for name, part in (
         ("x", (slice(row, row + 1), slice(None))),
         ("y", (slice(None), slice(column, column + 1))),
     ):
-        yield from ((name, *numbers) for numbers in _rows(result, part))
+        yield from ((name, *numbers) for numbers in _rows(columns, part))
 
 
-def _rows(result: Result, part: tuple[slice, slice]) -> Iterator[tuple[Any, ...]]:
-    x, y = np.meshgrid(result.x, result.y)
-    scaled_x, scaled_y = np.meshgrid(result.scaled.x, result.scaled.y)
-    fields = (x, y, result.pressure, result.film_thickness, scaled_x, scaled_y)
-    columns = [
-        field[part].ravel().tolist()
-        for field in (*fields, result.scaled.pressure, result.scaled.film)
-    ]
-    return zip(*columns, strict=True)
+def _rows(columns: dict[str, Array], part: tuple[slice, slice]) -> Iterator[tuple[Any, ...]]:
+    return zip(*(field[part].ravel().tolist() for field in columns.values()), strict=True)
 
 
 def write_npz(result: Result, path: str | Path) -> None:
@@ -165,30 +207,53 @@ def _arrays(result: Result) -> dict[str, NDArray[Any]]:
 
 
 def write_vtk(result: Result, path: str | Path) -> None:
-    """Write the fields as a VTK rectilinear grid (``.vtr``), which ParaView opens.
+    """Write the fields as a VTK grid, which ParaView opens: of the film or of its plane.
 
-    The grid is the plane z = 0 with x and y in metres and four point arrays: ``pressure`` [Pa],
-    ``film_thickness`` [m], ``P`` and ``H`` [-]. "Warp by scalar" raises a film to a surface.
+    The ending ``.vtr`` gives a rectilinear grid, the plane z = 0 with x and y in metres and point
+    arrays ``pressure`` [Pa], ``film_thickness`` [m], ``P`` and ``H`` [-], and shear stresses [Pa],
+    temperatures [K] and heat fluxes [W/m^2] if there are any: the maps of :func:`write_csv`.
+    "Warp by scalar" raises a film to a surface.
+
+    The ending ``.vts`` gives a structured grid that fills the film, with nodes at
+    (x, y, zeta h) in metres and ``temperature`` [K] at each; without temperatures it has the two
+    surfaces only. Raise the scale of z to see it.
 
     Parameters
     ----------
     result : Result
         What to write.
     path : str or Path
-        The file, best with the ending ``.vtr``; an older one is replaced.
+        The file; an older one is replaced.
     """
-    text = rectilinear_grid(
-        (result.x, result.y, np.zeros(1)),
-        {
-            "pressure": result.pressure,
-            "film_thickness": result.film_thickness,
-            "P": result.scaled.pressure,
-            "H": result.scaled.film,
-        },
-        field_data={"converged": float(result.status.converged)},
-    )
+    maps = {
+        "pressure": result.pressure,
+        "film_thickness": result.film_thickness,
+        "P": result.scaled.pressure,
+        "H": result.scaled.film,
+        **{name: field for name, _, field in _more_maps(result)},
+    }
+    numbers = {"converged": float(result.status.converged)}
+    if Path(path).suffix.lower() == _VOLUME:
+        text = _volume(result, maps, numbers)
+    else:
+        axes = (result.x, result.y, np.zeros(1))
+        text = rectilinear_grid(axes, maps, field_data=numbers)
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="ascii")
+
+
+def _volume(result: Result, maps: dict[str, Array], numbers: dict[str, float]) -> str:
+    """Return the film as a structured grid; maps are the same on each layer."""
+    heat, film = result.heat, result.film_thickness
+    zeta = np.array([0.0, 1.0]) if heat is None else heat.zeta
+    shape = (zeta.size, *film.shape)
+    points = np.empty((*shape, 3))
+    points[..., 0] = result.x
+    points[..., 1] = result.y[:, None]
+    points[..., 2] = zeta[:, None, None] * film
+    fields = {} if heat is None else {"temperature": heat.temperature}
+    fields |= {name: np.broadcast_to(field, shape) for name, field in maps.items()}
+    return structured_grid(points, fields, field_data=numbers)
 
 
 WRITERS: dict[str, Callable[[Result, str | Path], None]] = {
@@ -199,4 +264,5 @@ WRITERS: dict[str, Callable[[Result, str | Path], None]] = {
 }
 
 SUFFIXES = {"csv": ".csv", "npz": ".npz", "vtk": ".vtr", "mat": ".mat"}
-_OTHER_VTK = (".vtk", ".vts", ".vti", ".vtu")
+_VOLUME = ".vts"
+_OTHER_VTK = (".vtk", ".vti", ".vtu")

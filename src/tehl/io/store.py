@@ -1,6 +1,7 @@
 """Results on disk (NetCDF-4) and as datasets, there and back without loss."""
 
 import io
+import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -9,7 +10,8 @@ from numpy.typing import NDArray
 
 from tehl.errors import FileFormatError, InputError
 from tehl.io.atomic import check_writable, replacing
-from tehl.io.content import FORMAT_VERSION, Variable, attributes, rebuild, variables
+from tehl.io.content import READABLE, Variable, attributes, rebuild, variables
+from tehl.io.summary import plain, summary
 from tehl.result import Result
 
 if TYPE_CHECKING:
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = ["check_writable", "load", "save", "to_dataset"]
 
+_COORDINATES = ("x", "y", "X", "Y", "zeta", "cycle")
 _HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 
 
@@ -32,8 +35,9 @@ def to_dataset(result: Result) -> "xr.Dataset":
     Returns
     -------
     xarray.Dataset
-        Fields over ``(y, x)``, history over ``cycle``; ``units`` and ``long_name`` on each
-        variable; inputs, groups, status, definitions and versions as attributes.
+        Fields over ``(y, x)``, temperature over ``(zeta, y, x)``, history over ``cycle``;
+        ``units`` and ``long_name`` on each variable; inputs, groups, status, definitions and
+        versions as attributes.
     """
     import xarray as xr  # noqa: PLC0415 (a second of import that saving and loading do without)
 
@@ -41,13 +45,11 @@ def to_dataset(result: Result) -> "xr.Dataset":
         v.name: (v.dims, v.data, {"units": v.units, "long_name": v.long_name})
         for v in variables(result)
     }
-    coordinates = {
-        name: packed.pop(name) for name in ("x", "y", "X", "Y", "cycle") if name in packed
-    }
+    coordinates = {name: packed.pop(name) for name in _COORDINATES if name in packed}
     return xr.Dataset(packed, coords=coordinates, attrs=attributes(result))
 
 
-def save(result: Result, path: str | Path) -> None:
+def save(result: Result, path: str | Path, *, extra: dict[str, Any] | None = None) -> None:
     """Write ``result`` to a NetCDF-4 file; whole, or not at all.
 
     Parameters
@@ -56,6 +58,8 @@ def save(result: Result, path: str | Path) -> None:
         The result, converged or not; the file says which.
     path : str or Path
         The file; an older one is replaced.
+    extra : dict, optional
+        Blocks to add to the summary in the file: what else was learnt beside the result.
 
     Raises
     ------
@@ -63,16 +67,19 @@ def save(result: Result, path: str | Path) -> None:
         If the file cannot be written there.
     """
     with replacing(path) as temporary:
-        temporary.write_bytes(_image(result))
+        temporary.write_bytes(_image(result, extra or {}))
 
 
-def _image(result: Result) -> bytes:
+def _image(result: Result, extra: dict[str, Any]) -> bytes:
     """Return the content of the file; made in memory, as HDF5 does not survive a full disk."""
     import h5netcdf  # noqa: PLC0415 (0.1 s)
 
     image = io.BytesIO()
     with h5netcdf.File(image, "w") as file:
         file.attrs.update(attributes(result))
+        if extra:
+            whole = plain(summary(result) | extra)
+            file.attrs["summary"] = json.dumps(whole, allow_nan=False)
         for variable in variables(result):
             for name, size in zip(variable.dims, variable.data.shape, strict=True):
                 if name not in file.dimensions:
@@ -85,7 +92,7 @@ def _image(result: Result) -> bytes:
 def _attributes(variable: Variable) -> dict[str, str]:
     """Return the attributes of a variable; fields name their scaled coordinates as CF does."""
     named = {"units": variable.units, "long_name": variable.long_name}
-    return {**named, "coordinates": "X Y"} if variable.dims == ("y", "x") else named
+    return {**named, "coordinates": "X Y"} if variable.dims[-2:] == ("y", "x") else named
 
 
 def _write(file: "h5netcdf.File", name: str, dims: tuple[str, ...], data: NDArray[Any]) -> None:
@@ -127,7 +134,7 @@ def load(path: str | Path) -> Result:
     InputError
         If there is no such file.
     FileFormatError
-        If it is truncated, foreign or of another format version.
+        If it is truncated, foreign or of a format that this version does not know.
     """
     source = Path(path)
     _check_signature(source)
@@ -190,10 +197,10 @@ def _check_version(source: Path, attrs: dict[str, Any]) -> None:
         version = int(attrs["tehl_format"])
     except (TypeError, ValueError) as error:
         raise _damaged(source, error) from None
-    if version != FORMAT_VERSION:
+    if version not in READABLE:
         raise FileFormatError(
             f"{source} is a tehl result of format {version} (by {attrs.get('source', 'tehl')}); "
-            f"this tehl reads format {FORMAT_VERSION}"
+            f"this tehl reads the formats {', '.join(map(str, READABLE))}"
         )
 
 

@@ -14,9 +14,9 @@ from tehl.typing import Array
 def summary(result: Result) -> dict[str, Any]:
     """Return the summary of ``result`` as JSON can hold it: null where a number is not finite.
 
-    Keys that end in a unit (``_m``, ``_pa``) are SI, the others dimensionless. ``temperature`` and
-    ``traction`` are null where they do not apply. A certified result has ``uncertainty``, which
-    mirrors the film and pressure values.
+    Keys that end in a unit (``_m``, ``_pa``, ``_k``, ``_w``) are SI, the others dimensionless.
+    ``temperature`` and ``heat`` are null for an isothermal run, ``traction`` where there are no
+    shear stresses. A certified result has ``uncertainty``, which mirrors the values.
 
     Parameters
     ----------
@@ -35,8 +35,9 @@ def summary(result: Result) -> dict[str, Any]:
         "groups": _groups(result),
         "film": _film(result),
         "pressure": _pressure(result),
-        "temperature": None,
-        "traction": None,
+        "temperature": _temperature(result),
+        "traction": _traction(result),
+        "heat": _heat(result),
         "convergence": _convergence(result),
         "errors": asdict(result.errors) if result.errors else None,
         "cost": _cost(result),
@@ -66,7 +67,7 @@ def _laws(result: Result) -> dict[str, str]:
         "viscosity": lubricant.viscosity.law,
         "density": lubricant.density.law,
         "shear": lubricant.shear.law,
-        "reynolds": "isothermal",
+        "reynolds": getattr(result.problem.heat, "reynolds", "isothermal"),
     }
 
 
@@ -126,34 +127,61 @@ def _pressure(result: Result) -> dict[str, float]:
     return {
         "max_pa": highest * result.scales.hertz_pressure,
         "P_max": highest,
-        "P_central": _at_origin(result, result.scaled.pressure),
+        "P_central": result.scaled.at_origin(result.scaled.pressure),
     }
 
 
-def _at_origin(result: Result, field: Array) -> float:
-    """Return ``field`` at X = Y = 0, by the parabolas through the nearest three nodes each way."""
-    rows, row_weights = _parabola(result.scaled.y)
-    columns, column_weights = _parabola(result.scaled.x)
-    return float(row_weights @ field[rows, columns] @ column_weights)
+def _temperature(result: Result) -> dict[str, Any] | None:
+    found = result.temperature
+    if found is None:
+        return None
+    return {
+        "film_rise_max_k": found.film_rise_max,
+        "film_rise_max_at": found.film_rise_max_at,
+        "mid_film_rise_central_k": found.mid_film_rise_central,
+        "mean_rise_central_k": found.mean_rise_central,
+        "surface_1_rise_max_k": found.surface_1_rise_max,
+        "surface_2_rise_max_k": found.surface_2_rise_max,
+        "inlet_k": found.inlet,
+    }
 
 
-def _parabola(axis: Array) -> tuple[slice, Array]:
-    middle = int(np.clip(np.argmin(np.abs(axis)), 1, axis.size - 2))
-    part = slice(middle - 1, middle + 2)
-    t = -axis[middle] / (axis[middle + 1] - axis[middle])
-    return part, np.array([t * (t - 1) / 2, 1 - t**2, t * (t + 1) / 2])
+def _traction(result: Result) -> dict[str, float] | None:
+    found = result.traction
+    if found is None:
+        return None
+    return {
+        "surface_1": found.surface_1,
+        "mid_film": found.mid_film,
+        "surface_2": found.surface_2,
+        "sliding": found.sliding,
+        "rolling": found.rolling,
+        "rolling_by_film": found.rolling_by_film,
+        "closure_error": found.closure_error,
+        "friction_power_w": found.friction_power,
+    }
+
+
+def _heat(result: Result) -> dict[str, Any] | None:
+    heat = result.heat
+    if heat is None:
+        return None
+    powers = {f"{name}_w": power for name, power in asdict(heat.balance).items()}
+    return powers | {"solid_peclet": heat.solid_peclet, "sources": heat.sources}
 
 
 def _convergence(result: Result) -> dict[str, Any]:
+    balance = None if result.heat is None else result.heat.balance.error
     if not result.history:
-        return {"cycles": 0, "residual": None, "load_error": None, "heat_balance_error": None}
+        none = dict.fromkeys(("residual", "change", "load_error"))
+        return {"cycles": 0, **none, "heat_balance_error": balance}
     last = result.history[-1]
     return {
         "cycles": sum(report.points == last.points for report in result.history),
         "residual": last.residual,
         "change": last.change,
         "load_error": last.load_error,
-        "heat_balance_error": None,
+        "heat_balance_error": balance,
     }
 
 
@@ -171,17 +199,24 @@ _MIRRORED = (
     ("film_central", "film", "H_central", "h_central_m"),
     ("film_minimum", "film", "H_min", "h_min_m"),
     ("pressure_max", "pressure", "P_max", "max_pa"),
+    ("film_rise_max", "temperature", None, "film_rise_max_k"),
+    ("mid_film_rise_central", "temperature", None, "mid_film_rise_central_k"),
+    ("traction_mid_film", "traction", "mid_film", None),
 )
+"""Names of estimates, and block and keys of the summary that they mirror: scaled and SI."""
 
 
 def _uncertainty(result: Result) -> dict[str, dict[str, Any]]:
     units = {"film": result.scales.film_thickness, "pressure": result.scales.hertz_pressure}
     blocks: dict[str, dict[str, Any]] = {"film": {}, "pressure": {}}
     for name, block, scaled_key, si_key in _MIRRORED:
-        if name in result.uncertainty:
-            estimate = result.uncertainty[name]
-            blocks[block][scaled_key] = asdict(estimate)
-            blocks[block][si_key] = asdict(_scaled_estimate(estimate, units[block]))
+        if name not in result.uncertainty:
+            continue
+        estimate, mirror = result.uncertainty[name], blocks.setdefault(block, {})
+        if scaled_key:
+            mirror[scaled_key] = asdict(estimate)
+        if si_key:
+            mirror[si_key] = asdict(_scaled_estimate(estimate, units.get(block, 1.0)))
     return blocks
 
 

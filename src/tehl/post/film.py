@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tehl.post.traction import cell_widths, under_pressure
 from tehl.result import Result
 from tehl.typing import Array, BoolArray
 
@@ -114,12 +115,7 @@ def _curvature_integral(k2: float) -> float:
 
 def pressurised_area(result: Result) -> float:
     """Return the area under pressure, where the film is full [m^2]."""
-    x, y = _cell_widths(result.x), _cell_widths(result.y)
-    return float(y @ (result.scaled.pressure > 0) @ x)
-
-
-def _cell_widths(axis: Array) -> Array:
-    return np.gradient(axis) * np.where((axis == axis[0]) | (axis == axis[-1]), 0.5, 1.0)
+    return float(under_pressure(result).sum())
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -149,7 +145,7 @@ class MassFlow:
 
 
 def mass_flow(result: Result) -> MassFlow:
-    r"""Return the mass flow of the film, with the laws of its lubricant.
+    r"""Return the mass flow of an isothermal Newtonian film, with the laws of its lubricant.
 
     .. math:: m_x = \rho u_m h - \frac{\rho h^3}{12\eta} \frac{\partial p}{\partial x}, \quad
               m_y = - \frac{\rho h^3}{12\eta} \frac{\partial p}{\partial y}
@@ -162,7 +158,7 @@ def mass_flow(result: Result) -> MassFlow:
     conductance = density * film**3 / (12.0 * lubricant.viscosity.viscosity(pressure, temperature))
     slope_y, slope_x = np.gradient(pressure, y, x, edge_order=2)
     along = density * result.scales.speed * film - conductance * slope_x
-    forward = _cell_widths(y) @ along
+    forward = cell_widths(y) @ along
     edges = conductance * slope_y
     leaving = edges[0] - edges[-1]
     steps = 0.5 * (leaving[1:] + leaving[:-1]) * np.diff(x)

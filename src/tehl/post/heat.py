@@ -1,0 +1,101 @@
+"""Temperatures of a film, computed from a stored result."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl.result import FilmHeat, Result
+from tehl.typing import Array
+
+MIDDLE = 0.5
+"""z/h of the mid-film."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Temperature:
+    """Temperatures of a film; all rises are over the temperature of the oil at the inlet.
+
+    Attributes
+    ----------
+    inlet : float
+        Temperature of the oil at the inlet [K].
+    film_rise_max : float
+        Largest rise in the film, surfaces included; of all nodes [K].
+    film_rise_max_at : (float, float, float)
+        Where: X, Y in Hertz half-widths (Y >= 0 for a symmetric contact) and zeta = z/h.
+    mid_film_rise_central, mean_rise_central : float
+        Rise at X = Y = 0, half-way between the surfaces and as mean across the film [K].
+    surface_1_rise_max, surface_2_rise_max : float
+        Largest rise of each surface [K].
+    mid_film, mean : (ny, nx) array
+        T at mid-film and T averaged across the film [K].
+    """
+
+    inlet: float
+    film_rise_max: float
+    film_rise_max_at: tuple[float, float, float]
+    mid_film_rise_central: float
+    mean_rise_central: float
+    surface_1_rise_max: float
+    surface_2_rise_max: float
+    mid_film: Array
+    mean: Array
+
+
+def temperature(result: Result) -> Temperature | None:
+    """Return the temperatures of ``result``, None for an isothermal run.
+
+    Parameters
+    ----------
+    result : Result
+        What a solve returned or a file held.
+    """
+    heat, inlet = result.heat, result.scales.temperature
+    if heat is None:
+        return None
+    mid_film, mean = mid_film_temperature(heat), mean_temperature(heat)
+    layer, row, column = _hottest(heat.temperature)
+    scaled = result.scaled
+    return Temperature(
+        inlet=inlet,
+        film_rise_max=float(heat.temperature[layer, row, column]) - inlet,
+        film_rise_max_at=(float(scaled.x[column]), float(scaled.y[row]), float(heat.zeta[layer])),
+        mid_film_rise_central=scaled.at_origin(mid_film) - inlet,
+        mean_rise_central=scaled.at_origin(mean) - inlet,
+        surface_1_rise_max=float(heat.temperature[0].max()) - inlet,
+        surface_2_rise_max=float(heat.temperature[-1].max()) - inlet,
+        mid_film=mid_film,
+        mean=mean,
+    )
+
+
+def _hottest(field: Array) -> tuple[int, int, int]:
+    """Return layer, row and column of the largest value; of two equal ones the greater row."""
+    layer, row, column = np.unravel_index(int(np.argmax(field[:, ::-1])), field.shape)
+    return int(layer), field.shape[1] - 1 - int(row), int(column)
+
+
+def mid_film_temperature(heat: FilmHeat) -> Array:
+    """Return T half-way between the surfaces, (ny, nx) [K].
+
+    That of the middle node, or where there is none of the polynomial through all nodes: in the
+    middle it is tame for uniform nodes too.
+    """
+    return np.tensordot(lagrange_weights(heat.zeta, MIDDLE), heat.temperature, axes=1)
+
+
+def mean_temperature(heat: FilmHeat) -> Array:
+    """Return T averaged across the film, (ny, nx) [K]."""
+    return np.tensordot(heat.weights, heat.temperature, axes=1)
+
+
+def lagrange_weights(nodes: Array, place: float) -> Array:
+    """Return the weights of the values at ``nodes`` in their polynomial at ``place``."""
+    here = np.isclose(nodes, place, rtol=0.0, atol=1e-12)
+    if here.any():
+        return here.astype(np.float64)
+    gaps = nodes[:, None] - nodes[None, :]
+    np.fill_diagonal(gaps, 1.0)
+    ratios = np.divide(place - nodes[None, :], gaps)
+    np.fill_diagonal(ratios, 1.0)
+    return ratios.prod(axis=1)

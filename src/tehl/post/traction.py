@@ -1,0 +1,116 @@
+"""Traction of a film: shear forces on the surfaces and at mid-film over the load.
+
+The stress is ``tau = eta du/dz``, so all coefficients are negative where surface 1 is the faster
+(SRR > 0): the film holds it back. The force on surface 1 is theirs; that on surface 2 is opposite.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl.result import Result
+from tehl.typing import Array
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Traction:
+    r"""Traction coefficients of a film, negative for SRR > 0.
+
+    Without inertia the stress is linear across the film, whatever the viscosity does:
+    ``surface_1 = sliding - rolling``, ``surface_2 = sliding + rolling`` with
+
+    .. math:: \mathrm{rolling} = \frac{1}{2w} \iint h \frac{\partial p}{\partial x}
+              = -\frac{1}{2w} \iint p \frac{\partial h}{\partial x}
+
+    Attributes
+    ----------
+    surface_1, mid_film, surface_2 : float
+        Integral of tau_zx over the pressurised film at z = 0, h/2 and h, over the load [-].
+    rolling : float
+        Rolling part by the pressure gradient, positive [-].
+    rolling_by_film : float
+        The same by the slope of the film [-].
+    load : float
+        Normal load w [N].
+    friction_power : float
+        Power that the surfaces spend on the film [W].
+    """
+
+    surface_1: float
+    mid_film: float
+    surface_2: float
+    rolling: float
+    rolling_by_film: float
+    load: float
+    friction_power: float
+
+    @property
+    def sliding(self) -> float:
+        """Sliding part: the traction at mid-film [-]."""
+        return self.mid_film
+
+    @property
+    def sliding_force(self) -> float:
+        """Traction force at mid-film [N], with the sign of the coefficient."""
+        return self.mid_film * self.load
+
+    @property
+    def closure_error(self) -> float:
+        """How far the stresses miss the balance of forces on the film, over the largest part [-].
+
+        ``surface_2 - surface_1`` is twice the rolling part, by the pressure gradient and by the
+        slope of the film: all three agree but for the error of the grid.
+        """
+        ends = self.surface_2 - self.surface_1
+        parts = (ends, 2.0 * self.rolling, 2.0 * self.rolling_by_film)
+        if not all(math.isfinite(part) for part in parts):
+            return math.nan
+        largest = max(map(abs, (*parts, self.surface_1, self.mid_film, self.surface_2)))
+        return (max(parts) - min(parts)) / (largest or 1.0)
+
+
+def traction(result: Result) -> Traction | None:
+    """Return the traction of ``result``, None where it has no shear stresses.
+
+    Integrals are sums over the nodes under pressure; the gradient is a central difference.
+
+    Parameters
+    ----------
+    result : Result
+        What a solve returned or a file held.
+    """
+    shear = result.shear
+    if shear is None:
+        return None
+    load, motion = result.scales.load, result.problem.motion
+    area = under_pressure(result)
+    pressure = np.maximum(result.pressure, 0.0)
+    film = result.film_thickness
+
+    def integral(stress: Array) -> float:
+        return float(np.sum(area * stress, where=area > 0))
+
+    first, middle, second = map(integral, (shear.surface_1, shear.mid_film, shear.surface_2))
+    push = integral(film * np.gradient(pressure, result.x, axis=1))
+    lift = -integral(pressure * np.gradient(film, result.x, axis=1))
+    return Traction(
+        surface_1=first / load,
+        mid_film=middle / load,
+        surface_2=second / load,
+        rolling=0.5 * push / load,
+        rolling_by_film=0.5 * lift / load,
+        load=load,
+        friction_power=second * motion.speed_2 - first * motion.speed_1,
+    )
+
+
+def under_pressure(result: Result) -> Array:
+    """Return the area of each node where the film is under pressure, else zero [m^2], (ny, nx)."""
+    area = np.outer(cell_widths(result.y), cell_widths(result.x))
+    return np.where(result.scaled.pressure > 0, area, 0.0)
+
+
+def cell_widths(axis: Array) -> Array:
+    """Return the width that each node of ``axis`` stands for, a half cell at the ends."""
+    return np.gradient(axis) * np.where((axis == axis[0]) | (axis == axis[-1]), 0.5, 1.0)
