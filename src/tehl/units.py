@@ -290,6 +290,7 @@ LENGTH = Quantity(name="a length", unit="m", example='"20 mm"')
 HEIGHT = Quantity(name="a length", unit="m", example='"0.05 um"', sign="non-negative")
 RADIUS = Quantity(name="a radius", unit="m", example='"20 mm"', sign="any", flat=True)
 PRESSURE = Quantity(name="a pressure", unit="Pa", example='"0.8 GPa"')
+BULK_MODULUS = Quantity(name="a bulk modulus", unit="Pa", example='"1.2 GPa"')
 STRESS = Quantity(name="a shear stress", unit="Pa", example='"5 MPa"')
 NON_NEGATIVE_STRESS = Quantity(
     name="a shear stress", unit="Pa", example='"5 MPa"', sign="non-negative"
@@ -304,6 +305,9 @@ PER_PRESSURE = Quantity(
 TEMPERATURE = Quantity(name="a temperature", unit="K", example='"40 degC"')
 PER_TEMPERATURE = Quantity(
     name="an inverse temperature", unit="1/K", example='"6.5e-4 1/K"', sign="non-negative"
+)
+SIGNED_PER_TEMPERATURE = Quantity(
+    name="an inverse temperature", unit="1/K", example='"-7e-4 1/K"', sign="any"
 )
 DENSITY = Quantity(name="a density", unit="kg/m^3", example='"890 kg/m^3"')
 CONDUCTIVITY = Quantity(name="a thermal conductivity", unit="W/m/K", example='"0.14 W/m/K"')
@@ -333,14 +337,17 @@ Length = Annotated[float, LENGTH]
 Height = Annotated[float, HEIGHT]
 Radius = Annotated[float, RADIUS]
 Pressure = Annotated[float, PRESSURE]
+BulkModulus = Annotated[float, BULK_MODULUS]
 Stress = Annotated[float, STRESS]
 NonNegativeStress = Annotated[float, NON_NEGATIVE_STRESS]
 Force = Annotated[float, FORCE]
 Speed = Annotated[float, SPEED]
 Viscosity = Annotated[float, VISCOSITY]
+KinematicViscosity = Annotated[float, KINEMATIC_VISCOSITY]
 PressureCoefficient = Annotated[float, PER_PRESSURE]
 Temperature = Annotated[float, TEMPERATURE]
 TemperatureCoefficient = Annotated[float, PER_TEMPERATURE]
+SignedTemperatureCoefficient = Annotated[float, SIGNED_PER_TEMPERATURE]
 Density = Annotated[float, DENSITY]
 Conductivity = Annotated[float, CONDUCTIVITY]
 HeatCapacity = Annotated[float, HEAT_CAPACITY]

@@ -2,8 +2,11 @@
 
 from tehl.lubricant.density import ConstantDensity, DensityLaw, DowsonHigginson
 from tehl.lubricant.fluid import Lubricant, NamedLubricant, library, oil
+from tehl.lubricant.roelands import Roelands, RoelandsExponential
 from tehl.lubricant.shear import Carreau, Eyring, Limiting, Newtonian, ShearLaw
-from tehl.lubricant.viscosity import Barus, ConstantViscosity, Roelands, ViscosityLaw
+from tehl.lubricant.tait import TaitDensity, TaitDoolittle
+from tehl.lubricant.viscosity import Barus, ConstantViscosity, ViscosityLaw
+from tehl.lubricant.walther import Walther
 
 __all__ = [
     "Barus",
@@ -18,8 +21,12 @@ __all__ = [
     "NamedLubricant",
     "Newtonian",
     "Roelands",
+    "RoelandsExponential",
     "ShearLaw",
+    "TaitDensity",
+    "TaitDoolittle",
     "ViscosityLaw",
+    "Walther",
     "library",
     "oil",
 ]

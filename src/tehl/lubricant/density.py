@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from tehl.lubricant.tait import TaitDensity
 from tehl.units import Density, PressureCoefficient, Temperature, TemperatureCoefficient
 
 if TYPE_CHECKING:
@@ -97,4 +98,4 @@ class ConstantDensity(BaseModel):
         return np.full(shape, self.rho_0)
 
 
-DensityLaw = Annotated[DowsonHigginson | ConstantDensity, Field(discriminator="law")]
+DensityLaw = Annotated[DowsonHigginson | TaitDensity | ConstantDensity, Field(discriminator="law")]

@@ -1,18 +1,28 @@
 """The lubricant: its laws and thermal properties, and the library of named oils."""
 
 import difflib
+import json
 import tomllib
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Tag
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Discriminator,
+    Tag,
+    ValidationInfo,
+    field_validator,
+)
 
 from tehl.errors import InputError
 from tehl.lubricant.density import DensityLaw
 from tehl.lubricant.shear import Newtonian, ShearLaw
 from tehl.lubricant.viscosity import ViscosityLaw
+from tehl.lubricant.walther import Walther
 from tehl.units import Conductivity, HeatCapacity, PressureCoefficient, Temperature
 
 if TYPE_CHECKING:
@@ -81,10 +91,11 @@ class Lubricant(BaseModel):
 
     Attributes
     ----------
-    viscosity : Roelands, Barus or ConstantViscosity
-        Law with the method ``viscosity(pressure, temperature)``.
-    density : DowsonHigginson or ConstantDensity
+    density : DowsonHigginson, TaitDensity or ConstantDensity
         Law with the method ``density(pressure, temperature)``.
+    viscosity : Roelands, RoelandsExponential, Barus, Walther, TaitDoolittle or ConstantViscosity
+        Law with the method ``viscosity(pressure, temperature)``. A Walther law that states no
+        density takes that of the density law at 40 degC.
     shear : Newtonian, Eyring, Carreau or Limiting
         Law of the shear stress, see :mod:`tehl.lubricant.shear`.
     conductivity, heat_capacity : float, table or None
@@ -98,14 +109,22 @@ class Lubricant(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
-    viscosity: ViscosityLaw
     density: DensityLaw
+    viscosity: ViscosityLaw
     shear: ShearLaw = Newtonian()
     conductivity: AnyConductivity | None = None
     heat_capacity: AnyHeatCapacity | None = None
     temperature: Temperature | None = None
     name: str | None = None
     source: str | None = None
+
+    @field_validator("viscosity", mode="after")
+    @classmethod
+    def _lend_density(cls, law: ViscosityLaw, info: ValidationInfo) -> ViscosityLaw:
+        density = info.data.get("density")
+        if isinstance(law, Walther) and law.density is None and density is not None:
+            return law.model_copy(update={"density": density.ambient(law.reference_temperature)})
+        return law
 
     @property
     def ambient_conductivity(self) -> float | None:
@@ -184,18 +203,30 @@ def oil(name: str) -> Lubricant:
         raise InputError(f"{name!r} {error}") from None
 
 
+_LAWS = {"viscosity", "density"}
+
+
 def _by_name(value: object) -> object:
-    """Return the table of a name, a table as it is."""
+    """Return the table of a named oil, with what a table of that name adds; others as they are."""
+    if isinstance(value, str):
+        return _named(value)
+    if isinstance(value, Mapping) and isinstance(value.get("name"), str) and not _LAWS & set(value):
+        try:
+            return _named(value["name"]) | dict(value)
+        except ValueError as error:
+            raise ValueError(f"name = {json.dumps(value['name'])} {error}") from None
     if isinstance(value, Mapping | Lubricant):
         return value
+    raise ValueError(
+        f"must be the name of an oil ({', '.join(_tables())}) or a table with viscosity and density"
+    )
+
+
+def _named(name: str) -> dict[str, Any]:
     known = _tables()
-    if not isinstance(value, str):
-        raise ValueError(
-            f"must be the name of an oil ({', '.join(known)}) or a table with viscosity and density"
-        )
-    if value in known:
-        return known[value]
-    close = difflib.get_close_matches(value, known, n=1)
+    if name in known:
+        return known[name]
+    close = difflib.get_close_matches(name, known, n=1)
     guess = f"did you mean {close[0]}? " if close else ""
     raise ValueError(
         f"is no known oil: {guess}known are {', '.join(known)}; or give a table with "
@@ -203,6 +234,19 @@ def _by_name(value: object) -> object:
     )
 
 
+class OilByName(BaseModel):
+    """A named oil with what is added to it, as the JSON schema of a case shows it."""
+
+    model_config = ConfigDict(extra="forbid", defer_build=True)
+
+    name: str
+    shear: ShearLaw = Newtonian()
+    conductivity: AnyConductivity | None = None
+    heat_capacity: AnyHeatCapacity | None = None
+    temperature: Temperature | None = None
+
+
 NamedLubricant = Annotated[
-    Lubricant, BeforeValidator(_by_name, json_schema_input_type=str | Lubricant)
+    Lubricant, BeforeValidator(_by_name, json_schema_input_type=str | Lubricant | OilByName)
 ]
+"""An oil: by its name, by its laws, or by its name with additions such as ``temperature``."""

@@ -1,161 +1,17 @@
 """Viscosity laws: dynamic viscosity as a function of pressure and temperature."""
 
-import math
-from typing import TYPE_CHECKING, Annotated, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field
 
-from tehl.units import PressureCoefficient, Ratio, Temperature, TemperatureCoefficient, Viscosity
+from tehl.lubricant.exponent import exponential, exponential_at, temperature_law
+from tehl.lubricant.roelands import Roelands, RoelandsExponential
+from tehl.lubricant.tait import TaitDoolittle
+from tehl.lubricant.walther import Walther
+from tehl.units import PressureCoefficient, Temperature, TemperatureCoefficient, Viscosity
 
 if TYPE_CHECKING:
     from tehl.typing import Array
-
-LARGEST_EXPONENT = 600.0
-"""``exp`` of more would overflow; so thick a film is a solid for every purpose."""
-LEAST_THETA = 0.01
-"""Least ``(T - 138)/(T_0 - 138)``: Roelands' law ends at 138 K."""
-
-_ROELANDS_OFFSET = 9.67  # -ln of 6.31e-5 Pa s, the viscosity at Roelands' common point
-_ROELANDS_PRESSURE = 1.96e8  # [Pa], in the definition of z
-_PER_ROELANDS_PRESSURE = 5.1e-9  # [1/Pa], in the bracket: the rounded 1/1.96e8
-_ROELANDS_TEMPERATURE = 138.0  # [K]
-
-
-class Roelands(BaseModel):
-    r"""Roelands' law of viscosity against pressure and temperature.
-
-    .. math:: \eta = \eta_0 \exp\{(\ln\eta_0 + 9.67)
-              [(1 + 5.1\cdot10^{-9}\,p)^z \, \theta^{-S_0} - 1]\}, \quad
-              \theta = \frac{T - 138}{T_0 - 138}
-
-    Pressure in Pa, temperature in K. State the slope as ``z`` or as ``alpha``, and the fall with
-    temperature as ``S0``, as ``gamma`` or not at all (then the law knows no temperature).
-
-    Attributes
-    ----------
-    eta_0 : float
-        Viscosity at ambient pressure and ``reference_temperature`` [Pa s].
-    alpha : float or None
-        Pressure coefficient at ambient pressure [1/Pa], ``z = 1.96e8 alpha / (ln eta_0 + 9.67)``.
-    z : float or None
-        Pressure index [-].
-    gamma : float or None
-        Temperature coefficient ``-d ln eta / dT`` at the reference [1/K],
-        ``S0 = gamma (T_0 - 138) / (ln eta_0 + 9.67)``.
-    S0 : float or None
-        Temperature index [-].
-    reference_temperature : float
-        T_0 [K].
-
-    References
-    ----------
-    .. [1] C. J. A. Roelands, Correlational aspects of the viscosity-temperature-pressure
-       relationship of lubricating oils, PhD thesis, TU Delft, 1966.
-    .. [2] L. Houpert, J. Tribology 107 (1985), 241-247 (the form with alpha and S0).
-    """
-
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
-
-    law: Literal["roelands"] = "roelands"
-    eta_0: Viscosity
-    alpha: PressureCoefficient | None = None
-    z: Ratio | None = None
-    gamma: TemperatureCoefficient | None = None
-    S0: Ratio | None = None
-    reference_temperature: Temperature = 313.15
-
-    @model_validator(mode="after")
-    def _must_be_complete(self) -> Self:
-        if (self.alpha is None) == (self.z is None):
-            raise ValueError("needs exactly one of alpha and z")
-        if self.gamma is not None and self.S0 is not None:
-            raise ValueError("takes only one of gamma and S0")
-        if not math.log(self.eta_0) + _ROELANDS_OFFSET > 0:
-            raise ValueError(
-                f"has eta_0 = {self.eta_0:g} Pa s, but the Roelands law needs more than 6.3e-5 Pa s"
-            )
-        if not self.reference_temperature > _ROELANDS_TEMPERATURE:
-            raise ValueError(
-                f"has reference_temperature = {self.reference_temperature:g} K, but the Roelands "
-                "law needs more than 138 K"
-            )
-        return self
-
-    @property
-    def viscosity_span(self) -> float:
-        """Return ``ln eta_0 + 9.67`` [-]."""
-        return math.log(self.eta_0) + _ROELANDS_OFFSET
-
-    @property
-    def pressure_index(self) -> float:
-        """Return z [-], stated or from alpha."""
-        if self.z is not None:
-            return self.z
-        return (self.alpha or 0.0) * _ROELANDS_PRESSURE / self.viscosity_span
-
-    @property
-    def temperature_index(self) -> float:
-        """Return S0 [-], stated or from gamma; zero when neither is stated."""
-        if self.S0 is not None:
-            return self.S0
-        above = self.reference_temperature - _ROELANDS_TEMPERATURE
-        return (self.gamma or 0.0) * above / self.viscosity_span
-
-    @property
-    def pressure_coefficient(self) -> float:
-        """Return alpha [1/Pa], stated or from z."""
-        if self.alpha is not None:
-            return self.alpha
-        return (self.z or 0.0) * self.viscosity_span / _ROELANDS_PRESSURE
-
-    @property
-    def temperature_coefficient(self) -> float:
-        """Return gamma [1/K], stated or from S0."""
-        above = self.reference_temperature - _ROELANDS_TEMPERATURE
-        return self.temperature_index * self.viscosity_span / above
-
-    @property
-    def temperature_law(self) -> str:
-        """Return the name of the law and of its fall with temperature."""
-        return _temperature_law("roelands", "S0", self.temperature_index)
-
-    def ambient(self, temperature: float) -> float:
-        """Return the viscosity [Pa s] at ambient pressure and ``temperature`` [K]."""
-        growth = self.viscosity_span * (self._thinner(temperature) - 1.0)
-        return _exponential_at(self.eta_0, growth)
-
-    def pressure_coefficient_at(self, temperature: float) -> float:
-        """Return ``d ln eta / dp`` [1/Pa] at ambient pressure and ``temperature`` [K]."""
-        return self.pressure_coefficient * self._thinner(temperature)
-
-    def temperature_coefficient_at(self, temperature: float) -> float:
-        """Return ``-d ln eta / dT`` [1/K] at ambient pressure and ``temperature`` [K]."""
-        return self.temperature_coefficient * self._thinner(temperature) / self._theta(temperature)
-
-    def _theta(self, temperature: float) -> float:
-        above = self.reference_temperature - _ROELANDS_TEMPERATURE
-        return max((temperature - _ROELANDS_TEMPERATURE) / above, LEAST_THETA)
-
-    def _thinner(self, temperature: float) -> float:
-        return float(self._theta(temperature) ** -self.temperature_index)
-
-    def viscosity(self, pressure: "Array", temperature: "Array | float") -> "Array":
-        """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K].
-
-        Arrays of one shape; ``temperature`` may be a number. Pressures must exceed -1.9e8 Pa.
-        """
-        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-
-        growth = np.asarray(np.multiply(pressure, _PER_ROELANDS_PRESSURE))
-        growth += 1.0
-        growth = np.power(growth, self.pressure_index, out=growth)
-        if self.temperature_index > 0:
-            above = self.reference_temperature - _ROELANDS_TEMPERATURE
-            theta = np.maximum((temperature - _ROELANDS_TEMPERATURE) / above, LEAST_THETA)
-            growth = growth * theta**-self.temperature_index
-        growth -= 1.0
-        growth *= self.viscosity_span
-        return _exponential(self.eta_0, growth)
 
 
 class Barus(BaseModel):
@@ -196,12 +52,12 @@ class Barus(BaseModel):
     @property
     def temperature_law(self) -> str:
         """Return the name of the law and of its fall with temperature."""
-        return _temperature_law("barus", "gamma", self.temperature_coefficient)
+        return temperature_law("barus", "gamma", self.temperature_coefficient)
 
     def ambient(self, temperature: float) -> float:
         """Return the viscosity [Pa s] at ambient pressure and ``temperature`` [K]."""
         warmer = temperature - self.reference_temperature
-        return _exponential_at(self.eta_0, -self.temperature_coefficient * warmer)
+        return exponential_at(self.eta_0, -self.temperature_coefficient * warmer)
 
     def pressure_coefficient_at(self, temperature: float) -> float:
         """Return alpha [1/Pa] at any ``temperature`` [K]."""
@@ -221,7 +77,7 @@ class Barus(BaseModel):
         if self.temperature_coefficient > 0:
             warmer = temperature - self.reference_temperature
             growth = growth - self.temperature_coefficient * warmer
-        return _exponential(self.eta_0, growth)
+        return exponential(self.eta_0, growth)
 
 
 class ConstantViscosity(BaseModel):
@@ -254,7 +110,7 @@ class ConstantViscosity(BaseModel):
     @property
     def temperature_law(self) -> str:
         """Return the name of the law and of its fall with temperature."""
-        return _temperature_law("constant", "", 0.0)
+        return temperature_law("constant", "", 0.0)
 
     def ambient(self, temperature: float) -> float:
         """Return eta_0 [Pa s] at any ``temperature`` [K]."""
@@ -279,24 +135,7 @@ class ConstantViscosity(BaseModel):
         return np.full(shape, self.eta_0)
 
 
-def _exponential(eta_0: float, exponent: "Array") -> "Array":
-    """Return ``eta_0 exp(exponent)`` in place, without overflow or underflow."""
-    import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-
-    exponent = np.asarray(exponent)
-    exponent = np.clip(exponent, -LARGEST_EXPONENT, LARGEST_EXPONENT, out=exponent)
-    exponent = np.exp(exponent, out=exponent)
-    exponent *= eta_0
-    return exponent
-
-
-def _exponential_at(eta_0: float, exponent: float) -> float:
-    """Return ``eta_0 exp(exponent)`` of numbers, without overflow or underflow."""
-    return eta_0 * math.exp(min(max(exponent, -LARGEST_EXPONENT), LARGEST_EXPONENT))
-
-
-def _temperature_law(law: str, how: str, coefficient: float) -> str:
-    return f"{law}, {how if coefficient > 0 else 'no temperature'}"
-
-
-ViscosityLaw = Annotated[Roelands | Barus | ConstantViscosity, Field(discriminator="law")]
+ViscosityLaw = Annotated[
+    Roelands | RoelandsExponential | Barus | Walther | TaitDoolittle | ConstantViscosity,
+    Field(discriminator="law"),
+]
