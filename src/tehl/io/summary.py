@@ -61,10 +61,11 @@ def plain(value: Any) -> Any:
     return value
 
 
-def _laws(result: Result) -> dict[str, str]:
+def _laws(result: Result) -> dict[str, str | None]:
     lubricant = result.problem.lubricant
     return {
         "viscosity": lubricant.viscosity.law,
+        "viscosity_temperature": getattr(lubricant.viscosity, "temperature_law", None),
         "density": lubricant.density.law,
         "shear": lubricant.shear.law,
         "reynolds": getattr(result.problem.heat, "reynolds", "isothermal"),

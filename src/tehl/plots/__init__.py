@@ -5,14 +5,28 @@ from tehl.plots.interferogram import Optics, interferogram
 from tehl.plots.lines import centre_lines
 from tehl.plots.maps import film_map, pressure_map, pressure_surface
 from tehl.plots.save import save_all
+from tehl.plots.shear import shear_stress_map
+from tehl.plots.temperature import (
+    mid_film_temperature,
+    surface_heat,
+    temperature_layers,
+    temperature_section,
+)
+from tehl.plots.traction import traction_curve
 
 __all__ = [
     "Optics",
     "centre_lines",
     "film_map",
     "interferogram",
+    "mid_film_temperature",
     "pressure_map",
     "pressure_surface",
     "residual_history",
     "save_all",
+    "shear_stress_map",
+    "surface_heat",
+    "temperature_layers",
+    "temperature_section",
+    "traction_curve",
 ]

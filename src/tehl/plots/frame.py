@@ -12,6 +12,7 @@ from matplotlib.patheffects import AbstractPathEffect, withStroke
 from matplotlib.ticker import MaxNLocator
 
 from tehl.result import Result
+from tehl.typing import Array
 
 MICRO = 1e6
 GIGA = 1e-9
@@ -102,6 +103,20 @@ def outline(colour: str = "black", width: float = 2.4) -> list[AbstractPathEffec
     return [withStroke(linewidth=width, foreground=colour)]
 
 
+def nice_levels(low: float, high: float, count: int) -> Array:
+    """Return about ``count`` round values from ``low`` to ``high`` or a little beyond."""
+    locator = MaxNLocator(count, steps=STEPS)
+    return np.asarray(locator.tick_values(low, high), dtype=np.float64)
+
+
+def inner_levels(low: float, high: float, count: int = 10) -> Array:
+    """Return about ``count`` round values between ``low`` and ``high``; none if they are equal."""
+    if not high > low:
+        return np.empty(0)
+    levels = nice_levels(low, high, count)
+    return levels[(levels > low) & (levels < high)]
+
+
 def contact_axes(picture: Figure, result: Result) -> Axes:
     """Return axes in micrometres with equal aspect, showing the contact and its ellipse.
 
@@ -113,6 +128,12 @@ def contact_axes(picture: Figure, result: Result) -> Axes:
         Gives the half-widths and the window: what of the domain lies near the contact.
     """
     axes = picture.add_subplot()
+    dress_contact(axes, result)
+    return axes
+
+
+def dress_contact(axes: Axes, result: Result) -> None:
+    """Make axes those of a map in micrometres, as :func:`contact_axes` gives them."""
     widths = (result.scales.half_width_x * MICRO, result.scales.half_width_y * MICRO)
     axes.set_aspect("equal")
     axes.set(xlabel="x along entrainment [µm]", ylabel="y [µm]")
@@ -125,7 +146,6 @@ def contact_axes(picture: Figure, result: Result) -> Axes:
     axes.add_patch(
         Ellipse((0, 0), 2 * widths[0], 2 * widths[1], fill=False, zorder=5, **_rim_style())
     )
-    return axes
 
 
 def _rim_style() -> dict[str, Any]:
@@ -180,7 +200,7 @@ def window_part(result: Result) -> tuple[slice, slice]:
     return span_part(result.scaled.y, *y), span_part(result.scaled.x, *x)
 
 
-def span_part(axis: np.ndarray, low: float, high: float) -> slice:
+def span_part(axis: Array, low: float, high: float) -> slice:
     """Return the nodes of ``axis`` between two places, and one on either side."""
     inside = np.flatnonzero((axis >= low) & (axis <= high))
     return slice(max(int(inside[0]) - 1, 0), int(inside[-1]) + 2)

@@ -19,6 +19,7 @@ from tehl.plots.frame import (
     figure,
     legend_above,
     map_figure,
+    nice_levels,
     span_part,
     window_part,
 )
@@ -62,7 +63,7 @@ def film_map(result: Result) -> Figure:
     legend_above(axes, *_mark_minimum(axes, result))
     entrainment_arrow(axes)
     bar = picture.colorbar(mesh, cax=colour_axes(axes), extend="max", label="film thickness h [µm]")
-    ticks = _nice(low, top, 8)
+    ticks = nice_levels(low, top, 8)
     bar.ax.yaxis.set_minor_locator(NullLocator())
     bar.ax.yaxis.set_minor_formatter(NullFormatter())
     ticks = ticks[(ticks >= bottom) & (ticks <= top)]
@@ -98,16 +99,11 @@ def film_levels(low: float, central: float) -> tuple[Array, Array]:
     low, central : float
         Smallest and central film, in any unit.
     """
-    fine = _nice(low, 1.1 * central, 6)
+    fine = nice_levels(low, 1.1 * central, 6)
     inner = fine[(fine > low) & (fine <= 1.1 * central)]
-    wide = _nice(1.1 * central, 3.0 * central, 5)
+    wide = nice_levels(1.1 * central, 3.0 * central, 5)
     outer = wide[(wide > 1.1 * central) & (wide <= 3.0 * central)]
     return inner, outer
-
-
-def _nice(low: float, high: float, count: int) -> Array:
-    locator = MaxNLocator(count, steps=STEPS)
-    return np.asarray(locator.tick_values(low, high), dtype=np.float64)
 
 
 def _mark_minimum(axes: Axes, result: Result) -> list[Line2D]:
@@ -176,7 +172,7 @@ def _smoothed(field: Array) -> Array:
 
 def _pressure_levels(pressure: Array) -> Array:
     top = float(np.max(pressure, initial=0.0, where=np.isfinite(pressure)))
-    levels = _nice(0.0, top if top > 0 else 1.0, 8)
+    levels = nice_levels(0.0, top if top > 0 else 1.0, 8)
     return levels[(levels > 0) & (levels < top)] if top > 0 else levels[1:]
 
 

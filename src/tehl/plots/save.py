@@ -10,6 +10,13 @@ from tehl.plots.history import residual_history
 from tehl.plots.interferogram import Optics, interferogram
 from tehl.plots.lines import centre_lines
 from tehl.plots.maps import film_map, pressure_map, pressure_surface
+from tehl.plots.shear import shear_stress_map
+from tehl.plots.temperature import (
+    mid_film_temperature,
+    surface_heat,
+    temperature_layers,
+    temperature_section,
+)
 from tehl.result import Result
 
 PICTURES: dict[str, Callable[[Result], Figure]] = {
@@ -25,9 +32,32 @@ PICTURES: dict[str, Callable[[Result], Figure]] = {
     ),
 }
 
+"""Pictures that every result has, by name."""
+
+SHEAR_PICTURES: dict[str, Callable[[Result], Figure]] = {"shear_stress": shear_stress_map}
+"""Pictures of a film that slides."""
+
+HEAT_PICTURES: dict[str, Callable[[Result], Figure]] = {
+    "temperature": mid_film_temperature,
+    "temperature_layers": temperature_layers,
+    "temperature_section": temperature_section,
+    "surface_heat": surface_heat,
+}
+"""Pictures of a thermal run."""
+
+
+def pictures_of(result: Result) -> dict[str, Callable[[Result], Figure]]:
+    """Return the pictures that ``result`` has, by name."""
+    slides = result.shear is not None and result.problem.slide_roll_ratio != 0
+    return {
+        **PICTURES,
+        **(SHEAR_PICTURES if slides else {}),
+        **(HEAT_PICTURES if result.heat is not None else {}),
+    }
+
 
 def save_all(result: Result, folder: str | Path, *, dpi: int = 150) -> list[Path]:
-    """Draw all pictures of ``result`` as PNG files; each appears whole or not at all.
+    """Draw all pictures that ``result`` has as PNG files; each appears whole or not at all.
 
     Parameters
     ----------
@@ -51,7 +81,10 @@ def save_all(result: Result, folder: str | Path, *, dpi: int = 150) -> list[Path
     place = Path(folder)
     check_folder(place)
     place.mkdir(parents=True, exist_ok=True)
-    return [_save(draw(result), place / f"{name}.png", dpi) for name, draw in PICTURES.items()]
+    return [
+        _save(draw(result), place / f"{name}.png", dpi)
+        for name, draw in pictures_of(result).items()
+    ]
 
 
 def _save(picture: Figure, path: Path, dpi: int) -> Path:

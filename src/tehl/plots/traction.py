@@ -1,0 +1,111 @@
+"""Traction against slide-to-roll ratio, of many results or of a table."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from tehl.errors import InputError
+from tehl.result import Result
+from tehl.typing import Array
+
+_STYLES = {True: ("o-", "#c2410c", "thermal"), False: ("s--", "#1f4e9c", "isothermal")}
+_FADING = (1.0, 0.55, 0.3)
+
+
+def traction_curve(runs: Sequence[Result] | Mapping[str, Any]) -> Figure:
+    """Draw the traction coefficient at mid-film against the slide-to-roll ratio.
+
+    The coefficient is drawn as friction: positive where surface 1 is the faster, so with the sign
+    of the slide-to-roll ratio, against that of the stress. Contacts that differ in anything but
+    sliding and heat have curves of their own.
+
+    Parameters
+    ----------
+    runs : sequence of Result, or table
+        Results with shear stresses; or anything with columns ``slide_roll_ratio`` and ``traction``
+        (at mid-film, with its sign) and perhaps ``thermal`` (true or false) and ``case`` (a name).
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        One panel; circles are thermal, squares isothermal runs.
+
+    Raises
+    ------
+    InputError
+        If a column is missing or nothing has a traction.
+    """
+    table = _of_results(runs) if isinstance(runs, Sequence) else _columns(runs)
+    if not table["slide_roll_ratio"].size:
+        raise InputError("there is no traction to draw: no run has shear stresses")
+    picture = Figure(figsize=(7.0, 5.0), layout="constrained")
+    axes = picture.add_subplot()
+    cases = list(dict.fromkeys(table["case"].tolist()))
+    for thermal, (style, colour, word) in _STYLES.items():
+        for number, case in enumerate(cases):
+            chosen = (table["thermal"] == thermal) & (table["case"] == case)
+            if not chosen.any():
+                continue
+            order = np.argsort(table["slide_roll_ratio"][chosen], kind="stable")
+            axes.plot(
+                100.0 * table["slide_roll_ratio"][chosen][order],
+                -table["traction"][chosen][order],
+                style,
+                color=colour,
+                alpha=_FADING[number % len(_FADING)],
+                ms=4.5,
+                lw=1.3,
+                label=f"{word}, {case}" if case and len(cases) > 1 else word,
+            )
+    _dress(axes, table, cases)
+    return picture
+
+
+def _dress(axes: Any, table: dict[str, Array], cases: list[str]) -> None:
+    ratio = table["slide_roll_ratio"]
+    if not (ratio < 0).any():
+        axes.set(xlim=(0.0, 104.0 * max(float(ratio.max()), 1e-3)))
+        if not (table["traction"] > 0).any():
+            axes.set_ylim(bottom=0.0)
+    else:
+        axes.axhline(0.0, color="0.6", lw=0.6)
+        axes.axvline(0.0, color="0.6", lw=0.6)
+    axes.set(xlabel="slide-to-roll ratio $(u_1 - u_2)/u_m$ [%]", ylabel="traction coefficient [-]")
+    if len(cases) == 1 and cases[0]:
+        axes.set_title(cases[0].replace("$", r"\$"), fontsize=9)
+    axes.grid(lw=0.3)
+    axes.legend(fontsize=8, frameon=False)
+
+
+def _of_results(results: Sequence[Result]) -> dict[str, Array]:
+    """Return the columns of results; those without stresses are left out."""
+    rows = [
+        (result.problem.slide_roll_ratio, found.mid_film, result.heat is not None, _name(result))
+        for result in results
+        if (found := result.traction) is not None
+    ]
+    names = ("slide_roll_ratio", "traction", "thermal", "case")
+    return dict(zip(names, (np.array([row[i] for row in rows]) for i in range(4)), strict=True))
+
+
+def _name(result: Result) -> str:
+    """Return what tells one contact from another, at any sliding."""
+    groups, law = result.groups, result.problem.lubricant.shear.law
+    pressure = result.scales.hertz_pressure * 1e-9
+    return f"M = {groups.M:.4g}, L = {groups.L:.4g}, p_h = {pressure:.3g} GPa, {law}"
+
+
+def _columns(table: Mapping[str, Any]) -> dict[str, Array]:
+    known = list(table.keys())
+    for name in ("slide_roll_ratio", "traction"):
+        if name not in known:
+            raise InputError(f"the table has no column {name}; it has {', '.join(map(str, known))}")
+    ratio = np.asarray(table["slide_roll_ratio"], np.float64)
+    thermal = (
+        np.asarray(table["thermal"], bool) if "thermal" in known else np.ones(ratio.size, bool)
+    )
+    case = np.asarray(table["case"], str) if "case" in known else np.full(ratio.size, "")
+    traction = np.asarray(table["traction"], np.float64)
+    return {"slide_roll_ratio": ratio, "traction": traction, "thermal": thermal, "case": case}

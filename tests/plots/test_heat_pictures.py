@@ -1,0 +1,169 @@
+"""Pictures of shear and heat: drawn where they apply, true to the numbers, whole for any state."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib.patches import Ellipse
+from matplotlib.text import Text
+
+from tehl import plots
+from tehl.errors import InputError
+from tehl.plots.save import HEAT_PICTURES, PICTURES, SHEAR_PICTURES, pictures_of
+from tests.fixtures_result import CASE, make_result
+from tests.fixtures_thermal import with_heat, with_shear
+
+OURS = SHEAR_PICTURES | HEAT_PICTURES
+
+
+def texts(figure) -> str:
+    figure.draw_without_rendering()
+    return " | ".join(artist.get_text() for artist in figure.findobj(Text))
+
+
+def test_an_isothermal_run_has_the_old_pictures(result):
+    assert list(pictures_of(result)) == list(PICTURES)
+
+
+def test_a_sliding_film_shows_its_stress(sheared):
+    assert set(pictures_of(sheared)) - set(PICTURES) == {"shear_stress"}
+
+
+def test_pure_rolling_has_no_stress_to_show(sheared):
+    contact = sheared.problem.contact.model_copy(update={"slide_roll_ratio": 0.0})
+    rolling = sheared.problem.model_copy(update={"contact": contact})
+    assert list(pictures_of(replace(sheared, problem=rolling))) == list(PICTURES)
+
+
+def test_a_thermal_run_has_all_pictures(thermal):
+    assert list(pictures_of(thermal)) == [*PICTURES, *OURS]
+
+
+def test_all_of_them_go_to_the_folder(thermal, tmp_path, monkeypatch):
+    monkeypatch.setattr("tehl.plots.save.PICTURES", {})
+    paths = plots.save_all(thermal, tmp_path, dpi=40)
+    assert [path.stem for path in paths] == list(OURS)
+
+
+@pytest.mark.parametrize("draw", OURS.values(), ids=OURS)
+def test_each_picture_names_the_case_and_its_groups(thermal, draw):
+    words = texts(draw(thermal))
+    assert "Ball on disc" in words
+    assert "M = 75.6" in words
+
+
+@pytest.mark.parametrize("draw", OURS.values(), ids=OURS)
+def test_an_isothermal_run_is_refused_in_a_sentence(result, draw):
+    with pytest.raises(InputError, match="to draw"):
+        draw(result)
+
+
+@pytest.mark.parametrize("draw", OURS.values(), ids=OURS)
+def test_a_state_that_is_not_finite_is_still_drawn(thermal, stalled, draw):
+    field = np.full_like(thermal.scaled.film, np.nan)
+    broken = replace(
+        thermal,
+        status=stalled.status,
+        scaled=replace(thermal.scaled, film=field, pressure=field),
+        film_scaled=replace(thermal.film_scaled, central=np.nan, minimum=np.nan),
+        shear=replace(thermal.shear, mid_film=field, across=field),
+        heat=replace(
+            thermal.heat,
+            temperature=np.full_like(thermal.heat.temperature, np.nan),
+            flux_1=field,
+            flux_2=field,
+        ),
+    )
+    assert "NOT AN ANSWER" in texts(draw(broken))
+
+
+@pytest.mark.parametrize("draw", OURS.values(), ids=OURS)
+@pytest.mark.parametrize("radius_y", [0.005, 0.2])
+def test_slender_and_wide_contacts_are_drawn(draw, radius_y):
+    contact = {k: v for k, v in CASE["contact"].items() if k != "radius"}
+    case = {**CASE, "contact": contact | {"radius_x": 0.02, "radius_y": radius_y}}
+    draw(with_heat(make_result(33, case=case), layers=8)).draw_without_rendering()
+
+
+@pytest.mark.parametrize("name", ["mid_film_temperature", "shear_stress_map"])
+def test_maps_show_the_contact_in_equal_aspect(thermal, name):
+    axes = getattr(plots, name)(thermal).axes[0]
+    assert axes.get_aspect() == 1.0
+    assert len([patch for patch in axes.patches if isinstance(patch, Ellipse)]) == 1
+
+
+def test_layers_share_one_scale_of_colours(thermal):
+    figure = plots.temperature_layers(thermal)
+    maps = [axes for axes in figure.axes if axes.patches]
+    limits = {mesh.get_clim() for axes in maps for mesh in axes.collections[:1]}
+    assert len(maps) == 6
+    assert limits.pop() == pytest.approx((0.0, thermal.temperature.film_rise_max))
+    assert not limits
+    assert {axes.get_aspect() for axes in maps} == {1.0}
+    assert "mid-film" in texts(figure)
+
+
+def test_the_section_lies_in_the_film(thermal):
+    upper, lower = plots.temperature_section(thermal).axes[:2]
+    assert upper.get_ylim() == (0.0, 1.0)
+    places = lower.collections[0].get_coordinates()
+    film = lower.lines[0].get_ydata()
+    assert np.array_equal(places[0, :, 1], np.zeros(film.size))
+    assert np.array_equal(places[-1, :, 1], film)
+    assert lower.get_ylabel() == "z [nm]"
+
+
+def test_surface_heat_shows_fluxes_in_megawatts(thermal):
+    lower = plots.surface_heat(thermal).axes[1]
+    flux = {line.get_label(): line.get_ydata() for line in lower.lines}
+    row = int(np.argmin(np.abs(thermal.scaled.y)))
+    assert flux["into surface 1"] == pytest.approx(thermal.heat.flux_1[row] * 1e-6)
+    assert "MW" in lower.get_ylabel()
+
+
+def test_centre_lines_gain_temperatures(thermal, result):
+    assert len(plots.centre_lines(result).axes) == 4
+    figure = plots.centre_lines(thermal)
+    labels = [line.get_label() for axes in figure.axes for line in axes.lines]
+    assert len(figure.axes) == 6
+    assert labels.count("mid-film") == labels.count("surface 2") == 2
+    assert labels.count("film") == 2
+
+
+def sliding(result, ratio):
+    contact = result.problem.contact.model_copy(update={"slide_roll_ratio": ratio})
+    return replace(result, problem=result.problem.model_copy(update={"contact": contact}))
+
+
+def test_traction_is_drawn_as_friction_over_sliding(result):
+    runs = [with_shear(sliding(result, ratio)) for ratio in (0.2, 0.1, 0.0)]
+    runs += [with_heat(sliding(result, 0.1))]
+    axes = plots.traction_curve(runs).axes[0]
+    curves = {line.get_label(): line for line in axes.lines}
+    assert set(curves) == {"thermal", "isothermal"}
+    assert curves["isothermal"].get_xdata() == pytest.approx([0.0, 10.0, 20.0])
+    assert curves["isothermal"].get_ydata()[1:] == pytest.approx(-runs[0].traction.mid_film)
+    assert curves["thermal"].get_marker() != curves["isothermal"].get_marker()
+    assert axes.get_xlim()[0] == 0.0
+
+
+def test_a_table_will_do():
+    table = {"slide_roll_ratio": [0.1, -0.1], "traction": [-0.03, 0.03]}
+    line = plots.traction_curve(table).axes[0].lines[0]
+    assert line.get_ydata() == pytest.approx([-0.03, 0.03])
+
+
+def test_contacts_that_differ_have_curves_of_their_own():
+    table = {
+        "slide_roll_ratio": [0.1, 0.2, 0.1, 0.2],
+        "traction": [-0.03, -0.04, -0.05, -0.06],
+        "thermal": [True] * 4,
+        "case": ["a", "a", "b", "b"],
+    }
+    assert len(plots.traction_curve(table).axes[0].lines) == 2
+
+
+@pytest.mark.parametrize("runs", [[], {"slide_roll_ratio": []}, {"traction": [], "SRR": []}])
+def test_nothing_to_draw_is_said(runs):
+    with pytest.raises(InputError, match="no"):
+        plots.traction_curve(runs)
