@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from tehl.heat import FilmEnergy
+from tehl.heat import FilmEnergy, source_form
 from tehl.problem import ContactProblem
 from tehl.scaling import groups
 from tests.cases import ball_tables, moes_problem
@@ -160,6 +160,16 @@ def test_a_thermal_problem_returns_from_json_as_it_was():
     oil["shear"] = {"law": "eyring", "stress": "5 MPa"}
     stated = problem(lubricant=oil, thermal={"temperature": "50 degC", "sources": "full"})
     assert ContactProblem.model_validate(json.loads(stated.model_dump_json())) == stated
+
+
+def test_a_slow_or_backward_surface_takes_the_full_source():
+    slow, fast = problem(contact={"radius": 0.02, "load": 80, "entrainment_speed": 4}).solid_peclet
+    assert slow == fast == pytest.approx(4 * 219.7e-6 / (2 * 1.2468e-5), rel=1e-3)
+    contact = {"radius": 0.02, "load": 80, "entrainment_speed": 4, "slide_roll_ratio": 3}
+    assert problem(contact=contact).solid_peclet[1] < 0  # type: ignore[operator]
+    forms = [source_form("auto", peclet) for peclet in (100.0, 29.0, 0.0, -100.0)]
+    assert forms == ["line", "full", "full", "full"]
+    assert source_form("line", 0.0) == "line"
 
 
 def test_roughnesses_add_as_squares():

@@ -12,6 +12,8 @@ AcrossScheme = Literal["chebyshev", "uniform"]
 SourceForm = Literal["auto", "line", "full"]
 
 
+LEAST_LINE_PECLET = 30.0
+"""Solid Peclet number from which on the line source is good to one per cent."""
 LAYERS: dict[AcrossScheme, int] = {"chebyshev": 9, "uniform": 21}
 """Nodes across the film when the case does not state them."""
 
@@ -90,3 +92,18 @@ class FilmEnergy:
     layers: int = 9
     scheme: AcrossScheme = "chebyshev"
     sources: SourceForm = "auto"
+
+
+def source_form(stated: SourceForm, peclet: float) -> Literal["line", "full"]:
+    """Return the moving source that a surface takes.
+
+    Parameters
+    ----------
+    stated : {"auto", "line", "full"}
+        What the case says.
+    peclet : float
+        ``u_s a_x / (2 diffusivity)`` of the solid [-], negative where it moves against x.
+    """
+    if stated != "auto":
+        return stated
+    return "line" if peclet >= LEAST_LINE_PECLET else "full"

@@ -433,6 +433,19 @@ class ContactProblem(BaseModel):
         return hertz_contact(self.load, self.radius_x, self.radius_y, self.reduced_modulus)
 
     @property
+    def solid_peclet(self) -> tuple[float | None, float | None]:
+        """Return ``u_s a_x / (2 diffusivity)`` of both solids [-], signed; None if not stated."""
+        width, motion = self.hertz.half_width_x, self.motion
+        first, second = (
+            None if diffusivity is None else speed * width / (2.0 * diffusivity)
+            for speed, diffusivity in (
+                (motion.speed_1, self.surface_1.material.diffusivity),
+                (motion.speed_2, self.surface_2.material.diffusivity),
+            )
+        )
+        return first, second
+
+    @property
     def rms_roughness(self) -> float:
         """Return the roughness of both surfaces together, sqrt(Rq_1^2 + Rq_2^2) [m]."""
         return math.hypot(self.surface_1.rms_roughness, self.surface_2.rms_roughness)

@@ -69,6 +69,14 @@ def test_each_law_is_its_formula():
     assert Newtonian().stress_at(rate) == pytest.approx(rate)
 
 
+@pytest.mark.parametrize("law", LAWS)
+def test_one_stress_is_that_of_an_array(law: Law):
+    scale = law.stress_scale(np.array([3e8]))[0]
+    for rate in (1e-3, 1.0, 5.0):
+        expected = scale * law.stress_at(np.array([rate]))[0]
+        assert law.thinned(rate * scale, 3e8) == pytest.approx(expected, rel=1e-12)
+
+
 def test_small_stresses_follow_the_series():
     s = np.array([1e-6, 1e-4, 1e-2])
     assert Eyring(stress=1.0).log_thinning(s) == pytest.approx(s**2 / 6, rel=1e-4)

@@ -116,6 +116,16 @@ def test_what_a_law_says_of_ambient_pressure_is_its_viscosity_there(
 
 
 @pytest.mark.parametrize("law", LAWS)
+@given(pressure=st.floats(0, 4e9), temperature=st.floats(250, 500))
+def test_one_value_is_that_of_an_array(law: ViscosityLaw, pressure: float, temperature: float):
+    value = law.viscosity(np.array([pressure]), np.array([temperature]))[0]
+    # 5.1e-9 is 1/1.96e8 to 0.04 %: the rest of the exponent by as much
+    assert math.log(law.viscosity_at(pressure, temperature)) == pytest.approx(
+        math.log(value), rel=2e-3, abs=2e-3
+    )
+
+
+@pytest.mark.parametrize("law", LAWS)
 def test_at_the_reference_the_stated_values_return(law: ViscosityLaw):
     at = law.reference_temperature
     assert law.ambient(at) == pytest.approx(law.eta_0, rel=1e-12)

@@ -5,7 +5,15 @@ from typing import TYPE_CHECKING, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, model_validator
 
-from tehl.lubricant.exponent import exponential, exponential_at, temperature_law
+from tehl.lubricant.exponent import (
+    PER_ROELANDS_PRESSURE,
+    ROELANDS_OFFSET,
+    ROELANDS_PRESSURE,
+    exponential,
+    exponential_at,
+    power_growth,
+    temperature_law,
+)
 from tehl.units import PressureCoefficient, Ratio, Temperature, TemperatureCoefficient, Viscosity
 
 if TYPE_CHECKING:
@@ -14,9 +22,6 @@ if TYPE_CHECKING:
 LEAST_THETA = 0.01
 """Least ``(T - 138)/(T_0 - 138)``: Roelands' law ends at 138 K."""
 
-ROELANDS_OFFSET = 9.67  # -ln of 6.31e-5 Pa s, the viscosity at Roelands' common point
-ROELANDS_PRESSURE = 1.96e8  # [Pa], in the definition of z
-PER_ROELANDS_PRESSURE = 5.1e-9  # [1/Pa], in the bracket: the rounded 1/1.96e8
 _ROELANDS_TEMPERATURE = 138.0  # [K]
 
 
@@ -133,6 +138,12 @@ class Roelands(BaseModel):
     def _thinner(self, temperature: float) -> float:
         return float(self._theta(temperature) ** -self.temperature_index)
 
+    def viscosity_at(self, pressure: float, temperature: float) -> float:
+        """Return the viscosity [Pa s] at one ``pressure`` [Pa] and ``temperature`` [K]."""
+        slope = self.pressure_coefficient_at(temperature)
+        growth = power_growth(pressure, slope, self.pressure_index)
+        return exponential_at(self.ambient(temperature), growth)
+
     def viscosity(self, pressure: "Array", temperature: "Array | float") -> "Array":
         """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K].
 
@@ -236,6 +247,12 @@ class RoelandsExponential(BaseModel):
         """Return gamma [1/K] at any ``temperature`` [K]."""
         del temperature
         return self.temperature_coefficient
+
+    def viscosity_at(self, pressure: float, temperature: float) -> float:
+        """Return the viscosity [Pa s] at one ``pressure`` [Pa] and ``temperature`` [K]."""
+        slope = self.pressure_coefficient_at(temperature)
+        growth = power_growth(pressure, slope, self.pressure_index)
+        return exponential_at(self.ambient(temperature), growth)
 
     def viscosity(self, pressure: "Array", temperature: "Array | float") -> "Array":
         """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K]."""

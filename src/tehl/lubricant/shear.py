@@ -55,6 +55,11 @@ class Newtonian(BaseModel):
         """Return ln F = 0 in the shape of the dimensionless ``stress``."""
         return _constant(0.0, stress)
 
+    def thinned(self, newtonian: float, pressure: float) -> float:
+        """Return the stress [Pa] where a Newtonian film had ``newtonian`` [Pa]."""
+        del pressure
+        return newtonian
+
     def stress_at(self, rate: "Array") -> "Array":
         """Return the dimensionless stress, which is the dimensionless ``rate``."""
         return _floats(rate)
@@ -103,6 +108,11 @@ class Eyring(BaseModel):
         series = square / 6.0 - square**2 / 180.0 + square**3 / 2835.0 - square**4 / 37800.0
         large = np.maximum(s, _SMALL)
         return np.where(s < _SMALL, series, large + np.log(-np.expm1(-2.0 * large) / (2.0 * large)))
+
+    def thinned(self, newtonian: float, pressure: float) -> float:
+        """Return the stress [Pa] where a Newtonian film had ``newtonian`` [Pa]."""
+        del pressure
+        return self.stress * math.asinh(newtonian / self.stress)
 
     def stress_at(self, rate: "Array") -> "Array":
         """Return the dimensionless stress at a dimensionless ``rate``."""
@@ -169,6 +179,12 @@ class Carreau(BaseModel):
             if not np.any(np.abs(step) > 1e-14 * (1.0 + np.abs(log_rate))):
                 break
         return log_rate
+
+    def thinned(self, newtonian: float, pressure: float) -> float:
+        """Return the stress [Pa] where a Newtonian film had ``newtonian`` [Pa]."""
+        del pressure
+        rate = newtonian / self.modulus
+        return newtonian * math.hypot(1.0, rate) ** (self.exponent - 1.0)
 
     def stress_at(self, rate: "Array") -> "Array":
         """Return the dimensionless stress at a dimensionless ``rate``."""
@@ -238,6 +254,11 @@ class Limiting(BaseModel):
         series = small * (1 / 2 + small * (1 / 3 + small * (1 / 4 + small * (1 / 5 + small / 6))))
         curve = np.where(s < 1e-3, np.log1p(series), np.log(-np.log1p(-inside) / inside))
         return curve + _KNEE_SLOPE * np.maximum(s - _KNEE, 0.0)
+
+    def thinned(self, newtonian: float, pressure: float) -> float:
+        """Return the stress [Pa] where a Newtonian film had ``newtonian`` [Pa]."""
+        limit = max(self.stress + self.slope * pressure, LEAST_LIMIT)
+        return -limit * math.expm1(-newtonian / limit)
 
     def stress_at(self, rate: "Array") -> "Array":
         """Return the dimensionless stress at a dimensionless ``rate``."""

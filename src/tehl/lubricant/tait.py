@@ -13,6 +13,7 @@ References
 .. [2] S. Bair, Tribology Letters 22 (2006), 197-206 (squalane).
 """
 
+import math
 from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 from pydantic import BaseModel, ConfigDict, Field
@@ -139,8 +140,7 @@ class TaitDoolittle(BaseModel):
 
     def ambient(self, temperature: float) -> float:
         """Return the viscosity [Pa s] at ambient pressure and ``temperature`` [K]."""
-        core, free = self._core(temperature), self._free(temperature)
-        return exponential_at(self.eta_0, self.B * (core / free - self._rest))
+        return self.viscosity_at(0.0, temperature)
 
     def pressure_coefficient_at(self, temperature: float) -> float:
         """Return ``d ln eta / dp`` [1/Pa] at ambient pressure and ``temperature`` [K]."""
@@ -171,6 +171,14 @@ class TaitDoolittle(BaseModel):
             volume=max(1.0 + self.expansion * warmer, LEAST_VOLUME),
             modulus=exponential_at(self.bulk_modulus, -self.softening * warmer),
         )
+
+    def viscosity_at(self, pressure: float, temperature: float) -> float:
+        """Return the viscosity [Pa s] at one ``pressure`` [Pa] and ``temperature`` [K]."""
+        state, core = self._state(temperature), self._core(temperature)
+        steepness = 1.0 + self.bulk_modulus_slope
+        squeezed = 1.0 - math.log1p(steepness * pressure / state.modulus) / steepness
+        free = max(state.volume * max(squeezed, LEAST_VOLUME) - core, LEAST_FREE)
+        return exponential_at(self.eta_0, self.B * (core / free - self._rest))
 
     def viscosity(self, pressure: "Array", temperature: "Array | float") -> "Array":
         """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K]."""

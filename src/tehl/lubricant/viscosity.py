@@ -69,6 +69,10 @@ class Barus(BaseModel):
         del temperature
         return self.temperature_coefficient
 
+    def viscosity_at(self, pressure: float, temperature: float) -> float:
+        """Return the viscosity [Pa s] at one ``pressure`` [Pa] and ``temperature`` [K]."""
+        return exponential_at(self.ambient(temperature), self.alpha * pressure)
+
     def viscosity(self, pressure: "Array", temperature: "Array | float") -> "Array":
         """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K]."""
         import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
@@ -126,6 +130,11 @@ class ConstantViscosity(BaseModel):
         """Return zero [1/K] at any ``temperature`` [K]."""
         del temperature
         return 0.0
+
+    def viscosity_at(self, pressure: float, temperature: float) -> float:
+        """Return eta_0 [Pa s] at any ``pressure`` [Pa] and ``temperature`` [K]."""
+        del pressure, temperature
+        return self.eta_0
 
     def viscosity(self, pressure: "Array", temperature: "Array | float") -> "Array":
         """Return eta_0 [Pa s] in the shape of ``pressure`` and ``temperature``."""

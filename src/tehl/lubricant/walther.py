@@ -6,8 +6,15 @@ from typing import TYPE_CHECKING, Literal, Self
 from pydantic import BaseModel, ConfigDict, model_validator
 
 from tehl.errors import InputError
-from tehl.lubricant.exponent import exponential, temperature_law
-from tehl.lubricant.roelands import PER_ROELANDS_PRESSURE, ROELANDS_OFFSET, ROELANDS_PRESSURE
+from tehl.lubricant.exponent import (
+    PER_ROELANDS_PRESSURE,
+    ROELANDS_OFFSET,
+    ROELANDS_PRESSURE,
+    exponential,
+    exponential_at,
+    power_growth,
+    temperature_law,
+)
 from tehl.units import (
     Density,
     KinematicViscosity,
@@ -154,6 +161,12 @@ class Walther(BaseModel):
     def _span(self, temperature: float) -> float:
         """Return ``ln eta_T + 9.67`` [-]."""
         return math.log(self.ambient(temperature)) + ROELANDS_OFFSET
+
+    def viscosity_at(self, pressure: float, temperature: float) -> float:
+        """Return the viscosity [Pa s] at one ``pressure`` [Pa] and ``temperature`` [K]."""
+        slope = self.pressure_coefficient_at(temperature)
+        growth = power_growth(pressure, slope, self.pressure_index)
+        return exponential_at(self.ambient(temperature), growth)
 
     def viscosity(self, pressure: "Array", temperature: "Array | float") -> "Array":
         """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K]."""
