@@ -11,10 +11,14 @@ from tests.fixtures_result import make_result
 
 
 class FakeSolver:
-    """Stands for ``tehl.solver``; ``outcome`` is a status or an exception to raise."""
+    """Stands for ``tehl.solver``; ``outcome`` is a status or an exception to raise.
+
+    ``cold`` is the outcome of isothermal cases after another one.
+    """
 
     def __init__(self) -> None:
         self.outcome: object = None
+        self.cold: object = None
         self.calls: list[SimpleNamespace] = []
 
     def solve(self, problem, options, *, monitor=None):
@@ -31,8 +35,9 @@ class FakeSolver:
             monitor.cycle(report)
         if isinstance(self.outcome, BaseException):
             raise self.outcome
-        if self.outcome is not None:
-            raise ConvergenceError("it did not converge", replace(result, status=self.outcome))
+        outcome = self.outcome if len(self.calls) == 1 else self.cold
+        if outcome is not None:
+            raise ConvergenceError("it did not converge", replace(result, status=outcome))
         return result
 
 

@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 from types import SimpleNamespace
 
+import h5netcdf
 import pytest
 
 from tehl import cli
@@ -37,11 +38,24 @@ density = { law = "dowson-higginson", rho_0 = "890 kg/m^3" }
 """
 
 
+THERMAL = (
+    CASE.replace('"22 1/GPa" }', '"22 1/GPa", gamma = "0.042 1/K" }')
+    + 'conductivity = "0.14 W/m/K"\nheat_capacity = "2000 J/kg/K"\n'
+    + '[thermal]\ntemperature = "60 degC"\n'
+)
+
+
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "ball.toml").write_text(CASE)
     return tmp_path
+
+
+@pytest.fixture
+def warm(folder):
+    (folder / "warm.toml").write_text(THERMAL)
+    return folder
 
 
 @pytest.fixture
@@ -117,9 +131,49 @@ def test_a_failure_as_json_names_cause_and_hint(folder, solver, run):
     assert (content["status"], content["hint"]) == ("diverged", "h")
 
 
+def test_a_thermal_run_shows_how_the_temperature_changes(warm, solver, run):
+    assert "dT [K]" in run("solve", "warm.toml").err
+    assert "dT [K]" not in run("solve", "ball.toml").err
+
+
+def test_the_isothermal_twin_enters_at_the_same_temperature(warm, solver, run):
+    answer = run("solve", "warm.toml", "--with-isothermal", "--json")
+    first, second = (call.problem for call in solver.calls)
+    assert first.thermal is not None
+    assert second.thermal is None
+    assert first.inlet_temperature == second.inlet_temperature == 333.15
+    assert first.ambient_viscosity == second.ambient_viscosity
+    effect = json.loads(answer.out)["thermal_effect"]
+    assert effect["central"] == effect["minimum"] == 1.0
+    assert 0 < effect["inlet_heating_factors"]["Wilson-Sheu"] < 1
+    with h5netcdf.File("warm.nc") as file:
+        assert json.loads(file.attrs["summary"]) == json.loads(answer.out)
+
+
+def test_the_effect_of_heat_is_told(warm, solver, run):
+    answer = run("solve", "warm.toml", "--with-isothermal")
+    assert "over isothermal  1.0000 of the central" in answer.out
+    assert "without heat" in answer.err
+
+
+def test_a_twin_without_an_answer_spoils_nothing(warm, solver, run):
+    solver.cold = Status(kind="stalled", cause="grid_too_coarse", message="too coarse", hint="h")
+    answer = run("solve", "warm.toml", "--with-isothermal", "--json")
+    assert answer.code == 0
+    assert "no answer without heat" in answer.err
+    assert json.loads(answer.out)["thermal_effect"] is None
+    assert load("warm.nc").status.converged
+
+
+def test_without_the_question_there_is_no_answer_about_the_twin(warm, solver, run):
+    assert "thermal_effect" not in json.loads(run("solve", "warm.toml", "--json").out)
+    assert len(solver.calls) == 1
+
+
 @pytest.mark.parametrize(
     ("words", "reason"),
     [
+        (["ball.toml", "--with-isothermal"], "no [thermal] table"),
         (["none.toml"], "no such case file"),
         (["ball.toml", "-o", "none/out.nc"], "does not exist"),
         (["ball.toml", "-o", "."], "is a folder"),
@@ -219,6 +273,19 @@ def test_pictures_are_drawn_on_demand(folder, solver, run, monkeypatch):
 def test_cold_kernels_are_announced(folder, solver, run, monkeypatch):
     monkeypatch.setitem(sys.modules, "tehl.kernels.cache", SimpleNamespace(is_cold=lambda: True))
     assert "compiling once" in run("solve", "ball.toml").err
+
+
+def test_the_table_of_a_thermal_run_has_a_column_more(solver, thermal, monkeypatch):
+    terminal = io.StringIO()
+    terminal.isatty = lambda: True
+    monkeypatch.setattr(sys, "stderr", terminal)
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setenv("COLUMNS", "120")
+    with progress(quiet=False, thermal=True) as monitor:
+        for report in thermal.history:
+            monitor.cycle(report)
+    assert "dT [K]" in terminal.getvalue()
+    assert "1.25e-02" in terminal.getvalue()
 
 
 def test_a_terminal_gets_a_table(solver, result, monkeypatch):

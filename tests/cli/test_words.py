@@ -2,7 +2,8 @@
 
 from dataclasses import replace
 
-from tehl.cli.words import as_text, headline
+from tehl.cli.words import as_text, effect_as_text, headline
+from tehl.post.thermal_effect import ThermalEffect
 from tehl.report.explain import length
 from tehl.result import Estimate
 
@@ -27,6 +28,35 @@ def test_a_certified_value_shows_the_parts_of_its_bar(result):
     )
     shown = as_text(replace(result, uncertainty={"film_central": bar}))
     assert f"certified 400 +- 5 {name} (grid 4, domain 3)" in shown
+
+
+def test_an_isothermal_run_says_nothing_of_heat(result):
+    shown = as_text(result)
+    assert not any(word in shown for word in ("temperature", "traction", "heat"))
+
+
+def test_a_thermal_run_tells_temperatures_traction_and_balance(thermal):
+    lines = {line[2:19].strip(): line[19:] for line in as_text(thermal).splitlines()[1:]}
+    found, traction = thermal.temperature, thermal.traction
+    assert f"rise {found.film_rise_max:.4g} K" in lines["film temperature"]
+    assert f"{found.surface_1_rise_max:.4g} K and" in lines["surfaces"]
+    assert lines["heat balance"] == f"error {100 * thermal.heat.balance.error:.2g} %"
+    for value in (traction.surface_1, traction.mid_film, traction.surface_2):
+        assert f"{value:.4g}" in lines["traction"]
+
+
+def test_the_effect_of_heat_names_its_formulas():
+    effect = ThermalEffect(
+        central=0.93,
+        minimum=0.91,
+        isothermal_central=1e-7,
+        isothermal_minimum=5e-8,
+        inlet_factors={"Wilson-Sheu": 0.95},
+    )
+    shown = effect_as_text(effect)
+    assert "0.9300 of the central, 0.9100 of the minimum" in shown
+    assert "Wilson-Sheu 0.9500" in shown
+    assert "formula" not in effect_as_text(replace(effect, inlet_factors={}))
 
 
 def test_a_case_without_a_title_has_one(result):

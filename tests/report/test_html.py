@@ -60,6 +60,33 @@ def test_each_part_is_there(page):
 
 
 @pytest.mark.usefixtures("one_picture")
+def test_a_thermal_run_has_sections_of_heat_and_traction(thermal, result):
+    words = " ".join(Page(report_text(thermal, dpi=40)).words)
+    found = thermal.temperature
+    assert f"{found.film_rise_max:.4g} K" in words
+    assert f"{found.inlet + found.surface_1_rise_max - 273.15:.4g} °C" in words
+    assert "line moving source, solid Péclet number 28.4" in words
+    assert f"{thermal.traction.surface_2:.5g}" in words
+    assert f"{thermal.heat.balance.shear:.4g} W" in words
+    assert "ΔT [K]" in words
+    cold = " ".join(Page(report_text(result, dpi=40)).words)
+    assert not any(word in cold for word in ("Traction", "Temperature", "ΔT"))
+
+
+def test_pictures_of_heat_are_inside(thermal):
+    page = Page(report_text(thermal, dpi=30))
+    assert len(page.sources) == 12
+    assert any("plane y = 0" in word for word in page.words)
+
+
+@pytest.mark.usefixtures("one_picture")
+def test_traction_alone_has_its_section(sheared):
+    words = " ".join(Page(report_text(sheared, dpi=40)).words)
+    assert "the film holds it back" in words
+    assert "moving source" not in words
+
+
+@pytest.mark.usefixtures("one_picture")
 def test_a_title_cannot_bring_markup(result):
     problem = result.problem.model_copy(update={"title": '<script>alert("x")</script> & co'})
     page = Page(report_text(replace(result, problem=problem), dpi=40))

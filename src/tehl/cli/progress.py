@@ -23,18 +23,22 @@ _COLUMNS = (
     "H min",
     "sweeps",
 )
+_WARMING = "dT [K]"
+"""Column of thermal runs: the largest change of the temperature in a cycle."""
 COMPILE_SECONDS = 60
 """What compiling the kernels takes on a common machine, roughly."""
 
 
 @contextmanager
-def progress(*, quiet: bool) -> Iterator["Monitor"]:
+def progress(*, quiet: bool, thermal: bool = False) -> Iterator["Monitor"]:
     """Yield the monitor for a run: a table on a terminal, else lines; warn when kernels are cold.
 
     Parameters
     ----------
     quiet : bool
         Show nothing.
+    thermal : bool
+        Show how the temperature changes.
     """
     import sys
 
@@ -47,17 +51,17 @@ def progress(*, quiet: bool) -> Iterator["Monitor"]:
     if is_cold():
         typer.echo(f"compiling once, about {COMPILE_SECONDS} s", err=True)
     if sys.stderr is None or not sys.stderr.isatty():
-        yield Lines()
+        yield Lines(thermal=thermal)
         return
-    with _live() as monitor:
+    with _live(thermal=thermal) as monitor:
         yield monitor
 
 
 class Lines:
     """A monitor that writes one plain line per cycle."""
 
-    def __init__(self) -> None:
-        self._started = False
+    def __init__(self, *, thermal: bool = False) -> None:
+        self._started, self._thermal = False, thermal
 
     def message(self, text: str) -> None:
         """Write ``text``."""
@@ -66,16 +70,16 @@ class Lines:
     def cycle(self, report: "CycleReport") -> None:
         """Write the numbers of a cycle, below a heading when it is the first."""
         if not self._started:
-            typer.echo(_line(_COLUMNS), err=True)
+            typer.echo(_line(columns(thermal=self._thermal)), err=True)
             self._started = True
-        typer.echo(_line(cells(report)), err=True)
+        typer.echo(_line(cells(report, thermal=self._thermal)), err=True)
 
 
 class LiveTable:
     """A monitor that adds one row per cycle to a table on the terminal."""
 
-    def __init__(self, table: "Table", live: "Live") -> None:
-        self._table, self._live = table, live
+    def __init__(self, table: "Table", live: "Live", *, thermal: bool) -> None:
+        self._table, self._live, self._thermal = table, live, thermal
         self._grid: tuple[int, int] | None = None
 
     def message(self, text: str) -> None:
@@ -87,27 +91,33 @@ class LiveTable:
         if self._grid not in (None, report.points):
             self._table.add_section()
         self._grid = report.points
-        self._table.add_row(*cells(report))
+        self._table.add_row(*cells(report, thermal=self._thermal))
         self._live.refresh()
 
 
 @contextmanager
-def _live() -> Iterator[LiveTable]:
+def _live(*, thermal: bool) -> Iterator[LiveTable]:
     from rich import box
     from rich.console import Console
     from rich.live import Live
     from rich.table import Table
 
     table = Table(box=box.SIMPLE_HEAD)
-    for name in _COLUMNS:
+    for name in columns(thermal=thermal):
         table.add_column(name, justify="left" if name == "sweeps" else "right")
     console = Console(stderr=True)
     with Live(table, console=console, auto_refresh=False, vertical_overflow="visible") as live:
-        yield LiveTable(table, live)
+        yield LiveTable(table, live, thermal=thermal)
 
 
-def cells(report: "CycleReport") -> tuple[str, ...]:
+def columns(*, thermal: bool) -> tuple[str, ...]:
+    """Return the names of the columns."""
+    return (*_COLUMNS[:-1], _WARMING, _COLUMNS[-1]) if thermal else _COLUMNS
+
+
+def cells(report: "CycleReport", *, thermal: bool = False) -> tuple[str, ...]:
     """Return the numbers of a cycle as words, in the order of the columns."""
+    warming = (f"{report.temperature_change:.2e}",) if thermal else ()
     return (
         "{} x {}".format(*report.points),
         str(report.cycle),
@@ -116,10 +126,12 @@ def cells(report: "CycleReport") -> tuple[str, ...]:
         f"{report.load_error:.1e}",
         f"{report.film_central:.6f}",
         f"{report.film_minimum:.6f}",
+        *warming,
         report.smoother,
     )
 
 
 def _line(words: tuple[str, ...]) -> str:
-    widths = (11, 6, 10, 12, 11, 10, 10)
-    return " ".join(f"{w:>{n}}" for w, n in zip(words, widths, strict=False)) + f"  {words[-1]}"
+    widths = (11, 6, 10, 12, 11, 10, 10, 9)
+    numbers = zip(words[:-1], widths, strict=False)
+    return " ".join(f"{word:>{width}}" for word, width in numbers) + f"  {words[-1]}"

@@ -1,12 +1,13 @@
 """``tehl solve``: from a case file to a stored film."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 if TYPE_CHECKING:
     from tehl.options import Options
+    from tehl.post.thermal_effect import ThermalEffect
     from tehl.problem import ContactProblem
     from tehl.result import Result
 
@@ -30,6 +31,12 @@ def solve(  # noqa: PLR0913, PLR0917 (the options of the command)
         bool,
         typer.Option("--certify", help="Solve on three grids and a larger domain: error bars."),
     ] = False,
+    with_isothermal: Annotated[
+        bool,
+        typer.Option(
+            "--with-isothermal", help="Solve without heat too: what heat does to the film."
+        ),
+    ] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Show no progress.")] = False,
 ) -> None:
     """Solve a case and store the result.
@@ -44,11 +51,16 @@ def solve(  # noqa: PLR0913, PLR0917 (the options of the command)
     problem, options = read_case_and_options(case, changes)
     _check_output(target, case, plot)
     check_memory(options)
+    twin = _twin(problem) if with_isothermal else None
     result, failure = _run(problem, options, certify=certify, quiet=quiet)
     if as_json:
         result = _with_work(result)
     result.save(target)
-    _tell(result, as_json=as_json)
+    effect = None
+    if twin is not None and failure is None:
+        effect = _effect(result, twin, quiet=quiet)
+        _save_effect(result, effect, target)
+    _tell(result, effect, as_json=as_json, compared=twin is not None)
     typer.echo(f"written: {target}", err=True)
     if plot is not None:
         _draw(result, plot)
@@ -81,7 +93,7 @@ def _run(
 
     work = solver.certify if certify else solver.solve
     try:
-        with progress(quiet=quiet) as monitor:
+        with progress(quiet=quiet, thermal=problem.thermal is not None) as monitor:
             return work(problem, options, monitor=monitor), None
     except ConvergenceError as error:
         return error.result, str(error)
@@ -94,15 +106,61 @@ def _with_work(result: "Result") -> "Result":
     return with_work(result)
 
 
-def _tell(result: "Result", *, as_json: bool) -> None:
+def _twin(problem: "ContactProblem") -> "ContactProblem":
+    from tehl.post.thermal_effect import isothermal_twin
+
+    return isothermal_twin(problem)
+
+
+def _effect(result: "Result", twin: "ContactProblem", *, quiet: bool) -> "ThermalEffect | None":
+    """Solve the isothermal twin; return the comparison, None when the twin has no answer."""
+    from tehl.post.thermal_effect import thermal_effect
+
+    if not quiet:
+        typer.echo("without heat", err=True)
+    other, failure = _run(twin, result.options, certify=False, quiet=quiet)
+    if failure is not None:
+        typer.echo(f"tehl: no answer without heat to compare with: {failure}", err=True)
+        return None
+    return thermal_effect(result, other)
+
+
+def _save_effect(result: "Result", effect: "ThermalEffect | None", target: Path) -> None:
+    from tehl.io.store import save
+
+    save(result, target, extra=_block(effect))
+
+
+def _block(effect: "ThermalEffect | None") -> dict[str, Any]:
+    """Return what the summary says of the comparison, null where there is none."""
+    from tehl.io.summary import plain
+
+    if effect is None:
+        return {"thermal_effect": None}
+    content = {
+        "central": effect.central,
+        "minimum": effect.minimum,
+        "isothermal_h_central_m": effect.isothermal_central,
+        "isothermal_h_min_m": effect.isothermal_minimum,
+        "inlet_heating_factors": effect.inlet_factors,
+    }
+    return {"thermal_effect": plain(content)}
+
+
+def _tell(
+    result: "Result", effect: "ThermalEffect | None", *, as_json: bool, compared: bool
+) -> None:
     import json
 
-    from tehl.cli.words import as_text
+    from tehl.cli.words import as_text, effect_as_text
 
     if as_json:
-        typer.echo(json.dumps(result.summary(), allow_nan=False))
-    else:
-        typer.echo(as_text(result))
+        summary = result.summary() | (_block(effect) if compared else {})
+        typer.echo(json.dumps(summary, allow_nan=False))
+        return
+    typer.echo(as_text(result))
+    if effect is not None:
+        typer.echo(effect_as_text(effect))
 
 
 def _draw(result: "Result", folder: Path) -> None:

@@ -1,10 +1,12 @@
 """A result told to people, in a few lines."""
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from tehl.report.explain import UNTITLED, length_unit
 
 if TYPE_CHECKING:
+    from tehl.post.thermal_effect import ThermalEffect
     from tehl.result import Result
 
 
@@ -21,6 +23,8 @@ def as_text(result: "Result") -> str:
         ("minimum film", _film(result, "minimum")),
         ("central film", _film(result, "central")),
         ("largest pressure", _pressure(result)),
+        *_heat(result),
+        *_traction(result),
         ("groups", f"M = {groups.M:.4g}, L = {groups.L:.4g}, alpha p_h = {groups.alpha_bar:.4g}"),
         ("grid", f"{nx} x {ny} on [{x[0]:g}, {x[-1]:g}] x [{y[0]:g}, {y[-1]:g}] half-widths"),
         ("effort", _effort(result)),
@@ -40,6 +44,47 @@ def _pressure(result: "Result") -> str:
     giga = result.scales.hertz_pressure * 1e-9
     text = f"{highest * giga:.4g} GPa   ({highest:.4g} p_h, p_h = {giga:.4g} GPa)"
     return text + _bar(result, "pressure_max", giga, "GPa")
+
+
+def _heat(result: "Result") -> Iterator[tuple[str, str]]:
+    """Yield the rows of a thermal run."""
+    heat, found = result.heat, result.temperature
+    if heat is None or found is None:
+        return
+    x, y, zeta = found.film_rise_max_at
+    yield (
+        "film temperature",
+        f"rise {found.film_rise_max:.4g} K at most (X = {x:.3g}, Y = {y:.3g}, z/h = {zeta:.3g}), "
+        f"{found.mid_film_rise_central:.4g} K in the middle, inlet {found.inlet - 273.15:.4g} degC"
+        + _bar(result, "film_rise_max", 1.0, "K"),
+    )
+    first, second = found.surface_1_rise_max, found.surface_2_rise_max
+    yield "surfaces", f"rise {first:.4g} K and {second:.4g} K at most (surface 1 and 2)"
+    yield "heat balance", f"error {100 * heat.balance.error:.2g} %"
+
+
+def _traction(result: "Result") -> Iterator[tuple[str, str]]:
+    found = result.traction
+    if found is None:
+        return
+    yield (
+        "traction",
+        f"{found.surface_1:.4g} on surface 1, {found.mid_film:.4g} at mid-film, "
+        f"{found.surface_2:.4g} on surface 2"
+        + _bar(result, "traction_mid_film", 1.0, "at mid-film"),
+    )
+
+
+def effect_as_text(effect: "ThermalEffect") -> str:
+    """Return what heat does to the film in a line or two."""
+    parts = [
+        f"  {'over isothermal':<17}{effect.central:.4f} of the central, "
+        f"{effect.minimum:.4f} of the minimum film without heat"
+    ]
+    if effect.inlet_factors:
+        factors = ", ".join(f"{name} {value:.4f}" for name, value in effect.inlet_factors.items())
+        parts.append(f"  {'inlet heating':<17}by formula {factors}")
+    return "\n".join(parts)
 
 
 def _bar(result: "Result", name: str, unit: float, word: str) -> str:

@@ -140,6 +140,7 @@ def temperature_layers(result: Result) -> Figure:
     for axes, (name, field) in zip(grid.flat, layers.items(), strict=True):
         mesh, lines = _map(axes, result, field - found.inlet, span)
         dress_contact(axes, result)
+        axes.set_xlabel("x [µm]")
         axes.label_outer()
         axes.set_title(name, fontsize=9)
     entrainment_arrow(grid[0, 0])
@@ -155,12 +156,12 @@ def _layers(result: Result) -> dict[str, Array]:
     low, high = (heat.temperature[layer] for layer in quarters)
     names = [f"z = {heat.zeta[layer]:.2g} h" for layer in quarters]
     return {
-        "surface 1 (z = 0)": heat.temperature[0],
+        "surface 1": heat.temperature[0],
         names[0]: low,
-        "mid-film (z = 0.5 h)": found.mid_film,
+        "mid-film": found.mid_film,
         names[1]: high,
-        "surface 2 (z = h)": heat.temperature[-1],
-        "mean across the film": found.mean,
+        "surface 2": heat.temperature[-1],
+        "mean": found.mean,
     }
 
 

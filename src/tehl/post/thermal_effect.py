@@ -1,0 +1,65 @@
+"""What heat does to a film: a thermal result beside its isothermal twin."""
+
+from dataclasses import dataclass
+
+from tehl.errors import InputError
+from tehl.film_formulas import inlet_heating_factor
+from tehl.problem import ContactProblem
+from tehl.result import Result
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class ThermalEffect:
+    """Films of a thermal run over those of its isothermal twin.
+
+    Attributes
+    ----------
+    central, minimum : float
+        Ratio of the central and of the minimum films [-].
+    isothermal_central, isothermal_minimum : float
+        Films of the twin [m].
+    inlet_factors : dict of str to float
+        Ratio that heating in the inlet alone would make, by the name of the formula [-].
+    """
+
+    central: float
+    minimum: float
+    isothermal_central: float
+    isothermal_minimum: float
+    inlet_factors: dict[str, float]
+
+
+def isothermal_twin(problem: ContactProblem) -> ContactProblem:
+    """Return ``problem`` without heat, its oil as warm everywhere as it is at the inlet.
+
+    Raises
+    ------
+    InputError
+        If the problem is isothermal already.
+    """
+    if problem.thermal is None:
+        raise InputError("the case is isothermal: it has no [thermal] table to compare without")
+    oil = problem.lubricant.model_copy(update={"temperature": problem.inlet_temperature})
+    surfaces = {
+        name: getattr(problem, name).model_copy(update={"temperature": None})
+        for name in ("surface_1", "surface_2")
+    }
+    return problem.model_copy(update={"thermal": None, "lubricant": oil, **surfaces})
+
+
+def thermal_effect(thermal: Result, isothermal: Result) -> ThermalEffect:
+    """Return what heat does to the film, from a thermal result and that of its twin."""
+    warm, cold = thermal.film, isothermal.film
+    return ThermalEffect(
+        central=warm.central / cold.central,
+        minimum=warm.minimum / cold.minimum,
+        isothermal_central=cold.central,
+        isothermal_minimum=cold.minimum,
+        inlet_factors=inlet_factors(thermal.problem),
+    )
+
+
+def inlet_factors(problem: ContactProblem) -> dict[str, float]:
+    """Return by how much heating in the inlet thins the film, by each formula that can tell."""
+    factor = inlet_heating_factor(problem)
+    return {} if factor is None else {"Wilson-Sheu": factor}

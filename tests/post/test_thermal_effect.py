@@ -1,0 +1,44 @@
+"""A thermal film beside its isothermal twin."""
+
+from dataclasses import replace
+
+import pytest
+
+from tehl.errors import InputError
+from tehl.post.thermal_effect import isothermal_twin, thermal_effect
+from tehl.problem import ContactProblem
+from tests.fixtures_result import CASE
+
+
+@pytest.fixture(scope="module")
+def warm() -> ContactProblem:
+    oil = {**CASE["lubricant"], "conductivity": 0.14, "heat_capacity": 2000.0}
+    oil["viscosity"] = {**oil["viscosity"], "gamma": 0.042}
+    hot = {"surface_1": {"material": "steel", "temperature": 350.0}}
+    return ContactProblem.model_validate(
+        {**CASE, **hot, "lubricant": oil, "thermal": {"temperature": 333.15}}
+    )
+
+
+def test_the_twin_is_a_case_of_its_own(warm):
+    twin = isothermal_twin(warm)
+    assert ContactProblem.model_validate(twin.model_dump(mode="json")) == twin
+    assert twin.thermal is None
+    assert twin.inlet_temperature == warm.inlet_temperature == 333.15
+    assert twin.ambient_viscosity == warm.ambient_viscosity < 0.04
+    assert isothermal_twin(warm).contact == warm.contact
+
+
+def test_a_case_without_heat_has_no_twin(result):
+    with pytest.raises(InputError, match=r"\[thermal\]"):
+        isothermal_twin(result.problem)
+
+
+def test_the_effect_is_thermal_over_isothermal(result, warm):
+    numbers = replace(result.film_scaled, central=0.09, minimum=0.03)
+    hot = replace(result, problem=warm, film_scaled=numbers)
+    effect = thermal_effect(hot, result)
+    assert effect.central == pytest.approx(0.09 / result.film_scaled.central)
+    assert effect.minimum == pytest.approx(0.03 / result.film_scaled.minimum)
+    assert effect.isothermal_central == result.film.central
+    assert set(effect.inlet_factors) >= {"Wilson-Sheu"}
