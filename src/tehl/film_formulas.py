@@ -10,6 +10,9 @@ References
    245-294.
 .. [3] G. Nijenbanning, C. H. Venner and H. Moes, Wear 176 (1994), 217-229.
 .. [4] W. R. D. Wilson and S. Sheu, J. Lubrication Technology 105 (1983), 187-188.
+.. [5] L. E. Murch and W. R. D. Wilson, J. Lubrication Technology 97 (1975), 212-216.
+.. [6] P. K. Gupta, H. S. Cheng, D. Zhu, N. H. Forster and J. B. Schrand, Tribology Transactions 35
+   (1992), 621-626.
 """
 
 import math
@@ -32,6 +35,9 @@ Against solves at L = 10 (mineral oil, steel) both are 0 to 5 % off at R_x/R_y =
 150, 13 % too thick at 0.4 and M = 300, and up to 6 % too thin for an incompressible Barus liquid at
 0.5 and M = 50. At R_x/R_y = 2 and M = 150 they are 50 % too thick.
 """
+
+ROLLING = 0.05
+"""Slide-roll ratio up to which a contact counts as pure rolling."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -299,6 +305,88 @@ def _minimum_remark(formula: Formula, groups: Groups) -> str | None:
     return f"the minimum is too thick for M above {formula.minimum_limit:g}{how}"
 
 
+@dataclass(frozen=True, kw_only=True, slots=True)
+class InletFactor:
+    """By how much shear heating of the inlet thins the film, by one formula.
+
+    Attributes
+    ----------
+    formula, source : str
+        Which.
+    factor : float
+        Film over the isothermal film [-].
+    remarks : tuple of str
+        Why it may be off; empty where the formula was made for.
+    """
+
+    formula: str
+    source: str
+    factor: float
+    remarks: tuple[str, ...]
+
+
+def thermal_loading(problem: ContactProblem) -> float | None:
+    """Return the thermal loading parameter ``eta_0 b u_m^2 / k`` [-], at the inlet.
+
+    Returns
+    -------
+    float or None
+        With b the fall of ln eta with temperature; None where the case states no conductivity or
+        no temperature coefficient of the oil.
+    """
+    coefficient, conductivity = (
+        problem.temperature_coefficient,
+        problem.lubricant.ambient_conductivity,
+    )
+    if conductivity is None or not coefficient > 0:
+        return None
+    return problem.ambient_viscosity * coefficient * problem.entrainment_speed**2 / conductivity
+
+
+def murch_wilson(loading: float) -> float:
+    """Return the factor of Murch and Wilson [5]_ on the film of pure rolling [-]."""
+    return 1.0 / (1.0 + 0.254 * loading**0.62)
+
+
+def wilson_sheu(loading: float, slide_roll_ratio: float) -> float:
+    """Return the factor of Wilson and Sheu [4]_ on the film of rolling and sliding [-]."""
+    slip = 0.5 * abs(slide_roll_ratio)
+    return 1.0 / (1.0 + 0.241 * (1.0 + 14.8 * slip**0.83) * loading**0.64)
+
+
+def gupta(loading: float, slide_roll_ratio: float, relative_pressure: float) -> float:
+    """Return the factor of Gupta and others [6]_ [-], with p_h / E' as ``relative_pressure``."""
+    compressed = 1.0 - 13.2 * relative_pressure * loading**0.42
+    sliding = 1.0 + 2.23 * abs(slide_roll_ratio) ** 0.83
+    return compressed / (1.0 + 0.213 * sliding * loading**0.64)
+
+
+def inlet_factors(problem: ContactProblem) -> tuple[InletFactor, ...]:
+    """Return what each formula says of the heat of the inlet; nothing where they lack a property.
+
+    They are fits to rolling contacts with moderate sliding; 10 to 15 % is all they promise.
+    """
+    loading = thermal_loading(problem)
+    if loading is None:
+        return ()
+    slip = problem.slide_roll_ratio
+    squeezed = problem.hertz.pressure / problem.reduced_modulus
+    sliding = "made for pure rolling" if abs(slip) > ROLLING else ""
+    opposite = "made for surfaces that move in one direction" if abs(slip) > 2 else ""
+    much = f"the part 13.2 p_h/E' L^0.42 = {13.2 * squeezed * loading**0.42:.2g} is no small one"
+    large = much if 13.2 * squeezed * loading**0.42 > 0.5 else ""
+    found = (
+        ("Murch-Wilson", "J. Lubrication Technology 97 (1975) 212-216", murch_wilson(loading)),
+        ("Wilson-Sheu", "J. Lubrication Technology 105 (1983) 187-188", wilson_sheu(loading, slip)),
+        ("Gupta", "Tribology Transactions 35 (1992) 621-626", gupta(loading, slip, squeezed)),
+    )
+    doubts = ((sliding,), (opposite,), (opposite, large))
+    return tuple(
+        InletFactor(formula=name, source=source, factor=factor, remarks=tuple(filter(None, doubt)))
+        for (name, source, factor), doubt in zip(found, doubts, strict=True)
+    )
+
+
 def inlet_heating_factor(problem: ContactProblem) -> float | None:
     """Return by how much shear heating of the inlet thins the film, after Wilson and Sheu [4]_.
 
@@ -308,11 +396,7 @@ def inlet_heating_factor(problem: ContactProblem) -> float | None:
         Factor on the isothermal film [-]; None where the case states no conductivity or no
         temperature coefficient of the oil, or surfaces that move in opposite directions.
     """
-    oil = problem.lubricant
-    coefficient, conductivity = problem.temperature_coefficient, oil.ambient_conductivity
-    slip = 0.5 * abs(problem.slide_roll_ratio)
-    if conductivity is None or not coefficient > 0 or slip > 1.0:
+    loading = thermal_loading(problem)
+    if loading is None or abs(problem.slide_roll_ratio) > 2.0:
         return None
-    heating = problem.ambient_viscosity * coefficient * problem.entrainment_speed**2
-    loading = heating / conductivity
-    return 1.0 / (1.0 + 0.241 * (1.0 + 14.8 * slip**0.83) * loading**0.64)
+    return wilson_sheu(loading, problem.slide_roll_ratio)

@@ -70,6 +70,62 @@ ODD = [
 ]
 
 
+HOT = {"lubricant": "mineral-oil", "thermal": {}}
+ODD_HEAT = [
+    ("thermal", {"scheme": "uniform", "layers": 9}, "few for uniform layers"),
+    ("thermal", {"sources": "line"}, "Peclet number of surface_2 is 0"),
+    ("thermal", {"temperature": "230 degC"}, "temperature of the oil at the inlet"),
+    ("lubricant", {"name": "mineral-oil", "conductivity": 14}, "lubricant.conductivity"),
+    ("lubricant", {"name": "mineral-oil", "heat_capacity": 2}, "lubricant.heat_capacity"),
+    ("contact.load", "120 N", "Eyring"),
+]
+
+
+@pytest.mark.parametrize(("change", "value", "words"), ODD_HEAT)
+def test_an_odd_thermal_case_is_questioned(change: str, value: object, words: str):
+    contact = ball_tables()["contact"] | {"slide_roll_ratio": 2}
+    case = explained(change, value, contact=contact, **HOT)
+    assert any(words in question for question in case.questions)
+
+
+def test_a_usual_thermal_case_raises_no_question():
+    eyring = {"name": "mineral-oil", "shear": {"law": "eyring", "stress": "5 MPa"}}
+    contact = ball_tables()["contact"] | {"slide_roll_ratio": 0.5}
+    assert explained(contact=contact, lubricant=eyring, thermal={}).questions == ()
+
+
+@pytest.mark.parametrize("slip", [0.0, 0.5])
+def test_a_missing_thermal_table_is_questioned_when_the_film_gets_warm(slip: float):
+    contact = ball_tables()["contact"] | {"slide_roll_ratio": slip}
+    case = explained(contact=contact, lubricant="mineral-oil")
+    assert any("[thermal] is missing" in question for question in case.questions) == (slip > 0)
+
+
+def test_the_heat_of_a_case_is_in_its_summary():
+    contact = ball_tables()["contact"] | {"slide_roll_ratio": 2}
+    case = explained(contact=contact, **HOT)
+    summary = json.loads(json.dumps(as_summary(case), allow_nan=False))
+    assert summary["thermal_loading"] == pytest.approx(0.04 * 0.042 * 1.5**2 / 0.14)
+    assert [factor["formula"] for factor in summary["inlet_factors"]] == [
+        "Murch-Wilson",
+        "Wilson-Sheu",
+        "Gupta",
+    ]
+    assert summary["temperature_law"] == "roelands, S0"
+    assert summary["sources"] == ["full", "full"]
+    assert summary["solid_peclet"][1] == 0
+    assert summary["expected_heat"]["mid_film"] > 5
+    assert "(full source)" in as_text(case)
+
+
+def test_a_solid_without_thermal_properties_has_no_expected_heat():
+    rigid = {"young_modulus": 2e11, "poisson_ratio": 0.3}
+    case = explained("surface_1.material", rigid)
+    assert case.heat is None
+    assert case.sources == (None, "full")
+    assert "not stated" in as_text(case)
+
+
 @pytest.mark.parametrize(("change", "value", "words"), ODD)
 def test_an_odd_value_is_questioned(change: str, value: object, words: str):
     assert any(words in question for question in explained(change, value).questions)

@@ -7,15 +7,20 @@ from typing import Any
 from tehl.domain import needed_points, recommended_domain
 from tehl.film_formulas import (
     FilmEstimate,
+    InletFactor,
     Regime,
     expected_central_film,
     film_estimates,
+    inlet_factors,
     inlet_heating_factor,
     regime,
+    thermal_loading,
 )
+from tehl.heat import source_form
 from tehl.memory import available_memory, needed_memory
 from tehl.options import Domain, Options, coarsenable
 from tehl.problem import ContactProblem
+from tehl.report.heating import ExpectedHeat, expected_heat
 from tehl.report.suspicion import questions
 from tehl.scaling import Groups, Scales, groups, scales
 
@@ -49,7 +54,15 @@ class Explanation:
     peclet : tuple of (float or None)
         ``|u_s| a_x / (2 diffusivity)`` of both solids [-]; None where a property is not stated.
     inlet_heating : float or None
-        Factor by which inlet shear heating thins the film [-].
+        Factor by which inlet shear heating thins the film, after Wilson and Sheu [-].
+    inlet_factors : tuple of InletFactor
+        The same by each formula.
+    thermal_loading : float or None
+        eta_0 b u_m^2 / k [-]; None where a property is not stated.
+    heat : ExpectedHeat or None
+        Temperature rises to expect; None where the solids state too little.
+    sources : tuple of ({"line", "full"} or None)
+        Moving source that either surface takes in a thermal run; None where a property is missing.
     domain : Domain
         The domain that a solve takes: the one stated, else the recommended one.
     recommended_domain : Domain
@@ -72,6 +85,10 @@ class Explanation:
     lambda_ratio: float | None
     peclet: tuple[float | None, float | None]
     inlet_heating: float | None
+    inlet_factors: tuple[InletFactor, ...]
+    thermal_loading: float | None
+    heat: ExpectedHeat | None
+    sources: tuple[str | None, str | None]
     domain: Domain
     recommended_domain: Domain
     needed_points: int
@@ -86,7 +103,8 @@ def explain(problem: ContactProblem, options: Options) -> Explanation:
     film = expected_central_film(case_groups) * case_scales.film_thickness
     wanted = recommended_domain(case_groups)
     nodes = options.shape[0] * options.shape[1]
-    rough = problem.rms_roughness
+    rough, (first, second) = problem.rms_roughness, problem.solid_peclet
+    heat = expected_heat(problem)
     return Explanation(
         problem=problem,
         options=options,
@@ -96,27 +114,24 @@ def explain(problem: ContactProblem, options: Options) -> Explanation:
         central_film=film,
         films=film_estimates(case_groups, case_scales),
         lambda_ratio=film / rough if rough > 0 else None,
-        peclet=_peclet(problem),
+        peclet=(None if first is None else abs(first), None if second is None else abs(second)),
         inlet_heating=inlet_heating_factor(problem),
+        inlet_factors=inlet_factors(problem),
+        thermal_loading=thermal_loading(problem),
+        heat=heat,
+        sources=(_source(problem, first), _source(problem, second)),
         domain=options.domain if isinstance(options.domain, Domain) else wanted,
         recommended_domain=wanted,
         needed_points=coarsenable(needed_points(case_groups) - 2)[1],
         memory=needed_memory(options),
         seconds=SECONDS_PER_NODE * nodes,
-        questions=questions(problem, options, case_groups, film),
+        questions=questions(problem, options, case_groups, film, heat=heat),
     )
 
 
-def _peclet(problem: ContactProblem) -> tuple[float | None, float | None]:
-    width, motion = problem.hertz.half_width_x, problem.motion
-    values = [
-        None if diffusivity is None else abs(speed) * width / (2.0 * diffusivity)
-        for speed, diffusivity in (
-            (motion.speed_1, problem.surface_1.material.diffusivity),
-            (motion.speed_2, problem.surface_2.material.diffusivity),
-        )
-    ]
-    return values[0], values[1]
+def _source(problem: ContactProblem, peclet: float | None) -> str | None:
+    stated = problem.thermal.sources if problem.thermal else "auto"
+    return None if peclet is None else source_form(stated, peclet)
 
 
 def as_summary(explanation: Explanation) -> dict[str, Any]:
@@ -138,6 +153,13 @@ def as_summary(explanation: Explanation) -> dict[str, Any]:
         "lambda_ratio": case.lambda_ratio,
         "solid_peclet": list(case.peclet),
         "inlet_heating_factor": case.inlet_heating,
+        "inlet_factors": [asdict(factor) for factor in case.inlet_factors],
+        "thermal_loading": case.thermal_loading,
+        "expected_heat": None if case.heat is None else asdict(case.heat),
+        "sources": list(case.sources),
+        "thermal": case.problem.thermal is not None,
+        "temperature_law": case.problem.lubricant.viscosity.temperature_law,
+        "inlet_temperature_k": case.problem.inlet_temperature,
         "domain": case.domain.model_dump(mode="json"),
         "recommended_domain": case.recommended_domain.model_dump(mode="json"),
         "points": list(reversed(case.options.shape)),
@@ -154,6 +176,7 @@ def as_text(explanation: Explanation) -> str:
         _about_case(explanation),
         _about_groups(explanation),
         _about_film(explanation),
+        _about_heat(explanation),
         _about_numerics(explanation),
         _about_questions(explanation),
     )
@@ -225,10 +248,56 @@ def _about_film(case: Explanation) -> Iterator[str]:
             yield f"      outside its range: {remark}"
     if case.lambda_ratio is not None:
         yield _row("lambda ratio", f"{case.lambda_ratio:.3g} (central film over joint Rq)")
-    if case.inlet_heating is not None:
-        yield _row("inlet heating", f"{case.inlet_heating:.3f} times the isothermal film")
-    numbers = ["not stated" if value is None else f"{value:.3g}" for value in case.peclet]
+
+
+def _about_heat(case: Explanation) -> Iterator[str]:
+    problem, viscosity = case.problem, case.problem.lubricant.viscosity
+    thermal = problem.thermal
+    yield f"Heat ({'computed' if thermal else 'left out: an isothermal film'})"
+    fall = problem.temperature_coefficient
+    yield _row(
+        "oil at the inlet",
+        f"{problem.inlet_temperature - 273.15:.4g} degC",
+        viscosity.temperature_law,
+        f"-d ln eta/dT = {fall:.3g} 1/K" if fall > 0 else "",
+    )
+    if thermal:
+        across = f"{thermal.nodes} {thermal.scheme} nodes across the film"
+        yield _row("model", f"{thermal.reynolds} Reynolds equation", across)
+    if case.thermal_loading is not None:
+        yield _row("thermal loading", f"eta_0 b u_m^2 / k = {case.thermal_loading:.3g}")
+    yield from _about_inlet(case)
+    yield from _about_rise(case)
+    names = ("not stated" if value is None else f"{value:.3g}" for value in case.peclet)
+    numbers = [
+        name if source is None else f"{name} ({source} source)"
+        for name, source in zip(names, case.sources, strict=True)
+    ]
     yield _row("solid Peclet numbers", *numbers)
+
+
+def _about_inlet(case: Explanation) -> Iterator[str]:
+    if case.inlet_factors:
+        factors = (f"{one.factor:.3f} {one.formula}" for one in case.inlet_factors)
+        yield _row("film by inlet heat", *factors)
+    for one in case.inlet_factors:
+        for remark in one.remarks:
+            yield f"      {one.formula}: {remark}"
+
+
+def _about_rise(case: Explanation) -> Iterator[str]:
+    heat = case.heat
+    if heat is None or not heat.power > 0:
+        return
+    yield _row(
+        "expected rise",
+        f"mid-film {heat.mid_film:.2g} K",
+        f"surface 1 {heat.surface_1:.2g} K",
+        f"surface 2 {heat.surface_2:.2g} K",
+        "(within a factor of two)",
+    )
+    how = "assumed" if heat.assumed else "expected"
+    yield _row("traction", f"{heat.traction:.2g} {how}", f"{heat.power:.3g} W")
 
 
 def _about_numerics(case: Explanation) -> Iterator[str]:
