@@ -130,6 +130,13 @@ def test_centre_lines_gain_temperatures(thermal, result):
     assert labels.count("film") == 2
 
 
+def test_the_history_shows_how_the_temperature_changed(thermal, result):
+    labels = [line.get_label() for line in plots.residual_history(thermal).axes[0].lines]
+    assert "change of T per cycle [K]" in labels
+    cold = [line.get_label() for line in plots.residual_history(result).axes[0].lines]
+    assert "change of T per cycle [K]" not in cold
+
+
 def sliding(result, ratio):
     contact = result.problem.contact.model_copy(update={"slide_roll_ratio": ratio})
     return replace(result, problem=result.problem.model_copy(update={"contact": contact}))

@@ -55,7 +55,7 @@ def _heat(result: "Result") -> Iterator[tuple[str, str]]:
     yield (
         "film temperature",
         f"rise {found.film_rise_max:.4g} K at most (X = {x:.3g}, Y = {y:.3g}, z/h = {zeta:.3g}), "
-        f"{found.mid_film_rise_central:.4g} K in the middle, inlet {found.inlet - 273.15:.4g} degC"
+        f"{found.mid_film_rise_central:.4g} K central, over {found.inlet - 273.15:.4g} degC"
         + _bar(result, "film_rise_max", 1.0, "K"),
     )
     first, second = found.surface_1_rise_max, found.surface_2_rise_max

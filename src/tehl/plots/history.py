@@ -12,10 +12,11 @@ _CURVES = (
     ("change", "change of P per cycle", "s-", "#c2410c"),
     ("load_error", "load error", "^-", "#3f7d20"),
 )
+_HEAT_CURVE = ("temperature_change", "change of T per cycle [K]", "D-", "0.35")
 
 
 def residual_history(result: Result) -> Figure:
-    """Draw residual, change and load error of each cycle, grid after grid.
+    """Draw residual, changes and load error of each cycle, grid after grid.
 
     Parameters
     ----------
@@ -35,7 +36,8 @@ def residual_history(result: Result) -> Figure:
         axes.text(0.5, 0.5, "no cycles were recorded", ha="center", transform=axes.transAxes)
         return picture
     count = np.arange(1, len(result.history) + 1)
-    for name, label, style, colour in _CURVES:
+    curves = _CURVES if result.heat is None else (*_CURVES, _HEAT_CURVE)
+    for name, label, style, colour in curves:
         values = np.abs([getattr(report, name) for report in result.history])
         shown = np.where(values > 0, values, np.nan)
         axes.plot(count, shown, style, ms=3.5, lw=1.1, color=colour, label=label)
@@ -49,5 +51,11 @@ def residual_history(result: Result) -> Figure:
             label, (start + 0.6, 1.0), xycoords=("data", "axes fraction"), va="bottom", fontsize=7
         )
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=3, fontsize=8, frameon=False)
+    axes.legend(
+        loc="upper center",
+        bbox_to_anchor=(0.5, -0.13),
+        ncols=3 if len(curves) == 3 else 2,
+        fontsize=8,
+        frameon=False,
+    )
     return picture

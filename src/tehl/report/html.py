@@ -187,7 +187,8 @@ def _heat_section(result: Result) -> Iterator[str]:
     yield _section(
         "Temperature",
         _table(("", f"rise over {_celsius(found.inlet)}", "temperature", ""), _rises(heat, found))
-        + _table(("heat", "power"), _powers(heat.balance))
+        + "<h3>Heat</h3>"
+        + _table(("", "power"), _powers(heat.balance))
         + f"<p class=small>The powers balance to {_percent(heat.balance.error)}.</p>",
     )
 
