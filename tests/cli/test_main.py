@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from tehl.cli import COMMANDS, main
+from tehl.io.templates import templates
 
 HEAVY = ("numba", "scipy", "xarray", "matplotlib", "h5py", "pandas")
 
@@ -58,7 +59,7 @@ def test_explain_loads_no_machinery(case: Path):
 
 def test_new_lists_its_templates(monkeypatch, capsys):
     assert run(monkeypatch, "new", "--list") == 0
-    assert len(capsys.readouterr().out.splitlines()) == 3
+    assert len(capsys.readouterr().out.splitlines()) == len(templates())
 
 
 def test_explain_speaks_to_people_and_to_programs(monkeypatch, capsys, case: Path):

@@ -3,6 +3,7 @@
 import json
 import os
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -125,6 +126,16 @@ MISTAKES = [
     ),
     ("lubricant.viscosity={law='tait-doolittle'}", "viscosity.eta_0 is missing", "Pa s"),
     ("lubricant.viscosity={law='roelands-exponential', eta_0=1}", "needs exactly one", "alpha"),
+    (
+        "lubricant.viscosity={law='tait-doolittle', eta_0=1, B=4, occupied=1.2, bulk_modulus=1e9}",
+        "lubricant.viscosity.occupied = 1.2",
+        "less than 1",
+    ),
+    (
+        "lubricant.viscosity={law='tait-doolittle', eta_0=1, B=4, occupied=0.6, bulk_modulus='m'}",
+        'lubricant.viscosity.bulk_modulus = "m"',
+        '"1.2 GPa"',
+    ),
     ("lubricant.density={law='tait', rho_0=800}", "density.bulk_modulus is missing", "GPa"),
     ("lubricant={name='iso-vg-86'}", 'lubricant.name = "iso-vg-86"', "did you mean iso-vg-"),
     ("lubricant={name='iso-vg-68', shear={law='eyring'}}", "shear.stress is missing", "5 MPa"),
@@ -321,6 +332,23 @@ def test_the_schema_knows_every_table_and_refuses_others():
     assert schema["additionalProperties"] is False
     named = {choice.get("type") for choice in schema["properties"]["lubricant"]["anyOf"]}
     assert "string" in named
+
+
+def test_the_schema_knows_every_law_and_the_thermal_keys():
+    parts = json.loads(json.dumps(case_schema()))["$defs"]
+    laws = {part["properties"]["law"]["const"] for part in parts.values() if _is_law(part)}
+    viscosity = {"roelands", "roelands-exponential", "barus", "walther", "tait-doolittle"}
+    shear = {"newtonian", "eyring", "carreau", "limiting"}
+    assert laws == viscosity | shear | {"dowson-higginson", "tait", "constant"}
+    thermal = parts["Thermal"]["properties"]
+    assert set(thermal) == {"temperature", "reynolds", "layers", "scheme", "sources"}
+    assert thermal["scheme"]["enum"] == ["chebyshev", "uniform"]
+    assert parts["OilByName"]["required"] == ["name"]
+    assert "temperature" in parts["Surface"]["properties"]
+
+
+def _is_law(part: dict[str, Any]) -> bool:
+    return "const" in part.get("properties", {}).get("law", {})
 
 
 @pytest.mark.parametrize("nodes", range(33, 1200, 7))

@@ -1,12 +1,16 @@
 """Each template is a case."""
 
+import tomllib
 from pathlib import Path
 
 import pytest
 
 from tehl.errors import InputError
-from tehl.io.case import read_case_and_options
+from tehl.heat import FilmEnergy
+from tehl.io.case import case_from_tables, read_case_and_options
 from tehl.io.templates import template_text, templates
+from tehl.problem import ContactProblem
+from tehl.report.explain import explain
 
 
 @pytest.mark.parametrize("name", list(templates()))
@@ -17,6 +21,23 @@ def test_every_template_is_a_case(name: str, tmp_path: Path):
     assert problem.title
     assert options.points == 257
     assert 0.3e9 < problem.hertz.pressure < 2e9
+
+
+@pytest.mark.parametrize("name", ["ball-on-disc", "moes", "thermal", "dimple", "data-sheet"])
+def test_a_template_does_not_look_odd(name: str):
+    problem, options = case_from_tables(tomllib.loads(template_text(name)))
+    assert explain(problem, options).questions == ()
+
+
+def test_thermal_templates_are_thermal_and_the_dimple_has_a_surface_at_rest():
+    def problem(name: str) -> ContactProblem:
+        return case_from_tables(tomllib.loads(template_text(name)))[0]
+
+    assert all(isinstance(problem(n).heat, FilmEnergy) for n in ("thermal", "dimple", "data-sheet"))
+    assert problem("dimple").motion.speed_2 == 0
+    sheet = problem("data-sheet")
+    assert sheet.inlet_temperature == pytest.approx(353.15)
+    assert sheet.lubricant.viscosity.law == "walther"
 
 
 def test_the_titles_are_sentences():
