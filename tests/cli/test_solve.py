@@ -145,7 +145,8 @@ def test_the_isothermal_twin_enters_at_the_same_temperature(warm, solver, run):
     assert first.ambient_viscosity == second.ambient_viscosity
     effect = json.loads(answer.out)["thermal_effect"]
     assert effect["central"] == effect["minimum"] == 1.0
-    assert 0 < effect["inlet_heating_factors"]["Wilson-Sheu"] < 1
+    factors = {factor["formula"]: factor["factor"] for factor in effect["inlet_factors"]}
+    assert 0 < factors["Wilson-Sheu"] < 1
     with h5netcdf.File("warm.nc") as file:
         assert json.loads(file.attrs["summary"]) == json.loads(answer.out)
 

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from tehl.cli.words import as_text, effect_as_text, headline
+from tehl.film_formulas import InletFactor
 from tehl.post.thermal_effect import ThermalEffect
 from tehl.report.explain import length
 from tehl.result import Estimate
@@ -51,12 +52,12 @@ def test_the_effect_of_heat_names_its_formulas():
         minimum=0.91,
         isothermal_central=1e-7,
         isothermal_minimum=5e-8,
-        inlet_factors={"Wilson-Sheu": 0.95},
+        inlet_factors=(InletFactor(formula="Wilson-Sheu", source="", factor=0.95, remarks=()),),
     )
     shown = effect_as_text(effect)
     assert "0.9300 of the central, 0.9100 of the minimum" in shown
-    assert "Wilson-Sheu 0.9500" in shown
-    assert "formula" not in effect_as_text(replace(effect, inlet_factors={}))
+    assert "0.9500 Wilson-Sheu" in shown
+    assert "formula" not in effect_as_text(replace(effect, inlet_factors=()))
 
 
 def test_a_case_without_a_title_has_one(result):

@@ -133,6 +133,8 @@ def _save_effect(result: "Result", effect: "ThermalEffect | None", target: Path)
 
 def _block(effect: "ThermalEffect | None") -> dict[str, Any]:
     """Return what the summary says of the comparison, null where there is none."""
+    from dataclasses import asdict
+
     from tehl.io.summary import plain
 
     if effect is None:
@@ -142,7 +144,7 @@ def _block(effect: "ThermalEffect | None") -> dict[str, Any]:
         "minimum": effect.minimum,
         "isothermal_h_central_m": effect.isothermal_central,
         "isothermal_h_min_m": effect.isothermal_minimum,
-        "inlet_heating_factors": effect.inlet_factors,
+        "inlet_factors": [asdict(factor) for factor in effect.inlet_factors],
     }
     return {"thermal_effect": plain(content)}
 

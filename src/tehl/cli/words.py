@@ -82,7 +82,7 @@ def effect_as_text(effect: "ThermalEffect") -> str:
         f"{effect.minimum:.4f} of the minimum film without heat"
     ]
     if effect.inlet_factors:
-        factors = ", ".join(f"{name} {value:.4f}" for name, value in effect.inlet_factors.items())
+        factors = ", ".join(f"{one.factor:.4f} {one.formula}" for one in effect.inlet_factors)
         parts.append(f"  {'inlet heating':<17}by formula {factors}")
     return "\n".join(parts)
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from tehl.errors import InputError
-from tehl.film_formulas import inlet_heating_factor
+from tehl.film_formulas import InletFactor, inlet_factors
 from tehl.problem import ContactProblem
 from tehl.result import Result
 
@@ -18,15 +18,15 @@ class ThermalEffect:
         Ratio of the central and of the minimum films [-].
     isothermal_central, isothermal_minimum : float
         Films of the twin [m].
-    inlet_factors : dict of str to float
-        Ratio that heating in the inlet alone would make, by the name of the formula [-].
+    inlet_factors : tuple of InletFactor
+        Ratio that heating in the inlet alone would make, by each formula.
     """
 
     central: float
     minimum: float
     isothermal_central: float
     isothermal_minimum: float
-    inlet_factors: dict[str, float]
+    inlet_factors: tuple[InletFactor, ...]
 
 
 def isothermal_twin(problem: ContactProblem) -> ContactProblem:
@@ -57,9 +57,3 @@ def thermal_effect(thermal: Result, isothermal: Result) -> ThermalEffect:
         isothermal_minimum=cold.minimum,
         inlet_factors=inlet_factors(thermal.problem),
     )
-
-
-def inlet_factors(problem: ContactProblem) -> dict[str, float]:
-    """Return by how much heating in the inlet thins the film, by each formula that can tell."""
-    factor = inlet_heating_factor(problem)
-    return {} if factor is None else {"Wilson-Sheu": factor}
