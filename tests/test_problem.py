@@ -151,6 +151,11 @@ def test_heat_needs_all_its_properties():
     oil = {**ball_tables()["lubricant"], "conductivity": 0.14, "heat_capacity": 2000}
     with pytest.raises(ValidationError, match="add gamma"):
         problem(thermal={}, lubricant=oil)
+    with pytest.raises(ValidationError, match='law = "walther"'):
+        problem(thermal={}, lubricant=oil | {"viscosity": {"law": "constant", "eta_0": 0.04}})
+    free = {"law": "tait-doolittle", "eta_0": 0.03, "B": 5, "occupied": 0.66, "bulk_modulus": 1e9}
+    with pytest.raises(ValidationError, match="add expansion"):
+        problem(thermal={}, lubricant=oil | {"viscosity": free})
 
 
 def test_a_thermal_problem_returns_from_json_as_it_was():

@@ -356,7 +356,7 @@ def wilson_sheu(loading: float, slide_roll_ratio: float) -> float:
 
 def gupta(loading: float, slide_roll_ratio: float, relative_pressure: float) -> float:
     """Return the factor of Gupta and others [6]_ [-], with p_h / E' as ``relative_pressure``."""
-    compressed = 1.0 - 13.2 * relative_pressure * loading**0.42
+    compressed = max(1.0 - 13.2 * relative_pressure * loading**0.42, 0.0)
     sliding = 1.0 + 2.23 * abs(slide_roll_ratio) ** 0.83
     return compressed / (1.0 + 0.213 * sliding * loading**0.64)
 

@@ -242,8 +242,7 @@ class ContactProblem(BaseModel):
         if warmer > 0 and not law.temperature_coefficient > 0 and law.law != "constant":
             raise ValueError(
                 f"lubricant.viscosity holds at {law.reference_temperature:g} K and knows no "
-                f"temperature, but the oil enters at {self.inlet_temperature:g} K: add gamma, such "
-                'as "0.04 1/K"'
+                f"temperature, but the oil enters at {self.inlet_temperature:g} K: {self._remedy}"
             )
 
     def _stated_temperatures(self) -> dict[str, float]:
@@ -274,9 +273,19 @@ class ContactProblem(BaseModel):
         self._need("lubricant.heat_capacity", self.lubricant.heat_capacity, HEAT_CAPACITY)
         if not self.lubricant.viscosity.temperature_coefficient > 0:
             raise ValueError(
-                "lubricant.viscosity knows no temperature, which a thermal run needs: add gamma, "
-                'such as "0.04 1/K", or take law = "walther"'
+                "lubricant.viscosity knows no temperature, which a thermal run needs: "
+                f"{self._remedy}"
             )
+
+    @property
+    def _remedy(self) -> str:
+        """Say what lets the viscosity fall with temperature."""
+        keys = type(self.lubricant.viscosity).model_fields
+        if "gamma" in keys:
+            return 'add gamma, such as "0.04 1/K"'
+        if "expansion" in keys:
+            return 'add expansion, such as "8e-4 1/K"'
+        return 'take a law with gamma, or law = "walther"'
 
     def _need(self, key: str, value: object, quantity: Quantity) -> None:
         if value is None:

@@ -108,6 +108,7 @@ MISTAKES = [
     ("thermal.sources='lines'", "thermal.sources", "did you mean line?"),
     ("lubricant.conductivity='0.14'", "lubricant.conductivity", "W/m/K"),
     ("lubricant.conductivity={value=0.14}", "lubricant.conductivity.slope is missing", "1/GPa"),
+    ("lubricant.heat_capacity={value=2e3, slope=0, basis='mol'}", "capacity.basis", "mass, volume"),
     ("lubricant.heat_capacity={value=0, slope=0}", "lubricant.heat_capacity.value = 0", "J/kg/K"),
     ("transient.step='auto'", "transient runs are not available", "leave"),
     ("lubricant=mineral-oel", "lubricant", "did you mean mineral-oil?"),

@@ -68,6 +68,10 @@ def test_thermal_properties_grow_with_pressure_where_the_oil_says_so():
     assert lubricant.conductivity_at(pressure) == pytest.approx([0.154, 0.154 * (1 + 1.4 / 1.34)])
     assert lubricant.heat_capacity_at(pressure) == pytest.approx([2000, 2200])
     assert lubricant.ambient_conductivity == 0.154
+    volume = heat | {"slope": "0.41 1/GPa", "saturation": "1.05 1/GPa", "basis": "volume"}
+    measured = Lubricant.model_validate(parts | {"heat_capacity": volume})
+    growth = (1 + 0.41 / 2.05) / (1 + 0.6 / 2.7)  # of volume over density at 1 GPa
+    assert measured.heat_capacity_at(pressure) == pytest.approx([2000, 2000 * growth])
     plain = oil("mineral-oil")
     assert plain.conductivity_at(pressure).tolist() == [0.14, 0.14]
     assert plain.ambient_heat_capacity == 2000

@@ -6,7 +6,7 @@ import tomllib
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import (
     BaseModel,
@@ -52,17 +52,21 @@ class ConductivityOfPressure(BaseModel):
 
 
 class HeatCapacityOfPressure(BaseModel):
-    """A heat capacity that grows with pressure, ``value (1 + s p / (1 + c p))``.
-
-    Per mass, as everywhere in this package. What is measured is usually the capacity of a volume,
-    which grows with the density too.
+    """A heat capacity that changes with pressure, ``value (1 + s p / (1 + c p))``.
 
     Attributes
     ----------
     value : float
-        At ambient pressure [J/kg/K].
+        Per mass, at ambient pressure [J/kg/K].
     slope, saturation : float
         s and c [1/Pa].
+    basis : {"mass", "volume"}
+        Whether it is the capacity of a mass or of a volume that grows so. Measured is that of a
+        volume: most of its growth is that of the density, and the one of a mass hardly changes.
+
+    References
+    ----------
+    .. [1] R. Larsson and O. Andersson, Proc. IMechE Part J 214 (2000), 337-342.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
@@ -70,6 +74,7 @@ class HeatCapacityOfPressure(BaseModel):
     value: HeatCapacity
     slope: PressureCoefficient
     saturation: PressureCoefficient = 0.0
+    basis: Literal["mass", "volume"] = "mass"
 
 
 def _number_or_table(value: object) -> str:
@@ -154,7 +159,11 @@ class Lubricant(BaseModel):
         InputError
             If the oil states none.
         """
-        return _grown(self.heat_capacity, "heat_capacity", pressure)
+        grown, stated = _grown(self.heat_capacity, "heat_capacity", pressure), self.heat_capacity
+        if isinstance(stated, HeatCapacityOfPressure) and stated.basis == "volume":
+            at = self.viscosity.reference_temperature
+            grown *= self.density.ambient(at) / self.density.density(pressure, at)
+        return grown
 
 
 Property = float | ConductivityOfPressure | HeatCapacityOfPressure | None

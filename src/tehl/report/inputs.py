@@ -30,6 +30,7 @@ class InputRow:
 _READABLE: dict[str, tuple[tuple[float, float, str], ...]] = {
     "Pa": ((1e9, 1e-9, "GPa"), (1e6, 1e-6, "MPa")),
     "1/Pa": ((1e-12, 1e9, "1/GPa"),),
+    "m^2/s": ((1e-9, 1e6, "mm^2/s"),),
     "m": ((1.0, 1.0, "m"), (1e-3, 1e3, "mm"), (1e-7, 1e6, "µm"), (1e-12, 1e9, "nm")),
 }
 """By SI unit, from the largest: least value, factor and unit that reads well."""
