@@ -46,6 +46,13 @@ def test_a_thermal_run_tells_temperatures_traction_and_balance(thermal):
         assert f"{value:.4g}" in lines["traction"]
 
 
+def test_a_traction_that_no_oil_bears_is_doubted(sheared):
+    assert "more than any oil" not in as_text(sheared)
+    shear = replace(sheared.shear, mid_film=5 * sheared.shear.mid_film)
+    shown = as_text(replace(sheared, shear=shear))
+    assert "more than any oil bears: the shear law is newtonian, state lubricant.shear" in shown
+
+
 def test_the_effect_of_heat_names_its_formulas():
     effect = ThermalEffect(
         central=0.93,

@@ -84,6 +84,10 @@ def test_traction_alone_has_its_section(sheared):
     words = " ".join(Page(report_text(sheared, dpi=40)).words)
     assert "the film holds it back" in words
     assert "moving source" not in words
+    assert "More than any oil" not in words
+    shear = replace(sheared.shear, mid_film=5 * sheared.shear.mid_film)
+    doubted = " ".join(Page(report_text(replace(sheared, shear=shear), dpi=40)).words)
+    assert "More than any oil bears: the shear law is newtonian." in doubted
 
 
 @pytest.mark.usefixtures("one_picture")

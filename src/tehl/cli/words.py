@@ -73,6 +73,15 @@ def _traction(result: "Result") -> Iterator[tuple[str, str]]:
         f"{found.surface_2:.4g} on surface 2"
         + _bar(result, "traction_mid_film", 1.0, "at mid-film"),
     )
+    if not found.credible:
+        yield "", too_much_traction(result)
+
+
+def too_much_traction(result: "Result") -> str:
+    """Return why nobody should believe the traction, and what to do."""
+    law = result.problem.lubricant.shear.law
+    how = "state lubricant.shear" if law == "newtonian" else "check its numbers"
+    return f"more than any oil bears: the shear law is {law}, {how}"
 
 
 def effect_as_text(effect: "ThermalEffect") -> str:

@@ -147,7 +147,7 @@ def _temperature(result: Result) -> dict[str, Any] | None:
     }
 
 
-def _traction(result: Result) -> dict[str, float] | None:
+def _traction(result: Result) -> dict[str, float | bool] | None:
     found = result.traction
     if found is None:
         return None
@@ -159,6 +159,7 @@ def _traction(result: Result) -> dict[str, float] | None:
         "rolling": found.rolling,
         "rolling_by_film": found.rolling_by_film,
         "closure_error": found.closure_error,
+        "credible": found.credible,
         "friction_power_w": found.friction_power,
     }
 

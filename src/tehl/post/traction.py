@@ -12,6 +12,9 @@ import numpy as np
 from tehl.result import Result
 from tehl.typing import Array
 
+LARGEST_CREDIBLE = 0.12
+"""Traction coefficient that oils reach at most; a Newtonian film knows no such limit."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Traction:
@@ -54,6 +57,11 @@ class Traction:
     def sliding_force(self) -> float:
         """Traction force at mid-film [N], with the sign of the coefficient."""
         return self.mid_film * self.load
+
+    @property
+    def credible(self) -> bool:
+        """Whether an oil can bear so much: no more than 0.12 at mid-film."""
+        return abs(self.mid_film) <= LARGEST_CREDIBLE
 
     @property
     def closure_error(self) -> float:

@@ -237,9 +237,12 @@ def _traction_section(result: Result) -> Iterator[str]:
         ("on surface 2", f"{found.surface_2:.5g}", f"{found.surface_2 * found.load:.4g} N"),
         ("rolling part", f"{found.rolling:.5g}", f"{found.rolling * found.load:.4g} N"),
     ]
+    law = result.problem.lubricant.shear.law
+    doubt = "" if found.credible else f"<p>More than any oil bears: the shear law is {law}.</p>"
     yield _section(
         "Traction",
         _table(("integral of tau = eta du/dz", "coefficient", "force"), rows)
+        + doubt
         + "<p class=small>Negative where surface 1 is the faster: the film holds it back. The "
         f"surfaces spend {found.friction_power:.4g} W. Forces on the film balance to "
         f"{_percent(found.closure_error)} of the traction.</p>",
