@@ -57,6 +57,7 @@ def test_the_laws_stay_positive_wherever_they_are_tabulated(law: DensityLaw):
     temperature = np.linspace(200.0, 1500.0, 131)
     value = law.density(pressure[:, None], temperature[None, :])
     assert value.shape == (61, 131)
+    assert np.isfinite(law.density(np.array([-1e6]), temperature)).all()  # where slopes are taken
     assert np.isfinite(value).all()
     assert value.min() > 0
     ambient = [law.ambient(t) for t in temperature]

@@ -92,6 +92,7 @@ def test_the_laws_stay_positive_wherever_they_are_tabulated(law: ViscosityLaw):
     temperature = np.linspace(200.0, 1500.0, 131)
     value = law.viscosity(pressure[:, None], temperature[None, :])
     assert value.shape == (61, 131)
+    assert np.isfinite(law.viscosity(np.array([-1e6]), temperature)).all()  # where slopes are taken
     assert np.isfinite(value).all()
     assert value.min() > 0
     assert (np.diff(np.log(value), axis=0) >= -1e-9).all()

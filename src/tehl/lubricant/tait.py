@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 
 LEAST_VOLUME = 0.2
 """Least part of a volume that the equations of this module compress or cool to."""
+LEAST_MODULUS = 0.02
+"""Least part of the bulk modulus that heat leaves: the exponential is one of moderate heat."""
 LEAST_FREE = 1e-4
 """Least free volume, in units of the reference volume: the oil is a glass long before."""
 
@@ -169,7 +171,10 @@ class TaitDoolittle(BaseModel):
         warmer = temperature - self.reference_temperature
         return _State(
             volume=max(1.0 + self.expansion * warmer, LEAST_VOLUME),
-            modulus=exponential_at(self.bulk_modulus, -self.softening * warmer),
+            modulus=max(
+                exponential_at(self.bulk_modulus, -self.softening * warmer),
+                LEAST_MODULUS * self.bulk_modulus,
+            ),
         )
 
     def viscosity_at(self, pressure: float, temperature: float) -> float:
@@ -199,6 +204,8 @@ def relative_volume(
     warmer = np.asarray(temperature, dtype=np.float64) - law.reference_temperature
     steepness = 1.0 + law.bulk_modulus_slope
     modulus = exponential(law.bulk_modulus, -law.softening * warmer)
-    squeezed = 1.0 - np.log1p(steepness * np.asarray(pressure) / modulus) / steepness
+    modulus = np.maximum(modulus, LEAST_MODULUS * law.bulk_modulus)
+    strain = np.maximum(steepness * np.asarray(pressure) / modulus, -0.9)
+    squeezed = 1.0 - np.log1p(strain) / steepness
     expanded = np.maximum(1.0 + law.expansion * warmer, LEAST_VOLUME)
     return np.maximum(squeezed, LEAST_VOLUME) * expanded
