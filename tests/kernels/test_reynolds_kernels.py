@@ -9,9 +9,14 @@ from tehl.kernels.reynolds import LANES, Batch, Film, Mesh, Relaxation
 MIRROR = pytest.mark.parametrize("mirror", [0, 1])
 
 
+def isotropic(p, h, eps, rho, drho):
+    """A film that conducts alike along x and y."""
+    return Film(p, h, eps, rho, drho, eps_x=eps)
+
+
 def random_film(shape, seed=0):
     rng = np.random.default_rng(seed)
-    return Film(*(0.5 + rng.random(shape) for _ in range(5)))
+    return isotropic(*(0.5 + rng.random(shape) for _ in range(5)))
 
 
 def mesh_of(mirror, dx=0.25, dy=0.4):
@@ -128,7 +133,7 @@ def test_properties_reproduce_cubics_and_hold_the_film_at_its_floor():
     )
     p = np.array([[-1.0, 0.0, 0.3, 1.7, 3.99, 4.0]])
     h = np.array([[0.5, 1e-9, 0.7, 0.01, 1.0, 2.0]])
-    film = Film(p, h, np.empty((1, 6)), np.empty((1, 6)), np.empty((1, 6)))
+    film = isotropic(p, h, np.empty((1, 6)), np.empty((1, 6)), np.empty((1, 6)))
     reynolds.properties(film, table, step, 0.1)
     positive = np.maximum(p, 0.0)
     np.testing.assert_allclose(film.eps, (2.0 + positive**3) * np.maximum(h, 0.1) ** 3, rtol=1e-13)
@@ -260,7 +265,7 @@ def test_lines_relaxed_side_by_side_equal_lines_relaxed_one_by_one(shape, mirror
 @MIRROR
 def test_relaxation_reduces_the_residual_of_a_linear_problem(mirror):
     shape = (17, 17)
-    film = Film(*(np.ones(shape) for _ in range(5)))
+    film = isotropic(*(np.ones(shape) for _ in range(5)))
     film.drho[:] = 0.0
     film.p[:, 1:-1] += np.random.default_rng(7).random((17, 15))
     mesh = Mesh(64.0, 64.0, 0.0, 0.0, 0.0, mirror)
@@ -274,7 +279,7 @@ def test_relaxation_reduces_the_residual_of_a_linear_problem(mirror):
 
 def test_a_line_without_oil_to_move_is_left_alone():
     shape = (5, 12)
-    film, mesh = Film(*(np.ones(shape) for _ in range(5))), mesh_of(mirror=0)
+    film, mesh = isotropic(*(np.ones(shape) for _ in range(5))), mesh_of(mirror=0)
     film.p[:] = 0.0
     reynolds.relax_lines(film, mesh, np.ones(shape), relaxation_of(shape))
     assert not film.p.any()

@@ -14,12 +14,12 @@ from tehl.typing import Array
 def relax_points(film: Film, mesh: Mesh, rhs: Array, self_film: Array, omega: float) -> None:
     """Sweep once in marching order; ``self_film[m]`` is the film at distance m per unit p."""
     ny, nx = film.p.shape
-    p, eps = film.p, film.eps
+    p, eps, eps_x = film.p, film.eps, film.eps_x
     for j in range(0 if mesh.mirror else 1, ny - 1):
         south = j - 1 if j > 0 else 1
         for i in range(1, nx - 1):
-            east = 0.5 * mesh.cx * (eps[j, i] + eps[j, i + 1])
-            west = 0.5 * mesh.cx * (eps[j, i] + eps[j, i - 1])
+            east = 0.5 * mesh.cx * (eps_x[j, i] + eps_x[j, i + 1])
+            west = 0.5 * mesh.cx * (eps_x[j, i] + eps_x[j, i - 1])
             north = 0.5 * mesh.cy * (eps[j, i] + eps[j + 1, i])
             below = 0.5 * mesh.cy * (eps[j, i] + eps[south, i])
             mass = film.rho[j, i] * film.h[j, i]

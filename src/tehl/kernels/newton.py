@@ -17,7 +17,10 @@ HERE, EAST, WEST, NORTH, SOUTH, FAR = range(6)
 
 
 class Coarse(NamedTuple):
-    """State of the coarsest grid: fields (ny, nx) and the derivatives of the conductance."""
+    """State of the coarsest grid: fields (ny, nx) and the derivatives of the conductance.
+
+    Along x the conductance and its derivatives are ``stretch`` times as large.
+    """
 
     p: Array
     h: Array
@@ -26,6 +29,7 @@ class Coarse(NamedTuple):
     drho: Array
     eps_p: Array
     eps_h: Array
+    stretch: Array
 
 
 class System(NamedTuple):
@@ -99,15 +103,17 @@ def slopes(state: Coarse, mesh: Mesh, near: IntArray, by_p: Array, by_h: Array) 
     eps_p, eps_h = state.eps_p.ravel(), state.eps_h.ravel()
     by_p[:] = 0.0
     by_h[:] = 0.0
-    here = near[HERE]
+    here, stretch = near[HERE], state.stretch.ravel()
     for n in range(EAST, FAR):
-        c = 0.5 * (mesh.cx if n <= WEST else mesh.cy)
-        there = near[n]
-        face, drop = c * (eps[here] + eps[there]), c * (p[there] - p[here])
-        by_p[HERE] += drop * eps_p[here] - face
-        by_h[HERE] += drop * eps_h[here]
-        by_p[n] += face + drop * eps_p[there]
-        by_h[n] += drop * eps_h[there]
+        there, along = near[n], n <= WEST
+        c = 0.5 * (mesh.cx if along else mesh.cy)
+        mine = c * (stretch[here] if along else 1.0)
+        theirs = c * (stretch[there] if along else 1.0)
+        face, drop = mine * eps[here] + theirs * eps[there], p[there] - p[here]
+        by_p[HERE] += drop * mine * eps_p[here] - face
+        by_h[HERE] += drop * mine * eps_h[here]
+        by_p[n] += face + drop * theirs * eps_p[there]
+        by_h[n] += drop * theirs * eps_h[there]
     first = near[FAR] == near[WEST]
     w0 = mesh.w0 - mesh.w2 if first else mesh.w0
     w1 = mesh.w2 - mesh.w0 if first else mesh.w1

@@ -38,13 +38,19 @@ class Mesh(NamedTuple):
 
 
 class Film(NamedTuple):
-    """Pressure, film and the frozen flow properties on one grid, each (ny, nx)."""
+    """Pressure, film and the frozen flow properties on one grid, each (ny, nx).
+
+    ``eps_x`` is the conductance along x: ``eps`` itself, unless the film thins in shear. Then it is
+    the larger one of a small change of the pressure gradient, the sliding speed being kept, and
+    the right-hand side takes the difference back (`tangent_source`).
+    """
 
     p: Array
     h: Array
     eps: Array
     rho: Array
     drho: Array
+    eps_x: Array
 
 
 class Relaxation(NamedTuple):
@@ -99,6 +105,48 @@ def properties(film: Film, table: Array, step: float, floor: float) -> None:
             drho[i] = (s * near[3] + t * near[7]) * per_step
 
 
+class Factors(NamedTuple):
+    """What heat and shear thinning make of the flow, each (ny, nx).
+
+    The mobility becomes ``rest`` plus ``mobility`` times the isothermal Newtonian one, and that
+    along x ``stretch`` times as much; the density ``density`` times its own.
+    """
+
+    rest: Array
+    mobility: Array
+    density: Array
+    stretch: Array
+
+
+@njit(cache=True, fastmath={"contract"})
+def scale_properties(film: Film, factors: Factors, floor: float) -> None:
+    """Turn isothermal Newtonian ``eps, rho, drho`` into those of the heated, sheared film."""
+    for j in range(film.p.shape[0]):
+        h, eps, rho, drho = film.h[j], film.eps[j], film.rho[j], film.drho[j]
+        rest, mobility, density = factors.rest[j], factors.mobility[j], factors.density[j]
+        for i in range(film.p.shape[1]):
+            thick = max(h[i], floor)
+            eps[i] = mobility[i] * eps[i] + rest[i] * (thick * thick * thick)
+            rho[i] *= density[i]
+            drho[i] *= density[i]
+        eps_x, stretch = film.eps_x[j], factors.stretch[j]
+        for i in range(film.p.shape[1]):
+            eps_x[i] = stretch[i] * eps[i]
+
+
+@njit(cache=True)
+def tangent_source(film: Film, mesh: Mesh, out: Array) -> None:
+    """Write what ``eps_x`` adds to L(p) over ``eps`` at the present pressure, zero on the edges."""
+    ny, nx = film.p.shape
+    out[:] = 0.0
+    half = 0.5 * mesh.cx
+    for j in range(0 if mesh.mirror else 1, ny - 1):
+        p, more = film.p[j], film.eps_x[j] - film.eps[j]
+        for i in range(1, nx - 1):
+            east, west = more[i] + more[i + 1], more[i] + more[i - 1]
+            out[j, i] = half * (east * (p[i + 1] - p[i]) - west * (p[i] - p[i - 1]))
+
+
 @njit(cache=True, fastmath={"contract"})
 def line_operator(film: Film, mesh: Mesh, j: int, out: Array) -> None:
     """Write L(p) on line ``j`` to ``out`` (nx,); the ends are not touched.
@@ -108,13 +156,13 @@ def line_operator(film: Film, mesh: Mesh, j: int, out: Array) -> None:
     nx = film.p.shape[1]
     south = j - 1 if j > 0 else 1
     p_w, p, p_e = film.p[j, :-2], film.p[j, 1:-1], film.p[j, 2:]
-    eps_w, eps, eps_e = film.eps[j, :-2], film.eps[j, 1:-1], film.eps[j, 2:]
+    eps_w, eps_x, eps_e = film.eps_x[j, :-2], film.eps_x[j, 1:-1], film.eps_x[j, 2:]
     p_n, p_s = film.p[j + 1, 1:-1], film.p[south, 1:-1]
-    eps_n, eps_s = film.eps[j + 1, 1:-1], film.eps[south, 1:-1]
+    eps_n, eps, eps_s = film.eps[j + 1, 1:-1], film.eps[j, 1:-1], film.eps[south, 1:-1]
     half_x, half_y = 0.5 * mesh.cx, 0.5 * mesh.cy
     target = out[1:-1]
     for i in range(nx - 2):
-        east, west = eps[i] + eps_e[i], eps[i] + eps_w[i]
+        east, west = eps_x[i] + eps_e[i], eps_x[i] + eps_w[i]
         north, back = eps[i] + eps_n[i], eps[i] + eps_s[i]
         flow_x = east * (p_e[i] - p[i]) - west * (p[i] - p_w[i])
         flow_y = north * (p_n[i] - p[i]) - back * (p[i] - p_s[i])
@@ -147,13 +195,13 @@ def operator(film: Film, mesh: Mesh, out: Array) -> None:
 def line_diagonal(film: Film, mesh: Mesh, self_film: float, j: int, out: Array) -> None:
     """Write ``-dL/dp`` on the diagonal of line ``j``; ``self_film``: dh/dp of a point on itself."""
     south = j - 1 if j > 0 else 1
-    eps_w, eps, eps_e = film.eps[j, :-2], film.eps[j, 1:-1], film.eps[j, 2:]
-    eps_n, eps_s = film.eps[j + 1, 1:-1], film.eps[south, 1:-1]
+    eps_w, eps_x, eps_e = film.eps_x[j, :-2], film.eps_x[j, 1:-1], film.eps_x[j, 2:]
+    eps_n, eps, eps_s = film.eps[j + 1, 1:-1], film.eps[j, 1:-1], film.eps[south, 1:-1]
     rho, drho, h = film.rho[j, 1:-1], film.drho[j, 1:-1], film.h[j, 1:-1]
     half_x, half_y = 0.5 * mesh.cx, 0.5 * mesh.cy
     target = out[1:-1]
     for i in range(target.shape[0]):
-        target[i] = half_x * (2.0 * eps[i] + eps_e[i] + eps_w[i])
+        target[i] = half_x * (2.0 * eps_x[i] + eps_e[i] + eps_w[i])
         target[i] += half_y * (2.0 * eps[i] + eps_n[i] + eps_s[i])
     for i in range(target.shape[0]):
         target[i] += mesh.w0 * (drho[i] * h[i] + rho[i] * self_film)
@@ -200,7 +248,7 @@ def residual(film: Film, mesh: Mesh, rhs: Array, self_film: float, out: Array) -
 def mark_dipoles(film: Film, mesh: Mesh, relaxation: Relaxation) -> None:
     """Mark the nodes that relax as dipoles: small conductance all round, nothing cavitated."""
     ny, nx = film.p.shape
-    p, eps, kind = film.p, film.eps, relaxation.kind
+    p, eps, kind = film.p, film.eps_x, relaxation.kind
     limit = relaxation.xi / max(mesh.cx, mesh.cy)
     kind[:] = 0
     for j in range(0 if mesh.mirror else 1, ny - 1):
@@ -259,7 +307,7 @@ def load_line(
     a, b = span
     j = batch.first + 2 * lane
     south = j - 1 if j > 0 else 1
-    eps, eps_e = film.eps[j, a:b], film.eps[j, a + 1 : b + 1]
+    eps, eps_x, eps_e = film.eps[j, a:b], film.eps_x[j, a:b], film.eps_x[j, a + 1 : b + 1]
     eps_n, eps_s = film.eps[j + 1, a:b], film.eps[south, a:b]
     p, rho, h, drho = film.p[j, a:b], film.rho[j, a:b], film.h[j, a:b], film.drho[j, a:b]
     kind, frozen = relaxation.kind[j, a:b], relaxation.frozen[j, a:b]
@@ -267,7 +315,7 @@ def load_line(
     half_x, half_y = 0.5 * mesh.cx, 0.5 * mesh.cy
     cells = batch.cells[at(a + 3, 0) + lane :]
     for i in range(b - a):
-        cells[at(i, EAST)] = half_x * (eps[i] + eps_e[i])
+        cells[at(i, EAST)] = half_x * (eps_x[i] + eps_e[i])
         cells[at(i, ACROSS)] = half_y * (2.0 * eps[i] + eps_n[i] + eps_s[i])
         cells[at(i, SQUEEZE)] = drho[i] * h[i]
         cells[at(i, RHO)] = rho[i]

@@ -37,8 +37,9 @@ class CoarsestSolver:
             area=level.load.area,
             missing_load=level.load_target - level.load.integral(film.p),
         )
+        stretch = np.ones_like(film.p) if level.factors is None else level.factors.stretch
         change = newton_step(
-            Coarse(film.p, film.h, film.eps, film.rho, film.drho, by_pressure, by_film),
+            Coarse(film.p, film.h, film.eps, film.rho, film.drho, by_pressure, by_film, stretch),
             level.mesh,
             system,
             LONGEST_STEP,
@@ -50,9 +51,11 @@ class CoarsestSolver:
         """Return the derivatives of the conductance by pressure and by film."""
         level = self.level
         film = level.film
-        scratch = (np.empty_like(film.p) for _ in range(3))
+        scratch = (np.empty_like(film.p) for _ in range(4))
         shifted = reynolds.Film(film.p + PRESSURE_STEP, film.h, *scratch)
         reynolds.properties(shifted, level.flow.table, level.flow.step, level.floor)
+        if level.factors is not None:
+            reynolds.scale_properties(shifted, level.factors, level.floor)
         by_pressure = (shifted.eps - film.eps) / PRESSURE_STEP
         by_film = np.where(
             film.h > level.floor, 3.0 * film.eps / np.maximum(film.h, level.floor), 0.0

@@ -52,13 +52,15 @@ class Level:
         self.self_film = float(self.influence(0, 0))
         self.gap = gap(grid, groups)
         self.floor = 0.0
-        self.film = reynolds.Film(*(np.zeros(grid.shape) for _ in range(5)))
+        p, h, eps, rho, drho = (np.zeros(grid.shape) for _ in range(5))
+        self.film = reynolds.Film(p, h, eps, rho, drho, eps_x=eps)
         self.deflection, self.residual, self.rhs, self.film_rhs, self.before = (
             np.zeros(grid.shape) for _ in range(5)
         )
         self.rigid_approach, self.rigid_approach_before = 0.0, 0.0
         self.load_target = TARGET
         self.stale = True
+        self.factors: reynolds.Factors | None = None
 
     def pose_problem(self) -> None:
         """Make this the finest level: the right-hand sides of the problem itself."""
@@ -85,6 +87,14 @@ class Level:
     def update_properties(self) -> None:
         """Evaluate conductance and density for the present pressure and film."""
         reynolds.properties(self.film, self.flow.table, self.flow.step, self.floor)
+        if self.factors is not None:
+            reynolds.scale_properties(self.film, self.factors, self.floor)
+
+    def couple(self, factors: reynolds.Factors) -> None:
+        """Take what heat and shear thinning make of the flow; the film is up to date."""
+        if self.factors is None:
+            self.film = self.film._replace(eps_x=np.empty(self.grid.shape))
+        self.factors = factors
 
     def relax(self, sweeps: int) -> None:
         """Smooth the error of pressure and film in place."""

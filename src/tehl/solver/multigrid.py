@@ -24,6 +24,7 @@ from tehl.solver.film_numbers import central_value
 from tehl.solver.level import Level
 from tehl.solver.monitor import Monitor
 from tehl.solver.smoother import Setting
+from tehl.solver.thermal import Coupling, Uncoupled
 
 FIRST_STEPS = 6
 """Newton steps on the coarsest grid at the start; they may cycle there, which does no harm."""
@@ -54,11 +55,20 @@ class Multigrid:
         How hard to try.
     setting : Setting
         Of the relaxation.
+    coupling : Coupling
+        What acts on the film besides pressure and elasticity.
     """
 
     def __init__(
-        self, finest: Grid, groups: Groups, flow: FlowTable, options: Options, setting: Setting
+        self,
+        finest: Grid,
+        groups: Groups,
+        flow: FlowTable,
+        options: Options,
+        setting: Setting,
+        coupling: Coupling | None = None,
     ) -> None:
+        self.coupling = coupling or Uncoupled()
         self.options, self.setting, self.groups = options, setting, groups
         self.levels = [Level(g, groups, flow, options, setting) for g in hierarchy(finest)]
         self.coarsest = CoarsestSolver(self.levels[0])
@@ -156,6 +166,7 @@ class Multigrid:
         fine, last = levels[-1], levels[-1] is self.finest
         fine.pose_problem()
         fine.update()
+        self.coupling.begin(levels)
         trace, coarser = GridTrace(), (self.traces[-1] if self.traces else None)
         self.traces.append(trace)
         trace.note(*film_numbers(fine))
@@ -163,7 +174,9 @@ class Multigrid:
         for number in range(1, (self.options.max_cycles if last else COARSE_CYCLES) + 1):
             before = fine.film.p.copy()
             cycle(levels, self.coarsest.step, shape)
-            report = self._report(fine, before, number)
+            fine.update()
+            heating = self.coupling.update(levels)
+            report = self._report(fine, before, number, heating)
             trace.reports.append(report)
             trace.note(report.film_central, report.film_minimum)
             monitor.cycle(report)
@@ -172,8 +185,7 @@ class Multigrid:
             if not last and iterated_enough(trace, coarser):
                 return
 
-    def _report(self, level: Level, before: np.ndarray, number: int) -> CycleReport:
-        level.update()
+    def _report(self, level: Level, before: np.ndarray, number: int, heating: float) -> CycleReport:
         residual = level.evaluate_residual()
         np.subtract(level.film.p, before, out=before)
         central, minimum = film_numbers(level)
@@ -186,6 +198,7 @@ class Multigrid:
             film_central=central,
             film_minimum=minimum,
             smoother=self.setting.name,
+            temperature_change=heating,
         )
         if not (np.isfinite(residual) and abs(report.load_error) < RUNAWAY and central < RUNAWAY):
             raise DivergedError

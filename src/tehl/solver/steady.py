@@ -12,16 +12,28 @@ import numpy as np
 from tehl.domain import recommended_domain
 from tehl.errors import ConvergenceError
 from tehl.grid import Grid, can_mirror
+from tehl.heat import Isothermal
 from tehl.memory import check_memory
 from tehl.operators.flow import flow_table
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
-from tehl.result import Cost, CycleReport, Fields, Provenance, Result, Status
+from tehl.result import (
+    Cost,
+    CycleReport,
+    Fields,
+    FilmHeat,
+    FilmShear,
+    Provenance,
+    Result,
+    Status,
+)
 from tehl.scaling import Groups, groups, scales
 from tehl.solver.film_numbers import film_summary
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.multigrid import Multigrid
+from tehl.solver.outputs import film_heat, film_shear, newtonian_shear
 from tehl.solver.smoother import FAST, ROBUST, SETTINGS
+from tehl.solver.thermal import Coupling, FilmCoupling, Uncoupled
 from tehl.solver.verdict import diverged, verdict
 from tehl.solver.warmup import warm_up
 
@@ -111,7 +123,7 @@ def _attempts(problem: ContactProblem, options: Options, monitor: Monitor) -> It
     for number, setting in enumerate(settings):
         if number:
             monitor.message(f"falling back to the {setting.name} smoother")
-        run = Multigrid(grid, case_groups, flow, options, setting)
+        run = Multigrid(grid, case_groups, flow, options, setting, coupling_of(problem, options))
         last = number == len(settings) - 1
         yield Attempt(run=run, status=_run(run, monitor, patient=last))
 
@@ -125,6 +137,13 @@ def _run(run: Multigrid, monitor: Monitor, *, patient: bool) -> Status:
             run.salvage()
             return diverged(run)
     return verdict(run, not reached, run.errors())
+
+
+def coupling_of(problem: ContactProblem, options: Options) -> Coupling:
+    """Return what acts on the film besides pressure and elasticity."""
+    if isinstance(problem.heat, Isothermal) and problem.lubricant.shear.is_newtonian:
+        return Uncoupled()
+    return FilmCoupling(problem, scales(problem), groups(problem), options.wedge_order)
 
 
 def finest_grid(options: Options, case_groups: Groups) -> Grid:
@@ -147,6 +166,7 @@ def _result(
     run = attempt.run
     level, grid = run.finest, run.finest.grid
     full = Grid(nx=grid.nx, ny=grid.ny, domain=grid.domain, mirror=False)
+    shear, heat = _stress_and_heat(problem, attempt)
     return Result(
         problem=problem,
         options=options,
@@ -165,7 +185,24 @@ def _result(
         errors=run.errors(),
         cost=cost,
         provenance=provenance(),
+        shear=shear,
+        heat=heat,
     )
+
+
+def _stress_and_heat(
+    problem: ContactProblem, attempt: Attempt
+) -> tuple[FilmShear | None, FilmHeat | None]:
+    """Return stresses and temperatures; nothing where there is no credible film."""
+    run = attempt.run
+    if attempt.status.kind == "diverged" or run.finest.film.h.min() <= 0.0:
+        return None, None
+    if isinstance(run.coupling, FilmCoupling):
+        state = run.coupling.state
+        if state is None or state.grid != run.finest.grid:
+            return None, None
+        return film_shear(state), film_heat(state)
+    return newtonian_shear(run.finest, problem, scales(problem), run.groups), None
 
 
 def provenance() -> Provenance:

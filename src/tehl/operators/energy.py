@@ -1,0 +1,271 @@
+"""Energy equation of the film on one grid: the temperature, and what it makes of the flow."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl.grid import Grid
+from tehl.heat import FilmEnergy
+from tehl.kernels import energy
+from tehl.materials import Solid
+from tehl.operators.across import SCHEMES
+from tehl.operators.law_table import law_table
+from tehl.operators.line_source import history
+from tehl.problem import ContactProblem
+from tehl.scaling import Groups, Scales
+from tehl.typing import Array
+
+GHOSTS = energy.GHOSTS
+FAR_FILM = 1e3
+"""Film of the rows that only fill the last block of columns: it hardly warms."""
+MEANS = {"generalised": 0, "mean": 1, "mean-all": 2}
+
+
+class FilmState:
+    """Temperature and shear stress of the film on one grid.
+
+    Arrays have y last, as the march goes along x; see `tehl.kernels.energy`.
+    """
+
+    def __init__(
+        self,
+        grid: Grid,
+        problem: ContactProblem,
+        scales: Scales,
+        groups: Groups,
+        wedge_order: int,
+    ) -> None:
+        self.grid, self.problem, self.scales, self.groups = grid, problem, scales, groups
+        self.heat = heat = film_energy(problem)
+        self.sides = sides(problem)
+        side_1, side_2 = self.sides
+        nodes = heat.layers
+        self.across = SCHEMES[heat.scheme](nodes)
+        nx, ny = grid.nx, padded_rows(grid)
+        shape = (nx, ny)
+        temperature = np.full((nx + 2 * GHOSTS, nodes, ny + 2 * GHOSTS), scales.temperature)
+        temperature[:, 0], temperature[:, -1] = heat.bulk_1, heat.bulk_2
+        others = {
+            name: np.zeros(shape)
+            for name in energy.Fields._fields
+            if name not in ("temperature", "capacity", "conductivity")
+        }
+        self.fields = energy.Fields(
+            temperature=temperature,
+            capacity=np.ones(shape),
+            conductivity=np.ones(shape),
+            **others,
+        )
+        self.fields.h[:] = FAR_FILM
+        self.surfaces = (
+            line_surface(grid, scales, side_1, self.flux_unit),
+            line_surface(grid, scales, side_2, self.flux_unit),
+        )
+        self.sources: tuple[str, str] = ("line", "line")
+        self.model = energy.Model(
+            across=self.across,
+            laws=law_table(problem.lubricant, scales),
+            terms=film_terms(grid, problem, scales, groups, wedge_order),
+        )
+        modes = len(self.surfaces[0].decay)
+        self.work = energy.Work(
+            column=np.zeros((energy.QUANTITIES, nodes, ny)),
+            matrix=np.zeros((nodes, nodes, energy.BLOCK)),
+            rhs=np.zeros((nodes, energy.BLOCK)),
+            mass=np.zeros((3, nodes, ny)),
+            mass_y=np.zeros((nodes, ny)),
+            line=np.zeros((energy.LINES, ny)),
+            modes=np.zeros((2, modes, ny)),
+        )
+
+    def view(self, name: str) -> Array:
+        """Return a field of the film without the rows that only fill the last block, (nx, ny)."""
+        field: Array = getattr(self.fields, name)
+        return field[:, : self.grid.shape[0]]
+
+    @property
+    def temperature(self) -> Array:
+        """The temperature without ghosts and filling rows, (nx, n, ny) [K]."""
+        rows = slice(GHOSTS, GHOSTS + self.grid.shape[0])
+        return self.fields.temperature[GHOSTS:-GHOSTS, :, rows]
+
+    @property
+    def fluxes(self) -> tuple[Array, Array]:
+        """Heat flux into both surfaces, (nx, ny), dimensionless."""
+        rows = slice(0, self.grid.shape[0])
+        first, second = (surface.flux[GHOSTS:-GHOSTS, rows] for surface in self.surfaces)
+        return first, second
+
+    @property
+    def ambient_conductivity(self) -> float:
+        """Return the conductivity of the oil at ambient pressure [W/m/K]."""
+        return self.problem.lubricant.ambient_conductivity or 1.0
+
+    @property
+    def flux_unit(self) -> float:
+        """Return one unit of the dimensionless heat flux, k R_x / a_x^2 per kelvin [W/m^2]."""
+        return self.ambient_conductivity / self.scales.film_thickness
+
+    @property
+    def solid_peclet(self) -> tuple[float, float]:
+        """Return ``|u_s| a_x / (2 diffusivity)`` of both solids [-]."""
+        first, second = (abs(side.peclet(self.scales.half_width_x)) for side in self.sides)
+        return first, second
+
+    def set_film(self, pressure: Array, film: Array) -> None:
+        """Take pressure and film of shape ``grid.shape``."""
+        grid, fields, scales = self.grid, self.fields, self.scales
+        held = slice(0, pressure.shape[0])
+        fields.p[:, held], fields.h[:, held] = pressure.T, film.T
+        slope_x, slope_y = pressure_slopes(grid, self.groups, pressure)
+        fields.px[:, held], fields.py[:, held] = slope_x.T, slope_y.T
+        lubricant = self.problem.lubricant
+        si = scales.hertz_pressure * fields.p
+        fields.stress[:] = stress_unit(scales) / lubricant.shear.stress_scale(si)
+        if self.model.terms.heat:
+            fields.conductivity[:] = lubricant.conductivity_at(si) / self.ambient_conductivity
+            ambient = lubricant.ambient_heat_capacity or 1.0
+            fields.capacity[:] = lubricant.heat_capacity_at(si) / ambient
+
+    def refine_from(self, coarse: "FilmState") -> None:
+        """Take temperature and stress of a coarser grid by linear interpolation."""
+        self.temperature[:] = _midpoints(coarse.temperature)
+        for name in ("tau_x", "tau_y"):
+            self.view(name)[:] = _midpoints(coarse.view(name))
+        for mine, theirs in zip(self.fluxes, coarse.fluxes, strict=True):
+            mine[:] = _midpoints(theirs)
+
+    def sweep(self, steps: int) -> float:
+        """March once; return the largest change of temperature [K].
+
+        Parameters
+        ----------
+        steps : int
+            Newton steps for the shear stress of a thinning film.
+        """
+        return energy.sweep(self.model, self.fields, self.surfaces, steps, self.work)
+
+
+def _midpoints(values: Array) -> Array:
+    """Insert midpoints along the first and the last axis, linearly."""
+    shape = (2 * values.shape[0] - 1, *values.shape[1:-1], 2 * values.shape[-1] - 1)
+    fine = np.empty(shape)
+    fine[::2, ..., ::2] = values
+    fine[1::2, ..., ::2] = 0.5 * (values[1:] + values[:-1])
+    fine[..., 1::2] = 0.5 * (fine[..., :-1:2] + fine[..., 2::2])
+    return fine
+
+
+def padded_rows(grid: Grid) -> int:
+    """Return the rows of ``grid``, filled up to whole blocks of columns."""
+    return -(-grid.shape[0] // energy.BLOCK) * energy.BLOCK
+
+
+def pressure_slopes(grid: Grid, groups: Groups, pressure: Array) -> tuple[Array, Array]:
+    """Return dP/dX and dP/(kappa dY) by central differences, zero on the edges."""
+    slope_x, slope_y = np.zeros_like(pressure), np.zeros_like(pressure)
+    slope_x[:, 1:-1] = (pressure[:, 2:] - pressure[:, :-2]) / (2.0 * grid.dx)
+    across = 2.0 * groups.ellipticity * grid.dy
+    slope_y[1:-1] = (pressure[2:] - pressure[:-2]) / across
+    return slope_x, slope_y
+
+
+def stress_unit(scales: Scales) -> float:
+    """Return one unit of the dimensionless shear stress, eta_0 u_m R_x / a_x^2 [Pa]."""
+    return scales.viscosity * scales.speed / scales.film_thickness
+
+
+def film_terms(
+    grid: Grid, problem: ContactProblem, scales: Scales, groups: Groups, wedge_order: int
+) -> energy.Terms:
+    """Return the dimensionless numbers of the energy equation."""
+    lubricant = problem.lubricant
+    conductivity = lubricant.ambient_conductivity or 1.0
+    capacity = lubricant.ambient_heat_capacity or 0.0
+    across = scales.film_thickness**2 / conductivity
+    along = scales.speed / scales.half_width_x
+    w0, w1, w2 = (1.5, -2.0, 0.5) if wedge_order == 2 else (1.0, -1.0, 0.0)
+    slide = -problem.slide_roll_ratio
+    return energy.Terms(
+        peclet=scales.density * capacity * along * across,
+        compression=scales.hertz_pressure * along * across,
+        brinkman=scales.viscosity * scales.speed**2 / conductivity,
+        poiseuille=12.0 / groups.lambda_bar,
+        slide=slide,
+        speed=1.0 - 0.5 * slide,
+        over_x=1.0 / grid.dx,
+        over_y=1.0 / (groups.ellipticity * grid.dy),
+        w0=w0,
+        w1=w1,
+        w2=w2,
+        mirror=int(grid.mirror),
+        mean=MEANS[film_energy(problem).reynolds],
+        inlet=scales.temperature,
+        heat=int(isinstance(problem.heat, FilmEnergy)),
+    )
+
+
+def film_energy(problem: ContactProblem) -> FilmEnergy:
+    """Return the heat problem; of an isothermal film one that nobody solves."""
+    heat = problem.heat
+    if isinstance(heat, FilmEnergy):
+        return heat
+    return FilmEnergy(
+        temperature=heat.temperature, bulk_1=heat.temperature, bulk_2=heat.temperature
+    )
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Side:
+    """One solid in the heat problem.
+
+    Attributes
+    ----------
+    bulk : float
+        Temperature far from the contact [K].
+    speed : float
+        u_s, positive along x [m/s].
+    conductivity, capacity : float
+        k_s [W/m/K] and rho_s c_s [J/m^3/K]; zero where the film is isothermal.
+    """
+
+    bulk: float
+    speed: float
+    conductivity: float
+    capacity: float
+
+    def peclet(self, half_width: float) -> float:
+        """Return u_s a / (2 diffusivity), signed [-]."""
+        if self.conductivity == 0.0:
+            return 0.0
+        return 0.5 * self.speed * half_width * self.capacity / self.conductivity
+
+
+def sides(problem: ContactProblem) -> tuple[Side, Side]:
+    """Return both solids."""
+    heat, motion = film_energy(problem), problem.motion
+    return (
+        _side(problem.surface_1.material, heat.bulk_1, motion.speed_1),
+        _side(problem.surface_2.material, heat.bulk_2, motion.speed_2),
+    )
+
+
+def _side(solid: Solid, bulk: float, speed: float) -> Side:
+    stated = (solid.conductivity, solid.density, solid.heat_capacity)
+    conductivity, density, capacity = (value or 0.0 for value in stated)
+    return Side(bulk=bulk, speed=speed, conductivity=conductivity, capacity=density * capacity)
+
+
+def line_surface(grid: Grid, scales: Scales, side: Side, flux_unit: float) -> energy.Surface:
+    """Return the line source of one surface; of one at rest or running backwards only its bulk."""
+    nx, ny = grid.nx, padded_rows(grid)
+    factor = 0.0
+    effusivity = np.pi * side.conductivity * side.capacity * side.speed
+    if effusivity > 0.0:
+        factor = float(flux_unit * np.sqrt(scales.half_width_x / effusivity))
+    return energy.Surface(
+        bulk=np.full((nx, ny), side.bulk),
+        factor=factor,
+        flux=np.zeros((nx + 2 * GHOSTS, ny)),
+        **history(nx, grid.dx)._asdict(),
+    )

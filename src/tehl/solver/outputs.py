@@ -1,0 +1,102 @@
+"""What a finished run says of stress and heat, in SI and on the full domain."""
+
+import numpy as np
+
+from tehl.grid import Grid
+from tehl.operators.energy import FilmState, pressure_slopes, stress_unit
+from tehl.problem import ContactProblem
+from tehl.result import FilmHeat, FilmShear, HeatBalance
+from tehl.scaling import Groups, Scales
+from tehl.solver.level import Level
+from tehl.typing import Array
+
+
+def newtonian_shear(
+    level: Level, problem: ContactProblem, scales: Scales, groups: Groups
+) -> FilmShear:
+    """Return the shear stress of an isothermal Newtonian film from pressure and film alone."""
+    grid = level.grid
+    slope_x, _ = pressure_slopes(grid, groups, level.film.p)
+    film = np.maximum(level.film.h, level.floor)
+    lubricant = problem.lubricant
+    eta = lubricant.viscosity.viscosity(scales.hertz_pressure * level.film.p, scales.temperature)
+    sliding = -problem.slide_roll_ratio * eta / scales.viscosity / film
+    rolling = 6.0 / groups.lambda_bar * level.film.h * slope_x
+    unit = stress_unit(scales)
+    return FilmShear(
+        surface_1=grid.unfold(unit * (sliding - rolling)),
+        mid_film=grid.unfold(unit * sliding),
+        surface_2=grid.unfold(unit * (sliding + rolling)),
+        across=np.zeros((grid.ny, grid.nx)),
+        thinning=np.ones((grid.ny, grid.nx)),
+    )
+
+
+def film_shear(state: FilmState) -> FilmShear:
+    """Return the shear stress of a heated or thinning film."""
+    grid, sliding = state.grid, state.view("tau_x")
+    unit = stress_unit(state.scales)
+    rolling = 0.5 * state.model.terms.poiseuille * state.view("h") * state.view("px")
+    return FilmShear(
+        surface_1=_unfold(grid, unit * (sliding - rolling)),
+        mid_film=_unfold(grid, unit * sliding),
+        surface_2=_unfold(grid, unit * (sliding + rolling)),
+        across=_unfold(grid, unit * state.view("tau_y"), odd=True),
+        thinning=_unfold(grid, state.view("effective")),
+    )
+
+
+def film_heat(state: FilmState) -> FilmHeat | None:
+    """Return the temperatures of a heated film, None of one that keeps the inlet's."""
+    if not state.model.terms.heat:
+        return None
+    grid, temperature = state.grid, state.temperature
+    layers = [_unfold(grid, temperature[:, k]) for k in range(temperature.shape[1])]
+    unit = state.flux_unit
+    flux_1, flux_2 = (unit * flux for flux in state.fluxes)
+    return FilmHeat(
+        zeta=state.across.zeta.copy(),
+        weights=state.across.weights.copy(),
+        temperature=np.stack(layers),
+        flux_1=_unfold(grid, flux_1),
+        flux_2=_unfold(grid, flux_2),
+        balance=heat_balance(state),
+        solid_peclet=state.solid_peclet,
+        sources=state.sources,
+    )
+
+
+def heat_balance(state: FilmState) -> HeatBalance:
+    """Return the powers of the pressurised film [W].
+
+    The enthalpy that leaves it is the divergence of the enthalpy flux by central differences, which
+    the solver does not use: what is missing tells of the mesh.
+    """
+    grid, view, terms = state.grid, state.view, state.model.terms
+    inner = (slice(1, -1), slice(1, -1))
+    pressure, along, sideways = view("p"), view("enthalpy_x"), view("enthalpy_y")
+    carried = np.zeros_like(pressure)
+    carried[1:-1] += 0.5 * terms.over_x * (along[2:] - along[:-2])
+    carried[:, 1:-1] += 0.5 * terms.over_y * (sideways[:, 2:] - sideways[:, :-2])
+    if terms.mirror:
+        carried[:, 0] += terms.over_y * sideways[:, 1]
+    area = np.zeros_like(pressure)
+    area[inner] = 2.0 if terms.mirror else 1.0
+    if terms.mirror:
+        area[1:-1, 0] = 1.0
+    area[pressure <= 0.0] = 0.0
+    scales = state.scales
+    area *= grid.dx * grid.dy * scales.half_width_x * scales.half_width_y * state.flux_unit
+    powers = (view("shear"), view("work"), *state.fluxes, carried)
+    shear, compression, first, second, out = (float((area * power).sum()) for power in powers)
+    return HeatBalance(
+        shear=shear, compression=compression, surface_1=first, surface_2=second, carried_out=out
+    )
+
+
+def _unfold(grid: Grid, field: Array, *, odd: bool = False) -> Array:
+    """Return a field with y last on the full domain, y first; ``odd`` in y or even."""
+    field = np.ascontiguousarray(field.T)
+    if odd and grid.mirror:
+        return np.concatenate([-field[:0:-1], field])
+    return grid.unfold(field)

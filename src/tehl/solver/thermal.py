@@ -1,0 +1,119 @@
+"""Coupling of temperature and shear stress with the film: one energy sweep after each cycle.
+
+What heat and shear thinning do to the flow enters the Reynolds equation as two factors on the
+isothermal Newtonian mobility and density. They are kept during a cycle, and injected to the
+coarser grids.
+"""
+
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+
+from tehl.kernels import reynolds
+from tehl.operators.energy import FilmState
+from tehl.problem import ContactProblem
+from tehl.scaling import Groups, Scales
+from tehl.solver.level import Level
+
+COUPLED_FROM = 64
+"""Intervals of a grid from which the film is heated: on coarser ones it keeps the inlet's."""
+FIRST_SWEEPS = 10
+"""Energy sweeps on the first heated grid before its first cycle."""
+FIRST_STEPS, STEPS = 40, 3
+"""Newton steps for the shear stress on the first sweep and later."""
+SETTLED = 1.0
+"""Change of temperature [K] at which the first sweeps may end."""
+
+
+class Coupling(Protocol):
+    """What acts on the film besides pressure and elasticity."""
+
+    def begin(self, levels: Sequence[Level]) -> None:
+        """Start on the last of ``levels`` from what is known on the one before it."""
+        ...
+
+    def update(self, levels: Sequence[Level]) -> float:
+        """Bring the last of ``levels`` up to date; return the change of temperature [K]."""
+        ...
+
+
+class Uncoupled:
+    """An isothermal Newtonian film: pressure alone rules the flow."""
+
+    def begin(self, levels: Sequence[Level]) -> None:
+        """Do nothing."""
+
+    def update(self, levels: Sequence[Level]) -> float:
+        """Do nothing; nothing changes."""
+        del levels
+        return 0.0
+
+
+class FilmCoupling:
+    """Energy equation and shear law of the film.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        Laws, motion and heat.
+    scales, groups : Scales, Groups
+        Units and dimensionless groups.
+    wedge_order : int
+        Order of the upstream differences.
+    """
+
+    def __init__(
+        self, problem: ContactProblem, scales: Scales, groups: Groups, wedge_order: int
+    ) -> None:
+        self.problem, self.scales, self.groups = problem, scales, groups
+        self.wedge_order = wedge_order
+        self.state: FilmState | None = None
+
+    def begin(self, levels: Sequence[Level]) -> None:
+        """Heat the last of ``levels`` from the temperature of the one before it."""
+        fine = levels[-1]
+        if min(fine.grid.nx, fine.grid.ny) - 1 < COUPLED_FROM:
+            return
+        coarser = self.state
+        state = FilmState(fine.grid, self.problem, self.scales, self.groups, self.wedge_order)
+        self.state = state
+        if coarser is not None:
+            state.refine_from(coarser)
+            self._sweep(state, levels, FIRST_STEPS)
+            return
+        for _ in range(FIRST_SWEEPS):
+            if self._sweep(state, levels, FIRST_STEPS) < SETTLED:
+                break
+
+    def update(self, levels: Sequence[Level]) -> float:
+        """Sweep once; return the largest change of temperature [K]."""
+        if self.state is None:
+            return 0.0
+        return self._sweep(self.state, levels, STEPS)
+
+    def _sweep(self, state: FilmState, levels: Sequence[Level], steps: int) -> float:
+        fine = levels[-1]
+        state.set_film(fine.film.p, fine.film.h)
+        change = state.sweep(steps)
+        self._couple(state, levels)
+        return change
+
+    def _couple(self, state: FilmState, levels: Sequence[Level]) -> None:
+        """Hand what heat and thinning make of the flow to all of ``levels``."""
+        fine, view = levels[-1], state.view
+        p, scratch = fine.film.p, (np.empty(fine.grid.shape) for _ in range(4))
+        isothermal = reynolds.Film(p, np.ones(p.shape), *scratch)
+        reynolds.properties(isothermal, fine.flow.table, fine.flow.step, 0.0)
+        mobility, steep = view("mobility").T / self.groups.lambda_bar, view("steep").T
+        factors = reynolds.Factors(
+            rest=mobility * (1.0 - steep),
+            mobility=mobility * steep / isothermal.eps,
+            density=view("density").T / isothermal.rho,
+            stretch=np.ascontiguousarray(view("stretch").T),
+        )
+        for level in reversed(levels):
+            level.couple(factors)
+            factors = reynolds.Factors(*(array[::2, ::2].copy() for array in factors))
+        fine.update_properties()
+        reynolds.tangent_source(fine.film, fine.mesh, fine.rhs)
