@@ -54,7 +54,7 @@ def operator_twin(film, mesh):
     fields = film
     if mesh.mirror:
         fields = [np.vstack([a[1:2], a]) for a in film]
-    p, h, eps, rho, _ = fields
+    p, h, eps, rho, *_ = fields
     middle, inner = slice(1, -1), slice(1, -1)
     east = (eps[:, 1:] + eps[:, :-1]) * np.diff(p, axis=1)
     north = (eps[1:] + eps[:-1]) * np.diff(p, axis=0)
