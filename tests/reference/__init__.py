@@ -58,3 +58,65 @@ def moes_contact(
             },
         }
     )
+
+
+def heated_contact(
+    slide_roll_ratio: float = 0.5,
+    *,
+    reynolds: str | None = "generalised",
+    shear: dict[str, Any] | None = None,
+    **contact: float,
+) -> ContactProblem:
+    """Return the contact of the heated reference films.
+
+    Parameters
+    ----------
+    slide_roll_ratio : float
+        (u_1 - u_2) / u_m [-].
+    reynolds : str or None
+        Form of the Reynolds equation; None leaves the heat out.
+    shear : dict
+        Table of the shear law; Newtonian if left out.
+    **contact : float
+        Keys of the contact table that replace those of the reference.
+    """
+    given = read("thermal")
+    case, solid, oil = given["contact"], given["solid"], given["oil"]
+    surface = {"material": solid | {"young_modulus": case["reduced_modulus"], "poisson_ratio": 0.0}}
+    loaded = {"load", "hertz_pressure", "moes_load"} & contact.keys()
+    return ContactProblem.model_validate(
+        {
+            "title": f"heated, SRR = {slide_roll_ratio:g}",
+            "contact": {
+                "radius": case["radius"],
+                "entrainment_speed": case["entrainment_speed"],
+                "slide_roll_ratio": slide_roll_ratio,
+            }
+            | ({} if loaded else {"hertz_pressure": case["hertz_pressure"]})
+            | contact,
+            "surface_1": surface,
+            "surface_2": surface,
+            "lubricant": {
+                "viscosity": {
+                    "law": "roelands",
+                    "eta_0": oil["eta_0"],
+                    "alpha": oil["alpha"],
+                    "gamma": oil["gamma"],
+                    "reference_temperature": case["temperature"],
+                },
+                "density": {
+                    "law": "dowson-higginson",
+                    "rho_0": oil["rho_0"],
+                    "slope": oil["density_slope"],
+                    "saturation": oil["density_saturation"],
+                    "beta": oil["beta"],
+                    "form": "additive",
+                    "reference_temperature": case["temperature"],
+                },
+                "shear": shear or {"law": "newtonian"},
+                "conductivity": oil["conductivity"],
+                "heat_capacity": oil["heat_capacity"],
+            },
+            "thermal": None if reynolds is None else {"reynolds": reynolds, "sources": "line"},
+        }
+    )

@@ -1,0 +1,96 @@
+"""Heated films against an independent solver, and the balance of their heat."""
+
+import math
+from functools import cache
+
+import numpy as np
+import pytest
+
+from tehl.options import Options
+from tehl.result import Result
+from tehl.solver import solve
+from tehl.solver.certify import estimate
+from tests.reference import DOMAIN, heated_contact, read
+
+HEATED = read("thermal")
+INDEPENDENT = HEATED["independent"]["case"]
+GRIDS = (129, 257, 513)
+
+
+def name(case: dict) -> str:
+    return f"{case['reynolds']},SRR={case['slide_roll_ratio']:g}"
+
+
+def numbers(run: Result) -> dict[str, float]:
+    temperature, traction = run.temperature, run.traction
+    assert temperature is not None
+    assert traction is not None
+    return {
+        "h_central": run.film_scaled.central,
+        "h_minimum": run.film_scaled.minimum,
+        "p_central": run.scaled.at_origin(run.scaled.pressure),
+        "mid_film_rise": temperature.mid_film_rise_central,
+        "traction_surface_1": traction.surface_1,
+        "traction_mid_film": traction.mid_film,
+    }
+
+
+@cache
+def film(reynolds: str, slide_roll_ratio: float, points: int) -> Result:
+    problem = heated_contact(slide_roll_ratio, reynolds=reynolds)
+    return solve(problem, Options(points=points, domain=DOMAIN, accuracy="tight"))
+
+
+def film_of(case: dict, points: int) -> Result:
+    return film(case["reynolds"], case["slide_roll_ratio"], points)
+
+
+def test_the_groups_are_those_of_the_reference():
+    groups, there = film_of(INDEPENDENT[0], 129).groups, HEATED["groups"]
+    assert (there["M"], there["L"]) == pytest.approx((groups.M, groups.L), rel=1e-12)
+    assert groups.lambda_bar == pytest.approx(there["lambda_bar"], rel=1e-12)
+
+
+@pytest.mark.parametrize("points", [129, pytest.param(257, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("case", INDEPENDENT, ids=name)
+def test_the_heated_film_is_that_of_the_independent_solver_on_the_same_grid(case, points):
+    found, there = numbers(film_of(case, points)), case[f"on_{points}"]
+    # two schemes of second order whose energy equations differ in their upstream differences
+    assert found["h_central"] == pytest.approx(there["h_central"], rel=1e-4)
+    assert found["p_central"] == pytest.approx(there["p_central"], rel=3e-4)
+    assert found["h_minimum"] == pytest.approx(there["h_minimum"], rel=3e-4)
+    assert found["mid_film_rise"] == pytest.approx(there["mid_film_rise"], rel=1e-3, abs=1e-3)
+    for part in ("surface_1", "mid_film"):
+        key = f"traction_{part}"
+        assert found[key] == pytest.approx(there[key], rel=1e-3, abs=1e-6)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", INDEPENDENT, ids=name)
+@pytest.mark.parametrize(
+    ("quantity", "tolerance", "absolute"),
+    [
+        ("h_central", 2e-3, 0.0),
+        ("h_minimum", 2e-3, 0.0),
+        ("mid_film_rise", 1e-2, 0.01),
+        ("traction_surface_1", 1.5e-2, 2e-5),
+        ("traction_mid_film", 1.5e-2, 2e-5),
+    ],
+)
+def test_three_grids_extrapolate_to_the_heated_film(case, quantity, tolerance, absolute):
+    values = tuple(numbers(film_of(case, points))[quantity] for points in GRIDS)
+    found = estimate(values, domain=0.0)
+    assert found.value == pytest.approx(case[quantity]["value"], rel=tolerance, abs=absolute)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", INDEPENDENT, ids=name)
+def test_the_heat_is_balanced_to_the_order_of_the_scheme(case):
+    errors = []
+    for points in GRIDS:
+        heat = film_of(case, points).heat
+        assert heat is not None
+        errors.append(abs(heat.balance.error))
+    assert errors[1] < 0.01
+    assert np.all(np.array(errors) < 0.02)
+    assert math.isfinite(errors[2])
