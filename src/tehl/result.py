@@ -75,7 +75,10 @@ class CycleReport:
     smoother : str
         Setting of the relaxation that was used.
     temperature_change : float
-        Largest change of the film temperature in this cycle [K]; zero in an isothermal run.
+        Largest change of the film temperature in this cycle, where the pressure exceeds a fiftieth
+        of the Hertz pressure [K]; zero in an isothermal run.
+    temperature_rise : float
+        Largest rise of the film temperature over the inlet [K]; zero in an isothermal run.
     """
 
     points: tuple[int, int]
@@ -87,6 +90,7 @@ class CycleReport:
     film_minimum: float
     smoother: str
     temperature_change: float = 0.0
+    temperature_rise: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -1,16 +1,15 @@
 """Energy equation of the film on one grid: the temperature, and what it makes of the flow."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from tehl.grid import Grid
 from tehl.heat import FilmEnergy
 from tehl.kernels import energy
-from tehl.materials import Solid
 from tehl.operators.across import SCHEMES
 from tehl.operators.law_table import law_table
 from tehl.operators.line_source import history
+from tehl.operators.surfaces import Side, Solids, sides
+from tehl.operators.transfer import midpoints
 from tehl.problem import ContactProblem
 from tehl.scaling import Groups, Scales
 from tehl.typing import Array
@@ -37,8 +36,7 @@ class FilmState:
     ) -> None:
         self.grid, self.problem, self.scales, self.groups = grid, problem, scales, groups
         self.heat = heat = film_energy(problem)
-        self.sides = sides(problem)
-        side_1, side_2 = self.sides
+        side_1, side_2 = self.sides = sides(problem, heat, scales)
         nodes = heat.layers
         self.across = SCHEMES[heat.scheme](nodes)
         nx, ny = grid.nx, padded_rows(grid)
@@ -61,7 +59,7 @@ class FilmState:
             line_surface(grid, scales, side_1, self.flux_unit),
             line_surface(grid, scales, side_2, self.flux_unit),
         )
-        self.sources: tuple[str, str] = ("line", "line")
+        self.solids = Solids(grid, groups, scales, self.sides, self.flux_unit)
         self.model = energy.Model(
             across=self.across,
             laws=law_table(problem.lubricant, scales),
@@ -97,6 +95,13 @@ class FilmState:
         return first, second
 
     @property
+    def walls(self) -> tuple[Array, Array]:
+        """Temperature of both surfaces less what a line source does, (nx, ny) [K]."""
+        rows = slice(0, self.grid.shape[0])
+        first, second = (surface.bulk[:, rows] for surface in self.surfaces)
+        return first, second
+
+    @property
     def ambient_conductivity(self) -> float:
         """Return the conductivity of the oil at ambient pressure [W/m/K]."""
         return self.problem.lubricant.ambient_conductivity or 1.0
@@ -109,14 +114,14 @@ class FilmState:
     @property
     def solid_peclet(self) -> tuple[float, float]:
         """Return ``|u_s| a_x / (2 diffusivity)`` of both solids [-]."""
-        first, second = (abs(side.peclet(self.scales.half_width_x)) for side in self.sides)
+        first, second = (abs(side.peclet) for side in self.sides)
         return first, second
 
-    def set_film(self, pressure: Array, film: Array) -> None:
-        """Take pressure and film of shape ``grid.shape``."""
+    def set_film(self, pressure: Array, film: Array, floor: float = 0.0) -> None:
+        """Take pressure and film of shape ``grid.shape``, no film thinner than ``floor``."""
         grid, fields, scales = self.grid, self.fields, self.scales
         held = slice(0, pressure.shape[0])
-        fields.p[:, held], fields.h[:, held] = pressure.T, film.T
+        fields.p[:, held], fields.h[:, held] = pressure.T, np.maximum(film.T, floor)
         slope_x, slope_y = pressure_slopes(grid, self.groups, pressure)
         fields.px[:, held], fields.py[:, held] = slope_x.T, slope_y.T
         lubricant = self.problem.lubricant
@@ -129,11 +134,13 @@ class FilmState:
 
     def refine_from(self, coarse: "FilmState") -> None:
         """Take temperature and stress of a coarser grid by linear interpolation."""
-        self.temperature[:] = _midpoints(coarse.temperature)
+        self.temperature[:] = midpoints(coarse.temperature)
         for name in ("tau_x", "tau_y"):
-            self.view(name)[:] = _midpoints(coarse.view(name))
+            self.view(name)[:] = midpoints(coarse.view(name))
         for mine, theirs in zip(self.fluxes, coarse.fluxes, strict=True):
-            mine[:] = _midpoints(theirs)
+            mine[:] = midpoints(theirs)
+        for wall, coarser in zip(self.walls, coarse.walls, strict=True):
+            wall[:] = midpoints(coarser)
 
     def sweep(self, steps: int) -> float:
         """March once; return the largest change of temperature [K].
@@ -143,17 +150,11 @@ class FilmState:
         steps : int
             Newton steps for the shear stress of a thinning film.
         """
-        return energy.sweep(self.model, self.fields, self.surfaces, steps, self.work)
-
-
-def _midpoints(values: Array) -> Array:
-    """Insert midpoints along the first and the last axis, linearly."""
-    shape = (2 * values.shape[0] - 1, *values.shape[1:-1], 2 * values.shape[-1] - 1)
-    fine = np.empty(shape)
-    fine[::2, ..., ::2] = values
-    fine[1::2, ..., ::2] = 0.5 * (values[1:] + values[:-1])
-    fine[..., 1::2] = 0.5 * (fine[..., :-1:2] + fine[..., 2::2])
-    return fine
+        change = energy.sweep(self.model, self.fields, self.surfaces, steps, self.work)
+        if self.model.terms.heat:
+            film = self.view("h") / self.view("conductivity")
+            self.solids.update(film, self.walls, self.fluxes)
+        return change
 
 
 def padded_rows(grid: Grid) -> int:
@@ -215,57 +216,12 @@ def film_energy(problem: ContactProblem) -> FilmEnergy:
     )
 
 
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Side:
-    """One solid in the heat problem.
-
-    Attributes
-    ----------
-    bulk : float
-        Temperature far from the contact [K].
-    speed : float
-        u_s, positive along x [m/s].
-    conductivity, capacity : float
-        k_s [W/m/K] and rho_s c_s [J/m^3/K]; zero where the film is isothermal.
-    """
-
-    bulk: float
-    speed: float
-    conductivity: float
-    capacity: float
-
-    def peclet(self, half_width: float) -> float:
-        """Return u_s a / (2 diffusivity), signed [-]."""
-        if self.conductivity == 0.0:
-            return 0.0
-        return 0.5 * self.speed * half_width * self.capacity / self.conductivity
-
-
-def sides(problem: ContactProblem) -> tuple[Side, Side]:
-    """Return both solids."""
-    heat, motion = film_energy(problem), problem.motion
-    return (
-        _side(problem.surface_1.material, heat.bulk_1, motion.speed_1),
-        _side(problem.surface_2.material, heat.bulk_2, motion.speed_2),
-    )
-
-
-def _side(solid: Solid, bulk: float, speed: float) -> Side:
-    stated = (solid.conductivity, solid.density, solid.heat_capacity)
-    conductivity, density, capacity = (value or 0.0 for value in stated)
-    return Side(bulk=bulk, speed=speed, conductivity=conductivity, capacity=density * capacity)
-
-
 def line_surface(grid: Grid, scales: Scales, side: Side, flux_unit: float) -> energy.Surface:
-    """Return the line source of one surface; of one at rest or running backwards only its bulk."""
+    """Return one surface and its line source, if it has one."""
     nx, ny = grid.nx, padded_rows(grid)
-    factor = 0.0
-    effusivity = np.pi * side.conductivity * side.capacity * side.speed
-    if effusivity > 0.0:
-        factor = float(flux_unit * np.sqrt(scales.half_width_x / effusivity))
     return energy.Surface(
         bulk=np.full((nx, ny), side.bulk),
-        factor=factor,
+        factor=side.line_factor(scales, flux_unit) if side.marches else 0.0,
         flux=np.zeros((nx + 2 * GHOSTS, ny)),
         **history(nx, grid.dx)._asdict(),
     )

@@ -30,3 +30,13 @@ def _cubic_along_x(values: Array) -> Array:
     fine[..., 1] = 0.5 * (values[..., 0] + values[..., 1])
     fine[..., -2] = 0.5 * (values[..., -2] + values[..., -1])
     return fine
+
+
+def midpoints(values: Array) -> Array:
+    """Insert midpoints along the first and the last axis, linearly."""
+    shape = (2 * values.shape[0] - 1, *values.shape[1:-1], 2 * values.shape[-1] - 1)
+    fine = np.empty(shape)
+    fine[::2, ..., ::2] = values
+    fine[1::2, ..., ::2] = 0.5 * (values[1:] + values[:-1])
+    fine[..., 1::2] = 0.5 * (fine[..., :-1:2] + fine[..., 2::2])
+    return fine

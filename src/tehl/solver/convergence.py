@@ -15,6 +15,12 @@ LARGEST_LOAD_ERROR = 1e-3
 LARGEST_CHANGE = 0.2
 """Change of pressure per cycle, in Hertz pressures, beyond which a grid is in disorder: a spike
 that shifts by a node changes by less."""
+HEATED = 0.02
+"""Change of temperature per cycle, over the largest rise, at which a film is taken for heated."""
+LEAST_KELVIN = 0.02
+"""Change of temperature [K] that never counts."""
+TIGHTER = 100.0
+"""Factor between the tolerance of the film and that of the temperature rise, which follows it."""
 STALL_CYCLES = 8
 STALL_FACTOR = 0.5
 
@@ -57,8 +63,16 @@ def converged(now: GridTrace, coarser: GridTrace | None, options: Options) -> bo
         return False
     if options.accuracy == "tight":
         last = now.reports[-1]
-        return max(last.residual, last.change, abs(last.load_error)) <= options.tolerance
-    return iterated_enough(now, coarser)
+        settled = max(last.residual, last.change, abs(last.load_error)) <= options.tolerance
+        kelvin = max(last.temperature_rise, 1.0) * TIGHTER * options.tolerance
+        return settled and last.temperature_change <= kelvin
+    return iterated_enough(now, coarser) and heated_enough(now)
+
+
+def heated_enough(now: GridTrace) -> bool:
+    """Whether the temperature of the film has settled."""
+    last = now.reports[-1]
+    return last.temperature_change <= max(HEATED * last.temperature_rise, LEAST_KELVIN)
 
 
 def iterated_enough(now: GridTrace, coarser: GridTrace | None) -> bool:

@@ -185,7 +185,9 @@ class Multigrid:
             if not last and iterated_enough(trace, coarser):
                 return
 
-    def _report(self, level: Level, before: np.ndarray, number: int, heating: float) -> CycleReport:
+    def _report(
+        self, level: Level, before: np.ndarray, number: int, heating: tuple[float, float]
+    ) -> CycleReport:
         residual = level.evaluate_residual()
         np.subtract(level.film.p, before, out=before)
         central, minimum = film_numbers(level)
@@ -198,7 +200,8 @@ class Multigrid:
             film_central=central,
             film_minimum=minimum,
             smoother=self.setting.name,
-            temperature_change=heating,
+            temperature_change=heating[0],
+            temperature_rise=heating[1],
         )
         if not (np.isfinite(residual) and abs(report.load_error) < RUNAWAY and central < RUNAWAY):
             raise DivergedError

@@ -62,7 +62,7 @@ def film_heat(state: FilmState) -> FilmHeat | None:
         flux_2=_unfold(grid, flux_2),
         balance=heat_balance(state),
         solid_peclet=state.solid_peclet,
-        sources=state.sources,
+        sources=state.solids.forms,
     )
 
 

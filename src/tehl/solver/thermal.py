@@ -33,8 +33,8 @@ class Coupling(Protocol):
         """Start on the last of ``levels`` from what is known on the one before it."""
         ...
 
-    def update(self, levels: Sequence[Level]) -> float:
-        """Bring the last of ``levels`` up to date; return the change of temperature [K]."""
+    def update(self, levels: Sequence[Level]) -> tuple[float, float]:
+        """Bring the last of ``levels`` up to date; return change and rise of temperature [K]."""
         ...
 
 
@@ -44,10 +44,10 @@ class Uncoupled:
     def begin(self, levels: Sequence[Level]) -> None:
         """Do nothing."""
 
-    def update(self, levels: Sequence[Level]) -> float:
+    def update(self, levels: Sequence[Level]) -> tuple[float, float]:
         """Do nothing; nothing changes."""
         del levels
-        return 0.0
+        return 0.0, 0.0
 
 
 class FilmCoupling:
@@ -86,15 +86,16 @@ class FilmCoupling:
             if self._sweep(state, levels, FIRST_STEPS) < SETTLED:
                 break
 
-    def update(self, levels: Sequence[Level]) -> float:
-        """Sweep once; return the largest change of temperature [K]."""
+    def update(self, levels: Sequence[Level]) -> tuple[float, float]:
+        """Sweep once; return the largest change and the largest rise of the temperature [K]."""
         if self.state is None:
-            return 0.0
-        return self._sweep(self.state, levels, STEPS)
+            return 0.0, 0.0
+        change = self._sweep(self.state, levels, STEPS)
+        return change, float(self.state.temperature.max()) - self.scales.temperature
 
     def _sweep(self, state: FilmState, levels: Sequence[Level], steps: int) -> float:
         fine = levels[-1]
-        state.set_film(fine.film.p, fine.film.h)
+        state.set_film(fine.film.p, fine.film.h, fine.floor)
         change = state.sweep(steps)
         self._couple(state, levels)
         return change

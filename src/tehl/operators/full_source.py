@@ -1,0 +1,109 @@
+"""Surface temperature under a moving source of any speed: the half-space, by FFT.
+
+The steady rise of a half-space under a heat flux q, seen from the source past which it moves with
+u_s along x, is (Jaeger 1942; Carslaw and Jaeger 1959, sec. 10.7)
+
+    T(x, y) - T_b = 1/(2 pi k) int q exp[-|u_s| (r - (x - x') sgn u_s) / (2 diffusivity)] / r dA'.
+
+The line source of `tehl.operators.line_source` is its limit for high solid Peclet numbers.
+"""
+
+import numpy as np
+
+from tehl.operators.influence import Influence
+from tehl.typing import Array, IntArray
+
+NEAR = (4, 10)
+"""Rows and columns from the source within which a cell is split: there the plume is narrow."""
+PARTS = 5
+"""Parts of a near cell along each side; odd, so that none has a corner on the axes."""
+
+
+class FullSource:
+    """Convolution of the heat flux of one grid with the temperature of a moving point source.
+
+    Parameters
+    ----------
+    shape : (int, int)
+        Rows and columns of nodes that are held.
+    mirror : bool
+        Row 0 is a symmetry line.
+    cell : (float, float)
+        Sides (dy, dx) of a cell, in a_x.
+    peclet : float
+        u_s a_x / (2 diffusivity), signed [-].
+    line : float
+        Factor of a line source that is accounted for elsewhere and left out here.
+    factor : float
+        Rise per flux over a cell divided by distance.
+    """
+
+    def __init__(
+        self,
+        shape: tuple[int, int],
+        mirror: bool,
+        cell: tuple[float, float],
+        peclet: float,
+        factor: float,
+        line: float = 0.0,
+    ) -> None:
+        held, nx = shape
+        ny = 2 * held - 1 if mirror else held
+        self.mirror, self.shape = mirror, (ny, nx)
+        self.period = (2 * (ny - 1), 2 * (nx - 1))
+        rows = np.arange(ny)
+        columns = np.arange(2 * (nx - 1))
+        columns = np.where(columns < nx, columns, columns - 2 * (nx - 1))
+        table = factor * point_source(rows, columns, cell, peclet)
+        if line > 0.0:
+            table[0] -= line * _line_cells(columns, cell[1])
+        folded = np.minimum(np.arange(self.period[0]), self.period[0] - np.arange(self.period[0]))
+        self.spectrum = np.fft.rfft2(table[folded])
+
+    def rise(self, flux: Array) -> Array:
+        """Return the temperature rise under ``flux``, both of the shape that is held."""
+        held, nx = flux.shape
+        padded = np.zeros(self.period)
+        padded[:held, :nx] = flux
+        if self.mirror:
+            padded[:-held:-1, :nx] = flux[1:]
+        convolved = np.fft.irfft2(np.fft.rfft2(padded) * self.spectrum, s=self.period)
+        return np.ascontiguousarray(convolved[:held, :nx])
+
+
+def point_source(
+    rows: IntArray, columns: IntArray, cell: tuple[float, float], peclet: float
+) -> Array:
+    """Return the integral of exp[-|B| (r - x sgn B)]/r over cells (rows, columns) from the source.
+
+    The 1/r is integrated exactly, with the exponential of the middle; cells near the source are
+    split, so that the plume is resolved.
+    """
+    whole = Influence(cell[1], cell[0], 1.0)
+    x, y = np.float64(cell[1]) * columns[None, :], np.float64(cell[0]) * rows[:, None]
+    table = whole(rows[:, None], columns[None, :]) * _plume(x, y, peclet)
+    near_rows = np.flatnonzero(np.abs(rows) <= NEAR[0])
+    near_columns = np.flatnonzero(np.abs(columns) <= NEAR[1])
+    part = Influence(cell[1] / PARTS, cell[0] / PARTS, 1.0)
+    offsets = np.arange(PARTS) - PARTS // 2
+    near = np.zeros((len(near_rows), len(near_columns)))
+    for dj in offsets:
+        for di in offsets:
+            j = PARTS * rows[near_rows][:, None] + dj
+            i = PARTS * columns[near_columns][None, :] + di
+            x, y = np.float64(cell[1] / PARTS) * i, np.float64(cell[0] / PARTS) * j
+            near += part(j, i) * _plume(x, y, peclet)
+    table[np.ix_(near_rows, near_columns)] = near
+    return table
+
+
+def _plume(x: Array, y: Array, peclet: float) -> Array:
+    """Return exp[-|B| (r - x sgn B)]."""
+    return np.exp(-abs(peclet) * (np.hypot(x, y) - x * np.sign(peclet)))
+
+
+def _line_cells(columns: IntArray, dx: float) -> Array:
+    """Return the integral of 1/sqrt(x - s) over the cells upstream of a node."""
+    low = np.sqrt(np.maximum(columns - 0.5, 0.0) * dx)
+    high = np.sqrt(np.maximum(columns + 0.5, 0.0) * dx)
+    return 2.0 * (high - low)

@@ -1,0 +1,205 @@
+"""Temperatures of the two surfaces: line sources, full moving sources, and their coupling.
+
+A surface of high solid Peclet number is heated by a line source, which the march of the energy
+equation carries along (`tehl.operators.line_source`). At moderate ones it carries the line too, and
+what the full source adds follows after each sweep. A surface that is slow, at rest or runs against
+x has no line to march along: its temperature is a given field during a sweep, and is found
+afterwards together with the flux that changes with it, since the film conducts far better than the
+solid beneath.
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from scipy.sparse.linalg import LinearOperator, gmres
+
+from tehl.grid import Grid
+from tehl.heat import FilmEnergy, source_form
+from tehl.materials import Solid
+from tehl.operators.full_source import FullSource
+from tehl.operators.transfer import midpoints
+from tehl.problem import ContactProblem
+from tehl.scaling import Groups, Scales
+from tehl.typing import Array
+
+LEAST_LINE = 2.0
+"""Solid Peclet number from which a line source is marched: below, it has little of the full one."""
+COARSENED_FROM = 128
+"""Intervals from which the full source is summed on every second node: its field is smooth."""
+TOLERANCE, ITERATIONS = 0.02, 30
+"""Of the coupled surface temperatures after each sweep; the next sweep improves them again."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Side:
+    """One solid in the heat problem.
+
+    Attributes
+    ----------
+    bulk : float
+        Temperature far from the contact [K].
+    speed : float
+        u_s, positive along x [m/s].
+    conductivity, capacity : float
+        k_s [W/m/K] and rho_s c_s [J/m^3/K]; zero where the film is isothermal.
+    peclet : float
+        u_s a_x / (2 diffusivity), signed [-].
+    form : {"line", "full"}
+        The source that is to be used.
+    """
+
+    bulk: float
+    speed: float
+    conductivity: float
+    capacity: float
+    peclet: float
+    form: Literal["line", "full"]
+
+    @property
+    def marches(self) -> bool:
+        """Whether a line source is carried along by the energy equation."""
+        return self.conductivity > 0.0 and self.speed > 0.0 and self.least_line <= self.peclet
+
+    @property
+    def least_line(self) -> float:
+        """Return the solid Peclet number from which the line is marched."""
+        return LEAST_LINE if self.form == "full" else 0.0
+
+    @property
+    def needs_full(self) -> bool:
+        """Whether the full source is summed."""
+        return self.conductivity > 0.0 and (self.form == "full" or not self.marches)
+
+    def line_factor(self, scales: Scales, flux_unit: float) -> float:
+        """Return the rise per dimensionless flux integrated over the root of the distance [K]."""
+        effusivity = np.pi * self.conductivity * self.capacity * self.speed
+        return float(flux_unit * np.sqrt(scales.half_width_x / effusivity))
+
+
+def sides(problem: ContactProblem, heat: FilmEnergy, scales: Scales) -> tuple[Side, Side]:
+    """Return both solids."""
+    motion = problem.motion
+    return (
+        _side(problem.surface_1.material, heat.bulk_1, motion.speed_1, heat, scales),
+        _side(problem.surface_2.material, heat.bulk_2, motion.speed_2, heat, scales),
+    )
+
+
+def _side(solid: Solid, bulk: float, speed: float, heat: FilmEnergy, scales: Scales) -> Side:
+    stated = (solid.conductivity, solid.density, solid.heat_capacity)
+    conductivity, density, capacity = (value or 0.0 for value in stated)
+    peclet = 0.0
+    if conductivity > 0.0:
+        peclet = 0.5 * speed * scales.half_width_x * density * capacity / conductivity
+    return Side(
+        bulk=bulk,
+        speed=speed,
+        conductivity=conductivity,
+        capacity=density * capacity,
+        peclet=peclet,
+        form=source_form(heat.sources, peclet),
+    )
+
+
+class Solids:
+    """Full moving sources of the surfaces that need them.
+
+    Parameters
+    ----------
+    grid : Grid
+        The nodes.
+    groups, scales : Groups, Scales
+        Units.
+    both : (Side, Side)
+        The solids.
+    flux_unit : float
+        One unit of the dimensionless flux [W/m^2/K].
+    """
+
+    def __init__(
+        self, grid: Grid, groups: Groups, scales: Scales, both: tuple[Side, Side], flux_unit: float
+    ) -> None:
+        self.both = both
+        rows, columns = (n - 1 for n in grid.shape)
+        fine = min(columns, 2 * rows if grid.mirror else rows) >= COARSENED_FROM
+        self.stride = 2 if fine and rows % 2 == 0 and columns % 2 == 0 else 1
+        shape = (rows // self.stride + 1, columns // self.stride + 1)
+        cell = (self.stride * groups.ellipticity * grid.dy, self.stride * grid.dx)
+        self.sources = tuple(
+            FullSource(
+                shape,
+                grid.mirror,
+                cell,
+                side.peclet,
+                flux_unit * scales.half_width_x / (2.0 * np.pi * side.conductivity),
+                side.line_factor(scales, flux_unit) if side.marches else 0.0,
+            )
+            if side.needs_full
+            else None
+            for side in both
+        )
+
+    @property
+    def forms(self) -> tuple[str, str]:
+        """Return which source each surface takes."""
+        first, second = ("full" if source else "line" for source in self.sources)
+        return first, second
+
+    def update(self, film: Array, walls: tuple[Array, Array], fluxes: tuple[Array, Array]) -> None:
+        """Bring the given parts of the surface temperatures up to date, in place.
+
+        Parameters
+        ----------
+        film : (nx, ny) array
+            Film over conductivity ratio: what separates the surfaces.
+        walls : pair of (nx, ny) array
+            Temperature of each surface less what its line source does [K].
+        fluxes : pair of (nx, ny) array
+            Dimensionless heat flux into each surface.
+        """
+        coarse = [self._coarse(flux) for flux in fluxes]
+        misfits: list[Array | None] = [None, None]
+        for number, (side, source) in enumerate(zip(self.both, self.sources, strict=True)):
+            if source is None:
+                continue
+            wanted = side.bulk + source.rise(coarse[number])
+            if side.marches:
+                walls[number][:] = self._fine(wanted)
+            else:
+                misfits[number] = wanted - self._coarse(walls[number])
+        if any(misfit is not None for misfit in misfits):
+            changes = self._coupled(1.0 / self._coarse(film), misfits)
+            for number, change in changes.items():
+                walls[number][:] += self._fine(change)
+
+    def _coupled(self, conductance: Array, misfits: list[Array | None]) -> dict[int, Array]:
+        """Return changes of the given surface temperatures that leave no misfit, to first order.
+
+        A warmer surface takes less heat, by the conductance of the film, and the other one more.
+        """
+        given = [number for number in range(2) if misfits[number] is not None]
+        shape = conductance.shape
+
+        def respond(vector: Array) -> Array:
+            change = dict(zip(given, vector.reshape(len(given), *shape), strict=True))
+            parts = []
+            for number in given:
+                less = conductance * (change[number] - change.get(1 - number, 0.0))
+                source = self.sources[number]
+                parts.append(change[number] + (source.rise(less) if source else 0.0))
+            return np.concatenate([part.ravel() for part in parts])
+
+        right = np.concatenate([m.ravel() for m in misfits if m is not None])
+        size = right.size
+        operator = LinearOperator((size, size), matvec=respond, dtype=np.float64)
+        solution, _ = gmres(operator, right, rtol=TOLERANCE, restart=ITERATIONS, maxiter=1)
+        return dict(zip(given, solution.reshape(len(given), *shape), strict=True))
+
+    def _coarse(self, field: Array) -> Array:
+        """Return every ``stride``-th node of a field with y last, with y first."""
+        return np.ascontiguousarray(field[:: self.stride, :: self.stride].T)
+
+    def _fine(self, field: Array) -> Array:
+        """Return a field of the coarser nodes on all of them, with y last."""
+        return midpoints(field.T) if self.stride == 2 else field.T
