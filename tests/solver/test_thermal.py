@@ -1,0 +1,182 @@
+"""What every heated or thinning film must satisfy: invariance, symmetry, limits."""
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tehl.film_formulas import inlet_factors
+from tehl.problem import ContactProblem
+from tehl.result import FilmHeat, Result
+from tehl.solver import solve
+from tests.reference import heated_contact
+from tests.solver.runs import tight
+
+EYRING = {"law": "eyring", "stress": 10e6}
+CLOSE = 1e-5
+"""Films iterated to 1e-6 agree to a few times that."""
+
+
+@cache
+def heated(slide_roll_ratio: float, law: str = "newtonian", points: int = 65) -> Result:
+    """The film of the heated reference contact."""
+    shear = EYRING if law == "eyring" else None
+    return solve(heated_contact(slide_roll_ratio, shear=shear), tight(points))
+
+
+def heat_of(run: Result) -> FilmHeat:
+    assert run.heat is not None
+    return run.heat
+
+
+@pytest.mark.parametrize("law", ["newtonian", "eyring"])
+def test_equal_solids_do_not_know_which_of_them_is_the_faster(law):
+    ahead, behind = heated(0.5, law), heated(-0.5, law)
+    for name in ("film", "pressure"):
+        one, other = getattr(ahead.scaled, name), getattr(behind.scaled, name)
+        np.testing.assert_allclose(one, other, rtol=0, atol=1e-8 * one.max())
+    rise = heat_of(ahead).temperature - 313.0
+    mirrored = heat_of(behind).temperature[::-1] - 313.0
+    assert rise.max() > 10.0
+    np.testing.assert_allclose(rise, mirrored, rtol=0, atol=1e-8 * rise.max())
+    assert ahead.traction is not None
+    assert behind.traction is not None
+    assert ahead.traction.mid_film == pytest.approx(-behind.traction.mid_film, rel=1e-8)
+    assert ahead.traction.surface_1 == pytest.approx(-behind.traction.surface_2, rel=1e-8)
+
+
+def test_half_a_domain_gives_the_heated_film_of_the_full_one():
+    problem = heated_contact(0.5)
+    half, full = (
+        solve(problem, tight(65, deformation="fft", half_domain=half)) for half in ("auto", "never")
+    )
+    np.testing.assert_allclose(half.scaled.film, full.scaled.film, rtol=0, atol=CLOSE)
+    np.testing.assert_allclose(half.scaled.pressure, full.scaled.pressure, rtol=0, atol=10 * CLOSE)
+    one, other = heat_of(half).temperature, heat_of(full).temperature
+    np.testing.assert_allclose(one, other, rtol=0, atol=1e-2)
+
+
+def test_the_heated_film_is_symmetric_across():
+    full = solve(heated_contact(0.5), tight(65, half_domain="never"))
+    film, pressure = full.scaled.film, full.scaled.pressure
+    np.testing.assert_allclose(film, film[::-1], rtol=0, atol=CLOSE)
+    np.testing.assert_allclose(pressure, pressure[::-1], rtol=0, atol=10 * CLOSE)
+    temperature = heat_of(full).temperature
+    np.testing.assert_allclose(temperature, temperature[:, ::-1], rtol=0, atol=1e-2)
+
+
+def scaled_copy(problem: ContactProblem, size: float, modulus: float) -> ContactProblem:
+    """Return a contact of other size and stiffness with the same groups, heat included.
+
+    Lengths grow by ``size``, pressures by ``modulus``; viscosity and speed keep, so that lambda
+    needs ``modulus`` in the viscosity and ``size`` in the speed; conductivities follow so that the
+    Peclet numbers and eta u^2 / k are the same.
+    """
+    tables: dict[str, Any] = problem.model_dump(mode="python", exclude_none=True)
+    contact, oil = tables["contact"], tables["lubricant"]
+    contact["radius"] *= size
+    contact["hertz_pressure"] *= modulus
+    contact["entrainment_speed"] *= size
+    # p_h dT per volume: heat of a volume grows like a pressure
+    oil["heat_capacity"] *= modulus
+    oil["conductivity"] *= modulus * size**2
+    law = oil["viscosity"]
+    law["eta_0"] *= modulus
+    law["alpha"] /= modulus
+    oil["density"]["slope"] /= modulus
+    oil["density"]["saturation"] /= modulus
+    for name in ("surface_1", "surface_2"):
+        solid = tables[name]["material"]
+        solid["young_modulus"] *= modulus
+        solid["heat_capacity"] *= modulus
+        solid["conductivity"] *= modulus * size**2
+    return ContactProblem.model_validate(tables)
+
+
+def barus(problem: ContactProblem) -> ContactProblem:
+    """The same contact with a law that holds no pressure of its own."""
+    tables: dict[str, Any] = problem.model_dump(mode="python", exclude_none=True)
+    tables["lubricant"]["viscosity"] = {
+        "law": "barus", "eta_0": 0.04, "alpha": 14e-9, "gamma": 0.042,
+        "reference_temperature": 313.0,
+    }  # fmt: skip
+    return ContactProblem.model_validate(tables)
+
+
+@pytest.mark.parametrize(("size", "modulus"), [(0.2, 1.0), (1.0, 0.5), (3.0, 2.0)])
+def test_contacts_with_equal_groups_have_equal_heated_films(size, modulus):
+    problem = barus(heated_contact(0.5))
+    one = solve(problem, tight(65))
+    other = solve(scaled_copy(problem, size, modulus), tight(65))
+    assert other.groups.M == pytest.approx(one.groups.M, rel=1e-12)
+    assert other.groups.L == pytest.approx(one.groups.L, rel=1e-12)
+    np.testing.assert_allclose(other.scaled.film, one.scaled.film, rtol=0, atol=CLOSE)
+    np.testing.assert_allclose(other.scaled.pressure, one.scaled.pressure, rtol=0, atol=10 * CLOSE)
+    rise = heat_of(one).temperature - 313.0
+    assert rise.max() > 5.0
+    np.testing.assert_allclose(
+        heat_of(other).temperature - 313.0, rise, rtol=0, atol=1e-4 * rise.max()
+    )
+
+
+def test_an_eyring_film_of_huge_stress_is_newtonian():
+    cold = {"reynolds": None}
+    newtonian = solve(heated_contact(0.5, **cold), tight(65))
+    hard = {"law": "eyring", "stress": 1e15}
+    thinning = solve(heated_contact(0.5, shear=hard, **cold), tight(65))
+    np.testing.assert_allclose(thinning.scaled.film, newtonian.scaled.film, rtol=0, atol=CLOSE)
+    np.testing.assert_allclose(
+        thinning.scaled.pressure, newtonian.scaled.pressure, rtol=0, atol=10 * CLOSE
+    )
+    assert thinning.traction is not None
+    assert newtonian.traction is not None
+    assert thinning.traction.mid_film == pytest.approx(newtonian.traction.mid_film, rel=1e-4)
+    assert thinning.shear is not None
+    np.testing.assert_allclose(thinning.shear.thinning, 1.0, rtol=1e-6)
+
+
+def test_a_rolling_film_is_thinner_by_what_the_inlet_is_heated():
+    warm = heated(0.0, points=129)
+    cold = solve(heated_contact(0.0, reynolds=None), tight(129))
+    ratio = warm.film_scaled.central / cold.film_scaled.central
+    factors = [found.factor for found in inlet_factors(warm.problem)]
+    assert 0.9 < ratio < 1.0
+    # correlations of pure rolling, good to some per cent
+    assert min(factors) - 0.03 < ratio < max(factors) + 0.03
+    # heat flows into both solids alike, and hardly any is made in the contact
+    heat = heat_of(warm)
+    np.testing.assert_allclose(heat.flux_1, heat.flux_2, rtol=0, atol=1e-8 * heat.flux_1.max())
+    assert warm.temperature is not None
+    assert warm.temperature.mid_film_rise_central < 1.0
+
+
+def test_sliding_makes_the_film_warmer_and_the_traction_less_than_isothermal():
+    rises = [heated(slide).temperature for slide in (0.0, 0.5)]
+    central = [rise.mid_film_rise_central for rise in rises if rise is not None]
+    assert 0.0 < central[0] < 1.0
+    assert central[1] > 10.0
+    cold = solve(heated_contact(0.5, reynolds=None), tight(65)).traction
+    warm = heated(0.5).traction
+    assert cold is not None
+    assert warm is not None
+    assert abs(warm.mid_film) < 0.5 * abs(cold.mid_film)
+
+
+def test_thinning_takes_heat_out_of_the_film():
+    newtonian, thinning = heated(0.5), heated(0.5, "eyring")
+    for run in (newtonian, thinning):
+        assert abs(heat_of(run).balance.error) < 0.01
+    assert heat_of(thinning).balance.shear < heat_of(newtonian).balance.shear
+    assert thinning.shear is not None
+    assert thinning.shear.thinning.min() < 0.9
+    assert thinning.shear.thinning.max() <= 1.0 + 1e-9
+
+
+def test_friction_power_is_what_shear_and_flow_make_of_it():
+    """What the surfaces spend is the shear heat and the work of the pressure on the flow."""
+    run = heated(0.5, points=129)
+    assert run.traction is not None
+    shear = heat_of(run).balance.shear
+    # the work that pressure does on the oil is a few per cent of the shear heat
+    assert run.traction.friction_power == pytest.approx(shear, rel=0.02)
