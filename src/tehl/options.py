@@ -76,8 +76,9 @@ class Options(BaseModel):
         Relaxation sweeps before and after the coarse-grid correction; one of them at least.
     wedge_order : {1, 2}
         Order of the upstream difference of the wedge term.
-    smoother : {"auto", "fast", "robust", "gauss-seidel"}
-        Setting of the hybrid line relaxation; ``"auto"`` falls back from fast to robust.
+    smoother : {"auto", "fast", "broad", "robust", "gauss-seidel"}
+        Setting of the hybrid line relaxation; ``"auto"`` falls back from fast to robust, and from
+        broad to robust where heat or shear thinning widen the zone in which the film conducts.
         ``"gauss-seidel"`` is plain point relaxation, which fails at load; kept for teaching.
     accuracy : {"discretisation", "tight"}
         Stop when the estimated iteration error of minimum and central film is below a third of
@@ -99,7 +100,7 @@ class Options(BaseModel):
     pre_sweeps: Annotated[Count, Field(ge=0, le=10)] = 2
     post_sweeps: Annotated[Count, Field(ge=0, le=10)] = 2
     wedge_order: Literal[1, 2] = 2
-    smoother: Literal["auto", "fast", "robust", "gauss-seidel"] = "auto"
+    smoother: Literal["auto", "fast", "broad", "robust", "gauss-seidel"] = "auto"
     accuracy: Literal["discretisation", "tight"] = "discretisation"
     tolerance: Annotated[Real, Field(gt=0, lt=1)] = 1e-6
     max_cycles: Annotated[Count, Field(ge=1, le=1000)] = 40

@@ -142,6 +142,12 @@ class FilmState:
         for wall, coarser in zip(self.walls, coarse.walls, strict=True):
             wall[:] = midpoints(coarser)
 
+    def slide(self, part: float) -> None:
+        """Let the surfaces slide at a part of their speed, at the same mean."""
+        full = -part * self.problem.slide_roll_ratio
+        terms = self.model.terms._replace(slide=full, speed=1.0 - 0.5 * full)
+        self.model = self.model._replace(terms=terms)
+
     def sweep(self, steps: int) -> float:
         """March once; return the largest change of temperature [K].
 

@@ -27,6 +27,8 @@ LEAST_LINE = 2.0
 """Solid Peclet number from which a line source is marched: below, it has little of the full one."""
 COARSENED_FROM = 128
 """Intervals from which the full source is summed on every second node: its field is smooth."""
+STIFFER = 2.0
+"""Conductance of the film, over that of its oil at rest: a warmer film makes less heat as well."""
 TOLERANCE, ITERATIONS = 0.02, 30
 """Of the coupled surface temperatures after each sweep; the next sweep improves them again."""
 
@@ -169,7 +171,7 @@ class Solids:
             else:
                 misfits[number] = wanted - self._coarse(walls[number])
         if any(misfit is not None for misfit in misfits):
-            changes = self._coupled(1.0 / self._coarse(film), misfits)
+            changes = self._coupled(STIFFER / self._coarse(film), misfits)
             for number, change in changes.items():
                 walls[number][:] += self._fine(change)
 

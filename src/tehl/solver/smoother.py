@@ -34,9 +34,10 @@ class Setting:
 
 
 FAST = Setting(name="fast", threshold=1.0, point=0.7, dipole=0.6)
+BROAD = Setting(name="broad", threshold=10.0, point=0.7, dipole=0.6)
 ROBUST = Setting(name="robust", threshold=1.0, point=0.4, dipole=0.3)
 POINTWISE = Setting(name="gauss-seidel", threshold=0.0, point=0.5, dipole=0.0)
-SETTINGS = {setting.name: setting for setting in (FAST, ROBUST, POINTWISE)}
+SETTINGS = {setting.name: setting for setting in (FAST, BROAD, ROBUST, POINTWISE)}
 
 
 class Smoother(Protocol):

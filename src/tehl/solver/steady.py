@@ -32,7 +32,7 @@ from tehl.solver.film_numbers import film_summary
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.multigrid import Multigrid
 from tehl.solver.outputs import film_heat, film_shear, newtonian_shear
-from tehl.solver.smoother import FAST, ROBUST, SETTINGS
+from tehl.solver.smoother import BROAD, FAST, ROBUST, SETTINGS, Setting
 from tehl.solver.thermal import Coupling, FilmCoupling, Uncoupled
 from tehl.solver.verdict import diverged, verdict
 from tehl.solver.warmup import warm_up
@@ -119,13 +119,25 @@ def _attempts(problem: ContactProblem, options: Options, monitor: Monitor) -> It
     case_scales, case_groups = scales(problem), groups(problem)
     flow = flow_table(problem, case_scales, case_groups)
     grid = finest_grid(options, case_groups)
-    settings = (FAST, ROBUST) if options.smoother == "auto" else (SETTINGS[options.smoother],)
-    for number, setting in enumerate(settings):
+    attempts = _settings(problem, options)
+    for number, (setting, ramped) in enumerate(attempts):
         if number:
-            monitor.message(f"falling back to the {setting.name} smoother")
-        run = Multigrid(grid, case_groups, flow, options, setting, coupling_of(problem, options))
-        last = number == len(settings) - 1
+            how = ", sliding step by step" if ramped else ""
+            monitor.message(f"falling back to the {setting.name} smoother{how}")
+        coupling = coupling_of(problem, options, ramped=ramped)
+        run = Multigrid(grid, case_groups, flow, options, setting, coupling)
+        last = number == len(attempts) - 1
         yield Attempt(run=run, status=_run(run, monitor, patient=last))
+
+
+def _settings(problem: ContactProblem, options: Options) -> list[tuple[Setting, bool]]:
+    """Return the settings of the smoother to try, and whether sliding is raised step by step."""
+    if options.smoother != "auto":
+        return [(SETTINGS[options.smoother], False)]
+    if not _is_coupled(problem):
+        return [(FAST, False), (ROBUST, False)]
+    attempts = [(BROAD, False), (ROBUST, False)]
+    return [*attempts, (ROBUST, True)] if problem.slide_roll_ratio else attempts
 
 
 def _run(run: Multigrid, monitor: Monitor, *, patient: bool) -> Status:
@@ -139,11 +151,19 @@ def _run(run: Multigrid, monitor: Monitor, *, patient: bool) -> Status:
     return verdict(run, not reached, run.errors())
 
 
-def coupling_of(problem: ContactProblem, options: Options) -> Coupling:
+def _is_coupled(problem: ContactProblem) -> bool:
+    """Whether heat or shear thinning act on the film."""
+    isothermal = isinstance(problem.heat, Isothermal)
+    return not (isothermal and problem.lubricant.shear.is_newtonian)
+
+
+def coupling_of(problem: ContactProblem, options: Options, *, ramped: bool) -> Coupling:
     """Return what acts on the film besides pressure and elasticity."""
-    if isinstance(problem.heat, Isothermal) and problem.lubricant.shear.is_newtonian:
+    if not _is_coupled(problem):
         return Uncoupled()
-    return FilmCoupling(problem, scales(problem), groups(problem), options.wedge_order)
+    return FilmCoupling(
+        problem, scales(problem), groups(problem), options.wedge_order, ramped=ramped
+    )
 
 
 def finest_grid(options: Options, case_groups: Groups) -> Grid:

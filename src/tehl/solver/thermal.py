@@ -22,6 +22,10 @@ FIRST_SWEEPS = 10
 """Energy sweeps on the first heated grid before its first cycle."""
 FIRST_STEPS, STEPS = 40, 3
 """Newton steps for the shear stress on the first sweep and later."""
+RAMP = 24
+"""Sweeps over which sliding is raised from nothing, if it is."""
+UNSETTLED = 100.0
+"""Change of temperature [K] that a sweep before the end of that counts for."""
 SETTLED = 1.0
 """Change of temperature [K] at which the first sweeps may end."""
 
@@ -61,13 +65,22 @@ class FilmCoupling:
         Units and dimensionless groups.
     wedge_order : int
         Order of the upstream differences.
+    ramped : bool
+        Raise the sliding speed from nothing over the first sweeps.
     """
 
     def __init__(
-        self, problem: ContactProblem, scales: Scales, groups: Groups, wedge_order: int
+        self,
+        problem: ContactProblem,
+        scales: Scales,
+        groups: Groups,
+        wedge_order: int,
+        *,
+        ramped: bool = False,
     ) -> None:
         self.problem, self.scales, self.groups = problem, scales, groups
         self.wedge_order = wedge_order
+        self.sweeps_left = RAMP if ramped else 0
         self.state: FilmState | None = None
 
     def begin(self, levels: Sequence[Level]) -> None:
@@ -95,8 +108,12 @@ class FilmCoupling:
 
     def _sweep(self, state: FilmState, levels: Sequence[Level], steps: int) -> float:
         fine = levels[-1]
+        self.sweeps_left = max(self.sweeps_left - 1, 0)
+        state.slide(1.0 - self.sweeps_left / RAMP)
         state.set_film(fine.film.p, fine.film.h, fine.floor)
         change = state.sweep(steps)
+        if self.sweeps_left:
+            change = max(change, UNSETTLED)
         self._couple(state, levels)
         return change
 
