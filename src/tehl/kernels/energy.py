@@ -22,6 +22,7 @@ MAGIC = 6755399441055744.0  # 1.5 2^52: adding it leaves the nearest integer in 
 LOG2_E = 1.4426950408889634
 LN2_HIGH, LN2_LOW = 0.693147180369123816490, 1.90821492927058770002e-10
 LARGEST_EXPONENT = 690.0
+LARGEST_THINNING = 200.0  # ln F
 LARGEST_STEP = 40.0  # [K] per solution of a column
 PRESSURISED = 0.02  # from this pressure on changes of the temperature count
 CONDUCTION = 8.0  # a little less than pi^2, the slowest decay across the film
@@ -337,7 +338,7 @@ def thinning(laws: Laws, stress: Array, log_f: Array, bend: Array) -> None:
         slope = 6.0 * t * r * (near[2] - near[0]) + r * (1.0 - 3.0 * t) * near[1]
         slope += t * (3.0 * t - 2.0) * near[3]
         slope *= laws.per_stress / ((1.0 + s) * (1.0 + s))
-        log_f[j] = value + (stress[j] - s) * slope
+        log_f[j] = min(value + (stress[j] - s) * slope, LARGEST_THINNING)
         bend[j] = slope * stress[j]
 
 
@@ -362,7 +363,8 @@ def newton_step(model: Model, fields: Fields, i: int, work: Work) -> None:
     """Improve the mid-film stress so that the film is sheared by the sliding speed.
 
     Both components; the rate is ``F(s) tau/eta`` with ``s = |tau|`` over the scale of the law. The
-    problem is convex; a step is no longer than that scale. The station's fluidity is Newtonian.
+    problem is convex; a step is no longer than that scale and half the stress. The station's
+    fluidity is Newtonian.
     """
     line = work.line
     x, y, size, log_f, bend = line[FIRST], line[SECOND], line[THIRD], line[FOURTH], line[FIFTH]
@@ -387,7 +389,14 @@ def newton_step(model: Model, fields: Fields, i: int, work: Work) -> None:
         det = sums[2, j] * sums[4, j] - sums[3, j] * sums[3, j]
         dx = (sums[4, j] * rate_x - sums[3, j] * rate_y) / det
         dy = (sums[2, j] * rate_y - sums[3, j] * rate_x) / det
-        limit = 1.0 / max(per_scale[j] * math.sqrt(dx * dx + dy * dy), 1.0)
+        # Newton's step for the logarithm of the rate, where the sliding has a sign
+        ratio = min(max(model.terms.slide / h[j] / (sums[0, j] + 1e-300), 1e-9), 1e9)
+        grown = math.log(ratio) / (ratio - 1.0) if abs(ratio - 1.0) > 1e-6 else 1.0
+        known = (sums[0, j] < 0.0) == (model.terms.slide < 0.0)
+        grown = grown if known and model.terms.slide != 0.0 else 1.0
+        length = grown * per_scale[j] * math.sqrt(dx * dx + dy * dy)
+        size[j] = per_scale[j] * math.sqrt(tau_x[j] * tau_x[j] + tau_y[j] * tau_y[j])
+        limit = grown * min((1.0 + 0.5 * size[j]) / (length + 1e-300), 1.0)
         tau_x[j] -= limit * dx
         tau_y[j] -= limit * dy
 
