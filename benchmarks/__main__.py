@@ -1,21 +1,26 @@
-"""``python -m benchmarks [TOPIC ...] [--quick] [--points N] [--json FILE]``."""
+"""Benchmarks: ``python -m benchmarks [TOPIC ...] [--quick] [--points N] [--json FILE]``.
+
+``heat`` also takes ``--judge``, which solves each contact of its sweep on a twice finer grid, and
+``--jobs 2``, which solves two at a time.
+"""
 
 import argparse
 import json
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import partial
 from pathlib import Path
 
-from benchmarks import deformation, domain, rate, robustness, speed
+from benchmarks import deformation, domain, rate, robustness, speed, thermal
 from benchmarks.table import Table
 
-TOPICS: dict[str, Callable[..., Table]] = {
+TOPICS: dict[str, Callable[..., Table | Iterable[Table]]] = {
     "speed": speed.table,
     "rate": rate.table,
     "deformation": deformation.table,
     "domain": domain.table,
     "robustness": robustness.table,
+    "heat": thermal.tables,
 }
 BY_DEFAULT = ("speed", "rate", "deformation")
 
@@ -25,7 +30,9 @@ def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
     parser.add_argument("topics", nargs="*", help=f"of {', '.join(TOPICS)}")
     parser.add_argument("--quick", action="store_true", help="small grids, few cases")
-    parser.add_argument("--points", type=int, default=257, help="grid of the robustness sweep")
+    parser.add_argument("--points", type=int, default=257, help="grid of the robustness sweeps")
+    parser.add_argument("--judge", action="store_true", help="heat: judge by twice finer grids")
+    parser.add_argument("--jobs", type=int, default=1, help="heat: processes of the sweep")
     parser.add_argument("--json", type=Path, help="also write the tables to this file")
     asked = parser.parse_args()
     for topic in asked.topics:
@@ -42,10 +49,13 @@ def main() -> None:
         make = TOPICS[topic]
         if topic == "robustness":
             make = partial(make, asked.points)
-        table = make(quick=asked.quick)
-        tables.append(table.as_dict())
-        sys.stdout.write(table.text() + "\n")
-        sys.stdout.flush()
+        if topic == "heat":
+            make = partial(make, asked.points, finer=asked.judge, jobs=asked.jobs)
+        made = make(quick=asked.quick)
+        for table in [made] if isinstance(made, Table) else made:
+            tables.append(table.as_dict())
+            sys.stdout.write(table.text() + "\n")
+            sys.stdout.flush()
     if asked.json is not None:
         asked.json.write_text(json.dumps(tables, indent=1), encoding="utf-8")
 

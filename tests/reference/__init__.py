@@ -65,6 +65,8 @@ def heated_contact(
     *,
     reynolds: str | None = "generalised",
     shear: dict[str, Any] | None = None,
+    solids: tuple[str, str] | None = None,
+    sources: str = "line",
     **contact: float,
 ) -> ContactProblem:
     """Return the contact of the heated reference films.
@@ -77,12 +79,17 @@ def heated_contact(
         Form of the Reynolds equation; None leaves the heat out.
     shear : dict
         Table of the shear law; Newtonian if left out.
+    solids : (str, str)
+        Names of materials; the solid of the reference if left out.
+    sources : {"line", "auto", "full"}
+        How the solids conduct.
     **contact : float
         Keys of the contact table that replace those of the reference.
     """
     given = read("thermal")
     case, solid, oil = given["contact"], given["solid"], given["oil"]
-    surface = {"material": solid | {"young_modulus": case["reduced_modulus"], "poisson_ratio": 0.0}}
+    same = solid | {"young_modulus": case["reduced_modulus"], "poisson_ratio": 0.0}
+    first, second = solids or (same, same)
     loaded = {"load", "hertz_pressure", "moes_load"} & contact.keys()
     return ContactProblem.model_validate(
         {
@@ -94,8 +101,8 @@ def heated_contact(
             }
             | ({} if loaded else {"hertz_pressure": case["hertz_pressure"]})
             | contact,
-            "surface_1": surface,
-            "surface_2": surface,
+            "surface_1": {"material": first},
+            "surface_2": {"material": second},
             "lubricant": {
                 "viscosity": {
                     "law": "roelands",
@@ -117,6 +124,6 @@ def heated_contact(
                 "conductivity": oil["conductivity"],
                 "heat_capacity": oil["heat_capacity"],
             },
-            "thermal": None if reynolds is None else {"reynolds": reynolds, "sources": "line"},
+            "thermal": None if reynolds is None else {"reynolds": reynolds, "sources": sources},
         }
     )

@@ -1,0 +1,261 @@
+"""Heated and thinning films: what they cost, and which of them converge from a cold start.
+
+A result is *wrong* as in `benchmarks.robustness`: called converged, and its film differs from that
+of the twice finer grid by more than its own error bar.
+"""
+
+import multiprocessing
+import statistics
+import time
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Any
+
+from tests.reference import DOMAIN, heated_contact
+
+from benchmarks.robustness import Outcome, attempt
+from benchmarks.table import Cell, Table
+from tehl.operators.energy import FilmState
+from tehl.options import Options
+from tehl.problem import ContactProblem
+from tehl.result import Result
+from tehl.solver import solve
+from tehl.solver.work import with_work
+
+EYRING = {"law": "eyring", "stress": 10e6}
+LAWS: dict[str, dict[str, Any] | None] = {
+    "newtonian": None,
+    "eyring 5 MPa": {"law": "eyring", "stress": 5e6},
+    "eyring 10 MPa": EYRING,
+    "carreau": {"law": "carreau", "modulus": 6e6, "exponent": 0.42},
+}
+SOLIDS = (("steel", "steel"), ("steel", "glass"), ("silicon-nitride", "steel"))
+HERTZ = (0.4e9, 0.6e9, 0.8e9, 1.0e9, 1.3e9)
+SLIDES = (0.0, 0.1, -0.1, 0.5, -0.5, 1.0, -1.0, 1.9, -1.9)
+HEAVY = (500.0, 1000.0)
+HEAVY_SLIDES, HEAVY_SIZES = (0.5, 1.0), (257, 513)
+SPEED_LOAD, SPEED_SLIDE = 100.0, 0.5
+REPEATS = {257: 5, 513: 3, 1025: 1}
+
+
+# ---- cost
+
+
+@dataclass(slots=True)
+class Clock:
+    """CPU seconds of each energy sweep since it was started."""
+
+    seconds: list[float] = field(default_factory=list)
+
+
+@contextmanager
+def sweeps_timed() -> Iterator[Clock]:
+    """Time each energy sweep inside the block."""
+    clock, sweep = Clock(), FilmState.sweep
+
+    def timed(self: FilmState, *args: Any, **names: Any) -> float:
+        start = time.process_time()
+        change = sweep(self, *args, **names)
+        clock.seconds.append(time.process_time() - start)
+        return change
+
+    FilmState.sweep = timed  # type: ignore[method-assign]
+    try:
+        yield clock
+    finally:
+        FilmState.sweep = sweep  # type: ignore[method-assign]
+
+
+def speed_contact(reynolds: str | None, shear: dict[str, Any] | None) -> ContactProblem:
+    """Return M = 100, SRR 0.5 with the oil of the heated reference films."""
+    return heated_contact(SPEED_SLIDE, reynolds=reynolds, shear=shear, moes_load=SPEED_LOAD)
+
+
+def cost(problem: ContactProblem, points: int) -> tuple[Result, float]:
+    """Return a result with its median cost, and the part of it that went into energy sweeps."""
+    options = Options(points=points, domain=DOMAIN)
+    attempt(problem, options)
+    runs, shares = [], []
+    for _ in range(REPEATS[points]):
+        with sweeps_timed() as clock:
+            runs.append(with_work(attempt(problem, options)))
+        shares.append(sum(clock.seconds) / runs[-1].cost.cpu_seconds)
+    runs.sort(key=lambda run: run.cost.cpu_seconds)
+    return runs[len(runs) // 2], statistics.median(shares)
+
+
+def speed(*, quick: bool = False) -> Table:
+    """Return what a heated, thinning film costs by grid, beside its isothermal Newtonian twin."""
+    made = Table(
+        title="Heat: cost at M = 100, SRR 0.5, Eyring 10 MPa, X in [-4.5, 1.5], Y in [-3, 3]",
+        columns=(
+            "points", "status", "CPU s", "work", "sweeps %", "cycles", "isothermal work",
+            "H_central", "mid-film rise K", "traction", "heat missing %",
+        ),
+    )  # fmt: skip
+    for points in (257,) if quick else REPEATS:
+        run, share = cost(speed_contact("generalised", EYRING), points)
+        twin, _ = cost(speed_contact(None, None), points)
+        made.rows.append(
+            (points, outcome(run), run.cost.cpu_seconds, run.cost.work, 100 * share, cycles(run),
+             twin.cost.work, f"{run.film_scaled.central:.5f}", *heat_cells(run))
+        )  # fmt: skip
+    made.notes.append("sweeps: part of the CPU seconds that went into the energy equation")
+    return made
+
+
+def outcome(run: Result) -> str:
+    """Return how a run ended, in one word."""
+    return run.status.cause or run.status.kind
+
+
+def cycles(run: Result) -> int:
+    """Return the cycles on the finest grid."""
+    return len([report for report in run.history if report.points[0] == run.scaled.x.size])
+
+
+def heat_cells(run: Result) -> tuple[Cell, Cell, Cell]:
+    """Return mid-film rise [K], traction coefficient and what the heat balance misses [%]."""
+    temperature, traction, heat = run.temperature, run.traction, run.heat
+    return (
+        temperature.mid_film_rise_central if temperature else None,
+        traction.mid_film if traction else None,
+        100 * heat.balance.error if heat else None,
+    )
+
+
+# ---- robustness
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Case:
+    """One contact of the sweep; the load is a Hertz pressure [Pa] or a Moes number."""
+
+    law: str
+    slide: float
+    solids: tuple[str, str] = SOLIDS[0]
+    hertz: float | None = None
+    moes: float | None = None
+    points: int
+
+    @property
+    def problem(self) -> ContactProblem:
+        """The contact, with everything that a case may leave out left out."""
+        load = {"moes_load": self.moes} if self.hertz is None else {"hertz_pressure": self.hertz}
+        return heated_contact(
+            self.slide, shear=LAWS[self.law], solids=self.solids, sources="auto", **load
+        )
+
+    @property
+    def cells(self) -> tuple[Cell, ...]:
+        """The first cells of its row."""
+        load = f"M = {self.moes:g}" if self.hertz is None else f"{self.hertz / 1e9:g} GPa"
+        return self.law, "/".join(self.solids), load, self.slide, self.points
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Judged:
+    """One contact with how it ended."""
+
+    case: Case
+    status: str
+    row: tuple[Cell, ...]
+    judged: bool = False
+    wrong: bool = False
+
+
+COLUMNS = (
+    "law", "solids", "load", "SRR", "points", "status", "smoother", "cycles", "CPU s", "M",
+    "H_central", "H_min", "bar_m %", "rise K", "traction", "missing %", "twice finer", "off/bar",
+    "rise off %", "",
+)  # fmt: skip
+
+
+def cases(points: int, *, quick: bool) -> Iterator[Case]:
+    """Yield the contacts of the sweep, those of one law together."""
+    laws = ("newtonian", "eyring 10 MPa") if quick else tuple(LAWS)
+    hertz = HERTZ[::2] if quick else HERTZ
+    slides = (0.0, 0.5, -1.9) if quick else SLIDES
+    for law in laws:
+        for solids in SOLIDS[:2] if quick else SOLIDS:
+            for pressure in hertz:
+                for slide in slides:
+                    yield Case(law=law, slide=slide, solids=solids, hertz=pressure, points=points)
+    for load in () if quick else HEAVY:
+        for slide in HEAVY_SLIDES:
+            for size in HEAVY_SIZES:
+                yield Case(law="eyring 10 MPa", slide=slide, moes=load, points=size)
+
+
+def judge(case: Case, *, finer: bool) -> Judged:
+    """Solve a case with the defaults, on request once more on twice as many intervals."""
+    try:
+        run = attempt(case.problem, Options(points=case.points))
+        twice = attempt(case.problem, Options(points=2 * case.points - 1)) if finer else None
+    except Exception as error:  # a sweep of hundreds of cases goes on, and says so
+        status = f"crashed: {type(error).__name__}"
+        blanks = (None,) * (len(COLUMNS) - len(case.cells) - 1)
+        return Judged(case=case, status=status, row=(*case.cells, status, *blanks))
+    film, errors, rise = run.film_scaled, run.errors, heat_cells(run)
+    row: tuple[Cell, ...] = (
+        *case.cells, outcome(run), run.history[-1].smoother if run.history else None, cycles(run),
+        run.cost.cpu_seconds, run.groups.M, f"{film.central:.5f}", f"{film.minimum:.5f}",
+        100 * errors.discretisation_minimum if errors else None, *rise,
+    )  # fmt: skip
+    if twice is None:
+        return Judged(case=case, status=outcome(run), row=(*row, None, None, None, ""))
+    pair = Outcome(load=run.groups.M, speed=run.groups.L, ratio=1.0, result=run, finer=twice)
+    off: Cell = None
+    if pair.judged:
+        off = max(pair.excess("central"), pair.excess("minimum"))
+    there, warmer = heat_cells(twice)[0], None
+    if isinstance(rise[0], float) and isinstance(there, float):
+        warmer = 100 * (rise[0] / there - 1.0)
+    row = (*row, outcome(twice), off, warmer, "WRONG" if pair.wrong else "")
+    return Judged(case=case, status=outcome(run), row=row, judged=pair.judged, wrong=pair.wrong)
+
+
+def judged_by(wanted: Iterable[Case], jobs: int, *, finer: bool) -> Iterator[Judged]:
+    """Yield the outcomes in order, from as many processes as asked."""
+    work = partial(judge, finer=finer)
+    if jobs == 1:
+        yield from map(work, wanted)
+        return
+    with multiprocessing.get_context("spawn").Pool(jobs) as pool:
+        yield from pool.imap(work, wanted)
+
+
+def robustness(points: int, *, quick: bool = False, finer: bool = False, jobs: int = 1) -> Table:
+    """Return which heated contacts converge on ``points`` x ``points`` nodes."""
+    made = Table(
+        title=f"Heat: robustness, {points} x {points} nodes, defaults, cold", columns=COLUMNS
+    )
+    found = list(judged_by(cases(points, quick=quick), jobs, finer=finer))
+    made.rows.extend(one.row for one in found)
+    for law in LAWS:
+        made.notes.extend(count(law, [one for one in found if one.case.law == law]))
+    return made
+
+
+def count(law: str, found: list[Judged]) -> Iterator[str]:
+    """Yield one line that counts the outcomes of a law."""
+    if not found:
+        return
+    statuses = Counter(one.status for one in found)
+    named = ", ".join(f"{number} {status}" for status, number in statuses.most_common())
+    judged = [one for one in found if one.judged]
+    wrong = sum(one.wrong for one in judged)
+    verdict = f"; wrong: {wrong} of {len(judged)} judged" if judged else ""
+    yield f"{law}: {len(found)} cases: {named}{verdict}"
+
+
+def tables(
+    points: int, *, quick: bool = False, finer: bool = False, jobs: int = 1
+) -> Iterator[Table]:
+    """Yield the cost and the robustness of heated films."""
+    solve(speed_contact("generalised", EYRING), Options(points=129, domain=DOMAIN))
+    yield speed(quick=quick)
+    yield robustness(points, quick=quick, finer=finer, jobs=jobs)
