@@ -23,6 +23,7 @@ LOG2_E = 1.4426950408889634
 LN2_HIGH, LN2_LOW = 0.693147180369123816490, 1.90821492927058770002e-10
 LARGEST_EXPONENT = 690.0
 LARGEST_THINNING = 200.0  # ln F
+BEYOND_LIMIT = 1.02  # of a limiting stress; there ln F is above 20
 LARGEST_STEP = 40.0  # [K] per solution of a column
 PRESSURISED = 0.02  # from this pressure on changes of the temperature count
 CONDUCTION = 8.0  # a little less than pi^2, the slowest decay across the film
@@ -53,7 +54,8 @@ class Laws(NamedTuple):
     ``fluid`` (rows, TERMS, 2): over ln(1 + per_scale p) the coefficients, and their slopes times
     the step, of ln eta as a polynomial in ``(1/T - middle) over_inverse`` and of rho in
     ``(T - inlet) over_rise``, for T of ``coldest`` to ``hottest``. ``thinning`` (rows, 2): ln F
-    and its slope times the step over s/(1 + s), ``per_stress`` rows per unit.
+    and its slope times the step over s/(1 + s), ``per_stress`` rows per unit; ``newtonian``
+    where there is no thinning, ``uniform`` where all layers thin as mid-film does.
     """
 
     fluid: Array
@@ -68,6 +70,7 @@ class Laws(NamedTuple):
     thinning: Array
     per_stress: float
     newtonian: int
+    uniform: int
 
 
 class Terms(NamedTuple):
@@ -349,6 +352,7 @@ def layer_stress(model: Model, fields: Fields, i: int, work: Work, k: int) -> No
     The stress is linear across the film, by the pressure gradient.
     """
     tilt = model.terms.poiseuille * (model.across.zeta[k] - 0.5)
+    tilt = 0.0 if model.laws.uniform else tilt
     x, y, size = work.line[FIRST], work.line[SECOND], work.line[THIRD]
     p_x, p_y, h, per_scale = fields.px[i], fields.py[i], fields.h[i], fields.stress[i]
     tau_x, tau_y = fields.tau_x[i], fields.tau_y[i]
@@ -399,6 +403,11 @@ def newton_step(model: Model, fields: Fields, i: int, work: Work) -> None:
         limit = grown * min((1.0 + 0.5 * size[j]) / (length + 1e-300), 1.0)
         tau_x[j] -= limit * dx
         tau_y[j] -= limit * dy
+        if model.laws.uniform:
+            size[j] = per_scale[j] * math.sqrt(tau_x[j] * tau_x[j] + tau_y[j] * tau_y[j])
+            limit = min(1.0, BEYOND_LIMIT / (size[j] + 1e-300))
+            tau_x[j] *= limit
+            tau_y[j] *= limit
 
 
 @njit(cache=True, fastmath={"contract"}, error_model="numpy")
@@ -419,6 +428,7 @@ def thin(model: Model, fields: Fields, i: int, work: Work) -> None:
             fluid[j] *= size[j]
             yields[j] = 1.0 + bend[j]
             share = x[j] * x[j] / (x[j] * x[j] + y[j] * y[j] + 1e-300)
+            share = 0.0 if model.laws.uniform else share
             tangent[j] = fluid[j] * (1.0 + bend[j] * share)
 
 

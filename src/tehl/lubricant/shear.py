@@ -43,6 +43,11 @@ class Newtonian(BaseModel):
         return True
 
     @property
+    def yields_as_a_whole(self) -> bool:
+        """Whether F is that of the mid-film stress at all layers."""
+        return False
+
+    @property
     def largest_stress(self) -> float:
         """Return the dimensionless stress up to which a table of ln F is wanted."""
         return 1.0
@@ -88,6 +93,11 @@ class Eyring(BaseModel):
     @property
     def is_newtonian(self) -> bool:
         """Whether F is one at every stress."""
+        return False
+
+    @property
+    def yields_as_a_whole(self) -> bool:
+        """Whether F is that of the mid-film stress at all layers."""
         return False
 
     @property
@@ -151,6 +161,11 @@ class Carreau(BaseModel):
         return self.exponent == 1.0
 
     @property
+    def yields_as_a_whole(self) -> bool:
+        """Whether F is that of the mid-film stress at all layers."""
+        return False
+
+    @property
     def largest_stress(self) -> float:
         """Return the dimensionless stress up to which a table of ln F is wanted."""
         return LARGEST_RATE * math.hypot(1.0, LARGEST_RATE) ** (self.exponent - 1.0)
@@ -210,6 +225,11 @@ class Limiting(BaseModel):
     slope : float
         Lambda, increase of the limit with pressure [-]. The limit is nowhere less than 0.1 MPa.
 
+    Notes
+    -----
+    F is that of the mid-film stress at all layers: at the limit the smallest pressure gradient
+    would have all of the film slip at one wall.
+
     References
     ----------
     .. [1] S. Bair and W. O. Winer, J. Lubrication Technology 101 (1979), 251-257.
@@ -232,6 +252,11 @@ class Limiting(BaseModel):
     def is_newtonian(self) -> bool:
         """Whether F is one at every stress."""
         return False
+
+    @property
+    def yields_as_a_whole(self) -> bool:
+        """Whether F is that of the mid-film stress at all layers."""
+        return True
 
     @property
     def largest_stress(self) -> float:

@@ -73,6 +73,7 @@ def law_table(lubricant: Lubricant, scales: Scales) -> Laws:
         thinning=thinning,
         per_stress=per_stress,
         newtonian=int(lubricant.shear.is_newtonian),
+        uniform=int(lubricant.shear.yields_as_a_whole),
     )
 
 
