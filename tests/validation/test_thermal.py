@@ -1,9 +1,7 @@
 """Heated films against an independent solver, and the balance of their heat."""
 
-import math
 from functools import cache
 
-import numpy as np
 import pytest
 
 from tehl.options import Options
@@ -15,6 +13,8 @@ from tests.reference import DOMAIN, heated_contact, read
 HEATED = read("thermal")
 INDEPENDENT = HEATED["independent"]["case"]
 GRIDS = (129, 257, 513)
+TOLERANCE = 1e-5
+"""Where a rolling film flows back in the inlet, its heat settles slowly: worth 1e-6 of H."""
 
 
 def name(case: dict) -> str:
@@ -38,7 +38,8 @@ def numbers(run: Result) -> dict[str, float]:
 @cache
 def film(reynolds: str, slide_roll_ratio: float, points: int) -> Result:
     problem = heated_contact(slide_roll_ratio, reynolds=reynolds)
-    return solve(problem, Options(points=points, domain=DOMAIN, accuracy="tight"))
+    options = Options(points=points, domain=DOMAIN, accuracy="tight", tolerance=TOLERANCE)
+    return solve(problem, options)
 
 
 def film_of(case: dict, points: int) -> Result:
@@ -84,13 +85,11 @@ def test_three_grids_extrapolate_to_the_heated_film(case, quantity, tolerance, a
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("points", GRIDS)
 @pytest.mark.parametrize("case", INDEPENDENT, ids=name)
-def test_the_heat_is_balanced_to_the_order_of_the_scheme(case):
-    errors = []
-    for points in GRIDS:
-        heat = film_of(case, points).heat
-        assert heat is not None
-        errors.append(abs(heat.balance.error))
-    assert errors[1] < 0.01
-    assert np.all(np.array(errors) < 0.02)
-    assert math.isfinite(errors[2])
+def test_the_heat_is_balanced(case, points):
+    heat = film_of(case, points).heat
+    assert heat is not None
+    # what is missing flows through the edges of the domain, whose pressure gradient counts for
+    # nothing, and 3e-4 of it is the walls' share of nine nodes: neither falls with the mesh width
+    assert abs(heat.balance.error) < 0.01
