@@ -19,10 +19,13 @@ CLOSE = 1e-5
 
 
 @cache
-def heated(slide_roll_ratio: float, law: str = "newtonian", points: int = 65) -> Result:
+def heated(
+    slide_roll_ratio: float, law: str = "newtonian", points: int = 65, sources: str = "line"
+) -> Result:
     """The film of the heated reference contact."""
     shear = EYRING if law == "eyring" else None
-    return solve(heated_contact(slide_roll_ratio, shear=shear), tight(points))
+    problem = heated_contact(slide_roll_ratio, shear=shear, sources=sources)
+    return solve(problem, tight(points))
 
 
 def heat_of(run: Result) -> FilmHeat:
@@ -30,9 +33,12 @@ def heat_of(run: Result) -> FilmHeat:
     return run.heat
 
 
-@pytest.mark.parametrize("law", ["newtonian", "eyring"])
-def test_equal_solids_do_not_know_which_of_them_is_the_faster(law):
-    ahead, behind = heated(0.5, law), heated(-0.5, law)
+@pytest.mark.parametrize(
+    ("slide", "law", "sources"),
+    [(0.5, "newtonian", "line"), (0.5, "eyring", "line"), (1.9, "eyring", "auto")],
+)
+def test_equal_solids_do_not_know_which_of_them_is_the_faster(slide, law, sources):
+    ahead, behind = (heated(sign * slide, law, sources=sources) for sign in (1.0, -1.0))
     for name in ("film", "pressure"):
         one, other = getattr(ahead.scaled, name), getattr(behind.scaled, name)
         np.testing.assert_allclose(one, other, rtol=0, atol=1e-8 * one.max())
