@@ -171,8 +171,8 @@ def heated(table: dict[str, Any]) -> Iterator[str]:
         yield balance_row(case, films)
     yield (
         "\nHeld to 1 %. Halving the mesh width does not halve it: what is missing flows through "
-        "the edges of the domain, is the walls' share of nine nodes (3e-4), and where the film only "
-        "rolls is heat that the backflow in the inlet still carries along."
+        "the edges of the domain, is the walls' share of nine nodes (3e-4), and where the film "
+        "only rolls is heat that the backflow in the inlet still carries along."
     )
 
 
