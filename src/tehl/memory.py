@@ -5,6 +5,7 @@ from pathlib import Path
 
 from tehl.errors import InputError
 from tehl.options import Options, coarsenable
+from tehl.problem import ContactProblem
 
 BYTES_PER_NODE = 180
 """Peak memory of a solve by node of the finest full grid, measured; a guide."""
@@ -13,10 +14,22 @@ _LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_b
 """Where a container says how much it may take; what it uses holds caches, so it tells nothing."""
 
 
-def needed_memory(options: Options) -> float:
+BYTES_PER_LAYER, BYTES_COUPLED = 10, 270
+"""More of them in a heated or shear-thinning film: per node and layer, and per node."""
+USUAL_LAYERS = 9
+
+
+def needed_memory(options: Options, problem: ContactProblem | None = None) -> float:
     """Return the estimated peak memory of a solve [byte]."""
     nodes_y, nodes_x = options.shape
-    return float(BYTES_PER_NODE * nodes_y * nodes_x)
+    return float(_bytes_per_node(problem) * nodes_y * nodes_x)
+
+
+def _bytes_per_node(problem: ContactProblem | None) -> float:
+    if problem is None or not problem.is_coupled:
+        return BYTES_PER_NODE
+    layers = problem.thermal.nodes if problem.thermal else USUAL_LAYERS
+    return BYTES_PER_NODE + BYTES_COUPLED + BYTES_PER_LAYER * layers
 
 
 def available_memory() -> float | None:
@@ -25,23 +38,25 @@ def available_memory() -> float | None:
     return min(known, default=None)
 
 
-def check_memory(options: Options) -> None:
+def check_memory(options: Options, problem: ContactProblem | None = None) -> None:
     """Refuse a grid that cannot fit into the memory.
 
     Parameters
     ----------
     options : Options
         With the nodes of the finest grid.
+    problem : ContactProblem or None
+        What is solved; None for an isothermal film.
 
     Raises
     ------
     InputError
         If the estimate exceeds the memory that there is; the message names a grid that fits.
     """
-    needed, available = needed_memory(options), available_memory()
+    needed, available = needed_memory(options, problem), available_memory()
     if available is None or needed <= available:
         return
-    largest = int((available / BYTES_PER_NODE) ** 0.5)
+    largest = int((available / _bytes_per_node(problem)) ** 0.5)
     fitting = f": take {coarsenable(largest)[0]} or fewer" if largest > 33 else ""
     nodes_y, nodes_x = options.shape
     raise InputError(

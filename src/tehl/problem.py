@@ -394,6 +394,11 @@ class ContactProblem(BaseModel):
         )
 
     @property
+    def is_coupled(self) -> bool:
+        """Whether more than pressure rules the flow: heat, or shear thinning."""
+        return self.thermal is not None or not self.lubricant.shear.is_newtonian
+
+    @property
     def speed_group(self) -> float:
         """Return U = eta_0 u_m / (E' R_x) [-]."""
         if self.contact.moes_speed is not None:

@@ -61,5 +61,7 @@ def solver(monkeypatch) -> FakeSolver:
     monkeypatch.setattr("tehl.solver", module, raising=False)
     monitor = SimpleNamespace(SILENT=Silent())
     monkeypatch.setitem(sys.modules, "tehl.solver.monitor", monitor)
-    monkeypatch.setitem(sys.modules, "tehl.kernels.cache", SimpleNamespace(is_cold=lambda: False))
+    monkeypatch.setitem(
+        sys.modules, "tehl.kernels.cache", SimpleNamespace(is_cold=lambda **_: False)
+    )
     return fake

@@ -43,7 +43,7 @@ def test_a_wrong_film_is_an_environment_error(solver, capsys):
 
 def test_warming_compiles_and_then_checks():
     doctor.doctor(warm=True)
-    assert not is_cold()
+    assert not is_cold(coupled=True)
 
 
 def test_a_solver_that_breaks_is_a_finding(solver, capsys):

@@ -272,7 +272,9 @@ def test_pictures_are_drawn_on_demand(folder, solver, run, monkeypatch):
 
 
 def test_cold_kernels_are_announced(folder, solver, run, monkeypatch):
-    monkeypatch.setitem(sys.modules, "tehl.kernels.cache", SimpleNamespace(is_cold=lambda: True))
+    monkeypatch.setitem(
+        sys.modules, "tehl.kernels.cache", SimpleNamespace(is_cold=lambda **_: True)
+    )
     assert "compiling once" in run("solve", "ball.toml").err
 
 

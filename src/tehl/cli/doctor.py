@@ -87,7 +87,10 @@ def _facts() -> Iterator[tuple[str, str]]:
         except PackageNotFoundError:
             yield name, "missing"
     yield "kernel cache", _cache_folder()
-    yield "kernels compiled", "no, the first solve compiles once" if is_cold() else "yes"
+    yield (
+        "kernels compiled",
+        "no, the first solve compiles once" if is_cold(coupled=True) else "yes",
+    )
 
 
 def _cache_folder() -> str:
@@ -135,7 +138,7 @@ def _warm() -> None:
     from tehl.solver import solve
     from tehl.solver.warmup import warm_up
 
-    warm_up()
+    warm_up(coupled=True)
     with suppress(ConvergenceError):
         solve(_problem(), Options(points=33, smoother="gauss-seidel", max_cycles=1))
 

@@ -30,7 +30,7 @@ COMPILE_SECONDS = 60
 
 
 @contextmanager
-def progress(*, quiet: bool, thermal: bool = False) -> Iterator["Monitor"]:
+def progress(*, quiet: bool, thermal: bool = False, coupled: bool = False) -> Iterator["Monitor"]:
     """Yield the monitor for a run: a table on a terminal, else lines; warn when kernels are cold.
 
     Parameters
@@ -39,6 +39,8 @@ def progress(*, quiet: bool, thermal: bool = False) -> Iterator["Monitor"]:
         Show nothing.
     thermal : bool
         Show how the temperature changes.
+    coupled : bool
+        The film is heated or thins in shear, which takes more kernels.
     """
     import sys
 
@@ -48,7 +50,7 @@ def progress(*, quiet: bool, thermal: bool = False) -> Iterator["Monitor"]:
     if quiet:
         yield SILENT
         return
-    if is_cold():
+    if is_cold(coupled=coupled):
         typer.echo(f"compiling once, about {COMPILE_SECONDS} s", err=True)
     if sys.stderr is None or not sys.stderr.isatty():
         yield Lines(thermal=thermal)

@@ -50,7 +50,7 @@ def solve(  # noqa: PLR0913, PLR0917 (the options of the command)
     target = Path(f"{case.stem}.nc") if output is None else output
     problem, options = read_case_and_options(case, changes)
     _check_output(target, case, plot)
-    check_memory(options)
+    check_memory(options, problem)
     twin = _twin(problem) if with_isothermal else None
     result, failure = _run(problem, options, certify=certify, quiet=quiet)
     if as_json:
@@ -93,7 +93,9 @@ def _run(
 
     work = solver.certify if certify else solver.solve
     try:
-        with progress(quiet=quiet, thermal=problem.thermal is not None) as monitor:
+        with progress(
+            quiet=quiet, thermal=problem.thermal is not None, coupled=problem.is_coupled
+        ) as monitor:
             return work(problem, options, monitor=monitor), None
     except ConvergenceError as error:
         return error.result, str(error)

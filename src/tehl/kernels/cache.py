@@ -6,8 +6,14 @@ from pathlib import Path
 _FOLDER = Path(__file__).parent
 
 
-def is_cold() -> bool:
+HEATED = "energy.py"
+"""The kernels that only heated and shear-thinning films need."""
+
+
+def is_cold(*, coupled: bool) -> bool:
     """Return True when a kernel file has no compiled index newer than itself.
+
+    Those of heated and shear-thinning films count where ``coupled``.
 
     Numba keeps an index (``.nbi``) per compiled function, in ``__pycache__`` beside the source or
     under ``NUMBA_CACHE_DIR``.
@@ -22,6 +28,7 @@ def is_cold() -> bool:
         for source in _FOLDER.glob("*.py")
         if "@njit" in source.read_text(encoding="utf-8")
         and source.name not in ("cache.py", "gauss_seidel.py")
+        and (coupled or source.name != HEATED)
     )
 
 

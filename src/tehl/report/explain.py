@@ -25,6 +25,7 @@ from tehl.report.suspicion import questions
 from tehl.scaling import Groups, Scales, groups, scales
 
 SECONDS_PER_NODE = 1.5e-6
+SECONDS_COUPLED = 6e-6
 """Time of a solve by node of the finest full grid on one core of a usual machine; a guide."""
 
 UNTITLED = "Lubricated point contact"
@@ -123,8 +124,8 @@ def explain(problem: ContactProblem, options: Options) -> Explanation:
         domain=options.domain if isinstance(options.domain, Domain) else wanted,
         recommended_domain=wanted,
         needed_points=coarsenable(needed_points(case_groups) - 2)[1],
-        memory=needed_memory(options),
-        seconds=SECONDS_PER_NODE * nodes,
+        memory=needed_memory(options, problem),
+        seconds=(SECONDS_COUPLED if problem.is_coupled else SECONDS_PER_NODE) * nodes,
         questions=questions(problem, options, case_groups, film, heat=heat),
     )
 

@@ -17,6 +17,8 @@ ORDERS = (1.4, 2.8)
 """Observed orders that are taken for the second order of the scheme."""
 OUTLET_HALF = 0.5
 """X beyond which the pressure spike is looked for, in Hertz half-widths."""
+JUDGED = ("film_central", "film_minimum", "pressure_max")
+"""What must be known well enough, else the grid is too coarse; small temperatures need not be."""
 RESIDUE = 0.25
 """Part of the extrapolated step that stays in the error bar, at least."""
 
@@ -74,7 +76,7 @@ def certify(
     highest = uncertainty["pressure_max"]
     uncertainty["pressure_max"] = with_growing_spike(highest, _spike(runs[1]), _spike(runs[2]))
     result = replace(runs[-1], uncertainty=uncertainty, cost=cost)
-    worst = max(abs(e.uncertainty / e.value) for e in uncertainty.values())
+    worst = max(abs(uncertainty[name].uncertainty / uncertainty[name].value) for name in JUDGED)
     if worst > LARGEST_BAR:
         status = too_coarse(result, worst)
         raise ConvergenceError(str(status.message), replace(result, status=status))
@@ -119,7 +121,19 @@ def _quantities(result: Result) -> dict[str, float]:
         "film_central": result.film_scaled.central,
         "film_minimum": result.film_scaled.minimum,
         "pressure_max": float(result.scaled.pressure.max()),
+        **_heat_quantities(result),
     }
+
+
+def _heat_quantities(result: Result) -> dict[str, float]:
+    """Return what a heated film is asked for besides; the traction of any that slides."""
+    quantities = {}
+    if (temperature := result.temperature) is not None:
+        quantities["mid_film_rise_central"] = temperature.mid_film_rise_central
+    coupled = result.problem.is_coupled and result.problem.slide_roll_ratio != 0.0
+    if coupled and (traction := result.traction) is not None:
+        quantities["traction_mid_film"] = traction.mid_film
+    return quantities
 
 
 def _spike(result: Result) -> float:

@@ -12,7 +12,6 @@ import numpy as np
 from tehl.domain import recommended_domain
 from tehl.errors import ConvergenceError
 from tehl.grid import Grid, can_mirror
-from tehl.heat import Isothermal
 from tehl.memory import check_memory
 from tehl.operators.flow import flow_table
 from tehl.options import Domain, Options
@@ -80,8 +79,8 @@ def solve(
         When the grid does not fit into the memory.
     """
     options = options or Options()
-    check_memory(options)
-    warm_up()
+    check_memory(options, problem)
+    warm_up(coupled=problem.is_coupled)
     wall, cpu = time.perf_counter(), time.process_time()
     history = _History(monitor)
     attempts = []
@@ -134,7 +133,7 @@ def _settings(problem: ContactProblem, options: Options) -> list[tuple[Setting, 
     """Return the settings of the smoother to try, and whether sliding is raised step by step."""
     if options.smoother != "auto":
         return [(SETTINGS[options.smoother], False)]
-    if not _is_coupled(problem):
+    if not problem.is_coupled:
         return [(FAST, False), (ROBUST, False)]
     attempts = [(BROAD, False), (ROBUST, False)]
     return [*attempts, (ROBUST, True)] if problem.slide_roll_ratio else attempts
@@ -151,15 +150,9 @@ def _run(run: Multigrid, monitor: Monitor, *, patient: bool) -> Status:
     return verdict(run, not reached, run.errors())
 
 
-def _is_coupled(problem: ContactProblem) -> bool:
-    """Whether heat or shear thinning act on the film."""
-    isothermal = isinstance(problem.heat, Isothermal)
-    return not (isothermal and problem.lubricant.shear.is_newtonian)
-
-
 def coupling_of(problem: ContactProblem, options: Options, *, ramped: bool) -> Coupling:
     """Return what acts on the film besides pressure and elasticity."""
-    if not _is_coupled(problem):
+    if not problem.is_coupled:
         return Uncoupled()
     return FilmCoupling(
         problem, scales(problem), groups(problem), options.wedge_order, ramped=ramped
