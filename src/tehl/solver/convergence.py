@@ -83,6 +83,8 @@ def iterated_enough(now: GridTrace, coarser: GridTrace | None) -> bool:
         return now.reports[-1].change < 1e-3
     pairs = ((now.central, coarser.central), (now.minimum, coarser.minimum))
     last = now.reports[-1]
+    if last.residual > now.reports[-2].residual:
+        return False
     if abs(last.load_error) > LARGEST_LOAD_ERROR or last.change > LARGEST_CHANGE:
         return False
     limit = max(abs(a.values[-1] - b.values[-1]) / 3.0 for a, b in pairs) / 3.0

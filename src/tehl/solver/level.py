@@ -70,6 +70,12 @@ class Level:
         self.smoother.frozen[:] = 0
         self.stale = True
 
+    def set_smoother(self, setting: Setting) -> None:
+        """Relax with another setting from now on."""
+        frozen = self.smoother.frozen
+        self.smoother = make_smoother(self.grid, self.influence, setting)
+        self.smoother.frozen[:] = frozen
+
     def load_error(self) -> float:
         """Return the relative error of the load balance."""
         return self.load.integral(self.film.p) / self.load_target - 1.0

@@ -23,7 +23,7 @@ from tehl.solver.fas import Cycle, cycle
 from tehl.solver.film_numbers import central_value
 from tehl.solver.level import Level
 from tehl.solver.monitor import Monitor
-from tehl.solver.smoother import Setting
+from tehl.solver.smoother import BROAD, FAST, Setting
 from tehl.solver.thermal import Coupling, Uncoupled
 
 FIRST_STEPS = 6
@@ -70,7 +70,9 @@ class Multigrid:
     ) -> None:
         self.coupling = coupling or Uncoupled()
         self.options, self.setting, self.groups = options, setting, groups
-        self.levels = [Level(g, groups, flow, options, setting) for g in hierarchy(finest)]
+        # as long as the film is isothermal the zone that conducts is narrow
+        first = FAST if setting is BROAD else setting
+        self.levels = [Level(g, groups, flow, options, first) for g in hierarchy(finest)]
         self.coarsest = CoarsestSolver(self.levels[0])
         self.expected_film = expected_central_film(groups)
         for level in self.levels:
@@ -166,7 +168,9 @@ class Multigrid:
         fine, last = levels[-1], levels[-1] is self.finest
         fine.pose_problem()
         fine.update()
-        self.coupling.begin(levels)
+        if self.coupling.begin(levels, finest=last):
+            for level in levels:
+                level.set_smoother(self.setting)
         trace, coarser = GridTrace(), (self.traces[-1] if self.traces else None)
         self.traces.append(trace)
         trace.note(*film_numbers(fine))

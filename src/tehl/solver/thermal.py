@@ -18,6 +18,8 @@ from tehl.solver.level import Level
 
 COUPLED_FROM = 64
 """Intervals of a grid from which the film is heated: on coarser ones it keeps the inlet's."""
+SOUND = 5.0
+"""Least film, over the floor of the conductance, that is worth heating on a coarser grid."""
 FIRST_SWEEPS = 10
 """Energy sweeps on the first heated grid before its first cycle."""
 FIRST_STEPS, STEPS = 40, 3
@@ -33,8 +35,8 @@ SETTLED = 1.0
 class Coupling(Protocol):
     """What acts on the film besides pressure and elasticity."""
 
-    def begin(self, levels: Sequence[Level]) -> None:
-        """Start on the last of ``levels`` from what is known on the one before it."""
+    def begin(self, levels: Sequence[Level], *, finest: bool) -> bool:
+        """Start on the last of ``levels`` from what is known before; return whether it acts."""
         ...
 
     def update(self, levels: Sequence[Level]) -> tuple[float, float]:
@@ -45,8 +47,10 @@ class Coupling(Protocol):
 class Uncoupled:
     """An isothermal Newtonian film: pressure alone rules the flow."""
 
-    def begin(self, levels: Sequence[Level]) -> None:
+    def begin(self, levels: Sequence[Level], *, finest: bool) -> bool:
         """Do nothing."""
+        del levels, finest
+        return False
 
     def update(self, levels: Sequence[Level]) -> tuple[float, float]:
         """Do nothing; nothing changes."""
@@ -83,21 +87,26 @@ class FilmCoupling:
         self.sweeps_left = RAMP if ramped else 0
         self.state: FilmState | None = None
 
-    def begin(self, levels: Sequence[Level]) -> None:
-        """Heat the last of ``levels`` from the temperature of the one before it."""
-        fine = levels[-1]
-        if min(fine.grid.nx, fine.grid.ny) - 1 < COUPLED_FROM:
-            return
-        coarser = self.state
+    def begin(self, levels: Sequence[Level], *, finest: bool) -> bool:
+        """Heat the last of ``levels`` from the temperature of the one before it.
+
+        A coarser grid that does not resolve the film is left as it is; return whether it is heated.
+        """
+        fine, coarser = levels[-1], self.state
+        large = min(fine.grid.nx, fine.grid.ny) > COUPLED_FROM
+        sound = float(fine.film.h.min()) > SOUND * fine.floor
+        if not (finest or coarser is not None or (large and sound)):
+            return False
         state = FilmState(fine.grid, self.problem, self.scales, self.groups, self.wedge_order)
         self.state = state
         if coarser is not None:
             state.refine_from(coarser)
             self._sweep(state, levels, FIRST_STEPS)
-            return
+            return True
         for _ in range(FIRST_SWEEPS):
             if self._sweep(state, levels, FIRST_STEPS) < SETTLED:
                 break
+        return True
 
     def update(self, levels: Sequence[Level]) -> tuple[float, float]:
         """Sweep once; return the largest change and the largest rise of the temperature [K]."""
