@@ -22,6 +22,8 @@ SOUND = 5.0
 """Least film, over the floor of the conductance, that is worth heating on a coarser grid."""
 FIRST_SWEEPS = 10
 """Energy sweeps on the first heated grid before its first cycle."""
+MOST_SWEEPS, RESTLESS = 4, 5.0
+"""Most energy sweeps after a cycle, and the change of temperature [K] that asks for another."""
 FIRST_STEPS, STEPS = 40, 3
 """Newton steps for the shear stress on the first sweep and later."""
 RAMP = 24
@@ -109,10 +111,16 @@ class FilmCoupling:
         return True
 
     def update(self, levels: Sequence[Level]) -> tuple[float, float]:
-        """Sweep once; return the largest change and the largest rise of the temperature [K]."""
+        """Sweep; return the largest change and the largest rise of the temperature [K].
+
+        One sweep follows a film that settles; a restless one is swept again.
+        """
         if self.state is None:
             return 0.0, 0.0
-        change = self._sweep(self.state, levels, STEPS)
+        for _ in range(MOST_SWEEPS):
+            change = self._sweep(self.state, levels, STEPS)
+            if change < RESTLESS or self.sweeps_left:
+                break
         return change, float(self.state.temperature.max()) - self.scales.temperature
 
     def _sweep(self, state: FilmState, levels: Sequence[Level], steps: int) -> float:
