@@ -15,6 +15,23 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from tehl.kernels.lanes import (
+    LANES,
+    addresses,
+    gather,
+    if_positive,
+    largest,
+    load,
+    lower,
+    number,
+    put,
+    root,
+    shifted_power,
+    size,
+    store,
+    upper,
+    whole,
+)
 from tehl.typing import Array
 
 GHOSTS = 2
@@ -27,8 +44,9 @@ BEYOND_LIMIT = 1.02  # of a limiting stress; there ln F is above 20
 LARGEST_STEP = 40.0  # [K] per solution of a column
 PRESSURISED = 0.02  # from this pressure on changes of the temperature count
 CONDUCTION = 8.0  # a little less than pi^2, the slowest decay across the film
-BLOCK = 16  # rows whose columns are solved together, so that they stay in the first cache
-ETA_TERMS, RHO_TERMS = 12, 5  # of the polynomials in temperature
+SETTLED = 1e-9  # step of the stress over its scale after which Newton's next one is rounding
+BLOCK = LANES  # rows that are treated together
+ETA_TERMS, RHO_TERMS = 16, 8  # of the polynomials in temperature
 TERMS = ETA_TERMS + RHO_TERMS
 
 
@@ -36,14 +54,16 @@ class Across(NamedTuple):
     """Nodes across the film and the matrices that differentiate and integrate.
 
     ``zeta`` (n,), ``d1, d2`` (n, n) first and second derivative, ``step[k]`` weights of the
-    integral from node k-1 to k, ``weights`` of that from 0 to 1; ``band`` is how far from the
-    diagonal these matrices reach.
+    integral from node k-1 to k, ``turn[k]`` those of the integral times ``zeta - 1/2``,
+    ``weights`` of the integral from 0 to 1; ``band`` is how far from the diagonal these matrices
+    reach.
     """
 
     zeta: Array
     d1: Array
     d2: Array
     step: Array
+    turn: Array
     weights: Array
     band: int
 
@@ -51,16 +71,18 @@ class Across(NamedTuple):
 class Laws(NamedTuple):
     """Tables of the lubricant.
 
-    ``fluid`` (rows, TERMS, 2): over ln(1 + per_scale p) the coefficients, and their slopes times
-    the step, of ln eta as a polynomial in ``(1/T - middle) over_inverse`` and of rho in
+    ``fluid`` (rows, 2, TERMS): over ln(1 + per_scale p) the coefficients, and their slopes times
+    the step, of ln eta as a polynomial in ``(1/(T - pole) - middle) over_inverse`` and of rho in
     ``(T - inlet) over_rise``, for T of ``coldest`` to ``hottest``. ``thinning`` (rows, 2): ln F
-    and its slope times the step over s/(1 + s), ``per_stress`` rows per unit; ``newtonian``
-    where there is no thinning, ``uniform`` where all layers thin as mid-film does.
+    and its slope times the step over s/(1 + s), ``per_stress`` rows per unit. ``last_row,
+    last_stress``: rows where the last interval of either begins. ``newtonian`` where there is
+    no thinning, ``uniform`` where all layers thin as mid-film does.
     """
 
     fluid: Array
     per_scale: float
     per_row: float
+    pole: float
     middle: float
     over_inverse: float
     inlet: float
@@ -69,6 +91,8 @@ class Laws(NamedTuple):
     hottest: float
     thinning: Array
     per_stress: float
+    last_row: int
+    last_stress: int
     newtonian: int
     uniform: int
 
@@ -161,653 +185,798 @@ class Fields(NamedTuple):
 class Work(NamedTuple):
     """Scratch of one station.
 
-    ``column`` (QUANTITIES, n, ny) one layer after the other; ``matrix`` (n, n, BLOCK) and ``rhs``
-    (n, BLOCK) of some columns; ``mass`` (3, n, ny) the cumulative mass flux along x at the last
-    three stations, ``mass_y`` (n, ny) that along y here; ``line`` (LINES, ny) whatever has no
-    layers; ``modes`` (2, m, ny) the exponentials of both surfaces.
+    ``cells``, flat: block by block `LINES` values without layers, then the `LAYER` values of each
+    layer, all of them lanes. ``matrix``, flat: the n by n lanes of the columns of a block, then n
+    right-hand sides, which become the solution. ``terms`` (BLOCK, TERMS): coefficients of the laws,
+    row by row. ``mass`` (3, n, ny): cumulative mass flux along x at the last three stations,
+    ``mass_y`` (n, ny + 2) that along y here with a ghost row on each side; ``modes`` (2, m, ny) the
+    exponentials of both surfaces; ``change`` (BLOCK,) the largest change of temperature.
     """
 
-    column: Array
+    cells: Array
     matrix: Array
-    rhs: Array
+    terms: Array
     mass: Array
     mass_y: Array
-    line: Array
     modes: Array
+    change: Array
 
 
-LN_ETA, FLUIDITY, SLOPE, RHO, RHO_T, I0, I1, U, V, OMEGA, YIELD, SHARE, NEW, A, B = range(15)
-QUANTITIES = 15
-TX, TY, MEAN, PAST, FIRST, SECOND, THIRD, FOURTH, FIFTH, SIXTH = range(10)
-COEFFICIENTS = 10
-LINES = COEFFICIENTS + TERMS
+class Place(NamedTuple):
+    """One block of rows of one station.
+
+    ``i`` station, ``j`` first row, ``base`` where its cells begin; ``n, ny`` nodes across the film
+    and rows of a station; ``modes`` exponentials of a surface.
+    """
+
+    i: int
+    j: int
+    base: int
+    n: int
+    ny: int
+    modes: int
 
 
-@njit(cache=True, fastmath={"contract"})
-def exponential(x: Array, scratch: Array, out: Array) -> None:
-    """Write exp(x) to ``out`` (n,), to a relative 1e-15, for |x| below 690."""
-    bits = scratch.view(np.int64)
-    for j in range(x.shape[0]):
-        scratch[j] = x[j] * LOG2_E + MAGIC
-    for j in range(x.shape[0]):
-        n = scratch[j] - MAGIC
-        r = (x[j] - n * LN2_HIGH) - n * LN2_LOW
-        q = 1.0 / 39916800.0
-        q = q * r + 1.0 / 3628800.0
-        q = q * r + 1.0 / 362880.0
-        q = q * r + 1.0 / 40320.0
-        q = q * r + 1.0 / 5040.0
-        q = q * r + 1.0 / 720.0
-        q = q * r + 1.0 / 120.0
-        q = q * r + 1.0 / 24.0
-        q = q * r + 1.0 / 6.0
-        q = q * r + 0.5
-        q = q * r + 1.0
-        out[j] = q * r + 1.0
-    for j in range(x.shape[0]):
-        bits[j] = (bits[j] + 1023) << 52
-    for j in range(x.shape[0]):
-        out[j] *= scratch[j]
+# cells of a block: values without layers
+P, H, PX, PY, CAPACITY, CONDUCTIVITY, STRESS, TAU_X, TAU_Y, PER, PULL, ETA = (
+    LANES * field for field in range(12)
+)
+DENSITY = ETA + LANES * ETA_TERMS
+LINE = DENSITY + LANES * RHO_TERMS
+# and values of each layer
+T, LN_ETA, FLUIDITY, SLOPE, RHO, RHO_T, I0, I1, U, V, OMEGA, YIELD, TANGENT, SHARE, A, B = (
+    LANES * field for field in range(16)
+)
+LAYER = LANES * 16
 
 
-@njit(cache=True, fastmath={"contract"})
-def coefficients(laws: Laws, p: Array, work: Work) -> None:
-    """Interpolate the polynomials of the laws to the pressures of a station."""
-    flat, last = laws.fluid.ravel(), laws.fluid.shape[0] - 2
-    lines = work.line
-    for j in range(p.shape[0]):
-        x = math.log(1.0 + laws.per_scale * max(p[j], 0.0)) * laws.per_row
-        row = min(int(x), last)
+def scratch(nodes: int, rows: int, modes: int) -> Work:
+    """Return the scratch for so many nodes across the film, rows and exponentials."""
+    return Work(
+        cells=np.zeros(rows // BLOCK * (LINE + nodes * LAYER)),
+        matrix=np.zeros(nodes * (nodes + 1) * BLOCK),
+        terms=np.zeros((BLOCK, TERMS)),
+        mass=np.zeros((3, nodes, rows)),
+        mass_y=np.zeros((nodes, rows + 2)),
+        modes=np.zeros((2, modes, rows)),
+        change=np.zeros(BLOCK),
+    )
+
+
+@njit(cache=True)
+def moved(place: Place, i: int, block: int) -> Place:
+    """Return a block of station ``i``."""
+    base = block * (LINE + place.n * LAYER)
+    return Place(i, block * BLOCK, base, place.n, place.ny, place.modes)
+
+
+@njit(cache=True)
+def layer(place: Place, k: int) -> int:
+    """Return where the cells of layer ``k`` begin."""
+    return place.base + LINE + k * LAYER
+
+
+@njit(cache=True)
+def node(place: Place, station: int, k: int) -> int:
+    """Return where layer ``k`` of a block begins among the temperatures, ghosts included."""
+    row = (place.i + station + GHOSTS) * place.n + k
+    return row * (place.ny + 2 * GHOSTS) + GHOSTS + place.j
+
+
+@njit(cache=True)
+def exponential(x: float) -> float:
+    """Return exp(x) of lanes to a relative 1e-15, for |x| below 690."""
+    shifted = x * LOG2_E + MAGIC
+    n = shifted - MAGIC
+    r = (x - n * LN2_HIGH) - n * LN2_LOW
+    q = r * (1.0 / 479001600.0) + 1.0 / 39916800.0
+    q = q * r + 1.0 / 3628800.0
+    q = q * r + 1.0 / 362880.0
+    q = q * r + 1.0 / 40320.0
+    q = q * r + 1.0 / 5040.0
+    q = q * r + 1.0 / 720.0
+    q = q * r + 1.0 / 120.0
+    q = q * r + 1.0 / 24.0
+    q = q * r + 1.0 / 6.0
+    q = q * r + 0.5
+    q = q * r + 1.0
+    return (q * r + 1.0) * shifted_power(shifted)
+
+
+@njit(cache=True)
+def load_block(fields: Fields, work: Work, place: Place) -> None:
+    """Copy what the block needs of the fields to its cells."""
+    cells, base, at = work.cells, place.base, place.i * place.ny + place.j
+    h, conductivity = load(fields.h, at), load(fields.conductivity, at)
+    store(cells, base + P, load(fields.p, at))
+    store(cells, base + H, h)
+    store(cells, base + PER, h * h / conductivity)
+    store(cells, base + PX, load(fields.px, at))
+    store(cells, base + PY, load(fields.py, at))
+    store(cells, base + CAPACITY, load(fields.capacity, at))
+    store(cells, base + CONDUCTIVITY, conductivity)
+    store(cells, base + STRESS, load(fields.stress, at))
+    store(cells, base + TAU_X, load(fields.tau_x, at))
+    store(cells, base + TAU_Y, load(fields.tau_y, at))
+    for k in range(place.n):
+        store(cells, layer(place, k) + T, load(fields.temperature, node(place, 0, k)))
+
+
+@njit(cache=True)
+def coefficients(laws: Laws, work: Work, place: Place) -> None:
+    """Interpolate the polynomials of the laws to the pressures of the block."""
+    fluid, last, terms = laws.fluid, laws.last_row, work.terms
+    for lane in range(BLOCK):
+        p = number(work.cells, place.base + P + lane)
+        x = math.log(1.0 + laws.per_scale * max(p, 0.0)) * laws.per_row
+        row = max(min(int(x), last), 0)
         s = min(x - row, 1.0)
         r = 1.0 - s
         p0, p1 = r * r * (1.0 + 2.0 * s), s * r * r
         p2, p3 = s * s * (3.0 - 2.0 * s), -s * s * r
-        near = flat[2 * TERMS * row : 2 * TERMS * (row + 2)]
-        for c in range(TERMS):
-            low, high = 2 * c, 2 * (c + TERMS)
-            value = p0 * near[low] + p1 * near[low + 1] + p2 * near[high] + p3 * near[high + 1]
-            lines[COEFFICIENTS + c, j] = value
+        for c in range(0, TERMS, LANES):
+            at = 2 * TERMS * row + c
+            value = p0 * load(fluid, at) + p1 * load(fluid, at + TERMS)
+            value += p2 * load(fluid, at + 2 * TERMS) + p3 * load(fluid, at + 3 * TERMS)
+            store(terms, lane * TERMS + c, value)
+    for c in range(TERMS):
+        for lane in range(BLOCK):
+            at = place.base + ETA + c * LANES + lane
+            put(work.cells, at, number(terms, lane * TERMS + c))
 
 
-@njit(cache=True, fastmath={"contract"}, error_model="numpy")
-def look_up(laws: Laws, temperature: Array, work: Work, k: int) -> None:
+@njit(cache=True)
+def horner(cells: Array, first: int, count: int, t: float) -> tuple[float, float]:
+    """Return a polynomial and its slope at ``t``; coefficients from ``first`` on."""
+    value, slope = load(cells, first + (count - 1) * LANES), 0.0 * t
+    for c in range(count - 2, -1, -1):
+        slope = slope * t + value
+        value = value * t + load(cells, first + c * LANES)
+    return value, slope
+
+
+@njit(cache=True)
+def limited(ln_eta: float) -> float:
+    """Return ln eta where its exponential is a number."""
+    return lower(upper(ln_eta, -LARGEST_EXPONENT), LARGEST_EXPONENT)
+
+
+@njit(cache=True)
+def look_up(laws: Laws, work: Work, place: Place, k: int, temperature: float) -> None:
     """Fill ln eta, its slope by -T, rho and rho_T of layer ``k``."""
-    ln_eta, slope = work.column[LN_ETA, k], work.column[SLOPE, k]
-    rho, rho_t = work.column[RHO, k], work.column[RHO_T, k]
-    ny, t, inverse = temperature.shape[0], work.line[FIRST], work.line[SECOND]
-    for j in range(ny):
-        inverse[j] = 1.0 / min(max(temperature[j], laws.coldest), laws.hottest)
-        t[j] = (inverse[j] - laws.middle) * laws.over_inverse
-    horner(work.line[COEFFICIENTS : COEFFICIENTS + ETA_TERMS], t, ln_eta, slope)
-    for j in range(ny):
-        ln_eta[j] = min(max(ln_eta[j], -LARGEST_EXPONENT), LARGEST_EXPONENT)
-        slope[j] *= laws.over_inverse * inverse[j] * inverse[j]
-        rise = min(max(temperature[j], laws.coldest), laws.hottest) - laws.inlet
-        t[j] = rise * laws.over_rise
-    horner(work.line[COEFFICIENTS + ETA_TERMS :], t, rho, rho_t)
-    for j in range(ny):
-        rho_t[j] *= laws.over_rise
+    cells, here = work.cells, layer(place, k)
+    kelvin = lower(upper(temperature, laws.coldest), laws.hottest)
+    inverse = 1.0 / (kelvin - laws.pole)
+    t = (inverse - laws.middle) * laws.over_inverse
+    value, slope = horner(cells, place.base + ETA, ETA_TERMS, t)
+    store(cells, here + LN_ETA, limited(value))
+    store(cells, here + SLOPE, slope * inverse * inverse * laws.over_inverse)
+    t = (kelvin - laws.inlet) * laws.over_rise
+    value, slope = horner(cells, place.base + DENSITY, RHO_TERMS, t)
+    store(cells, here + RHO, value)
+    store(cells, here + RHO_T, slope * laws.over_rise)
 
 
-@njit(cache=True, fastmath={"contract"})
-def horner(terms: Array, t: Array, value: Array, slope: Array) -> None:
-    """Write polynomials with coefficients ``terms`` (m, ny) and their slopes at ``t`` (ny,)."""
-    last = terms.shape[0] - 1
-    value[:] = terms[last]
-    slope[:] = 0.0
-    for c in range(last - 1, -1, -1):
-        term = terms[c]
-        for j in range(t.shape[0]):
-            slope[j] = slope[j] * t[j] + value[j]
-            value[j] = value[j] * t[j] + term[j]
+@njit(cache=True)
+def mean_temperature(across: Across, work: Work, place: Place) -> float:
+    """Return the temperature averaged across the film."""
+    mean = 0.0 * load(work.cells, layer(place, 0) + T)
+    for k in range(place.n):
+        mean += number(across.weights, k) * load(work.cells, layer(place, k) + T)
+    return mean
 
 
-@njit(cache=True, fastmath={"contract"})
-def evaluate_laws(model: Model, fields: Fields, i: int, work: Work) -> None:
-    """Fill viscosity, density and their slopes at all layers of station ``i``."""
-    coefficients(model.laws, fields.p[i], work)
-    mean = work.line[MEAN]
-    mean[:] = 0.0
-    n = model.across.zeta.shape[0]
-    for k in range(n):
-        layer = fields.temperature[i + GHOSTS, k, GHOSTS:-GHOSTS]
-        for j in range(mean.shape[0]):
-            mean[j] += model.across.weights[k] * layer[j]
-    for k in range(n):
-        layer = fields.temperature[i + GHOSTS, k, GHOSTS:-GHOSTS]
-        look_up(model.laws, mean if model.terms.mean == 2 else layer, work, k)
+@njit(cache=True)
+def evaluate_laws(model: Model, work: Work, place: Place) -> None:
+    """Fill viscosity, density and their slopes at all layers."""
+    coefficients(model.laws, work, place)
+    mean = mean_temperature(model.across, work, place)
+    for k in range(place.n):
+        here = load(work.cells, layer(place, k) + T)
+        look_up(model.laws, work, place, k, mean if model.terms.mean == 2 else here)
 
 
-@njit(cache=True, fastmath={"contract"})
-def follow_temperature(model: Model, fields: Fields, i: int, work: Work) -> float:
-    """Take the new temperatures and let the laws follow to first order; return the change.
+@njit(cache=True)
+def follow_temperature(model: Model, fields: Fields, work: Work, place: Place) -> None:
+    """Take the new temperatures, which are in ``A``, and let the laws follow to first order.
 
     No temperature changes by more than the largest step. What counts is where there is pressure.
     """
-    n, p = model.across.zeta.shape[0], fields.p[i]
-    mean, largest = work.line[MEAN], work.line[FIRST]
-    mean[:] = 0.0
-    largest[:] = 0.0
-    for k in range(n):
-        layer, step = fields.temperature[i + GHOSTS, k, GHOSTS:-GHOSTS], work.column[NEW, k]
-        for j in range(p.shape[0]):
-            step[j] = min(max(step[j] - layer[j], -LARGEST_STEP), LARGEST_STEP)
-            layer[j] += step[j]
-            mean[j] += model.across.weights[k] * step[j]
-            largest[j] = max(largest[j], abs(step[j]))
-    for k in range(n):
-        step = mean if model.terms.mean == 2 else work.column[NEW, k]
-        ln_eta, slope = work.column[LN_ETA, k], work.column[SLOPE, k]
-        rho, rho_t = work.column[RHO, k], work.column[RHO_T, k]
-        for j in range(p.shape[0]):
-            ln_eta[j] = min(
-                max(ln_eta[j] - slope[j] * step[j], -LARGEST_EXPONENT), LARGEST_EXPONENT
-            )
-            rho[j] += rho_t[j] * step[j]
-    change = 0.0
-    for j in range(p.shape[0]):
-        if p[j] > PRESSURISED:
-            change = max(change, largest[j])
-    return change
+    cells = work.cells
+    mean = 0.0 * load(cells, place.base + P)
+    most = mean
+    for k in range(place.n):
+        here = layer(place, k)
+        old = load(cells, here + T)
+        step = lower(upper(load(cells, here + A) - old, -LARGEST_STEP), LARGEST_STEP)
+        store(cells, here + A, step)
+        store(cells, here + T, old + step)
+        store(fields.temperature, node(place, 0, k), old + step)
+        mean += number(model.across.weights, k) * step
+        most = upper(most, size(step))
+    for k in range(place.n):
+        here = layer(place, k)
+        step = mean if model.terms.mean == 2 else load(cells, here + A)
+        ln_eta = load(cells, here + LN_ETA) - load(cells, here + SLOPE) * step
+        store(cells, here + LN_ETA, limited(ln_eta))
+        store(cells, here + RHO, load(cells, here + RHO) + load(cells, here + RHO_T) * step)
+    counts = if_positive(load(cells, place.base + P) - PRESSURISED, most, 0.0)
+    store(work.change, 0, upper(load(work.change, 0), counts))
 
 
-@njit(cache=True, fastmath={"contract"})
-def fluidities(work: Work) -> None:
-    """Fill the Newtonian fluidity, one over the viscosity, of a station."""
-    negative = work.line[FIRST]
-    for k in range(work.mass_y.shape[0]):
-        ln_eta = work.column[LN_ETA, k]
-        for j in range(negative.shape[0]):
-            negative[j] = -ln_eta[j]
-        exponential(negative, work.line[SECOND], work.column[FLUIDITY, k])
-    work.column[YIELD, :, :] = 1.0
+@njit(cache=True)
+def fluidities(work: Work, place: Place) -> None:
+    """Fill the Newtonian fluidity, one over the viscosity."""
+    for k in range(place.n):
+        here = layer(place, k)
+        store(work.cells, here + FLUIDITY, exponential(-1.0 * load(work.cells, here + LN_ETA)))
+        store(work.cells, here + YIELD, 1.0)
 
 
-@njit(cache=True, fastmath={"contract"}, error_model="numpy")
-def thinning(laws: Laws, stress: Array, log_f: Array, bend: Array) -> None:
-    """Write ln F and s dlnF/ds at dimensionless stresses (ny,); linear beyond the table."""
-    flat, last = laws.thinning.ravel(), laws.thinning.shape[0] - 2
+@njit(cache=True)
+def thinning(laws: Laws, stress: float) -> tuple[float, float]:
+    """Return F and s dlnF/ds at dimensionless stresses; ln F is linear beyond the table."""
+    table, last = laws.thinning, laws.last_stress
     end = (last + 1) / laws.per_stress
-    largest = end / (1.0 - end)
-    for j in range(stress.shape[0]):
-        s = min(stress[j], largest)
-        x = s / (1.0 + s) * laws.per_stress
-        k = min(int(x), last)
-        t = x - k
-        near = flat[2 * k : 2 * k + 4]
-        r = 1.0 - t
-        value = r * r * ((1.0 + 2.0 * t) * near[0] + t * near[1])
-        value += t * t * ((3.0 - 2.0 * t) * near[2] - r * near[3])
-        slope = 6.0 * t * r * (near[2] - near[0]) + r * (1.0 - 3.0 * t) * near[1]
-        slope += t * (3.0 * t - 2.0) * near[3]
-        slope *= laws.per_stress / ((1.0 + s) * (1.0 + s))
-        log_f[j] = min(value + (stress[j] - s) * slope, LARGEST_THINNING)
-        bend[j] = slope * stress[j]
+    s = lower(stress, end / (1.0 - end))
+    part = 1.0 / (1.0 + s)
+    x = s * part * laws.per_stress
+    row = lower(whole(x), float(last))
+    t = x - row
+    start, first = gather(table, row, 2, 0), gather(table, row, 2, 1)
+    rise, second = gather(table, row, 2, 2) - start, gather(table, row, 2, 3)
+    square, cube = 3.0 * rise - 2.0 * first - second, first + second - 2.0 * rise
+    slope = (first + t * (2.0 * square + 3.0 * t * cube)) * (laws.per_stress * part * part)
+    log_f = start + t * (first + t * (square + t * cube)) + (stress - s) * slope
+    return exponential(lower(log_f, LARGEST_THINNING)), slope * stress
 
 
-@njit(cache=True, fastmath={"contract"}, error_model="numpy")
-def layer_stress(model: Model, fields: Fields, i: int, work: Work, k: int) -> None:
-    """Write both stresses of layer ``k`` to ``FIRST, SECOND`` and the dimensionless to ``THIRD``.
+@njit(cache=True)
+def stress_at(model: Model, work: Work, place: Place, arm: float) -> tuple[float, float]:
+    """Return both stresses at ``arm`` from mid-film: linear, by the pressure gradient."""
+    cells, base = work.cells, place.base
+    tilt = (model.terms.poiseuille * arm) * load(cells, base + H)
+    x = load(cells, base + TAU_X) + tilt * load(cells, base + PX)
+    y = load(cells, base + TAU_Y) + tilt * load(cells, base + PY)
+    return x, y
 
-    The stress is linear across the film, by the pressure gradient.
+
+@njit(cache=True)
+def thinning_arm(model: Model, k: int) -> float:
+    """Return how far from mid-film the stress is taken by which layer ``k`` thins."""
+    return 0.0 if model.laws.uniform else number(model.across.zeta, k) - 0.5
+
+
+@njit(cache=True)
+def growth(model: Model, rate: float, work: Work, place: Place) -> float:
+    """Return Newton's step for the logarithm of the rate over that for the rate.
+
+    It is one where the sliding has no sign, or the rate not that of the sliding.
     """
-    tilt = model.terms.poiseuille * (model.across.zeta[k] - 0.5)
-    tilt = 0.0 if model.laws.uniform else tilt
-    x, y, size = work.line[FIRST], work.line[SECOND], work.line[THIRD]
-    p_x, p_y, h, per_scale = fields.px[i], fields.py[i], fields.h[i], fields.stress[i]
-    tau_x, tau_y = fields.tau_x[i], fields.tau_y[i]
-    for j in range(h.shape[0]):
-        x[j] = tau_x[j] + tilt * p_x[j] * h[j]
-        y[j] = tau_y[j] + tilt * p_y[j] * h[j]
-        size[j] = math.sqrt(x[j] * x[j] + y[j] * y[j]) * per_scale[j]
+    cells, at = work.cells, place.base + PULL
+    ratio = model.terms.slide / load(cells, place.base + H) / (rate + 1e-300)
+    store(cells, at, lower(upper(ratio, 1e-9), 1e9))
+    for lane in range(BLOCK):
+        value = number(cells, at + lane)
+        other = value - 1.0
+        put(cells, at + lane, math.log(value) / other if abs(other) > 1e-6 else 1.0)
+    return if_positive(rate * model.terms.slide, load(cells, at), 1.0)
 
 
-@njit(cache=True, fastmath={"contract"}, error_model="numpy")
-def newton_step(model: Model, fields: Fields, i: int, work: Work) -> None:
+@njit(cache=True)
+def newton_step(model: Model, work: Work, place: Place) -> float:
     """Improve the mid-film stress so that the film is sheared by the sliding speed.
 
     Both components; the rate is ``F(s) tau/eta`` with ``s = |tau|`` over the scale of the law. The
-    problem is convex; a step is no longer than that scale and half the stress. The station's
-    fluidity is Newtonian.
+    problem is convex; a step is no longer than that scale and half the stress. The fluidity is
+    Newtonian. Return the largest step over the scale.
     """
-    line = work.line
-    x, y, size, log_f, bend = line[FIRST], line[SECOND], line[THIRD], line[FOURTH], line[FIFTH]
-    sums = work.column[A]  # rate x, rate y, and the matrix xx, xy, yy
-    sums[:5] = 0.0
-    for k in range(model.across.zeta.shape[0]):
-        layer_stress(model, fields, i, work, k)
-        thinning(model.laws, size, log_f, bend)
-        exponential(log_f, line[SIXTH], size)
-        fluid, weight = work.column[FLUIDITY, k], model.across.weights[k]
-        for j in range(x.shape[0]):
-            rate = weight * fluid[j] * size[j]
-            more = rate * bend[j] / (x[j] * x[j] + y[j] * y[j] + 1e-300)
-            sums[0, j] += rate * x[j]
-            sums[1, j] += rate * y[j]
-            sums[2, j] += rate + more * x[j] * x[j]
-            sums[3, j] += more * x[j] * y[j]
-            sums[4, j] += rate + more * y[j] * y[j]
-    tau_x, tau_y, per_scale, h = fields.tau_x[i], fields.tau_y[i], fields.stress[i], fields.h[i]
-    for j in range(x.shape[0]):
-        rate_x, rate_y = sums[0, j] - model.terms.slide / h[j], sums[1, j]
-        det = sums[2, j] * sums[4, j] - sums[3, j] * sums[3, j]
-        dx = (sums[4, j] * rate_x - sums[3, j] * rate_y) / det
-        dy = (sums[2, j] * rate_y - sums[3, j] * rate_x) / det
-        # Newton's step for the logarithm of the rate, where the sliding has a sign
-        ratio = min(max(model.terms.slide / h[j] / (sums[0, j] + 1e-300), 1e-9), 1e9)
-        grown = math.log(ratio) / (ratio - 1.0) if abs(ratio - 1.0) > 1e-6 else 1.0
-        known = (sums[0, j] < 0.0) == (model.terms.slide < 0.0)
-        grown = grown if known and model.terms.slide != 0.0 else 1.0
-        length = grown * per_scale[j] * math.sqrt(dx * dx + dy * dy)
-        size[j] = per_scale[j] * math.sqrt(tau_x[j] * tau_x[j] + tau_y[j] * tau_y[j])
-        limit = grown * min((1.0 + 0.5 * size[j]) / (length + 1e-300), 1.0)
-        tau_x[j] -= limit * dx
-        tau_y[j] -= limit * dy
-        if model.laws.uniform:
-            size[j] = per_scale[j] * math.sqrt(tau_x[j] * tau_x[j] + tau_y[j] * tau_y[j])
-            limit = min(1.0, BEYOND_LIMIT / (size[j] + 1e-300))
-            tau_x[j] *= limit
-            tau_y[j] *= limit
+    cells, base = work.cells, place.base
+    scale = load(cells, base + STRESS)
+    zero = 0.0 * scale
+    rate_x, rate_y, xx, xy, yy = zero, zero, zero, zero, zero
+    for k in range(place.n):
+        x, y = stress_at(model, work, place, thinning_arm(model, k))
+        square = x * x + y * y
+        thinner, bend = thinning(model.laws, root(square) * scale)
+        rate = load(cells, layer(place, k) + FLUIDITY) * number(model.across.weights, k) * thinner
+        more = rate * bend / (square + 1e-300)
+        rate_x += rate * x
+        rate_y += rate * y
+        xx += rate + more * x * x
+        xy += more * x * y
+        yy += rate + more * y * y
+    grown = growth(model, rate_x, work, place)
+    rate_x -= model.terms.slide / load(cells, base + H)
+    per_det = 1.0 / (xx * yy - xy * xy)
+    dx = (yy * rate_x - xy * rate_y) * per_det
+    dy = (xx * rate_y - xy * rate_x) * per_det
+    step = scale * root(dx * dx + dy * dy)
+    x, y = load(cells, base + TAU_X), load(cells, base + TAU_Y)
+    longest = 1.0 + 0.5 * scale * root(x * x + y * y)
+    limit = grown * lower(longest / (grown * step + 1e-300), 1.0)
+    x, y = x - limit * dx, y - limit * dy
+    if model.laws.uniform:
+        part = lower(BEYOND_LIMIT / (scale * root(x * x + y * y) + 1e-300), 1.0)
+        x, y = part * x, part * y
+    store(cells, base + TAU_X, x)
+    store(cells, base + TAU_Y, y)
+    return largest(step)
 
 
-@njit(cache=True, fastmath={"contract"}, error_model="numpy")
-def thin(model: Model, fields: Fields, i: int, work: Work) -> None:
-    """Multiply the fluidity by F at the mid-film stress found; fill the yields.
+@njit(cache=True)
+def thin(model: Model, work: Work, place: Place, steps: int) -> None:
+    """Find the mid-film stress in some Newton steps, and multiply the fluidity by F there.
 
-    ``YIELD`` is how fast the rate grows with the stress, both as logarithms; ``B`` the fluidity of
-    a small change of the stress along x.
+    ``YIELD`` is how fast the rate grows with the stress, both as logarithms; ``TANGENT`` the
+    fluidity of a small change of the stress along x.
     """
-    line = work.line
-    x, y, size, log_f, bend = line[FIRST], line[SECOND], line[THIRD], line[FOURTH], line[FIFTH]
-    for k in range(model.across.zeta.shape[0]):
-        layer_stress(model, fields, i, work, k)
-        thinning(model.laws, size, log_f, bend)
-        exponential(log_f, line[SIXTH], size)
-        fluid, yields, tangent = work.column[FLUIDITY, k], work.column[YIELD, k], work.column[B, k]
-        for j in range(x.shape[0]):
-            fluid[j] *= size[j]
-            yields[j] = 1.0 + bend[j]
-            share = x[j] * x[j] / (x[j] * x[j] + y[j] * y[j] + 1e-300)
-            share = 0.0 if model.laws.uniform else share
-            tangent[j] = fluid[j] * (1.0 + bend[j] * share)
+    cells, along = work.cells, 0.0 if model.laws.uniform else 1.0
+    for _ in range(steps):
+        if newton_step(model, work, place) < SETTLED:
+            break
+    for k in range(place.n):
+        here = layer(place, k)
+        x, y = stress_at(model, work, place, thinning_arm(model, k))
+        square = x * x + y * y
+        thinner, bend = thinning(model.laws, root(square) * load(cells, place.base + STRESS))
+        fluid, share = load(cells, here + FLUIDITY) * thinner, along * x * x / (square + 1e-300)
+        store(cells, here + FLUIDITY, fluid)
+        store(cells, here + YIELD, 1.0 + bend)
+        store(cells, here + TANGENT, fluid * (1.0 + bend * share))
 
 
-@njit(cache=True, fastmath={"contract"})
-def integrate(across: Across, first: Array, second: Array, one: Array, two: Array) -> None:
-    """Write the integrals of ``first`` and ``second`` (n, ny) from 0 to each node."""
-    n, ny = first.shape
-    one[0] = 0.0
-    two[0] = 0.0
-    for k in range(1, n):
-        a, b = one[k], two[k]
-        a[:] = one[k - 1]
-        b[:] = two[k - 1]
-        for m in range(max(k - across.band, 0), min(k + across.band, n - 1) + 1):
-            weight, c, d = across.step[k, m], first[m], second[m]
-            for j in range(ny):
-                a[j] += weight * c[j]
-                b[j] += weight * d[j]
+@njit(cache=True)
+def reach(across: Across, k: int, n: int) -> tuple[int, int]:
+    """Return the first layer that the matrices join with layer ``k``, and one past the last."""
+    return max(k - across.band, 0), min(k + across.band, n - 1) + 1
 
 
-@njit(cache=True, fastmath={"contract"}, error_model="numpy")
-def moments(model: Model, fluid: Array, work: Work) -> None:
+@njit(cache=True)
+def moments(across: Across, fluid: int, work: Work, place: Place) -> None:
     """Fill ``I0, I1``: integrals of ``fluid`` and of it times the distance from mid-film."""
-    scratch = work.column[A]
-    for k in range(scratch.shape[0]):
-        for j in range(scratch.shape[1]):
-            scratch[k, j] = (model.across.zeta[k] - 0.5) * fluid[k, j]
-    integrate(model.across, fluid, scratch, work.column[I0], work.column[I1])
+    cells, n = work.cells, place.n
+    i0 = 0.0 * load(cells, place.base + P)
+    i1 = i0
+    for k in range(n):
+        first, stop = reach(across, k, n)
+        more, turned = 0.0 * i0, 0.0 * i0
+        for m in range(first, stop):
+            value = load(cells, layer(place, m) + fluid)
+            more += number(across.step, k * n + m) * value
+            turned += number(across.turn, k * n + m) * value
+        i0 += more
+        i1 += turned
+        store(cells, layer(place, k) + I0, i0)
+        store(cells, layer(place, k) + I1, i1)
 
 
-@njit(cache=True, fastmath={"contract"}, error_model="numpy")
-def velocities(model: Model, fields: Fields, i: int, work: Work) -> None:
+@njit(cache=True)
+def velocities(model: Model, work: Work, place: Place) -> None:
     """Fill the velocities; in a Newtonian film they tell the mid-film stress as well."""
-    column, terms = work.column, model.terms
-    n = column.shape[1]
-    i0, i1 = column[I0], column[I1]
-    p_x, p_y, h = fields.px[i], fields.py[i], fields.h[i]
-    tau_x, tau_y = work.line[TX], work.line[TY]
-    for j in range(h.shape[0]):
-        tilt = terms.poiseuille * h[j] * i1[n - 1, j]
-        tau_x[j] = (terms.slide / h[j] - tilt * p_x[j]) / i0[n - 1, j]
-        tau_y[j] = -tilt * p_y[j] / i0[n - 1, j]
+    cells, base, terms = work.cells, place.base, model.terms
+    h, p_x, p_y = load(cells, base + H), load(cells, base + PX), load(cells, base + PY)
+    wall = layer(place, place.n - 1)
+    over_i0 = 1.0 / load(cells, wall + I0)
+    tilt = terms.poiseuille * h * load(cells, wall + I1)
+    tau_x, tau_y = (terms.slide / h - tilt * p_x) * over_i0, -1.0 * tilt * p_y * over_i0
     if model.laws.newtonian:
-        fields.tau_x[i, :] = tau_x
-        fields.tau_y[i, :] = tau_y
+        store(cells, base + TAU_X, tau_x)
+        store(cells, base + TAU_Y, tau_y)
+    for k in range(place.n):
+        here = layer(place, k)
+        i0, slope = load(cells, here + I0), terms.poiseuille * h * h * load(cells, here + I1)
+        store(cells, here + U, terms.speed + h * tau_x * i0 + slope * p_x)
+        store(cells, here + V, h * tau_y * i0 + slope * p_y)
+
+
+@njit(cache=True)
+def flow(model: Model, steps: int, work: Work, place: Place) -> None:
+    """Find stress and velocities of a block at the viscosities in its cells."""
+    fluidities(work, place)
+    if not model.laws.newtonian:
+        thin(model, work, place, steps)
+    moments(model.across, FLUIDITY, work, place)
+    velocities(model, work, place)
+
+
+@njit(cache=True)
+def mass_fluxes(across: Across, work: Work, place: Place) -> None:
+    """Fill the cumulative mass fluxes along x and y."""
+    cells, n, ny = work.cells, place.n, place.ny
+    h = load(cells, place.base + H)
     for k in range(n):
-        u, v = column[U, k], column[V, k]
-        for j in range(h.shape[0]):
-            slope = terms.poiseuille * h[j] * h[j] * i1[k, j]
-            u[j] = terms.speed + h[j] * tau_x[j] * i0[k, j] + slope * p_x[j]
-            v[j] = h[j] * tau_y[j] * i0[k, j] + slope * p_y[j]
-
-
-@njit(cache=True, fastmath={"contract"}, error_model="numpy")
-def mobility(model: Model, work: Work, out: Array) -> None:
-    """Write the generalised mobility ``12 (eta_e rho'_e/eta'_e - rho''_e)`` of a station.
-
-    Yang and Wen 1990; the moments about mid-film give the same and lose no digits.
-    """
-    i0, i1, rho = work.column[I0], work.column[I1], work.column[RHO]
-    n = i0.shape[0]
-    tilt = work.line[FIRST]
-    for j in range(out.shape[0]):
-        tilt[j] = i1[n - 1, j] / i0[n - 1, j]
-    out[:] = 0.0
+        here = layer(place, k)
+        dense = h * load(cells, here + RHO)
+        store(cells, here + A, dense * load(cells, here + U))
+        store(cells, here + B, dense * load(cells, here + V))
+    along, sideways = 0.0 * h, 0.0 * h
     for k in range(n):
-        weight = 12.0 * model.across.weights[k]
-        for j in range(out.shape[0]):
-            out[j] += weight * rho[k, j] * (tilt[j] * i0[k, j] - i1[k, j])
+        first, stop = reach(across, k, n)
+        east, north = 0.0 * h, 0.0 * h
+        for m in range(first, stop):
+            weight = number(across.step, k * n + m)
+            east += weight * load(cells, layer(place, m) + A)
+            north += weight * load(cells, layer(place, m) + B)
+        along += east
+        sideways += north
+        store(work.mass, (place.i % 3 * n + k) * ny + place.j, along)
+        store(work.mass_y, k * (ny + 2) + 1 + place.j, sideways)
 
 
-@njit(cache=True, fastmath={"contract"}, error_model="numpy")
-def reynolds_fields(model: Model, fields: Fields, i: int, work: Work) -> None:
-    """Write mobility and density of the Reynolds equation, and how they follow the pressure.
-
-    The density is that of the Couette flux over h u_m.
-    """
-    column, terms = work.column, model.terms
-    n = column.shape[1]
-    i0, density, steep = column[I0], fields.density[i], fields.steep[i]
-    mobility(model, work, fields.mobility[i])
-    density[:] = 0.0
+@njit(cache=True)
+def complete_mass(terms: Terms, work: Work, place: Place) -> None:
+    """Fill the ghost rows of the mass flux, and at the first two stations those before the grid."""
+    i, n, ny = place.i, place.n, place.ny
     for k in range(n):
-        weight, rho = model.across.weights[k], column[RHO, k]
-        for j in range(density.shape[0]):
-            density[j] += weight * rho[j] * (terms.speed + terms.slide * i0[k, j] / i0[n - 1, j])
-    for j in range(density.shape[0]):
-        steep[j] = 1.0 / column[YIELD, n // 2, j]
-        fields.stretch[i, j] = 1.0
-        newtonian = math.exp(-column[LN_ETA, n // 2, j])
-        fields.effective[i, j] = newtonian / column[FLUIDITY, n // 2, j]
+        side = k * (ny + 2)
+        first, second = number(work.mass_y, side + 1), number(work.mass_y, side + 2)
+        put(work.mass_y, side, -second if terms.mirror else 2.0 * first - second)
+        last, other = number(work.mass_y, side + ny), number(work.mass_y, side + ny - 1)
+        put(work.mass_y, side + ny + 1, 2.0 * last - other)
+    if i > 1:
+        return
+    size = n * ny
+    here, last, before = (i % 3) * size, ((i - 1) % 3) * size, ((i - 2) % 3) * size
+    for at in range(0, size, LANES):
+        now = load(work.mass, here + at)
+        if i == 0:
+            store(work.mass, last + at, now)
+        store(work.mass, before + at, 2.0 * load(work.mass, last + at) - now)
 
 
-@njit(cache=True, fastmath={"contract"}, error_model="numpy")
-def stretch_field(model: Model, fields: Fields, i: int, work: Work) -> None:
-    """Write how much more a small change of the gradient along x moves, the sliding being kept."""
-    moments(model, work.column[B], work)
-    mobility(model, work, fields.stretch[i])
-    for j in range(fields.p.shape[1]):
-        fields.stretch[i, j] /= fields.mobility[i, j]
-
-
-@njit(cache=True, fastmath={"contract"}, error_model="numpy")
-def mean_fields(model: Model, fields: Fields, i: int, work: Work) -> None:
-    """Write mobility and density of the Reynolds equation with properties at the mean temperature.
-
-    The thinning is that of mid-film.
-    """
-    mean = work.line[MEAN]
-    mean[:] = 0.0
-    for k in range(model.across.zeta.shape[0]):
-        layer = fields.temperature[i + GHOSTS, k, GHOSTS:-GHOSTS]
-        for j in range(mean.shape[0]):
-            mean[j] += model.across.weights[k] * layer[j]
-    look_up(model.laws, mean, work, 0)
-    for j in range(mean.shape[0]):
-        rho = work.column[RHO, 0, j]
-        fields.mobility[i, j] = rho * math.exp(-work.column[LN_ETA, 0, j]) / fields.effective[i, j]
-        fields.density[i, j] = rho
-
-
-@njit(cache=True, fastmath={"contract"})
-def mass_fluxes(model: Model, fields: Fields, i: int, work: Work) -> None:
-    """Fill the cumulative mass fluxes along x and y of station ``i``."""
-    column, h = work.column, fields.h[i]
-    for k in range(column.shape[1]):
-        for j in range(h.shape[0]):
-            flux = h[j] * column[RHO, k, j]
-            column[A, k, j] = flux * column[U, k, j]
-            column[OMEGA, k, j] = flux * column[V, k, j]
-    integrate(model.across, column[A], column[OMEGA], work.mass[i % 3], work.mass_y)
-    here, last, before = work.mass[i % 3], work.mass[(i - 1) % 3], work.mass[(i - 2) % 3]
-    if i == 0:
-        last[:] = here
-        before[:] = here
-    if i == 1:
-        before[:] = 2.0 * last - here
-
-
-@njit(cache=True, fastmath={"contract"})
-def cross_flow(model: Model, i: int, work: Work) -> None:
+@njit(cache=True)
+def cross_flow(model: Model, work: Work, place: Place) -> None:
     """Fill ``OMEGA`` with h rho omega, the mass flux through the layers, zero at both walls."""
-    terms, mass_y = model.terms, work.mass_y
-    n, ny = mass_y.shape
-    here, last, before = work.mass[i % 3], work.mass[(i - 1) % 3], work.mass[(i - 2) % 3]
-    half = 0.5 * terms.over_y
-    for k in range(n - 1, -1, -1):
-        omega, side = work.column[OMEGA, k], mass_y[k]
-        now, old, older = here[k], last[k], before[k]
-        for j in range(ny):
-            along = terms.w0 * now[j] + terms.w1 * old[j] + terms.w2 * older[j]
-            omega[j] = -terms.over_x * along
-        for j in range(1, ny - 1):
-            omega[j] -= half * (side[j + 1] - side[j - 1])
-        omega[ny - 1] -= terms.over_y * (side[ny - 1] - side[ny - 2])
-        omega[0] -= terms.over_y * (side[1] - (0.0 if terms.mirror else side[0]))
-    end = work.line[FIRST]
-    end[:] = work.column[OMEGA, n - 1]
+    cells, terms, n, ny, i = work.cells, model.terms, place.n, place.ny, place.i
+    end = 0.0 * load(cells, place.base + P)
     for k in range(n):
-        omega, zeta = work.column[OMEGA, k], model.across.zeta[k]
-        for j in range(ny):
-            omega[j] -= zeta * end[j]
+        now = load(work.mass, (i % 3 * n + k) * ny + place.j)
+        old = load(work.mass, ((i - 1) % 3 * n + k) * ny + place.j)
+        older = load(work.mass, ((i - 2) % 3 * n + k) * ny + place.j)
+        side = k * (ny + 2) + 1 + place.j
+        sideways = load(work.mass_y, side + 1) - load(work.mass_y, side - 1)
+        end = -terms.over_x * (terms.w0 * now + terms.w1 * old + terms.w2 * older)
+        end -= 0.5 * terms.over_y * sideways
+        store(cells, layer(place, k) + OMEGA, end)
+    for k in range(n):
+        at = layer(place, k) + OMEGA
+        store(cells, at, load(cells, at) - number(model.across.zeta, k) * end)
 
 
-@njit(cache=True, fastmath={"contract"}, error_model="numpy")
-def powers(model: Model, fields: Fields, i: int, work: Work) -> None:
-    """Write shear power, compression power and enthalpy fluxes of station ``i``."""
-    column, h, terms = work.column, fields.h[i], model.terms
-    for j in range(h.shape[0]):
-        fields.shear[i, j], fields.work[i, j] = 0.0, 0.0
-        fields.enthalpy_x[i, j], fields.enthalpy_y[i, j] = 0.0, 0.0
-    for k in range(column.shape[1]):
-        tilt = terms.poiseuille * (model.across.zeta[k] - 0.5)
-        temperature = fields.temperature[i + GHOSTS, k, GHOSTS:-GHOSTS]
-        u, v, rho, rho_t = column[U, k], column[V, k], column[RHO, k], column[RHO_T, k]
-        for j in range(h.shape[0]):
-            weight = model.across.weights[k] * h[j]
-            slope_x, slope_y = fields.px[i, j], fields.py[i, j]
-            tau_x = fields.tau_x[i, j] + tilt * slope_x * h[j]
-            tau_y = fields.tau_y[i, j] + tilt * slope_y * h[j]
-            rate = (tau_x**2 + tau_y**2) * column[FLUIDITY, k, j]
-            fields.shear[i, j] += weight * terms.brinkman * rate
-            rise = -terms.compression * temperature[j] / rho[j] * rho_t[j]
-            fields.work[i, j] += weight * rise * (u[j] * slope_x + v[j] * slope_y)
-            excess = terms.peclet * fields.capacity[i, j] * rho[j] * (temperature[j] - terms.inlet)
-            fields.enthalpy_x[i, j] += weight * excess * u[j]
-            fields.enthalpy_y[i, j] += weight * excess * v[j]
-
-
-@njit(cache=True, fastmath={"contract"}, error_model="numpy")
-def shares(model: Model, work: Work) -> None:
+@njit(cache=True)
+def shares(across: Across, work: Work, place: Place) -> None:
     """Fill ``SHARE``: by how much the stress falls, relatively, per kelvin of a layer.
 
-    The sliding speed is kept.
+    The sliding speed is kept. ``PULL``: by how much at the last temperatures.
     """
-    fluid, slope, yields = work.column[FLUIDITY], work.column[SLOPE], work.column[YIELD]
-    share, total, weights = work.column[SHARE], work.line[FIRST], model.across.weights
-    n, ny = share.shape
-    total[:] = 0.0
-    for k in range(n):
-        for j in range(ny):
-            total[j] += weights[k] * fluid[k, j] * yields[k, j]
-    for k in range(n):
-        for j in range(ny):
-            share[k, j] = weights[k] * fluid[k, j] * slope[k, j] / total[j]
+    cells = work.cells
+    total = 0.0 * load(cells, place.base + P)
+    for k in range(place.n):
+        here, weight = layer(place, k), number(across.weights, k)
+        total += weight * load(cells, here + FLUIDITY) * load(cells, here + YIELD)
+    per_total, pull = 1.0 / total, 0.0 * total
+    for k in range(place.n):
+        here, weight = layer(place, k), number(across.weights, k)
+        part = weight * load(cells, here + FLUIDITY) * load(cells, here + SLOPE) * per_total
+        store(cells, here + SHARE, part)
+        pull += part * load(cells, here + T)
+    store(cells, place.base + PULL, pull)
 
 
-@njit(cache=True, fastmath={"contract"}, error_model="numpy")
-def explicit_terms(model: Model, fields: Fields, i: int, work: Work) -> None:
-    """Prepare the inner rows: ``A`` diagonal of convection, ``B`` shear heat, ``NEW`` the rest.
+@njit(cache=True)
+def heat_sources(model: Model, work: Work, place: Place, k: int) -> tuple[float, float]:
+    """Return shear power and compression power in layer ``k``."""
+    cells, base, here, terms = work.cells, place.base, layer(place, k), model.terms
+    x, y = stress_at(model, work, place, number(model.across.zeta, k) - 0.5)
+    shear = terms.brinkman * (x * x + y * y) * load(cells, here + FLUIDITY)
+    rise = -terms.compression * load(cells, here + T) / load(cells, here + RHO)
+    flow_x = load(cells, here + U) * load(cells, base + PX)
+    flow_y = load(cells, here + V) * load(cells, base + PY)
+    return shear, rise * load(cells, here + RHO_T) * (flow_x + flow_y)
 
-    ``OMEGA`` becomes the factor of T_zeta. Neighbours across and, against the march, along x are
-    those of the last sweep: there the upstream difference is of second order only where conduction
-    across the film holds it.
+
+@njit(cache=True)
+def hold(along: float) -> float:
+    """Return how much second order conduction across the film holds: two less, 0 to 1."""
+    return lower(upper(2.0 - along * (1.0 / CONDUCTION), 0.0), 1.0)
+
+
+@njit(cache=True)
+def convection(
+    model: Model, fields: Fields, work: Work, place: Place, k: int
+) -> tuple[float, float]:
+    """Return the diagonal of the convection along the film, and what its neighbours bring.
+
+    Those across and, against the march, along x are of the last sweep: there the upstream
+    difference is of second order only where conduction across the film holds it.
     """
-    column, h, terms = work.column, fields.h[i], model.terms
-    temperature = fields.temperature
-    per = work.line[FIRST]
-    for j in range(h.shape[0]):
-        per[j] = h[j] * h[j] / fields.conductivity[i, j]
-    p_x, p_y, tau_x, tau_y = fields.px[i], fields.py[i], fields.tau_x[i], fields.tau_y[i]
-    capacity, film = work.line[SECOND], fields.h[i]
-    for j in range(film.shape[0]):
-        capacity[j] = per[j] * terms.peclet * fields.capacity[i, j]
-    for k in range(1, column.shape[1] - 1):
-        tilt = terms.poiseuille * (model.across.zeta[k] - 0.5)
-        here = temperature[i + GHOSTS, k]
-        west, far_west = temperature[i + GHOSTS - 1, k], temperature[i + GHOSTS - 2, k]
-        east, far_east = temperature[i + GHOSTS + 1, k], temperature[i + GHOSTS + 2, k]
-        u, v, rho, rho_t = column[U, k], column[V, k], column[RHO, k], column[RHO_T, k]
-        convection, heat, rest = column[A, k], column[B, k], column[NEW, k]
-        fluid, omega = column[FLUIDITY, k], column[OMEGA, k]
-        for j in range(film.shape[0]):
-            x, y = tau_x[j] + tilt * p_x[j] * film[j], tau_y[j] + tilt * p_y[j] * film[j]
-            heat[j] = per[j] * terms.brinkman * (x * x + y * y) * fluid[j]
-            rise = -terms.compression * here[j + GHOSTS] / rho[j] * rho_t[j]
-            rest[j] = heat[j] + per[j] * rise * (u[j] * p_x[j] + v[j] * p_y[j])
-        for j in range(film.shape[0]):
-            along = capacity[j] * rho[j] * abs(u[j]) * terms.over_x
-            w, ww, e, ee = west[j + 2], far_west[j + 2], east[j + 2], far_east[j + 2]
-            one, two = (w if u[j] > 0.0 else e), (ww if u[j] > 0.0 else ee)
-            held = min(max(2.0 - along / CONDUCTION, 0.0), 1.0)
-            second = terms.w2 * (1.0 if u[j] > 0.0 else held)
-            convection[j] = (1.0 + second) * along
-            rest[j] += along * (one + second * (2.0 * one - two))
-        for j in range(film.shape[0]):
-            sideways = capacity[j] * rho[j] * abs(v[j]) * terms.over_y
-            a, b, c, d = here[j], here[j + 1], here[j + 3], here[j + 4]
-            one, two = (b if v[j] > 0.0 else c), (a if v[j] > 0.0 else d)
-            third = terms.w2 * min(max(2.0 - sideways / CONDUCTION, 0.0), 1.0)
-            convection[j] += (1.0 + third) * sideways
-            rest[j] += sideways * (one + third * (2.0 * one - two))
-            omega[j] *= capacity[j] / film[j]
+    cells, base, here, terms = work.cells, place.base, layer(place, k), model.terms
+    u, v, t = load(cells, here + U), load(cells, here + V), fields.temperature
+    dense = load(cells, base + PER) * (
+        terms.peclet * load(cells, base + CAPACITY) * load(cells, here + RHO)
+    )
+    along = dense * size(u) * terms.over_x
+    one = if_positive(u, load(t, node(place, -1, k)), load(t, node(place, 1, k)))
+    two = if_positive(u, load(t, node(place, -2, k)), load(t, node(place, 2, k)))
+    second = terms.w2 * if_positive(u, 1.0, hold(along))
+    diagonal = (1.0 + second) * along
+    rest = along * (one + second * (2.0 * one - two))
+    sideways, at = dense * size(v) * terms.over_y, node(place, 0, k)
+    one = if_positive(v, load(t, at - 1), load(t, at + 1))
+    two = if_positive(v, load(t, at - 2), load(t, at + 2))
+    third = terms.w2 * hold(sideways)
+    diagonal += (1.0 + third) * sideways
+    rest += sideways * (one + third * (2.0 * one - two))
+    return diagonal, rest
 
 
-@njit(cache=True, fastmath={"contract"}, error_model="numpy")
-def inner_rows(model: Model, fields: Fields, i: int, block: int, work: Work) -> None:
-    """Fill the rows of the inner layers of the ``BLOCK`` columns from row ``block`` on.
+@njit(cache=True)
+def inner_row(model: Model, fields: Fields, work: Work, place: Place, k: int) -> None:
+    """Fill the row of an inner layer.
 
     A warmer layer shears faster, and the stress falls for all of them at a given sliding speed: the
     first is held back where it would outweigh the conduction; banded matrices have room for a safe
     diagonal only. Neither changes the solution.
     """
-    across, stop = model.across, block + BLOCK
-    n = across.zeta.shape[0]
-    full = across.band == n - 1
-    column = work.column[:, :, block:stop]
-    temperature = fields.temperature[i + GHOSTS, :, block + GHOSTS : stop + GHOSTS]
-    held, share = work.line[THIRD, :BLOCK], column[SHARE]
-    for k in range(1, n - 1):
-        omega, matrix, rhs = column[OMEGA, k], work.matrix[k], work.rhs[k]
-        for m in range(max(k - across.band, 0), min(k + across.band, n - 1) + 1):
-            first, second = across.d1[k, m], across.d2[k, m]
-            for j in range(BLOCK):
-                matrix[m, j] = omega[j] * first - second
-        convection, rest, yields = column[A, k], column[NEW, k], column[YIELD, k]
-        heat, slope, here = column[B, k], column[SLOPE, k], temperature[k]
-        for j in range(BLOCK):
-            steep = slope[j] * heat[j]
-            part = -min(CONDUCTION / (steep + 1e-300), 1.0) if full else 1.0
-            matrix[k, j] += convection[j] + part * steep
-            rhs[j] = rest[j] + part * steep * here[j]
-            held[j] = heat[j] * (yields[j] - part)
-        for m in range(n if full else 0):
-            for j in range(BLOCK):
-                matrix[m, j] += held[j] * share[m, j]
-                rhs[j] += held[j] * share[m, j] * temperature[m, j]
+    across, cells, base, n = model.across, work.cells, place.base, place.n
+    here, full = layer(place, k), model.across.band == place.n - 1
+    h, per = load(cells, base + H), load(cells, base + PER)
+    shear, compression = heat_sources(model, work, place, k)
+    diagonal, rest = convection(model, fields, work, place, k)
+    heat = per * shear
+    rest += heat + per * compression
+    steep = load(cells, here + SLOPE) * heat
+    part = -1.0 * lower(CONDUCTION / (steep + 1e-300), 1.0) if full else 1.0 + 0.0 * steep
+    held = heat * (load(cells, here + YIELD) - part) if full else 0.0 * heat
+    capacity = model.terms.peclet * load(cells, base + CAPACITY)
+    omega = load(cells, here + OMEGA) * capacity * h / load(cells, base + CONDUCTIVITY)
+    rest += part * steep * load(cells, here + T) + held * load(cells, base + PULL)
+    first, stop = reach(across, k, n)
+    for m in range(first, stop):
+        at, share = k * n + m, load(cells, layer(place, m) + SHARE)
+        flow_and_heat = omega * number(across.d1, at) - number(across.d2, at)
+        store(work.matrix, at * LANES, flow_and_heat + held * share)
+    at = (k * n + k) * LANES
+    store(work.matrix, at, load(work.matrix, at) + diagonal + part * steep)
+    store(work.matrix, (n * n + k) * LANES, rest)
 
 
-@njit(cache=True, fastmath={"contract"})
-def carry_modes(surface: Surface, side: int, i: int, work: Work) -> None:
-    """Carry the exponentials of a surface on to station ``i``; their sum is in ``PAST + side``."""
-    past = work.column[OMEGA, side * (work.column.shape[1] - 1)]
-    two, one = surface.flux[i + GHOSTS - 2], surface.flux[i + GHOSTS - 1]
-    for j in range(one.shape[0]):
-        past[j] = surface.next_ * one[j]
-    for m in range(surface.decay.shape[0]):
-        mode = work.modes[side, m]
-        decay, older, newer = surface.decay[m], surface.older[m], surface.newer[m]
-        for j in range(one.shape[0]):
-            mode[j] = decay * mode[j] + older * two[j] + newer * one[j]
-            past[j] += mode[j]
+@njit(cache=True)
+def carry_modes(surface: Surface, side: int, work: Work, place: Place) -> float:
+    """Carry the exponentials of a surface on to this station; return their sum."""
+    at, ny = (place.i + GHOSTS) * place.ny + place.j, place.ny
+    two, one = load(surface.flux, at - 2 * ny), load(surface.flux, at - ny)
+    past, count = surface.next_ * one, place.modes
+    for m in range(count):
+        place_m = (side * count + m) * ny + place.j
+        mode = number(surface.decay, m) * load(work.modes, place_m)
+        mode += number(surface.older, m) * two + number(surface.newer, m) * one
+        store(work.modes, place_m, mode)
+        past += mode
+    return past
 
 
-@njit(cache=True, fastmath={"contract"}, error_model="numpy")
-def wall_row(
-    model: Model, fields: Fields, surface: Surface, side: int, i: int, block: int, work: Work
-) -> None:
+@njit(cache=True)
+def wall_row(across: Across, surface: Surface, side: int, work: Work, place: Place) -> None:
     """Fill the row of a wall: its temperature is bulk plus what the heat of the line has done."""
-    across, n, stop = model.across, model.across.zeta.shape[0], block + BLOCK
+    cells, base, n = work.cells, place.base, place.n
     wall, sign = side * (n - 1), 1.0 - 2.0 * side
-    rhs, matrix = work.rhs[wall], work.matrix[wall]
-    bulk, past = surface.bulk[i, block:stop], work.column[OMEGA, wall, block:stop]
-    h, conductivity = fields.h[i, block:stop], fields.conductivity[i, block:stop]
-    for m in range(max(wall - across.band, 0), min(wall + across.band, n - 1) + 1):
-        weight = sign * surface.factor * surface.near * across.d1[wall, m]
+    past = carry_modes(surface, side, work, place)
+    over_h = load(cells, base + CONDUCTIVITY) / load(cells, base + H)
+    first, stop = reach(across, wall, n)
+    for m in range(first, stop):
+        at = wall * n + m
+        weight = sign * surface.factor * surface.near * number(across.d1, at)
         unit = 1.0 if m == wall else 0.0
-        for j in range(BLOCK):
-            matrix[m, j] = unit - weight * conductivity[j] / h[j]
-    for j in range(BLOCK):
-        rhs[j] = bulk[j] + surface.factor * past[j]
+        store(work.matrix, at * LANES, unit - weight * over_h)
+    bulk = load(surface.bulk, place.i * place.ny + place.j)
+    store(work.matrix, (n * n + wall) * LANES, bulk + surface.factor * past)
 
 
-@njit(cache=True, fastmath={"contract"}, error_model="numpy")
-def solve_columns(across: Across, work: Work) -> None:
-    """Solve ``BLOCK`` columns by elimination without pivoting; the solution is in ``rhs``."""
-    n = across.zeta.shape[0]
-    b = work.rhs
+@njit(cache=True)
+def eliminate(matrix: Array, n: int, band: int, c: int) -> None:
+    """Take unknown ``c`` out of the rows below; its diagonal becomes its inverse."""
+    stop = min(c + band, n - 1) + 1
+    pivot = c * n
+    inverse = 1.0 / load(matrix, (pivot + c) * LANES)
+    store(matrix, (pivot + c) * LANES, inverse)
+    known = load(matrix, (n * n + c) * LANES)
+    for r in range(c + 1, stop):
+        factor = load(matrix, (r * n + c) * LANES) * inverse
+        for m in range(c + 1, stop):
+            at = (r * n + m) * LANES
+            store(matrix, at, load(matrix, at) - factor * load(matrix, (pivot + m) * LANES))
+        at = (n * n + r) * LANES
+        store(matrix, at, load(matrix, at) - factor * known)
+
+
+@njit(cache=True)
+def solve_columns(matrix: Array, n: int, band: int) -> None:
+    """Solve the columns of a block without pivoting; the solution takes the right-hand sides."""
     for c in range(n):
-        pivot, last = work.matrix[c], min(c + across.band, n - 1)
-        for j in range(BLOCK):
-            pivot[c, j] = 1.0 / pivot[c, j]
-        for r in range(c + 1, last + 1):
-            row = work.matrix[r]
-            for j in range(BLOCK):
-                row[c, j] *= pivot[c, j]
-            for m in range(c + 1, last + 1):
-                for j in range(BLOCK):
-                    row[m, j] -= row[c, j] * pivot[m, j]
-            for j in range(BLOCK):
-                b[r, j] -= row[c, j] * b[c, j]
+        eliminate(matrix, n, band, c)
     for c in range(n - 1, -1, -1):
-        pivot = work.matrix[c]
-        for m in range(c + 1, min(c + across.band, n - 1) + 1):
-            for j in range(BLOCK):
-                b[c, j] -= pivot[m, j] * b[m, j]
-        for j in range(BLOCK):
-            b[c, j] *= pivot[c, j]
+        value = load(matrix, (n * n + c) * LANES)
+        for m in range(c + 1, min(c + band, n - 1) + 1):
+            value -= load(matrix, (c * n + m) * LANES) * load(matrix, (n * n + m) * LANES)
+        store(matrix, (n * n + c) * LANES, value * load(matrix, (c * n + c) * LANES))
 
 
 @njit(cache=True)
-def new_temperature(work: Work, block: int) -> None:
-    """Copy the solution of the columns from row ``block`` on to ``NEW``."""
-    work.column[NEW, :, block : block + BLOCK] = work.rhs
+def heat_block(
+    model: Model, fields: Fields, surfaces: tuple[Surface, Surface], work: Work, place: Place
+) -> None:
+    """Solve the energy equation in the columns of a block; the solution is in ``A``."""
+    n = place.n
+    cross_flow(model, work, place)
+    shares(model.across, work, place)
+    for k in range(1, n - 1):
+        inner_row(model, fields, work, place, k)
+    for side in range(2):
+        wall_row(model.across, surfaces[side], side, work, place)
+    solve_columns(work.matrix, n, model.across.band)
+    for k in range(n):
+        store(work.cells, layer(place, k) + A, load(work.matrix, (n * n + k) * LANES))
 
 
-@njit(cache=True, fastmath={"contract"}, error_model="numpy")
-def store_flux(model: Model, fields: Fields, surface: Surface, side: int, i: int) -> None:
-    """Write the heat that flows into a surface at station ``i``."""
-    n, across = model.across.zeta.shape[0], model.across
-    flux, h = surface.flux[i + GHOSTS], fields.h[i]
+@njit(cache=True)
+def mobility(across: Across, work: Work, place: Place) -> float:
+    """Return the generalised mobility ``12 (eta_e rho'_e/eta'_e - rho''_e)``.
+
+    Yang and Wen 1990; the moments about mid-film give the same and lose no digits.
+    """
+    cells, wall = work.cells, layer(place, place.n - 1)
+    tilt = load(cells, wall + I1) / load(cells, wall + I0)
+    total = 0.0 * tilt
+    for k in range(place.n):
+        here, weight = layer(place, k), 12.0 * number(across.weights, k)
+        arm = tilt * load(cells, here + I0) - load(cells, here + I1)
+        total += weight * load(cells, here + RHO) * arm
+    return total
+
+
+@njit(cache=True)
+def reynolds_fields(model: Model, fields: Fields, work: Work, place: Place) -> None:
+    """Write mobility and density of the Reynolds equation, and how they follow the pressure.
+
+    The density is that of the Couette flux over h u_m; ``stretch`` is by how much more a small
+    change of the gradient along x moves, the sliding being kept.
+    """
+    cells, terms, at = work.cells, model.terms, place.i * place.ny + place.j
+    middle = layer(place, place.n // 2)
+    whole_mobility = mobility(model.across, work, place)
+    store(fields.mobility, at, whole_mobility)
+    per_i0 = terms.slide / load(cells, layer(place, place.n - 1) + I0)
+    density = 0.0 * per_i0
+    for k in range(place.n):
+        here, weight = layer(place, k), number(model.across.weights, k)
+        speed = terms.speed + per_i0 * load(cells, here + I0)
+        density += weight * load(cells, here + RHO) * speed
+    store(fields.density, at, density)
+    store(fields.steep, at, 1.0 / load(cells, middle + YIELD))
+    newtonian = exponential(-1.0 * load(cells, middle + LN_ETA))
+    store(fields.effective, at, newtonian / load(cells, middle + FLUIDITY))
+    store(fields.stretch, at, 1.0)
+    if not model.laws.newtonian:
+        moments(model.across, TANGENT, work, place)
+        store(fields.stretch, at, mobility(model.across, work, place) / whole_mobility)
+
+
+@njit(cache=True)
+def mean_fields(model: Model, fields: Fields, work: Work, place: Place) -> None:
+    """Write mobility and density of the Reynolds equation with properties at the mean temperature.
+
+    The thinning is that of mid-film.
+    """
+    at, first = place.i * place.ny + place.j, layer(place, 0)
+    look_up(model.laws, work, place, 0, mean_temperature(model.across, work, place))
+    rho = load(work.cells, first + RHO)
+    fluid = exponential(-1.0 * load(work.cells, first + LN_ETA))
+    store(fields.mobility, at, rho * fluid / load(fields.effective, at))
+    store(fields.density, at, rho)
+
+
+@njit(cache=True)
+def powers(model: Model, fields: Fields, work: Work, place: Place) -> None:
+    """Write mid-film stress, shear power, compression power and enthalpy fluxes."""
+    cells, base, terms = work.cells, place.base, model.terms
+    at, h = place.i * place.ny + place.j, load(cells, base + H)
+    capacity = terms.peclet * load(cells, base + CAPACITY)
+    shear, compression, along, sideways = 0.0 * h, 0.0 * h, 0.0 * h, 0.0 * h
+    for k in range(place.n):
+        here, weight = layer(place, k), number(model.across.weights, k) * h
+        power, rise = heat_sources(model, work, place, k)
+        shear += weight * power
+        compression += weight * rise
+        warmer = load(cells, here + T) - terms.inlet
+        excess = weight * capacity * load(cells, here + RHO) * warmer
+        along += excess * load(cells, here + U)
+        sideways += excess * load(cells, here + V)
+    store(fields.shear, at, shear)
+    store(fields.work, at, compression)
+    store(fields.enthalpy_x, at, along)
+    store(fields.enthalpy_y, at, sideways)
+    store(fields.tau_x, at, load(cells, base + TAU_X))
+    store(fields.tau_y, at, load(cells, base + TAU_Y))
+
+
+@njit(cache=True)
+def store_flux(across: Across, surface: Surface, side: int, work: Work, place: Place) -> None:
+    """Write the heat that flows into a surface."""
+    cells, n = work.cells, place.n
     wall, sign = side * (n - 1), 1.0 - 2.0 * side
-    flux[:] = 0.0
-    for m in range(max(wall - across.band, 0), min(wall + across.band, n - 1) + 1):
-        weight, layer = sign * across.d1[wall, m], fields.temperature[i + GHOSTS, m, GHOSTS:-GHOSTS]
-        for j in range(flux.shape[0]):
-            flux[j] += weight * layer[j]
-    for j in range(flux.shape[0]):
-        flux[j] *= fields.conductivity[i, j] / h[j]
+    flux = 0.0 * load(cells, place.base + H)
+    first, stop = reach(across, wall, n)
+    for m in range(first, stop):
+        flux += (sign * number(across.d1, wall * n + m)) * load(cells, layer(place, m) + T)
+    flux *= load(cells, place.base + CONDUCTIVITY) / load(cells, place.base + H)
+    store(surface.flux, (place.i + GHOSTS) * place.ny + place.j, flux)
 
 
 @njit(cache=True)
-def mirror_station(station: Array) -> None:
-    """Fill the ghost rows of a symmetry line of one station (n, ny + 4)."""
-    for k in range(station.shape[0]):
-        station[k, 1], station[k, 0] = station[k, 3], station[k, 4]
+def write_block(
+    model: Model, fields: Fields, surfaces: tuple[Surface, Surface], work: Work, place: Place
+) -> None:
+    """Write all that the block tells about the film."""
+    for side in range(2):
+        store_flux(model.across, surfaces[side], side, work, place)
+    powers(model, fields, work, place)
+    reynolds_fields(model, fields, work, place)
+    if model.terms.mean == 1:
+        mean_fields(model, fields, work, place)
 
 
 @njit(cache=True)
+def mirror_station(temperature: Array, place: Place) -> None:
+    """Fill the ghost rows of a symmetry line."""
+    for k in range(place.n):
+        first = node(place, 0, k)
+        put(temperature, first - 1, number(temperature, first + 1))
+        put(temperature, first - 2, number(temperature, first + 2))
+
+
+@njit(cache=True)
+def flow_of_block(model: Model, fields: Fields, work: Work, place: Place, steps: int) -> None:
+    """Evaluate laws, flow and mass fluxes of a block at its last temperature."""
+    load_block(fields, work, place)
+    evaluate_laws(model, work, place)
+    flow(model, steps, work, place)
+    mass_fluxes(model.across, work, place)
+
+
+@njit(cache=True)
+def march(
+    model: Model,
+    fields: Fields,
+    surfaces: tuple[Surface, Surface],
+    work: Work,
+    start: Place,
+    numbers: tuple[int, int],
+) -> None:
+    """Solve one station after the other; see `sweep`.
+
+    All arrays are given by their addresses; ``numbers``: stations, and Newton steps. Temperatures
+    are taken only when all blocks of a station are solved, for they look at their neighbours.
+    """
+    heat, blocks = model.terms.heat, start.ny // BLOCK
+    for i in range(numbers[0]):
+        if model.terms.mirror:
+            mirror_station(fields.temperature, moved(start, i, 0))
+        for block in range(blocks):
+            flow_of_block(model, fields, work, moved(start, i, block), numbers[1])
+        if heat:
+            complete_mass(model.terms, work, moved(start, i, 0))
+            for block in range(blocks):
+                heat_block(model, fields, surfaces, work, moved(start, i, block))
+        for block in range(blocks):
+            place = moved(start, i, block)
+            if heat:
+                follow_temperature(model, fields, work, place)
+                flow(model, 1, work, place)
+            write_block(model, fields, surfaces, work, place)
+
+
 def sweep(
     model: Model,
     fields: Fields,
@@ -821,43 +990,10 @@ def sweep(
     laws follow for the fields of the Reynolds equation. Without heat it only evaluates. ``steps``
     is the number of Newton steps for the stress of a thinning film.
     """
-    nx = fields.p.shape[0]
-    heat, thins = model.terms.heat, not model.laws.newtonian
-    change = 0.0
+    nx, n, ny = fields.p.shape[0], *work.mass.shape[1:]
     work.modes[:] = 0.0
-    for i in range(nx):
-        if model.terms.mirror:
-            mirror_station(fields.temperature[i + GHOSTS])
-        evaluate_laws(model, fields, i, work)
-        for visit in range(1 + heat):
-            fluidities(work)
-            if thins:
-                for _ in range(steps if visit == 0 else 1):
-                    newton_step(model, fields, i, work)
-                thin(model, fields, i, work)
-            moments(model, work.column[FLUIDITY], work)
-            velocities(model, fields, i, work)
-            if visit == heat:
-                break
-            mass_fluxes(model, fields, i, work)
-            cross_flow(model, i, work)
-            shares(model, work)
-            explicit_terms(model, fields, i, work)
-            carry_modes(surfaces[0], 0, i, work)
-            carry_modes(surfaces[1], 1, i, work)
-            for block in range(0, fields.p.shape[1], BLOCK):
-                inner_rows(model, fields, i, block, work)
-                for side in range(2):
-                    wall_row(model, fields, surfaces[side], side, i, block, work)
-                solve_columns(model.across, work)
-                new_temperature(work, block)
-            change = max(change, follow_temperature(model, fields, i, work))
-        for side in range(2):
-            store_flux(model, fields, surfaces[side], side, i)
-        powers(model, fields, i, work)
-        reynolds_fields(model, fields, i, work)
-        if thins:
-            stretch_field(model, fields, i, work)
-        if model.terms.mean == 1:
-            mean_fields(model, fields, i, work)
-    return change
+    work.change[:] = 0.0
+    start = Place(i=0, j=0, base=0, n=n, ny=ny, modes=work.modes.shape[1])
+    known = (addresses(model), addresses(fields), addresses(surfaces), addresses(work))
+    march(*known, start, (nx, steps))
+    return float(work.change.max())

@@ -22,6 +22,7 @@ def chebyshev(nodes: int) -> Across:
         d1=first,
         d2=first @ first,
         step=step,
+        turn=_turned(step, zeta),
         weights=step.sum(axis=0),
         band=nodes - 1,
     )
@@ -45,7 +46,15 @@ def uniform(nodes: int) -> Across:
     first[-1, -3:] = np.array([0.5, -2.0, 1.5]) / width
     for k in range(1, nodes):
         step[k, k - 1 : k + 1] = 0.5 * width
-    return Across(zeta=zeta, d1=first, d2=second, step=step, weights=step.sum(axis=0), band=2)
+    return Across(
+        zeta=zeta,
+        d1=first,
+        d2=second,
+        step=step,
+        turn=_turned(step, zeta),
+        weights=step.sum(axis=0),
+        band=2,
+    )
 
 
 SCHEMES = {"chebyshev": chebyshev, "uniform": uniform}
@@ -59,6 +68,11 @@ def _differences(zeta: Array) -> Array:
     np.fill_diagonal(matrix, 0.0)
     np.fill_diagonal(matrix, -matrix.sum(axis=1))
     return matrix
+
+
+def _turned(step: Array, zeta: Array) -> Array:
+    """Return the weights of the integral of a function times its distance from mid-film."""
+    return np.ascontiguousarray(step * (zeta - 0.5))
 
 
 def _interval_weights(zeta: Array) -> Array:

@@ -66,15 +66,7 @@ class FilmState:
             terms=film_terms(grid, problem, scales, groups, wedge_order),
         )
         modes = len(self.surfaces[0].decay)
-        self.work = energy.Work(
-            column=np.zeros((energy.QUANTITIES, nodes, ny)),
-            matrix=np.zeros((nodes, nodes, energy.BLOCK)),
-            rhs=np.zeros((nodes, energy.BLOCK)),
-            mass=np.zeros((3, nodes, ny)),
-            mass_y=np.zeros((nodes, ny)),
-            line=np.zeros((energy.LINES, ny)),
-            modes=np.zeros((2, modes, ny)),
-        )
+        self.work = energy.scratch(nodes, ny, modes)
 
     def view(self, name: str) -> Array:
         """Return a field of the film without the rows that only fill the last block, (nx, ny)."""

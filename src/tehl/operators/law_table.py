@@ -1,8 +1,9 @@
 """The laws of the lubricant as the compiled kernels see them: tables over pressure and temperature.
 
 Each law is written once, in SI, and called here; over the pressure cubic Hermite interpolation in
-ln(1 + 5.1e-9 p), over the temperature polynomials in 1/T and T, whose coefficients are what is
-interpolated. That keeps ln eta and rho to about 1e-6 (checked in the tests).
+ln(1 + 5.1e-9 p), over the temperature polynomials in 1/(T + 60 K) and in T, whose coefficients are
+what is interpolated. That keeps ln eta to 2e-6 and rho to a relative 1e-6 wherever ln eta is below
+40 (checked in the tests), but for the free-volume law of Tait and Doolittle near the glass.
 """
 
 from collections.abc import Callable
@@ -19,10 +20,19 @@ LARGEST_PRESSURE = 8.0
 ROWS = 96
 COLDER, HOTTER = 60.0, 700.0
 COLDEST = 200.0
+POLE = -60.0
+"""What of the temperature in 1/(T - POLE) [K]: suits all laws, whether by 1/T or by T."""
 RISE = 400.0
 STRESSES = 2048
 LARGEST_STRESS = 1000.0
 DIFFERENCE = 0.05
+SAMPLES = 48
+"""Temperatures at which the polynomials are fitted."""
+TOLERANCE = 2e-6
+THICK = 40.0
+"""ln eta up to which the polynomials are held to the tolerance."""
+HOT, FAINT = 300.0, 1e-4
+"""From so many kelvin above the inlet on, laws that defy a polynomial hardly count."""
 SOLID = 300.0
 """ln eta beyond which the viscosity no longer counts: the film is a solid for every purpose."""
 
@@ -42,11 +52,12 @@ def law_table(lubricant: Lubricant, scales: Scales) -> Laws:
     rows = np.linspace(0.0, np.log1p(per_scale * LARGEST_PRESSURE), ROWS)
     coldest = max(scales.temperature - COLDER, COLDEST)
     hottest = scales.temperature + HOTTER
-    middle, half = 0.5 * (1 / coldest + 1 / hottest), 0.5 * (1 / coldest - 1 / hottest)
+    ends = 1.0 / (coldest - POLE), 1.0 / (hottest - POLE)
+    middle, half = 0.5 * (ends[0] + ends[1]), 0.5 * (ends[0] - ends[1])
 
     def ln_eta(row: Array, t: Array) -> Array:
         pressure, temperature = np.broadcast_arrays(
-            np.expm1(row) / PER_PRESSURE, 1.0 / (middle + half * t)
+            np.expm1(row) / PER_PRESSURE, POLE + 1.0 / (middle + half * t)
         )
         eta = lubricant.viscosity.viscosity(pressure, temperature) / scales.viscosity
         return np.minimum(np.log(np.maximum(eta, 1e-300)), SOLID)
@@ -58,12 +69,27 @@ def law_table(lubricant: Lubricant, scales: Scales) -> Laws:
         return lubricant.density.density(pressure, temperature) / scales.density
 
     thinning, per_stress = thinning_table(lubricant)
-    span = ((coldest - scales.temperature) / RISE, (hottest - scales.temperature) / RISE)
-    parts = [_terms(ln_eta, rows, ETA_TERMS, (-1.0, 1.0)), _terms(rho, rows, RHO_TERMS, span)]
+    unit = np.cos(np.pi * (np.arange(SAMPLES) + 0.5) / SAMPLES)
+    kelvin = POLE + 1.0 / (middle + half * unit)
+    rise = (
+        0.5 * (coldest + hottest) + 0.5 * (hottest - coldest) * unit - scales.temperature
+    ) / RISE
+
+    def thin(values: Array) -> Array:
+        return _known(kelvin - scales.temperature) / (1.0 + (values / THICK) ** 8)
+
+    def known(values: Array) -> Array:
+        return _known(RISE * rise) * np.ones_like(values)
+
+    parts = [
+        _terms(ln_eta, rows, ETA_TERMS, unit, thin),
+        _terms(rho, rows, RHO_TERMS, rise, known),
+    ]
     return Laws(
-        fluid=np.ascontiguousarray(np.concatenate(parts, axis=1)),
+        fluid=np.ascontiguousarray(np.concatenate(parts, axis=2)),
         per_scale=per_scale,
         per_row=(ROWS - 1) / rows[-1],
+        pole=POLE,
         middle=middle,
         over_inverse=1.0 / half,
         inlet=scales.temperature,
@@ -72,27 +98,49 @@ def law_table(lubricant: Lubricant, scales: Scales) -> Laws:
         hottest=hottest,
         thinning=thinning,
         per_stress=per_stress,
+        last_row=ROWS - 2,
+        last_stress=STRESSES - 2,
         newtonian=int(lubricant.shear.is_newtonian),
         uniform=int(lubricant.shear.yields_as_a_whole),
     )
 
 
+def _known(warmer: Array) -> Array:
+    """Return weights of temperatures above the inlet's [K]: little beyond any film."""
+    return np.where(warmer < HOT, 1.0, FAINT)
+
+
 def _terms(
-    law: Callable[[Array, Array], Array], rows: Array, count: int, span: tuple[float, float]
+    law: Callable[[Array, Array], Array],
+    rows: Array,
+    count: int,
+    nodes: Array,
+    weights: Callable[[Array], Array],
 ) -> Array:
-    """Return coefficients of the powers of t, and their slopes by row, (rows, count, 2)."""
+    """Return coefficients of the powers of t, and their slopes by row, (rows, 2, count).
+
+    Least squares over ``nodes``. Where that leaves more than the tolerance, the law has a kink or a
+    pole in the range of the table: then its values count by ``weights`` of them.
+    """
     step = rows[1] - rows[0]
     d = DIFFERENCE * step
+    power = np.vander(nodes, count, increasing=True)
 
     def fit(row: Array) -> Array:
-        unit = np.cos(np.pi * (np.arange(2 * count) + 0.5) / (2 * count))
-        t = 0.5 * (span[0] + span[1]) + 0.5 * (span[1] - span[0]) * unit
-        values = law(row[:, None], t[None, :])
-        power = np.vander(t, count, increasing=True)
+        values = law(row[:, None], nodes[None, :])
         return np.asarray(np.linalg.lstsq(power, values.T, rcond=None)[0].T, np.float64)
 
-    slope = (8 * (fit(rows + d) - fit(rows - d)) - fit(rows + 2 * d) + fit(rows - 2 * d)) / 12
-    return np.stack([fit(rows), slope / DIFFERENCE], axis=2)
+    def weighted(row: Array) -> Array:
+        values = law(row[:, None], nodes[None, :])
+        weight = weights(values)
+        scaled = np.linalg.pinv(weight[:, :, None] * power)
+        return np.asarray(np.einsum("rct,rt->rc", scaled, weight * values), np.float64)
+
+    values = law(rows[:, None], nodes[None, :])
+    misfit = np.abs(fit(rows) @ power.T - values)[np.abs(values) < THICK]
+    method = weighted if np.max(misfit) > TOLERANCE else fit
+    slope = 8 * (method(rows + d) - method(rows - d)) - method(rows + 2 * d) + method(rows - 2 * d)
+    return np.stack([method(rows), slope / (12 * DIFFERENCE)], axis=1)
 
 
 def thinning_table(lubricant: Lubricant) -> tuple[Array, float]:

@@ -1,0 +1,134 @@
+import numpy as np
+import pytest
+
+from tehl.kernels import energy
+from tehl.kernels.lanes import addresses
+from tehl.lubricant import (
+    Barus,
+    ConstantDensity,
+    ConstantViscosity,
+    DowsonHigginson,
+    Lubricant,
+    RoelandsExponential,
+    TaitDensity,
+    TaitDoolittle,
+    library,
+    oil,
+)
+from tehl.operators.across import uniform
+from tehl.operators.law_table import law_table
+from tehl.scaling import Scales
+from tehl.typing import Array
+
+COLD = 313.15
+HERTZ = 1.5e9
+THICK = 40.0
+PRESSURES = np.linspace(0.0, 4.0 * HERTZ, 96)
+TEMPERATURES = np.linspace(COLD - 60.0, COLD + 700.0, 191)
+GLASS = {"bulk_modulus": 1.2e9, "expansion": 8e-4, "softening": 6e-3}
+FREE_VOLUME = TaitDoolittle(eta_0=0.0156, B=4.71, occupied=0.698, occupied_expansion=-1e-3, **GLASS)
+DENSE = DowsonHigginson(rho_0=870.0, beta=6.5e-4)
+OILS: dict[str, Lubricant] = {
+    **{name: oil(name) for name in library()},
+    "barus": Lubricant(viscosity=Barus(eta_0=0.04, alpha=2e-8, gamma=0.04), density=DENSE),
+    "exponential": Lubricant(
+        viscosity=RoelandsExponential(eta_0=0.04, alpha=2e-8, gamma=0.04),
+        density=DENSE.model_copy(update={"form": "additive"}),
+    ),
+    "constant": Lubricant(
+        viscosity=ConstantViscosity(eta_0=0.04), density=ConstantDensity(rho_0=870.0)
+    ),
+    "tait": Lubricant(
+        viscosity=Barus(eta_0=0.04, alpha=2e-8), density=TaitDensity(rho_0=870.0, **GLASS)
+    ),
+}
+SMOOTH = [name for name in OILS if name != "tait"]
+FILM = TEMPERATURES < COLD + 290.0
+
+
+def units(lubricant: Lubricant) -> Scales:
+    return Scales(
+        half_width_x=1e-4,
+        half_width_y=1e-4,
+        hertz_pressure=HERTZ,
+        film_thickness=1e-6,
+        viscosity=lubricant.viscosity.ambient(COLD),
+        density=lubricant.density.ambient(COLD),
+        speed=1.0,
+        load=1.0,
+        temperature=COLD,
+    )
+
+
+def tabulated(lubricant: Lubricant) -> dict[str, Array]:
+    """Return ln eta, rho and their slopes at all temperatures (first axis) and pressures."""
+    scales = units(lubricant)
+    nodes, rows = len(TEMPERATURES), len(PRESSURES)
+    terms = energy.Terms(**dict.fromkeys(energy.Terms._fields, 0))
+    model = energy.Model(uniform(nodes), law_table(lubricant, scales), terms)
+    work = energy.scratch(nodes, rows, 1)
+    cells = work.cells.reshape(rows // energy.BLOCK, -1)
+    layers = cells[:, energy.LINE :].reshape(len(cells), nodes, -1, energy.BLOCK)
+    layers[:, :, energy.T // energy.BLOCK] = TEMPERATURES[:, None]
+    cells[:, energy.P : energy.P + energy.BLOCK] = (PRESSURES / HERTZ).reshape(len(cells), -1)
+    for block in range(len(cells)):
+        start = energy.Place(0, 0, block * cells.shape[1], nodes, rows, 1)
+        energy.evaluate_laws(addresses(model), addresses(work), start)
+    return {
+        name: np.concatenate(layers[:, :, getattr(energy, name) // energy.BLOCK], axis=1)
+        for name in ("LN_ETA", "SLOPE", "RHO", "RHO_T")
+    }
+
+
+def exact(lubricant: Lubricant, warmer: float = 0.0) -> tuple[Array, Array]:
+    p, t = np.meshgrid(PRESSURES, TEMPERATURES + warmer)
+    scales = units(lubricant)
+    with np.errstate(divide="ignore"):
+        ln_eta = np.log(lubricant.viscosity.viscosity(p, t) / scales.viscosity)
+    return ln_eta, lubricant.density.density(p, t) / scales.density
+
+
+@pytest.mark.parametrize("name", OILS)
+def test_viscosity_is_that_of_the_law(name: str) -> None:
+    ln_eta, _ = exact(OILS[name])
+    error = np.abs(tabulated(OILS[name])["LN_ETA"] - ln_eta)
+    assert np.max(error[ln_eta < THICK]) < 2e-6
+
+
+@pytest.mark.parametrize("name", SMOOTH)
+def test_density_is_that_of_the_law(name: str) -> None:
+    _, rho = exact(OILS[name])
+    assert np.max(np.abs(tabulated(OILS[name])["RHO"] / rho - 1.0)) < 1e-6
+
+
+@pytest.mark.parametrize("name", SMOOTH)
+def test_slopes_are_those_of_the_laws(name: str) -> None:
+    table, (low, rho_low), (high, rho_high) = (
+        tabulated(OILS[name]),
+        exact(OILS[name], -0.01),
+        exact(OILS[name], 0.01),
+    )
+    inner = (low < THICK) & (np.abs(TEMPERATURES - COLD - 320.0) < 340.0)[:, None]
+    slope, rho_t = (low - high) / 0.02, (rho_high - rho_low) / 0.02
+    assert np.max(np.abs(table["SLOPE"] - slope)[inner]) < 1e-5
+    assert np.max(np.abs(table["RHO_T"] - rho_t)[inner]) < 1e-6
+
+
+def test_density_of_tait_is_that_of_the_law_where_its_modulus_is() -> None:
+    _, rho = exact(OILS["tait"])
+    assert np.max(np.abs(tabulated(OILS["tait"])["RHO"] / rho - 1.0)[FILM]) < 1e-6
+
+
+def test_free_volume_viscosity_is_that_of_the_law_far_from_the_glass() -> None:
+    lubricant = Lubricant(viscosity=FREE_VOLUME, density=TaitDensity(rho_0=870.0, **GLASS))
+    ln_eta, _ = exact(lubricant)
+    error = np.abs(tabulated(lubricant)["LN_ETA"] - ln_eta)
+    fluid = (ln_eta < THICK) & FILM[:, None]
+    for pressure, bound in ((0.5e9, 3e-6), (2e9, 1e-4), (4e9, 1e-3)):
+        assert np.max(error[fluid & (pressure > PRESSURES)]) < bound
+
+
+def test_temperature_beyond_the_table_is_that_of_its_end() -> None:
+    lubricant = OILS["mineral-oil"]
+    table = law_table(lubricant, units(lubricant))
+    assert (table.coldest, table.hottest) == (COLD - 60.0, COLD + 700.0)
