@@ -161,11 +161,11 @@ def padded_rows(grid: Grid) -> int:
 
 
 def pressure_slopes(grid: Grid, groups: Groups, pressure: Array) -> tuple[Array, Array]:
-    """Return dP/dX and dP/(kappa dY) by central differences, zero on the edges."""
-    slope_x, slope_y = np.zeros_like(pressure), np.zeros_like(pressure)
-    slope_x[:, 1:-1] = (pressure[:, 2:] - pressure[:, :-2]) / (2.0 * grid.dx)
-    across = 2.0 * groups.ellipticity * grid.dy
-    slope_y[1:-1] = (pressure[2:] - pressure[:-2]) / across
+    """Return dP/dX and dP/(kappa dY) by central differences, one-sided ones on the edges."""
+    slope_x = np.gradient(pressure, grid.dx, axis=1, edge_order=2)
+    slope_y = np.gradient(pressure, groups.ellipticity * grid.dy, axis=0, edge_order=2)
+    if grid.mirror:
+        slope_y[0] = 0.0
     return slope_x, slope_y
 
 
