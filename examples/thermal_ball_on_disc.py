@@ -9,7 +9,7 @@ faster one, back. Of the heat nearly all goes into the two solids. What the bala
 error of the mesh.
 
 The film is warmest half-way between the surfaces. The surfaces are heated on their way through the
-contact, the slower one more, so that their temperatures are highest near the outlet. In the inlet
+contact, the slower one more, so that they are warmest towards the outlet. In the inlet
 the oil is still cold: the film is hardly thinner than that of the same contact without heat.
 """
 
