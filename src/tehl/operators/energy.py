@@ -20,25 +20,50 @@ FAR_FILM = 1e3
 MEANS = {"generalised": 0, "mean": 1, "mean-all": 2}
 
 
+class HeatedFilm:
+    """What the energy equation knows of a contact, whatever the grid.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        Laws, motion and heat.
+    scales, groups : Scales, Groups
+        Units and dimensionless groups.
+    """
+
+    def __init__(self, problem: ContactProblem, scales: Scales, groups: Groups) -> None:
+        self.problem, self.scales, self.groups = problem, scales, groups
+        self.heat = film_energy(problem)
+        self.sides = sides(problem, self.heat, scales)
+        self.across = SCHEMES[self.heat.scheme](self.heat.layers)
+        self.laws = law_table(problem.lubricant, scales)
+
+
 class FilmState:
     """Temperature and shear stress of the film on one grid.
 
     Arrays have y last, as the march goes along x; see `tehl.kernels.energy`.
+
+    Parameters
+    ----------
+    grid : Grid
+        The nodes.
+    film : HeatedFilm
+        The contact.
+    wedge_order : int
+        Order of the upstream differences.
+    finest : bool
+        Sum the full source also of surfaces that a line source heats nearly as well.
     """
 
     def __init__(
-        self,
-        grid: Grid,
-        problem: ContactProblem,
-        scales: Scales,
-        groups: Groups,
-        wedge_order: int,
+        self, grid: Grid, film: HeatedFilm, wedge_order: int, *, finest: bool = True
     ) -> None:
-        self.grid, self.problem, self.scales, self.groups = grid, problem, scales, groups
-        self.heat = heat = film_energy(problem)
-        side_1, side_2 = self.sides = sides(problem, heat, scales)
+        self.grid, self.problem, self.scales = grid, film.problem, film.scales
+        self.groups, self.across, self.sides = film.groups, film.across, film.sides
+        problem, scales, groups, heat = film.problem, film.scales, film.groups, film.heat
+        side_1, side_2 = film.sides
         nodes = heat.layers
-        self.across = SCHEMES[heat.scheme](nodes)
         nx, ny = grid.nx, padded_rows(grid)
         shape = (nx, ny)
         temperature = np.full((nx + 2 * GHOSTS, nodes, ny + 2 * GHOSTS), scales.temperature)
@@ -59,10 +84,10 @@ class FilmState:
             line_surface(grid, scales, side_1, self.flux_unit),
             line_surface(grid, scales, side_2, self.flux_unit),
         )
-        self.solids = Solids(grid, groups, scales, self.sides, self.flux_unit)
+        self.solids = Solids(grid, film.groups, scales, film.sides, self.flux_unit, finest=finest)
         self.model = energy.Model(
             across=self.across,
-            laws=law_table(problem.lubricant, scales),
+            laws=film.laws,
             terms=film_terms(grid, problem, scales, groups, wedge_order),
         )
         modes = len(self.surfaces[0].decay)
@@ -149,10 +174,14 @@ class FilmState:
             Newton steps for the shear stress of a thinning film.
         """
         change = energy.sweep(self.model, self.fields, self.surfaces, steps, self.work)
+        self.update_surfaces()
+        return change
+
+    def update_surfaces(self) -> None:
+        """Let the surfaces follow the heat that flows into them, as far as no line source does."""
         if self.model.terms.heat:
             film = self.view("h") / self.view("conductivity")
             self.solids.update(film, self.walls, self.fluxes)
-        return change
 
 
 def padded_rows(grid: Grid) -> int:

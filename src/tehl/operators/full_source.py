@@ -86,13 +86,11 @@ def point_source(
     near_columns = np.flatnonzero(np.abs(columns) <= NEAR[1])
     part = Influence(cell[1] / PARTS, cell[0] / PARTS, 1.0)
     offsets = np.arange(PARTS) - PARTS // 2
-    near = np.zeros((len(near_rows), len(near_columns)))
-    for dj in offsets:
-        for di in offsets:
-            j = PARTS * rows[near_rows][:, None] + dj
-            i = PARTS * columns[near_columns][None, :] + di
-            x, y = np.float64(cell[1] / PARTS) * i, np.float64(cell[0] / PARTS) * j
-            near += part(j, i) * _plume(x, y, peclet)
+    j = (PARTS * rows[near_rows][:, None] + offsets[None, :]).reshape(-1, 1)
+    i = (PARTS * columns[near_columns][:, None] + offsets[None, :]).reshape(1, -1)
+    x, y = np.float64(cell[1] / PARTS) * i, np.float64(cell[0] / PARTS) * j
+    pieces = part(j, i) * _plume(x, y, peclet)
+    near = pieces.reshape(len(near_rows), PARTS, len(near_columns), PARTS).sum(axis=(1, 3))
     table[np.ix_(near_rows, near_columns)] = near
     return table
 

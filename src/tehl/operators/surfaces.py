@@ -117,10 +117,19 @@ class Solids:
         The solids.
     flux_unit : float
         One unit of the dimensionless flux [W/m^2/K].
+    finest : bool
+        Sum the full source also of surfaces that march a line source.
     """
 
     def __init__(
-        self, grid: Grid, groups: Groups, scales: Scales, both: tuple[Side, Side], flux_unit: float
+        self,
+        grid: Grid,
+        groups: Groups,
+        scales: Scales,
+        both: tuple[Side, Side],
+        flux_unit: float,
+        *,
+        finest: bool,
     ) -> None:
         self.both = both
         rows, columns = (n - 1 for n in grid.shape)
@@ -137,7 +146,7 @@ class Solids:
                 flux_unit * scales.half_width_x / (2.0 * np.pi * side.conductivity),
                 side.line_factor(scales, flux_unit) if side.marches else 0.0,
             )
-            if side.needs_full
+            if side.needs_full and (finest or not side.marches)
             else None
             for side in both
         )

@@ -11,7 +11,8 @@ from typing import Protocol
 import numpy as np
 
 from tehl.kernels import reynolds
-from tehl.operators.energy import FilmState
+from tehl.operators.energy import FilmState, HeatedFilm
+from tehl.operators.transfer import midpoints
 from tehl.problem import ContactProblem
 from tehl.scaling import Groups, Scales
 from tehl.solver.level import Level
@@ -84,7 +85,7 @@ class FilmCoupling:
         *,
         ramped: bool = False,
     ) -> None:
-        self.problem, self.scales, self.groups = problem, scales, groups
+        self.film = HeatedFilm(problem, scales, groups)
         self.wedge_order = wedge_order
         self.sweeps_left = RAMP if ramped else 0
         self.state: FilmState | None = None
@@ -99,11 +100,13 @@ class FilmCoupling:
         sound = float(fine.film.h.min()) > SOUND * fine.floor
         if not (finest or coarser is not None or (large and sound)):
             return False
-        state = FilmState(fine.grid, self.problem, self.scales, self.groups, self.wedge_order)
+        state = FilmState(fine.grid, self.film, self.wedge_order, finest=finest)
         self.state = state
         if coarser is not None:
             state.refine_from(coarser)
-            self._sweep(state, levels, FIRST_STEPS)
+            state.set_film(fine.film.p, fine.film.h, fine.floor)
+            state.update_surfaces()
+            self._hand_down(levels, refined(levels[-2]))
             return True
         for _ in range(FIRST_SWEEPS):
             if self._sweep(state, levels, FIRST_STEPS) < SETTLED:
@@ -121,7 +124,7 @@ class FilmCoupling:
             change = self._sweep(self.state, levels, STEPS)
             if change < RESTLESS or self.sweeps_left:
                 break
-        return change, float(self.state.temperature.max()) - self.scales.temperature
+        return change, float(self.state.temperature.max()) - self.film.scales.temperature
 
     def _sweep(self, state: FilmState, levels: Sequence[Level], steps: int) -> float:
         fine = levels[-1]
@@ -140,15 +143,28 @@ class FilmCoupling:
         p, scratch = fine.film.p, (np.empty(fine.grid.shape) for _ in range(4))
         isothermal = reynolds.Film(p, np.ones(p.shape), *scratch)
         reynolds.properties(isothermal, fine.flow.table, fine.flow.step, 0.0)
-        mobility, steep = view("mobility").T / self.groups.lambda_bar, view("steep").T
+        mobility, steep = view("mobility").T / self.film.groups.lambda_bar, view("steep").T
         factors = reynolds.Factors(
             rest=mobility * (1.0 - steep),
             mobility=mobility * steep / isothermal.eps,
             density=view("density").T / isothermal.rho,
             stretch=np.ascontiguousarray(view("stretch").T),
         )
+        self._hand_down(levels, factors)
+
+    @staticmethod
+    def _hand_down(levels: Sequence[Level], factors: reynolds.Factors) -> None:
+        """Give the last of ``levels`` these factors, and the coarser ones every other of them."""
+        fine = levels[-1]
         for level in reversed(levels):
             level.couple(factors)
             factors = reynolds.Factors(*(array[::2, ::2].copy() for array in factors))
         fine.update_properties()
         reynolds.tangent_source(fine.film, fine.mesh, fine.rhs)
+
+
+def refined(coarse: Level) -> reynolds.Factors:
+    """Return the factors of a level between its nodes as well."""
+    if coarse.factors is None:
+        raise ValueError("a level that is not coupled has no factors")
+    return reynolds.Factors(*(midpoints(array) for array in coarse.factors))

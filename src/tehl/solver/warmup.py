@@ -7,7 +7,7 @@ import numpy as np
 
 from tehl.grid import Grid
 from tehl.kernels import reynolds
-from tehl.operators.energy import FilmState
+from tehl.operators.energy import FilmState, HeatedFilm
 from tehl.operators.film import hertz_pressure
 from tehl.operators.flow import flow_table
 from tehl.operators.reynolds import stencil
@@ -55,7 +55,7 @@ def _one_sweep() -> None:
     """Evaluate a sheared film once."""
     problem = ContactProblem.model_validate(COUPLED_CASE)
     grid = Grid(nx=33, ny=33, domain=DOMAIN, mirror=True)
-    state = FilmState(grid, problem, scales(problem), groups(problem), 2)
+    state = FilmState(grid, HeatedFilm(problem, scales(problem), groups(problem)), 2)
     state.set_film(hertz_pressure(grid), np.ones(grid.shape))
     state.sweep(1)
     film = reynolds.Film(*(np.ones(grid.shape) for _ in range(6)))
