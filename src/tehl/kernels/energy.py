@@ -423,8 +423,8 @@ def thinning(laws: Laws, stress: float) -> tuple[float, float]:
     x = s * part * laws.per_stress
     row = lower(whole(x), float(last))
     t = x - row
-    start, first = gather(table, row, 2, 0), gather(table, row, 2, 1)
-    rise, second = gather(table, row, 2, 2) - start, gather(table, row, 2, 3)
+    start, first, end_value, second = gather(table, row)
+    rise = end_value - start
     square, cube = 3.0 * rise - 2.0 * first - second, first + second - 2.0 * rise
     slope = (first + t * (2.0 * square + 3.0 * t * cube)) * (laws.per_stress * part * part)
     log_f = start + t * (first + t * (square + t * cube)) + (stress - s) * slope

@@ -180,22 +180,32 @@ def put(typing: Any, array: Any, offset: Any, value: Any) -> Any:
 
 
 @intrinsic
-def gather(typing: Any, table: Any, rows: Any, stride: Any, column: Any) -> Any:
-    """Return ``table[int(rows) stride + column]``, each lane by its own row."""
+def gather(typing: Any, table: Any, rows: Any) -> Any:
+    """Return the four numbers from ``table[2 int(rows)]`` on, each lane by its own row of two."""
 
     def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        _, rows, stride, column = arguments
-        start = _pointer(builder, arguments[0], column)
-        whole = builder.fptosi(rows, ir.VectorType(_INT, LANES))
-        result = ir.Constant(_VECTOR, ir.Undefined)
+        four = ir.VectorType(_DOUBLE, 4)
+        table, rows = arguments
+        indices = builder.fptosi(rows, ir.VectorType(_INT, LANES))
+        parts = []
         for lane in range(LANES):
-            row = builder.extract_element(whole, ir.Constant(_INT, lane))
-            offset = builder.mul(builder.sext(row, _LONG), stride)
-            value = builder.load(builder.gep(start, [offset]))
-            result = builder.insert_element(result, value, ir.Constant(_INT, lane))
-        return result
+            row = builder.sext(builder.extract_element(indices, ir.Constant(_INT, lane)), _LONG)
+            at = _pointer(builder, table, builder.shl(row, ir.Constant(_LONG, 1)))
+            parts.append(builder.load(builder.bitcast(at, four.as_pointer()), align=8))
+        while len(parts) > 1:  # one behind the other
+            parts = [
+                _shuffle(builder, first, second, range(2 * first.type.count))
+                for first, second in zip(parts[::2], parts[1::2], strict=True)
+            ]
+        columns = [_shuffle(builder, parts[0], parts[0], range(c, 4 * LANES, 4)) for c in range(4)]
+        return context.make_tuple(builder, signature.return_type, columns)
 
-    return LANES_TYPE(types.intp, LANES_TYPE, types.intp, types.intp), code
+    return types.UniTuple(LANES_TYPE, 4)(types.intp, LANES_TYPE), code
+
+
+def _shuffle(builder: Any, first: Any, second: Any, order: Any) -> Any:
+    mask = ir.Constant(ir.VectorType(_INT, len(order)), list(order))
+    return builder.shuffle_vector(first, second, mask)
 
 
 def _choice(predicate: str) -> Callable[[Any, Any, Any, Any], Any]:
