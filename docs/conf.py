@@ -49,8 +49,12 @@ html_theme_options = {
 
 
 def mend(*arguments: Any) -> None:
-    """Give the sources of a docstring numbers, and keep names that share a line together."""
+    """Give the sources of a docstring numbers, and keep names that share a line together.
+
+    Magnitudes such as ``|u_s|`` are no substitutions.
+    """
     lines = arguments[-1]
+    lines[:] = [re.sub(r"(?<![`\w])\|(\w+)\|(?![`\w])", r"\|\1\|", line) for line in lines]
     lines[:] = [re.sub(r"^\.\. \[(\d+)\] ", r"\1. ", line).replace("]_", "]") for line in lines]
     lines[:] = [re.sub(r"(?<=\w), (?=[\w, ]+ : )", ",", line) for line in lines]
 
