@@ -42,6 +42,8 @@ LARGEST_EXPONENT = 690.0
 LARGEST_THINNING = 200.0  # ln F
 BEYOND_LIMIT = 1.02  # of a limiting stress; there ln F is above 20
 LARGEST_STEP = 40.0  # [K] per solution of a column
+LARGEST_FALL = 0.5  # of the stress that follows it, relatively
+LARGEST_GROWTH = 6.0  # of the logarithm of the fluidity that follows it
 PRESSURISED = 0.02  # from this pressure on changes of the temperature count
 CONDUCTION = 8.0  # a little less than pi^2, the slowest decay across the film
 SETTLED = 1e-9  # step of the stress over its scale after which Newton's next one is rounding
@@ -378,13 +380,13 @@ def evaluate_laws(model: Model, work: Work, place: Place) -> None:
 
 @njit(cache=True)
 def follow_temperature(model: Model, fields: Fields, work: Work, place: Place) -> None:
-    """Take the new temperatures, which are in ``A``, and let the laws follow to first order.
+    """Take the new temperatures, which are in ``A``, and let laws and stress follow to first order.
 
     No temperature changes by more than the largest step. What counts is where there is pressure.
     """
     cells = work.cells
     mean = 0.0 * load(cells, place.base + P)
-    most = mean
+    most, fall = mean, mean
     for k in range(place.n):
         here = layer(place, k)
         old = load(cells, here + T)
@@ -393,13 +395,21 @@ def follow_temperature(model: Model, fields: Fields, work: Work, place: Place) -
         store(cells, here + T, old + step)
         store(fields.temperature, node(place, 0, k), old + step)
         mean += number(model.across.weights, k) * step
+        fall += load(cells, here + SHARE) * step
         most = upper(most, size(step))
+    fall = lower(upper(fall, -LARGEST_FALL), LARGEST_FALL)
+    for tau in (TAU_X, TAU_Y):
+        store(cells, place.base + tau, load(cells, place.base + tau) * (1.0 - fall))
     for k in range(place.n):
         here = layer(place, k)
         step = mean if model.terms.mean == 2 else load(cells, here + A)
-        ln_eta = load(cells, here + LN_ETA) - load(cells, here + SLOPE) * step
-        store(cells, here + LN_ETA, limited(ln_eta))
+        thinner = load(cells, here + SLOPE) * step
+        store(cells, here + LN_ETA, limited(load(cells, here + LN_ETA) - thinner))
         store(cells, here + RHO, load(cells, here + RHO) + load(cells, here + RHO_T) * step)
+        growth = thinner - (load(cells, here + YIELD) - 1.0) * fall
+        growth = exponential(lower(upper(growth, -LARGEST_GROWTH), LARGEST_GROWTH))
+        for quantity in (FLUIDITY, TANGENT):
+            store(cells, here + quantity, load(cells, here + quantity) * growth)
     counts = if_positive(load(cells, place.base + P) - PRESSURISED, most, 0.0)
     store(work.change, 0, upper(load(work.change, 0), counts))
 
@@ -973,7 +983,8 @@ def march(
             place = moved(start, i, block)
             if heat:
                 follow_temperature(model, fields, work, place)
-                flow(model, 1, work, place)
+                moments(model.across, FLUIDITY, work, place)
+                velocities(model, work, place)
             write_block(model, fields, surfaces, work, place)
 
 

@@ -31,7 +31,7 @@ RAMP = 24
 """Sweeps over which sliding is raised from nothing, if it is."""
 UNSETTLED = 100.0
 """Change of temperature [K] that a sweep before the end of that counts for."""
-SETTLED = 1.0
+SETTLED = 3.0
 """Change of temperature [K] at which the first sweeps may end."""
 
 
