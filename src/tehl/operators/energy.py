@@ -84,11 +84,19 @@ class FilmState:
             line_surface(grid, scales, side_1, self.flux_unit),
             line_surface(grid, scales, side_2, self.flux_unit),
         )
-        self.solids = Solids(grid, film.groups, scales, film.sides, self.flux_unit, finest=finest)
         self.model = energy.Model(
             across=self.across,
             laws=film.laws,
             terms=film_terms(grid, problem, scales, groups, wedge_order),
+        )
+        self.solids = Solids(
+            grid,
+            groups,
+            scales,
+            film.sides,
+            self.flux_unit,
+            film_peclet=self.model.terms.peclet,
+            finest=finest,
         )
         modes = len(self.surfaces[0].decay)
         self.work = energy.scratch(nodes, ny, modes)

@@ -27,8 +27,9 @@ LEAST_LINE = 2.0
 """Solid Peclet number from which a line source is marched: below, it has little of the full one."""
 COARSENED_FROM = 128
 """Intervals from which the full source is summed on every second node: its field is smooth."""
-STIFFER = 2.0
-"""Conductance of the film, over that of its oil at rest: a warmer film makes less heat as well."""
+STIFFER, FLOWING = 2.0, 10.0
+"""Conductance of the film: over that of its oil at rest, for a warmer film makes less heat as well;
+and what the flow of a thick film adds to its square, over the Peclet number."""
 TOLERANCE, ITERATIONS = 0.02, 30
 """Of the coupled surface temperatures after each sweep; the next sweep improves them again."""
 
@@ -117,6 +118,8 @@ class Solids:
         The solids.
     flux_unit : float
         One unit of the dimensionless flux [W/m^2/K].
+    film_peclet : float
+        Peclet number of the film [-].
     finest : bool
         Sum the full source also of surfaces that march a line source.
     """
@@ -129,9 +132,10 @@ class Solids:
         both: tuple[Side, Side],
         flux_unit: float,
         *,
+        film_peclet: float,
         finest: bool,
     ) -> None:
-        self.both = both
+        self.both, self.film_peclet = both, film_peclet
         rows, columns = (n - 1 for n in grid.shape)
         fine = min(columns, 2 * rows if grid.mirror else rows) >= COARSENED_FROM
         self.stride = 2 if fine and rows % 2 == 0 and columns % 2 == 0 else 1
@@ -180,7 +184,10 @@ class Solids:
             else:
                 misfits[number] = wanted - self._coarse(walls[number])
         if any(misfit is not None for misfit in misfits):
-            changes = self._coupled(STIFFER / self._coarse(film), misfits)
+            still = 1.0 / self._coarse(film)
+            changes = self._coupled(
+                STIFFER * np.sqrt(still**2 + FLOWING * self.film_peclet), misfits
+            )
             for number, change in changes.items():
                 walls[number][:] += self._fine(change)
 
