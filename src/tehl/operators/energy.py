@@ -17,6 +17,9 @@ from tehl.typing import Array
 GHOSTS = energy.GHOSTS
 FAR_FILM = 1e3
 """Film of the rows that only fill the last block of columns: it hardly warms."""
+STIFFER, FLOWING = 2.0, 10.0
+"""Conductance of the film: over that of its oil at rest, for a warmer film makes less heat as well;
+and what the flow of a thick film adds to its square, over the Peclet number."""
 MEANS = {"generalised": 0, "mean": 1, "mean-all": 2}
 
 
@@ -95,7 +98,6 @@ class FilmState:
             scales,
             film.sides,
             self.flux_unit,
-            film_peclet=self.model.terms.peclet,
             finest=finest,
         )
         modes = len(self.surfaces[0].decay)
@@ -188,8 +190,10 @@ class FilmState:
     def update_surfaces(self) -> None:
         """Let the surfaces follow the heat that flows into them, as far as no line source does."""
         if self.model.terms.heat:
-            film = self.view("h") / self.view("conductivity")
-            self.solids.update(film, self.walls, self.fluxes)
+            still = self.view("conductivity") / self.view("h")
+            moving = FLOWING * self.model.terms.peclet
+            conductance = STIFFER * np.sqrt(still**2 + moving)
+            self.solids.update(conductance, self.walls, self.fluxes)
 
 
 def padded_rows(grid: Grid) -> int:

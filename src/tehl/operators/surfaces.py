@@ -27,9 +27,6 @@ LEAST_LINE = 2.0
 """Solid Peclet number from which a line source is marched: below, it has little of the full one."""
 COARSENED_FROM = 128
 """Intervals from which the full source is summed on every second node: its field is smooth."""
-STIFFER, FLOWING = 2.0, 10.0
-"""Conductance of the film: over that of its oil at rest, for a warmer film makes less heat as well;
-and what the flow of a thick film adds to its square, over the Peclet number."""
 TOLERANCE, ITERATIONS = 0.02, 30
 """Of the coupled surface temperatures after each sweep; the next sweep improves them again."""
 
@@ -118,8 +115,6 @@ class Solids:
         The solids.
     flux_unit : float
         One unit of the dimensionless flux [W/m^2/K].
-    film_peclet : float
-        Peclet number of the film [-].
     finest : bool
         Sum the full source also of surfaces that march a line source.
     """
@@ -132,10 +127,9 @@ class Solids:
         both: tuple[Side, Side],
         flux_unit: float,
         *,
-        film_peclet: float,
         finest: bool,
     ) -> None:
-        self.both, self.film_peclet = both, film_peclet
+        self.both = both
         rows, columns = (n - 1 for n in grid.shape)
         fine = min(columns, 2 * rows if grid.mirror else rows) >= COARSENED_FROM
         self.stride = 2 if fine and rows % 2 == 0 and columns % 2 == 0 else 1
@@ -161,13 +155,15 @@ class Solids:
         first, second = ("full" if source else "line" for source in self.sources)
         return first, second
 
-    def update(self, film: Array, walls: tuple[Array, Array], fluxes: tuple[Array, Array]) -> None:
+    def update(
+        self, conductance: Array, walls: tuple[Array, Array], fluxes: tuple[Array, Array]
+    ) -> None:
         """Bring the given parts of the surface temperatures up to date, in place.
 
         Parameters
         ----------
-        film : (nx, ny) array
-            Film over conductivity ratio: what separates the surfaces.
+        conductance : (nx, ny) array
+            Dimensionless, of the film between the surfaces.
         walls : pair of (nx, ny) array
             Temperature of each surface less what its line source does [K].
         fluxes : pair of (nx, ny) array
@@ -184,10 +180,7 @@ class Solids:
             else:
                 misfits[number] = wanted - self._coarse(walls[number])
         if any(misfit is not None for misfit in misfits):
-            still = 1.0 / self._coarse(film)
-            changes = self._coupled(
-                STIFFER * np.sqrt(still**2 + FLOWING * self.film_peclet), misfits
-            )
+            changes = self._coupled(self._coarse(conductance), misfits)
             for number, change in changes.items():
                 walls[number][:] += self._fine(change)
 

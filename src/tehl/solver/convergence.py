@@ -10,6 +10,9 @@ LEAST_CYCLES = 2
 SAFETY = 2.0
 """Factor on the discretisation error where three grids show its order: the coarser ones are not
 iterated to the end."""
+SHARED = 0.25
+"""Least part of the change of the central film that a minimum is uncertain by: two coarse grids may
+agree on a thin minimum by chance."""
 LARGEST_LOAD_ERROR = 1e-3
 """Load error at which the film is taken for balanced; it changes by a tenth of this, relatively."""
 LARGEST_CHANGE = 0.2
@@ -104,12 +107,15 @@ def stalled(now: GridTrace) -> bool:
 
 def error_estimate(traces: list[GridTrace], order: int) -> ErrorEstimate:
     """Return relative errors of the film on the last of two or more grids, for a wedge order."""
-    parts = []
+    parts: list[tuple[float, float]] = []
+    changes: list[float] = []
     for name in ("central", "minimum"):
         sequence = [getattr(trace, name) for trace in traces[-3:]]
         value = abs(sequence[-1].values[-1]) or 1.0
         values = [trace.values[-1] for trace in sequence]
         bar = discretisation_bar(values) if order > 1 else first_order_bar(values)
+        changes.append(abs(values[-1] - values[-2]))
+        bar = max(bar, SHARED * changes[0])
         parts.append((bar / value, sequence[-1].iteration_error() / value))
     return ErrorEstimate(
         discretisation_central=parts[0][0],

@@ -4,16 +4,24 @@ import numpy as np
 
 from tehl.domain import domain_error, needed_points
 from tehl.grid import Grid
+from tehl.operators.energy import FilmState
 from tehl.options import Domain
 from tehl.result import ErrorEstimate, Result, Status
 from tehl.scaling import Groups
 from tehl.solver.level import Level
 from tehl.solver.multigrid import Multigrid
+from tehl.solver.outputs import heat_balance
+from tehl.solver.thermal import FilmCoupling
 
 LARGEST_BAR = 0.5
 """Relative discretisation error of the film beyond which a grid is called too coarse."""
 LARGEST_DOMAIN_ERROR = 0.1
 """Estimated part of the central film beyond which a domain is called too small."""
+LARGEST_COOLING = 5.0
+"""How much colder than by adiabatic expansion of all that enters a film may get [K]."""
+LARGEST_MISSING_HEAT = 0.3
+"""Part of the heat that may be missing: in pure rolling, where there is little of it, the backflow in
+the inlet keeps some for long."""
 STARVED = 0.9
 """Film over fully flooded film below which an edge is called too close."""
 
@@ -40,10 +48,51 @@ def verdict(run: Multigrid, cycled_out: bool, errors: ErrorEstimate | None) -> S
         return _too_coarse(level.grid, groups, errors.discretisation_minimum)
     if cycled_out:
         return _not_reached(run)
+    if isinstance(run.coupling, FilmCoupling) and run.coupling.state is not None:
+        heated = _heat_status(run.coupling.state)
+        if not heated.converged:
+            return heated
     left_out = domain_error(groups, level.grid.domain)
     if left_out > LARGEST_DOMAIN_ERROR:
         return _domain_too_small(groups, left_out)
     return edge_status(level.grid, groups, run.traces[-1].central.values[-1])
+
+
+def _heat_status(state: FilmState) -> Status:
+    """Judge the temperatures: finite, nowhere far below what enters, and their heat in balance."""
+    temperature = state.temperature
+    entering = min(state.scales.temperature, *(side.bulk for side in state.sides))
+    missing = heat_balance(state).error if state.model.terms.heat else 0.0
+    if not np.isfinite(temperature).all():
+        message = "The temperature of the film is not finite."
+    elif temperature.min() < entering - LARGEST_COOLING - _adiabatic_cooling(state):
+        message = (
+            f"The film gets {entering - temperature.min():.3g} K colder than all that enters it, "
+            "which expansion does not explain."
+        )
+    elif abs(missing) > LARGEST_MISSING_HEAT:
+        message = f"The heat of the film does not balance: {100 * missing:.3g} % of it is missing."
+    else:
+        return Status(kind="converged")
+    return Status(
+        kind="not_converged",
+        cause="heat_not_balanced",
+        message=message,
+        hint="Take more nodes (numerics.points) or more layers (thermal.layers), or less sliding.",
+    )
+
+
+def _adiabatic_cooling(state: FilmState) -> float:
+    """Return by how much oil cools that expands from the Hertz pressure and conducts no heat [K]."""
+    terms, density, inlet = (
+        state.model.terms,
+        state.problem.lubricant.density,
+        state.scales.temperature,
+    )
+    if not terms.peclet > 0:
+        return 0.0
+    expansion = 1.0 - density.ambient(inlet + 1.0) / density.ambient(inlet)
+    return expansion * inlet * terms.compression / terms.peclet
 
 
 def diverged(run: Multigrid) -> Status:
