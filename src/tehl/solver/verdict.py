@@ -20,8 +20,8 @@ LARGEST_DOMAIN_ERROR = 0.1
 LARGEST_COOLING = 5.0
 """How much colder than by adiabatic expansion of all that enters a film may get [K]."""
 LARGEST_MISSING_HEAT = 0.3
-"""Part of the heat that may be missing: in pure rolling, where there is little of it, the backflow in
-the inlet keeps some for long."""
+"""Part of the heat that may be missing: in pure rolling, where there is little of it, the backflow
+in the inlet keeps some for long."""
 STARVED = 0.9
 """Film over fully flooded film below which an edge is called too close."""
 
@@ -48,18 +48,24 @@ def verdict(run: Multigrid, cycled_out: bool, errors: ErrorEstimate | None) -> S
         return _too_coarse(level.grid, groups, errors.discretisation_minimum)
     if cycled_out:
         return _not_reached(run)
-    if isinstance(run.coupling, FilmCoupling) and run.coupling.state is not None:
-        heated = _heat_status(run.coupling.state)
-        if not heated.converged:
-            return heated
+    heated = _heat_status(run)
+    return _domain_status(run) if heated.converged else heated
+
+
+def _domain_status(run: Multigrid) -> Status:
+    """Judge the domain: whether it is large enough, and leaves the contact flooded."""
+    level, groups = run.finest, run.groups
     left_out = domain_error(groups, level.grid.domain)
     if left_out > LARGEST_DOMAIN_ERROR:
         return _domain_too_small(groups, left_out)
     return edge_status(level.grid, groups, run.traces[-1].central.values[-1])
 
 
-def _heat_status(state: FilmState) -> Status:
+def _heat_status(run: Multigrid) -> Status:
     """Judge the temperatures: finite, nowhere far below what enters, and their heat in balance."""
+    if not isinstance(run.coupling, FilmCoupling) or run.coupling.state is None:
+        return Status(kind="converged")
+    state = run.coupling.state
     temperature = state.temperature
     entering = min(state.scales.temperature, *(side.bulk for side in state.sides))
     missing = heat_balance(state).error if state.model.terms.heat else 0.0
