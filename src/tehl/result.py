@@ -180,10 +180,15 @@ class HeatBalance:
 
     @property
     def error(self) -> float:
-        """What is missing, over the sum of the powers that heat the film [-]."""
-        missing = self.shear + self.compression
-        missing -= self.surface_1 + self.surface_2 + self.carried_out
-        return missing / ((abs(self.shear) + abs(self.compression)) or 1.0)
+        """What is missing, over the heat that is turned over [-].
+
+        That is what shear and compression make, or what goes through surfaces and oil if that is
+        more, as between bodies that are not as warm as the oil.
+        """
+        made = self.shear + self.compression
+        parts = (self.surface_1, self.surface_2, self.carried_out)
+        turned_over = max(abs(self.shear) + abs(self.compression), sum(map(abs, parts)))
+        return (made - sum(parts)) / (turned_over or 1.0)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

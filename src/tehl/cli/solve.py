@@ -11,6 +11,9 @@ if TYPE_CHECKING:
     from tehl.problem import ContactProblem
     from tehl.result import Result
 
+COMPARED_TO = 1e-4
+"""Tolerance of two runs whose difference counts."""
+
 
 def solve(  # noqa: PLR0913, PLR0917 (the options of the command)
     case: Annotated[Path, typer.Argument(help="Case file.", show_default=False)],
@@ -52,6 +55,8 @@ def solve(  # noqa: PLR0913, PLR0917 (the options of the command)
     _check_output(target, case, plot)
     check_memory(options, problem)
     twin = _twin(problem) if with_isothermal else None
+    if twin is not None and options.accuracy != "tight":  # small differences need settled films
+        options = options.model_copy(update={"accuracy": "tight", "tolerance": COMPARED_TO})
     result, failure = _run(problem, options, certify=certify, quiet=quiet)
     if as_json:
         result = _with_work(result)

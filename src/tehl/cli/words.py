@@ -9,6 +9,9 @@ if TYPE_CHECKING:
     from tehl.post.thermal_effect import ThermalEffect
     from tehl.result import Result
 
+UNUSUAL_BALANCE = 0.05
+"""Part of the heat that may be missing without a remark."""
+
 
 def headline(result: "Result") -> str:
     """Return title and outcome in one line."""
@@ -59,8 +62,18 @@ def _heat(result: "Result") -> Iterator[tuple[str, str]]:
         + _bar(result, "film_rise_max", 1.0, "K"),
     )
     first, second = found.surface_1_rise_max, found.surface_2_rise_max
-    yield "surfaces", f"rise {first:.4g} K and {second:.4g} K at most (surface 1 and 2)"
-    yield "heat balance", f"error {100 * heat.balance.error:.2g} %"
+    yield (
+        "surfaces",
+        f"rise {first:.4g} K and {second:.4g} K at most over the oil (surface 1 and 2)",
+    )
+    error = heat.balance.error
+    doubt = "   (more than usual: the inlet is not settled)" if abs(error) > UNUSUAL_BALANCE else ""
+    yield "heat balance", f"error {100 * error:.2g} %{doubt}"
+
+
+def _clean(value: float) -> str:
+    """Return a number in words, rounding errors as zero."""
+    return "0" if abs(value) < 1e-12 else f"{value:.4g}"
 
 
 def _traction(result: "Result") -> Iterator[tuple[str, str]]:
@@ -69,7 +82,7 @@ def _traction(result: "Result") -> Iterator[tuple[str, str]]:
         return
     yield (
         "traction",
-        f"{found.surface_1:.4g} on surface 1, {found.mid_film:.4g} at mid-film, "
+        f"{found.surface_1:.4g} on surface 1, {_clean(found.mid_film)} at mid-film, "
         f"{found.surface_2:.4g} on surface 2"
         + _bar(result, "traction_mid_film", 1.0, "at mid-film"),
     )

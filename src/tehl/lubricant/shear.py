@@ -17,6 +17,8 @@ from tehl.units import NonNegativeStress, Stress, StressSlope
 if TYPE_CHECKING:
     from tehl.typing import Array
 
+LEAST_EYRING = 1e4
+"""Eyring stress [Pa] below which a unit has been forgotten."""
 LEAST_LIMIT = 1e5
 """Least limiting stress [Pa], so that oil at ambient pressure is not without friction."""
 LARGEST_RATE = 1e8
@@ -89,6 +91,14 @@ class Eyring(BaseModel):
 
     law: Literal["eyring"] = "eyring"
     stress: Stress
+
+    @model_validator(mode="after")
+    def _must_be_that_of_an_oil(self) -> Self:
+        if self.stress < LEAST_EYRING:
+            raise ValueError(
+                f'has stress = {self.stress:g} Pa, but oils begin to thin at some MPa: write "5 MPa"'
+            )
+        return self
 
     @property
     def is_newtonian(self) -> bool:

@@ -56,7 +56,9 @@ def shear_stress_map(result: Result) -> Figure:
     lines = axes.contour(x, y, stress, levels=levels, colors="black", linewidths=0.6)
     entrainment_arrow(axes)
     legend_above(axes)
-    bar = picture.colorbar(mesh, cax=colour_axes(axes), label="shear stress at mid-film [MPa]")
+    bar = picture.colorbar(
+        mesh, cax=colour_axes(axes), label="size of the shear stress at mid-film [MPa]"
+    )
     if levels.size:
         bar.add_lines(lines)
     bar.set_ticks([0.0, *levels])

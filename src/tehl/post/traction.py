@@ -12,7 +12,7 @@ import numpy as np
 from tehl.result import Result
 from tehl.typing import Array
 
-LARGEST_CREDIBLE = 0.12
+LARGEST_CREDIBLE = 0.1
 """Traction coefficient that oils reach at most; a Newtonian film knows no such limit."""
 
 
@@ -60,7 +60,7 @@ class Traction:
 
     @property
     def credible(self) -> bool:
-        """Whether an oil can bear so much: no more than 0.12 at mid-film."""
+        """Whether an oil can bear so much: no more than 0.1 at mid-film."""
         return abs(self.mid_film) <= LARGEST_CREDIBLE
 
     @property

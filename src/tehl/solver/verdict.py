@@ -89,7 +89,7 @@ def _heat_status(run: Multigrid) -> Status:
 
 
 def _adiabatic_cooling(state: FilmState) -> float:
-    """Return by how much oil cools that expands from the Hertz pressure and conducts no heat [K]."""
+    """Return by how much oil cools that expands from p_h and conducts no heat [K]."""
     terms, density, inlet = (
         state.model.terms,
         state.problem.lubricant.density,
