@@ -96,7 +96,7 @@ class Eyring(BaseModel):
     def _must_be_that_of_an_oil(self) -> Self:
         if self.stress < LEAST_EYRING:
             raise ValueError(
-                f'has stress = {self.stress:g} Pa, but oils begin to thin at some MPa: write "5 MPa"'
+                f'has stress = {self.stress:g} Pa, but oils thin from some MPa on: write "5 MPa"'
             )
         return self
 
