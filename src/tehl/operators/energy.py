@@ -17,6 +17,9 @@ from tehl.typing import Array
 GHOSTS = energy.GHOSTS
 FAR_FILM = 1e3
 """Film of the rows that only fill the last block of columns: it hardly warms."""
+MIXED = 20.0
+"""Peclet number of the film times H^2 beyond which a thick film conducts as if it were mixed: far
+out in the inlet, where the nodes across it could not show the layers at the walls."""
 STIFFER, FLOWING = 2.0, 10.0
 """Conductance of the film: over that of its oil at rest, for a warmer film makes less heat as well;
 and what the flow of a thick film adds to its square, over the Peclet number."""
@@ -70,7 +73,9 @@ class FilmState:
         nx, ny = grid.nx, padded_rows(grid)
         shape = (nx, ny)
         temperature = np.full((nx + 2 * GHOSTS, nodes, ny + 2 * GHOSTS), scales.temperature)
-        temperature[:, 0], temperature[:, -1] = heat.bulk_1, heat.bulk_2
+        # a thin film at rest: steps at the walls would give fluxes that no later sweep takes back
+        across = heat.bulk_1 + (heat.bulk_2 - heat.bulk_1) * film.across.zeta
+        temperature[GHOSTS:-GHOSTS, :, GHOSTS:-GHOSTS] = across[None, :, None]
         others = {
             name: np.zeros(shape)
             for name in energy.Fields._fields
@@ -156,6 +161,8 @@ class FilmState:
         fields.stress[:] = stress_unit(scales) / lubricant.shear.stress_scale(si)
         if self.model.terms.heat:
             fields.conductivity[:] = lubricant.conductivity_at(si) / self.ambient_conductivity
+            mixed = self.model.terms.peclet / MIXED * fields.h**2
+            fields.conductivity[:] *= np.maximum(mixed, 1.0)
             ambient = lubricant.ambient_heat_capacity or 1.0
             fields.capacity[:] = lubricant.heat_capacity_at(si) / ambient
 
