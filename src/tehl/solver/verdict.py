@@ -90,14 +90,11 @@ def _heat_status(run: Multigrid) -> Status:
 
 def _adiabatic_cooling(state: FilmState) -> float:
     """Return by how much oil cools that expands from p_h and conducts no heat [K]."""
-    terms, density, inlet = (
-        state.model.terms,
-        state.problem.lubricant.density,
-        state.scales.temperature,
-    )
+    terms, inlet = state.model.terms, state.scales.temperature
     if not terms.peclet > 0:
         return 0.0
-    expansion = 1.0 - density.ambient(inlet + 1.0) / density.ambient(inlet)
+    ambient = state.problem.lubricant.density.ambient
+    expansion = 1.0 - ambient(inlet + 1.0) / ambient(inlet)
     return expansion * inlet * terms.compression / terms.peclet
 
 
