@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tehl.domain import domain_error, needed_points
+from tehl.domain import domain_error
 from tehl.grid import Grid
 from tehl.operators.energy import FilmState
 from tehl.options import Domain
@@ -11,6 +11,7 @@ from tehl.scaling import Groups
 from tehl.solver.level import Level
 from tehl.solver.multigrid import Multigrid
 from tehl.solver.outputs import heat_balance
+from tehl.solver.suspects import Suspect, grid_hint, suspect
 from tehl.solver.thermal import FilmCoupling
 
 LARGEST_BAR = 0.5
@@ -99,17 +100,28 @@ def _adiabatic_cooling(state: FilmState) -> float:
 
 
 def diverged(run: Multigrid) -> Status:
-    """Return the status of a run that produced values that are not finite."""
+    """Return the status of a run that ran away, with its likely cause if one is conspicuous."""
     grid, groups = run.finest.grid, run.groups
-    return Status(
-        kind="diverged",
-        cause="diverged",
-        message=(
-            f"The iteration diverged on {grid.nx} x {grid.ny} nodes at M = {groups.M:.4g}, "
-            f"L = {groups.L:.4g}."
-        ),
-        hint=_smoother_hint(run) or f"Take {_grid_hint(grid, groups)}.",
+    what = (
+        f"The iteration diverged on {grid.nx} x {grid.ny} nodes at M = {groups.M:.4g}, "
+        f"L = {groups.L:.4g}."
     )
+    found, other = _suspect(run), _smoother_hint(run)
+    if found is None:
+        hint = other or (
+            f"Nothing about the case is conspicuous: take {grid_hint(grid, groups)}, or come "
+            "nearer in steps, from less load, less sliding or a thicker film."
+        )
+        return Status(kind="diverged", cause="diverged", message=what, hint=hint)
+    message = f"{what} A likely cause: {found.message}"
+    return Status(kind="diverged", cause=found.cause, message=message, hint=other or found.hint)
+
+
+def _suspect(run: Multigrid) -> Suspect | None:
+    """Return what is conspicuous about a run that fails."""
+    film = run.coupling.film if isinstance(run.coupling, FilmCoupling) else None
+    contact = None if film is None else (film.problem, film.scales)
+    return suspect(run.finest.grid, run.groups, contact)
 
 
 def _smoother_hint(run: Multigrid) -> str:
@@ -132,7 +144,7 @@ def _film_not_positive(level: Level, groups: Groups) -> Status:
             f"The discrete film is not positive on {grid.nx} x {grid.ny} nodes: "
             f"smallest H = {level.film.h.min():.3g}; this grid is too coarse for the film."
         ),
-        hint=f"Take {_grid_hint(grid, groups)}.",
+        hint=f"Take {grid_hint(grid, groups)}.",
     )
 
 
@@ -144,7 +156,7 @@ def _too_coarse(grid: Grid, groups: Groups, error: float) -> Status:
             f"The grid of {grid.nx} x {grid.ny} nodes is too coarse for the film, which "
             f"may be wrong by {100 * error:.0f} %."
         ),
-        hint=f"Take {_grid_hint(grid, groups)}.",
+        hint=f"Take {grid_hint(grid, groups)}.",
     )
 
 
@@ -155,12 +167,6 @@ def too_coarse(result: Result, error: float) -> Status:
     return _too_coarse(
         Grid(nx=x.size, ny=y.size, domain=domain, mirror=False), result.groups, error
     )
-
-
-def _grid_hint(grid: Grid, groups: Groups) -> str:
-    """Name the grid that is needed: the proposed one, at least twice as fine as this one."""
-    nodes = max(needed_points(groups), 2 * max(grid.nx, grid.ny) - 1)
-    return f"numerics.points = {nodes}"
 
 
 def _not_reached(run: Multigrid) -> Status:
@@ -177,18 +183,18 @@ def _not_reached(run: Multigrid) -> Status:
         if run.options.accuracy == "tight"
         else "the film still changes by more than a third of its discretisation error"
     )
+    message = (
+        f"After {len(reports)} cycles on {last.points[0]} x {last.points[1]} nodes the "
+        f"{worst[0]} is {worst[1]:.1e}; {wanted}."
+    )
+    if not stalled:
+        hint = "Raise numerics.max_cycles."
+        return Status(kind="not_converged", cause="too_few_cycles", message=message, hint=hint)
+    found, hint = _suspect(run), f"Take {grid_hint(run.finest.grid, run.groups)}."
+    if found is not None:
+        message, hint = f"{message} A likely cause: {found.message}", found.hint
     return Status(
-        kind="stalled" if stalled else "not_converged",
-        cause="stalled" if stalled else "too_few_cycles",
-        message=(
-            f"After {len(reports)} cycles on {last.points[0]} x {last.points[1]} nodes the "
-            f"{worst[0]} is {worst[1]:.1e}; {wanted}."
-        ),
-        hint=(
-            _smoother_hint(run) or f"Take {_grid_hint(run.finest.grid, run.groups)}."
-            if stalled
-            else "Raise numerics.max_cycles."
-        ),
+        kind="stalled", cause="stalled", message=message, hint=_smoother_hint(run) or hint
     )
 
 

@@ -1,0 +1,82 @@
+"""What is said of an iteration that ran away or stalled."""
+
+import pytest
+
+from tehl.grid import Grid
+from tehl.operators.flow import flow_table
+from tehl.options import Domain, Options
+from tehl.problem import ContactProblem
+from tehl.scaling import groups, scales
+from tehl.solver.multigrid import Multigrid
+from tehl.solver.smoother import BROAD
+from tehl.solver.steady import coupling_of, finest_grid
+from tehl.solver.suspects import Suspect, suspect
+from tehl.solver.verdict import diverged
+from tests.reference import heated_contact, moes_contact
+
+DOMAIN = Domain(x=(-4.5, 1.5), y=(-3.0, 3.0))
+
+
+def changed(part: str, **values: object) -> ContactProblem:
+    """The heated reference contact with some keys of a table replaced."""
+    case = heated_contact(0.5).model_dump(exclude_none=True)
+    case[part].update(values)
+    return ContactProblem.model_validate(case)
+
+
+def of(problem: ContactProblem, points: int = 257, *, coupled: bool = True) -> Suspect | None:
+    grid = Grid(nx=points, ny=points, domain=DOMAIN, mirror=False)
+    return suspect(grid, groups(problem), (problem, scales(problem)) if coupled else None)
+
+
+@pytest.mark.parametrize(("kelvin", "way"), [(60.0, "above"), (-60.0, "below")])
+def test_a_body_far_from_the_temperature_of_the_oil_is_blamed(kelvin, way):
+    found = of(changed("surface_2", temperature=313.0 + kelvin))
+    assert found is not None
+    assert found.cause == "body_temperature"
+    assert f"60 K {way}" in found.message
+    assert "surface_2" in found.hint
+
+
+def test_a_body_near_the_oil_is_not_blamed():
+    assert of(changed("surface_1", temperature=333.0)) is None
+
+
+def test_a_stress_that_no_oil_bears_is_blamed_on_the_shear_law():
+    sliding = changed("contact", hertz_pressure=2e9, slide_roll_ratio=1.9)
+    found = of(sliding, 1025)
+    assert found is not None
+    assert found.cause == "shear_stress"
+    assert "lubricant.shear" in found.hint
+
+
+def test_a_film_thinner_than_the_grid_names_the_grid():
+    found = of(moes_contact(1000.0, 5.0), 65, coupled=False)
+    assert found is not None
+    assert found.cause == "film_below_grid"
+    assert "numerics.points = " in found.hint
+
+
+def test_all_that_is_conspicuous_is_told_and_the_first_names_it():
+    found = of(changed("surface_1", temperature=240.0), 33)
+    assert found is not None
+    assert found.cause == "body_temperature"
+    assert "numerics.points = " in found.hint
+
+
+def test_the_status_of_a_run_away_tells_the_likely_cause_and_its_own_hint():
+    problem, options = changed("surface_1", temperature=240.0), Options(points=65)
+    numbers, units = groups(problem), scales(problem)
+    run = Multigrid(
+        finest_grid(options, numbers),
+        numbers,
+        flow_table(problem, units, numbers),
+        options,
+        BROAD,
+        coupling_of(problem, options, ramped=False),
+    )
+    status = diverged(run)
+    assert (status.kind, status.cause) == ("diverged", "body_temperature")
+    assert "65 x 65" in status.message
+    assert "below the oil at the inlet" in status.message
+    assert "within 40 K" in status.hint
