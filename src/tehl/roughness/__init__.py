@@ -1,5 +1,22 @@
 """Heights of the surfaces, positive outwards."""
 
+from tehl.roughness.features import Bump, Dimple, Ridge
+from tehl.roughness.protocol import Roughness
 from tehl.roughness.smooth import Smooth
+from tehl.roughness.superposition import Superposition
+from tehl.roughness.surface import AnyRoughness, Sum
+from tehl.roughness.waves import Crossed, Wave, WaveVector
 
-__all__ = ["Smooth"]
+__all__ = [
+    "AnyRoughness",
+    "Bump",
+    "Crossed",
+    "Dimple",
+    "Ridge",
+    "Roughness",
+    "Smooth",
+    "Sum",
+    "Superposition",
+    "Wave",
+    "WaveVector",
+]

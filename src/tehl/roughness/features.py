@@ -1,0 +1,203 @@
+"""Features that stand alone: ridges and grooves, bumps and dents, dimples."""
+
+import math
+from typing import TYPE_CHECKING, Literal, Self
+
+from pydantic import model_validator
+
+from tehl.roughness.protocol import RoughnessModel, along_axes, check_gentle, direction
+from tehl.roughness.quantities import Position, SignedHeight, Wavelength
+from tehl.units import Angle
+
+if TYPE_CHECKING:
+    from tehl.typing import Array
+
+_TEN = math.log(10.0)
+
+
+class FeatureModel(RoughnessModel):
+    """Base of the features.
+
+    Attributes
+    ----------
+    amplitude : float
+        Height of the top over the surface around it [m]; negative goes into the body.
+    x, y : float
+        Where the feature stands at time zero [m]; the origin is the centre of the contact.
+    """
+
+    amplitude: SignedHeight
+    x: Position = 0.0
+    y: Position = 0.0
+
+    @property
+    def is_smooth(self) -> bool:
+        """Return whether the feature has no height."""
+        return self.amplitude == 0
+
+    @property
+    def rms(self) -> float:
+        """Return zero [m]: one feature has no share of an infinite surface."""
+        return 0.0
+
+    def _squared_distance(self, x: "Array", y: "Array") -> "Array":
+        return (x - self.x) ** 2 + (y - self.y) ** 2
+
+
+class RoundModel(FeatureModel):
+    """Base of the features that look alike from all sides."""
+
+    @property
+    def is_even_in_y(self) -> bool:
+        """Return whether the feature stands on the line y = 0."""
+        return self.y == 0 or self.is_smooth
+
+    @property
+    def shortest_wavelengths(self) -> tuple[float, float]:
+        """Return the shortest wavelength, along x and along y [m]."""
+        return self.shortest_wavelength, self.shortest_wavelength
+
+    @property
+    def shortest_wavelength(self) -> float:
+        """Return the wavelength that a mesh must carry to see the feature [m]."""
+        raise NotImplementedError
+
+
+class Bump(RoundModel):
+    r"""A Gaussian bump, or with a negative amplitude a dent.
+
+    .. math:: s = A \exp\{-r^2/r_0^2\}
+
+    Attributes
+    ----------
+    amplitude : float
+        A [m]; negative is a dent.
+    radius : float
+        r_0 [m], where the height is A/e.
+    x, y : float
+        Where it stands at time zero [m].
+    """
+
+    type: Literal["bump"] = "bump"
+    radius: Wavelength
+
+    @model_validator(mode="after")
+    def _must_be_gentle(self) -> Self:
+        check_gentle(self.amplitude, radius=self.radius)
+        return self
+
+    @property
+    def shortest_wavelength(self) -> float:
+        """Return four radii [m]; the spectrum has fallen to half of its height there."""
+        return math.inf if self.is_smooth else 4.0 * self.radius
+
+    def _at_rest(self, x: "Array", y: "Array") -> "Array":
+        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
+
+        return self.amplitude * np.exp(-self._squared_distance(x, y) / self.radius**2)
+
+
+class Dimple(RoundModel):
+    r"""The dimple of the micro-texture literature, a cosine that dies out.
+
+    .. math:: s = A \, 10^{-10 (r/w)^2} \cos(2\pi r/w)
+
+    With a negative amplitude it is a dent with the rim of displaced material around it. It goes
+    through zero at w/4, and less than a third of a percent is left beyond w/2.
+
+    Attributes
+    ----------
+    amplitude : float
+        A [m]; negative is a dent.
+    width : float
+        w [m].
+    x, y : float
+        Where it stands at time zero [m].
+
+    References
+    ----------
+    .. [1] C. H. Venner and A. A. Lubrecht, Multilevel Methods in Lubrication, Elsevier, 2000.
+    .. [2] L. Mourier, D. Mazuyer, A. A. Lubrecht and C. Donnet, Tribology International 39 (2006),
+       1745-1756.
+    """
+
+    type: Literal["dimple"] = "dimple"
+    width: Wavelength
+
+    @model_validator(mode="after")
+    def _must_be_gentle(self) -> Self:
+        check_gentle(self.amplitude, width=self.width)
+        return self
+
+    @property
+    def shortest_wavelength(self) -> float:
+        """Return half of the width [m]; the spectrum has fallen to half of its height there."""
+        return math.inf if self.is_smooth else 0.5 * self.width
+
+    def _at_rest(self, x: "Array", y: "Array") -> "Array":
+        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
+
+        square = self._squared_distance(x, y) / self.width**2
+        fading = np.exp(-10.0 * _TEN * square)
+        return self.amplitude * fading * np.cos(2.0 * np.pi * np.sqrt(square))
+
+
+class Ridge(FeatureModel):
+    r"""A straight ridge, or with a negative amplitude a groove or scratch.
+
+    .. math:: s = A \exp\{-(2t/b)^2\} \quad\text{or}\quad
+              s = \frac{A}{2} \left(1 + \cos\frac{2\pi t}{b}\right),\ |t| < b/2
+
+    with t the distance from the crest.
+
+    Attributes
+    ----------
+    amplitude : float
+        A [m]; negative is a groove.
+    width : float
+        b [m]: of a Gaussian profile where the height is A/e, of a cosine from foot to foot.
+    angle : float
+        [rad]; zero is transverse: the crest along y, across the entrainment.
+    profile : {"gaussian", "cosine"}
+        Shape across the crest.
+    x, y : float
+        A point of the crest at time zero [m].
+    """
+
+    type: Literal["ridge"] = "ridge"
+    width: Wavelength
+    angle: Angle = 0.0
+    profile: Literal["gaussian", "cosine"] = "gaussian"
+
+    @model_validator(mode="after")
+    def _must_be_gentle(self) -> Self:
+        check_gentle(self.amplitude, width=self.width)
+        return self
+
+    @property
+    def is_even_in_y(self) -> bool:
+        """Return whether the ridge runs across, or along the line y = 0."""
+        cosine, sine = direction(self.angle)
+        return sine == 0 or (cosine == 0 and self.y == 0) or self.is_smooth
+
+    @property
+    def shortest_wavelengths(self) -> tuple[float, float]:
+        """Return the shortest wavelengths along x and along y [m]."""
+        return along_axes(self.shortest_wavelength, self.angle)
+
+    @property
+    def shortest_wavelength(self) -> float:
+        """Return the wavelength across the crest that a mesh must carry [m]."""
+        if self.is_smooth:
+            return math.inf
+        return 2.0 * self.width if self.profile == "gaussian" else self.width
+
+    def _at_rest(self, x: "Array", y: "Array") -> "Array":
+        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
+
+        cosine, sine = direction(self.angle)
+        across = ((x - self.x) * cosine - (y - self.y) * sine) / self.width
+        if self.profile == "gaussian":
+            return self.amplitude * np.exp(-((2.0 * across) ** 2))
+        inside = np.minimum(np.abs(across), 0.5)
+        return 0.5 * self.amplitude * (1.0 + np.cos(2.0 * np.pi * inside))
