@@ -10,7 +10,7 @@ from typing import Annotated, Any
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
 from tehl.errors import InputError
-from tehl.units import Conductivity, Density, HeatCapacity, Pressure
+from tehl.units import Pressure, SolidConductivity, SolidDensity, SolidHeatCapacity
 
 
 class Solid(BaseModel):
@@ -32,9 +32,9 @@ class Solid(BaseModel):
 
     young_modulus: Pressure
     poisson_ratio: Annotated[float, Field(gt=-1.0, le=0.5, allow_inf_nan=False, examples=[0.3])]
-    density: Density | None = None
-    heat_capacity: HeatCapacity | None = None
-    conductivity: Conductivity | None = None
+    density: SolidDensity | None = None
+    heat_capacity: SolidHeatCapacity | None = None
+    conductivity: SolidConductivity | None = None
     name: str | None = None
     source: str | None = None
 

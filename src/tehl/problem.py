@@ -19,8 +19,10 @@ from tehl.motion import Motion
 from tehl.roughness import Smooth
 from tehl.units import (
     CONDUCTIVITY,
-    DENSITY,
     HEAT_CAPACITY,
+    SOLID_CONDUCTIVITY,
+    SOLID_DENSITY,
+    SOLID_HEAT_CAPACITY,
     Force,
     Height,
     Length,
@@ -38,7 +40,11 @@ _NOT_YET = {
     "roughness": "roughness is not available in this version: only rms_roughness may be stated",
 }
 
-_THERMAL = {"density": DENSITY, "heat_capacity": HEAT_CAPACITY, "conductivity": CONDUCTIVITY}
+_THERMAL = {
+    "density": SOLID_DENSITY,
+    "heat_capacity": SOLID_HEAT_CAPACITY,
+    "conductivity": SOLID_CONDUCTIVITY,
+}
 _COLDEST, _HOTTEST = 200.0, 800.0  # [K], of an oil or a solid
 
 

@@ -223,7 +223,8 @@ class Quantity:
         if self.unit == "-" and unit in _ANGLE_UNITS:
             raise ValueError(f"has the unit of an angle ({unit}): {self._wanted}")
         if dimension != self.dimension:
-            raise ValueError(f"has the unit of {_kind(dimension, unit)}: {self._wanted}")
+            way = _WAYS.get((dimension, self.dimension), "")
+            raise ValueError(f"has the unit of {_kind(dimension, unit)}: {way}{self._wanted}")
         return factor
 
     def _unitless(self, number: float) -> float:
@@ -311,7 +312,15 @@ SIGNED_PER_TEMPERATURE = Quantity(
 )
 DENSITY = Quantity(name="a density", unit="kg/m^3", example='"890 kg/m^3"')
 CONDUCTIVITY = Quantity(name="a thermal conductivity", unit="W/m/K", example='"0.14 W/m/K"')
-HEAT_CAPACITY = Quantity(name="a heat capacity", unit="J/kg/K", example='"2000 J/kg/K"')
+HEAT_CAPACITY = Quantity(name="a heat capacity per mass", unit="J/kg/K", example='"2000 J/kg/K"')
+VOLUME_HEAT_CAPACITY = Quantity(
+    name="a heat capacity per volume", unit="J/m^3/K", example='"1.8 MJ/m^3/K"'
+)
+SOLID_DENSITY = Quantity(name="a density", unit="kg/m^3", example='"7850 kg/m^3"')
+SOLID_CONDUCTIVITY = Quantity(name="a thermal conductivity", unit="W/m/K", example='"46 W/m/K"')
+SOLID_HEAT_CAPACITY = Quantity(
+    name="a heat capacity per mass", unit="J/kg/K", example='"470 J/kg/K"'
+)
 ANGLE = Quantity(name="an angle", unit="rad", example='"45 deg"', sign="any")
 NUMBER = Quantity(name="a plain number", unit="-", example="0.25", sign="any")
 POSITIVE_NUMBER = Quantity(name="a plain number", unit="-", example="100")
@@ -331,7 +340,15 @@ _KINDS = (
     DENSITY,
     CONDUCTIVITY,
     HEAT_CAPACITY,
+    VOLUME_HEAT_CAPACITY,
 )
+_WAYS = {
+    (KINEMATIC_VISCOSITY.dimension, VISCOSITY.dimension): "multiply it by the density, and ",
+    (VOLUME_HEAT_CAPACITY.dimension, HEAT_CAPACITY.dimension): (
+        'divide it by the density (also with basis = "volume"), and '
+    ),
+}
+"""How one gets from what was given to what is wanted, by their dimensions."""
 
 Length = Annotated[float, LENGTH]
 Height = Annotated[float, HEIGHT]
@@ -351,6 +368,9 @@ SignedTemperatureCoefficient = Annotated[float, SIGNED_PER_TEMPERATURE]
 Density = Annotated[float, DENSITY]
 Conductivity = Annotated[float, CONDUCTIVITY]
 HeatCapacity = Annotated[float, HEAT_CAPACITY]
+SolidDensity = Annotated[float, SOLID_DENSITY]
+SolidConductivity = Annotated[float, SOLID_CONDUCTIVITY]
+SolidHeatCapacity = Annotated[float, SOLID_HEAT_CAPACITY]
 Angle = Annotated[float, ANGLE]
 Number = Annotated[float, NUMBER]
 PositiveNumber = Annotated[float, POSITIVE_NUMBER]

@@ -97,11 +97,11 @@ MISTAKES = [
     ("lubricant.temperature=350", "lubricant.viscosity holds at 313.15 K", "add gamma"),
     ("lubricant.temperature='80 bar'", "lubricant.temperature", '"40 degC"'),
     ("thermal=3", "thermal = 3", "must be a table"),
-    ("thermal={}", "surface_2.material.density is missing", '"890 kg/m^3"'),
+    ("thermal={}", "surface_2.material.density is missing", '"7850 kg/m^3"'),
     ("thermal.temperature=40", "thermal.temperature = 40 K", '"40 degC"'),
     ("thermal.layer=21", "thermal.layer is no key", "did you mean layers?"),
-    ("thermal.layers=4", "thermal.layers = 4", "at least 5"),
-    ("thermal.layers=99", "thermal.layers = 99", "at most 81"),
+    ("thermal.layers=4", "thermal.layers = 4", "a whole number from 5 to 81"),
+    ("thermal.layers=99", "thermal.layers = 99", "from 5 to 81"),
     ("thermal.layers='9'", 'thermal.layers = "9"', "whole number"),
     ("thermal.reynolds='average'", "thermal.reynolds", "known are generalised, mean"),
     ("thermal.scheme='cheby'", "thermal.scheme", "did you mean chebyshev?"),
@@ -154,7 +154,7 @@ MISTAKES = [
     ("numerics=3", "numerics = 3", "must be a table"),
     ("numerics.points=100", "numerics.points = 100", "cannot be coarsened"),
     ("numerics.points=[129, 100]", "numerics.points = 100", "cannot be coarsened"),
-    ("numerics.points=5", "numerics.points = 5", "at least 17"),
+    ("numerics.points=5", "numerics.points = 5", "a whole number from 17 to 16385"),
     ("numerics.points=[129]", "numerics.points = [129]", "two numbers"),
     ("numerics.points=[129, 129, 129]", "numerics.points", "must have at most 2"),
     ("numerics.points=many", "numerics.points", "whole number"),
@@ -168,7 +168,7 @@ MISTAKES = [
     ("numerics.domain=wide", 'numerics.domain = "wide"', "or a table with x and y"),
     ("numerics.points=true", "numerics.points = true", "is not a number"),
     ("numerics.max_cycles=true", "numerics.max_cycles = true", "is not a number"),
-    (f"numerics.points={'9' * 400}", "numerics.points = 999", "at most 16385"),
+    (f"numerics.points={'9' * 400}", "numerics.points = 999", "from 17 to 16385"),
     (f"contact.load={'9' * 5000}", "contact.load", '"80 N"'),
     (f"contact.load=80 {'(' * 5000}", "contact.load", "unreadable unit"),
     (f"contact.load={'[' * 100}{']' * 100}", "contact.load = [[[", '"80 N"'),
@@ -190,7 +190,21 @@ MISTAKES = [
     ("numerics.domain=big", 'numerics.domain = "big"', "auto"),
     ("numerics.cycle='Z'", "numerics.cycle", "known are V, W, F"),
     ("numerics.wedge_order=3", "numerics.wedge_order = 3", "known are 1, 2"),
-    ("numerics.tolerance=2", "numerics.tolerance = 2", "less than 1"),
+    ("numerics.tolerance=2", "numerics.tolerance = 2", "greater than 0 and less than 1"),
+    ("numerics.points=[257, 5]", "numerics.points.1 = 5", "from 17 to 16385"),
+    ("numerics.points=33.5", "numerics.points = 33.5", "a whole number from 17 to 16385"),
+    ("numerics.max_cycles=0", "numerics.max_cycles = 0", "from 1 to 1000"),
+    ("thermal={layers=7.5}", "thermal.layers = 7.5", "a whole number from 5 to 81"),
+    ("lubricant.heat_capacity=1.8 MJ/m^3/K", "per volume (MJ/m^3/K)", "divide it by the density"),
+    (
+        'lubricant.heat_capacity={ value = "1.8 MJ/m^3/K", slope = 0, basis = "volume" }',
+        "lubricant.heat_capacity.value",
+        '(also with basis = "volume"), and give a heat capacity per mass such as "2000 J/kg/K"',
+    ),
+    ("lubricant.conductivity={value=0.14}", "conductivity.slope is missing", '"1.4 1/GPa"'),
+    ("lubricant.viscosity.eta_0=68 cSt", "kinematic viscosity", "multiply it by the density"),
+    ("lubricant.shear=carreau", "must be a table", '{ law = "carreau", modulus = "5 MPa"'),
+    ("lubricant.shear={law=carreau}", "is no table", "double quotes"),
 ]
 
 
@@ -358,3 +372,31 @@ def test_the_suggested_grids_can_be_coarsened(nodes: int):
     assert fewer <= nodes < more
     assert coarsenings(fewer) > 0
     assert coarsenings(more) > 0
+
+
+# A table, the word that changes its law, and the table that the sentence proposes.
+CHANGED_LAWS = [
+    ('shear={ law = "eyring", stress = "5 MPa" }', "shear.law=carreau"),
+    ('shear={ law = "carreau", modulus = "5 MPa", exponent = 0.4 }', "shear.law=limiting"),
+    ('shear={ law = "limiting", slope = 0.05 }', "shear.law=newtonian"),
+    ('density={ law = "dowson-higginson", rho_0 = 890, beta = "7e-4 1/K" }', "density.law=tait"),
+    ('viscosity={ law = "roelands", eta_0 = 0.04, z = 0.6 }', "viscosity.law=walther"),
+    ('viscosity={ law = "roelands", eta_0 = 0.04, alpha = 2e-8 }', "viscosity.law=constant"),
+]
+
+
+@pytest.mark.parametrize(("table", "law"), CHANGED_LAWS)
+def test_a_law_in_the_table_of_another_is_told_which_table_to_write(
+    case: Path, table: str, law: str
+):
+    changes = [f"lubricant.{table}", f"lubricant.{law}"]
+    with pytest.raises(InputError, match="is no key of law = ") as caught:
+        read_case_and_options(case, changes)
+    _, _, proposed = str(caught.value).partition("replace the whole table, ")
+    read_case_and_options(case, [changes[0], proposed])
+
+
+def test_a_key_near_one_of_the_stated_law_is_suggested_from_that_law(case: Path):
+    changes = ['lubricant.shear={ law = "carreau", modulus = "5 MPa", exponnt = 0.4 }']
+    with pytest.raises(InputError, match="did you mean exponent"):
+        read_case_and_options(case, changes)

@@ -9,7 +9,7 @@ import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, TypeVar, get_args, get_origin
+from typing import Any, TypeVar, get_args
 
 from pydantic import BaseModel, ValidationError, create_model
 from pydantic.fields import FieldInfo
@@ -17,6 +17,8 @@ from pydantic_core import ErrorDetails
 
 from tehl.errors import InputError
 from tehl.io.atomic import shortened
+from tehl.io.field_words import example, limits_in_words
+from tehl.io.law_words import chosen_law, not_of_this_law, tags, whole_table
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.units import Quantity
@@ -115,6 +117,7 @@ def describe(error: ValidationError, data: object, prefix: str = "") -> str:
         value=first["input"],
         error=first,
         models=_models_at(model, path),
+        table=_table_at(data, path[:-1]),
     )
     return _TELL.get(first["type"], _pydantic_words)(mistake)
 
@@ -250,11 +253,20 @@ def _models_at(root: type[BaseModel], path: tuple[str | int, ...]) -> list[list[
     return steps
 
 
+def _table_at(data: object, path: tuple[str | int, ...]) -> Any:
+    """Return what was given at ``path``."""
+    node: Any = data
+    for part in path:
+        node = node[part]
+    return node
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class _Mistake:
     """One mistake with what is known about it.
 
-    ``models`` are the possible models of each step of ``path``, the root first.
+    ``models`` are the possible models of each step of ``path``, the root first; ``table`` is what
+    was given where the last key of ``path`` belongs.
     """
 
     name: str
@@ -262,10 +274,15 @@ class _Mistake:
     value: object
     error: ErrorDetails
     models: list[list[type[BaseModel]]]
+    table: Any
 
 
 def _unknown_key(mistake: _Mistake) -> str:
-    keys, word = _keys(mistake.models[-2], mistake.path), str(mistake.path[-1])
+    law = chosen_law(mistake.models[-2], mistake.table)
+    keys = _keys([law] if law else mistake.models[-2], mistake.path)
+    word = str(mistake.path[-1])
+    if law is not None and any(word in model.model_fields for model in mistake.models[-2]):
+        return not_of_this_law(mistake.name, law, mistake.table)
     near = difflib.get_close_matches(word, keys, n=1, cutoff=0.55)
     alike = [path for path in _key_paths() if path.split(".")[-1] == word]
     elsewhere = alike if not near and len(word) > 1 else []
@@ -277,14 +294,14 @@ def _missing(mistake: _Mistake) -> str:
     if isinstance(mistake.path[-1], int):
         name = mistake.name.rpartition(".")[0]
         return f"{name} = {_shown(mistake.value)} must have two numbers"
-    laws = [tag for model in mistake.models[-1] for tag in _tags(model)]
+    laws = [tag for model in mistake.models[-1] for tag in tags(model)]
     if laws:
         return f"{mistake.name} is missing: give a table with law, one of {', '.join(laws)}"
     return f"{mistake.name} is missing{_wanted(_field(mistake.models[-2], mistake.path[-1]))}"
 
 
 def _law_missing(mistake: _Mistake) -> str:
-    known = [tag for model in mistake.models[-1] for tag in _tags(model)]
+    known = [tag for model in mistake.models[-1] for tag in tags(model)]
     return f"{mistake.name}.law is missing: known are {', '.join(known)}"
 
 
@@ -319,12 +336,39 @@ def _own_words(mistake: _Mistake) -> str:
 def _pydantic_words(mistake: _Mistake) -> str:
     words = mistake.error["msg"]
     if mistake.error["type"] in _NO_TABLE:
-        words = "must be a table"
+        words = _no_table(mistake)
+    elif mistake.error["type"] in _OUTSIDE:
+        words = _within(mistake) or words
     for theirs, ours in _WORDING:
         words = re.sub(theirs, ours, words)
     return f"{mistake.name} = {_shown(mistake.value)} {words}"
 
 
+def _no_table(mistake: _Mistake) -> str:
+    if str(mistake.value).startswith("{"):
+        return f"is no table: {_QUOTES}"
+    laws = (model for model in mistake.models[-1] if mistake.value in tags(model))
+    return "must be a table" + "".join(f" such as {whole_table(law, {})}" for law in laws)
+
+
+def _within(mistake: _Mistake) -> str:
+    """Return between which numbers a value must lie, nothing when there are no limits."""
+    steps = len(mistake.path) - (1 if isinstance(mistake.path[-1], int) else 0)
+    field = _field(mistake.models[steps - 1], mistake.path[steps - 1])
+    return "" if field is None else limits_in_words(field)
+
+
+_OUTSIDE = (
+    "greater_than",
+    "greater_than_equal",
+    "less_than",
+    "less_than_equal",
+    "int_type",
+    "int_parsing",
+    "int_from_float",
+    "int_parsing_size",
+)
+_QUOTES = 'its words and quantities need double quotes, { law = "eyring", stress = "5 MPa" }'
 _WORDING = (
     ("Input should be", "must be"),
     ("Tuple should have", "must have"),
@@ -351,12 +395,6 @@ def _keys(models: list[type[BaseModel]], path: tuple[str | int, ...]) -> list[st
     return [*dict.fromkeys(keys), *([_NUMERICS] if len(path) == 1 and "contact" in keys else [])]
 
 
-def _tags(model: type[BaseModel]) -> tuple[str, ...]:
-    law = model.model_fields.get("law")
-    annotation = law.annotation if law else None
-    return get_args(annotation) if get_origin(annotation) is Literal else ()
-
-
 def _key_paths() -> Iterator[str]:
     """Yield the path of every key of a case."""
     yield from _paths_below(ContactProblem, "")
@@ -376,12 +414,10 @@ def _suggest(word: str, known: list[str]) -> str:
 
 
 def _wanted(field: FieldInfo | None) -> str:
-    if field is None:
+    if field is None or (shown := example(field)) is None:
         return ""
-    for note in field.metadata:
-        if isinstance(note, Quantity):
-            return f": give {note.name} such as {note.example}"
-    return f": give a number such as {field.examples[0]}" if field.examples else ""
+    kinds = [note.name for note in field.metadata if isinstance(note, Quantity)]
+    return f": give {kinds[0] if kinds else 'a number'} such as {shown}"
 
 
 def _key(part: str | int) -> str:

@@ -13,6 +13,7 @@ from pydantic import (
     BeforeValidator,
     ConfigDict,
     Discriminator,
+    Field,
     Tag,
     ValidationInfo,
     field_validator,
@@ -47,7 +48,7 @@ class ConductivityOfPressure(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     value: Conductivity
-    slope: PressureCoefficient
+    slope: Annotated[PressureCoefficient, Field(examples=["1.4 1/GPa"])]
     saturation: PressureCoefficient = 0.0
 
 
@@ -72,7 +73,7 @@ class HeatCapacityOfPressure(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     value: HeatCapacity
-    slope: PressureCoefficient
+    slope: Annotated[PressureCoefficient, Field(examples=["0.5 1/GPa"])]
     saturation: PressureCoefficient = 0.0
     basis: Literal["mass", "volume"] = "mass"
 

@@ -250,7 +250,7 @@ class Limiting(BaseModel):
 
     law: Literal["limiting"] = "limiting"
     stress: NonNegativeStress = 0.0
-    slope: StressSlope = 0.0
+    slope: Annotated[StressSlope, Field(examples=[0.04])] = 0.0
 
     @model_validator(mode="after")
     def _must_have_a_limit(self) -> Self:

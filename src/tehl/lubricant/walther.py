@@ -1,9 +1,9 @@
 """The viscosity of a data sheet: two kinematic viscosities and a pressure coefficient."""
 
 import math
-from typing import TYPE_CHECKING, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, model_validator
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from tehl.errors import InputError
 from tehl.lubricant.exponent import (
@@ -69,7 +69,7 @@ class Walther(BaseModel):
 
     law: Literal["walther"] = "walther"
     nu_40: KinematicViscosity
-    nu_100: KinematicViscosity
+    nu_100: Annotated[KinematicViscosity, Field(examples=["9 mm^2/s"])]
     alpha: PressureCoefficient | None = None
     z: Ratio | None = None
     alpha_temperature: Temperature = _FORTY
