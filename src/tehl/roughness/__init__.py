@@ -2,6 +2,7 @@
 
 from tehl.roughness.features import Bump, Dimple, Ridge
 from tehl.roughness.protocol import Roughness
+from tehl.roughness.random_surface import Random
 from tehl.roughness.smooth import Smooth
 from tehl.roughness.superposition import Superposition
 from tehl.roughness.surface import AnyRoughness, Sum
@@ -12,6 +13,7 @@ __all__ = [
     "Bump",
     "Crossed",
     "Dimple",
+    "Random",
     "Ridge",
     "Roughness",
     "Smooth",

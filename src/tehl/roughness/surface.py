@@ -8,6 +8,7 @@ from pydantic_core import CoreSchema, core_schema
 
 from tehl.roughness.features import Bump, Dimple, Ridge
 from tehl.roughness.protocol import Roughness, RoughnessModel
+from tehl.roughness.random_surface import Random
 from tehl.roughness.smooth import Smooth
 from tehl.roughness.superposition import Superposition
 from tehl.roughness.waves import Crossed, Wave
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     from tehl.typing import Array
 
 OneRoughness = Annotated[
-    Smooth | Wave | Crossed | Ridge | Bump | Dimple, Field(discriminator="type")
+    Smooth | Wave | Crossed | Ridge | Bump | Dimple | Random, Field(discriminator="type")
 ]
 """A surface that is no sum."""
 
@@ -93,7 +94,7 @@ def _as_table(value: Any) -> Any:
 
 
 AnyRoughness = Annotated[
-    Smooth | Wave | Crossed | Ridge | Bump | Dimple | Sum,
+    Smooth | Wave | Crossed | Ridge | Bump | Dimple | Random | Sum,
     Field(discriminator="type"),
     _ListIsSum(),
 ]

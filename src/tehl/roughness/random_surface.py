@@ -1,0 +1,247 @@
+"""Random surfaces by their spectrum."""
+
+import math
+from functools import lru_cache
+from typing import TYPE_CHECKING, Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from tehl.roughness.protocol import Roughness, RoughnessModel, check_gentle, direction
+from tehl.roughness.quantities import Wavelength
+from tehl.roughness.sampled import Sampled
+from tehl.roughness.tile import Tile
+from tehl.units import Angle, Height, Number, PositiveNumber
+
+if TYPE_CHECKING:
+    from tehl.typing import Array
+
+_PER_CORRELATION_LENGTH = 4
+_PER_CUT_OFF = 4
+_POINTS = 1024
+_WIDE, _WIDEST = 16.0, 64.0
+_LENGTHS = ("correlation_length", "roll_off")
+_LAST_SEED = 2**53
+_LARGEST_KURTOSIS = 20.0
+
+Seed = Annotated[int, Field(strict=True, ge=0, le=_LAST_SEED)]
+
+
+class Random(RoughnessModel):
+    r"""A random surface with a given spectrum.
+
+    The power spectral density is, with wave numbers :math:`q_u` and :math:`q_v` along and across
+    the lay,
+
+    .. math:: C \sim \exp\{-(q_u^2 l_u^2 + q_v^2 l_v^2)/4\} \quad\text{("gaussian")}
+
+    so that the autocorrelation is :math:`\exp\{-(u/l_u)^2 - (v/l_v)^2\}`, or with
+    :math:`\kappa^2 = (q_u^2 \lambda_u^2 + q_v^2 \lambda_v^2)/4\pi^2`
+
+    .. math:: C \sim 1,\ \kappa < 1; \quad \kappa^{-2(1+H)},\ \kappa \ge 1 \quad
+              \text{("self-affine")}
+
+    up to the cut-off. The surface has a lattice of its own and repeats: it is the same on whatever
+    mesh it is sampled.
+
+    Attributes
+    ----------
+    rms : float
+        Sq [m]; a period of the surface has it exactly.
+    spectrum : {"gaussian", "self-affine"}
+        Shape of the spectrum.
+    correlation_length, correlation_length_y : float or None
+        l_u and l_v [m], where the autocorrelation is 1/e, along x and y when ``angle`` is zero;
+        only the first is needed for equal ones. Gaussian spectra only.
+    roll_off, roll_off_y : float or None
+        lambda_u and lambda_v [m], above which the spectrum is flat; only the first is needed for
+        equal ones. Self-affine spectra only.
+    cut_off : float or None
+        Shortest wavelength [m], at least ``roll_off/64``; ``roll_off/16`` if left out. It is as
+        much shorter along v as ``roll_off_y`` is.
+    hurst : float
+        Hurst exponent H [-].
+    angle : float
+        By which the lay is turned [rad], as the crests of a wave are.
+    seed : int
+        The same number gives the same surface.
+    skewness, kurtosis : float
+        Ssk and Sku [-]; 0 and 3 is a Gaussian distribution of heights. Others are made by a
+        monotone transformation [1]_ of a Gaussian surface; a period meets them to 1e-3. They
+        change the autocorrelation a little.
+
+    References
+    ----------
+    .. [1] M. C. Jones and A. Pewsey, Sinh-arcsinh distributions, Biometrika 96 (2009), 761-780.
+    .. [2] T. D. B. Jacobs, T. Junge and L. Pastewka, Quantitative characterization of surface
+       topography using spectral analysis, Surf. Topogr.: Metrol. Prop. 5 (2017), 013001.
+    """
+
+    type: Literal["random"] = "random"
+    rms: Height
+    spectrum: Literal["gaussian", "self-affine"] = "gaussian"
+    correlation_length: Wavelength | None = None
+    correlation_length_y: Wavelength | None = None
+    roll_off: Wavelength | None = None
+    roll_off_y: Wavelength | None = None
+    cut_off: Wavelength | None = None
+    hurst: PositiveNumber = 0.8
+    angle: Angle = 0.0
+    seed: Seed = 0
+    skewness: Number = 0.0
+    kurtosis: PositiveNumber = 3.0
+
+    @model_validator(mode="after")
+    def _must_have_a_spectrum(self) -> Self:
+        needed, foreign = _LENGTHS if self.spectrum == "gaussian" else reversed(_LENGTHS)
+        others = [foreign, f"{foreign}_y", *(["cut_off"] if self.spectrum == "gaussian" else [])]
+        for key in others:
+            if getattr(self, key) is not None:
+                raise ValueError(
+                    f'{key} says nothing of the spectrum "{self.spectrum}", which takes {needed}'
+                )
+        if getattr(self, needed) is None:
+            raise ValueError(f'{needed} is missing: give a length such as "20 um"')
+        check_gentle(self.rms, **dict(zip((needed, f"{needed}_y"), self._lengths, strict=True)))
+        self._check_self_affine()
+        return self
+
+    @model_validator(mode="after")
+    def _moments_must_be_possible(self) -> Self:
+        least = 2.1 + 1.5 * self.skewness**2
+        if not least <= self.kurtosis <= _LARGEST_KURTOSIS:
+            raise ValueError(
+                f"kurtosis = {self.kurtosis:g} with skewness = {self.skewness:g} cannot be made: "
+                f"it must lie between {least:.3g} and {_LARGEST_KURTOSIS:g}"
+            )
+        return self
+
+    def _check_self_affine(self) -> None:
+        if not self.hurst <= 1.0:
+            raise ValueError(f"hurst = {self.hurst:g} must not be larger than 1")
+        if not 1.0 <= self._band <= _WIDEST:
+            raise ValueError(
+                f"cut_off = {self.cut_off:g} m must lie between roll_off/{_WIDEST:g} and roll_off "
+                f"= {self.roll_off:g} m"
+            )
+
+    @property
+    def _lengths(self) -> tuple[float, float]:
+        """Return correlation or roll-off lengths along u and v [m]."""
+        pairs = (
+            (self.correlation_length, self.correlation_length_y),
+            (self.roll_off, self.roll_off_y),
+        )
+        along, across = pairs[0] if self.spectrum == "gaussian" else pairs[1]
+        return along or 0.0, across or along or 0.0
+
+    @property
+    def _band(self) -> float:
+        """Return the ratio of roll-off and cut-off, one for a Gaussian spectrum."""
+        if self.spectrum == "gaussian" or self.roll_off is None:
+            return 1.0
+        return self.roll_off / self.cut_off if self.cut_off is not None else _WIDE
+
+    @property
+    def _layout(self) -> tuple[int, tuple[float, float]]:
+        """Return points per direction and pixels [m] of the lattice."""
+        finest = _PER_CORRELATION_LENGTH if self.spectrum == "gaussian" else _PER_CUT_OFF
+        along, across = (length / self._band / finest for length in self._lengths)
+        return (_POINTS if self._band <= _WIDE else 2 * _POINTS), (along, across)
+
+    @property
+    def period(self) -> tuple[float, float]:
+        """Return the distances after which the surface repeats, along u and v [m]."""
+        points, (along, across) = self._layout
+        return points * along, points * across
+
+    @property
+    def is_smooth(self) -> bool:
+        """Return whether Sq is zero."""
+        return self.rms == 0
+
+    @property
+    def is_even_in_y(self) -> bool:
+        """Return False, unless the surface is smooth."""
+        return self.is_smooth
+
+    @property
+    def shortest_wavelengths(self) -> tuple[float, float]:
+        """Return the wavelengths 2 pi Sq / Sq' along x and along y [m].
+
+        Sq' is the root mean square slope of the spectrum in that direction. Of a Gaussian spectrum
+        it is 4.4 correlation lengths; half of the variance has shorter waves.
+        """
+        along, across = self._slopes
+        cosine, sine = (value**2 for value in direction(self.angle))
+        return (
+            _length(along * cosine + across * sine),
+            _length(along * sine + across * cosine),
+        )
+
+    @property
+    def shortest_wavelength(self) -> float:
+        """Return the wavelength 2 pi Sq / Sq' where it is shortest [m]."""
+        return _length(max(self._slopes))
+
+    @property
+    def _slopes(self) -> tuple[float, float]:
+        """Return mean square slopes over the mean square height, along u and v [1/m^2]."""
+        if self.is_smooth:
+            return 0.0, 0.0
+        first, second = self._lengths
+        if self.spectrum == "gaussian":
+            return 2.0 / first**2, 2.0 / second**2
+        band, hurst = self._band, self.hurst
+        steep = 2.0 - 2.0 * hurst
+        tail = math.log(band) if steep < 1e-6 else (band**steep - 1.0) / steep
+        variance = 0.5 + (1.0 - band ** (-2.0 * hurst)) / (2.0 * hurst)
+        square = 0.5 * (0.25 + tail) / variance * (2.0 * math.pi) ** 2
+        return square / first**2, square / second**2
+
+    @property
+    def _sampled(self) -> Sampled:
+        return Sampled(_tile(self))
+
+    def _at_rest(self, x: "Array", y: "Array") -> "Array":
+        return _tile(self).at(x, y)
+
+    def resolved_on(self, dx: float, dy: float) -> Roughness:
+        """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
+        return self._sampled.resolved_on(dx, dy)
+
+    def density(self, along: "Array", across: "Array") -> "Array":
+        """Return the power spectral density, one at zero, by wave numbers along u and v [rad/m]."""
+        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
+
+        first, second = self._lengths
+        if self.spectrum == "gaussian":
+            return np.exp(-((along * first) ** 2 + (across * second) ** 2) / 4.0)
+        number = np.hypot(along * first, across * second) / (2.0 * np.pi)
+        falling = np.maximum(number, 1.0) ** (-2.0 * (1.0 + self.hurst))
+        return np.where(number <= self._band, falling, 0.0)
+
+
+def _length(square: float) -> float:
+    return 2.0 * math.pi / math.sqrt(square) if square > 0 else math.inf
+
+
+@lru_cache(maxsize=4)
+def _tile(surface: Random) -> Tile:
+    """Return one period of a random surface."""
+    import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
+    from scipy import fft  # noqa: PLC0415
+
+    points, pixel = surface._layout
+    noise = np.random.default_rng(surface.seed).standard_normal((points, points))
+    along, across = (2.0 * np.pi / step for step in pixel)
+    density = surface.density(
+        along * fft.rfftfreq(points), across * fft.fftfreq(points)[:, np.newaxis]
+    )
+    density[0, 0] = 0.0
+    heights = fft.irfft2(fft.rfft2(noise) * np.sqrt(density), (points, points))
+    heights /= np.sqrt(np.mean(np.square(heights)))
+    if (surface.skewness, surface.kurtosis) != (0.0, 3.0):
+        from tehl.roughness.moments import with_moments  # noqa: PLC0415
+
+        heights = with_moments(heights, surface.skewness, surface.kurtosis)
+    return Tile(heights=surface.rms * heights, pixel=pixel, angle=surface.angle)
