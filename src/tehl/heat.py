@@ -14,6 +14,8 @@ SourceForm = Literal["auto", "line", "full"]
 
 LEAST_LINE_PECLET = 30.0
 """Solid Peclet number from which on the line source is good to one per cent."""
+FAR_BODY = 40.0
+"""Kelvin between a body and the oil at the inlet beyond which a run is seldom orderly."""
 LAYERS: dict[AcrossScheme, int] = {"chebyshev": 9, "uniform": 21}
 """Nodes across the film when the case does not state them."""
 

@@ -2,6 +2,7 @@
 
 import copy
 import json
+import re
 from dataclasses import replace
 from typing import Any
 
@@ -48,6 +49,12 @@ def test_a_roughness_gives_a_lambda_ratio():
     assert case.lambda_ratio == pytest.approx(case.central_film / 0.05e-6)
 
 
+def steel(**odd: float) -> dict[str, float]:
+    """Return the table of a steel with odd numbers in it."""
+    usual = {"density": 7850, "heat_capacity": 470, "conductivity": 46}
+    return {"young_modulus": 2.06e11, "poisson_ratio": 0.3} | usual | odd
+
+
 LINE = {"radius_x": "20 mm", "radius_y": "2 m", "load": "8 kN", "entrainment_speed": "1.5 m/s"}
 ODD = [
     ("contact.load", "20 kN", "Hertz pressure"),
@@ -64,6 +71,17 @@ ODD = [
     ("contact.entrainment_speed", "0.1 mm/s", "continuum"),
     ("numerics.points", 33, "coarse"),
     ("contact", LINE, "line contact"),
+    ("surface_1.material", steel(density=7.8), "surface_1 density is 7.8 kg/m^3"),
+    ("surface_2.material", steel(density=78500), "is 78500 kg/m^3"),
+    ("surface_1.material", steel(heat_capacity=0.47), "is it in kJ/kg/K?"),
+    ("surface_2.material", steel(heat_capacity=120), "surface_2 density times heat_capacity"),
+    ("surface_2.material", steel(conductivity=46000), "surface_2 conductivity is 46000"),
+    ("lubricant", {"name": "mineral-oil", "heat_capacity": 2}, "Most oils have 2000"),
+    (
+        "lubricant",
+        {"name": "mineral-oil", "shear": {"law": "limiting", "stress": "5 MPa"}},
+        "limiting shear stress",
+    ),
     ("numerics.domain", {"x": [-1.5, 1.5], "y": [-3, 3]}, "inlet edge"),
     ("numerics.domain", {"x": [-4.5, 1.01], "y": [-3, 3]}, "outlet edge"),
     ("numerics.domain", {"x": [-4.5, 1.5], "y": [-1.1, 3]}, "side edge"),
@@ -78,6 +96,8 @@ ODD_HEAT = [
     ("lubricant", {"name": "mineral-oil", "conductivity": 14}, "lubricant.conductivity"),
     ("lubricant", {"name": "mineral-oil", "heat_capacity": 2}, "lubricant.heat_capacity"),
     ("contact.load", "120 N", "Eyring"),
+    ("surface_1.temperature", "80 degC", "40 K above the oil at the inlet"),
+    ("surface_2.temperature", "-10 degC", "Beyond 40 K a run may not converge"),
 ]
 
 
@@ -172,3 +192,61 @@ def test_an_ellipse_and_a_liquid_of_constant_viscosity_are_explained():
 )
 def test_lengths_read_well(metres: float, text: str):
     assert length(metres) == text
+
+
+def with_bodies(first: str, second: str, slip: float = 0.5, **contact: object) -> Explanation:
+    """A thermal case with both bodies at given temperatures."""
+    whole = ball_tables()["contact"] | {"slide_roll_ratio": slip} | contact
+    whole = {key: value for key, value in whole.items() if value is not None}
+    bodies = {
+        name: {"material": "steel", "temperature": temperature}
+        for name, temperature in (("surface_1", first), ("surface_2", second))
+    }
+    return explained(contact=whole, **HOT, **bodies)
+
+
+def test_bodies_as_warm_as_the_oil_have_no_effect():
+    assert with_bodies("40 degC", "42 degC").bodies is None
+    assert as_summary(with_bodies("40 degC", "40 degC"))["bodies"] is None
+
+
+def test_the_film_between_warm_bodies_is_that_of_oil_at_their_mean_temperature():
+    case = with_bodies("80 degC", "40 degC")
+    assert case.bodies is not None
+    as_warm = explained(lubricant={"name": "mineral-oil", "temperature": "60 degC"})
+    assert case.bodies.central_film == pytest.approx(as_warm.central_film)
+    assert case.bodies.ratio == pytest.approx(as_warm.central_film / case.central_film)
+    assert case.bodies.ratio < 0.7
+    assert case.needed_points >= explained().needed_points
+    assert json.loads(json.dumps(as_summary(case)))["bodies"]["surface_1"] == pytest.approx(40)
+
+
+def test_a_contact_by_moes_numbers_keeps_load_and_speed_between_warm_bodies():
+    by_moes = {"load": None, "entrainment_speed": None, "moes_load": 100, "moes_speed": 10}
+    case = with_bodies("80 degC", "80 degC", **by_moes)
+    assert case.bodies is not None
+    assert case.bodies.groups.W == pytest.approx(case.groups.W)
+    assert case.bodies.groups.M > case.groups.M
+
+
+def rises(case: Explanation) -> list[float]:
+    """Return the rises that the text shows."""
+    line = next(row for row in as_text(case).splitlines() if "expected rise" in row)
+    return [float(number) for number in re.findall(r"(-?[\d.e+-]+) K", line)]
+
+
+def test_rises_are_over_the_oil_at_the_inlet_without_sliding_too():
+    assert rises(with_bodies("80 degC", "80 degC", slip=0.0)) == pytest.approx([40, 40, 40])
+
+
+def test_hardly_any_sliding_shows_no_zeros():
+    case = explained(contact=ball_tables()["contact"] | {"slide_roll_ratio": 1e-6}, **HOT)
+    assert rises(case) == [0.1]
+    assert "traction" not in as_text(case)
+
+
+def test_grid_row_and_question_agree_on_what_the_nodes_are_for():
+    case = explained("numerics.points", 65)
+    question = next(text for text in case.questions if "coarse" in text)
+    assert f"{case.needed_points} nodes keep the central film within about 3 %" in question
+    assert f"{case.needed_points} give the central film to about 3 %" in as_text(case)

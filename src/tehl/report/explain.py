@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from tehl.domain import needed_points, recommended_domain
+from tehl.domain import AIM, needed_points, recommended_domain
 from tehl.film_formulas import (
     FilmEstimate,
     InletFactor,
@@ -20,6 +20,7 @@ from tehl.heat import source_form
 from tehl.memory import available_memory, needed_memory
 from tehl.options import Domain, Options, coarsenable
 from tehl.problem import ContactProblem
+from tehl.report.bodies import BodyEffect, body_effect
 from tehl.report.heating import ExpectedHeat, expected_heat
 from tehl.report.suspicion import questions
 from tehl.scaling import Groups, Scales, groups, scales
@@ -28,6 +29,8 @@ SECONDS_PER_NODE = 1.5e-6
 SECONDS_COUPLED = 6e-6
 """Time of a solve by node of the finest full grid on one core of a usual machine; a guide."""
 
+LEAST_RISE, LEAST_TRACTION = 0.1, 1e-4
+"""Rise [K] and traction coefficient below which a number would say nothing."""
 UNTITLED = "Lubricated point contact"
 """Title of a case that has none."""
 
@@ -60,6 +63,8 @@ class Explanation:
         The same by each formula.
     thermal_loading : float or None
         eta_0 b u_m^2 / k [-]; None where a property is not stated.
+    bodies : BodyEffect or None
+        What bodies do to the film that are not as warm as the oil; None if they are.
     heat : ExpectedHeat or None
         Temperature rises to expect; None where the solids state too little.
     sources : tuple of ({"line", "full"} or None)
@@ -69,7 +74,7 @@ class Explanation:
     recommended_domain : Domain
         From the load.
     needed_points : int
-        Nodes per direction below which the film is not resolved.
+        Nodes per direction that give the central film to about three percent.
     memory, seconds : float
         Estimated peak memory [byte] and time [s] of a solve.
     questions : tuple of str
@@ -88,6 +93,7 @@ class Explanation:
     inlet_heating: float | None
     inlet_factors: tuple[InletFactor, ...]
     thermal_loading: float | None
+    bodies: BodyEffect | None
     heat: ExpectedHeat | None
     sources: tuple[str | None, str | None]
     domain: Domain
@@ -105,7 +111,8 @@ def explain(problem: ContactProblem, options: Options) -> Explanation:
     wanted = recommended_domain(case_groups)
     nodes = options.shape[0] * options.shape[1]
     rough, (first, second) = problem.rms_roughness, problem.solid_peclet
-    heat = expected_heat(problem)
+    heat, bodies = expected_heat(problem), body_effect(problem)
+    thinnest = bodies.groups if bodies is not None and bodies.ratio < 1 else case_groups
     return Explanation(
         problem=problem,
         options=options,
@@ -119,11 +126,12 @@ def explain(problem: ContactProblem, options: Options) -> Explanation:
         inlet_heating=inlet_heating_factor(problem),
         inlet_factors=inlet_factors(problem),
         thermal_loading=thermal_loading(problem),
+        bodies=bodies,
         heat=heat,
         sources=(_source(problem, first), _source(problem, second)),
         domain=options.domain if isinstance(options.domain, Domain) else wanted,
         recommended_domain=wanted,
-        needed_points=coarsenable(needed_points(case_groups) - 2)[1],
+        needed_points=coarsenable(needed_points(thinnest) - 2)[1],
         memory=needed_memory(options, problem),
         seconds=(SECONDS_COUPLED if problem.is_coupled else SECONDS_PER_NODE) * nodes,
         questions=questions(problem, options, case_groups, film, heat=heat),
@@ -156,6 +164,7 @@ def as_summary(explanation: Explanation) -> dict[str, Any]:
         "inlet_heating_factor": case.inlet_heating,
         "inlet_factors": [asdict(factor) for factor in case.inlet_factors],
         "thermal_loading": case.thermal_loading,
+        "bodies": None if case.bodies is None else asdict(case.bodies),
         "expected_heat": None if case.heat is None else asdict(case.heat),
         "sources": list(case.sources),
         "thermal": case.problem.thermal is not None,
@@ -236,7 +245,9 @@ def _about_groups(case: Explanation) -> Iterator[str]:
 
 
 def _about_film(case: Explanation) -> Iterator[str]:
-    yield f"{'Film by formulas':<28}{'central':<24}minimum"
+    inlet = case.problem.inlet_temperature - 273.15
+    with_oil = "" if case.bodies is None else f", with oil of {inlet:.4g} degC as it enters"
+    yield f"{'Film by formulas':<28}{'central':<24}minimum{with_oil}"
     for film in case.films:
         central = f"{length(film.central_m)} (H {film.central:.4f})"
         minimum = "-"
@@ -247,8 +258,18 @@ def _about_film(case: Explanation) -> Iterator[str]:
             yield f"      note: {film.minimum_remark}"
         for remark in film.remarks:
             yield f"      outside its range: {remark}"
+    if case.bodies is not None:
+        yield from _about_bodies(case.bodies)
     if case.lambda_ratio is not None:
         yield _row("lambda ratio", f"{case.lambda_ratio:.3g} (central film over joint Rq)")
+
+
+def _about_bodies(bodies: BodyEffect) -> Iterator[str]:
+    yield f"  {'between these bodies':<26}{length(bodies.central_film)}"
+    yield (
+        f"      note: with oil of {bodies.temperature - 273.15:.4g} degC, the mean of both bodies, "
+        f"{bodies.ratio:.2g} times that of Nijenbanning-Venner-Moes"
+    )
 
 
 def _about_heat(case: Explanation) -> Iterator[str]:
@@ -287,18 +308,26 @@ def _about_inlet(case: Explanation) -> Iterator[str]:
 
 
 def _about_rise(case: Explanation) -> Iterator[str]:
-    heat = case.heat
-    if heat is None or not heat.power > 0:
+    heat, bodies = case.heat, case.bodies
+    if heat is None or not (heat.power > 0 or bodies is not None):
         return
-    yield _row(
-        "expected rise",
-        f"mid-film {heat.mid_film:.2g} K",
-        f"surface 1 {heat.surface_1:.2g} K",
-        f"surface 2 {heat.surface_2:.2g} K",
-        "(within a factor of two)",
-    )
+    offsets = (0.0, 0.0) if bodies is None else (bodies.surface_1, bodies.surface_2)
+    rises = (heat.mid_film, heat.surface_1 + offsets[0], heat.surface_2 + offsets[1])
+    if max(map(abs, rises)) < LEAST_RISE:
+        yield _row("expected rise", f"below {LEAST_RISE:g} K: there is hardly any sliding")
+        return
+    names = ("mid-film", "surface 1", "surface 2")
+    shown = (f"{name} {_kelvin(rise)}" for name, rise in zip(names, rises, strict=True))
+    over = "" if bodies is None else "over the oil at the inlet, "
+    yield _row("expected rise", *shown, f"({over}within a factor of two)")
+    if not heat.traction > LEAST_TRACTION:
+        return
     how = "assumed" if heat.assumed else "expected"
     yield _row("traction", f"{heat.traction:.2g} {how}", f"{heat.power:.3g} W")
+
+
+def _kelvin(rise: float) -> str:
+    return f"below {LEAST_RISE:g} K" if abs(rise) < LEAST_RISE else f"{rise:.2g} K"
 
 
 def _about_numerics(case: Explanation) -> Iterator[str]:
@@ -309,7 +338,11 @@ def _about_numerics(case: Explanation) -> Iterator[str]:
     yield _row("domain", f"{_edges(domain)} Hertz half-widths, {how}")
     if how == "stated" and domain != best:
         yield _row("recommended", _edges(best))
-    yield _row("grid", f"{nodes_x} x {nodes_y} nodes", f"at least {case.needed_points} needed")
+    yield _row(
+        "grid",
+        f"{nodes_x} x {nodes_y} nodes",
+        f"{case.needed_points} give the central film to about {100 * AIM:.0f} %",
+    )
     yield _row(
         "memory, time",
         f"about {case.memory / 1e6:.0f} MB{_more_than_there_is(case.memory)}",

@@ -22,6 +22,7 @@ from dataclasses import dataclass
 from tehl.film_formulas import expected_central_film, inlet_heating_factor
 from tehl.heat import FilmEnergy
 from tehl.problem import ContactProblem
+from tehl.report.bodies import body_effect
 from tehl.scaling import groups, scales
 
 ASSUMED_TRACTION = 0.05
@@ -118,8 +119,11 @@ def expected_heat(problem: ContactProblem) -> ExpectedHeat | None:
 
 
 def _film(problem: ContactProblem) -> float:
-    """Return the central film to expect [m], thinned by the heat of the inlet."""
+    """Return the central film to expect [m], as bodies and the heat of the inlet leave it."""
+    effect = body_effect(problem)
     isothermal = expected_central_film(groups(problem)) * scales(problem).film_thickness
+    if effect is not None:
+        isothermal = effect.central_film
     return isothermal * (inlet_heating_factor(problem) or 1.0)
 
 

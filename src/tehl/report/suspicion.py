@@ -2,18 +2,22 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 
-from tehl.domain import NEARLY_RIGID, domain_error, needed_points, recommended_domain
-from tehl.heat import LAYERS, Thermal
-from tehl.lubricant import Roelands, RoelandsExponential, Walther
+from tehl.domain import (
+    AIM,
+    NEARLY_RIGID,
+    domain_error,
+    grid_error,
+    needed_points,
+    recommended_domain,
+)
+from tehl.heat import FAR_BODY, LAYERS, Thermal
 from tehl.options import Domain, Options, coarsenable
 from tehl.problem import ContactProblem
+from tehl.report.bodies import NOTICED, body_effect
 from tehl.report.heating import ExpectedHeat
+from tehl.report.usual import ROUNDING, usual
 from tehl.scaling import Groups
-
-ROUNDING = 1e-9
-"""Part of a limit by which a value may miss it: groups come back from SI with rounding."""
 
 SLIDING = 0.02
 """Slide-roll ratio from which on surfaces count as sliding."""
@@ -25,27 +29,6 @@ FEW_LAYERS = 15
 """Uniform layers below which a temperature profile is not resolved."""
 SLOWEST_LINE = 5.0
 """Solid Peclet number below which a line source is off by more than four per cent."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Usual:
-    """Range in which a quantity usually lies, in ``unit``, and what to think of outside."""
-
-    name: str
-    value: float
-    limits: tuple[float, float]
-    unit: str
-    hint: str
-    hint_above: str = ""
-
-    def question(self) -> str | None:
-        """Return the question, None inside the range."""
-        low, high = self.limits
-        if low * (1.0 - ROUNDING) <= self.value <= high * (1.0 + ROUNDING):
-            return None
-        hint = self.hint_above if self.value > high and self.hint_above else self.hint
-        unit = f" {self.unit}" if self.unit else ""
-        return f"{self.name} is {self.value:.3g}{unit}, usual are {low:g} to {high:g}: {hint}"
 
 
 def questions(
@@ -69,79 +52,16 @@ def questions(
     heat : ExpectedHeat or None
         Temperature rises to expect.
     """
-    unusual = (usual.question() for usual in _usual(problem, groups))
+    effect = body_effect(problem)
+    thinner = effect.groups if effect is not None and effect.ratio < 1 else None
+    unusual = (one.question() for one in usual(problem, groups))
     return (
         *(question for question in unusual if question),
         *_of_film(problem, central_film),
         *_of_sliding(problem),
         *_of_heat(problem, heat),
-        *_of_numerics(options, groups),
+        *_of_numerics(options, groups, thinner),
     )
-
-
-_UNIT = "is the unit right (a bare number is SI)?"
-_MOST_ALPHA = "most oils have 10 to 30"
-_MOST_ETA = "is it in mPa s? Most oils have 0.005 to 1"
-_MOST_Z = "most oils have 0.4 to 0.8, does alpha fit eta_0?"
-_SOFT = "is the contact so soft or so lightly loaded?"
-_YIELDS = "would the solids not yield? Check load, radius and modulus"
-_NO_CONTACT = "is this an elastic contact at all?"
-_FINE = "is the load right? The film needs a very fine grid"
-_HALF_SPACE = "on this scale the solids are no half-spaces"
-_SLENDER = "are radius_x and radius_y in the right order?"
-_NO_POINT = "wider contacts may not converge; a line contact is not computed"
-_KELVIN = "a bare number is in kelvin"
-_RUBBER = f"a polymer or rubber, or {_UNIT}"
-
-
-def _usual(problem: ContactProblem, groups: Groups) -> Iterator[_Usual]:
-    hertz = problem.hertz
-    slender = hertz.half_width_x / problem.radius_x
-    yield _Usual("Hertz pressure", hertz.pressure / 1e9, (0.05, 4), "GPa", _SOFT, _YIELDS)
-    yield _Usual("reduced radius_x", problem.radius_x, (1e-4, 5), "m", _UNIT)
-    yield _Usual("reduced radius_y", problem.radius_y, (1e-4, 5), "m", _UNIT)
-    yield _Usual("entrainment speed", problem.entrainment_speed, (1e-4, 100), "m/s", _UNIT)
-    yield _Usual("a_x / R_x", slender, (0, 0.2), "", _HALF_SPACE)
-    yield _Usual("a_y / a_x", groups.ellipticity, (0.05, 10), "", _SLENDER, _NO_POINT)
-    yield _Usual("Moes M", groups.M, (1, 2000), "", _NO_CONTACT, _FINE)
-    yield _Usual("Moes L", groups.L, (0, 25), "", "are speed and viscosity right?")
-    for name, surface in (("surface_1", problem.surface_1), ("surface_2", problem.surface_2)):
-        modulus = surface.material.young_modulus / 1e9
-        yield _Usual(f"{name} young_modulus", modulus, (1, 1200), "GPa", _RUBBER, _UNIT)
-    yield from _usual_of_oil(problem)
-
-
-def _usual_of_oil(problem: ContactProblem) -> Iterator[_Usual]:
-    viscosity = problem.lubricant.viscosity
-    alpha = problem.pressure_coefficient * 1e9
-    if viscosity.law != "constant":
-        yield _Usual("pressure coefficient alpha", alpha, (5, 40), "1/GPa", _MOST_ALPHA)
-    if isinstance(viscosity, Roelands | RoelandsExponential | Walther):
-        yield _Usual("Roelands z", viscosity.pressure_index, (0.2, 1), "", _MOST_Z)
-    yield _Usual("viscosity eta_0", viscosity.eta_0, (1e-3, 10), "Pa s", _MOST_ETA)
-    yield _Usual("density rho_0", problem.ambient_density, (600, 2000), "kg/m^3", _UNIT)
-    inlet = problem.inlet_temperature
-    yield _Usual("temperature of the oil at the inlet", inlet, (240, 480), "K", _KELVIN)
-    if problem.thermal is not None:
-        yield from _usual_of_heat(problem)
-
-
-def _usual_of_heat(problem: ContactProblem) -> Iterator[_Usual]:
-    oil = problem.lubricant
-    fall = problem.temperature_coefficient
-    yield _Usual(
-        "-d ln eta/dT of the oil", fall, (0.005, 0.12), "1/K", "most oils have 0.02 to 0.06"
-    )
-    conductivity, capacity = oil.ambient_conductivity, oil.ambient_heat_capacity
-    yield _Usual("lubricant.conductivity", conductivity or 0.0, (0.05, 0.7), "W/m/K", _UNIT)
-    yield _Usual("lubricant.heat_capacity", capacity or 0.0, (800, 4300), "J/kg/K", _UNIT)
-    for name, surface in (("surface_1", problem.surface_1), ("surface_2", problem.surface_2)):
-        solid = surface.material
-        yield _Usual(f"{name} conductivity", solid.conductivity or 0, (0.1, 2500), "W/m/K", _UNIT)
-        yield _Usual(
-            f"{name} heat_capacity", solid.heat_capacity or 0, (100, 4300), "J/kg/K", _UNIT
-        )
-        yield _Usual(f"{name} density", solid.density or 0, (800, 23000), "kg/m^3", _UNIT)
 
 
 def _of_film(problem: ContactProblem, central_film: float) -> Iterator[str]:
@@ -190,7 +110,26 @@ def _of_heat(problem: ContactProblem, heat: ExpectedHeat | None) -> Iterator[str
         )
 
 
+def _of_bodies(problem: ContactProblem) -> Iterator[str]:
+    """Ask about bodies that are not as warm as the oil, which no film formula knows of."""
+    effect = body_effect(problem)
+    if effect is None:
+        return
+    for name, offset in (("surface_1", effect.surface_1), ("surface_2", effect.surface_2)):
+        if abs(offset) >= NOTICED:
+            yield (
+                f"{name}.temperature is {abs(offset):.3g} K {'above' if offset > 0 else 'below'} "
+                "the oil at the inlet, and the oil takes it on the way in: is it meant?"
+                + (
+                    f" Beyond {FAR_BODY:g} K a run may not converge"
+                    if abs(offset) > FAR_BODY
+                    else ""
+                )
+            )
+
+
 def _of_thermal(problem: ContactProblem, thermal: Thermal) -> Iterator[str]:
+    yield from _of_bodies(problem)
     if thermal.scheme == "uniform" and thermal.nodes < FEW_LAYERS:
         yield (
             f"thermal.layers = {thermal.nodes} are few for uniform layers: take "
@@ -204,7 +143,8 @@ def _of_thermal(problem: ContactProblem, thermal: Thermal) -> Iterator[str]:
             )
 
 
-def _of_numerics(options: Options, groups: Groups) -> Iterator[str]:
+def _of_numerics(options: Options, groups: Groups, thinner: Groups | None) -> Iterator[str]:
+    """Ask about domain and grid; ``thinner`` are the groups of a film between warm bodies."""
     if isinstance(options.domain, Domain):
         yield from _of_domain(options.domain, recommended_domain(groups))
     elif groups.M < NEARLY_RIGID:
@@ -213,13 +153,20 @@ def _of_numerics(options: Options, groups: Groups) -> Iterator[str]:
             f"M = {groups.M:.3g} is a nearly rigid contact, with part of its load far outside: the "
             f"proposed domain leaves out {_part(left_out)} of the film; --certify measures it"
         )
-    needed = needed_points(groups)
-    if min(options.shape) < needed:
-        _, more = coarsenable(needed - 2)
-        yield (
-            f"numerics.points = {min(options.shape)} is coarse for so thin a film: take {more} or "
-            "more, or expect a larger error bar or no convergence"
-        )
+    yield from _of_grid(options, thinner or groups)
+
+
+def _of_grid(options: Options, groups: Groups) -> Iterator[str]:
+    needed, nodes = needed_points(groups), min(options.shape)
+    if nodes >= needed:
+        return
+    _, more = coarsenable(needed - 2)
+    off = min(grid_error(groups, nodes), 1.0)
+    yield (
+        f"numerics.points = {nodes} is coarse for so thin a film: the central film may be "
+        f"{100 * off:.1g} % off, the minimum several times as much, or the run may not converge; "
+        f"{more} nodes keep the central film within about {100 * AIM:.0f} %"
+    )
 
 
 def _part(part: float) -> str:

@@ -6,12 +6,10 @@ from dataclasses import dataclass
 from tehl.domain import needed_points
 from tehl.film_formulas import expected_central_film
 from tehl.grid import Grid
-from tehl.heat import FilmEnergy
+from tehl.heat import FAR_BODY, FilmEnergy
 from tehl.problem import ContactProblem
 from tehl.scaling import Groups, Scales
 
-LARGEST_OFFSET = 40.0
-"""Kelvin between a body and the oil at the inlet beyond which a run is seldom orderly."""
 LARGEST_TRACTION = 0.1
 """Shear stress over pressure that no oil bears."""
 MEAN_PRESSURE = 2.0 / 3.0
@@ -74,7 +72,7 @@ def _warm_or_cold_body(problem: ContactProblem) -> Iterator[Suspect]:
     bodies = (("surface_1", heat.bulk_1), ("surface_2", heat.bulk_2))
     name, bulk = max(bodies, key=lambda body: abs(body[1] - heat.temperature))
     offset = bulk - heat.temperature
-    if not abs(offset) > LARGEST_OFFSET:
+    if not abs(offset) > FAR_BODY:
         return
     ratio = problem.lubricant.viscosity.ambient(bulk) / problem.ambient_viscosity
     change = f"{_round(ratio)} times" if ratio > 1 else f"1/{_round(1.0 / ratio)} of"
@@ -86,7 +84,7 @@ def _warm_or_cold_body(problem: ContactProblem) -> Iterator[Suspect]:
             "viscosity there."
         ),
         hint=(
-            f"Take a temperature of {name} within {LARGEST_OFFSET:g} K of the oil, or let the oil "
+            f"Take a temperature of {name} within {FAR_BODY:g} K of the oil, or let the oil "
             "enter nearer to it (thermal.temperature): oil that wets a body takes its temperature."
         ),
     )
