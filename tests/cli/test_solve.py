@@ -262,6 +262,7 @@ def test_a_kill_while_writing_leaves_nothing(folder, solver, run, monkeypatch):
     monkeypatch.setattr(store, "_write", killed)
     answer = run("solve", "ball.toml")
     assert answer.code == 143
+    assert "tehl: ended by SIGTERM, no file is left half-written\n" in answer.err
     assert names(folder) == ["ball.toml"]
 
 

@@ -3,7 +3,7 @@
 import signal
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 import typer
 
@@ -16,8 +16,10 @@ _SIGNALS = ("SIGTERM", "SIGHUP")
 @contextmanager
 def ending_cleanly() -> Iterator[None]:
     """Let a signal that ends the program unwind the stack, so that no temporary file stays."""
+    ended: list[int] = []
 
     def end(number: int, _frame: object) -> None:
+        ended.append(number)
         raise SystemExit(128 + number)
 
     before = {}
@@ -28,8 +30,19 @@ def ending_cleanly() -> Iterator[None]:
     try:
         yield
     except KeyboardInterrupt:
-        typer.echo("tehl: interrupted", err=True)
+        _tell("interrupted")
         raise SystemExit(INTERRUPTED) from None
+    except SystemExit:
+        if ended:
+            _tell(f"ended by {signal.Signals(ended[0]).name}, no file is left half-written")
+            raise SystemExit(128 + ended[0]) from None
+        raise
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
+
+
+def _tell(message: str) -> None:
+    """Say why it ends; a terminal that is gone hears nothing."""
+    with suppress(OSError):
+        typer.echo(f"tehl: {message}", err=True)
