@@ -46,7 +46,7 @@ LARGEST_FALL = 0.5  # of the stress that follows it, relatively
 LARGEST_GROWTH = 6.0  # of the logarithm of the fluidity that follows it
 PRESSURISED = 0.02  # from this pressure on changes of the temperature count
 CONDUCTION = 8.0  # a little less than pi^2, the slowest decay across the film
-SETTLED = 1e-9  # step of the stress over its scale after which Newton's next one is rounding
+SETTLED = 1e-5  # step of the stress over its scale after which what is left is its square
 BLOCK = LANES  # rows that are treated together
 ETA_TERMS, RHO_TERMS = 16, 8  # of the polynomials in temperature
 TERMS = ETA_TERMS + RHO_TERMS
@@ -77,8 +77,9 @@ class Laws(NamedTuple):
     the step, of ln eta as a polynomial in ``(1/(T - pole) - middle) over_inverse`` and of rho in
     ``(T - inlet) over_rise``, for T of ``coldest`` to ``hottest``. ``thinning`` (rows, 2): ln F
     and its slope times the step over s/(1 + s), ``per_stress`` rows per unit. ``last_row,
-    last_stress``: rows where the last interval of either begins. ``newtonian`` where there is
-    no thinning, ``uniform`` where all layers thin as mid-film does.
+    last_stress``: rows where the last interval of either begins. ``gentle`` is the dimensionless
+    stress up to which ln F does not count; ``newtonian`` where it never does, ``uniform`` where
+    all layers thin as mid-film does.
     """
 
     fluid: Array
@@ -95,6 +96,7 @@ class Laws(NamedTuple):
     per_stress: float
     last_row: int
     last_stress: int
+    gentle: float
     newtonian: int
     uniform: int
 
@@ -192,7 +194,8 @@ class Work(NamedTuple):
     right-hand sides, which become the solution. ``terms`` (BLOCK, TERMS): coefficients of the laws,
     row by row. ``mass`` (3, n, ny): cumulative mass flux along x at the last three stations,
     ``mass_y`` (n, ny + 2) that along y here with a ghost row on each side; ``modes`` (2, m, ny) the
-    exponentials of both surfaces; ``change`` (BLOCK,) the largest change of temperature.
+    exponentials of both surfaces; ``change`` (BLOCK,) the largest change of temperature;
+    ``back`` (1,) how many stations there are up to the last one with backflow.
     """
 
     cells: Array
@@ -202,6 +205,7 @@ class Work(NamedTuple):
     mass_y: Array
     modes: Array
     change: Array
+    back: Array
 
 
 class Place(NamedTuple):
@@ -220,16 +224,16 @@ class Place(NamedTuple):
 
 
 # cells of a block: values without layers
-P, H, PX, PY, CAPACITY, CONDUCTIVITY, STRESS, TAU_X, TAU_Y, PER, PULL, ETA = (
-    LANES * field for field in range(12)
+P, H, PX, PY, CAPACITY, CONDUCTIVITY, STRESS, TAU_X, TAU_Y, PER, PULL, THINS, ETA = (
+    LANES * field for field in range(13)
 )
 DENSITY = ETA + LANES * ETA_TERMS
 LINE = DENSITY + LANES * RHO_TERMS
 # and values of each layer
-T, LN_ETA, FLUIDITY, SLOPE, RHO, RHO_T, I0, I1, U, V, OMEGA, YIELD, TANGENT, SHARE, A, B = (
-    LANES * field for field in range(16)
+T, LN_ETA, FLUIDITY, SLOPE, RHO, RHO_T, I0, I1, U, V, OMEGA, YIELD, TANGENT, SHARE, A, B, ASIDE = (
+    LANES * field for field in range(17)
 )
-LAYER = LANES * 16
+LAYER = LANES * 17
 
 
 def scratch(nodes: int, rows: int, modes: int) -> Work:
@@ -242,6 +246,7 @@ def scratch(nodes: int, rows: int, modes: int) -> Work:
         mass_y=np.zeros((nodes, rows + 2)),
         modes=np.zeros((2, modes, rows)),
         change=np.zeros(BLOCK),
+        back=np.zeros(1),
     )
 
 
@@ -452,6 +457,24 @@ def stress_at(model: Model, work: Work, place: Place, arm: float) -> tuple[float
 
 
 @njit(cache=True)
+def note_thinning(model: Model, work: Work, place: Place) -> None:
+    """Note whether the oil thins anywhere in the block, by the last stress at both walls."""
+    thins = 0.0
+    if not model.laws.newtonian:
+        for arm in (-0.5, 0.5):
+            x, y = stress_at(model, work, place, arm)
+            stress = load(work.cells, place.base + STRESS) * root(x * x + y * y)
+            thins = max(thins, largest(stress))
+    put(work.cells, place.base + THINS, 1.0 if thins > model.laws.gentle else 0.0)
+
+
+@njit(cache=True)
+def thins(work: Work, place: Place) -> bool:
+    """Return what was noted of the block."""
+    return number(work.cells, place.base + THINS) > 0.0
+
+
+@njit(cache=True)
 def thinning_arm(model: Model, k: int) -> float:
     """Return how far from mid-film the stress is taken by which layer ``k`` thins."""
     return 0.0 if model.laws.uniform else number(model.across.zeta, k) - 0.5
@@ -563,14 +586,14 @@ def moments(across: Across, fluid: int, work: Work, place: Place) -> None:
 
 @njit(cache=True)
 def velocities(model: Model, work: Work, place: Place) -> None:
-    """Fill the velocities; in a Newtonian film they tell the mid-film stress as well."""
+    """Fill the velocities; where nothing thins they tell the mid-film stress as well."""
     cells, base, terms = work.cells, place.base, model.terms
     h, p_x, p_y = load(cells, base + H), load(cells, base + PX), load(cells, base + PY)
     wall = layer(place, place.n - 1)
     over_i0 = 1.0 / load(cells, wall + I0)
     tilt = terms.poiseuille * h * load(cells, wall + I1)
     tau_x, tau_y = (terms.slide / h - tilt * p_x) * over_i0, -1.0 * tilt * p_y * over_i0
-    if model.laws.newtonian:
+    if not thins(work, place):
         store(cells, base + TAU_X, tau_x)
         store(cells, base + TAU_Y, tau_y)
     for k in range(place.n):
@@ -582,10 +605,23 @@ def velocities(model: Model, work: Work, place: Place) -> None:
 
 @njit(cache=True)
 def flow(model: Model, steps: int, work: Work, place: Place) -> None:
-    """Find stress and velocities of a block at the viscosities in its cells."""
+    """Find stress and velocities of a block at the viscosities in its cells.
+
+    A block that did not thin may do so now: the Newtonian stress tells, which is the larger one.
+    """
+    cells, base = work.cells, place.base
+    x, y = load(cells, base + TAU_X), load(cells, base + TAU_Y)
     fluidities(work, place)
-    if not model.laws.newtonian:
-        thin(model, work, place, steps)
+    note_thinning(model, work, place)
+    if not thins(work, place):
+        moments(model.across, FLUIDITY, work, place)
+        velocities(model, work, place)
+        note_thinning(model, work, place)
+        if not thins(work, place):
+            return
+        store(cells, base + TAU_X, x)
+        store(cells, base + TAU_Y, y)
+    thin(model, work, place, steps)
     moments(model.across, FLUIDITY, work, place)
     velocities(model, work, place)
 
@@ -718,6 +754,7 @@ def convection(
     third = terms.w2 * hold(sideways)
     diagonal += (1.0 + third) * sideways
     rest += sideways * (one + third * (2.0 * one - two))
+    store(cells, here + ASIDE, if_positive(v, sideways, -1.0 * sideways))
     return diagonal, rest
 
 
@@ -749,7 +786,19 @@ def inner_row(model: Model, fields: Fields, work: Work, place: Place, k: int) ->
         store(work.matrix, at * LANES, flow_and_heat + held * share)
     at = (k * n + k) * LANES
     store(work.matrix, at, load(work.matrix, at) + diagonal + part * steep)
+    step = number(across.zeta, k + 1) - number(across.zeta, k - 1)
+    out = diagonal + size(omega) * (2.0 / step) - number(across.d2, k * n + k)
+    store(cells, here + ASIDE, load(cells, here + ASIDE) / out)
     store(work.matrix, (n * n + k) * LANES, rest)
+
+
+@njit(cache=True)
+def inner_rows(model: Model, fields: Fields, work: Work, place: Place) -> None:
+    """Fill the rows of all inner layers."""
+    cross_flow(model, work, place)
+    shares(model.across, work, place)
+    for k in range(1, place.n - 1):
+        inner_row(model, fields, work, place, k)
 
 
 @njit(cache=True)
@@ -818,16 +867,43 @@ def heat_block(
     model: Model, fields: Fields, surfaces: tuple[Surface, Surface], work: Work, place: Place
 ) -> None:
     """Solve the energy equation in the columns of a block; the solution is in ``A``."""
-    n = place.n
-    cross_flow(model, work, place)
-    shares(model.across, work, place)
-    for k in range(1, n - 1):
-        inner_row(model, fields, work, place, k)
+    inner_rows(model, fields, work, place)
     for side in range(2):
         wall_row(model.across, surfaces[side], side, work, place)
+    solve_block(model, work, place)
+
+
+@njit(cache=True)
+def solve_block(model: Model, work: Work, place: Place) -> None:
+    """Solve the columns of a block; the solution is in ``A``."""
+    n = place.n
     solve_columns(work.matrix, n, model.across.band)
     for k in range(n):
         store(work.cells, layer(place, k) + A, load(work.matrix, (n * n + k) * LANES))
+
+
+@njit(cache=True)
+def carry_aside(work: Work, start: Place) -> None:
+    """Let the rows follow the change of the row that the oil comes from, station by station.
+
+    The columns take their neighbours from the last sweep, so that what flows across would move on
+    by one row per sweep. Changes follow the flow outwards, then inwards, with the part that the
+    inflow has in the balance of a column; that does not change the solution.
+    """
+    cells = work.cells
+    for k in range(1, start.n - 1):
+        for step in (1, -1):
+            change, row = 0.0, 0 if step > 0 else start.ny - 1
+            for _ in range(start.ny):
+                block, lane = row // BLOCK, row % BLOCK
+                at = block * (LINE + start.n * LAYER) + LINE + k * LAYER + lane
+                part = step * number(cells, at + ASIDE)
+                new = number(cells, at + A)
+                if part > 0.0:
+                    new += part * change
+                    put(cells, at + A, new)
+                change = new - number(cells, at + T)
+                row += step
 
 
 @njit(cache=True)
@@ -868,7 +944,7 @@ def reynolds_fields(model: Model, fields: Fields, work: Work, place: Place) -> N
     newtonian = exponential(-1.0 * load(cells, middle + LN_ETA))
     store(fields.effective, at, newtonian / load(cells, middle + FLUIDITY))
     store(fields.stretch, at, 1.0)
-    if not model.laws.newtonian:
+    if thins(work, place):
         moments(model.across, TANGENT, work, place)
         store(fields.stretch, at, mobility(model.across, work, place) / whole_mobility)
 
@@ -953,6 +1029,11 @@ def flow_of_block(model: Model, fields: Fields, work: Work, place: Place, steps:
     evaluate_laws(model, work, place)
     flow(model, steps, work, place)
     mass_fluxes(model.across, work, place)
+    slowest = load(work.cells, layer(place, 0) + U)
+    for k in range(1, place.n):
+        slowest = lower(slowest, load(work.cells, layer(place, k) + U))
+    if largest(-1.0 * slowest) > 0.0:
+        put(work.back, 0, max(number(work.back, 0), place.i + 1.0))
 
 
 @njit(cache=True)
@@ -979,6 +1060,7 @@ def march(
             complete_mass(model.terms, work, moved(start, i, 0))
             for block in range(blocks):
                 heat_block(model, fields, surfaces, work, moved(start, i, block))
+            carry_aside(work, start)
         for block in range(blocks):
             place = moved(start, i, block)
             if heat:
@@ -988,23 +1070,87 @@ def march(
             write_block(model, fields, surfaces, work, place)
 
 
-def sweep(
-    model: Model,
-    fields: Fields,
-    surfaces: tuple[Surface, Surface],
-    steps: int,
-    work: Work,
-) -> float:
+@njit(cache=True)
+def keep_wall(side: int, work: Work, place: Place) -> None:
+    """Fill the row of a wall that keeps its temperature."""
+    n, wall = place.n, side * (place.n - 1)
+    for m in range(n):
+        store(work.matrix, (wall * n + m) * LANES, 1.0 if m == wall else 0.0)
+    here = load(work.cells, layer(place, wall) + T)
+    store(work.matrix, (n * n + wall) * LANES, here)
+
+
+@njit(cache=True)
+def flow_before(
+    model: Model, fields: Fields, work: Work, start: Place, numbers: tuple[int, int]
+) -> None:
+    """Evaluate a station, and before it those upstream whose mass flux is not known yet.
+
+    ``numbers``: the station, and one for the first station of the march.
+    """
+    i, first = numbers
+    for station in (i - 1, i - 2, i):
+        if station >= 0 and (first or station != i - 1):
+            for block in range(start.ny // BLOCK):
+                flow_of_block(model, fields, work, moved(start, station, block), 1)
+    complete_mass(model.terms, work, moved(start, i, 0))
+
+
+@njit(cache=True)
+def march_back(model: Model, fields: Fields, work: Work, start: Place) -> None:
+    """Solve the stations against the march, from the last one with backflow on.
+
+    What flows back settles at one station per sweep of the other march. The walls keep their
+    temperature.
+    """
+    blocks, last = start.ny // BLOCK, int(number(work.back, 0)) - 1
+    for i in range(last, -1, -1):
+        if model.terms.mirror:
+            mirror_station(fields.temperature, moved(start, i, 0))
+        flow_before(model, fields, work, start, (i, 1 if i == last else 0))
+        for block in range(blocks):
+            place = moved(start, i, block)
+            inner_rows(model, fields, work, place)
+            for side in range(2):
+                keep_wall(side, work, place)
+            solve_block(model, work, place)
+        for block in range(blocks):
+            follow_temperature(model, fields, work, moved(start, i, block))
+
+
+class Known(NamedTuple):
+    """All that a sweep works on, by the addresses of the arrays; see `known`."""
+
+    model: Model
+    fields: Fields
+    surfaces: tuple[Surface, Surface]
+    work: Work
+    stations: int
+    start: Place
+
+
+def known(model: Model, fields: Fields, surfaces: tuple[Surface, Surface], work: Work) -> Known:
+    """Return what a sweep works on; whoever keeps it holds the arrays meanwhile."""
+    nx, n, ny = fields.p.shape[0], *work.mass.shape[1:]
+    start = Place(i=0, j=0, base=0, n=n, ny=ny, modes=work.modes.shape[1])
+    parts = (addresses(model), addresses(fields), addresses(surfaces), addresses(work))
+    return Known(*parts, stations=nx, start=start)
+
+
+def sweep_back(at: Known) -> None:
+    """March against x where the last sweep found backflow; only the temperature changes."""
+    march_back(at.model, at.fields, at.work, at.start)
+
+
+def sweep(at: Known, work: Work, steps: int) -> float:
     """March once along x; return the largest change of temperature.
 
     Each station evaluates laws and flow at its last temperature, solves its columns, and lets the
     laws follow for the fields of the Reynolds equation. Without heat it only evaluates. ``steps``
     is the number of Newton steps for the stress of a thinning film.
     """
-    nx, n, ny = fields.p.shape[0], *work.mass.shape[1:]
     work.modes[:] = 0.0
     work.change[:] = 0.0
-    start = Place(i=0, j=0, base=0, n=n, ny=ny, modes=work.modes.shape[1])
-    known = (addresses(model), addresses(fields), addresses(surfaces), addresses(work))
-    march(*known, start, (nx, steps))
+    work.back[:] = 0.0
+    march(at.model, at.fields, at.surfaces, at.work, at.start, (at.stations, steps))
     return float(work.change.max())

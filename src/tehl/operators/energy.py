@@ -61,10 +61,18 @@ class FilmState:
         Order of the upstream differences.
     finest : bool
         Sum the full source also of surfaces that a line source heats nearly as well.
+    thorough : bool
+        March against x as well where oil flows back, in each sweep.
     """
 
     def __init__(
-        self, grid: Grid, film: HeatedFilm, wedge_order: int, *, finest: bool = True
+        self,
+        grid: Grid,
+        film: HeatedFilm,
+        wedge_order: int,
+        *,
+        finest: bool = True,
+        thorough: bool = False,
     ) -> None:
         self.grid, self.problem, self.scales = grid, film.problem, film.scales
         self.groups, self.across, self.sides = film.groups, film.across, film.sides
@@ -106,8 +114,10 @@ class FilmState:
             self.flux_unit,
             finest=finest,
         )
+        self.thorough, self.finest, self.sweeps = thorough, finest, 0
         modes = len(self.surfaces[0].decay)
         self.work = energy.scratch(nodes, ny, modes)
+        self.known = energy.known(self.model, self.fields, self.surfaces, self.work)
 
     def view(self, name: str) -> Array:
         """Return a field of the film without the rows that only fill the last block, (nx, ny)."""
@@ -181,19 +191,31 @@ class FilmState:
         """Let the surfaces slide at a part of their speed, at the same mean."""
         full = -part * self.problem.slide_roll_ratio
         terms = self.model.terms._replace(slide=full, speed=1.0 - 0.5 * full)
-        self.model = self.model._replace(terms=terms)
+        if terms != self.model.terms:
+            self.model = self.model._replace(terms=terms)
+            self.known = energy.known(self.model, self.fields, self.surfaces, self.work)
 
     def sweep(self, steps: int) -> float:
         """March once; return the largest change of temperature [K].
+
+        Oil flows back in the inlet and along a counter-moving surface: the march would carry it on
+        by one station per sweep.
 
         Parameters
         ----------
         steps : int
             Newton steps for the shear stress of a thinning film.
         """
-        change = energy.sweep(self.model, self.fields, self.surfaces, steps, self.work)
+        if self.model.terms.heat and (self.thorough or self._is_second_of_many()):
+            energy.sweep_back(self.known)
+        change = energy.sweep(self.known, self.work, steps)
+        self.sweeps += 1
         self.update_surfaces()
         return change
+
+    def _is_second_of_many(self) -> bool:
+        """Whether to march back once: the finer grids take it from here."""
+        return self.sweeps == 1 and not self.finest
 
     def update_surfaces(self) -> None:
         """Let the surfaces follow the heat that flows into them, as far as no line source does."""

@@ -100,9 +100,17 @@ def law_table(lubricant: Lubricant, scales: Scales) -> Laws:
         per_stress=per_stress,
         last_row=ROWS - 2,
         last_stress=STRESSES - 2,
+        gentle=gentle_stress(lubricant),
         newtonian=int(lubricant.shear.is_newtonian),
         uniform=int(lubricant.shear.yields_as_a_whole),
     )
+
+
+def gentle_stress(lubricant: Lubricant) -> float:
+    """Return the dimensionless stress up to which ln F stays below the tolerance."""
+    stress = np.geomspace(1e-6, 1.0, 241)
+    counts = lubricant.shear.log_thinning(stress) > TOLERANCE
+    return float(stress[max(int(np.argmax(counts)) - 1, 0)]) if counts.any() else 1.0
 
 
 def _known(warmer: Array) -> Array:

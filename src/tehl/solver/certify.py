@@ -1,7 +1,7 @@
 """A solve with error bars: three grids and one larger domain."""
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from tehl.errors import ConvergenceError, InputError
 from tehl.options import Domain, Options, coarsenings
@@ -9,7 +9,7 @@ from tehl.problem import ContactProblem
 from tehl.result import Cost, Estimate, Result
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.steady import solve
-from tehl.solver.verdict import LARGEST_BAR, too_coarse
+from tehl.solver.verdict import LARGEST_BAR, not_certified, too_coarse
 
 WIDER = 2
 """Factor between the domain and the larger one that shows its part of the error."""
@@ -46,7 +46,8 @@ def certify(
     Raises
     ------
     ConvergenceError
-        When one of the runs did not converge.
+        When the finest grid did not converge, or no error bar follows from the others: the
+        result is that of the finest grid.
     InputError
         When the grid cannot be halved twice.
     """
@@ -56,26 +57,68 @@ def certify(
             f"points = {options.points} is too few to certify: the grid is halved twice, "
             "which takes 129 nodes or more per direction"
         )
-    coarse, middle = (_halved(options, times) for times in (2, 1))
-    runs = []
-    for number, wanted in enumerate((coarse, middle, options), start=1):
+    grids: list[_Grid] = []
+    for number, times in enumerate((2, 1), start=1):
         monitor.message(f"certify: grid {number} of 3")
-        runs.append(_solve(problem, wanted, monitor, finest=wanted is options))
+        grids.append(_coarser(problem, _halved(options, times), monitor))
+    monitor.message("certify: grid 3 of 3")
+    finest = _Grid(result=solve(problem, options, monitor=monitor))
     monitor.message("certify: larger domain")
-    wide = _solve(problem, _widened(options, runs[1]), monitor, finest=False)
-    everything = (*runs, wide)
+    wide = _coarser(problem, _widened(options, finest.result), monitor)
+    grids.append(finest)
+    return _certified(grids, wide)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class _Grid:
+    """A run of the certification; ``used`` is false when nothing follows from it."""
+
+    result: Result
+    used: bool = True
+
+    @property
+    def name(self) -> str:
+        """Return its nodes in words."""
+        return f"{self.result.scaled.x.size} x {self.result.scaled.y.size}"
+
+    @property
+    def ending(self) -> str:
+        """Return its nodes and how it ended."""
+        status = self.result.status
+        coarse = status.cause in ("grid_too_coarse", "film_not_positive")
+        return f"{self.name} {'too coarse for the film' if coarse else status.outcome}"
+
+
+def _coarser(problem: ContactProblem, options: Options, monitor: Monitor) -> _Grid:
+    """Solve; a coarser grid need not resolve the film, it only has to be iterated to the end."""
+    try:
+        return _Grid(result=solve(problem, options, monitor=monitor))
+    except ConvergenceError as error:
+        monitor.message(f"certify: {error.result.status.message}")
+        film = error.result.film_scaled.minimum
+        return _Grid(result=error.result, used=film > 0 and _iterated(error.result))
+
+
+def _certified(grids: list[_Grid], wide: _Grid) -> Result:
+    """Return the result of the last grid with error bars; raise when there are none of use."""
+    coarse, middle, finest = (grid.result for grid in grids)
+    everything = (*(grid.result for grid in grids), wide.result)
     cost = Cost(
         cpu_seconds=sum(run.cost.cpu_seconds for run in everything),
         wall_seconds=sum(run.cost.wall_seconds for run in everything),
     )
-    rows = zip(*(_quantities(run).items() for run in everything), strict=True)
+    finest = replace(finest, cost=cost)
+    _check_used(finest, grids[1], wide)
+    runs = [_quantities(run) for run in (coarse, middle, finest)][0 if grids[0].used else 1 :]
+    wider = _quantities(wide.result)
     uncertainty = {
-        row[0][0]: estimate((row[0][1], row[1][1], row[2][1]), domain=abs(row[3][1] - row[1][1]))
-        for row in rows
+        name: estimate(tuple(run[name] for run in runs), domain=abs(wider[name] - runs[-2][name]))
+        for name in wider
     }
     highest = uncertainty["pressure_max"]
-    uncertainty["pressure_max"] = with_growing_spike(highest, _spike(runs[1]), _spike(runs[2]))
-    result = replace(runs[-1], uncertainty=uncertainty, cost=cost)
+    uncertainty["pressure_max"] = with_growing_spike(highest, _spike(middle), _spike(finest))
+    status = replace(finest.status, message=_endings(grids, wide))
+    result = replace(finest, uncertainty=uncertainty, status=status)
     worst = max(abs(uncertainty[name].uncertainty / uncertainty[name].value) for name in JUDGED)
     if worst > LARGEST_BAR:
         status = too_coarse(result, worst)
@@ -83,14 +126,26 @@ def certify(
     return result
 
 
-def _solve(problem: ContactProblem, options: Options, monitor: Monitor, *, finest: bool) -> Result:
-    """Solve; a coarser grid need not resolve the film, it only has to be iterated to the end."""
-    try:
-        return solve(problem, options, monitor=monitor)
-    except ConvergenceError as error:
-        if finest or not _iterated(error.result):
-            raise
-        return error.result
+def _check_used(finest: Result, middle: _Grid, wide: _Grid) -> None:
+    """Refuse to certify from runs that failed: the finest grid stays, without error bars."""
+    for grid, what in ((middle, "the grid before the finest"), (wide, "the larger domain")):
+        if not grid.used:
+            status = not_certified(finest, f"{what} failed ({grid.ending}).")
+            raise ConvergenceError(str(status.message), replace(finest, status=status))
+
+
+def _endings(grids: list[_Grid], wide: _Grid) -> str:
+    """Return how each grid ended, and what that does to the bars."""
+    endings = ", ".join(grid.ending for grid in grids)
+    told = f"Grids of the error bars: {endings}; larger domain: {wide.ending}."
+    if not grids[0].used:
+        return f"{told} The first is left out: each bar is the whole change between the other two."
+    if not grids[0].result.status.converged:
+        return (
+            f"{told} Where the first hides the order of the scheme, a bar is the whole change "
+            "between the other two."
+        )
+    return told
 
 
 def _iterated(result: Result) -> bool:
@@ -107,9 +162,9 @@ def _halved(options: Options, times: int) -> Options:
     return options.model_copy(update={"points": (nx, ny)})
 
 
-def _widened(options: Options, middle: Result) -> Options:
-    """Put the mesh width of ``middle`` on the larger domain, with the nodes of the finest grid."""
-    x, y = middle.scaled.x, middle.scaled.y
+def _widened(options: Options, finest: Result) -> Options:
+    """Put the finest grid on the larger domain: the mesh width of the grid before it."""
+    x, y = finest.scaled.x, finest.scaled.y
     domain = Domain(
         x=(WIDER * float(x[0]), WIDER * float(x[-1])), y=(WIDER * float(y[0]), WIDER * float(y[-1]))
     )
@@ -159,8 +214,8 @@ def with_growing_spike(highest: Estimate, middle: float, finest: float) -> Estim
     return replace(highest, discretisation=bar, uncertainty=math.hypot(bar, highest.domain))
 
 
-def estimate(values: tuple[float, float, float], domain: float) -> Estimate:
-    """Return the Richardson value of three grids halved each time, with its error bar.
+def estimate(values: tuple[float, ...], domain: float) -> Estimate:
+    """Return the Richardson value of two or three grids halved each time, with its error bar.
 
     Second order is used where the grids show it; the bar is what the observed order would change,
     and at least a quarter of the extrapolated step. Where they do not show it, the finest value
@@ -173,16 +228,17 @@ def estimate(values: tuple[float, float, float], domain: float) -> Estimate:
     domain : float
         What the larger domain changed.
     """
-    first, last = values[1] - values[0], values[2] - values[1]
+    last = values[-1] - values[-2]
+    first = values[1] - values[0] if len(values) == 3 else 0.0
     order = math.log2(first / last) if first * last > 0 else None
     if last == 0.0:
-        value, bar = values[2], 0.0
+        value, bar = values[-1], 0.0
     elif order is not None and ORDERS[0] <= order <= ORDERS[1]:
-        value = values[2] + last / 3.0
-        observed = values[2] + last / (2.0**order - 1.0)
+        value = values[-1] + last / 3.0
+        observed = values[-1] + last / (2.0**order - 1.0)
         bar = max(abs(observed - value), RESIDUE * abs(last) / 3.0)
     else:
-        value, bar = values[2], abs(last)
+        value, bar = values[-1], abs(last)
     return Estimate(
         value=value,
         uncertainty=math.hypot(bar, domain),

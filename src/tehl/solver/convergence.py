@@ -18,8 +18,11 @@ LARGEST_LOAD_ERROR = 1e-3
 LARGEST_CHANGE = 0.2
 """Change of pressure per cycle, in Hertz pressures, beyond which a grid is in disorder: a spike
 that shifts by a node changes by less."""
-HEATED = 0.02
-"""Change of temperature per cycle, over the largest rise, at which a film is taken for heated."""
+RESTLESS = 0.1
+"""Change of temperature per cycle, at any node and over the largest rise, beyond which a film is
+not heated yet, whatever the rise does: nodes at the spike change most, and matter least."""
+HEATED = 0.005
+"""Iteration error of the largest rise, relatively, that never counts."""
 LEAST_KELVIN = 0.02
 """Change of temperature [K] that never counts."""
 TIGHTER = 100.0
@@ -48,10 +51,11 @@ class Trace:
 
 @dataclass(slots=True)
 class GridTrace:
-    """Central and minimum film on one grid, cycle by cycle, and the reports of the cycles."""
+    """Film and temperature rise on one grid, cycle by cycle, and the reports of the cycles."""
 
     central: Trace = field(default_factory=Trace)
     minimum: Trace = field(default_factory=Trace)
+    rise: Trace = field(default_factory=Trace)
     reports: list[CycleReport] = field(default_factory=list)
 
     def note(self, central: float, minimum: float) -> None:
@@ -69,13 +73,18 @@ def converged(now: GridTrace, coarser: GridTrace | None, options: Options) -> bo
         settled = max(last.residual, last.change, abs(last.load_error)) <= options.tolerance
         kelvin = max(last.temperature_rise, 1.0) * TIGHTER * options.tolerance
         return settled and last.temperature_change <= kelvin
-    return iterated_enough(now, coarser) and heated_enough(now)
+    return iterated_enough(now, coarser) and heated_enough(now, coarser)
 
 
-def heated_enough(now: GridTrace) -> bool:
-    """Whether the temperature of the film has settled."""
+def heated_enough(now: GridTrace, coarser: GridTrace | None) -> bool:
+    """Whether the largest rise of the temperature is as well known as the film, or well enough."""
     last = now.reports[-1]
-    return last.temperature_change <= max(HEATED * last.temperature_rise, LEAST_KELVIN)
+    if last.temperature_change > max(RESTLESS * last.temperature_rise, LEAST_KELVIN):
+        return False
+    before = coarser.rise.values[-1:] if coarser else []
+    discretisation = abs(last.temperature_rise - before[0]) / 3.0 if before else 0.0
+    limit = max(discretisation / 3.0, HEATED * last.temperature_rise, LEAST_KELVIN)
+    return now.rise.iteration_error() <= limit
 
 
 def iterated_enough(now: GridTrace, coarser: GridTrace | None) -> bool:

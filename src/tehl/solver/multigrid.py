@@ -183,6 +183,7 @@ class Multigrid:
             report = self._report(fine, before, number, heating)
             trace.reports.append(report)
             trace.note(report.film_central, report.film_minimum)
+            trace.rise.values.append(report.temperature_rise)
             monitor.cycle(report)
             if last and (converged(trace, coarser, self.options) or stalled(trace)):
                 return

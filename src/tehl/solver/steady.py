@@ -5,6 +5,7 @@ import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np
@@ -154,9 +155,7 @@ def coupling_of(problem: ContactProblem, options: Options, *, ramped: bool) -> C
     """Return what acts on the film besides pressure and elasticity."""
     if not problem.is_coupled:
         return Uncoupled()
-    return FilmCoupling(
-        problem, scales(problem), groups(problem), options.wedge_order, ramped=ramped
-    )
+    return FilmCoupling(problem, scales(problem), groups(problem), options, ramped=ramped)
 
 
 def finest_grid(options: Options, case_groups: Groups) -> Grid:
@@ -220,10 +219,18 @@ def _stress_and_heat(
 
 def provenance() -> Provenance:
     """Return the versions at work and the time."""
-    versions = {"python": platform.python_version()}
+    return Provenance(
+        versions=dict(versions()), created=datetime.now(UTC).isoformat(timespec="seconds")
+    )
+
+
+@cache
+def versions() -> dict[str, str]:
+    """Return the versions of Python and of the packages at work."""
+    found = {"python": platform.python_version()}
     for package in PACKAGES:
         try:
-            versions[package] = version(package)
+            found[package] = version(package)
         except PackageNotFoundError:
-            versions[package] = "unknown"
-    return Provenance(versions=versions, created=datetime.now(UTC).isoformat(timespec="seconds"))
+            found[package] = "unknown"
+    return found

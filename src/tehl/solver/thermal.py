@@ -13,6 +13,7 @@ import numpy as np
 from tehl.kernels import reynolds
 from tehl.operators.energy import FilmState, HeatedFilm
 from tehl.operators.transfer import midpoints
+from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.scaling import Groups, Scales
 from tehl.solver.level import Level
@@ -70,8 +71,8 @@ class FilmCoupling:
         Laws, motion and heat.
     scales, groups : Scales, Groups
         Units and dimensionless groups.
-    wedge_order : int
-        Order of the upstream differences.
+    options : Options
+        Order of the upstream differences, and how far the answer is iterated.
     ramped : bool
         Raise the sliding speed from nothing over the first sweeps.
     """
@@ -81,12 +82,16 @@ class FilmCoupling:
         problem: ContactProblem,
         scales: Scales,
         groups: Groups,
-        wedge_order: int,
+        options: Options,
         *,
         ramped: bool = False,
     ) -> None:
         self.film = HeatedFilm(problem, scales, groups)
-        self.wedge_order = wedge_order
+        self.wedge_order = options.wedge_order
+        motion = problem.motion
+        counter_moving = min(motion.speed_1, motion.speed_2) <= 0.0
+        # elsewhere the backflow of the coarser grids is a good one
+        self.thorough = options.accuracy == "tight" or counter_moving
         self.sweeps_left = RAMP if ramped else 0
         self.state: FilmState | None = None
 
@@ -100,7 +105,13 @@ class FilmCoupling:
         sound = float(fine.film.h.min()) > SOUND * fine.floor
         if not (finest or coarser is not None or (large and sound)):
             return False
-        state = FilmState(fine.grid, self.film, self.wedge_order, finest=finest)
+        state = FilmState(
+            fine.grid,
+            self.film,
+            self.wedge_order,
+            finest=finest,
+            thorough=self.thorough,
+        )
         self.state = state
         if coarser is not None:
             state.refine_from(coarser)

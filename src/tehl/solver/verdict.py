@@ -169,6 +169,17 @@ def too_coarse(result: Result, error: float) -> Status:
     )
 
 
+def not_certified(result: Result, why: str) -> Status:
+    """Return the status of a finest grid that converged, but has no error bar, and why not."""
+    nodes = 2 * max(result.scaled.x.size, result.scaled.y.size) - 1
+    return Status(
+        kind="not_converged",
+        cause="not_certified",
+        message=f"The finest grid converged, but no error bar follows from the others: {why}",
+        hint=f"Take numerics.points = {nodes}, or solve without certifying.",
+    )
+
+
 def _not_reached(run: Multigrid) -> Status:
     reports = run.traces[-1].reports
     last = reports[-1]

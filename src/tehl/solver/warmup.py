@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from tehl.grid import Grid
-from tehl.kernels import reynolds
+from tehl.kernels import energy, reynolds
 from tehl.operators.energy import FilmState, HeatedFilm
 from tehl.operators.film import hertz_pressure
 from tehl.operators.flow import flow_table
@@ -58,6 +58,7 @@ def _one_sweep() -> None:
     state = FilmState(grid, HeatedFilm(problem, scales(problem), groups(problem)), 2)
     state.set_film(hertz_pressure(grid), np.ones(grid.shape))
     state.sweep(1)
+    energy.sweep_back(state.known)
     film = reynolds.Film(*(np.ones(grid.shape) for _ in range(6)))
     reynolds.scale_properties(film, reynolds.Factors(*film[:4]), 0.0)
     reynolds.tangent_source(film, stencil(grid, groups(problem), 2), np.empty(grid.shape))
