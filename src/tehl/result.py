@@ -32,7 +32,8 @@ class Status:
     cause : str or None
         Name of the cause when not converged, for programs: ``"grid_too_coarse"``.
     message, hint : str or None
-        The cause and what to try, for people.
+        The cause and what to try, for people. A certified result that converged tells in
+        ``message`` how its grids ended.
     """
 
     kind: StatusKind

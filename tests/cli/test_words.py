@@ -6,7 +6,8 @@ from tehl.cli.words import as_text, effect_as_text, headline
 from tehl.film_formulas import InletFactor
 from tehl.post.thermal_effect import ThermalEffect
 from tehl.report.explain import length
-from tehl.result import Estimate
+from tehl.report.html import report_text
+from tehl.result import Estimate, Status
 
 
 def test_a_film_reads_in_the_unit_that_explain_takes(result):
@@ -70,3 +71,20 @@ def test_the_effect_of_heat_names_its_formulas():
 def test_a_case_without_a_title_has_one(result):
     bare = replace(result, problem=result.problem.model_copy(update={"title": ""}))
     assert headline(bare).startswith("Lubricated point contact - ")
+
+
+def test_a_film_that_is_not_positive_is_no_number(result):
+    thin = replace(result.film_scaled, central=-0.01, minimum=-0.02, minimum_node=-0.02)
+    status = Status(kind="not_converged", cause="film_not_positive")
+    bad = replace(result, film_scaled=thin, status=status)
+    shown = as_text(bad)
+    assert shown.count("none: the last iterate is not positive") == 2
+    assert "H = -" not in shown
+    film = bad.summary()["film"]
+    assert film["h_min_m"] is film["H_central"] is film["H_min_moes"] is None
+
+
+def test_a_certified_run_tells_how_its_grids_ended(result):
+    told = "Grids of the error bars: 65 x 65 too coarse for the film."
+    assert told in as_text(replace(result, status=Status(kind="converged", message=told)))
+    assert told in report_text(replace(result, status=Status(kind="converged", message=told)))

@@ -1,11 +1,16 @@
 """Richardson values with error bars, and the bars of a single run."""
 
+import sys
+from dataclasses import replace
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tehl.errors import InputError
+from tehl.errors import ConvergenceError, InputError
 from tehl.options import Options
+from tehl.result import Status
+from tehl.solver import solve
 from tehl.solver.certify import certify, estimate
 from tehl.solver.convergence import SAFETY, discretisation_bar
 from tests.reference import DOMAIN, moes_contact
@@ -91,3 +96,39 @@ def test_a_certified_run_carries_bars_for_film_and_pressure():
     assert central.observed_order == pytest.approx(2.0, abs=0.2)
     assert 0 < central.discretisation < 0.01 * central.value
     assert 0 < central.domain < 0.05 * central.value  # this domain costs 1 % at M = 20
+    assert "33 x 33 converged, 65 x 65 converged, 129 x 129 converged" in result.status.message
+
+
+def test_two_values_give_the_finer_one_with_the_whole_change_as_its_bar():
+    found = estimate((0.5, 0.4), domain=0.0)
+    assert (found.value, found.observed_order) == (0.4, None)
+    assert found.uncertainty == pytest.approx(0.1)
+
+
+def test_a_coarsest_grid_without_a_film_is_left_out_and_told():
+    result = certify(moes_contact(700.0, 8.0), Options(points=257))
+    central = result.uncertainty["film_central"]
+    assert len(central.values) == 2
+    assert central.discretisation == pytest.approx(abs(central.values[1] - central.values[0]))
+    assert "65 x 65 too coarse for the film" in result.status.message
+    assert "left out" in result.status.message
+    assert all(value > 0 for bar in result.uncertainty.values() for value in bar.values)
+
+
+def test_without_the_grid_before_it_the_finest_is_returned_without_a_bar(monkeypatch):
+    module = sys.modules["tehl.solver.certify"]
+
+    def failing(problem, options, **others):
+        found = solve(problem, options, **others)
+        if options.shape != (65, 65):
+            return found
+        stalled = Status(kind="stalled", cause="stalled", message="stalled")
+        raise ConvergenceError("stalled", replace(found, status=stalled))
+
+    monkeypatch.setattr(module, "solve", failing)
+    with pytest.raises(ConvergenceError, match="65 x 65 stalled") as told:
+        certify(moes_contact(20.0, 10.0), Options(points=129, domain=DOMAIN))
+    result = told.value.result
+    assert result.scaled.x.size == 129
+    assert result.status.cause == "not_certified"
+    assert result.film_scaled.minimum > 0

@@ -32,10 +32,16 @@ def as_text(result: "Result") -> str:
         ("grid", f"{nx} x {ny} on [{x[0]:g}, {x[-1]:g}] x [{y[0]:g}, {y[-1]:g}] half-widths"),
         ("effort", _effort(result)),
     ]
+    if result.status.converged and result.status.message:
+        rows.append(("certified", result.status.message))
     return "\n".join([headline(result), *(f"  {name:<17}{value}" for name, value in rows)])
 
 
 def _film(result: "Result", which: str) -> str:
+    from tehl.post.film import no_film
+
+    if why := no_film(result):
+        return f"none: {why}"
     metres, scaled = getattr(result.film, which), getattr(result.film_scaled, which)
     factor, unit = length_unit(metres)
     text = f"{metres * factor:.4g} {unit}   (H = {scaled:.5g})"

@@ -15,8 +15,8 @@ def summary(result: Result) -> dict[str, Any]:
     """Return the summary of ``result`` as JSON can hold it: null where a number is not finite.
 
     Keys that end in a unit (``_m``, ``_pa``, ``_k``, ``_w``) are SI, the others dimensionless.
-    ``temperature`` and ``heat`` are null for an isothermal run, ``traction`` where there are no
-    shear stresses. A certified result has ``uncertainty``, which mirrors the values.
+    A film that is not positive is null, ``temperature`` and ``heat`` are null for an isothermal run,
+    ``traction`` where there are no shear stresses. A certified result has ``uncertainty``, which mirrors the values.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ def _groups(result: Result) -> dict[str, float]:
 
 def _film(result: Result) -> dict[str, Any]:
     film, scaled, moes = result.film, result.film_scaled, moes_film_factor(result)
-    return {
+    numbers = {
         "h_min_m": film.minimum,
         "h_central_m": film.central,
         "H_min": scaled.minimum,
@@ -108,6 +108,8 @@ def _film(result: Result) -> dict[str, Any]:
         "H_central": scaled.central,
         "H_min_moes": scaled.minimum * moes,
         "H_central_moes": scaled.central * moes,
+    }
+    return {name: value if value > 0 else None for name, value in numbers.items()} | {
         "minimum_at": scaled.minimum_at,
         "rigid_approach": result.rigid_approach,
     }

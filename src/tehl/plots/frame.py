@@ -11,6 +11,7 @@ from matplotlib.patches import Ellipse
 from matplotlib.patheffects import AbstractPathEffect, withStroke
 from matplotlib.ticker import MaxNLocator
 
+from tehl.post.film import no_film
 from tehl.result import Result
 from tehl.typing import Array
 
@@ -56,8 +57,8 @@ def subtitle(result: Result) -> str:
         f"M = {groups.M:.4g}, L = {groups.L:.4g}, "
         f"$p_h$ = {result.scales.hertz_pressure * GIGA:.3g} GPa\n"
     )
-    if not (result.status.converged or film.minimum > 0):
-        return f"{about}no film: the iterate is not positive"
+    if why := no_film(result):
+        return f"{about}no film: {why}"
     return (
         f"{about}$h_c$ = {length(film.central)} ($H_c$ = {scaled.central:.4g}), "
         f"$h_{{min}}$ = {length(film.minimum)} ($H_{{min}}$ = {scaled.minimum:.4g})"

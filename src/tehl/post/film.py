@@ -9,6 +9,19 @@ from tehl.result import Result
 from tehl.typing import Array, BoolArray
 
 
+def no_film(result: Result) -> str:
+    """Return why the film of ``result`` is none to speak of; nothing if it is a film.
+
+    Parameters
+    ----------
+    result : Result
+        What a solve returned or a file held.
+    """
+    if result.status.kind == "diverged":
+        return "the iteration diverged"
+    return "" if result.film.minimum > 0 else "the last iterate is not positive"
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Profile:
     """Pressure and film on one grid line, beside the dry contact.

@@ -12,6 +12,7 @@ from tehl.film_formulas import film_estimates
 from tehl.io.atomic import check_writable, replacing
 from tehl.io.content import DEFINITIONS
 from tehl.plots.save import pictures_of
+from tehl.post.film import no_film
 from tehl.post.heat import Temperature
 from tehl.report.inputs import input_rows
 from tehl.result import ErrorEstimate, Estimate, FilmHeat, HeatBalance, Result
@@ -135,19 +136,15 @@ def _cell(text: str) -> str:
 
 def _status(result: Result) -> str:
     status = result.status
-    if status.converged:
-        return '<div class="status good">converged</div>'
     notes = "".join(f"<p>{escape(note)}</p>" for note in (status.message, status.hint) if note)
+    if status.converged:
+        return f'<div class="status good">converged{notes}</div>'
     return f'<div class="status bad">Not an answer - {escape(result.status.outcome)}{notes}</div>'
 
 
-def _has_film(result: Result) -> bool:
-    return result.status.converged or result.film.minimum > 0
-
-
 def _numbers(result: Result) -> str:
-    if not _has_film(result):
-        return "<p>There is no film to report: the last iterate is not positive.</p>"
+    if why := no_film(result):
+        return f"<p>There is no film to report: {why}.</p>"
     scaled, scales = result.film_scaled, result.scales
     highest, errors = float(result.scaled.pressure.max()), result.errors
     nanometre, gigapascal = scales.film_thickness * 1e9, scales.hertz_pressure * 1e-9
@@ -267,17 +264,18 @@ def _image(picture: Figure, dpi: int) -> str:
 
 
 def _formulas(result: Result) -> str:
-    computed = result.film_scaled
+    computed, none = result.film_scaled, bool(no_film(result))
+    central, minimum = (0.0, 0.0) if none else (computed.central, computed.minimum)
     rows = []
-    if _has_film(result):
+    if not none:
         rows = [("this solve", _nm(result.film.central), "", _nm(result.film.minimum), "", "")]
     rows += [
         (
             f"{estimate.formula} ({estimate.source})",
             _nm(estimate.central_m),
-            _off(estimate.central, computed.central),
+            _off(estimate.central, central),
             _nm(estimate.minimum_m),
-            _off(estimate.minimum, computed.minimum),
+            _off(estimate.minimum, minimum),
             "; ".join(estimate.remarks),
         )
         for estimate in film_estimates(result.groups, result.scales)

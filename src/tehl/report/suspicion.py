@@ -162,9 +162,10 @@ def _of_grid(options: Options, groups: Groups) -> Iterator[str]:
         return
     _, more = coarsenable(needed - 2)
     off = min(grid_error(groups, nodes), 1.0)
+    percent = float(f"{100 * off:.1g}")
     yield (
         f"numerics.points = {nodes} is coarse for so thin a film: the central film may be "
-        f"{float(f'{100 * off:.1g}'):g} % off, the minimum several times as much, or the run may not converge; "
+        f"{percent:g} % off, the minimum several times as much, or the run may not converge; "
         f"{more} nodes keep the central film within about {100 * AIM:.0f} %"
     )
 
