@@ -15,8 +15,9 @@ def summary(result: Result) -> dict[str, Any]:
     """Return the summary of ``result`` as JSON can hold it: null where a number is not finite.
 
     Keys that end in a unit (``_m``, ``_pa``, ``_k``, ``_w``) are SI, the others dimensionless.
-    A film that is not positive is null, ``temperature`` and ``heat`` are null for an isothermal run,
-    ``traction`` where there are no shear stresses. A certified result has ``uncertainty``, which mirrors the values.
+    A film that is not positive is null; ``temperature`` and ``heat`` are null for an isothermal
+    run, ``traction`` where there are no shear stresses. A certified result has ``uncertainty``,
+    which mirrors the values.
 
     Parameters
     ----------
