@@ -1,6 +1,7 @@
 """Heights of the surfaces, positive outwards."""
 
 from tehl.roughness.features import Bump, Dimple, Ridge
+from tehl.roughness.map import Crop, Map
 from tehl.roughness.protocol import Roughness
 from tehl.roughness.random_surface import Random
 from tehl.roughness.smooth import Smooth
@@ -11,8 +12,10 @@ from tehl.roughness.waves import Crossed, Wave, WaveVector
 __all__ = [
     "AnyRoughness",
     "Bump",
+    "Crop",
     "Crossed",
     "Dimple",
+    "Map",
     "Random",
     "Ridge",
     "Roughness",

@@ -89,6 +89,11 @@ class RoughnessModel(BaseModel):
         del dx, dy
         return self  # type: ignore[return-value]  # the subclasses have the rest of the protocol
 
+    def fits(self, width: float, length: float) -> tuple[str, ...]:
+        """Return sentences on what is odd beside a contact of ``width`` by ``length`` [m]: none."""
+        del width, length
+        return ()
+
 
 def direction(angle: float) -> tuple[float, float]:
     """Return cosine and sine of ``angle`` [rad], exact at multiples of a right angle."""

@@ -209,6 +209,16 @@ class Random(RoughnessModel):
         """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
         return self._sampled.resolved_on(dx, dy)
 
+    def fits(self, width: float, length: float) -> tuple[str, ...]:
+        """Return a sentence if the surface repeats within a contact of these lengths [m]."""
+        if not min(self.period) < math.hypot(width, length) or self.is_smooth:
+            return ()
+        along, across = (period * 1e6 for period in self.period)
+        return (
+            f"the random surface repeats after {along:.3g} x {across:.3g} um, within a contact of "
+            f"{width * 1e6:.3g} x {length * 1e6:.3g} um: it has very short waves",
+        )
+
     def density(self, along: "Array", across: "Array") -> "Array":
         """Return the power spectral density, one at zero, by wave numbers along u and v [rad/m]."""
         import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)

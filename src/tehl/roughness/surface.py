@@ -7,6 +7,7 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
 
 from tehl.roughness.features import Bump, Dimple, Ridge
+from tehl.roughness.map import Map
 from tehl.roughness.protocol import Roughness, RoughnessModel
 from tehl.roughness.random_surface import Random
 from tehl.roughness.smooth import Smooth
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
     from tehl.typing import Array
 
 OneRoughness = Annotated[
-    Smooth | Wave | Crossed | Ridge | Bump | Dimple | Random, Field(discriminator="type")
+    Smooth | Wave | Crossed | Ridge | Bump | Dimple | Random | Map, Field(discriminator="type")
 ]
 """A surface that is no sum."""
 
@@ -70,6 +71,10 @@ class Sum(RoughnessModel):
         """Return the sum of the parts as a mesh of ``dx`` by ``dy`` [m] carries them."""
         return self._whole.resolved_on(dx, dy)
 
+    def fits(self, width: float, length: float) -> tuple[str, ...]:
+        """Return what is odd about the parts beside a contact of ``width`` by ``length`` [m]."""
+        return tuple(line for part in self.parts for line in part.fits(width, length))
+
 
 class _ListIsSum:
     """Metadata of a field: read a list of tables as their sum."""
@@ -94,7 +99,7 @@ def _as_table(value: Any) -> Any:
 
 
 AnyRoughness = Annotated[
-    Smooth | Wave | Crossed | Ridge | Bump | Dimple | Random | Sum,
+    Smooth | Wave | Crossed | Ridge | Bump | Dimple | Random | Map | Sum,
     Field(discriminator="type"),
     _ListIsSum(),
 ]

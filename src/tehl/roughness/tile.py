@@ -37,6 +37,8 @@ class Tile:
         By which the rows are turned against x [rad], as the crests of a wave are.
     edge : {"periodic", "mirror", "flat"}
         What lies beyond the edges. Heights that are to be flat there must end at zero.
+    covered : int or None
+        Points that are no flat rim, over which Sq is taken; None is all.
     """
 
     heights: "Array" = field(repr=False)
@@ -44,6 +46,7 @@ class Tile:
     centre: tuple[float, float] = (0.0, 0.0)
     angle: float = 0.0
     edge: Edge = "periodic"
+    covered: int | None = None
 
     @property
     def size(self) -> tuple[float, float]:
@@ -99,14 +102,15 @@ class Tile:
         import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
 
         x, y = (math.ceil(_FADED * step / own) for step, own in zip(mesh, self.pixel, strict=True))
-        return replace(self, heights=np.pad(self.heights, ((y, y), (x, x))))
+        covered = self.covered or self.heights.size
+        return replace(self, heights=np.pad(self.heights, ((y, y), (x, x))), covered=covered)
 
     @cached_property
     def mean_square(self) -> float:
-        """Mean square height [m^2]."""
+        """Mean square height, without a flat rim [m^2]."""
         import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
 
-        return float(np.mean(np.square(self.heights)))
+        return float(np.sum(np.square(self.heights))) / (self.covered or self.heights.size)
 
     @cached_property
     def wavelengths(self) -> tuple[float, float, float]:
@@ -121,9 +125,10 @@ class Tile:
         cosine, sine = direction(self.angle)
         turn = np.array([[cosine, sine], [-sine, cosine]])
         slopes = turn @ np.array([[xx, xy], [xy, yy]]) @ turn.T
+        height = float(np.mean(np.square(self.heights)))
         steepest = float(np.linalg.eigvalsh(slopes)[-1])
         along, across, least = (
-            2.0 * math.pi * math.sqrt(self.mean_square / square) if square > 0 else math.inf
+            2.0 * math.pi * math.sqrt(height / square) if square > 0 else math.inf
             for square in (float(slopes[0, 0]), float(slopes[1, 1]), steepest)
         )
         return along, across, least

@@ -1,0 +1,92 @@
+"""What a file of heights says, before anything is made of it, and checks that all readers share."""
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tehl.errors import InputError
+
+if TYPE_CHECKING:
+    from tehl.typing import Array
+
+LARGEST_MAP = 36_000_000
+"""Points of a map."""
+LARGEST_FILE = 2 * 10**9
+"""Bytes of a file."""
+_TOLERANCE = 1e-3
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class RawMap:
+    """Heights of a file in the units of the file.
+
+    Attributes
+    ----------
+    heights : (ny, nx) array
+        Rows along x, their number growing with y; NaN where nothing was measured.
+    unit : str or None
+        Of the heights; None when the file does not say.
+    pixel : (dx, dy) or None
+        Distances of the points.
+    pixel_unit : str or None
+        Of the distances.
+    kind : str
+        What the file is, for people.
+    """
+
+    heights: "Array"
+    kind: str
+    unit: str | None = None
+    pixel: tuple[float, float] | None = None
+    pixel_unit: str | None = None
+
+
+def check_count(shape: tuple[int, ...]) -> None:
+    """Refuse a map that is larger than memory should hold, before anything is allocated."""
+    if len(shape) != 2:
+        raise InputError(
+            f"holds an array of shape {_times(shape)}, but heights are a table of rows and columns"
+        )
+    if math.prod(shape) > LARGEST_MAP:
+        raise InputError(
+            f"claims {_times(shape)} points: a map may have {LARGEST_MAP // 10**6} million, "
+            "crop it before"
+        )
+
+
+def check_bytes(there: int, needed: int, shape: tuple[int, ...]) -> None:
+    """Refuse a file whose header claims more than it holds."""
+    if there < needed:
+        raise InputError(
+            f"is truncated: {_times(shape)} points take {needed} bytes, and {there} are there"
+        )
+
+
+def step(places: "Array", axis: str) -> float:
+    """Return the distance of equidistant places.
+
+    Raises
+    ------
+    InputError
+        If they are not equidistant and rising, or fewer than two.
+    """
+    import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
+
+    distances = np.diff(places)
+    if distances.size == 0:
+        raise InputError(f"has one point along {axis}, which is no map")
+    mean = float(np.mean(distances))
+    if not (mean > 0 and np.abs(distances - mean).max() <= _TOLERANCE * mean):
+        raise InputError(f"has points along {axis} that do not follow at equal, rising distances")
+    return mean
+
+
+def shown(path: str | Path) -> str:
+    """Return a path for a message: on one line, its middle left out when it is long."""
+    text = "".join(c if c.isprintable() else "?" for c in str(path))
+    return text if len(text) <= 160 else f"{text[:60]}...{text[-80:]}"
+
+
+def _times(shape: tuple[int, ...]) -> str:
+    return " x ".join(str(count) for count in shape) or "no"

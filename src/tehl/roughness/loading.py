@@ -1,0 +1,239 @@
+"""A map from its file to prepared heights."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tehl.errors import InputError
+from tehl.roughness.files import RawMap, checked, read
+from tehl.roughness.files.raw import shown
+from tehl.roughness.prepare import Heights, filled, gaussian_mean, levelled, without_outliers
+from tehl.roughness.quantities import metres
+from tehl.typing import Array
+
+if TYPE_CHECKING:
+    from tehl.roughness.map import Map
+
+_LEAST = 4
+_HIGHEST = 10e-6
+_WIDEST, _FINEST = 1.0, 1e-10
+_BEYOND = {
+    "flat": "beyond its edges the surface is flat, heights fall to zero before",
+    "periodic": "beyond its edges it repeats",
+    "mirror": "beyond its edges it is mirrored",
+}
+
+
+def found_file(surface: "Map") -> Path:
+    """Return the path of the file of a map.
+
+    Raises
+    ------
+    InputError
+        If it is not there or no file; the message names it.
+    """
+    try:
+        return checked(surface.file)
+    except InputError as error:
+        raise InputError(f"map {shown(surface.file)} {error}") from None
+
+
+def stamp(path: Path) -> tuple[int, int]:
+    """Return what changes when a file does: its size and when it was written."""
+    state = path.stat()
+    return state.st_size, state.st_mtime_ns
+
+
+def load(surface: "Map") -> Heights:
+    """Return the prepared heights of a map.
+
+    Raises
+    ------
+    InputError
+        If its file holds no map that a contact can have; the message names it.
+    """
+    path = found_file(surface)
+    try:
+        raw = read(path, layout=surface.layout, variable=surface.variable)
+        return prepared(surface, raw)
+    except InputError as error:
+        raise InputError(f"map {shown(surface.file)} {error}") from None
+
+
+def prepared(surface: "Map", raw: RawMap) -> Heights:
+    """Return the heights of a file in metres, ready for a contact.
+
+    Raises
+    ------
+    InputError
+        If units are missing or heights cannot be meant; the message lacks the file.
+    """
+    _check_points(raw.heights)
+    notes: list[str] = []
+    factor = _factor(surface, raw, notes)
+    pixel = _pixel(surface, raw, notes)
+    heights = _oriented(surface, Heights(values=raw.heights * factor, pixel=pixel))
+    heights = _cropped(surface, heights)
+    values = _whole(surface, heights.values, notes)
+    values = levelled(values, surface.level)
+    values = _filtered(surface, values, heights, notes)
+    _check_heights(surface, values)
+    notes.append(_BEYOND[surface.outside])
+    return Heights(values=values, pixel=heights.pixel, notes=tuple(notes))
+
+
+def _check_points(heights: Array) -> None:
+    ny, nx = heights.shape
+    if min(ny, nx) < _LEAST:
+        raise InputError(f"has {nx} x {ny} points, but a map has at least {_LEAST} x {_LEAST}")
+    if not np.isfinite(heights).any():
+        raise InputError("has no point with a height")
+
+
+# ---- units
+
+
+def _factor(surface: "Map", raw: RawMap, notes: list[str]) -> float:
+    """Return the factor from the heights of the file to metres."""
+    stated = surface.unit or raw.unit
+    if stated is None:
+        raise InputError('does not say the unit of its heights: which is it? Give unit = "um"')
+    factor = _metres(stated, "heights", "unit")
+    if surface.unit and raw.unit and _known(raw.unit) != factor:
+        notes.append(f"its heights are taken in {surface.unit}, though the file says {raw.unit}")
+    return factor
+
+
+def _known(unit: str) -> float | None:
+    try:
+        return metres(unit)
+    except ValueError:
+        return None
+
+
+def _metres(unit: str, what: str, key: str) -> float:
+    factor = _known(unit)
+    if factor is None:
+        raise InputError(
+            f'has the unit {unit[:20]!r} for its {what}, which is no length: give {key} = "um"'
+        )
+    return factor
+
+
+def _pixel(surface: "Map", raw: RawMap, notes: list[str]) -> tuple[float, float]:
+    """Return the distances of the points of the file [m]."""
+    ny, nx = raw.heights.shape
+    unit = surface.xy_unit or raw.pixel_unit
+    own = None
+    if raw.pixel is not None and unit is not None:
+        factor = _metres(unit, "x and y", "xy_unit")
+        own = (raw.pixel[0] * factor, raw.pixel[1] * factor)
+    pixel = own if surface.pixel is None else surface.pixel
+    if surface.size is not None:
+        pixel = (surface.size[0] / nx, surface.size[1] / ny)
+    if pixel is None:
+        raise InputError(_question(raw))
+    if own is not None and not np.allclose(pixel, own, rtol=1e-3, atol=0.0):
+        notes.append(
+            f"its points are taken {_pair(pixel)} um apart, though the file says {_pair(own)} um"
+        )
+    size = (nx * pixel[0], ny * pixel[1])
+    if not (max(size) <= _WIDEST and min(pixel) >= _FINEST):
+        raise InputError(
+            f"comes out {size[0]:.3g} x {size[1]:.3g} m large with points {min(pixel):.3g} m "
+            "apart, which no measured surface is: check unit, xy_unit, pixel and size"
+        )
+    return pixel
+
+
+def _question(raw: RawMap) -> str:
+    if raw.pixel is not None:
+        return (
+            f"has points {raw.pixel[0]:g} and {raw.pixel[1]:g} apart along x and y, but does not "
+            'say in which unit: which is it? Give xy_unit = "um"'
+        )
+    return (
+        'does not say how far its points are apart: give pixel = "2 um", or size = ["1 mm", "1 mm"]'
+    )
+
+
+def _pair(pixel: tuple[float, float]) -> str:
+    return " and ".join(f"{step * 1e6:.4g}" for step in pixel)
+
+
+# ---- shape
+
+
+def _oriented(surface: "Map", heights: Heights) -> Heights:
+    values, pixel = heights.values, heights.pixel
+    if surface.transpose:
+        values, pixel = values.T, (pixel[1], pixel[0])
+    values = values[:, ::-1] if surface.flip_x else values
+    values = values[::-1] if surface.flip_y else values
+    return Heights(values=-values if surface.upside_down else values, pixel=pixel)
+
+
+def _cropped(surface: "Map", heights: Heights) -> Heights:
+    if surface.crop is None:
+        return heights
+    spans = (surface.crop.y, surface.crop.x)
+    parts = []
+    for axis, count, step, span in zip(
+        "yx", heights.values.shape, reversed(heights.pixel), spans, strict=True
+    ):
+        first, last = (0, count) if span is None else (round(end / step) for end in span)
+        if not first + _LEAST <= last <= count:
+            raise InputError(
+                f"measures {count * step * 1e6:.4g} um along {axis}, where crop leaves fewer than "
+                f"{_LEAST} points or goes beyond"
+            )
+        parts.append(slice(first, last))
+    values = heights.values[parts[0], parts[1]]
+    if not np.isfinite(values).any():
+        raise InputError("has no point with a height where crop leaves it")
+    return Heights(values=values, pixel=heights.pixel)
+
+
+# ---- heights
+
+
+def _whole(surface: "Map", values: Array, notes: list[str]) -> Array:
+    """Return heights without spikes and gaps."""
+    values = np.where(np.isfinite(values), values, np.nan)
+    gaps = int(np.isnan(values).sum())
+    if surface.outliers is not None:
+        values, spikes = without_outliers(values, surface.outliers)
+        notes.append(f"{spikes} spikes were taken away")
+    whole = filled(values, surface.fill)
+    if gaps:
+        notes.append(f"{gaps} missing points ({100 * gaps / values.size:.2g} %) were filled")
+    return whole
+
+
+def _filtered(surface: "Map", values: Array, heights: Heights, notes: list[str]) -> Array:
+    for key, cut_off in (("lambda_c", surface.lambda_c), ("lambda_s", surface.lambda_s)):
+        if cut_off is None:
+            continue
+        if cut_off > 2.0 * min(heights.size):
+            raise InputError(
+                f"measures {heights.size[0] * 1e6:.4g} x {heights.size[1] * 1e6:.4g} um, too "
+                f"little for {key} = {cut_off * 1e6:.4g} um"
+            )
+        mean = gaussian_mean(values, heights.pixel, cut_off)
+        if key == "lambda_s" and cut_off < 2.0 * min(heights.pixel):
+            notes.append("lambda_s is finer than the points of the map and does nothing")
+        values = values - mean if key == "lambda_c" else mean
+    return values
+
+
+def _check_heights(surface: "Map", values: Array) -> None:
+    off = float(np.std(values))
+    if not off > 1e-13:
+        raise InputError("is constant: there is no roughness in it")
+    if not off <= _HIGHEST:
+        how = f'after level = "{surface.level}"'
+        raise InputError(
+            f"has Sq = {off * 1e6:.3g} um {how}, more than {_HIGHEST * 1e6:g} um and than a "
+            "lubricated contact has: is the unit right, and is its form taken off?"
+        )

@@ -1,0 +1,280 @@
+"""Measured surfaces: a file, what it does not say, and how its heights are prepared."""
+
+import hashlib
+import math
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, Self
+
+from pydantic import BaseModel, ConfigDict, ValidationInfo, field_validator, model_validator
+
+from tehl.roughness.protocol import Roughness, RoughnessModel
+from tehl.roughness.quantities import Lengths, LengthUnit, Position, Span, Wavelength
+from tehl.roughness.sampled import Sampled
+from tehl.roughness.tile import Edge, Tile
+from tehl.units import Angle, Height, PositiveNumber
+
+if TYPE_CHECKING:
+    from tehl.roughness.prepare import Heights
+    from tehl.typing import Array
+
+_TAPER = 0.1
+_COARSE = 10.0
+_LARGE = 20.0
+
+
+class Crop(BaseModel):
+    """A part of a map, in the coordinates of the file: from its first column and row.
+
+    Attributes
+    ----------
+    x, y : (float, float) or None
+        From and to [m]; None is all.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
+    x: Span | None = None
+    y: Span | None = None
+
+    @model_validator(mode="after")
+    def _must_rise(self) -> Self:
+        for axis, span in (("x", self.x), ("y", self.y)):
+            if span is not None and not 0.0 <= span[0] < span[1]:
+                raise ValueError(f"{axis} must rise from zero or more, from the corner of the map")
+        return self
+
+
+class Map(RoughnessModel):
+    """A measured surface.
+
+    The file is read when heights are first asked for, so that a case can be stored and read again
+    without it. Columns lie along x, rows along y, the first row at the least y. What is done goes
+    in this order: transpose, flip, upside_down, crop, outliers, fill, level, lambda_c, lambda_s.
+
+    Attributes
+    ----------
+    file : str
+        Its path; the ending says the format.
+    unit : str or None
+        Of the heights; needed where the file does not say.
+    xy_unit : str or None
+        Of x and y in the file; needed where it has them without a unit.
+    pixel, size : pair of float or None
+        Distances of the points or lengths of the edges along x and y [m], one number for both;
+        one of the two is needed where the file does not say.
+    layout : {"auto", "matrix", "xyz"}
+        What the numbers of a text are.
+    variable : str or None
+        Which variable of a NetCDF file.
+    transpose, flip_x, flip_y, upside_down : bool
+        Exchange rows and columns; reverse x or y; take depths as heights.
+    crop : Crop or None
+        The part to take, after these.
+    outliers : float or None
+        Spikes beyond so many standard deviations become missing points.
+    fill : {"auto", "linear", "nearest", "refuse"}
+        How missing points are filled; "auto" refuses more than a hundredth.
+    level : {"none", "mean", "plane", "quadratic"}
+        What is taken off.
+    lambda_c, lambda_s : float or None
+        Longest and shortest waves that are kept [m], by Gaussian filters.
+    rotate : float
+        Angle by which the rows are turned against x [rad], as the crests of a wave are.
+    x, y : float
+        Where the middle of the map lies at time zero [m].
+    outside : {"flat", "periodic", "mirror"}
+        What lies beyond the edges.
+    taper : float or None
+        Over which heights fall to zero at the edges of a flat surrounding [m]; a tenth of the
+        shorter edge if left out.
+    """
+
+    type: Literal["map"] = "map"
+    file: str
+    unit: LengthUnit | None = None
+    xy_unit: LengthUnit | None = None
+    pixel: Lengths | None = None
+    size: Lengths | None = None
+    layout: Literal["auto", "matrix", "xyz"] = "auto"
+    variable: str | None = None
+    transpose: bool = False
+    flip_x: bool = False
+    flip_y: bool = False
+    upside_down: bool = False
+    crop: Crop | None = None
+    outliers: PositiveNumber | None = None
+    fill: Literal["auto", "linear", "nearest", "refuse"] = "auto"
+    level: Literal["none", "mean", "plane", "quadratic"] = "plane"
+    lambda_c: Wavelength | None = None
+    lambda_s: Wavelength | None = None
+    rotate: Angle = 0.0
+    x: Position = 0.0
+    y: Position = 0.0
+    outside: Edge = "flat"
+    taper: Height | None = None
+
+    @field_validator("file", mode="after")
+    @classmethod
+    def _beside_the_case(cls, file: str, info: ValidationInfo) -> str:
+        """Take a relative path from the folder that the context of the validation names."""
+        context: Any = info.context
+        folder = context.get("folder") if isinstance(context, dict) else None
+        if not file.strip():
+            raise ValueError('is no name of a file: give one such as "surface.x3p"')
+        known = Path(file).expanduser()
+        return file if folder is None or known.is_absolute() else str(Path(folder) / known)
+
+    @model_validator(mode="after")
+    def _must_agree(self) -> Self:
+        if self.pixel is not None and self.size is not None:
+            raise ValueError("pixel and size say the same: give one of them")
+        if self.taper is not None and self.outside != "flat":
+            raise ValueError('taper counts for outside = "flat" only: leave it out')
+        if None not in (self.lambda_s, self.lambda_c) and not self.lambda_s < self.lambda_c:  # type: ignore[operator]
+            raise ValueError(
+                f"lambda_s = {self.lambda_s:g} m must be shorter than lambda_c = "
+                f"{self.lambda_c:g} m: what lies between them is kept"
+            )
+        return self
+
+    @property
+    def is_smooth(self) -> bool:
+        """Return False: a map without heights is refused."""
+        return False
+
+    @property
+    def is_even_in_y(self) -> bool:
+        """Return False."""
+        return False
+
+    @property
+    def shortest_wavelengths(self) -> tuple[float, float]:
+        """Return the wavelengths 2 pi Sq / Sq' along x and along y [m]."""
+        return self._sampled.shortest_wavelengths
+
+    @property
+    def shortest_wavelength(self) -> float:
+        """Return the wavelength 2 pi Sq / Sq' where it is shortest [m]."""
+        return self._sampled.shortest_wavelength
+
+    @property
+    def rms(self) -> float:
+        """Return Sq of the prepared heights [m], before they are tapered."""
+        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
+
+        return float(np.std(self.load().values))
+
+    @property
+    def fingerprint(self) -> str:
+        """Return the SHA-256 sum of the file."""
+        from tehl.roughness.loading import found_file  # noqa: PLC0415 (only where heights are)
+
+        with found_file(self).open("rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
+
+    def load(self) -> "Heights":
+        """Return the prepared heights in metres, read once.
+
+        Raises
+        ------
+        InputError
+            If the file holds no map that a contact can have; the message names the file.
+        """
+        from tehl.roughness.loading import found_file, stamp  # noqa: PLC0415
+
+        return _loaded(self, stamp(found_file(self)))
+
+    def _at_rest(self, x: "Array", y: "Array") -> "Array":
+        return self._sampled.height(x, y)
+
+    def resolved_on(self, dx: float, dy: float) -> Roughness:
+        """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
+        return self._sampled.resolved_on(dx, dy)
+
+    @property
+    def _sampled(self) -> Sampled:
+        from tehl.roughness.loading import found_file, stamp  # noqa: PLC0415
+
+        return Sampled(_tile(self, stamp(found_file(self))))
+
+    def fits(self, width: float, length: float) -> tuple[str, ...]:
+        """Return what is odd about the map beside a contact.
+
+        Parameters
+        ----------
+        width, length : float
+            Of the contact along x and y [m].
+
+        Returns
+        -------
+        tuple of str
+            Sentences, none when all is well.
+        """
+        heights = self.load()
+        extent = _turned(heights.size, self.rotate)
+        sizes = (
+            f"the map of {_micro(*extent)} and the contact of {_micro(width, length)} (along x and "
+            "y)"
+        )
+        sentences = []
+        if extent[0] < width or extent[1] < length:
+            sentences.append(
+                f"{sizes}: the map is smaller than the contact; {_BEYOND[self.outside]}"
+            )
+        elif min(extent[0] / width, extent[1] / length) > _LARGE:
+            sentences.append(f"{sizes}: only a small part of the map lies in the contact")
+        if max(heights.pixel) > min(width, length) / _COARSE:
+            sentences.append(
+                f"the map has points {_micro(*heights.pixel)} apart and the contact measures "
+                f"{_micro(width, length)}: that is too coarse to be roughness, check its size"
+            )
+        if abs(self.x) > 0.5 * (extent[0] + width) or abs(self.y) > 0.5 * (extent[1] + length):
+            sentences.append(f"{sizes} do not touch at time zero: the map lies beside the contact")
+        return tuple(sentences)
+
+
+_BEYOND: dict[str, str] = {
+    "flat": "beyond its edges the surface is flat",
+    "periodic": "beyond its edges it repeats",
+    "mirror": "beyond its edges it is mirrored",
+}
+
+
+def _turned(size: tuple[float, float], angle: float) -> tuple[float, float]:
+    """Return what a turned rectangle measures along x and y [m]."""
+    cosine, sine = abs(math.cos(angle)), abs(math.sin(angle))
+    return size[0] * cosine + size[1] * sine, size[0] * sine + size[1] * cosine
+
+
+def _micro(first: float, second: float) -> str:
+    return f"{first * 1e6:.3g} x {second * 1e6:.3g} um"
+
+
+@lru_cache(maxsize=4)
+def _loaded(surface: Map, stamp: object) -> "Heights":
+    """Return prepared heights; ``stamp`` tells another content of the same file."""
+    from tehl.roughness.loading import load  # noqa: PLC0415 (only where heights are)
+
+    del stamp
+    return load(surface)
+
+
+@lru_cache(maxsize=4)
+def _tile(surface: Map, stamp: object) -> Tile:
+    """Return the heights with what lies beyond their edges."""
+    from tehl.roughness.prepare import tapered  # noqa: PLC0415 (only where heights are)
+
+    heights = _loaded(surface, stamp)
+    values = heights.values
+    if surface.outside == "flat":
+        width = _TAPER * min(heights.size) if surface.taper is None else surface.taper
+        values = tapered(values, heights.pixel, width)
+    return Tile(
+        heights=values,
+        pixel=heights.pixel,
+        centre=(surface.x, surface.y),
+        angle=surface.rotate,
+        edge=surface.outside,
+        covered=heights.values.size,
+    )

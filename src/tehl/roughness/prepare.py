@@ -1,0 +1,198 @@
+"""From measured heights to heights that a contact can have: fill, level, filter."""
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from scipy import ndimage, sparse
+
+from tehl.errors import InputError
+from tehl.typing import Array, BoolArray
+
+Level = Literal["none", "mean", "plane", "quadratic"]
+Fill = Literal["auto", "linear", "nearest", "refuse"]
+
+FEW = 0.01
+"""Share of missing points that is filled without being asked."""
+MOST = 0.5
+"""Share of missing points that no filling bridges."""
+_NEIGHBOURS = 5
+_NORMAL = 1.4826
+_DEGREE = {"mean": 0, "plane": 1, "quadratic": 2}
+_ALPHA = math.sqrt(math.log(2.0) / math.pi)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class Heights:
+    """Heights on a lattice, and what was done to them.
+
+    Attributes
+    ----------
+    values : (ny, nx) array
+        [m]; rows along x.
+    pixel : (dx, dy)
+        Distances of the lattice [m].
+    notes : tuple of str
+        What a reader of the result should know.
+    """
+
+    values: Array
+    pixel: tuple[float, float]
+    notes: tuple[str, ...] = ()
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Return the lengths along x and y [m]."""
+        ny, nx = self.values.shape
+        return nx * self.pixel[0], ny * self.pixel[1]
+
+
+def without_outliers(values: Array, sigmas: float) -> tuple[Array, int]:
+    """Return heights with spikes as missing points, and how many they are.
+
+    A spike lies further from the median of the 5 x 5 points around it than ``sigmas`` times the
+    usual distance, 1.48 times the median one.
+    """
+    there = np.isfinite(values)
+    whole = np.where(there, values, np.median(values[there]))
+    off = np.abs(whole - ndimage.median_filter(whole, _NEIGHBOURS, mode="nearest"))
+    spikes = there & (off > sigmas * _NORMAL * max(float(np.median(off[there])), 1e-300))
+    return np.where(spikes, np.nan, values), int(spikes.sum())
+
+
+def filled(values: Array, how: Fill) -> Array:
+    """Return heights without gaps.
+
+    Parameters
+    ----------
+    values : Array
+        Heights; what is not finite is missing.
+    how : {"auto", "linear", "nearest", "refuse"}
+        "linear" spans a membrane over each gap (Laplace's equation), "nearest" takes the nearest
+        height, "auto" is "linear" for a hundredth of the points and refuses more.
+
+    Raises
+    ------
+    InputError
+        If too much is missing.
+    """
+    missing = ~np.isfinite(values)
+    count = int(missing.sum())
+    if count == 0:
+        return values
+    _check_gaps(missing, how, count)
+    nearest = ndimage.distance_transform_edt(missing, return_distances=False, return_indices=True)
+    whole = values[tuple(nearest)]
+    return whole if how == "nearest" else _with_membranes(whole, missing)
+
+
+def _check_gaps(missing: BoolArray, how: Fill, count: int) -> None:
+    share = count / missing.size
+    row, column = (int(places[0]) for places in np.nonzero(missing))
+    gaps = (
+        f"has {count} points without a height ({100 * share:.2g} %), the first in row {row + 1}, "
+        f"column {column + 1}"
+    )
+    if share == 1.0:
+        raise InputError("has no point with a height")
+    if share > MOST:
+        raise InputError(f"{gaps}: that is too much to fill, crop the map")
+    if how == "refuse" or (how == "auto" and share > FEW):
+        raise InputError(f'{gaps}: crop the map, or say how to fill them, fill = "linear"')
+
+
+def _with_membranes(whole: Array, missing: BoolArray) -> Array:
+    """Return heights with gaps that fulfil Laplace's equation; at edges, without slope."""
+    ny, nx = missing.shape
+    number = np.full(missing.shape, -1)
+    number[missing] = np.arange(missing.sum())
+    rows, columns = np.nonzero(missing)
+    diagonal, right = np.zeros(rows.size), np.zeros(rows.size)
+    from_, to = [], []
+    for down, across in ((-1, 0), (1, 0), (0, -1), (0, 1)):
+        row, column = rows + down, columns + across
+        inside = (row >= 0) & (row < ny) & (column >= 0) & (column < nx)
+        diagonal += inside
+        row, column = row.clip(0, ny - 1), column.clip(0, nx - 1)
+        gap = inside & missing[row, column]
+        right += np.where(inside & ~gap, whole[row, column], 0.0)
+        from_.append(np.flatnonzero(gap))
+        to.append(number[row, column][gap])
+    start, end = np.concatenate(from_), np.concatenate(to)
+    graph = sparse.csr_array((-np.ones(start.size), (start, end)), shape=(rows.size, rows.size))
+    matrix = graph + sparse.diags_array(diagonal)
+    inverse = sparse.diags_array(1.0 / diagonal)
+    base = float(whole[missing].mean())  # so that the tolerance is one of the relief
+    found, _ = sparse.linalg.cg(
+        matrix,
+        right - matrix @ np.full(rows.size, base),
+        x0=whole[missing] - base,
+        rtol=1e-6,
+        maxiter=2000,
+        M=inverse,
+    )
+    result = whole.copy()
+    result[missing] = found + base
+    return result
+
+
+def levelled(values: Array, how: Level) -> Array:
+    """Return heights without their mean, plane or quadratic form, by least squares."""
+    if how == "none":
+        return values
+    ny, nx = values.shape
+    x, y = np.linspace(-1.0, 1.0, nx)[None, :], np.linspace(-1.0, 1.0, ny)[:, None]
+    degree = _DEGREE[how]
+    powers = [(i, j) for i in range(degree + 1) for j in range(degree + 1 - i)]
+    terms = np.stack([np.broadcast_to(x**i * y**j, values.shape).ravel() for i, j in powers])
+    off = values - values.mean()
+    weights = np.linalg.solve(terms @ terms.T, terms @ off.ravel())
+    return off - (weights @ terms).reshape(values.shape)
+
+
+def gaussian_mean(heights: Array, pixel: tuple[float, float], cut_off: float) -> Array:
+    r"""Return heights through the areal Gaussian filter.
+
+    .. math:: s(x, y) = \frac{1}{\alpha^2\lambda_c^2}
+              \exp\left(-\pi\frac{x^2 + y^2}{\alpha^2\lambda_c^2}\right), \quad
+              \alpha = \sqrt{\ln 2/\pi}
+
+    so that half of a wave as long as ``cut_off`` passes. At the edges heights are mirrored.
+
+    Parameters
+    ----------
+    heights : (ny, nx) array
+        [m]
+    pixel : (dx, dy)
+        [m]
+    cut_off : float
+        lambda_c [m].
+
+    References
+    ----------
+    .. [1] ISO 16610-61, Geometrical product specification - Filtration - Linear areal filters:
+       Gaussian filters.
+    """
+    sigma = _ALPHA * cut_off / math.sqrt(2.0 * math.pi)
+    return np.asarray(
+        ndimage.gaussian_filter(heights, (sigma / pixel[1], sigma / pixel[0]), mode="reflect")
+    )
+
+
+def tapered(heights: Array, pixel: tuple[float, float], width: float) -> Array:
+    """Return heights that fall to zero over ``width`` [m] at all edges, with a flat rim around."""
+    windows = [
+        _window(count, min(width / step, 0.5 * count))
+        for count, step in zip(heights.shape, reversed(pixel), strict=True)
+    ]
+    return np.pad(heights * windows[0][:, None] * windows[1], _RIM)
+
+
+_RIM = 12
+"""Points of zeros around a flat tile, after which its spline is zero to rounding."""
+
+
+def _window(count: int, width: float) -> Array:
+    edge = np.minimum(np.arange(count) + 0.5, count - np.arange(count) - 0.5)
+    return np.sin(0.5 * np.pi * np.clip(edge / max(width, 1e-9), 0.0, 1.0)) ** 2

@@ -1,0 +1,176 @@
+"""Numbers that describe a surface."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import fft
+
+from tehl.typing import Array
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Statistics:
+    """Areal parameters of a map.
+
+    Attributes
+    ----------
+    sq, sa, sz : float
+        Root mean square, mean absolute and largest height difference [m].
+    ssk, sku : float
+        Skewness and kurtosis [-]; nan for a map without heights.
+    sdq : float
+        Root mean square slope [-].
+    correlation_lengths : (float, float)
+        Along x and y, where the autocorrelation has fallen to 1/e [m]; infinite where it does not
+        within half of the map.
+
+    References
+    ----------
+    .. [1] ISO 25178-2, Geometrical product specifications - Surface texture: Areal - Terms.
+    """
+
+    sq: float
+    sa: float
+    sz: float
+    ssk: float
+    sku: float
+    sdq: float
+    correlation_lengths: tuple[float, float]
+
+
+def statistics(heights: Array, pixel: tuple[float, float]) -> Statistics:
+    """Return the parameters of a map.
+
+    Parameters
+    ----------
+    heights : (ny, nx) array
+        [m], without gaps; their mean is taken off.
+    pixel : (dx, dy)
+        [m]
+    """
+    off = heights - heights.mean()
+    sq = float(np.sqrt(np.mean(off**2)))
+    scaled = off / sq if sq > 0 else np.full_like(off, np.nan)
+    slope_y, slope_x = np.gradient(off, pixel[1], pixel[0])
+    return Statistics(
+        sq=sq,
+        sa=float(np.mean(np.abs(off))),
+        sz=float(np.ptp(off)),
+        ssk=float(np.mean(scaled**3)),
+        sku=float(np.mean(scaled**4)),
+        sdq=float(np.sqrt(np.mean(slope_x**2 + slope_y**2))),
+        correlation_lengths=correlation_lengths(off, pixel),
+    )
+
+
+def correlation_lengths(heights: Array, pixel: tuple[float, float]) -> tuple[float, float]:
+    """Return where the autocorrelation has fallen to 1/e, along x and y [m]."""
+    along = _autocorrelation(heights, axis=1)
+    across = _autocorrelation(heights, axis=0)
+    return _fallen(along) * pixel[0], _fallen(across) * pixel[1]
+
+
+def _autocorrelation(heights: Array, axis: int) -> Array:
+    """Return the mean product of heights some points apart, without wrapping around, by lag."""
+    count = heights.shape[axis]
+    spectrum = np.abs(fft.rfft(heights, fft.next_fast_len(2 * count, real=True), axis=axis)) ** 2
+    power = spectrum.sum(axis=1 - axis)
+    products = fft.irfft(power, fft.next_fast_len(2 * count, real=True))[: count // 2]
+    return products / (count - np.arange(count // 2))
+
+
+def _fallen(correlation: Array) -> float:
+    """Return the lag where a correlation has fallen to 1/e, infinite if nowhere."""
+    if not (correlation.size and correlation[0] > 0):
+        return math.inf
+    scaled = correlation / correlation[0]
+    below = np.flatnonzero(scaled < math.exp(-1.0))
+    if below.size == 0:
+        return math.inf
+    after = int(below[0])
+    return (
+        after
+        - 1
+        + float((scaled[after - 1] - math.exp(-1.0)) / (scaled[after - 1] - scaled[after]))
+    )
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class Spectrum:
+    """Power of a map by wave number, averaged over all directions.
+
+    Attributes
+    ----------
+    wave_number : (n,) array
+        Middle of each ring, q = 2 pi / wavelength [rad/m].
+    density : (n,) array
+        Mean two-dimensional power spectral density of the ring [m^4].
+    """
+
+    wave_number: Array
+    density: Array
+
+
+def spectrum(heights: Array, pixel: tuple[float, float], rings: int = 60) -> Spectrum:
+    r"""Return the radially averaged power spectral density.
+
+    It is :math:`C(q) = |\hat h|^2/A` of the heights under a Hann window, scaled so that the mean
+    square height is :math:`\int C \, d^2q / 4\pi^2`; a window is needed because maps do not repeat.
+
+    Parameters
+    ----------
+    heights : (ny, nx) array
+        [m]
+    pixel : (dx, dy)
+        [m]
+    rings : int
+        How many rings, of equal width on a logarithmic scale; those without a wave are left out.
+
+    References
+    ----------
+    .. [1] T. D. B. Jacobs, T. Junge and L. Pastewka, Surf. Topogr.: Metrol. Prop. 5 (2017), 013001.
+    """
+    power, number = _power(heights, pixel)
+    ny, nx = heights.shape
+    area = nx * pixel[0] * ny * pixel[1]
+    least = 2.0 * math.pi / max(nx * pixel[0], ny * pixel[1])
+    largest = math.pi / min(pixel)
+    edges = np.geomspace(0.9 * least, max(largest, 1.1 * least), rings + 1)
+    ring = np.digitize(number.ravel(), edges) - 1
+    inside = (ring >= 0) & (ring < rings)
+    count = np.bincount(ring[inside], minlength=rings)
+    total = np.bincount(ring[inside], weights=power.ravel()[inside], minlength=rings)
+    there = count > 0
+    return Spectrum(
+        wave_number=np.sqrt(edges[1:] * edges[:-1])[there],
+        density=area * total[there] / count[there],
+    )
+
+
+def share_beyond(heights: Array, pixel: tuple[float, float], mesh: tuple[float, float]) -> float:
+    """Return which share of the variance a mesh of ``mesh`` [m] loses: waves of two widths or less.
+
+    Parameters
+    ----------
+    heights : (ny, nx) array
+        [m]
+    pixel, mesh : (dx, dy)
+        [m]
+    """
+    ny, nx = heights.shape
+    power = fft.dctn(heights - heights.mean(), type=2, norm="ortho") ** 2  # no jumps at edges
+    x, y = np.arange(nx) / (2.0 * nx * pixel[0]), np.arange(ny) / (2.0 * ny * pixel[1])
+    lost = (x >= 0.5 / mesh[0]) | (y >= 0.5 / mesh[1])[:, None]
+    return float(power[lost].sum() / power.sum()) if power.sum() > 0 else 0.0
+
+
+def _power(heights: Array, pixel: tuple[float, float]) -> tuple[Array, Array]:
+    """Return the share of each wave in the mean square [m^2] and its wave number [rad/m]."""
+    off = heights - heights.mean()
+    ny, nx = off.shape
+    window = np.hanning(ny + 2)[1:-1, None] * np.hanning(nx + 2)[1:-1]
+    window /= np.sqrt(np.mean(window**2))
+    power = np.abs(fft.fft2(off * window) / off.size) ** 2
+    number = 2.0 * np.pi * np.hypot(fft.fftfreq(nx, pixel[0]), fft.fftfreq(ny, pixel[1])[:, None])
+    return power, number

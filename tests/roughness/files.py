@@ -1,0 +1,66 @@
+"""Files of heights for tests."""
+
+import hashlib
+import zipfile
+
+import numpy as np
+from scipy import ndimage
+
+X3P = """<?xml version="1.0" encoding="UTF-8"?>
+{doctype}<p:ISO5436_2 xmlns:p="http://www.opengps.eu/2008/ISO5436_2">
+<Record1><Revision>ISO5436 - 2000</Revision><FeatureType>{feature}</FeatureType><Axes>
+<CX><AxisType>I</AxisType><DataType>D</DataType><Increment>{dx}</Increment><Offset>0</Offset></CX>
+<CY><AxisType>I</AxisType><DataType>D</DataType><Increment>{dy}</Increment><Offset>0</Offset></CY>
+<CZ><AxisType>A</AxisType><DataType>{letter}</DataType>{increment}</CZ></Axes></Record1>
+<Record3><MatrixDimension><SizeX>{nx}</SizeX><SizeY>{ny}</SizeY><SizeZ>1</SizeZ></MatrixDimension>
+<DataLink><PointDataLink>bindata/data.bin</PointDataLink>
+<MD5ChecksumPointData>{md5}</MD5ChecksumPointData>{valid}</DataLink></Record3>
+<Record4><ChecksumFile>md5checksum.hex</ChecksumFile></Record4></p:ISO5436_2>
+"""
+TYPES = {"D": "<f8", "F": "<f4", "L": "<i4", "I": "<i2"}
+
+
+def relief(ny=24, nx=32, sq=2e-7, seed=0):
+    """Return rough heights on a plane [m]."""
+    noise = np.random.default_rng(seed).standard_normal((ny, nx))
+    heights = ndimage.gaussian_filter(noise, 1.5, mode="wrap")
+    x, y = np.linspace(-1, 1, nx)[None, :], np.linspace(-1, 1, ny)[:, None]
+    return sq * (heights / heights.std() + 2 * x - 3 * y)
+
+
+def write_x3p(path, heights, letter="D", scale=1.0, **changes):
+    """Write an x3p file; ``changes`` make it a wrong one."""
+    ny, nx = heights.shape
+    data = np.nan_to_num(heights) / scale
+    data = data.round() if letter in "IL" else data
+    content = data.astype(TYPES[letter]).tobytes()
+    keys = {"nx": nx, "ny": ny, "dx": 2e-6, "dy": 3e-6, "letter": letter, "feature": "SUR"}
+    keys |= {"md5": hashlib.md5(content).hexdigest(), "valid": "", "doctype": "", "increment": ""}
+    if scale != 1.0:
+        keys["increment"] = f"<Increment>{scale}</Increment>"
+    missing = ~np.isfinite(heights)
+    if missing.any():
+        keys["valid"] = "<ValidPointsLink>bindata/valid.bin</ValidPointsLink>"
+    cut = changes.pop("cut", 0)
+    checksum = changes.pop("checksum", None)
+    header = X3P.format(**(keys | changes)).encode()
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("main.xml", header)
+        archive.writestr("bindata/data.bin", content[: len(content) - cut])
+        archive.writestr(
+            "md5checksum.hex", checksum or f"{hashlib.md5(header).hexdigest()} *main.xml"
+        )
+        if missing.any():
+            archive.writestr(
+                "bindata/valid.bin", np.packbits(~missing, bitorder="little").tobytes()
+            )
+    return path
+
+
+def write_xyz(path, heights, dx=2.0, dy=3.0, mark=" "):
+    """Write columns x, y, z in an order of their own."""
+    rows, columns = np.nonzero(np.isfinite(heights))
+    order = np.random.default_rng(1).permutation(rows.size)
+    table = np.column_stack((columns * dx, rows * dy, heights[rows, columns]))[order]
+    np.savetxt(path, table, delimiter=mark, fmt="%.9g")
+    return path

@@ -1,0 +1,255 @@
+"""Files of heights: right ones are read, wrong ones are told in a sentence."""
+
+import hashlib
+import io
+import struct
+from importlib.util import find_spec
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from tehl.errors import InputError
+from tehl.roughness import Map
+from tehl.roughness.files import checked, read
+from tests.roughness.files import relief, write_x3p, write_xyz
+
+HEIGHTS = relief()
+HOLED = HEIGHTS.copy()
+HOLED[3, 5:9] = np.nan
+
+
+def test_npy_is_read(tmp_path):
+    for name, heights in (
+        ("a.npy", HEIGHTS),
+        ("b.npy", np.asfortranarray(HEIGHTS)),
+        ("c.npy", (HEIGHTS * 1e9).astype("<i4")),
+    ):
+        np.save(tmp_path / name, heights)
+        np.testing.assert_array_equal(read(tmp_path / name).heights, heights)
+
+
+@pytest.mark.parametrize("mark", [" ", ",", ";", "\t"])
+def test_a_table_of_heights_is_read(tmp_path, mark):
+    path = tmp_path / "map.csv"
+    np.savetxt(path, HOLED * 1e6, delimiter=mark, header="heights in um")
+    found = read(path)
+    np.testing.assert_allclose(found.heights, HOLED * 1e6)
+    assert (found.unit, found.pixel, found.kind) == (None, None, "table of heights")
+
+
+def test_decimal_commas_are_read_where_something_else_parts_the_cells(tmp_path):
+    path = tmp_path / "map.txt"
+    path.write_text("1,5;2,5;nan;;\n3,5;4,5;-1e-3;0;\n")
+    np.testing.assert_array_equal(
+        read(path).heights, [[1.5, 2.5, np.nan, np.nan], [3.5, 4.5, -1e-3, 0]]
+    )
+
+
+@pytest.mark.parametrize("ending", ["xyz", "csv"])
+def test_columns_in_any_order_are_a_map(tmp_path, ending):
+    path = write_xyz(tmp_path / f"map.{ending}", HOLED * 1e6, mark="," if ending == "csv" else " ")
+    found = read(path)
+    np.testing.assert_allclose(found.heights, HOLED * 1e6, rtol=1e-8)
+    assert found.pixel == pytest.approx((2.0, 3.0))
+    assert found.pixel_unit is None
+
+
+def test_a_line_of_names_is_skipped(tmp_path):
+    path = tmp_path / "map.csv"
+    path.write_text("x,y,z\n0,0,1\n1,0,2\n0,1,3\n1,1,4\n")
+    np.testing.assert_array_equal(read(path).heights, [[1, 2], [3, 4]])
+
+
+def test_a_table_of_three_columns_is_no_map_unless_it_is_said(tmp_path):
+    path = tmp_path / "map.csv"
+    np.savetxt(path, HEIGHTS[:, :3])
+    with pytest.raises(InputError, match="no lattice of x and y"):
+        read(path)
+    np.testing.assert_allclose(read(path, layout="matrix").heights, HEIGHTS[:, :3])
+
+
+def test_netcdf_is_read_with_units_and_axes(tmp_path):
+    x, y = np.arange(32) * 2.0, np.arange(24) * 3.0
+    data = xr.Dataset(
+        {"z": (("x", "y"), HOLED.T * 1e6, {"units": "um"})},
+        coords={"x": ("x", x, {"units": "um"}), "y": ("y", y, {"units": "um"})},
+    )
+    for engine in ("h5netcdf", "scipy"):
+        path = tmp_path / f"{engine}.nc"
+        data.to_netcdf(path, engine=engine)
+        found = read(path)
+        np.testing.assert_allclose(found.heights, HOLED * 1e6)
+        assert (found.unit, found.pixel, found.pixel_unit) == ("um", (2.0, 3.0), "um")
+
+
+def test_of_several_variables_one_must_be_named(tmp_path):
+    path = tmp_path / "two.nc"
+    tables = dict.fromkeys(("before", "after"), (("y", "x"), HEIGHTS))
+    xr.Dataset(tables).to_netcdf(path, engine="h5netcdf")
+    with pytest.raises(InputError, match="has before, after: say which"):
+        read(path)
+    with pytest.raises(InputError, match='called "between": it has before, after'):
+        read(path, variable="between")
+    np.testing.assert_array_equal(read(path, variable="after").heights, HEIGHTS)
+
+
+@pytest.mark.parametrize(("letter", "scale"), [("D", 1.0), ("F", 1.0), ("L", 1e-12), ("I", 1e-10)])
+def test_x3p_is_read(tmp_path, letter, scale):
+    path = write_x3p(tmp_path / "map.x3p", HOLED, letter, scale)
+    found = read(path)
+    np.testing.assert_allclose(found.heights, HOLED, rtol=1e-6, atol=0.51 * (scale % 1.0))
+    assert (found.unit, found.pixel, found.pixel_unit) == ("m", (2e-6, 3e-6), "m")
+
+
+def test_x3p_with_the_checksum_of_a_widespread_writer_is_read(tmp_path):
+    digest = hashlib.md5(HEIGHTS.tobytes()).hexdigest()
+    path = write_x3p(tmp_path / "map.x3p", HEIGHTS, checksum=digest)
+    np.testing.assert_allclose(read(path).heights, HEIGHTS)
+
+
+def test_files_of_instruments_need_an_extra_or_are_read(tmp_path):
+    path = tmp_path / "map.sdf"
+    ny, nx = HEIGHTS.shape
+    keys = {"ManufacID": "test", "CreateDate": "010120261200", "ModDate": "010120261200"}
+    keys |= {"NumPoints": nx, "NumProfiles": ny, "Xscale": 2e-6, "Yscale": 3e-6, "Zscale": 1e-9}
+    keys |= {"Zresolution": -1, "Compression": 0, "DataType": 7, "CheckType": 0}
+    lines = ["aISO-1.0", *(f"{key} = {value}" for key, value in keys.items()), "*"]
+    numbers = " ".join(f"{value:.6f}" for value in (HEIGHTS * 1e9).ravel())
+    path.write_text("\n".join([*lines, numbers, "*"]) + "\n")
+    if find_spec("SurfaceTopography") is None:
+        with pytest.raises(InputError, match=r"pip install \"tehl\[surfaces\]\""):
+            read(path)
+        return
+    found = read(path)
+    surface = Map(file=str(path), level="mean", unit=None)
+    assert found.heights.shape == HEIGHTS.shape
+    expected = HEIGHTS - HEIGHTS.mean()
+    np.testing.assert_allclose(surface.load().values, expected, atol=1e-11)
+
+
+# ---- wrong files
+
+
+def npy(shape, dtype="<f8", content=b""):
+    """Return a .npy file whose header says what it wants."""
+    file = io.BytesIO()
+    np.lib.format.write_array_header_1_0(
+        file, {"descr": dtype, "fortran_order": False, "shape": shape}
+    )
+    return file.getvalue() + content
+
+
+def saved(array):
+    file = io.BytesIO()
+    np.save(file, array, allow_pickle=True)
+    return file.getvalue()
+
+
+WRONG = {
+    "4 GB header": ("a.npy", npy((23000, 23000)), "claims 23000 x 23000 points"),
+    "huge shape": ("a.npy", npy((10**12, 10**12)), "claims 1000000000000 x"),
+    "truncated npy": ("a.npy", npy((100, 100), content=b"0" * 9000), "truncated.* 80000 bytes"),
+    "half a header": ("a.npy", saved(HEIGHTS)[:40], "header cannot be read"),
+    "garbage npy": ("a.npy", b"\x00\xff" * 400, "no file of numpy"),
+    "pickle": ("a.npy", saved(np.array([[object()]])), "holds objects"),
+    "complex": ("a.npy", saved(HEIGHTS * 1j), "holds complex numbers"),
+    "words": ("a.npy", saved(np.array([["a", "b"]])), "holds text"),
+    "records": ("a.npy", saved(np.zeros((4, 4), [("a", "f8")])), "holds records"),
+    "a row of numbers": ("a.npy", saved(np.zeros(9)), "array of shape 9, but"),
+    "a single number": ("a.npy", saved(np.float64(1)), "array of shape no"),
+    "several layers": ("a.npy", saved(np.zeros((2, 3, 4))), "shape 2 x 3 x 4"),
+    "text garbage": ("a.csv", b"1 2 3 4\n1 2 hello 4\n", "line 2 has 'hello'"),
+    "prose": ("a.txt", b"It was a dark and stormy night; the rain fell.", "line 1 has|no numbers"),
+    "binary text": ("a.txt", b"\x89PNG\xff\xfe\x00", "no text in UTF-8"),
+    "ragged": ("a.csv", b"1,2,3,4\n1,2,3\n", "line 2 has 3 numbers, .* have 4"),
+    "only names": ("a.csv", b"x,y,z\n", "holds no numbers"),
+    "nothing": ("a.csv", b"", "is empty"),
+    "two heights": ("a.xyz", b"0 0 1\n1 0 1\n0 1 1\n1 1 1\n1 1 2\n", "several heights at one"),
+    "four columns": ("a.xyz", b"0 0 1 1\n1 0 1 1\n", "has 4 columns"),
+    "a spiral": (
+        "a.xyz",
+        "\n".join(f"{t * np.cos(t)} {t * np.sin(t)} 1" for t in range(50)).encode(),
+        "no lattice",
+    ),
+    "uneven": ("a.xyz", b"0 0 1\n1 0 1\n3 0 1\n0 1 1\n1 1 1\n3 1 1\n", "equal, rising"),
+    "garbage netcdf": ("a.nc", b"\x00\x01" * 99, "is no NetCDF file"),
+    "half netcdf": ("a.nc", b"\x89HDF\r\n\x1a\n" + b"\0" * 99, "truncated or damaged"),
+    "classic netcdf": ("a.nc", b"CDF\x01\0\0\0\0\0\0", "truncated or damaged"),
+    "no zip": ("a.x3p", b"PK\x03\x04" + b"\0" * 99, "no whole x3p"),
+    "picture": ("a.png", b"\x89PNG", "ending that says no format"),
+    "pickle file": ("a.pkl", b"\x80\x04.", "ending that says no format"),
+    "no ending": ("a", b"1 2 3 4", "ending that says no format"),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_wrong_files_are_told(tmp_path, case):
+    name, content, words = WRONG[case]
+    path = tmp_path / name
+    path.write_bytes(content)
+    with pytest.raises(InputError, match=words) as told:
+        Map(file=str(path), unit="um", pixel="2 um").load()
+    assert str(path) in str(told.value)
+    assert "\n" not in str(told.value)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"cut": 8}, "truncated"),
+        ({"md5": "0" * 32}, "checksum of bindata/data.bin"),
+        ({"checksum": "0" * 32}, "checksum of its header"),
+        ({"doctype": '<!DOCTYPE a [<!ENTITY b "c">]>'}, "document type or entities"),
+        ({"nx": 70000, "ny": 70000}, "claims 70000 x 70000"),
+        ({"nx": 5000, "ny": 5000}, "truncated"),
+        ({"nx": 8}, "larger than its header allows"),
+        ({"nx": "1e3"}, "no count at SizeX"),
+        ({"dx": "wide"}, "no number at Record1/Axes/CX"),
+        ({"dx": 0}, "not positive"),
+        ({"feature": "PRF"}, "type PRF"),
+        ({"valid": "<ValidPointsLink>../../etc/passwd</ValidPointsLink>"}, "without"),
+        ({"feature": "&lol;"}, "no XML"),
+    ],
+)
+def test_wrong_x3p_are_told(tmp_path, changes, words):
+    path = write_x3p(tmp_path / "map.x3p", HEIGHTS, **changes)
+    with pytest.raises(InputError, match=words):
+        read(path)
+
+
+def test_no_code_of_a_pickle_runs(tmp_path):
+    class Bomb:
+        def __reduce__(self):
+            return (open, (str(tmp_path / "executed"), "w"))
+
+    np.save(tmp_path / "a.npy", np.array([[Bomb()]], dtype=object), allow_pickle=True)
+    with pytest.raises(InputError):
+        read(tmp_path / "a.npy")
+    assert not (tmp_path / "executed").exists()
+
+
+def test_places_that_are_no_files_are_told(tmp_path):
+    for name, words in (
+        (str(tmp_path), "is a folder"),
+        (str(tmp_path / "none.npy"), "does not exist"),
+        ("/dev/null", "no regular file"),
+        ("a\0b.npy", "cannot be read"),
+        ("a" * 5000 + ".npy", "cannot be read"),
+    ):
+        with pytest.raises(InputError, match=words):
+            checked(name)
+
+
+def test_a_bomb_of_zeros_is_not_unpacked(tmp_path):
+    path = write_x3p(tmp_path / "map.x3p", np.zeros((3000, 3000)), nx=10, ny=10)
+    assert path.stat().st_size < 10**6
+    with pytest.raises(InputError, match="larger than its header allows"):
+        read(path)
+
+
+def test_a_header_that_lies_about_its_length_is_told(tmp_path):
+    path = tmp_path / "a.npy"
+    path.write_bytes(b"\x93NUMPY\x02\x00" + struct.pack("<I", 2**32 - 1) + b"{")
+    with pytest.raises(InputError, match="header cannot be read"):
+        read(path)

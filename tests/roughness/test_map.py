@@ -1,0 +1,332 @@
+"""Measured surfaces: from a file to heights in the contact."""
+
+import hashlib
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+from pydantic import BaseModel, ValidationError
+from scipy import fft
+
+from tehl.errors import InputError
+from tehl.roughness import AnyRoughness, Map, Sum, Wave
+from tehl.roughness.prepare import filled, gaussian_mean, levelled, without_outliers
+from tests.roughness.files import relief, write_x3p, write_xyz
+
+NY, NX = 48, 64
+PIXEL = 2e-6
+HEIGHTS = relief(NY, NX)
+
+
+class Body(BaseModel):
+    roughness: AnyRoughness
+
+
+@pytest.fixture
+def file(tmp_path):
+    np.save(tmp_path / "map.npy", HEIGHTS * 1e6)
+    return str(tmp_path / "map.npy")
+
+
+def stated(file, **keys):
+    return Map.model_validate({"file": file, "unit": "um", "pixel": "2 um", **keys})
+
+
+def own_places(surface):
+    """Return x and y of the points of a map."""
+    ny, nx = surface.load().values.shape
+    x = surface.x + (np.arange(nx) - 0.5 * (nx - 1)) * PIXEL
+    y = surface.y + (np.arange(ny) - 0.5 * (ny - 1)) * PIXEL
+    return x[None, :], y[:, None]
+
+
+def levelled_map():
+    return levelled(HEIGHTS, "plane")
+
+
+@pytest.mark.parametrize("outside", ["periodic", "mirror", "flat"])
+def test_heights_at_the_points_are_those_of_the_file(file, outside):
+    surface = stated(file, outside=outside, x="0.1 mm")
+    found = surface.height(*own_places(surface))
+    inner = (slice(8, -8), slice(8, -8))  # flat surroundings begin within
+    np.testing.assert_allclose(found[inner], levelled_map()[inner], atol=1e-15)
+    assert surface.rms == pytest.approx(levelled_map().std())
+
+
+def test_a_map_is_not_transposed(file):
+    """Columns are x, and rows are y, upward."""
+    surface = stated(file, level="mean")
+    x, y = own_places(surface)
+    heights = HEIGHTS - HEIGHTS.mean()
+    assert surface.height(x[:, 40], y[20, :]) == pytest.approx(heights[20, 40])
+    turned = stated(file, level="mean", transpose=True)
+    assert turned.height(y[20, :], x[:, 40]) == pytest.approx(heights[20, 40])
+    flipped = stated(file, level="mean", flip_x=True, flip_y=True, upside_down=True)
+    assert flipped.height(-x[:, 40], -y[20, :]) == pytest.approx(-heights[20, 40])
+
+
+def test_beyond_the_edges_lies_what_is_stated(file):
+    repeated, mirrored, flat = (
+        stated(file, outside=outside) for outside in ("periodic", "mirror", "flat")
+    )
+    x, y = own_places(repeated)
+    width, height = NX * PIXEL, NY * PIXEL
+    np.testing.assert_allclose(
+        repeated.height(x + 3 * width, y - height), repeated.height(x, y), atol=1e-18
+    )
+    np.testing.assert_allclose(mirrored.height(width - x, y), mirrored.height(x, y), atol=1e-18)
+    assert not flat.height(x + 1.5 * width, y).any()
+    rim = flat.height(np.full((1, 1), 0.5 * width), y)
+    assert np.abs(rim).max() < 0.02 * flat.rms
+    assert "flat" in flat.load().notes[-1]
+    assert "repeats" in repeated.load().notes[-1]
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.floats(0, 1e-3), st.floats(-1, 1), st.floats(-4, 4))
+def test_a_map_travels(tmp_path_factory, time, speed, angle):
+    path = tmp_path_factory.getbasetemp() / "travel.npy"
+    if not path.exists():
+        np.save(path, HEIGHTS * 1e6)
+    surface = stated(str(path), outside="mirror", rotate=angle)
+    x, y = np.linspace(-1e-4, 1e-4, 12)[None, :], np.linspace(-1e-4, 1e-4, 10)[:, None]
+    np.testing.assert_array_equal(
+        surface.height(x, y, time, speed), surface.height(x - speed * time, y)
+    )
+
+
+def test_rotation_turns_as_the_angle_of_a_wave(tmp_path):
+    x = np.arange(200) * PIXEL
+    np.save(tmp_path / "a.npy", np.tile(np.cos(2 * np.pi * (x - 199 * PIXEL / 2) / 4e-5), (200, 1)))
+    surface = stated(str(tmp_path / "a.npy"), unit="nm", rotate="30 deg", level="none")
+    wave = Wave(amplitude=1e-9, wavelength=4e-5, angle=math.radians(30))
+    places = np.linspace(-5e-5, 5e-5, 11)
+    np.testing.assert_allclose(
+        surface.height(places[None, :], places[:, None]),
+        wave.height(places[None, :], places[:, None]),
+        atol=1e-12,  # a cubic spline of twenty points per wave
+    )
+
+
+def test_the_mesh_gets_what_it_can_carry(file):
+    surface = stated(file, outside="periodic", level="mean")
+    assert surface.resolved_on(1e-7, 1e-7).rms == pytest.approx(surface.rms, rel=1e-9)
+    coarse = surface.resolved_on(4 * PIXEL, 4 * PIXEL)
+    x, y = own_places(surface)
+    power = np.abs(fft.rfft2(coarse.height(x, y))) ** 2
+    whole = np.abs(fft.rfft2(surface.height(x, y))) ** 2
+    np.testing.assert_allclose(power[1:4, 1:4], whole[1:4, 1:4], rtol=1e-6)  # long waves stay
+    assert power[:, NX // 8 :].max() < 1e-12 * whole.max()  # two mesh widths and less go
+    for outside in ("flat", "mirror"):
+        other = stated(file, outside=outside, rotate=0.3)
+        coarse = other.resolved_on(4 * PIXEL, 4 * PIXEL)
+        assert 0.5 * other.rms < coarse.rms < other.rms
+        assert coarse.shortest_wavelength > 1.2 * other.shortest_wavelength
+
+
+def test_a_map_is_stored_and_read_without_its_file(file, tmp_path):
+    rough = Body.model_validate(
+        {"roughness": [{"type": "map", "file": file, "unit": "um", "pixel": ["2 um", "2 um"]}]}
+    )
+    (tmp_path / "map.npy").unlink()
+    again = Body.model_validate_json(rough.model_dump_json())
+    assert again == rough
+    assert isinstance(again.roughness, Sum)
+    with pytest.raises(InputError, match="does not exist"):
+        again.roughness.height(np.zeros(1), np.zeros(1))
+
+
+def test_a_file_lies_beside_its_case(file, tmp_path):
+    keys = {"type": "map", "file": "map.npy", "unit": "um", "pixel": PIXEL}
+    surface = Body.model_validate({"roughness": keys}, context={"folder": tmp_path}).roughness
+    assert surface.file == file
+    assert surface.fingerprint == hashlib.sha256(Path(file).read_bytes()).hexdigest()
+
+
+def test_a_changed_file_is_read_again(file):
+    surface = stated(file)
+    before = surface.rms
+    np.save(file, HEIGHTS[:-1] * 3e6)
+    assert surface.rms > 2 * before
+
+
+# ---- units
+
+
+def test_units_come_from_the_file_or_are_asked_for(file, tmp_path):
+    for missing, words in (("unit", "unit of its heights"), ("pixel", "how far its points")):
+        keys = {"unit": "um", "pixel": "2 um"}
+        keys.pop(missing)
+        with pytest.raises(InputError, match=words):
+            Map(file=file, **keys).load()
+    xyz = write_xyz(tmp_path / "a.xyz", HEIGHTS * 1e6)
+    with pytest.raises(InputError, match=r"2 and 3 apart .* which unit.*xy_unit"):
+        Map(file=str(xyz), unit="um").load()
+    known = Map(file=str(xyz), unit="um", xy_unit="micron").load()
+    assert known.pixel == pytest.approx((2e-6, 3e-6))
+    assert Map(file=file, unit="um", size=("64 um", "24 um")).load().pixel == (1e-6, 5e-7)
+
+
+def test_what_is_stated_wins_over_the_file_and_is_noted(tmp_path):
+    path = str(write_x3p(tmp_path / "a.x3p", HEIGHTS * 1e3))
+    plain = Map(file=path.replace("a.x3p", "b.x3p"))
+    write_x3p(tmp_path / "b.x3p", HEIGHTS)
+    assert plain.load().pixel == (2e-6, 3e-6)
+    assert len(plain.load().notes) == 1
+    other = Map(file=path, unit="mm", pixel="1 um").load()
+    assert other.values.std() == pytest.approx(levelled_map().std())
+    assert "though the file says m" in other.notes[0]
+    assert "though the file says 2 and 3 um" in other.notes[1]
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ({"unit": "mm"}, "Sq = 2e[+]02 um|Sq = 200 um|is the unit right"),
+        ({"pixel": "1 km"}, "check unit, xy_unit"),
+        ({"pixel": "1e-12 m"}, "check unit, xy_unit"),
+        ({"crop": {"x": ["0 um", "4 um"]}}, "crop leaves fewer"),
+        ({"crop": {"y": ["0 um", "4 mm"]}}, "goes beyond"),
+        ({"lambda_c": "9 mm"}, "too little for lambda_c"),
+    ],
+)
+def test_heights_that_cannot_be_meant_are_questioned(file, keys, words):
+    with pytest.raises(InputError, match=words):
+        stated(file, **keys).load()
+
+
+@pytest.mark.parametrize(
+    ("heights", "words"),
+    [
+        (np.ones((20, 20)), "is constant"),
+        (np.add.outer(np.arange(20.0), np.arange(20.0)), "is constant"),
+        (np.zeros((1, 1)), "has 1 x 1 points"),
+        (np.zeros((1, 300)), "has 300 x 1 points"),
+        (np.full((9, 9), np.nan), "no point with a height"),
+        (np.full((9, 9), np.inf), "no point with a height"),
+    ],
+)
+def test_maps_without_roughness_are_told(tmp_path, heights, words):
+    np.save(tmp_path / "a.npy", heights)
+    with pytest.raises(InputError, match=words):
+        stated(str(tmp_path / "a.npy")).load()
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ({"unit": "kg"}, "no unit of length"),
+        ({"size": "1 mm"}, "say the same"),
+        ({"file": " "}, "no name of a file"),
+        ({"taper": "1 um", "outside": "mirror"}, "outside = .flat. only"),
+        ({"lambda_s": "9 um", "lambda_c": "8 um"}, "must be shorter"),
+        ({"crop": {"x": ["9 um", "2 um"]}}, "x must rise"),
+        ({"level": "sphere"}, "'plane'"),
+        ({"outliers": 0}, "must be positive"),
+    ],
+)
+def test_wrong_keys_are_told_without_the_file(keys, words):
+    with pytest.raises(ValidationError, match=words):
+        stated(**{"file": "missing.npy"} | keys)
+
+
+def test_a_map_says_how_it_fits_the_contact(file):
+    surface = stated(file)  # 128 x 96 um
+    assert surface.fits(9e-5, 9e-5) == ()
+    assert (
+        "smaller than the contact; beyond its edges the surface is flat"
+        in surface.fits(2e-4, 5e-5)[0]
+    )
+    assert "128 x 96 um and the contact of 200 x 50 um" in surface.fits(2e-4, 5e-5)[0]
+    assert "small part" in surface.fits(4e-6, 4e-6)[0]
+    assert "too coarse" in surface.fits(1.5e-5, 1.5e-5)[0]
+    assert "lies beside" in stated(file, x="1 mm").fits(9e-5, 9e-5)[0]
+    assert Sum(parts=(surface, Wave(amplitude=0, wavelength=1))).fits(2e-4, 5e-5)
+
+
+# ---- preparation
+
+
+def test_holes_are_counted_and_filled(tmp_path):
+    holed = HEIGHTS * 1e6
+    holed[10:13, 20:22] = np.nan
+    holed[30, 7] = np.inf
+    np.save(tmp_path / "few.npy", holed)
+    surface = stated(str(tmp_path / "few.npy"))
+    assert "7 missing points (0.23 %)" in surface.load().notes[0]
+    assert np.abs(surface.load().values - levelled_map()).max() < 5 * levelled_map().std()
+    with pytest.raises(InputError, match=r"7 points .*0.23 %.*row 11, column 21"):
+        stated(str(tmp_path / "few.npy"), fill="refuse").load()
+    holed[:10] = np.nan
+    np.save(tmp_path / "many.npy", holed)
+    with pytest.raises(InputError, match=r"647 points .*row 1, column 1.*say how to fill"):
+        stated(str(tmp_path / "many.npy")).load()
+    assert stated(str(tmp_path / "many.npy"), fill="nearest").rms > 0
+
+
+def test_a_membrane_continues_what_is_linear():
+    x, y = np.arange(30.0)[None, :], np.arange(20.0)[:, None]
+    plane = 3 * x - 2 * y + 7
+    holed = plane.copy()
+    holed[5:12, 8:17] = np.nan
+    np.testing.assert_allclose(filled(holed, "linear"), plane, atol=1e-4)
+    with pytest.raises(InputError, match="too much to fill"):
+        filled(np.where(y > 6, np.nan, plane), "linear")
+
+
+@settings(deadline=None)
+@given(arrays(float, (9, 8), elements=st.floats(-1, 1)), arrays(bool, (9, 8)))
+def test_filling_never_leaves_the_range_and_keeps_the_rest(heights, gaps):
+    if 0.0 < gaps.mean() <= 0.5:
+        for how in ("linear", "nearest"):
+            whole = filled(np.where(gaps, np.nan, heights), how)
+            np.testing.assert_array_equal(whole[~gaps], heights[~gaps])
+            assert heights[~gaps].min() - 1e-4 <= whole.min()
+            assert whole.max() <= heights[~gaps].max() + 1e-4
+
+
+def test_spikes_go_and_the_rest_stays():
+    spiked = HEIGHTS.copy()
+    spiked[7, 9] += 30e-6
+    cleaned, count = without_outliers(spiked, 20.0)
+    assert (count, np.isnan(cleaned[7, 9])) == (1, True)
+    assert without_outliers(HEIGHTS, 20.0)[1] == 0
+
+
+@pytest.mark.parametrize(("how", "order"), [("mean", 0), ("plane", 1), ("quadratic", 2)])
+def test_levelling_takes_off_what_it_says_and_no_more(how, order):
+    x, y = np.linspace(0, 3, 40)[None, :], np.linspace(-1, 5, 30)[:, None]
+    terms = [np.ones((30, 40)), 2 * x - y, x**2 - 3 * x * y + 0.5 * y**2]
+    form = sum(terms[: order + 1])
+    np.testing.assert_allclose(levelled(form, how), 0, atol=1e-12)
+    rest = levelled(HEIGHTS, how)
+    np.testing.assert_allclose(levelled(rest, how), rest, atol=1e-20)
+    assert rest.mean() == pytest.approx(0, abs=1e-20)
+
+
+def test_half_of_a_wave_at_the_cut_off_passes_the_gaussian_filter():
+    x = np.arange(2000) * 1e-6
+    for cycles, passed in ((20, 0.5), (10, 0.5**0.25), (40, 0.5**4)):
+        wave = np.tile(np.cos(np.pi * (x + 0.5e-6) * cycles / 1e-3), (8, 1))
+        found = gaussian_mean(wave, (1e-6, 1e-6), 1e-4)  # wavelength 2 mm / cycles
+        np.testing.assert_allclose(found, passed * wave, atol=2e-3)
+
+
+def test_what_lies_between_both_cut_offs_is_kept(tmp_path):
+    x = (np.arange(400) + 0.5) * PIXEL  # 800 um, mirrored at the edges
+    waves = [np.cos(np.pi * x * count / 8e-4) for count in (2, 16, 160)]
+    np.save(tmp_path / "a.npy", np.tile(sum(waves), (200, 1)))
+    surface = stated(str(tmp_path / "a.npy"), unit="nm", lambda_c="300 um", lambda_s="30 um")
+    kept = surface.load().values[100]
+    # of the long wave nine percent are left, and six of the kept one are lost
+    np.testing.assert_allclose(kept, 1e-9 * waves[1], atol=0.16e-9)
+
+
+def test_a_crop_is_that_part_of_the_file(file):
+    surface = stated(file, crop={"x": ["20 um", "80 um"]}, level="mean")
+    part = HEIGHTS[:, 10:40]
+    np.testing.assert_allclose(surface.load().values, part - part.mean())
