@@ -46,6 +46,7 @@ LARGEST_FALL = 0.5  # of the stress that follows it, relatively
 LARGEST_GROWTH = 6.0  # of the logarithm of the fluidity that follows it
 PRESSURISED = 0.02  # from this pressure on changes of the temperature count
 CONDUCTION = 8.0  # a little less than pi^2, the slowest decay across the film
+HELD_BY_WALLS = 1.0  # over the squared distance to both walls: a little more than conduction
 SETTLED = 1e-5  # step of the stress over its scale after which what is left is its square
 BLOCK = LANES  # rows that are treated together
 ETA_TERMS, RHO_TERMS = 16, 8  # of the polynomials in temperature
@@ -786,8 +787,9 @@ def inner_row(model: Model, fields: Fields, work: Work, place: Place, k: int) ->
         store(work.matrix, at * LANES, flow_and_heat + held * share)
     at = (k * n + k) * LANES
     store(work.matrix, at, load(work.matrix, at) + diagonal + part * steep)
-    step = number(across.zeta, k + 1) - number(across.zeta, k - 1)
-    out = diagonal + size(omega) * (2.0 / step) - number(across.d2, k * n + k)
+    zeta, step = number(across.zeta, k), number(across.zeta, k + 1) - number(across.zeta, k - 1)
+    to_walls = HELD_BY_WALLS / (zeta * (1.0 - zeta)) ** 2
+    out = diagonal + size(omega) * (2.0 / step) + to_walls
     store(cells, here + ASIDE, load(cells, here + ASIDE) / out)
     store(work.matrix, (n * n + k) * LANES, rest)
 
