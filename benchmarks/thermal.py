@@ -47,9 +47,7 @@ REPEATS = {257: 5, 513: 3, 1025: 1}
 
 @dataclass(slots=True)
 class Clock:
-    """CPU seconds since it was started: of all energy sweeps, and of both parts of the work on the
-    finest grid.
-    """
+    """CPU seconds since it was started: all energy sweeps, and the work on the finest grid."""
 
     sweeps: float = 0.0
     finest_sweeps: float = 0.0
@@ -111,8 +109,8 @@ def speed(*, quick: bool = False) -> Table:
     made = Table(
         title="Heat: cost at M = 100, SRR 0.5, Eyring 10 MPa, X in [-4.5, 1.5], Y in [-3, 3]",
         columns=(
-            "points", "status", "CPU s", "work", "sweeps %", "finest %", "cycles", "isothermal work",
-            "H_central", "mid-film rise K", "traction", "heat missing %",
+            "points", "status", "CPU s", "work", "sweeps %", "finest %", "cycles",
+            "isothermal work", "H_central", "mid-film rise K", "traction", "heat missing %",
         ),
     )  # fmt: skip
     for points in (257,) if quick else REPEATS:

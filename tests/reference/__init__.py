@@ -67,6 +67,7 @@ def heated_contact(
     shear: dict[str, Any] | None = None,
     solids: tuple[str, str] | None = None,
     sources: str = "line",
+    layers: int = 9,
     **contact: float,
 ) -> ContactProblem:
     """Return the contact of the heated reference films.
@@ -83,6 +84,8 @@ def heated_contact(
         Names of materials; the solid of the reference if left out.
     sources : {"line", "auto", "full"}
         How the solids conduct.
+    layers : int
+        Nodes across the film.
     **contact : float
         Keys of the contact table that replace those of the reference.
     """
@@ -124,6 +127,8 @@ def heated_contact(
                 "conductivity": oil["conductivity"],
                 "heat_capacity": oil["heat_capacity"],
             },
-            "thermal": None if reynolds is None else {"reynolds": reynolds, "sources": sources},
+            "thermal": None
+            if reynolds is None
+            else {"reynolds": reynolds, "sources": sources, "layers": layers},
         }
     )

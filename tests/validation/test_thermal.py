@@ -90,6 +90,5 @@ def test_three_grids_extrapolate_to_the_heated_film(case, quantity, tolerance, a
 def test_the_heat_is_balanced(case, points):
     heat = film_of(case, points).heat
     assert heat is not None
-    # what is missing flows through the edges of the domain, whose pressure gradient counts for
-    # nothing, and 3e-4 of it is the walls' share of nine nodes: neither falls with the mesh width
-    assert abs(heat.balance.error) < 0.01
+    # 3e-4 of it is the walls' share of nine nodes, which does not fall with the mesh width
+    assert abs(heat.balance.error) < 2e-3
