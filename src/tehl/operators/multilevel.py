@@ -159,14 +159,12 @@ def patch_corrections(influence: Influence, step: tuple[int, int, int], growth: 
         Nodes added to both half-widths of the patch.
     """
     axis, row_stride, column_stride = step
-    along = np.arange(ALONG + growth + 1.0)[:, None]
+    nodes = np.arange(ALONG + growth + 1)
+    along = np.arange(ALONG + growth + STEPS[-1] + 1.0)[:, None]
     across = np.arange(ACROSS + growth + 1.0)[None, :]
-
-    def kernel(d: Array, q: Array) -> Array:
-        rows, columns = (d, q) if axis == 0 else (q, d)
-        return influence(np.abs(rows) * row_stride, np.abs(columns) * column_stride)
-
-    missed = kernel(along, across)
+    rows, columns = (along, across) if axis == 0 else (across, along)
+    kernel = influence(rows * row_stride, columns * column_stride)
+    missed = kernel[nodes]
     for k, w in zip(STEPS, WEIGHTS, strict=True):
-        missed -= w * (kernel(along + k, across) + kernel(along - k, across))
+        missed -= w * (kernel[nodes + k] + kernel[np.abs(nodes - k)])
     return np.ascontiguousarray(missed)
