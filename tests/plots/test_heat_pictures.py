@@ -1,9 +1,12 @@
 """Pictures of shear and heat: drawn where they apply, true to the numbers, whole for any state."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.contour import ContourSet
 from matplotlib.patches import Ellipse
 from matplotlib.text import Text
 
@@ -130,11 +133,51 @@ def test_centre_lines_gain_temperatures(thermal, result):
     assert labels.count("film") == 2
 
 
-def test_the_history_shows_how_the_temperature_changed(thermal, result):
-    labels = [line.get_label() for line in plots.residual_history(thermal).axes[0].lines]
-    assert "change of T per cycle [K]" in labels
-    cold = [line.get_label() for line in plots.residual_history(result).axes[0].lines]
-    assert "change of T per cycle [K]" not in cold
+def test_the_history_shows_the_temperature_on_an_axis_of_its_own_in_kelvin(thermal, result):
+    left, right = plots.residual_history(thermal).axes
+    assert "K" not in left.get_ylabel()
+    assert "[K]" in right.get_ylabel()
+    assert right.lines[0].get_ydata()[-1] == thermal.history[-1].temperature_change
+    low, high = np.array(right.get_ylim()) / np.array(left.get_ylim())
+    assert low == pytest.approx(high)  # the same decades, so one grid serves both
+    assert np.log10(low) == pytest.approx(round(np.log10(low)))
+    assert len(plots.residual_history(result).axes) == 1
+
+
+def test_grids_are_named_only_where_there_is_room(thermal):
+    crowded = replace(thermal, history=thermal.history * 8)
+    named = [text.get_text() for text in plots.residual_history(crowded).axes[0].texts]
+    assert len(named) < 4
+
+
+def overlaps(boxes) -> bool:
+    return any(a.x1 > b.x0 for a, b in pairwise(sorted(boxes, key=lambda box: box.x0)))
+
+
+def test_labels_of_the_layers_do_not_touch(thermal):
+    figure = plots.temperature_layers(thermal)
+    renderer = FigureCanvasAgg(figure).get_renderer()
+    figure.draw(renderer)
+    lowest = [axes for axes in figure.axes if axes.get_xlabel() == "x [µm]"]
+    assert len(lowest) == 3
+    boxes = [
+        label.get_window_extent(renderer)
+        for axes in lowest
+        for label in axes.get_xticklabels()
+        if label.get_text() and axes.get_xlim()[0] <= label.get_position()[0] <= axes.get_xlim()[1]
+    ]
+    assert len(boxes) >= 6
+    assert not overlaps(boxes)
+
+
+def test_no_contour_is_drawn_where_the_rise_is_flat_at_zero(thermal):
+    heat = thermal.heat
+    colder = np.array(heat.temperature)
+    colder[:, 0, 0] -= 5.0  # so that zero lies within the span
+    figure = plots.mid_film_temperature(replace(thermal, heat=replace(heat, temperature=colder)))
+    sets = figure.findobj(ContourSet)
+    assert sets
+    assert all(0.0 not in lines.levels for lines in sets)
 
 
 def sliding(result, ratio):

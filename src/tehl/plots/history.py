@@ -1,8 +1,12 @@
 """How the iteration went."""
 
+from itertools import pairwise
+
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
+from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator, NullFormatter
 
 from tehl.plots.frame import figure
 from tehl.result import Result
@@ -12,7 +16,9 @@ _CURVES = (
     ("change", "change of P per cycle", "s-", "#c2410c"),
     ("load_error", "load error", "^-", "#3f7d20"),
 )
-_HEAT_CURVE = ("temperature_change", "change of T per cycle [K]", "D-", "0.35")
+_ROOM = 0.09
+"""Part of all cycles that a grid takes whose nodes can be written above."""
+_HEAT_CURVE = ("temperature_change", "change of T per cycle, right", "D-", "0.35")
 
 
 def residual_history(result: Result) -> Figure:
@@ -26,36 +32,81 @@ def residual_history(result: Result) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        One panel with a logarithmic axis; vertical lines part the grids.
+        One panel with a logarithmic axis, and one in kelvin at the right for a thermal run;
+        vertical lines part the grids.
     """
     picture = figure(result, (7.0, 4.6))
     axes = picture.add_subplot()
-    axes.set(xlabel="cycle", ylabel="dimensionless", yscale="log")
+    axes.set(xlabel="cycle", ylabel="residual, change of P, load error [-]", yscale="log")
     axes.grid(axis="y", lw=0.3)
     if not result.history:
         axes.text(0.5, 0.5, "no cycles were recorded", ha="center", transform=axes.transAxes)
         return picture
-    count = np.arange(1, len(result.history) + 1)
-    curves = _CURVES if result.heat is None else (*_CURVES, _HEAT_CURVE)
-    for name, label, style, colour in curves:
-        values = np.abs([getattr(report, name) for report in result.history])
-        shown = np.where(values > 0, values, np.nan)
-        axes.plot(count, shown, style, ms=3.5, lw=1.1, color=colour, label=label)
-    grids = [report.points for report in result.history]
-    starts = [i for i, grid in enumerate(grids) if i == 0 or grid != grids[i - 1]]
-    for start in starts:
-        if start:
-            axes.axvline(start + 0.5, color="0.6", lw=0.8, ls=":")
-        label = "{}×{}".format(*grids[start])
-        axes.annotate(
-            label, (start + 0.6, 1.0), xycoords=("data", "axes fraction"), va="bottom", fontsize=7
-        )
+    for curve in _CURVES:
+        _draw(axes, result, curve)
+    lines = list(axes.lines)
+    if result.heat is not None:
+        right = _kelvin_axes(axes)
+        lines.append(_draw(right, result, _HEAT_CURVE))
+        _align_decades(axes, right)
+    _part_grids(axes, [report.points for report in result.history])
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     axes.legend(
+        handles=lines,
         loc="upper center",
         bbox_to_anchor=(0.5, -0.13),
-        ncols=3 if len(curves) == 3 else 2,
+        ncols=3 if len(lines) == 3 else 2,
         fontsize=8,
         frameon=False,
     )
     return picture
+
+
+def _draw(axes: Axes, result: Result, curve: tuple[str, str, str, str]) -> Line2D:
+    """Draw one number of all cycles; zeros are left out."""
+    name, label, style, colour = curve
+    values = np.abs([getattr(report, name) for report in result.history])
+    count, shown = np.arange(1, values.size + 1), np.where(values > 0, values, np.nan)
+    return axes.plot(count, shown, style, ms=3.5, lw=1.1, color=colour, label=label)[0]
+
+
+def _kelvin_axes(axes: Axes) -> Axes:
+    """Return axes in kelvin over the same cycles, with their scale at the right."""
+    colour = _HEAT_CURVE[-1]
+    right = axes.twinx()
+    right.set(yscale="log")
+    right.set_ylabel("change of temperature per cycle [K]", color=colour)
+    right.tick_params(axis="y", which="both", colors=colour)
+    return right
+
+
+def _align_decades(left: Axes, right: Axes) -> None:
+    """Give both axes the same decades, a power of ten apart, so that one grid serves both."""
+    values = np.asarray(right.lines[0].get_ydata(), dtype=np.float64)
+    values = values[np.isfinite(values)]
+    if not values.size:
+        return
+    low, high = left.get_ylim()
+    apart = 10.0 ** np.ceil(np.log10(values.max() / high))
+    low = min(low, 0.5 * float(values.min()) / apart)
+    left.set_ylim(low, high)
+    right.set_ylim(low * apart, high * apart)
+    for axes in (left, right):
+        axes.yaxis.set_minor_formatter(NullFormatter())
+
+
+def _part_grids(axes: Axes, grids: list[tuple[int, int]]) -> None:
+    """Draw a line before each grid, and its nodes above where there is room."""
+    starts = [i for i, grid in enumerate(grids) if i == 0 or grid != grids[i - 1]]
+    for start, end in pairwise([*starts, len(grids)]):
+        if start:
+            axes.axvline(start + 0.5, color="0.6", lw=0.8, ls=":")
+        if end - start < _ROOM * len(grids) and len(starts) > 1:
+            continue
+        axes.annotate(
+            "{}×{}".format(*grids[start]),
+            (start + 0.6, 1.0),
+            xycoords=("data", "axes fraction"),
+            va="bottom",
+            fontsize=7,
+        )

@@ -9,10 +9,12 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from tehl.errors import InputError
 from tehl.plots.frame import (
     MICRO,
+    STEPS,
     WINDOW,
     Span,
     colour_axes,
@@ -34,7 +36,11 @@ from tehl.typing import Array
 HEAT_COLOURS = "inferno"
 FIRST, SECOND, MIDDLE, MEAN = "#1f4e9c", "#3f7d20", "#c2410c", "0.35"
 """Colours of surface 1, surface 2, mid-film and mean."""
+_TICKS = {2: 7, 3: 4, 6: 2}
+"""Ticks along x for which the panels of so many columns have room."""
 _ACROSS = 81
+_FLAT = 1e-6
+"""Part of the span around zero without a contour line: far out the rise is flat, and zero."""
 _HIGHEST = 3.0
 """Films that the section shows, in central films."""
 
@@ -107,6 +113,7 @@ def _coloured(axes: Axes, places: tuple[Array, Array], rise: Array, span: Span) 
         *places, rise, shading="gouraud", cmap=HEAT_COLOURS, clim=span, rasterized=True
     )
     levels = inner_levels(*span)
+    levels = levels[np.abs(levels) > _FLAT * (span[1] - span[0])]
     shown = np.nan_to_num(rise)
     lines = axes.contour(*places, shown, levels=levels, colors="white", linewidths=0.6, alpha=0.75)
     return mesh, lines
@@ -134,6 +141,7 @@ def temperature_layers(result: Result) -> Figure:
     width = 6.6 / columns
     height = float(np.clip(rows * (width * slender + 0.4), 2.2, 10.0)) + 1.4
     picture = figure(result, (8.6, height))
+    picture.set_layout_engine("compressed")  # closes the gaps that equal aspects leave
     grid = picture.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
     part = window_part(result)
     span = _span(np.stack([field[part] for field in layers.values()]) - found.inlet)
@@ -141,6 +149,7 @@ def temperature_layers(result: Result) -> Figure:
         mesh, lines = _map(axes, result, field - found.inlet, span)
         dress_contact(axes, result)
         axes.set_xlabel("x [µm]")
+        axes.xaxis.set_major_locator(MaxNLocator(_TICKS[columns], steps=STEPS, prune="both"))
         axes.label_outer()
         axes.set_title(name, fontsize=9)
     entrainment_arrow(grid[0, 0])
@@ -261,7 +270,9 @@ def surface_heat(result: Result) -> Figure:
     lower.set(xlabel="x along entrainment [µm]  (y = 0)", xlim=(x[inside][0], x[inside][-1]))
     for axes in (upper, lower):
         axes.grid(axis="y", lw=0.3)
-        axes.legend(fontsize=8, frameon=False, loc="upper left")
+        axes.legend(
+            fontsize=8, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 0.98), ncols=4
+        )
         for side in (-1.0, 1.0):
             axes.axvline(side * result.scales.half_width_x * MICRO, color="0.6", lw=0.8, ls="--")
     return picture
