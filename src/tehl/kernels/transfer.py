@@ -48,11 +48,11 @@ def restrict_pressure(fine: Array, mirror: int, coarse: Array) -> None:
 
 
 @njit(cache=True)
-def correct(p: Array, coarse: Array, before: Array, mirror: int) -> None:
-    """Add the bilinear interpolation of ``coarse - before`` to the wet nodes of ``p``.
+def correct(p: Array, coarse: Array, before: Array, mirror: int, part: float, limit: float) -> None:
+    """Add ``part`` of the bilinear interpolation of ``coarse - before`` to the wet nodes of ``p``.
 
     A node is left alone when any coarse node it would use was cavitated: no correction crosses
-    the cavitation front.
+    the cavitation front. None changes by more than ``limit`` times its pressure.
     """
     ny, nx = p.shape
     for j in range(0 if mirror else 1, ny - 1):
@@ -75,7 +75,9 @@ def correct(p: Array, coarse: Array, before: Array, mirror: int) -> None:
                     wet = False
                 total += coarse[row, column] - before[row, column]
             if wet:
-                p[j, i] = max(p[j, i] + 0.25 * total, 0.0)
+                largest = limit * p[j, i]
+                change = min(max(part * 0.25 * total, -largest), largest)
+                p[j, i] = max(p[j, i] + change, 0.0)
 
 
 @njit(cache=True)

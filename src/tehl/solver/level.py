@@ -5,6 +5,8 @@ full approximation scheme (Brandt 1977; Venner and Lubrecht 2000, ch. 4 and 6), 
 the film and the load equation alike.
 """
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from tehl.grid import Grid
@@ -18,6 +20,9 @@ from tehl.operators.reynolds import stencil
 from tehl.options import Options
 from tehl.scaling import Groups
 from tehl.solver.smoother import Setting, make_smoother
+
+if TYPE_CHECKING:
+    from tehl.typing import Array
 
 FROZEN_BELOW = 1e-3
 """Pressure below which a coarse node beside a cavity is left to the finer grid."""
@@ -51,6 +56,8 @@ class Level:
         self.smoother = make_smoother(grid, self.influence, setting)
         self.self_film = float(self.influence(0, 0))
         self.gap = gap(grid, groups)
+        self.heights: Array | None = None
+        self.correction, self.limit = 1.0, np.inf
         self.floor = 0.0
         p, h, eps, rho, drho = (np.zeros(grid.shape) for _ in range(5))
         self.film = reynolds.Film(p, h, eps, rho, drho, eps_x=eps)
@@ -65,9 +72,16 @@ class Level:
     def pose_problem(self) -> None:
         """Make this the finest level: the right-hand sides of the problem itself."""
         self.rhs[:] = 0.0
-        self.film_rhs[:] = self.gap
+        self.roughen(1.0)
         self.load_target = TARGET
         self.smoother.frozen[:] = 0
+        self.stale = True
+
+    def roughen(self, part: float) -> None:
+        """Take ``part`` of the heights of the surfaces off the gap of the finest level."""
+        self.film_rhs[:] = self.gap
+        if self.heights is not None:
+            self.film_rhs -= part * self.heights
         self.stale = True
 
     def set_smoother(self, setting: Setting) -> None:
@@ -143,6 +157,7 @@ class Level:
 
     def correct_from(self, coarse: "Level") -> None:
         """Add the change that ``coarse`` found, never across the cavitation front."""
-        transfer.correct(self.film.p, coarse.film.p, coarse.before, self.mesh.mirror)
-        self.rigid_approach += coarse.rigid_approach - coarse.rigid_approach_before
+        mirror, part = self.mesh.mirror, coarse.correction
+        transfer.correct(self.film.p, coarse.film.p, coarse.before, mirror, part, coarse.limit)
+        self.rigid_approach += part * (coarse.rigid_approach - coarse.rigid_approach_before)
         self.stale = True

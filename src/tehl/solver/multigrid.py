@@ -1,11 +1,14 @@
 """Full multigrid: from the coarsest grid up, each grid starts from the next coarser solution."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from tehl.film_formulas import expected_central_film
 from tehl.grid import Grid, hierarchy
 from tehl.operators.film import hertz_pressure
 from tehl.operators.flow import FlowTable
+from tehl.operators.heights import Heights
 from tehl.operators.transfer import refine
 from tehl.options import Options
 from tehl.result import CycleReport, ErrorEstimate
@@ -26,12 +29,19 @@ from tehl.solver.monitor import Monitor
 from tehl.solver.smoother import BROAD, FAST, Setting
 from tehl.solver.thermal import Coupling, Uncoupled
 
+if TYPE_CHECKING:
+    from tehl.typing import Array
+
 FIRST_STEPS = 6
 """Newton steps on the coarsest grid at the start; they may cycle there, which does no harm."""
 COARSE_CYCLES = 4
 """Most cycles on a grid that only gives the start for the next finer one."""
 RUNAWAY = 100.0
 """Load error and central film that no iteration comes back from (H of a contact is below 2)."""
+SMOOTH_CYCLES = 2
+"""Cycles without heights on the first grid that gets them."""
+BLURRED = 12.0
+"""Nodes per wave below which a grid does not resolve it well enough for its whole correction."""
 FLOOR = 0.02
 """Least film in the conductance, over the expected central film: coarse grids may need it."""
 
@@ -77,15 +87,44 @@ class Multigrid:
         self.expected_film = expected_central_film(groups)
         for level in self.levels:
             level.floor = FLOOR * self.expected_film
+        self.first_rough = len(self.levels)
+        self.smooth: tuple[int, Array, float] | None = None
         self.coarsest_trace = GridTrace()
         self.traces: list[GridTrace] = []
+
+    def roughen(self, heights: Heights) -> None:
+        """Make the surfaces rough: give heights on the finest grid to the levels that resolve them.
+
+        The finest level that does not resolve them well has its correction damped: it sees waves
+        of another shape, and its whole correction would overshoot.
+        """
+        rough = self.setting.rough
+        fields = heights.on([level.grid for level in self.levels])
+        points = [heights.points_per_wave(level.grid) for level in self.levels]
+        last = len(self.levels) - 1
+        first = next((k for k in range(1, last) if points[k] >= rough.points), last)
+        for level, field in zip(self.levels[first:], fields[first:], strict=True):
+            level.heights = field
+        blurred = max((k for k in range(last) if points[k] < BLURRED), default=None)
+        if blurred is not None:
+            self.levels[blurred].correction = rough.correction
+            for level in self.levels[blurred:]:
+                level.limit = rough.limit
+        self.first_rough = first
 
     def errors(self) -> ErrorEstimate | None:
         """Return estimated errors of the film; None before the finest grid was cycled on."""
         if len(self.traces) < len(self.levels) - 1 or not self.traces[-1].reports:
             return None
-        order = self.options.wedge_order
-        return error_estimate([self.coarsest_trace, *self.traces], order)
+        alike = [self.coarsest_trace, *self.traces]
+        if self.is_rough:
+            alike = alike[self.first_rough :]
+        return error_estimate(alike, self.options.wedge_order) if len(alike) > 1 else None
+
+    @property
+    def is_rough(self) -> bool:
+        """Whether the surfaces have heights."""
+        return self.first_rough < len(self.levels)
 
     @property
     def finest(self) -> Level:
@@ -118,6 +157,8 @@ class Multigrid:
             if orderly:
                 fine.film.p[:] = refine(coarse.film.p, fine.grid)
                 fine.rigid_approach = coarse.rigid_approach
+            elif self.smooth is not None:
+                self._start_smooth(count - 1)
             else:
                 self._start_dry(fine)
             if fine is self.finest:
@@ -126,8 +167,24 @@ class Multigrid:
                 self._cycle_on(self.levels[:count], monitor)
             else:
                 orderly = self._prepare_on(self.levels[:count], monitor)
-        coarser = self.traces[-2] if len(self.traces) > 1 else None
-        return converged(self.traces[-1], coarser, self.options)
+        return converged(self.traces[-1], self._coarser_trace(), self.options)
+
+    def _start_smooth(self, number: int) -> None:
+        """Start a rough level from the smooth film, and raise the heights there once more."""
+        if self.smooth is None:
+            raise ValueError("there is no smooth film yet")
+        known, p, approach = self.smooth
+        for level in self.levels[known + 1 : number + 1]:
+            p = refine(p, level.grid)
+        self.levels[number].film.p[:] = p
+        self.levels[number].rigid_approach = approach
+        self.first_rough = number
+
+    def _coarser_trace(self) -> GridTrace | None:
+        """Return the trace of the grid before the last one; None where that had another film."""
+        if len(self.traces) < 2 or len(self.traces) == self.first_rough:
+            return None
+        return self.traces[-2]
 
     def salvage(self) -> None:
         """Put the finest coarser state that is sound on the finest grid, by interpolation."""
@@ -171,16 +228,14 @@ class Multigrid:
         if self.coupling.begin(levels, finest=last):
             for level in levels:
                 level.set_smoother(self.setting)
-        trace, coarser = GridTrace(), (self.traces[-1] if self.traces else None)
+        trace = GridTrace()
         self.traces.append(trace)
-        trace.note(*film_numbers(fine))
+        coarser = self._coarser_trace()
         shape = Cycle.of(self.options, levels[0].grid, self.expected_film)
+        done = self._ramp(levels, shape, monitor)
+        trace.note(*film_numbers(fine))
         for number in range(1, (self.options.max_cycles if last else COARSE_CYCLES) + 1):
-            before = fine.film.p.copy()
-            cycle(levels, self.coarsest.step, shape)
-            fine.update()
-            heating = self.coupling.update(levels)
-            report = self._report(fine, before, number, heating)
+            report = self._cycle(levels, shape, number + done)
             trace.reports.append(report)
             trace.note(report.film_central, report.film_minimum)
             trace.rise.values.append(report.temperature_rise)
@@ -189,6 +244,29 @@ class Multigrid:
                 return
             if not last and iterated_enough(trace, coarser):
                 return
+
+    def _ramp(self, levels: list[Level], shape: Cycle, monitor: Monitor) -> int:
+        """Raise the heights step by step on the first level that has them; return the cycles."""
+        fine, steps = levels[-1], self.setting.rough.ramp
+        if len(levels) - 1 != self.first_rough:
+            return 0
+        for number in range(1, SMOOTH_CYCLES + steps):
+            fine.roughen(max(number - SMOOTH_CYCLES, 0) / steps)
+            monitor.cycle(self._cycle(levels, shape, number))
+            if number == SMOOTH_CYCLES:
+                self.smooth = (len(levels) - 1, fine.film.p.copy(), fine.rigid_approach)
+        fine.roughen(1.0)
+        fine.update()
+        return SMOOTH_CYCLES + steps - 1
+
+    def _cycle(self, levels: list[Level], shape: Cycle, number: int) -> CycleReport:
+        """Run one cycle on the last of ``levels`` and report it."""
+        fine = levels[-1]
+        before = fine.film.p.copy()
+        cycle(levels, self.coarsest.step, shape)
+        fine.update()
+        heating = self.coupling.update(levels)
+        return self._report(fine, before, number, heating)
 
     def _report(
         self, level: Level, before: np.ndarray, number: int, heating: tuple[float, float]

@@ -14,6 +14,28 @@ from tehl.typing import Array, FlagArray
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class Rough:
+    """Numbers of the full multigrid method for rough surfaces.
+
+    Attributes
+    ----------
+    correction : float
+        Part of its correction that the finest grid that does not resolve the heights gives [-].
+    limit : float
+        Largest change of pressure by that correction and those above it, over the pressure [-].
+    ramp : int
+        Cycles over which the heights are raised on the first grid that has them.
+    points : float
+        Nodes per wave from which a grid has the heights [-].
+    """
+
+    correction: float = 1.0
+    limit: float = np.inf
+    ramp: int = 4
+    points: float = 8.0
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class Setting:
     """Numbers of the hybrid line relaxation.
 
@@ -25,17 +47,35 @@ class Setting:
         Conductance over mesh width squared below which a node relaxes as a dipole [-].
     point, dipole : float
         Under-relaxation of points (Gauss-Seidel) and of dipoles (Jacobi) [-].
+    rough : Rough
+        What is done where the surfaces are rough.
     """
 
     name: str
     threshold: float
     point: float
     dipole: float
+    rough: Rough = Rough()
 
 
 FAST = Setting(name="fast", threshold=1.0, point=0.7, dipole=0.6)
 BROAD = Setting(name="broad", threshold=10.0, point=0.7, dipole=0.6)
 ROBUST = Setting(name="robust", threshold=1.0, point=0.4, dipole=0.3)
+ROUGH = Setting(name="rough", threshold=1.0, point=0.6, dipole=0.4)
+DAMPED = Setting(
+    name="damped",
+    threshold=1.0,
+    point=0.6,
+    dipole=0.4,
+    rough=Rough(correction=0.5, limit=0.3, points=12.0),
+)
+CAREFUL = Setting(
+    name="careful",
+    threshold=1.0,
+    point=0.5,
+    dipole=0.35,
+    rough=Rough(correction=0.3, limit=0.3, ramp=8, points=12.0),
+)
 POINTWISE = Setting(name="gauss-seidel", threshold=0.0, point=0.5, dipole=0.0)
 SETTINGS = {setting.name: setting for setting in (FAST, BROAD, ROBUST, POINTWISE)}
 

@@ -15,6 +15,7 @@ from tehl.errors import ConvergenceError
 from tehl.grid import Grid, can_mirror
 from tehl.memory import check_memory
 from tehl.operators.flow import flow_table
+from tehl.operators.heights import Heights
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.result import (
@@ -32,7 +33,7 @@ from tehl.solver.film_numbers import film_summary
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.multigrid import Multigrid
 from tehl.solver.outputs import film_heat, film_shear, newtonian_shear
-from tehl.solver.smoother import BROAD, FAST, ROBUST, SETTINGS, Setting
+from tehl.solver.smoother import BROAD, CAREFUL, DAMPED, FAST, ROBUST, ROUGH, SETTINGS, Setting
 from tehl.solver.thermal import Coupling, FilmCoupling, Uncoupled
 from tehl.solver.verdict import diverged, verdict
 from tehl.solver.warmup import warm_up
@@ -55,6 +56,7 @@ def solve(
     options: Options | None = None,
     *,
     monitor: Monitor = SILENT,
+    heights: Heights | None = None,
 ) -> Result:
     """Solve a steady contact by full multigrid.
 
@@ -66,6 +68,8 @@ def solve(
         How hard to try; the defaults if left out.
     monitor : Monitor
         Told of each cycle.
+    heights : Heights
+        Of rough surfaces, at the nodes of `finest_grid`; smooth surfaces if left out.
 
     Returns
     -------
@@ -85,7 +89,7 @@ def solve(
     wall, cpu = time.perf_counter(), time.process_time()
     history = _History(monitor)
     attempts = []
-    for attempt in _attempts(problem, options, history):
+    for attempt in _attempts(problem, options, history, heights):
         attempts.append(attempt)
         if attempt.status.converged or attempt.status.cause in GRID_CAUSES:
             break
@@ -114,26 +118,34 @@ class _History:
         self.monitor.cycle(report)
 
 
-def _attempts(problem: ContactProblem, options: Options, monitor: Monitor) -> Iterator[Attempt]:
+def _attempts(
+    problem: ContactProblem, options: Options, monitor: Monitor, heights: Heights | None
+) -> Iterator[Attempt]:
     """Yield the outcome of each setting worth trying, the most promising first."""
     case_scales, case_groups = scales(problem), groups(problem)
     flow = flow_table(problem, case_scales, case_groups)
     grid = finest_grid(options, case_groups)
-    attempts = _settings(problem, options)
+    attempts = _settings(problem, options, rough=heights is not None)
     for number, (setting, ramped) in enumerate(attempts):
         if number:
             how = ", sliding step by step" if ramped else ""
             monitor.message(f"falling back to the {setting.name} smoother{how}")
         coupling = coupling_of(problem, options, ramped=ramped)
         run = Multigrid(grid, case_groups, flow, options, setting, coupling)
+        if heights is not None:
+            run.roughen(heights)
         last = number == len(attempts) - 1
         yield Attempt(run=run, status=_run(run, monitor, patient=last))
 
 
-def _settings(problem: ContactProblem, options: Options) -> list[tuple[Setting, bool]]:
+def _settings(
+    problem: ContactProblem, options: Options, *, rough: bool
+) -> list[tuple[Setting, bool]]:
     """Return the settings of the smoother to try, and whether sliding is raised step by step."""
     if options.smoother != "auto":
         return [(SETTINGS[options.smoother], False)]
+    if rough:
+        return [(ROUGH, False), (DAMPED, False), (CAREFUL, False)]
     if not problem.is_coupled:
         return [(FAST, False), (ROBUST, False)]
     attempts = [(BROAD, False), (ROBUST, False)]

@@ -44,7 +44,7 @@ def verdict(run: Multigrid, cycled_out: bool, errors: ErrorEstimate | None) -> S
     if not (np.isfinite(film.p).all() and np.isfinite(film.h).all() and film.p.min() >= 0):
         return diverged(run)
     if not film.h.min() > level.floor:
-        return _film_not_positive(level, groups)
+        return _asperity_contact(level) if run.is_rough else _film_not_positive(level, groups)
     if errors is not None and errors.discretisation_minimum > LARGEST_BAR:
         return _too_coarse(level.grid, groups, errors.discretisation_minimum)
     if cycled_out:
@@ -145,6 +145,23 @@ def _film_not_positive(level: Level, groups: Groups) -> Status:
             f"smallest H = {level.film.h.min():.3g}; this grid is too coarse for the film."
         ),
         hint=f"Take {grid_hint(grid, groups)}.",
+    )
+
+
+def _asperity_contact(level: Level) -> Status:
+    """Name the place where the film of rough surfaces fails."""
+    grid, h = level.grid, level.film.h
+    row, column = np.unravel_index(int(np.argmin(h)), h.shape)
+    return Status(
+        kind="not_converged",
+        cause="asperity_contact",
+        message=(
+            f"The film is not positive on {grid.nx} x {grid.ny} nodes: smallest H = "
+            f"{h.min():.3g} at X = {grid.x[column]:.3g}, Y = {grid.y[row]:.3g} (half-widths), and "
+            f"{np.count_nonzero(h <= level.floor)} nodes are as thin as that. Asperities would "
+            "touch there, which a film that carries all of the load cannot describe."
+        ),
+        hint="Take lower or longer asperities, more speed, or more nodes (numerics.points).",
     )
 
 
