@@ -5,7 +5,13 @@ from dataclasses import replace
 import pytest
 
 from tehl.errors import InputError
-from tehl.post.thermal_effect import isothermal_twin, thermal_effect
+from tehl.io.store import load_summary, save
+from tehl.post.thermal_effect import (
+    effect_block,
+    isothermal_twin,
+    stored_effect,
+    thermal_effect,
+)
 from tehl.problem import ContactProblem
 from tests.fixtures_result import CASE
 
@@ -42,3 +48,15 @@ def test_the_effect_is_thermal_over_isothermal(result, warm):
     assert effect.minimum == pytest.approx(0.03 / result.film_scaled.minimum)
     assert effect.isothermal_central == result.film.central
     assert "Wilson-Sheu" in [factor.formula for factor in effect.inlet_factors]
+
+
+def test_the_effect_comes_back_from_a_file_as_it_was(result, warm, tmp_path):
+    effect = thermal_effect(replace(result, problem=warm), result)
+    save(result, tmp_path / "warm.nc", extra={"thermal_effect": effect_block(effect)})
+    assert stored_effect(load_summary(tmp_path / "warm.nc")) == effect
+
+
+@pytest.mark.parametrize("block", [None, {}, {"central": 1.0}, {"central": "x"}, 3])
+def test_without_a_whole_comparison_there_is_no_effect(block):
+    assert stored_effect({"thermal_effect": block}) is None
+    assert stored_effect({}) is None

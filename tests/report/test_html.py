@@ -5,6 +5,8 @@ from html.parser import HTMLParser
 
 import pytest
 
+from tehl.film_formulas import InletFactor
+from tehl.post.thermal_effect import ThermalEffect
 from tehl.report import html
 from tehl.report.html import report_text, write_report
 from tehl.report.inputs import input_rows
@@ -134,3 +136,19 @@ def test_a_negative_film_is_no_result(stalled):
     text = report_text(replace(stalled, film_scaled=numbers), dpi=40)
     assert "There is no film to report" in text
     assert "this solve" not in text
+
+
+def test_the_film_without_heat_stands_beside_the_one_with_it(thermal, monkeypatch):
+    monkeypatch.setattr("tehl.report.html._CAPTIONS", {})
+    factor = InletFactor(formula="Gupta", source="Trib. Trans.", factor=0.9375, remarks=("odd",))
+    effect = ThermalEffect(
+        central=0.9875,
+        minimum=0.9625,
+        isothermal_central=1.234e-6,
+        isothermal_minimum=0.5e-6,
+        inlet_factors=(factor,),
+    )
+    text = report_text(thermal, effect=effect)
+    assert "Film with heat and without" in text
+    assert all(number in text for number in ("0.9875", "0.9625", "1234 nm", "0.9375", "odd"))
+    assert "Film with heat and without" not in report_text(thermal)

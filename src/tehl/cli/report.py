@@ -14,11 +14,12 @@ def report(
 ) -> None:
     """Write one self-contained HTML page: inputs, groups, pictures, formulas, convergence."""
     from tehl.io.atomic import check_writable
-    from tehl.io.store import load
+    from tehl.io.store import load, load_summary
+    from tehl.post.thermal_effect import stored_effect
     from tehl.report.html import write_report
 
     path = stored.with_suffix(".html") if output is None else output
     check_writable(path, sources=(stored,))
     result = load(stored)
-    write_report(result, path)
+    write_report(result, path, effect=stored_effect(load_summary(stored)))
     typer.echo(path)

@@ -140,20 +140,10 @@ def _save_effect(result: "Result", effect: "ThermalEffect | None", target: Path)
 
 def _block(effect: "ThermalEffect | None") -> dict[str, Any]:
     """Return what the summary says of the comparison, null where there is none."""
-    from dataclasses import asdict
-
     from tehl.io.summary import plain
+    from tehl.post.thermal_effect import effect_block
 
-    if effect is None:
-        return {"thermal_effect": None}
-    content = {
-        "central": effect.central,
-        "minimum": effect.minimum,
-        "isothermal_h_central_m": effect.isothermal_central,
-        "isothermal_h_min_m": effect.isothermal_minimum,
-        "inlet_factors": [asdict(factor) for factor in effect.inlet_factors],
-    }
-    return {"thermal_effect": plain(content)}
+    return {"thermal_effect": None if effect is None else plain(effect_block(effect))}
 
 
 def _tell(

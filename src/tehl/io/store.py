@@ -150,6 +150,31 @@ def load(path: str | Path) -> Result:
         raise _damaged(source, error) from None
 
 
+def load_summary(path: str | Path) -> dict[str, Any]:
+    """Read the summary of a result file, with the blocks that were added to it.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+
+    Raises
+    ------
+    InputError
+        If there is no such file.
+    FileFormatError
+        If it is no result file, or its summary cannot be read.
+    """
+    source = Path(path)
+    _check_signature(source)
+    attrs = _read(source)[1]
+    try:
+        content = json.loads(attrs.get("summary", "{}"))
+    except (TypeError, ValueError) as error:
+        raise _damaged(source, error) from None
+    return content if isinstance(content, dict) else {}
+
+
 def _check_signature(source: Path) -> None:
     if not source.is_file():
         raise InputError(f"there is no result file {source}")

@@ -1,6 +1,8 @@
 """What heat does to a film: a thermal result beside its isothermal twin."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
 
 from tehl.errors import InputError
 from tehl.film_formulas import InletFactor, inlet_factors
@@ -57,3 +59,39 @@ def thermal_effect(thermal: Result, isothermal: Result) -> ThermalEffect:
         isothermal_minimum=cold.minimum,
         inlet_factors=inlet_factors(thermal.problem),
     )
+
+
+def effect_block(effect: ThermalEffect) -> dict[str, Any]:
+    """Return what a summary says of the comparison, in the block ``thermal_effect``."""
+    return {
+        "central": effect.central,
+        "minimum": effect.minimum,
+        "isothermal_h_central_m": effect.isothermal_central,
+        "isothermal_h_min_m": effect.isothermal_minimum,
+        "inlet_factors": [asdict(factor) for factor in effect.inlet_factors],
+    }
+
+
+def stored_effect(summary: Mapping[str, Any]) -> ThermalEffect | None:
+    """Return the comparison that a stored summary holds; None where there is none.
+
+    Parameters
+    ----------
+    summary : mapping
+        As :func:`tehl.io.store.load_summary` returns it.
+    """
+    block: Any = summary.get("thermal_effect")
+    try:
+        return ThermalEffect(
+            central=float(block["central"]),
+            minimum=float(block["minimum"]),
+            isothermal_central=float(block["isothermal_h_central_m"]),
+            isothermal_minimum=float(block["isothermal_h_min_m"]),
+            inlet_factors=tuple(_factor(**one) for one in block["inlet_factors"]),
+        )
+    except (TypeError, KeyError, ValueError):  # none, or one that another program wrote
+        return None
+
+
+def _factor(formula: str, source: str, factor: float, remarks: list[str]) -> InletFactor:
+    return InletFactor(formula=formula, source=source, factor=factor, remarks=tuple(remarks))

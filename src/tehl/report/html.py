@@ -14,6 +14,7 @@ from tehl.io.content import DEFINITIONS
 from tehl.plots.save import pictures_of
 from tehl.post.film import no_film
 from tehl.post.heat import Temperature
+from tehl.post.thermal_effect import ThermalEffect
 from tehl.report.inputs import input_rows
 from tehl.result import ErrorEstimate, Estimate, FilmHeat, HeatBalance, Result
 
@@ -65,7 +66,7 @@ _CAPTIONS = {
 }
 
 
-def write_report(result: Result, path: str | Path) -> None:
+def write_report(result: Result, path: str | Path, *, effect: ThermalEffect | None = None) -> None:
     """Write ``result`` as one HTML file with its pictures inside; whole, or not at all.
 
     Parameters
@@ -74,6 +75,8 @@ def write_report(result: Result, path: str | Path) -> None:
         What to report, converged or not.
     path : str or Path
         The file; an older one is replaced.
+    effect : ThermalEffect or None
+        What heat does to the film, from an isothermal twin, if it was solved.
 
     Raises
     ------
@@ -81,12 +84,12 @@ def write_report(result: Result, path: str | Path) -> None:
         If the file cannot be written there.
     """
     check_writable(path)
-    text = report_text(result)
+    text = report_text(result, effect=effect)
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
 
 
-def report_text(result: Result, *, dpi: int = 110) -> str:
+def report_text(result: Result, *, dpi: int = 110, effect: ThermalEffect | None = None) -> str:
     """Return the page as text.
 
     Parameters
@@ -95,11 +98,14 @@ def report_text(result: Result, *, dpi: int = 110) -> str:
         What to report.
     dpi : int
         Dots per inch of the pictures.
+    effect : ThermalEffect or None
+        What heat does to the film, if it is known.
     """
     title = escape(result.problem.title or "Lubricated point contact")
     sections = (
         _section("Result", _numbers(result)),
         *_heat_section(result),
+        *_effect_section(result, effect),
         *_traction_section(result),
         _section("Pictures", _pictures(result, dpi)),
         _section("Formulas against computed", _formulas(result)),
@@ -188,6 +194,37 @@ def _heat_section(result: Result) -> Iterator[str]:
         + _table(("", "power"), _powers(heat.balance))
         + f"<p class=small>The powers balance to {_percent(heat.balance.error)}.</p>",
     )
+
+
+def _effect_section(result: Result, effect: ThermalEffect | None) -> Iterator[str]:
+    """Yield the section about the film without heat, nothing when it was not solved."""
+    if effect is None:
+        return
+    film = result.film
+    rows = [
+        (
+            "central film",
+            _nm(film.central),
+            _nm(effect.isothermal_central),
+            f"{effect.central:.4f}",
+        ),
+        (
+            "minimum film",
+            _nm(film.minimum),
+            _nm(effect.isothermal_minimum),
+            f"{effect.minimum:.4f}",
+        ),
+    ]
+    body = _table(("", "with heat", "without", "ratio"), rows)
+    if effect.inlet_factors:
+        factors = (
+            (f"{one.formula} ({one.source})", f"{one.factor:.4f}", "; ".join(one.remarks))
+            for one in effect.inlet_factors
+        )
+        head = ("by heating in the inlet alone, by formula", "ratio", "remarks")
+        body += f"<h3>Formulas</h3>{_table(head, factors)}"
+    note = "Without heat the oil is as warm everywhere as it is at the inlet."
+    yield _section("Film with heat and without", f"{body}<p class=small>{note}</p>")
 
 
 def _rises(heat: FilmHeat, found: Temperature) -> list[tuple[str, str, str, str]]:
