@@ -248,7 +248,7 @@ def _turned(size: tuple[float, float], angle: float) -> tuple[float, float]:
 
 
 def _micro(first: float, second: float) -> str:
-    return f"{first * 1e6:.3g} x {second * 1e6:.3g} um"
+    return f"{first * 1e6:.4g} x {second * 1e6:.4g} um"
 
 
 @lru_cache(maxsize=4)

@@ -169,7 +169,7 @@ class Random(RoughnessModel):
         """Return the wavelengths 2 pi Sq / Sq' along x and along y [m].
 
         Sq' is the root mean square slope of the spectrum in that direction. Of a Gaussian spectrum
-        it is 4.4 correlation lengths; half of the variance has shorter waves.
+        it is 4.4 correlation lengths; 61 % of the variance have shorter waves, 5 % those below 1.8.
         """
         along, across = self._slopes
         cosine, sine = (value**2 for value in direction(self.angle))

@@ -1,0 +1,242 @@
+"""``tehl surface``: a measured surface at a glance."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from pydantic import ValidationError
+
+    from tehl.roughness.preview import Mesh, Preview
+
+_DOMAIN = 6.0
+"""Length of the usual domain in half-widths."""
+
+
+def surface(  # noqa: PLR0913, PLR0917 (the options of the command)
+    file: Annotated[Path, typer.Argument(help="Measured heights.", show_default=False)],
+    unit: Annotated[str | None, typer.Option(help="Unit of the heights, um.")] = None,
+    pixel: Annotated[
+        str | None, typer.Option(help='Distance of the points, "2 um" or "2 um, 3 um".')
+    ] = None,
+    size: Annotated[
+        str | None, typer.Option(help='Edges along x and y, "1 mm" or "1 mm, 0.5 mm".')
+    ] = None,
+    level: Annotated[
+        str | None, typer.Option(help="What is taken off: none, mean, plane, quadratic.")
+    ] = None,
+    changes: Annotated[
+        list[str],
+        typer.Option("--set", metavar="KEY=VALUE", help="Another key of a map, lambda_s=10 um."),
+    ] = [],  # noqa: B006 (typer reads the default, nobody writes it)
+    contact: Annotated[
+        Path | None, typer.Option(metavar="CASE", help="Case whose contact and grid to compare.")
+    ] = None,
+    half_width: Annotated[
+        str | None, typer.Option(help='Half-width of a contact to compare, "0.2 mm".')
+    ] = None,
+    points: Annotated[
+        int | None, typer.Option(min=9, help="Nodes per direction of the grid; 257 if left out.")
+    ] = None,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="PNG", help="Picture to draw.")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
+) -> None:
+    """Show a measured surface: size, unit, roughness, spectrum, and what a grid sees of it."""
+    import json
+
+    from tehl.io.atomic import check_writable
+    from tehl.roughness.preview import preview
+
+    if output is not None:
+        check_writable(output, sources=(file,))
+    stated = {"unit": unit, "pixel": _pair(pixel), "size": _pair(size), "level": level}
+    keys = {key: value for key, value in stated.items() if value is not None} | _changed(changes)
+    mesh = _mesh(contact, half_width, points)
+    found = preview(_map(file, keys), mesh)
+    typer.echo(json.dumps(as_summary(found)) if as_json else as_text(found))
+    if output is not None:
+        _draw(found, output)
+        typer.echo(output, err=as_json)
+
+
+def _draw(found: "Preview", output: Path) -> None:
+    from tehl.io.atomic import replacing
+    from tehl.plots.surface import surface_preview
+
+    with replacing(output) as temporary:
+        surface_preview(found).savefig(temporary, dpi=150, format="png")
+
+
+# ---- input
+
+
+def _pair(text: str | None) -> list[str] | str | None:
+    """Return one or two lengths of an option."""
+    if text is None or "," not in text:
+        return text
+    return [part.strip() for part in text.split(",")]
+
+
+def _changed(changes: list[str]) -> dict[str, Any]:
+    """Return the keys and values of ``--set``, as TOML reads them, else as words."""
+    import tomllib
+
+    from tehl.errors import InputError
+
+    found: dict[str, Any] = {}
+    for change in changes:
+        key, equals, text = (part.strip() for part in change.partition("="))
+        if not (key and equals):
+            raise InputError(f"{change!r} is no change: give key=value, lambda_s=10 um")
+        try:
+            found[key] = tomllib.loads(f"value = {text}")["value"]
+        except ValueError:
+            found[key] = text
+    return found
+
+
+def _map(file: Path, keys: dict[str, Any]) -> Any:
+    """Return the map that the options state."""
+    from pydantic import ValidationError
+
+    from tehl.errors import InputError
+    from tehl.roughness import Map
+
+    try:
+        return Map.model_validate({"file": str(file), **keys})
+    except ValidationError as error:
+        raise InputError(_told(error)) from None
+
+
+def _told(error: "ValidationError") -> str:
+    """Return the first mistake of a map in one sentence."""
+    first = error.errors(include_url=False)[0]
+    name = ".".join(str(part) for part in first["loc"])
+    words = first["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
+    if first["type"] == "extra_forbidden":
+        return f"{name} is no key of a map"
+    return f"{name} = {first['input']!r} {words}" if name else words
+
+
+def _mesh(contact: Path | None, half_width: str | None, points: int | None) -> "Mesh | None":
+    """Return the grid to compare with."""
+    from tehl.errors import InputError
+    from tehl.roughness.preview import Mesh
+    from tehl.units import LENGTH
+
+    if contact is not None:
+        if half_width is not None:
+            raise InputError("--contact and --half-width both state a contact: give one of them")
+        return _mesh_of_case(contact, points)
+    if half_width is None:
+        if points is not None:
+            raise InputError('--points needs a contact: give --half-width "0.2 mm" or --contact')
+        return None
+    try:
+        width = LENGTH.parse(half_width)
+    except ValueError as error:
+        raise InputError(f"--half-width = {half_width!r} {error}") from None
+    count = points or 257
+    spacing = _DOMAIN * width / (count - 1)
+    return Mesh(spacing=(spacing,) * 2, half_widths=(width, width), points=(count, count))
+
+
+def _mesh_of_case(case: Path, points: int | None) -> "Mesh":
+    from tehl.io.case import read_case_and_options
+    from tehl.report.explain import explain
+    from tehl.roughness.preview import Mesh
+
+    changes = [] if points is None else [f"numerics.points={points}"]
+    problem, options = read_case_and_options(case, changes)
+    domain, (ny, nx) = explain(problem, options).domain, options.shape
+    widths = (problem.hertz.half_width_x, problem.hertz.half_width_y)
+    return Mesh(
+        spacing=(
+            (domain.x[1] - domain.x[0]) * widths[0] / (nx - 1),
+            (domain.y[1] - domain.y[0]) * widths[1] / (ny - 1),
+        ),
+        half_widths=widths,
+        points=(nx, ny),
+    )
+
+
+# ---- output
+
+
+def as_text(found: "Preview") -> str:
+    """Return a preview in lines for people."""
+    values, numbers = found.heights, found.statistics
+    ny, nx = values.values.shape
+    rows = [
+        ("file", f"{found.kind}, {found.raw_shape[1]} x {found.raw_shape[0]} points"),
+        ("size", f"{_micro(*values.size)}, {nx} x {ny} points {_micro(*values.pixel)} apart"),
+        ("missing points", f"{found.missing} ({_percent(found.missing, found.raw_shape)})"),
+        ("Sq, Sa, Sz", f"{_metres(numbers.sq)}, {_metres(numbers.sa)}, {_metres(numbers.sz)}"),
+        ("Ssk, Sku", f"{numbers.ssk:.3g}, {numbers.sku:.3g}"),
+        ("Sdq", f"{numbers.sdq:.3g}"),
+        ("correlation", f"{_correlation(numbers.correlation_lengths)} (1/e, along x and y)"),
+        ("mean wavelength", f"{found.shortest_wavelength * 1e6:.4g} um (2 pi Sq / Sq')"),
+        *_on_the_mesh(found),
+        *(("note", note) for note in values.notes),
+        *(("question", sentence) for sentence in found.sentences),
+    ]
+    return "\n".join([found.file, *(f"  {name:<17}{text}" for name, text in rows)])
+
+
+def _on_the_mesh(found: "Preview") -> list[tuple[str, str]]:
+    if found.mesh is None or found.lost is None:
+        return []
+    nx, ny = found.mesh.points
+    per_wave = found.shortest_wavelength / max(found.mesh.spacing)
+    advice = "" if per_wave >= 8 else "; at least 8 are wanted: take more points, or lambda_s"
+    return [
+        ("grid", f"{nx} x {ny} nodes {_micro(*found.mesh.spacing)} apart"),
+        ("", f"{100 * found.lost:.2g} % of the variance is lost, in waves of two widths or less"),
+        ("", f"{per_wave:.3g} nodes per mean wavelength{advice}"),
+    ]
+
+
+def as_summary(found: "Preview") -> dict[str, Any]:
+    """Return the numbers of a preview, in SI, for programs."""
+    numbers = found.statistics
+    lengths = [length if length < 1e300 else None for length in numbers.correlation_lengths]
+    return {
+        "file": found.file,
+        "kind": found.kind,
+        "points": list(reversed(found.heights.values.shape)),
+        "size_m": list(found.heights.size),
+        "pixel_m": list(found.heights.pixel),
+        "missing": found.missing,
+        "Sq_m": numbers.sq,
+        "Sa_m": numbers.sa,
+        "Sz_m": numbers.sz,
+        "Ssk": numbers.ssk,
+        "Sku": numbers.sku,
+        "Sdq": numbers.sdq,
+        "correlation_lengths_m": lengths,
+        "mean_wavelength_m": found.shortest_wavelength,
+        "mesh_m": None if found.mesh is None else list(found.mesh.spacing),
+        "lost_share": found.lost,
+        "notes": list(found.heights.notes),
+        "questions": list(found.sentences),
+    }
+
+
+def _micro(first: float, second: float) -> str:
+    return f"{first * 1e6:.4g} x {second * 1e6:.4g} um"
+
+
+def _metres(length: float) -> str:
+    return f"{length * 1e9:.4g} nm" if abs(length) < 1e-7 else f"{length * 1e6:.4g} um"
+
+
+def _percent(count: int, shape: tuple[int, int]) -> str:
+    return f"{100 * count / (shape[0] * shape[1]):.2g} %"
+
+
+def _correlation(lengths: tuple[float, float]) -> str:
+    words = [f"{length * 1e6:.4g} um" if length < 1e300 else "none" for length in lengths]
+    return ", ".join(words)

@@ -1,0 +1,174 @@
+"""A measured surface: its map, its heights and its spectrum."""
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Ellipse
+from matplotlib.ticker import FuncFormatter, MaxNLocator
+
+from tehl.plots.frame import MICRO, STEPS, outline
+from tehl.roughness.preview import Preview
+from tehl.typing import Array
+
+_CLIPPED = 0.1
+_PER_PICTURE = 900
+_SIZE, _NARROW = (10.5, 5.4), 8.0
+_SLENDER = 2.0
+_BINS = 81
+_LINE = "#1f4e9c"
+_MARK = "#c2410c"
+
+
+def surface_preview(preview: Preview) -> Figure:
+    """Draw a measured surface as it is prepared.
+
+    Parameters
+    ----------
+    preview : Preview
+        What to draw.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The map with the contact, the distribution of heights, and the power spectral density with
+        what the mesh cannot carry.
+    """
+    picture = Figure(figsize=_SIZE, layout="constrained")
+    width, height = preview.heights.size
+    if width > _SLENDER * height:
+        parts = picture.subfigures(2, 1, squeeze=False, height_ratios=[0.8, 1.0])[:, 0]
+        panels = parts[1].subplots(1, 2)
+    else:
+        slender = height > _SLENDER * width
+        shares = [0.62 if slender else 1.35, 1.0]
+        parts = picture.subfigures(1, 2, squeeze=False, width_ratios=shares)[0]
+        panels = parts[1].subplots(2, 1)
+        picture.set_figwidth(_NARROW if slender else _SIZE[0])
+    picture.suptitle(_title(preview), fontsize=9)
+    _draw_map(parts[0].add_subplot(), preview)
+    _draw_heights(panels[0], preview)
+    _draw_spectrum(panels[1], preview)
+    return picture
+
+
+def _title(preview: Preview) -> str:
+    found = preview.statistics
+    return (
+        f"{preview.file.rpartition('/')[2]}\n"
+        f"Sq = {_height(found.sq)}, Sa = {_height(found.sa)}, Sz = {_height(found.sz)}, "
+        f"Ssk = {found.ssk:.2f}, Sku = {found.sku:.2f}"
+    ).replace("$", r"\$")
+
+
+def _height(metres: float) -> str:
+    return f"{metres * 1e9:.3g} nm" if abs(metres) < 1e-7 else f"{metres * 1e6:.3g} µm"
+
+
+def _height_unit(preview: Preview) -> tuple[float, str]:
+    return (1e9, "nm") if preview.statistics.sq < 3e-8 else (MICRO, "µm")
+
+
+def _draw_map(axes: Axes, preview: Preview) -> None:
+    (width, height), values = preview.heights.size, preview.heights.values
+    factor, unit = _height_unit(preview)
+    right, top = 0.5 * width * MICRO, 0.5 * height * MICRO
+    steps = [max(1, count // _PER_PICTURE) for count in values.shape]
+    shown = values[:: steps[0], :: steps[1]] * factor
+    low, high = np.percentile(shown, [_CLIPPED, 100 - _CLIPPED])
+    image = axes.imshow(
+        shown,
+        origin="lower",
+        extent=(-right, right, -top, top),
+        aspect="equal",
+        interpolation="nearest",
+        vmin=low,
+        vmax=high,
+        cmap="viridis",
+    )
+    axes.set(xlabel="x along entrainment [µm]", ylabel="y [µm]")
+    ticks = 2 if height > _SLENDER * width else 6
+    axes.xaxis.set_major_locator(MaxNLocator(ticks, steps=STEPS))
+    ticks = 2 if width > _SLENDER * height else 6
+    axes.yaxis.set_major_locator(MaxNLocator(ticks, steps=STEPS))
+    where = "bottom" if 1.4 * height < width <= _SLENDER * height else "right"
+    axes.figure.colorbar(
+        image,
+        ax=axes,
+        location=where,
+        extend="both",
+        aspect=35,
+        shrink=0.9,
+        label=f"height outwards [{unit}]",
+    )
+    if preview.mesh is not None:
+        _draw_contact(axes, preview.mesh.half_widths)
+
+
+def _draw_contact(axes: Axes, half_widths: tuple[float, float]) -> None:
+    limits = axes.get_xlim(), axes.get_ylim()
+    wide, tall = (2 * MICRO * half for half in half_widths)
+    axes.add_patch(
+        Ellipse(
+            (0, 0),
+            wide,
+            tall,
+            fill=False,
+            color="white",
+            ls="--",
+            lw=1.3,
+            path_effects=outline("0.2", 2.4),
+        )
+    )
+    axes.set(xlim=limits[0], ylim=limits[1])
+    inside = 0.5 * wide < limits[0][1] and 0.5 * tall < limits[1][1]
+    label = "dashed: Hertz contact" if inside else "dashed: Hertz contact, larger than the map"
+    axes.set_title(label, fontsize=8)
+
+
+def _draw_heights(axes: Axes, preview: Preview) -> None:
+    factor, unit = _height_unit(preview)
+    off = (preview.heights.values - preview.heights.values.mean()).ravel() * factor
+    sq = preview.statistics.sq * factor
+    reach = float(np.clip(np.abs(off).max(), 3.5 * sq, 8.0 * sq))
+    axes.hist(off, bins=_BINS, range=(-reach, reach), density=True, color="#9db8dc")
+    places = np.linspace(-reach, reach, 300)
+    normal = np.exp(-0.5 * (places / sq) ** 2) / (sq * np.sqrt(2.0 * np.pi))
+    axes.plot(places, normal, color="0.25", lw=1.0, ls="--", label="normal, same Sq")
+    axes.set(xlabel=f"height outwards [{unit}]", ylabel=f"share [1/{unit}]", xlim=(-reach, reach))
+    axes.set(yscale="log", ylim=(3e-5 / sq, 2.0 / sq))
+    axes.legend(fontsize=8, frameon=False, loc="upper left")
+
+
+def _draw_spectrum(axes: Axes, preview: Preview) -> None:
+    found = preview.spectrum
+    lengths = 2.0 * np.pi / found.wave_number * MICRO
+    seen = found.density > 0
+    axes.loglog(lengths[seen], found.density[seen] * MICRO**4, color=_LINE, lw=1.3)
+    axes.set(xlabel="wavelength [µm]", ylabel="power density [µm$^4$]")
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda length, _: f"{length:g}"))
+    axes.set_ylim(*_decades(found.density[seen] * MICRO**4))
+    axes.invert_xaxis()
+    axes.grid(which="major", lw=0.3)
+    if preview.mesh is not None and preview.lost is not None:
+        _mark_mesh(axes, preview)
+
+
+def _decades(density: Array) -> tuple[float, float]:
+    """Return limits that leave out what rounding makes of filtered waves."""
+    if not density.size:
+        return 1e-12, 1.0
+    return max(0.5 * float(density.min()), 1e-12 * float(density.max())), 3.0 * float(density.max())
+
+
+def _mark_mesh(axes: Axes, preview: Preview) -> None:
+    if preview.mesh is None or preview.lost is None:
+        return
+    cut_off = 2.0 * max(preview.mesh.spacing) * MICRO
+    longest, shortest = axes.get_xlim()
+    nx, ny = preview.mesh.points
+    label = f"lost on {nx} x {ny} nodes: {100 * preview.lost:.2g} % of Sq²"
+    if cut_off > shortest:
+        axes.axvspan(min(cut_off, longest), shortest, color=_MARK, alpha=0.15, lw=0)
+        axes.axvline(cut_off, color=_MARK, lw=1.0)
+    axes.set_xlim(max(longest, 1.1 * cut_off), shortest)
+    axes.set_title(label, fontsize=8, color=_MARK)
