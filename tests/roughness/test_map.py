@@ -208,6 +208,7 @@ def test_heights_that_cannot_be_meant_are_questioned(file, keys, words):
         (np.zeros((1, 300)), "has 300 x 1 points"),
         (np.full((9, 9), np.nan), "no point with a height"),
         (np.full((9, 9), np.inf), "no point with a height"),
+        (np.where(np.eye(9) > 0, -32768e300, 0.0), "marks missing points by a number"),
     ],
 )
 def test_maps_without_roughness_are_told(tmp_path, heights, words):

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 _LEAST = 4
 _HIGHEST = 10e-6
-_WIDEST, _FINEST = 1.0, 1e-10
+_WIDEST, _FINEST, _TALLEST = 1.0, 1e-10, 1.0
 _BEYOND = {
     "flat": "beyond its edges the surface is flat, heights fall to zero before",
     "periodic": "beyond its edges it repeats",
@@ -73,6 +73,7 @@ def prepared(surface: "Map", raw: RawMap) -> Heights:
     notes: list[str] = []
     factor = _factor(surface, raw, notes)
     pixel = _pixel(surface, raw, notes)
+    _check_reach(raw.heights, factor)
     heights = _oriented(surface, Heights(values=raw.heights * factor, pixel=pixel))
     heights = _cropped(surface, heights)
     values = _whole(surface, heights.values, notes)
@@ -89,6 +90,16 @@ def _check_points(heights: Array) -> None:
         raise InputError(f"has {nx} x {ny} points, but a map has at least {_LEAST} x {_LEAST}")
     if not np.isfinite(heights).any():
         raise InputError("has no point with a height")
+
+
+def _check_reach(heights: Array, factor: float) -> None:
+    """Refuse heights that no file has on purpose, before they are squared."""
+    highest = float(np.abs(heights[np.isfinite(heights)]).max())
+    if not highest <= _TALLEST / factor:
+        raise InputError(
+            f"has heights up to {highest:.3g} times {factor:g} m: it is damaged, marks missing "
+            "points by a number, or has another unit"
+        )
 
 
 # ---- units

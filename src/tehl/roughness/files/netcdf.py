@@ -27,6 +27,7 @@ def read_netcdf(path: Path, variable: str | None) -> RawMap:
     InputError
         If it cannot be read, or it is not clear what the heights are.
     """
+    import h5py  # noqa: PLC0415
     import xarray as xr  # noqa: PLC0415 (a second, for this format only)
 
     with path.open("rb") as file:
@@ -34,6 +35,8 @@ def read_netcdf(path: Path, variable: str | None) -> RawMap:
     if engine is None:
         raise InputError("is no NetCDF file")
     try:
+        if engine == "h5netcdf":
+            h5py.File(path, "r").close()  # h5netcdf complains aloud of what it cannot open
         with xr.open_dataset(path, engine=engine, decode_times=False, cache=False) as data:
             return _map_of(data, variable)
     except InputError:

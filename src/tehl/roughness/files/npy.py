@@ -25,7 +25,7 @@ def read_npy(path: Path) -> RawMap:
         try:
             version = np.lib.format.read_magic(file)
             shape, _, dtype = _READERS[version](file)
-        except (ValueError, KeyError, SyntaxError, TypeError, EOFError):
+        except Exception:  # its header is parsed as Python is, with all that may go wrong
             raise InputError("is no file of numpy: its header cannot be read") from None
         if dtype.kind not in "fiu":
             raise InputError(f"holds {_kind(dtype)}, but heights are real numbers")

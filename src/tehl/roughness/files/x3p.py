@@ -5,6 +5,7 @@ The header is read without document types and entities; nothing of it is ever lo
 
 import hashlib
 import zipfile
+import zlib
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -18,6 +19,7 @@ from tehl.typing import Array
 
 _MAIN, _CHECKSUM = "main.xml", "md5checksum.hex"
 _LARGEST_HEADER = 10**7
+_DAMAGE = (zipfile.BadZipFile, zlib.error, EOFError, OSError, ValueError, NotImplementedError)
 _TYPES = {"I": "<i2", "L": "<i4", "F": "<f4", "D": "<f8"}
 
 
@@ -36,7 +38,7 @@ def read_x3p(path: Path) -> RawMap:
     try:
         with zipfile.ZipFile(path) as archive:
             return _map_of(archive)
-    except (zipfile.BadZipFile, EOFError, OSError, ValueError, NotImplementedError) as error:
+    except _DAMAGE as error:
         raise InputError(f"is no whole x3p file: {str(error)[:100]}") from None
 
 
