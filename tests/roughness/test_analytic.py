@@ -44,7 +44,7 @@ ridges = st.builds(
     angle=angles,
     x=places,
     y=places,
-    profile=st.sampled_from(["gaussian", "cosine"]),
+    profile=st.sampled_from(["gaussian", "cosine", "damped"]),
 )
 singles = st.one_of(waves, crossed, bumps, dimples, ridges, st.just(Smooth()))
 sums = st.lists(singles, max_size=3).map(lambda parts: Sum(parts=tuple(parts)))
@@ -163,6 +163,11 @@ def test_a_ridge_has_its_width_across_its_crest():
         gaussian.height(turned, -turned), 1e-7 * np.exp([0.0, -1.0, -4.0]), rtol=1e-12
     )
     np.testing.assert_allclose(cosine.height(turned, -turned), [1e-7, 0, 0], atol=1e-20)
+    damped = gaussian.model_copy(update={"profile": "damped"})
+    dimple = Dimple(amplitude=1e-7, width=1e-5)
+    np.testing.assert_allclose(
+        damped.height(turned, -turned), dimple.height(turned, -turned), atol=1e-20
+    )
 
 
 def test_the_rms_is_that_of_the_heights():

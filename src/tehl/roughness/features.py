@@ -135,11 +135,7 @@ class Dimple(RoundModel):
         return math.inf if self.is_smooth else 0.5 * self.width
 
     def _at_rest(self, x: "Array", y: "Array") -> "Array":
-        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-
-        square = self._squared_distance(x, y) / self.width**2
-        fading = np.exp(-10.0 * _TEN * square)
-        return self.amplitude * fading * np.cos(2.0 * np.pi * np.sqrt(square))
+        return self.amplitude * _damped_cosine(self._squared_distance(x, y) / self.width**2)
 
 
 class Ridge(FeatureModel):
@@ -147,6 +143,7 @@ class Ridge(FeatureModel):
 
     .. math:: s = A \exp\{-(2t/b)^2\} \quad\text{or}\quad
               s = \frac{A}{2} \left(1 + \cos\frac{2\pi t}{b}\right),\ |t| < b/2
+              \quad\text{or}\quad s = A \, 10^{-10 (t/b)^2} \cos\frac{2\pi t}{b}
 
     with t the distance from the crest.
 
@@ -155,19 +152,25 @@ class Ridge(FeatureModel):
     amplitude : float
         A [m]; negative is a groove.
     width : float
-        b [m]: of a Gaussian profile where the height is A/e, of a cosine from foot to foot.
+        b [m]: of a Gaussian profile where the height is A/e, of a cosine from foot to foot, of a
+        damped cosine as of :class:`Dimple`.
     angle : float
         [rad]; zero is transverse: the crest along y, across the entrainment.
-    profile : {"gaussian", "cosine"}
-        Shape across the crest.
+    profile : {"gaussian", "cosine", "damped"}
+        Shape across the crest, in the order of the formulas; "damped" is that of [1]_.
     x, y : float
         A point of the crest at time zero [m].
+
+    References
+    ----------
+    .. [1] C. H. Venner and A. A. Lubrecht, Numerical simulation of a transverse ridge in a circular
+       EHL contact under rolling/sliding, J. Tribol. 116 (1994), 751-761.
     """
 
     type: Literal["ridge"] = "ridge"
     width: Wavelength
     angle: Angle = 0.0
-    profile: Literal["gaussian", "cosine"] = "gaussian"
+    profile: Literal["gaussian", "cosine", "damped"] = "gaussian"
 
     @model_validator(mode="after")
     def _must_be_gentle(self) -> Self:
@@ -190,7 +193,7 @@ class Ridge(FeatureModel):
         """Return the wavelength across the crest that a mesh must carry [m]."""
         if self.is_smooth:
             return math.inf
-        return 2.0 * self.width if self.profile == "gaussian" else self.width
+        return {"gaussian": 2.0, "cosine": 1.0, "damped": 0.5}[self.profile] * self.width
 
     def _at_rest(self, x: "Array", y: "Array") -> "Array":
         import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
@@ -199,5 +202,14 @@ class Ridge(FeatureModel):
         across = ((x - self.x) * cosine - (y - self.y) * sine) / self.width
         if self.profile == "gaussian":
             return self.amplitude * np.exp(-((2.0 * across) ** 2))
+        if self.profile == "damped":
+            return self.amplitude * _damped_cosine(across**2)
         inside = np.minimum(np.abs(across), 0.5)
         return 0.5 * self.amplitude * (1.0 + np.cos(2.0 * np.pi * inside))
+
+
+def _damped_cosine(square: "Array") -> "Array":
+    """Return the cosine that dies out, by the squared distance in widths."""
+    import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
+
+    return np.exp(-10.0 * _TEN * square) * np.cos(2.0 * np.pi * np.sqrt(square))
