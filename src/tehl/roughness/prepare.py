@@ -141,14 +141,21 @@ def levelled(values: Array, how: Level) -> Array:
     """Return heights without their mean, plane or quadratic form, by least squares."""
     if how == "none":
         return values
-    ny, nx = values.shape
-    x, y = np.linspace(-1.0, 1.0, nx)[None, :], np.linspace(-1.0, 1.0, ny)[:, None]
     degree = _DEGREE[how]
+    rows, columns = (
+        np.vander(np.linspace(-1.0, 1.0, count), degree + 1, increasing=True).T
+        for count in values.shape
+    )
     powers = [(i, j) for i in range(degree + 1) for j in range(degree + 1 - i)]
-    terms = np.stack([np.broadcast_to(x**i * y**j, values.shape).ravel() for i, j in powers])
     off = values - values.mean()
-    weights = np.linalg.solve(terms @ terms.T, terms @ off.ravel())
-    return off - (weights @ terms).reshape(values.shape)
+    # sums over the map part into sums over rows and columns, so that no term is ever a map
+    along, across = columns @ columns.T, rows @ rows.T
+    products = [[across[i, k] * along[j, m] for k, m in powers] for i, j in powers]
+    moments = rows @ off @ columns.T
+    weights = np.zeros((degree + 1, degree + 1))
+    found = np.linalg.solve(np.array(products), [moments[power] for power in powers])
+    weights[tuple(np.transpose(powers))] = found
+    return np.asarray(off - rows.T @ (weights @ columns))
 
 
 def gaussian_mean(heights: Array, pixel: tuple[float, float], cut_off: float) -> Array:
