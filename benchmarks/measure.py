@@ -66,6 +66,6 @@ def fft_unit(points: int) -> float:
 def multigrid(problem: ContactProblem, options: Options, setting: Setting = FAST) -> Multigrid:
     """Return the hierarchy that `tehl.solve` would cycle on."""
     case_scales, case_groups = scales(problem), groups(problem)
-    grid = finest_grid(options, case_groups)
+    grid = finest_grid(problem, options)
     flow = flow_table(problem, case_scales, case_groups)
     return Multigrid(grid, case_groups, flow, options, setting)

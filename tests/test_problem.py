@@ -201,7 +201,7 @@ IMPOSSIBLE = [
     ("contact.entrainment_speed", 1e-200, "beyond all measure"),
     ("surface_1.radius", 0.01, "stated twice"),
     ("surface_1.radius_x", 0.01, "both radius_x and radius_y"),
-    ("surface_1.roughness", {"type": "wave"}, "not available"),
+    ("surface_1.roughness", {"type": "wave"}, "amplitude"),
     ("surface_1.temperature", 300.0, "surface_1.temperature counts in thermal runs only"),
     ("thermal", {"layers": 21}, "lubricant.conductivity is missing"),
     ("lubricant.temperature", 40, "kelvin"),

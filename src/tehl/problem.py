@@ -16,7 +16,7 @@ from tehl.hertz import HertzContact, hertz_contact, load_of_pressure
 from tehl.lubricant import NamedLubricant
 from tehl.materials import NamedSolid, reduced_modulus
 from tehl.motion import Motion
-from tehl.roughness import Smooth
+from tehl.roughness import AnyRoughness, Smooth
 from tehl.units import (
     CONDUCTIVITY,
     HEAT_CAPACITY,
@@ -37,7 +37,6 @@ from tehl.units import (
 
 _NOT_YET = {
     "transient": "transient runs are not available in this version: leave the table out",
-    "roughness": "roughness is not available in this version: only rms_roughness may be stated",
 }
 
 _THERMAL = {
@@ -70,6 +69,8 @@ class Surface(BaseModel):
         Radii along and across entrainment [m]; infinite is flat, negative is hollow.
     rms_roughness : float
         Rq [m], for the lambda ratio of a smooth calculation.
+    roughness : surface
+        Heights that the film has to flow over; smooth if left out.
     temperature : float or None
         Temperature far from the contact [K], in thermal runs; None is that of the oil at the inlet.
     """
@@ -81,9 +82,19 @@ class Surface(BaseModel):
     radius_x: Radius | None = None
     radius_y: Radius | None = None
     rms_roughness: Height = 0.0
+    roughness: AnyRoughness = Smooth()
     temperature: Temperature | None = None
 
     _later = model_validator(mode="before")(_refuse_later_tables)
+
+    @model_validator(mode="after")
+    def _must_be_rough_once(self) -> Self:
+        if self.rms_roughness > 0 and not self.roughness.is_smooth:
+            raise ValueError(
+                "states rms_roughness, which is that of a surface computed as smooth, and "
+                "roughness: leave one of them out"
+            )
+        return self
 
     @model_validator(mode="after")
     def _radii_must_agree(self) -> Self:
@@ -102,11 +113,6 @@ class Surface(BaseModel):
         if self.radius_x is None or self.radius_y is None:
             return None
         return Radii(x=self.radius_x, y=self.radius_y)
-
-    @property
-    def roughness(self) -> Smooth:
-        """Return the heights of the surface."""
-        return Smooth()
 
 
 class Contact(BaseModel):
@@ -467,5 +473,15 @@ class ContactProblem(BaseModel):
 
     @property
     def rms_roughness(self) -> float:
-        """Return the roughness of both surfaces together, sqrt(Rq_1^2 + Rq_2^2) [m]."""
+        """Return the stated roughness of both surfaces together, sqrt(Rq_1^2 + Rq_2^2) [m]."""
         return math.hypot(self.surface_1.rms_roughness, self.surface_2.rms_roughness)
+
+    @property
+    def is_rough(self) -> bool:
+        """Whether the film has to flow over heights."""
+        return not (self.surface_1.roughness.is_smooth and self.surface_2.roughness.is_smooth)
+
+    @property
+    def is_even_in_y(self) -> bool:
+        """Whether y and -y are alike, so that half of the domain may be solved."""
+        return self.surface_1.roughness.is_even_in_y and self.surface_2.roughness.is_even_in_y

@@ -329,6 +329,25 @@ class SiFilm:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class SurfaceHeights:
+    """Heights of rough surfaces, positive outwards, as the grid of the result carries them.
+
+    Attributes
+    ----------
+    surface_1, surface_2 : (ny, nx) array
+        Heights [m]: the film is the smooth one less both.
+    """
+
+    surface_1: Array
+    surface_2: Array
+
+    @property
+    def together(self) -> Array:
+        """Return the sum of both, (ny, nx) [m]."""
+        return self.surface_1 + self.surface_2
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class Result:
     """Answer of one solve.
 
@@ -358,6 +377,8 @@ class Result:
         Shear stresses; None when there is no credible film.
     heat : FilmHeat or None
         Temperatures; None in an isothermal run.
+    heights : SurfaceHeights or None
+        Heights of rough surfaces; None when both are smooth.
     cost, provenance : Cost, Provenance
         Expense and origin.
     """
@@ -377,6 +398,7 @@ class Result:
     uncertainty: dict[str, Estimate] = field(default_factory=dict)
     shear: FilmShear | None = None
     heat: FilmHeat | None = None
+    heights: SurfaceHeights | None = None
 
     @property
     def x(self) -> Array:

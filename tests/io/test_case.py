@@ -90,7 +90,7 @@ MISTAKES = [
     ("surface_2.material.poisson_ratio=0.7", "surface_2.material.poisson_ratio = 0.7", "at most"),
     ("surface_1.radius=10 mm", "radii are stated twice", "reduced"),
     ("surface_1.rms_roughness=-1 nm", "surface_1.rms_roughness", "not be negative"),
-    ("surface_1.roughness={type='wave'}", "surface_1.roughness is not available", "rms"),
+    ("surface_1.roughness={type='wave'}", "surface_1.roughness.amplitude is missing", "length"),
     ("surface_1.temperature=300", "surface_1.temperature counts in thermal", "[thermal]"),
     ("surface_1.temperature=40", "surface_1.temperature = 40 K", '"40 degC"'),
     ("lubricant.temperature=40", "lubricant.temperature = 40 K", '"40 degC"'),

@@ -31,4 +31,4 @@ def multigrid(problem: ContactProblem, options: Options) -> Multigrid:
     """Return the hierarchy that `solve` would cycle on."""
     numbers = groups(problem)
     flow = flow_table(problem, scales(problem), numbers)
-    return Multigrid(finest_grid(options, numbers), numbers, flow, options, FAST)
+    return Multigrid(finest_grid(problem, options), numbers, flow, options, FAST)

@@ -68,7 +68,7 @@ def test_the_status_of_a_run_away_tells_the_likely_cause_and_its_own_hint():
     problem, options = changed("surface_1", temperature=240.0), Options(points=65)
     numbers, units = groups(problem), scales(problem)
     run = Multigrid(
-        finest_grid(options, numbers),
+        finest_grid(problem, options),
         numbers,
         flow_table(problem, units, numbers),
         options,

@@ -66,15 +66,24 @@ def read_case_and_options(
         tables = _tables(Path(path))
         for override in overrides:
             _change(tables, override)
-        return case_from_tables(tables)
+        return case_from_tables(tables, Path(path).parent)
     except InputError as error:
         raise InputError(f"{shortened(path)}: {error}") from error
     except RecursionError:
         raise InputError(f"{shortened(path)}: is nested too deep for a case") from None
 
 
-def case_from_tables(tables: Mapping[str, Any]) -> tuple[ContactProblem, Options]:
+def case_from_tables(
+    tables: Mapping[str, Any], folder: Path | None = None
+) -> tuple[ContactProblem, Options]:
     """Return problem and options of the parsed tables of a case.
+
+    Parameters
+    ----------
+    tables : mapping
+        As a case file has them.
+    folder : Path
+        Where relative paths of measured surfaces begin; the working directory if left out.
 
     Raises
     ------
@@ -82,7 +91,7 @@ def case_from_tables(tables: Mapping[str, Any]) -> tuple[ContactProblem, Options
         As :func:`read_case`.
     """
     question = {key: value for key, value in tables.items() if key != _NUMERICS}
-    problem = _validated(ContactProblem, question, prefix="")
+    problem = _validated(ContactProblem, question, prefix="", folder=folder)
     options = _validated(Options, tables.get(_NUMERICS, {}), prefix=_NUMERICS)
     return problem, options
 
@@ -193,9 +202,11 @@ def _value(text: str) -> object:
     return tables["value"] if len(tables) == 1 else text
 
 
-def _validated(model: type[Model], data: object, *, prefix: str) -> Model:
+def _validated(
+    model: type[Model], data: object, *, prefix: str, folder: Path | None = None
+) -> Model:
     try:
-        return model.model_validate(data)
+        return model.model_validate(data, context={"folder": folder})
     except ValidationError as error:
         raise InputError(describe(error, data, prefix)) from error
 

@@ -26,6 +26,7 @@ from tehl.result import (
     Provenance,
     Result,
     Status,
+    SurfaceHeights,
 )
 from tehl.scaling import Groups, Scales
 from tehl.typing import Array
@@ -119,6 +120,10 @@ _SHEAR = (
     ("across", "shear_stress_across", "Pa", "tau_zy at z = h/2"),
     ("thinning", "shear_thinning", "1", "effective over Newtonian viscosity at z = h/2"),
 )
+_HEIGHTS = (
+    ("surface_1", "height_1", "height of surface 1, positive outwards"),
+    ("surface_2", "height_2", "height of surface 2, positive outwards"),
+)
 _HEAT = (
     ("zeta", "zeta", ("zeta",), "1", "z / h, 0 on surface 1"),
     ("weights", "zeta_weights", ("zeta",), "1", "weights of the mean across the film"),
@@ -147,6 +152,7 @@ def variables(result: Result) -> tuple[Variable, ...]:
         *named,
         *_shear_variables(result.shear),
         *_heat_variables(result.heat),
+        *_height_variables(result.heights),
         *_history_variables(result.history),
     )
 
@@ -165,6 +171,14 @@ def _heat_variables(heat: FilmHeat | None) -> Iterator[Variable]:
     for field, name, dims, units, text in _HEAT:
         data = getattr(heat, field)
         yield Variable(name=name, dims=dims, data=data, units=units, long_name=text)
+
+
+def _height_variables(heights: SurfaceHeights | None) -> Iterator[Variable]:
+    if heights is None:
+        return
+    for field, name, text in _HEIGHTS:
+        data = getattr(heights, field)
+        yield Variable(name=name, dims=("y", "x"), data=data, units="m", long_name=text)
 
 
 def attributes(result: Result) -> dict[str, str | int]:
@@ -213,6 +227,7 @@ def rebuild(arrays: dict[str, NDArray[Any]], attrs: dict[str, Any]) -> Result:
         history=_history(arrays),
         shear=_shear(reader, scaled.pressure.shape),
         heat=_heat(reader, scaled.pressure.shape, state.heat),
+        heights=_heights(reader, scaled.pressure.shape),
         **{name: getattr(state, name) for name in _SCALARS},
     )
 
@@ -247,6 +262,12 @@ def _heat(reader: "_Reader", shape: tuple[int, ...], state: HeatState | None) ->
     return FilmHeat(
         **found, balance=state.balance, solid_peclet=state.solid_peclet, sources=state.sources
     )
+
+
+def _heights(reader: "_Reader", shape: tuple[int, ...]) -> SurfaceHeights | None:
+    if _HEIGHTS[0][1] not in reader.arrays:
+        return None
+    return SurfaceHeights(**{field: reader.field(name, shape) for field, name, _ in _HEIGHTS})
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

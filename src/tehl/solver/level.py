@@ -66,7 +66,7 @@ class Level:
         )
         self.rigid_approach, self.rigid_approach_before = 0.0, 0.0
         self.load_target = TARGET
-        self.stale = True
+        self.stale, self.started_dry = True, False
         self.factors: reynolds.Factors | None = None
 
     def pose_problem(self) -> None:
@@ -115,6 +115,12 @@ class Level:
         if self.factors is None:
             self.film = self.film._replace(eps_x=np.empty(self.grid.shape))
         self.factors = factors
+
+    def uncouple(self) -> None:
+        """Let the film be isothermal and Newtonian again."""
+        self.factors = None
+        self.film = self.film._replace(eps_x=self.film.eps)
+        self.stale = True
 
     def relax(self, sweeps: int) -> None:
         """Smooth the error of pressure and film in place."""

@@ -82,6 +82,7 @@ class Multigrid:
         self.options, self.setting, self.groups = options, setting, groups
         # as long as the film is isothermal the zone that conducts is narrow
         first = FAST if setting is BROAD else setting
+        self.first_setting = first
         self.levels = [Level(g, groups, flow, options, first) for g in hierarchy(finest)]
         self.coarsest = CoarsestSolver(self.levels[0])
         self.expected_film = expected_central_film(groups)
@@ -167,7 +168,15 @@ class Multigrid:
                 self._cycle_on(self.levels[:count], monitor)
             else:
                 orderly = self._prepare_on(self.levels[:count], monitor)
+                if not orderly:
+                    self._forget(self.levels[:count])
         return converged(self.traces[-1], self._coarser_trace(), self.options)
+
+    def _forget(self, levels: list[Level]) -> None:
+        """Leave nothing of a grid in disorder to the next one."""
+        self.coupling.forget(levels)
+        for level in levels:
+            level.set_smoother(self.first_setting)
 
     def _start_smooth(self, number: int) -> None:
         """Start a rough level from the smooth film, and raise the heights there once more."""
@@ -204,7 +213,7 @@ class Multigrid:
         level.rigid_approach = 0.0
         level.update()
         level.rigid_approach = self.expected_film - central_value(level.grid, level.film.h)
-        level.stale = True
+        level.stale, level.started_dry = True, True
 
     def _prepare_on(self, levels: list[Level], monitor: Monitor) -> bool:
         """Cycle on a coarser grid; return whether its solution is a start for the next one.

@@ -3,7 +3,7 @@
 import platform
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
@@ -15,7 +15,7 @@ from tehl.errors import ConvergenceError
 from tehl.grid import Grid, can_mirror
 from tehl.memory import check_memory
 from tehl.operators.flow import flow_table
-from tehl.operators.heights import Heights
+from tehl.operators.heights import Heights, heights_of
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.result import (
@@ -27,8 +27,9 @@ from tehl.result import (
     Provenance,
     Result,
     Status,
+    SurfaceHeights,
 )
-from tehl.scaling import Groups, groups, scales
+from tehl.scaling import Scales, groups, scales
 from tehl.solver.film_numbers import film_summary
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.multigrid import Multigrid
@@ -56,7 +57,6 @@ def solve(
     options: Options | None = None,
     *,
     monitor: Monitor = SILENT,
-    heights: Heights | None = None,
 ) -> Result:
     """Solve a steady contact by full multigrid.
 
@@ -68,8 +68,6 @@ def solve(
         How hard to try; the defaults if left out.
     monitor : Monitor
         Told of each cycle.
-    heights : Heights
-        Of rough surfaces, at the nodes of `finest_grid`; smooth surfaces if left out.
 
     Returns
     -------
@@ -81,21 +79,24 @@ def solve(
     ConvergenceError
         When the answer was not reached; its ``result`` is the last finite state, marked.
     InputError
-        When the grid does not fit into the memory.
+        When the grid does not fit into the memory, or a measured surface cannot be read.
     """
     options = options or Options()
     check_memory(options, problem)
+    grid = finest_grid(problem, options)
+    heights = heights_of(problem, scales(problem), grid)
     warm_up(coupled=problem.is_coupled)
     wall, cpu = time.perf_counter(), time.process_time()
     history = _History(monitor)
     attempts = []
-    for attempt in _attempts(problem, options, history, heights):
+    for attempt in _attempts(problem, options, history, grid, heights):
         attempts.append(attempt)
         if attempt.status.converged or attempt.status.cause in GRID_CAUSES:
             break
     best = min(attempts, key=lambda a: (not a.status.converged, a.status.kind == "diverged"))
     cost = Cost(cpu_seconds=time.process_time() - cpu, wall_seconds=time.perf_counter() - wall)
     result = _result(problem, options, best, tuple(history.reports), cost)
+    result = replace(result, heights=_surfaces(grid, heights, result.scales))
     if not result.status.converged:
         raise ConvergenceError(result.status.message or "not converged", result)
     return result
@@ -118,13 +119,27 @@ class _History:
         self.monitor.cycle(report)
 
 
+def _surfaces(grid: Grid, heights: Heights | None, case_scales: Scales) -> SurfaceHeights | None:
+    """Return the heights of both surfaces on the full grid [m]."""
+    if heights is None:
+        return None
+    first, second = (
+        grid.unfold(field) * case_scales.film_thickness
+        for field in (heights.surface_1, heights.surface_2)
+    )
+    return SurfaceHeights(surface_1=first, surface_2=second)
+
+
 def _attempts(
-    problem: ContactProblem, options: Options, monitor: Monitor, heights: Heights | None
+    problem: ContactProblem,
+    options: Options,
+    monitor: Monitor,
+    grid: Grid,
+    heights: Heights | None,
 ) -> Iterator[Attempt]:
     """Yield the outcome of each setting worth trying, the most promising first."""
     case_scales, case_groups = scales(problem), groups(problem)
     flow = flow_table(problem, case_scales, case_groups)
-    grid = finest_grid(options, case_groups)
     attempts = _settings(problem, options, rough=heights is not None)
     for number, (setting, ramped) in enumerate(attempts):
         if number:
@@ -170,14 +185,14 @@ def coupling_of(problem: ContactProblem, options: Options, *, ramped: bool) -> C
     return FilmCoupling(problem, scales(problem), groups(problem), options, ramped=ramped)
 
 
-def finest_grid(options: Options, case_groups: Groups) -> Grid:
+def finest_grid(problem: ContactProblem, options: Options) -> Grid:
     """Return the grid of the answer: the stated or proposed domain, half of it if symmetric."""
     domain = options.domain
     if not isinstance(domain, Domain):
-        domain = recommended_domain(case_groups)
+        domain = recommended_domain(groups(problem))
     ny, nx = options.shape
-    mirror = options.half_domain == "auto" and can_mirror(options.shape, domain)
-    return Grid(nx=nx, ny=ny, domain=domain, mirror=mirror)
+    halves = options.half_domain == "auto" and problem.is_even_in_y
+    return Grid(nx=nx, ny=ny, domain=domain, mirror=halves and can_mirror(options.shape, domain))
 
 
 def _result(

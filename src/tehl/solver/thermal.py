@@ -47,6 +47,10 @@ class Coupling(Protocol):
         """Bring the last of ``levels`` up to date; return change and rise of temperature [K]."""
         ...
 
+    def forget(self, levels: Sequence[Level]) -> None:
+        """Take back what was done to ``levels``: the film on them is no start for the next grid."""
+        ...
+
 
 class Uncoupled:
     """An isothermal Newtonian film: pressure alone rules the flow."""
@@ -60,6 +64,10 @@ class Uncoupled:
         """Do nothing; nothing changes."""
         del levels
         return 0.0, 0.0
+
+    def forget(self, levels: Sequence[Level]) -> None:
+        """Do nothing."""
+        del levels
 
 
 class FilmCoupling:
@@ -98,11 +106,12 @@ class FilmCoupling:
     def begin(self, levels: Sequence[Level], *, finest: bool) -> bool:
         """Heat the last of ``levels`` from the temperature of the one before it.
 
-        A coarser grid that does not resolve the film is left as it is; return whether it is heated.
+        A coarser grid that does not resolve the film, or has none to start from, is left as it is;
+        return whether it is heated.
         """
         fine, coarser = levels[-1], self.state
         large = min(fine.grid.nx, fine.grid.ny) > COUPLED_FROM
-        sound = float(fine.film.h.min()) > SOUND * fine.floor
+        sound = not fine.started_dry and float(fine.film.h.min()) > SOUND * fine.floor
         if not (finest or coarser is not None or (large and sound)):
             return False
         state = FilmState(
@@ -136,6 +145,12 @@ class FilmCoupling:
             if change < RESTLESS or self.sweeps_left:
                 break
         return change, float(self.state.temperature.max()) - self.film.scales.temperature
+
+    def forget(self, levels: Sequence[Level]) -> None:
+        """Start again on the next grid, from an isothermal film."""
+        self.state = None
+        for level in levels:
+            level.uncouple()
 
     def _sweep(self, state: FilmState, levels: Sequence[Level], steps: int) -> float:
         fine = levels[-1]
