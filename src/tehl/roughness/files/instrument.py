@@ -69,7 +69,8 @@ def read_instrument(path: Path) -> RawMap:
         reason = " ".join(str(error).split())[:100]
         raise InputError(f"cannot be read by SurfaceTopography: {reason}") from None
     check_count(heights.shape)
-    pixel = None if size is None else (size[0] / heights.shape[1], size[1] / heights.shape[0])
+    ny, nx = heights.shape
+    pixel = None if size is None else (float(size[0]) / nx, float(size[1]) / ny)
     return RawMap(
         heights=np.ascontiguousarray(heights),
         kind=f"{path.suffix[1:].lower()}, read by SurfaceTopography",
