@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from tehl.post.heat import Temperature
+    from tehl.post.roughness import RoughFilm
     from tehl.post.traction import Traction
 
 StatusKind = Literal["converged", "not_converged", "diverged", "stalled"]
@@ -450,6 +451,12 @@ class Result:
     def temperature(self) -> "Temperature | None":
         """Temperatures of the film, None for an isothermal run."""
         found: Temperature | None = _post("heat").temperature(self)
+        return found
+
+    @property
+    def roughness(self) -> "RoughFilm | None":
+        """Film numbers of rough surfaces, None where neither heights nor their Sq are stated."""
+        found: RoughFilm | None = _post("roughness").rough_film(self)
         return found
 
     def save(self, path: str | Path) -> None:

@@ -3,12 +3,16 @@
 import math
 from collections.abc import Mapping
 from dataclasses import asdict
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from tehl.result import Estimate, Result
 from tehl.typing import Array
+
+if TYPE_CHECKING:
+    from tehl.post.roughness import Ripples, RoughFilm
+    from tehl.post.waviness import WaveResponse
 
 
 def summary(result: Result) -> dict[str, Any]:
@@ -16,8 +20,8 @@ def summary(result: Result) -> dict[str, Any]:
 
     Keys that end in a unit (``_m``, ``_pa``, ``_k``, ``_w``) are SI, the others dimensionless.
     A film that is not positive is null; ``temperature`` and ``heat`` are null for an isothermal
-    run, ``traction`` where there are no shear stresses. A certified result has ``uncertainty``,
-    which mirrors the values.
+    run, ``traction`` where there are no shear stresses, ``roughness`` where no surface states any.
+    A certified result has ``uncertainty``, which mirrors the values.
 
     Parameters
     ----------
@@ -39,6 +43,7 @@ def summary(result: Result) -> dict[str, Any]:
         "temperature": _temperature(result),
         "traction": _traction(result),
         "heat": _heat(result),
+        "roughness": None if result.roughness is None else roughness_block(result.roughness),
         "convergence": _convergence(result),
         "errors": asdict(result.errors) if result.errors else None,
         "cost": _cost(result),
@@ -173,6 +178,54 @@ def _heat(result: Result) -> dict[str, Any] | None:
         return None
     powers = {f"{name}_w": power for name, power in asdict(heat.balance).items()}
     return powers | {"solid_peclet": heat.solid_peclet, "sources": heat.sources}
+
+
+def roughness_block(found: "RoughFilm") -> dict[str, Any]:
+    """Return what a summary says of a rough film, in the block ``roughness``.
+
+    Parameters
+    ----------
+    found : RoughFilm
+        As :attr:`tehl.result.Result.roughness` gives it, or with the smooth contact subtracted.
+    """
+    return {
+        "surface_1_sq_m": found.sq[0],
+        "surface_2_sq_m": found.sq[1],
+        "composite_sq_m": found.composite,
+        "lambda_ratio": found.lambda_ratio,
+        "lambda_ratio_by_formula": found.lambda_by_formula,
+        "film_quantiles": [{"part": part, "h_m": film} for part, film in found.quantiles],
+        "area_below_composite_sq": found.below_composite,
+        "area_below_half_median": found.below_half,
+        "minimum_at": found.minimum_at,
+        "P_max": found.largest_pressure,
+        "ripples_x": _ripples(found.ripples_x),
+        "ripples_y": _ripples(found.ripples_y),
+        "waves": [_wave(wave) for wave in found.waves],
+    }
+
+
+def _ripples(found: "Ripples") -> dict[str, float]:
+    return {"count": found.count, "depth_m": found.depth}
+
+
+def _wave(wave: "WaveResponse") -> dict[str, float]:
+    return {
+        "wavelength_m": wave.wavelength,
+        "angle_rad": wave.angle,
+        "amplitude_m": wave.amplitude,
+        "points_per_wave": wave.points_per_wave,
+        "film_amplitude_m": wave.film_amplitude,
+        "film_phase_rad": wave.film_phase,
+        "film_ratio": wave.film_ratio,
+        "pressure_amplitude_pa": wave.pressure_amplitude,
+        "pressure_phase_rad": wave.pressure_phase,
+        "carried_amplitude_m": wave.carried_amplitude,
+        "theory_film_ratio": wave.theory.film_ratio,
+        "theory_pressure_pa": wave.theory.pressure,
+        "elastic_pressure_pa": wave.theory.elastic_pressure,
+        "compressibility": wave.theory.compressibility,
+    }
 
 
 def _convergence(result: Result) -> dict[str, Any]:

@@ -1,0 +1,204 @@
+"""What roughness does to a film: a rough result beside its smooth twin."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from tehl.errors import InputError
+from tehl.post.roughness import in_contact, middle_film
+from tehl.problem import ContactProblem
+from tehl.result import Result
+from tehl.roughness import Smooth
+from tehl.roughness.prepare import gaussian_mean
+from tehl.roughness.statistics import statistics
+from tehl.typing import Array
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class MicroFilm:
+    """Ripples that roughness makes.
+
+    Attributes
+    ----------
+    film : (ny, nx) array
+        Film less that of the smooth contact [m].
+    pressure : (ny, nx) array
+        Pressure less that of the smooth contact [Pa].
+    by_twin : bool
+        Whether the smooth contact was solved; if not, ripples are what is left when long waves
+        are filtered off, and mean something inside the contact only.
+    """
+
+    film: Array
+    pressure: Array
+    by_twin: bool
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class RoughnessEffect:
+    """A rough contact over its smooth twin.
+
+    Attributes
+    ----------
+    central, minimum, middle : float
+        Ratio of the central and minimum films, and of the mean films where |X|, |Y| < 0.4 [-].
+    largest_pressure : float
+        Ratio of the largest pressures [-].
+    traction : float or None
+        Ratio of the mid-film tractions [-]; None where there is no sliding.
+    smooth_central, smooth_minimum : float
+        Films of the twin [m].
+    smooth_largest_pressure : float
+        Of the twin [Pa].
+    ripple_film, ripple_pressure : float
+        Root mean square of both ripples over the Hertz contact [m], [Pa].
+    """
+
+    central: float
+    minimum: float
+    middle: float
+    largest_pressure: float
+    traction: float | None
+    smooth_central: float
+    smooth_minimum: float
+    smooth_largest_pressure: float
+    ripple_film: float
+    ripple_pressure: float
+
+
+def smooth_twin(problem: ContactProblem) -> ContactProblem:
+    """Return ``problem`` with both surfaces smooth.
+
+    Raises
+    ------
+    InputError
+        If they are smooth already.
+    """
+    if not problem.is_rough:
+        raise InputError("both surfaces are smooth: the case has no roughness to compare without")
+    surfaces = {
+        name: getattr(problem, name).model_copy(update={"roughness": Smooth()})
+        for name in ("surface_1", "surface_2")
+    }
+    return problem.model_copy(update=surfaces)
+
+
+def micro_film(rough: Result, smooth: Result | None = None) -> MicroFilm:
+    """Return the ripples of film and pressure.
+
+    Parameters
+    ----------
+    rough : Result
+        Of the rough contact.
+    smooth : Result or None
+        Of its smooth twin on the same grid. Without it a Gaussian filter takes off all waves that
+        are longer than twice those of the surface.
+
+    Raises
+    ------
+    InputError
+        If the grids differ.
+    """
+    if smooth is None:
+        cut_off = 2.0 * typical_wavelength(rough)
+        pixel = (float(np.diff(rough.x[:2])[0]), float(np.diff(rough.y[:2])[0]))
+        film, pressure = (
+            field - gaussian_mean(field, pixel, cut_off)
+            for field in (rough.film_thickness, rough.pressure)
+        )
+        return MicroFilm(film=film, pressure=pressure, by_twin=False)
+    if not is_twin(rough, smooth):
+        raise InputError("the rough and the smooth film are not those of one contact on one grid")
+    return MicroFilm(
+        film=rough.film_thickness - smooth.film_thickness,
+        pressure=rough.pressure - smooth.pressure,
+        by_twin=True,
+    )
+
+
+def is_twin(rough: Result, smooth: Result) -> bool:
+    """Return whether two results differ by nothing but the heights of the surfaces."""
+    same_grid = all(
+        one.shape == other.shape and np.allclose(one, other)
+        for one, other in ((rough.scaled.x, smooth.scaled.x), (rough.scaled.y, smooth.scaled.y))
+    )
+    return same_grid and rough.groups == smooth.groups and rough.scales == smooth.scales
+
+
+def typical_wavelength(result: Result) -> float:
+    """Return the wavelength 2 pi Sq/Sdq of the heights in the contact [m]; at most a_x."""
+    longest = result.scales.half_width_x
+    if result.heights is None:
+        return longest
+    part = np.ix_(np.abs(result.scaled.y) < 1.0, np.abs(result.scaled.x) < 1.0)
+    pixel = (float(np.diff(result.x[:2])[0]), float(np.diff(result.y[:2])[0]))
+    found = statistics(result.heights.together[part], pixel)
+    return min(2.0 * math.pi * found.sq / found.sdq, longest) if found.sdq > 0 else longest
+
+
+def roughness_effect(rough: Result, smooth: Result) -> RoughnessEffect:
+    """Return what roughness does to the film, from a rough result and that of its twin."""
+    ripples, contact = micro_film(rough, smooth), in_contact(rough)
+    highest, without = float(rough.pressure.max()), float(smooth.pressure.max())
+    return RoughnessEffect(
+        central=rough.film.central / smooth.film.central,
+        minimum=rough.film.minimum / smooth.film.minimum,
+        middle=middle_film(rough) / middle_film(smooth),
+        largest_pressure=highest / without,
+        traction=_traction_ratio(rough, smooth),
+        smooth_central=smooth.film.central,
+        smooth_minimum=smooth.film.minimum,
+        smooth_largest_pressure=without,
+        ripple_film=float(np.sqrt(np.mean(ripples.film[contact] ** 2))),
+        ripple_pressure=float(np.sqrt(np.mean(ripples.pressure[contact] ** 2))),
+    )
+
+
+def _traction_ratio(rough: Result, smooth: Result) -> float | None:
+    here, there = rough.traction, smooth.traction
+    if here is None or there is None or rough.problem.slide_roll_ratio == 0:
+        return None
+    return here.mid_film / there.mid_film if there.mid_film else None
+
+
+_NAMES = {
+    "central": "central",
+    "minimum": "minimum",
+    "middle": "middle",
+    "largest_pressure": "largest_pressure",
+    "traction": "traction",
+    "smooth_central": "smooth_h_central_m",
+    "smooth_minimum": "smooth_h_min_m",
+    "smooth_largest_pressure": "smooth_max_pa",
+    "ripple_film": "ripple_film_m",
+    "ripple_pressure": "ripple_pressure_pa",
+}
+"""Attributes and their keys in a summary."""
+
+
+def effect_block(effect: RoughnessEffect) -> dict[str, Any]:
+    """Return what a summary says of the comparison, in the block ``roughness_effect``."""
+    values = asdict(effect)
+    return {key: values[name] for name, key in _NAMES.items()}
+
+
+def stored_effect(summary: Mapping[str, Any]) -> RoughnessEffect | None:
+    """Return the comparison that a stored summary holds; None where there is none.
+
+    Parameters
+    ----------
+    summary : mapping
+        As :func:`tehl.io.store.load_summary` returns it.
+    """
+    block: Any = summary.get("roughness_effect")
+    try:
+        values = {name: block[key] for name, key in _NAMES.items()}
+        return RoughnessEffect(
+            traction=None if values.pop("traction", None) is None else float(block["traction"]),
+            **{name: float(value) for name, value in values.items()},
+        )
+    except (TypeError, KeyError, ValueError):  # none, or one that another program wrote
+        return None

@@ -1,0 +1,205 @@
+"""What the film of a rough contact looks like: lambda ratio, distribution, ripples."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl.film_formulas import expected_central_film
+from tehl.post.film import no_film
+from tehl.post.waviness import REACH, WaveResponse, wave_responses
+from tehl.result import Result
+from tehl.typing import Array, BoolArray
+
+QUANTILES = (0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
+"""Parts of the contact whose films are told."""
+SHALLOWEST = 0.01
+"""Depth of a ripple that counts, over the mean film of the line [-]."""
+_LINE = 0.8
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Ripples:
+    """Valleys of the film along a centre line, where the coordinate is within 0.8 half-widths.
+
+    Attributes
+    ----------
+    count : int
+        Of valleys that lie between two hills.
+    depth : float
+        Mean depth below the mean of both hills [m]; zero without valleys.
+    """
+
+    count: int
+    depth: float
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class RoughFilm:
+    """Numbers of the film between rough surfaces.
+
+    Attributes
+    ----------
+    sq : (float, float)
+        Root mean square height of each surface where |X|, |Y| < 1, as the grid carries it; the
+        stated ``rms_roughness`` of a surface that is computed as smooth [m].
+    composite : float
+        Of both together, ``sqrt(Sq_1^2 + Sq_2^2)`` [m].
+    lambda_ratio : float
+        Mean film where |X|, |Y| < 0.4 over ``composite`` [-].
+    lambda_by_formula : float
+        Central film of the smooth contact by formula over ``composite`` [-].
+    quantiles : tuple of (float, float)
+        Part of the Hertz contact, and the film that is thicker than that of this part [m].
+    below_composite, below_half : float
+        Part of the Hertz contact whose film is thinner than ``composite``, and than half of its
+        median [-].
+    minimum_at : (float, float)
+        Where the minimum film is, in half-widths [-].
+    largest_pressure : float
+        Over the Hertz pressure [-].
+    ripples_x, ripples_y : Ripples
+        On the centre lines along and across entrainment.
+    waves : tuple of WaveResponse
+        The waves of the surfaces, one by one.
+    """
+
+    sq: tuple[float, float]
+    composite: float
+    lambda_ratio: float
+    lambda_by_formula: float
+    quantiles: tuple[tuple[float, float], ...]
+    below_composite: float
+    below_half: float
+    minimum_at: tuple[float, float]
+    largest_pressure: float
+    ripples_x: Ripples
+    ripples_y: Ripples
+    waves: tuple[WaveResponse, ...]
+
+
+def rough_film(result: Result, smooth: Result | None = None) -> RoughFilm | None:
+    """Return the numbers of the film between rough surfaces.
+
+    Parameters
+    ----------
+    result : Result
+        What a solve returned or a file held.
+    smooth : Result or None
+        The same contact with smooth surfaces on the same grid: without it waves longer than 0.4
+        half-widths are told from the shape of the film to a few per cent only.
+
+    Returns
+    -------
+    RoughFilm or None
+        None where there is no film, or neither roughness nor ``rms_roughness``.
+    """
+    first, second = sq_of(result)
+    composite = math.hypot(first, second)
+    if no_film(result) or not composite > 0:
+        return None
+    film = film_in_contact(result)
+    formula = expected_central_film(result.groups) * result.scales.film_thickness
+    row, column = (int(np.argmin(np.abs(axis))) for axis in (result.scaled.y, result.scaled.x))
+    return RoughFilm(
+        sq=(first, second),
+        composite=composite,
+        lambda_ratio=middle_film(result) / composite,
+        lambda_by_formula=formula / composite,
+        quantiles=tuple(zip(QUANTILES, map(float, np.quantile(film, QUANTILES)), strict=True)),
+        below_composite=area_below(result, composite),
+        below_half=area_below(result, 0.5 * float(np.median(film))),
+        minimum_at=result.film_scaled.minimum_at,
+        largest_pressure=float(result.scaled.pressure.max()),
+        ripples_x=_ripples(result.scaled.x, result.film_thickness[row]),
+        ripples_y=_ripples(result.scaled.y, result.film_thickness[:, column]),
+        waves=wave_responses(result, smooth),
+    )
+
+
+def sq_of(result: Result) -> tuple[float, float]:
+    """Return Sq of both surfaces where |X|, |Y| < 1, or the one stated of smooth ones [m]."""
+    stated = (result.problem.surface_1.rms_roughness, result.problem.surface_2.rms_roughness)
+    if result.heights is None:
+        return stated
+    part = np.ix_(np.abs(result.scaled.y) < 1.0, np.abs(result.scaled.x) < 1.0)
+    first, second = (
+        float(np.std(heights[part])) or rms
+        for heights, rms in zip(
+            (result.heights.surface_1, result.heights.surface_2), stated, strict=True
+        )
+    )
+    return first, second
+
+
+def middle_film(result: Result) -> float:
+    """Return the mean film where |X|, |Y| < 0.4 [m]."""
+    part = np.ix_(np.abs(result.scaled.y) <= REACH, np.abs(result.scaled.x) <= REACH)
+    return float(result.film_thickness[part].mean())
+
+
+def in_contact(result: Result) -> BoolArray:
+    """Return which nodes lie in the Hertz contact, (ny, nx)."""
+    inside: BoolArray = result.scaled.x**2 + result.scaled.y[:, None] ** 2 < 1.0
+    return inside
+
+
+def film_in_contact(result: Result) -> Array:
+    """Return the film at all nodes in the Hertz contact, each for the same area, (n,) [m]."""
+    return result.film_thickness[in_contact(result)]
+
+
+def area_below(result: Result, threshold: float) -> float:
+    """Return the part of the Hertz contact whose film is thinner than ``threshold`` [m]."""
+    return float(np.mean(film_in_contact(result) < threshold))
+
+
+def film_histogram(result: Result, bins: int | Sequence[float] = 60) -> tuple[Array, Array]:
+    """Return how the film is distributed over the Hertz contact.
+
+    Parameters
+    ----------
+    result : Result
+        Where to look.
+    bins : int or sequence of float
+        How many bins up to the 99.5 % quantile, or their edges [m].
+
+    Returns
+    -------
+    (n + 1,) array, (n,) array
+        Edges [m], and the part of the contact in each bin by its width [1/m].
+    """
+    film = film_in_contact(result)
+    if isinstance(bins, int):
+        top = float(np.quantile(film, 0.995))
+        bins = np.linspace(min(0.0, float(film.min())), top, bins + 1).tolist()
+    counts, edges = np.histogram(film, bins=bins)
+    return edges, counts / (film.size * np.diff(edges))
+
+
+def _ripples(axis: Array, film: Array) -> Ripples:
+    """Return the valleys of a film along ``axis`` [half-widths]."""
+    line = film[np.abs(axis) <= _LINE]
+    turns = _turns(line, SHALLOWEST * float(line.mean()))
+    # Every other turn is a valley; those at the ends lie beside one hill only.
+    depths = [
+        0.5 * (line[before] + line[after]) - line[here]
+        for before, here, after in zip(turns, turns[1:], turns[2:], strict=False)
+        if line[here] < line[before]
+    ]
+    return Ripples(count=len(depths), depth=float(np.mean(depths)) if depths else 0.0)
+
+
+def _turns(line: Array, least: float) -> list[int]:
+    """Return where a line turns by more than ``least``, with its ends."""
+    turns, direction, extreme = [0], 0, 0
+    for place in range(1, line.size):
+        if direction == 0 and abs(line[place] - line[0]) > least:
+            direction, extreme = (1 if line[place] > line[0] else -1), place
+        elif direction * (line[place] - line[extreme]) > 0:
+            extreme = place
+        elif direction * (line[extreme] - line[place]) > least:
+            turns.append(extreme)
+            direction, extreme = -direction, place
+    return [*turns, extreme] if direction else turns

@@ -1,0 +1,133 @@
+"""Numbers of a rough film, and the same beside its smooth twin."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tehl.errors import InputError
+from tehl.io.store import load_summary, save
+from tehl.io.summary import roughness_block
+from tehl.post.micro_film import (
+    effect_block,
+    micro_film,
+    roughness_effect,
+    smooth_twin,
+    stored_effect,
+    typical_wavelength,
+)
+from tehl.post.roughness import area_below, film_histogram, film_in_contact, rough_film
+from tehl.problem import ContactProblem
+from tests.fixtures_result import CASE, make_result
+from tests.fixtures_rough import AMPLITUDE, CARRIED, LEFT, PRESSURE, WAVELENGTH, make_rough
+
+
+def test_sq_is_that_of_the_heights_in_the_contact(rough):
+    found = rough_film(rough)
+    unit = rough.scales.film_thickness
+    assert found.sq[0] == 0.0
+    # |X|, |Y| < 1 does not hold whole waves
+    assert found.composite == pytest.approx(AMPLITUDE * unit / math.sqrt(2), rel=0.02)
+    assert found.lambda_ratio == pytest.approx(0.1 * math.sqrt(2) / AMPLITUDE, rel=0.02)
+    assert found.largest_pressure == rough.scaled.pressure.max()
+    assert found.minimum_at == rough.film_scaled.minimum_at
+
+
+def test_a_stated_roughness_of_a_smooth_film_has_its_lambda_ratio(result):
+    rms = {"surface_1": {"material": "steel", "rms_roughness": 3e-8},
+           "surface_2": {"material": "steel", "rms_roughness": 4e-8}}  # fmt: skip
+    found = rough_film(replace(result, problem=ContactProblem.model_validate({**CASE, **rms})))
+    assert found.composite == pytest.approx(5e-8)
+    assert found.waves == ()
+
+
+def test_a_smooth_film_and_no_film_have_no_numbers(result, rough):
+    assert rough_film(result) is None
+    none = replace(rough.film_scaled, minimum=-0.01)
+    assert rough_film(replace(rough, film_scaled=none)) is None
+
+
+def test_quantiles_and_areas_are_those_of_the_film_in_the_contact(rough):
+    found, film = rough_film(rough), film_in_contact(rough)
+    for part, level in found.quantiles:
+        assert area_below(rough, level) == pytest.approx(part, abs=1e-3)
+    assert found.below_composite == np.mean(film < found.composite)
+    assert area_below(rough, np.inf) == 1.0
+
+
+def test_the_histogram_holds_the_contact(rough):
+    edges, share = film_histogram(rough)
+    assert np.sum(share * np.diff(edges)) == pytest.approx(0.995, abs=1e-3)
+    assert film_histogram(rough, [0.0, 1.0])[1] == pytest.approx([1.0])
+
+
+def test_ripples_are_counted_with_their_depth():
+    found = rough_film(make_rough(385, angle=0.0))
+    # from -0.8 to 0.8 there are 6.4 waves, of which six have their valley between two hills
+    assert found.ripples_x.count == 6
+    assert found.ripples_x.depth == pytest.approx(
+        2 * LEFT * AMPLITUDE * make_result(65).scales.film_thickness, rel=0.1
+    )
+    assert found.ripples_y.count == 0
+
+
+def test_the_micro_film_is_what_the_smooth_film_lacks(rough, smooth):
+    ripples = micro_film(rough, smooth)
+    assert ripples.by_twin
+    assert np.abs(ripples.film).max() == pytest.approx(
+        (LEFT + CARRIED) * AMPLITUDE * rough.scales.film_thickness, rel=0.02
+    )
+    assert ripples.pressure.max() == pytest.approx(PRESSURE * rough.scales.hertz_pressure)
+
+
+def test_a_filter_stands_in_for_a_missing_twin(rough, smooth):
+    by_twin, by_filter = micro_film(rough, smooth), micro_film(rough)
+    assert not by_filter.by_twin
+    assert typical_wavelength(rough) == pytest.approx(
+        # central differences of a wave on ten nodes are 5 % too flat
+        WAVELENGTH * rough.scales.half_width_x,
+        rel=0.07,
+    )
+    middle = np.ix_(np.abs(rough.scaled.y) < 0.4, np.abs(rough.scaled.x) < 0.4)
+    one, other = by_twin.pressure[middle], by_filter.pressure[middle]
+    assert np.corrcoef(one.ravel(), other.ravel())[0, 1] > 0.98
+
+
+def test_films_on_other_grids_are_no_twins(rough, result):
+    with pytest.raises(InputError, match="one grid"):
+        micro_film(rough, result)
+
+
+def test_the_smooth_twin_is_a_case_of_its_own(rough):
+    twin = smooth_twin(rough.problem)
+    assert ContactProblem.model_validate(twin.model_dump(mode="json")) == twin
+    assert not twin.is_rough
+    assert twin.contact == rough.problem.contact
+    with pytest.raises(InputError, match="no roughness"):
+        smooth_twin(twin)
+
+
+def test_the_effect_is_rough_over_smooth_and_comes_back_from_a_file(rough, smooth, tmp_path):
+    effect = roughness_effect(rough, smooth)
+    assert effect.central == 1.0  # the numbers of the fixture
+    assert effect.largest_pressure == pytest.approx(
+        rough.scaled.pressure.max() / smooth.scaled.pressure.max()
+    )
+    assert effect.traction is None
+    assert effect.smooth_central == smooth.film.central
+    save(rough, tmp_path / "rough.nc", extra={"roughness_effect": effect_block(effect)})
+    assert stored_effect(load_summary(tmp_path / "rough.nc")) == effect
+
+
+@pytest.mark.parametrize("block", [None, {}, {"central": 1.0}, {"central": "x"}, 3])
+def test_without_a_whole_comparison_there_is_no_effect(block):
+    assert stored_effect({"roughness_effect": block}) is None
+    assert stored_effect({}) is None
+
+
+def test_the_block_of_the_summary_has_si_and_ratios(rough, smooth):
+    block = roughness_block(rough_film(rough, smooth))
+    assert block["waves"][0]["film_ratio"] == pytest.approx(LEFT)
+    assert rough.summary()["roughness"]["composite_sq_m"] == block["composite_sq_m"]
+    assert smooth.summary()["roughness"] is None
