@@ -206,7 +206,9 @@ IMPOSSIBLE = [
     ("thermal", {"layers": 21}, "lubricant.conductivity is missing"),
     ("lubricant.temperature", 40, "kelvin"),
     ("lubricant.temperature", 350.0, "add gamma"),
-    ("transient", {}, "transient runs are not available"),
+    ("transient", {}, "nothing that changes in time"),
+    ("transient", {"load": [[1e-3, 1.0], [1e-3, 2.0]]}, "times that increase"),
+    ("transient", {"load": [[0.0, 100.0]]}, "below 10 times"),
 ]
 
 

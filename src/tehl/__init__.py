@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from tehl import plots
     from tehl.errors import ConvergenceError, FileFormatError, InputError, TehlError
+    from tehl.evolution import Evolution
     from tehl.io.case import read_case, read_case_and_options
     from tehl.io.store import load
     from tehl.lubricant import Lubricant, oil
@@ -21,13 +22,14 @@ if TYPE_CHECKING:
     from tehl.options import Domain, Options
     from tehl.problem import Contact, ContactProblem, Surface
     from tehl.result import Result
-    from tehl.solver import certify, solve
+    from tehl.solver import certify, march, solve
 
 __all__ = [
     "Contact",
     "ContactProblem",
     "ConvergenceError",
     "Domain",
+    "Evolution",
     "FileFormatError",
     "InputError",
     "Lubricant",
@@ -39,6 +41,7 @@ __all__ = [
     "__version__",
     "certify",
     "load",
+    "march",
     "material",
     "oil",
     "plots",
@@ -54,6 +57,7 @@ _HOMES = {
     "ContactProblem": "tehl.problem",
     "ConvergenceError": "tehl.errors",
     "Domain": "tehl.options",
+    "Evolution": "tehl.evolution",
     "FileFormatError": "tehl.errors",
     "InputError": "tehl.errors",
     "Lubricant": "tehl.lubricant",
@@ -64,6 +68,7 @@ _HOMES = {
     "TehlError": "tehl.errors",
     "certify": "tehl.solver",
     "load": "tehl.io.store",
+    "march": "tehl.solver",
     "material": "tehl.materials",
     "oil": "tehl.lubricant",
     "read_case": "tehl.io.case",

@@ -5,8 +5,7 @@ file is the whole reading of it. What follows from them in SI is given by its pr
 """
 
 import math
-from collections.abc import Mapping
-from typing import Any, Self
+from typing import Self
 
 from pydantic import BaseModel, ConfigDict, model_validator
 
@@ -17,6 +16,7 @@ from tehl.lubricant import NamedLubricant
 from tehl.materials import NamedSolid, reduced_modulus
 from tehl.motion import Motion
 from tehl.roughness import AnyRoughness, Smooth
+from tehl.transient import Transient
 from tehl.units import (
     CONDUCTIVITY,
     HEAT_CAPACITY,
@@ -35,25 +35,12 @@ from tehl.units import (
     Temperature,
 )
 
-_NOT_YET = {
-    "transient": "transient runs are not available in this version: leave the table out",
-}
-
 _THERMAL = {
     "density": SOLID_DENSITY,
     "heat_capacity": SOLID_HEAT_CAPACITY,
     "conductivity": SOLID_CONDUCTIVITY,
 }
 _COLDEST, _HOTTEST = 200.0, 800.0  # [K], of an oil or a solid
-
-
-def _refuse_later_tables(data: Any) -> Any:
-    """Say of a table that a later version reads that this one does not."""
-    if isinstance(data, Mapping):
-        for key, sentence in _NOT_YET.items():
-            if key in data:
-                raise ValueError(sentence)
-    return data
 
 
 class Surface(BaseModel):
@@ -84,8 +71,6 @@ class Surface(BaseModel):
     rms_roughness: Height = 0.0
     roughness: AnyRoughness = Smooth()
     temperature: Temperature | None = None
-
-    _later = model_validator(mode="before")(_refuse_later_tables)
 
     @model_validator(mode="after")
     def _must_be_rough_once(self) -> Self:
@@ -187,6 +172,8 @@ class ContactProblem(BaseModel):
         A named oil or its laws.
     thermal : Thermal or None
         How heat is computed; None is an isothermal film.
+    transient : Transient or None
+        Time: roughness moves with its surface; None is a steady film.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
@@ -197,14 +184,14 @@ class ContactProblem(BaseModel):
     surface_2: Surface
     lubricant: NamedLubricant
     thermal: Thermal | None = None
-
-    _later = model_validator(mode="before")(_refuse_later_tables)
+    transient: Transient | None = None
 
     @model_validator(mode="after")
     def _must_be_a_contact(self) -> Self:
         self._check_radii()
         self._check_temperatures()
         self._check_heat()
+        self._check_time()
         if self.contact.moes_speed is not None and not self.pressure_coefficient > 0:
             raise ValueError(
                 "contact.moes_speed fixes no speed without a pressure coefficient of the "
@@ -298,6 +285,21 @@ class ContactProblem(BaseModel):
         if "expansion" in keys:
             return 'add expansion, such as "8e-4 1/K"'
         return 'take a law with gamma, or law = "walther"'
+
+    def _check_time(self) -> None:
+        """Refuse what cannot be followed in time."""
+        if self.transient is None:
+            return
+        if self.thermal is not None:
+            raise ValueError(
+                "transient and thermal cannot go together in this version: leave one of the two "
+                "tables out"
+            )
+        if self.transient.duration is None and not (self.is_rough or self.transient.load):
+            raise ValueError(
+                "transient has nothing that changes in time: give a surface roughness, or "
+                "transient.load, or a duration"
+            )
 
     def _need(self, key: str, value: object, quantity: Quantity) -> None:
         if value is None:

@@ -287,6 +287,8 @@ def _kind(dimension: Dimension, unit: str) -> str:
     return f"{known.get(dimension, 'something else')} ({unit})"
 
 
+TIME = Quantity(name="a time", unit="s", example='"2 ms"')
+INSTANT = Quantity(name="a time", unit="s", example='"2 ms"', sign="non-negative")
 LENGTH = Quantity(name="a length", unit="m", example='"20 mm"')
 HEIGHT = Quantity(name="a length", unit="m", example='"0.05 um"', sign="non-negative")
 RADIUS = Quantity(name="a radius", unit="m", example='"20 mm"', sign="any", flat=True)
@@ -350,6 +352,8 @@ _WAYS = {
 }
 """How one gets from what was given to what is wanted, by their dimensions."""
 
+Time = Annotated[float, TIME]
+Instant = Annotated[float, INSTANT]
 Length = Annotated[float, LENGTH]
 Height = Annotated[float, HEIGHT]
 Radius = Annotated[float, RADIUS]

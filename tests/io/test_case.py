@@ -110,7 +110,8 @@ MISTAKES = [
     ("lubricant.conductivity={value=0.14}", "lubricant.conductivity.slope is missing", "1/GPa"),
     ("lubricant.heat_capacity={value=2e3, slope=0, basis='mol'}", "capacity.basis", "mass, volume"),
     ("lubricant.heat_capacity={value=0, slope=0}", "lubricant.heat_capacity.value = 0", "J/kg/K"),
-    ("transient.step='auto'", "transient runs are not available", "leave"),
+    ("transient.step='auto'", "transient.step is no key", "stride"),
+    ("transient.duration='1 m'", "transient.duration", "time"),
     ("lubricant=mineral-oel", "lubricant", "did you mean mineral-oil?"),
     ("lubricant.viscosity={law='roelands'}", "lubricant.viscosity.eta_0 is missing", "Pa s"),
     ("lubricant.viscosity={eta_0=0.04}", "lubricant.viscosity.law is missing", "barus"),
@@ -342,8 +343,8 @@ def test_a_change_that_is_none_is_told(case: Path, change: str):
 
 def test_the_schema_knows_every_table_and_refuses_others():
     schema = json.loads(json.dumps(case_schema()))
-    tables = {"title", "contact", "surface_1", "surface_2", "lubricant", "thermal", "numerics"}
-    assert set(schema["properties"]) == tables
+    tables = {"title", "contact", "surface_1", "surface_2", "lubricant", "thermal", "transient"}
+    assert set(schema["properties"]) == tables | {"numerics"}
     assert schema["additionalProperties"] is False
     named = {choice.get("type") for choice in schema["properties"]["lubricant"]["anyOf"]}
     assert "string" in named

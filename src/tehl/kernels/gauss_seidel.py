@@ -25,7 +25,7 @@ def relax_points(film: Film, mesh: Mesh, rhs: Array, self_film: Array, omega: fl
             mass = film.rho[j, i] * film.h[j, i]
             mass_w = film.rho[j, i - 1] * film.h[j, i - 1]
             if i == 1:
-                wedge = (mesh.w0 - mesh.w2) * (mass - mass_w)
+                wedge = (mesh.w0 - mesh.w2) * mass + (mesh.w1 + 2.0 * mesh.w2) * mass_w
             else:
                 mass_ww = film.rho[j, i - 2] * film.h[j, i - 2]
                 wedge = mesh.w0 * mass + mesh.w1 * mass_w + mesh.w2 * mass_ww

@@ -116,7 +116,7 @@ def slopes(state: Coarse, mesh: Mesh, near: IntArray, by_p: Array, by_h: Array) 
         by_h[n] += drop * theirs * eps_h[there]
     first = near[FAR] == near[WEST]
     w0 = mesh.w0 - mesh.w2 if first else mesh.w0
-    w1 = mesh.w2 - mesh.w0 if first else mesh.w1
+    w1 = mesh.w1 + 2.0 * mesh.w2 if first else mesh.w1
     w2 = 0.0 if first else mesh.w2
     rho, drho, h = state.rho.ravel(), state.drho.ravel(), state.h.ravel()
     for n, w in ((HERE, w0), (WEST, w1), (FAR, w2)):

@@ -25,8 +25,9 @@ UP1, UP2, U, FIELDS = BAND + 6, BAND + 7, BAND + 8, BAND + 9
 class Mesh(NamedTuple):
     """What the stencils need to know of the grid.
 
-    ``cx = 1/dx^2``, ``cy = 1/(kappa dy)^2``; ``w0, w1, w2`` are the upstream wedge weights over
-    dx; ``mirror`` is 1 when row 0 is a symmetry line.
+    ``cx = 1/dx^2``, ``cy = 1/(kappa dy)^2``; ``w0, w1, w2`` weigh rho h of a node and
+    of its upstream neighbours: the wedge, or in a step of time what of wedge and squeeze is not
+    history; ``mirror`` is 1 when row 0 is a symmetry line.
     """
 
     cx: float
@@ -172,9 +173,9 @@ def line_operator(film: Film, mesh: Mesh, j: int, out: Array) -> None:
 
 @njit(cache=True, fastmath={"contract"})
 def subtract_wedge(rho: Array, h: Array, mesh: Mesh, out: Array) -> None:
-    """Subtract the upstream difference of rho h along a line; of first order at node 1."""
+    """Subtract the upstream difference of rho h along a line; node 1 continues rho h linearly."""
     w0, w1, w2 = mesh.w0, mesh.w1, mesh.w2
-    out[1] -= (w0 - w2) * (rho[1] * h[1] - rho[0] * h[0])
+    out[1] -= (w0 - w2) * rho[1] * h[1] + (w1 + 2.0 * w2) * rho[0] * h[0]
     rho_c, rho_w, rho_ww = rho[2:-1], rho[1:-2], rho[:-3]
     h_c, h_w, h_ww = h[2:-1], h[1:-2], h[:-3]
     target = out[2:-1]
@@ -340,7 +341,7 @@ def fill_band(batch: Batch, mesh: Mesh, relaxation: Relaxation, low: int, high: 
     for i in range(low, high + 1):
         w0, w1, w2 = mesh.w0, mesh.w1, mesh.w2
         if i == 1:
-            w0, w1, w2 = w0 - w2, w2 - w0, 0.0
+            w0, w1, w2 = w0 - w2, w1 + 2.0 * w2, 0.0
         c = cells[at(i, 0) : at(i + 6, 0)]
         for k in range(lanes):
             # dL/dp at i-2, i-1, i, i+1 and dL/dh at i-2, i-1, i

@@ -1,11 +1,14 @@
 """Heights of both surfaces together on a hierarchy of grids, and how well each resolves them."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
+from tehl.errors import InputError
 from tehl.grid import Grid
 from tehl.problem import ContactProblem
+from tehl.roughness import Roughness
 from tehl.scaling import Scales
 from tehl.typing import Array
 
@@ -79,3 +82,66 @@ def heights_of(problem: ContactProblem, scales: Scales, grid: Grid) -> Heights |
     return Heights(
         surface_1=values[0], surface_2=values[1], wavelengths=(along / width, across / length)
     )
+
+
+class MovingHeights:
+    """Heights of both surfaces that move along, on one grid.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        Surfaces and motion.
+    scales : Scales
+        Units.
+    grid : Grid
+        The nodes.
+    entrance : float or None
+        Surfaces that are rough all over begin so far upstream at time zero, and come in [a_x]; None
+        has them rough everywhere from the beginning.
+
+    Raises
+    ------
+    InputError
+        If a measured surface cannot be read, or one that stands still is to come in.
+    """
+
+    def __init__(
+        self, problem: ContactProblem, scales: Scales, grid: Grid, entrance: float | None
+    ) -> None:
+        width, length = scales.half_width_x, scales.half_width_y
+        self.x, self.y = grid.x[None, :] * width, grid.y[:, None] * length
+        self.shape, self.unit = grid.shape, scales.film_thickness
+        motion, self.entrance = problem.motion, entrance
+        self.front = None if entrance is None else entrance * width
+        self.parts = []
+        for name, speed in (("surface_1", motion.speed_1), ("surface_2", motion.speed_2)):
+            roughness = getattr(problem, name).roughness
+            if self.front is not None and roughness.rms > 0 and speed == 0:
+                raise InputError(
+                    f"{name} stands still, so its roughness never comes in: let transient.start be "
+                    '"standing"'
+                )
+            resolved = roughness.resolved_on(grid.dx * width, grid.dy * length)
+            self.parts.append((resolved, speed, self._fade(resolved, grid.dx * width)))
+
+    def _fade(self, surface: Roughness, dx: float) -> float:
+        """Return over what length a surface that comes in begins [m], 0 if it does not."""
+        if self.front is None or not surface.rms > 0:
+            return 0.0
+        along = surface.shortest_wavelengths[0]
+        return min(max(along, 8.0 * dx), 0.5 * self.front)
+
+    def at(self, time: float) -> tuple[Array, Array]:
+        """Return the heights of both surfaces at ``time`` [s], (ny, nx) each [-]."""
+        first, second = (self._one(*part, time) for part in self.parts)
+        return first, second
+
+    def _one(self, surface: Roughness, speed: float, fade: float, time: float) -> Array:
+        if surface.is_smooth:
+            return np.zeros(self.shape)
+        height = surface.height(self.x, self.y, time, speed) / self.unit
+        if fade > 0.0 and self.front is not None:
+            body = math.copysign(1.0, speed) * (self.x - speed * time)
+            inside = np.clip((-self.front - body) / fade, 0.0, 1.0)
+            height = height * (0.5 - 0.5 * np.cos(math.pi * inside))
+        return np.ascontiguousarray(np.broadcast_to(height, self.shape))

@@ -1,5 +1,7 @@
 """Reynolds equation on one grid: the stencil and what the line relaxation needs of the kernel."""
 
+import numpy as np
+
 from tehl.grid import Grid
 from tehl.kernels.reynolds import Mesh
 from tehl.operators.influence import Influence
@@ -25,6 +27,40 @@ def stencil(grid: Grid, groups: Groups, wedge_order: int) -> Mesh:
         w2=w2,
         mirror=int(grid.mirror),
     )
+
+
+def step_stencil(mesh: Mesh, time_step: float) -> Mesh:
+    """Return the weights of a step of time.
+
+    Wedge and squeeze are one derivative along the mean motion of both surfaces, backward of order
+    two: three halves of rho h here and now, less what was upstream one and two steps ago. Of that
+    only the first is unknown. On coarser grids it keeps its weight, as the step keeps its length.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The weights of the steady operator.
+    time_step : float
+        In units of a_x / u_m [-].
+    """
+    return mesh._replace(w0=1.5 / time_step, w1=0.0, w2=0.0)
+
+
+def upstream(field: Array, nodes: int) -> Array:
+    """Return the values ``nodes`` upstream of each node; before the first one it goes on linearly.
+
+    Parameters
+    ----------
+    field : (ny, nx) array
+        Mass rho h of a film [-].
+    nodes : int
+        Mesh widths along x.
+    """
+    shifted = np.empty_like(field)
+    shifted[:, nodes:] = field[:, :-nodes]
+    before = np.arange(-nodes, 0.0)
+    shifted[:, :nodes] = field[:, :1] + before * (field[:, 1:2] - field[:, :1])
+    return shifted
 
 
 def line_influence(influence: Influence) -> tuple[Array, Array]:

@@ -3,6 +3,7 @@
 from tehl.solver.certify import certify
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.steady import solve
+from tehl.solver.transient import march
 from tehl.solver.work import with_work
 
-__all__ = ["SILENT", "Monitor", "certify", "solve", "with_work"]
+__all__ = ["SILENT", "Monitor", "certify", "march", "solve", "with_work"]

@@ -57,6 +57,7 @@ class Level:
         self.self_film = float(self.influence(0, 0))
         self.gap = gap(grid, groups)
         self.heights: Array | None = None
+        self.history: Array | None = None
         self.correction, self.limit = 1.0, np.inf
         self.floor = 0.0
         p, h, eps, rho, drho = (np.zeros(grid.shape) for _ in range(5))
@@ -76,6 +77,29 @@ class Level:
         self.load_target = TARGET
         self.smoother.frozen[:] = 0
         self.stale = True
+
+    def pose_step(self, history: "Array", heights: "Array", load: float) -> None:
+        """Make this the finest level of a step of time.
+
+        Parameters
+        ----------
+        history : (ny, nx) array
+            What former films bring to wedge and squeeze [-].
+        heights : (ny, nx) array
+            Of both surfaces now [-].
+        load : float
+            Over the load of the contact [-].
+        """
+        self.history, self.heights = history, heights
+        np.negative(history, out=self.rhs)
+        self.roughen(1.0)
+        self.load_target = load * TARGET
+        self.smoother.frozen[:] = 0
+
+    def add_history(self) -> None:
+        """Bring back what a new right-hand side has overwritten."""
+        if self.history is not None:
+            self.rhs -= self.history
 
     def roughen(self, part: float) -> None:
         """Take ``part`` of the heights of the surfaces off the gap of the finest level."""

@@ -2,6 +2,7 @@
 
 from typing import Protocol
 
+from tehl.evolution import StepReport
 from tehl.result import CycleReport
 
 
@@ -17,6 +18,14 @@ class Monitor(Protocol):
         ...
 
 
+class StepMonitor(Monitor, Protocol):
+    """What a run in time reports to."""
+
+    def step(self, report: StepReport) -> None:
+        """Take the report of one step of time."""
+        ...
+
+
 class Silent:
     """Nobody is told anything."""
 
@@ -24,6 +33,9 @@ class Silent:
         """Drop the remark."""
 
     def cycle(self, report: CycleReport) -> None:
+        """Drop the report."""
+
+    def step(self, report: StepReport) -> None:
         """Drop the report."""
 
 

@@ -17,10 +17,7 @@ def newtonian_shear(
     """Return the shear stress of an isothermal Newtonian film from pressure and film alone."""
     grid = level.grid
     slope_x, _ = pressure_slopes(grid, groups, level.film.p)
-    film = np.maximum(level.film.h, level.floor)
-    lubricant = problem.lubricant
-    eta = lubricant.viscosity.viscosity(scales.hertz_pressure * level.film.p, scales.temperature)
-    sliding = -problem.slide_roll_ratio * eta / scales.viscosity / film
+    sliding = newtonian_sliding(level, problem, scales)
     rolling = 6.0 / groups.lambda_bar * level.film.h * slope_x
     unit = stress_unit(scales)
     return FilmShear(
@@ -30,6 +27,16 @@ def newtonian_shear(
         across=np.zeros((grid.ny, grid.nx)),
         thinning=np.ones((grid.ny, grid.nx)),
     )
+
+
+def newtonian_sliding(level: Level, problem: ContactProblem, scales: Scales) -> Array:
+    """Return the mid-film stress of an isothermal Newtonian film, ``grid.shape`` [-]."""
+    if problem.slide_roll_ratio == 0:
+        return np.zeros(level.grid.shape)
+    film = np.maximum(level.film.h, level.floor)
+    lubricant = problem.lubricant
+    eta = lubricant.viscosity.viscosity(scales.hertz_pressure * level.film.p, scales.temperature)
+    return np.asarray(-problem.slide_roll_ratio * eta / scales.viscosity / film)
 
 
 def film_shear(state: FilmState) -> FilmShear:

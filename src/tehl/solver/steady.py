@@ -11,7 +11,7 @@ from importlib.metadata import PackageNotFoundError, version
 import numpy as np
 
 from tehl.domain import recommended_domain
-from tehl.errors import ConvergenceError
+from tehl.errors import ConvergenceError, InputError
 from tehl.grid import Grid, can_mirror
 from tehl.memory import check_memory
 from tehl.operators.flow import flow_table
@@ -82,9 +82,32 @@ def solve(
         When the grid does not fit into the memory, or a measured surface cannot be read.
     """
     options = options or Options()
+    if problem.transient is not None:
+        raise InputError(
+            "the case has a [transient] table: tehl.march follows it in time (the command "
+            "tehl solve does so by itself)"
+        )
     check_memory(options, problem)
+    _, result = solve_attempt(problem, options, monitor=monitor, rough=True)
+    if not result.status.converged:
+        raise ConvergenceError(result.status.message or "not converged", result)
+    return result
+
+
+def solve_attempt(
+    problem: ContactProblem, options: Options, *, monitor: Monitor, rough: bool
+) -> tuple[Attempt, Result]:
+    """Return the best attempt at the steady film, and its result, converged or not.
+
+    Parameters
+    ----------
+    problem, options, monitor
+        As in `solve`.
+    rough : bool
+        With the roughness of the surfaces, as they stand; without it they are smooth.
+    """
     grid = finest_grid(problem, options)
-    heights = heights_of(problem, scales(problem), grid)
+    heights = heights_of(problem, scales(problem), grid) if rough else None
     warm_up(coupled=problem.is_coupled)
     wall, cpu = time.perf_counter(), time.process_time()
     history = _History(monitor)
@@ -96,10 +119,7 @@ def solve(
     best = min(attempts, key=lambda a: (not a.status.converged, a.status.kind == "diverged"))
     cost = Cost(cpu_seconds=time.process_time() - cpu, wall_seconds=time.perf_counter() - wall)
     result = _result(problem, options, best, tuple(history.reports), cost)
-    result = replace(result, heights=_surfaces(grid, heights, result.scales))
-    if not result.status.converged:
-        raise ConvergenceError(result.status.message or "not converged", result)
-    return result
+    return best, replace(result, heights=_surfaces(grid, heights, result.scales))
 
 
 class _History:

@@ -17,6 +17,7 @@ from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.scaling import Groups, Scales
 from tehl.solver.level import Level
+from tehl.typing import Array
 
 COUPLED_FROM = 64
 """Intervals of a grid from which the film is heated: on coarser ones it keeps the inlet's."""
@@ -51,6 +52,14 @@ class Coupling(Protocol):
         """Take back what was done to ``levels``: the film on them is no start for the next grid."""
         ...
 
+    def memory(self, levels: Sequence[Level]) -> dict[str, Array]:
+        """Return what it remembers of the last of ``levels``."""
+        ...
+
+    def recall(self, levels: Sequence[Level], fields: dict[str, Array]) -> None:
+        """Remember what `memory` has returned."""
+        ...
+
 
 class Uncoupled:
     """An isothermal Newtonian film: pressure alone rules the flow."""
@@ -68,6 +77,15 @@ class Uncoupled:
     def forget(self, levels: Sequence[Level]) -> None:
         """Do nothing."""
         del levels
+
+    def memory(self, levels: Sequence[Level]) -> dict[str, Array]:
+        """Return nothing."""
+        del levels
+        return {}
+
+    def recall(self, levels: Sequence[Level], fields: dict[str, Array]) -> None:
+        """Do nothing."""
+        del levels, fields
 
 
 class FilmCoupling:
@@ -152,6 +170,23 @@ class FilmCoupling:
         for level in levels:
             level.uncouple()
 
+    def memory(self, levels: Sequence[Level]) -> dict[str, Array]:
+        """Return temperature, stress and fluxes, and the factors that follow from them."""
+        state, factors = self.state, levels[-1].factors
+        if state is None or factors is None:
+            return {}
+        known = {f"factor_{name}": getattr(factors, name) for name in factors._fields}
+        return known | {f"film_{name}": state.view(name) for name in ("tau_x", "tau_y")}
+
+    def recall(self, levels: Sequence[Level], fields: dict[str, Array]) -> None:
+        """Take them back."""
+        if self.state is None or not fields:
+            return
+        for name in ("tau_x", "tau_y"):
+            self.state.view(name)[:] = fields[f"film_{name}"]
+        names = reynolds.Factors._fields
+        self._hand_down(levels, reynolds.Factors(*(fields[f"factor_{name}"] for name in names)))
+
     def _sweep(self, state: FilmState, levels: Sequence[Level], steps: int) -> float:
         fine = levels[-1]
         self.sweeps_left = max(self.sweeps_left - 1, 0)
@@ -187,6 +222,7 @@ class FilmCoupling:
             factors = reynolds.Factors(*(array[::2, ::2].copy() for array in factors))
         fine.update_properties()
         reynolds.tangent_source(fine.film, fine.mesh, fine.rhs)
+        fine.add_history()
 
 
 def refined(coarse: Level) -> reynolds.Factors:

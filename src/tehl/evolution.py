@@ -1,0 +1,153 @@
+"""The answer to a question with time: a film that changes while its surfaces move on."""
+
+from dataclasses import dataclass
+
+from tehl.result import Cost, Provenance, Result, Status
+from tehl.typing import Array, IntArray, SingleArray
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class StepReport:
+    """One step of time, as a monitor is told of it.
+
+    Attributes
+    ----------
+    step, steps : int
+        Number of the step, and how many there will be.
+    time : float
+        [s].
+    cycles : int
+        Multigrid cycles that it took.
+    change, load_error : float
+        Of P in the last of them, and of the load balance [-].
+    film_central, film_minimum : float
+        H at the centre, and at the thinnest node [-].
+    pressure_max : float
+        Largest P [-].
+    smoother : str
+        Setting that did it.
+    """
+
+    step: int
+    steps: int
+    time: float
+    cycles: int
+    change: float
+    load_error: float
+    film_central: float
+    film_minimum: float
+    pressure_max: float
+    smoother: str
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class History:
+    """Numbers of each step, beginning with the steady film at time zero; all of shape (nt,).
+
+    Attributes
+    ----------
+    time : array
+        [s].
+    load : array
+        Over that of the contact [-].
+    film_central, film_minimum : array
+        Film at the centre and at the thinnest node [m].
+    pressure_max : array
+        Largest pressure [Pa].
+    traction : array
+        Mid-film traction coefficient, over the load at that time [-].
+    rigid_approach : array
+        H00 [-].
+    cycles : array of int
+        Multigrid cycles of the step.
+    change : array
+        Largest change of P in the last of them [-].
+    """
+
+    time: Array
+    load: Array
+    film_central: Array
+    film_minimum: Array
+    pressure_max: Array
+    traction: Array
+    rigid_approach: Array
+    cycles: IntArray
+    change: Array
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Profiles:
+    """The line y = 0 at each step, (nt, nx).
+
+    Attributes
+    ----------
+    pressure, film : array
+        [Pa] and [m].
+    height_1, height_2 : array
+        Heights of both surfaces, positive outwards [m].
+    """
+
+    pressure: Array
+    film: Array
+    height_1: Array
+    height_2: Array
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Frames:
+    """Fields at chosen instants, (nf, ny, nx) in single precision.
+
+    Attributes
+    ----------
+    step : array of int
+        Steps of the history that they belong to, (nf,).
+    pressure, film, height : array
+        [Pa], [m] and the heights of both surfaces together [m].
+    """
+
+    step: IntArray
+    pressure: SingleArray
+    film: SingleArray
+    height: SingleArray
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Evolution:
+    """A film in time.
+
+    Attributes
+    ----------
+    start : Result
+        The steady film that it began from; its problem and options are those of the run.
+    history : History
+        Numbers of each step.
+    profiles : Profiles
+        The line y = 0 at each step.
+    frames : Frames
+        Fields at chosen instants.
+    time_step : float
+        [s].
+    status : Status
+        How the run ended.
+    cost, provenance : Cost, Provenance
+        Expense, that of the start included, and origin.
+    """
+
+    start: Result
+    history: History
+    profiles: Profiles
+    frames: Frames
+    time_step: float
+    status: Status
+    cost: Cost
+    provenance: Provenance
+
+    @property
+    def x(self) -> Array:
+        """Coordinates along entrainment [m], (nx,)."""
+        return self.start.x
+
+    @property
+    def y(self) -> Array:
+        """Coordinates across entrainment [m], (ny,)."""
+        return self.start.y

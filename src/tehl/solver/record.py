@@ -1,0 +1,111 @@
+"""What is noted of a run in time, step by step, and how it becomes arrays in SI."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from tehl.evolution import Frames, History, Profiles
+from tehl.scaling import Scales
+from tehl.solver.level import Level
+from tehl.solver.multigrid import film_numbers
+from tehl.typing import Array
+
+Heights = tuple[Array, Array]
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """What belongs to a step besides its film: time [s], load, traction, cycles and change."""
+
+    time: float
+    load: float
+    traction: float
+    cycles: int
+    change: float
+
+
+@dataclass(slots=True)
+class Record:
+    """Numbers, profiles and fields of the steps so far.
+
+    ``rows`` has, per step, the columns of `tehl.evolution.History` in scaled units; ``profiles``
+    pressure, film and both heights along y = 0; ``frames`` pressure, film and height at the steps
+    of ``frame_steps``.
+    """
+
+    rows: list[tuple[float, ...]] = field(default_factory=list)
+    profiles: list[Array] = field(default_factory=list)
+    frame_steps: list[int] = field(default_factory=list)
+    frames: list[Array] = field(default_factory=list)
+
+    def note(self, level: Level, heights: Heights, moment: Moment, *, keep: bool) -> None:
+        """Note a step, its fields too where they are to be kept."""
+        central, minimum = film_numbers(level)
+        self.rows.append(
+            (
+                moment.time,
+                moment.load,
+                central,
+                minimum,
+                float(level.film.p.max()),
+                moment.traction,
+                level.rigid_approach,
+                float(moment.cycles),
+                moment.change,
+            )
+        )
+        line = 0 if level.grid.mirror else level.grid.shape[0] // 2
+        fields = (level.film.p, level.film.h, *heights)
+        self.profiles.append(np.stack([one[line] for one in fields]))
+        if keep:
+            self.frame_steps.append(len(self.rows) - 1)
+            together = heights[0] + heights[1]
+            whole = [level.grid.unfold(one) for one in (level.film.p, level.film.h, together)]
+            self.frames.append(np.stack(whole).astype(np.float32))
+
+    def copy(self) -> "Record":
+        """Return a record that later steps do not change."""
+        return Record(
+            rows=self.rows.copy(),
+            profiles=self.profiles.copy(),
+            frame_steps=self.frame_steps.copy(),
+            frames=self.frames.copy(),
+        )
+
+    def history(self, scales: Scales) -> History:
+        """Return the numbers of all steps in SI."""
+        columns = np.array(self.rows).T
+        film, pressure = scales.film_thickness, scales.hertz_pressure
+        return History(
+            time=columns[0],
+            load=columns[1],
+            film_central=columns[2] * film,
+            film_minimum=columns[3] * film,
+            pressure_max=columns[4] * pressure,
+            traction=columns[5],
+            rigid_approach=columns[6],
+            cycles=columns[7].astype(np.int64),
+            change=columns[8],
+        )
+
+    def lines(self, scales: Scales) -> Profiles:
+        """Return the profiles of all steps in SI."""
+        pressure, film, first, second = np.moveaxis(np.stack(self.profiles), 1, 0)
+        thickness = scales.film_thickness
+        return Profiles(
+            pressure=pressure * scales.hertz_pressure,
+            film=film * thickness,
+            height_1=first * thickness,
+            height_2=second * thickness,
+        )
+
+    def fields(self, scales: Scales, shape: tuple[int, int]) -> Frames:
+        """Return the kept fields in SI; ``shape`` is that of the full domain."""
+        stack = np.stack(self.frames) if self.frames else np.zeros((0, 3, *shape), np.float32)
+        units = (scales.hertz_pressure, scales.film_thickness, scales.film_thickness)
+        pressure, film, height = (
+            np.asarray(stack[:, k] * np.float32(unit), np.float32) for k, unit in enumerate(units)
+        )
+        return Frames(
+            step=np.array(self.frame_steps, np.int64), pressure=pressure, film=film, height=height
+        )

@@ -1,0 +1,121 @@
+"""One step of time: wedge and squeeze along the mean motion, full cycles until it has settled."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl.operators.reynolds import step_stencil, upstream
+from tehl.solver.fas import Cycle, cycle
+from tehl.solver.multigrid import RUNAWAY, Multigrid
+from tehl.solver.smoother import Setting
+from tehl.transient import Transient
+from tehl.typing import Array
+
+LARGEST_LOAD_ERROR = 1e-4
+"""Load error at which a step is balanced."""
+LEAST_CYCLES = 2
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Settled:
+    """How a step ended: cycles, change of P and load error of the last one, and the setting."""
+
+    cycles: int
+    change: float
+    load_error: float
+    smoother: str
+
+
+class StepError(ArithmeticError):
+    """No setting made the step settle; ``cause`` says how it ended."""
+
+    def __init__(self, cause: str, change: float) -> None:
+        super().__init__(cause)
+        self.cause, self.change = cause, change
+
+
+class Stepper:
+    """Moves the film of a hierarchy of levels on in time.
+
+    Parameters
+    ----------
+    run : Multigrid
+        Solved for the steady film that the run begins with.
+    transient : Transient
+        Length of the step, and when it has settled.
+    settings : sequence of Setting
+        Settings of the relaxation to try, the fastest first.
+    """
+
+    def __init__(self, run: Multigrid, transient: Transient, settings: Sequence[Setting]) -> None:
+        self.run, self.transient, self.settings = run, transient, settings
+        level = run.finest
+        self.time_step = transient.stride * level.grid.dx
+        self.now = level.film.rho * level.film.h
+        self.before = self.now.copy()
+        for one in run.levels:
+            one.mesh = step_stencil(one.mesh, self.time_step)
+        self.shape = Cycle(kind="V", pre_sweeps=2, post_sweeps=1)
+        self.setting = 0
+        self.choose(0)
+
+    def step(self, heights: Array, load: float) -> Settled:
+        """Go one step on.
+
+        Parameters
+        ----------
+        heights : (ny, nx) array
+            Of both surfaces at the new time [-].
+        load : float
+            Over that of the contact [-].
+
+        Raises
+        ------
+        StepError
+            When no setting makes it settle; pressure and film are those of the last attempt.
+        """
+        level, stride = self.run.finest, self.transient.stride
+        history = 2.0 * upstream(self.now, stride) - 0.5 * upstream(self.before, 2 * stride)
+        history /= self.time_step
+        start = level.film.p.copy(), level.rigid_approach
+        first = self.setting
+        for number in range(first, len(self.settings)):
+            self.choose(number)
+            level.pose_step(history, heights, load)
+            if number > first:
+                level.film.p[:], level.rigid_approach = start
+            level.update()
+            try:
+                settled = self._settle(self.settings[number].name)
+            except StepError:
+                if number == len(self.settings) - 1:
+                    raise
+                continue
+            self.before, self.now = self.now, level.film.rho * level.film.h
+            return settled
+        raise StepError("stalled", np.inf)
+
+    def choose(self, number: int) -> None:
+        """Relax with a setting from now on."""
+        self.setting = number
+        for level in self.run.levels:
+            level.set_smoother(self.settings[number])
+
+    def _settle(self, name: str) -> Settled:
+        """Cycle until the step has settled."""
+        level, change = self.run.finest, np.inf
+        for number in range(1, self.transient.max_cycles + 1):
+            before = level.film.p.copy()
+            cycle(self.run.levels, self.run.coarsest.step, self.shape)
+            level.update()
+            self.run.coupling.update(self.run.levels)
+            np.subtract(level.film.p, before, out=before)
+            change = float(max(before.max(), -before.min()))
+            error = level.load_error()
+            if not (np.isfinite(change) and abs(error) < RUNAWAY):
+                raise StepError("diverged", change)
+            settled = change <= self.transient.tolerance and abs(error) <= LARGEST_LOAD_ERROR
+            if number >= LEAST_CYCLES and settled:
+                return Settled(cycles=number, change=change, load_error=error, smoother=name)
+        raise StepError("stalled", change)

@@ -1,0 +1,338 @@
+"""Runs in time: from the steady film, step by step, to the end of the question."""
+
+import math
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from tehl.errors import ConvergenceError, InputError
+from tehl.evolution import Evolution, StepReport
+from tehl.memory import check_memory
+from tehl.operators.energy import stress_unit
+from tehl.operators.heights import MovingHeights
+from tehl.options import Options
+from tehl.problem import ContactProblem
+from tehl.result import Cost, Result, Status
+from tehl.scaling import Scales, groups, scales
+from tehl.solver.level import Level
+from tehl.solver.monitor import SILENT, StepMonitor
+from tehl.solver.multigrid import film_numbers
+from tehl.solver.outputs import newtonian_sliding
+from tehl.solver.record import Moment, Record
+from tehl.solver.smoother import CAREFUL, ROUGH
+from tehl.solver.steady import Attempt, finest_grid, solve_attempt
+from tehl.solver.stepper import Settled, StepError, Stepper
+from tehl.solver.thermal import FilmCoupling
+from tehl.solver.warmup import warm_up
+from tehl.transient import Transient
+from tehl.typing import Array
+
+SETTINGS = (ROUGH, CAREFUL)
+"""Of the relaxation of a step, the fastest first."""
+START_TOLERANCE = 1e-7
+"""Tolerance of the steady film at the beginning."""
+MOST_STEPS = 20_000
+"""Steps that nobody asks for by accident."""
+BEYOND = 1.5
+"""How far downstream of the centre everything has passed [a_x]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Snapshot:
+    """All that a run needs to go on as if it had not been interrupted.
+
+    Attributes
+    ----------
+    setting : int
+        Number of the setting of the relaxation.
+    rigid_approach : float
+        H00 [-].
+    fields : dict of str to array
+        Pressure, mass of the last two films, and what the coupling remembers.
+    record : Record
+        What has been noted so far.
+    """
+
+    setting: int
+    rigid_approach: float
+    fields: dict[str, Array]
+    record: Record
+
+    def copy(self) -> "Snapshot":
+        """Return a snapshot that the run does not change any more."""
+        fields = {name: field.copy() for name, field in self.fields.items()}
+        return replace(self, fields=fields, record=self.record.copy())
+
+
+def march(
+    problem: ContactProblem,
+    options: Options | None = None,
+    *,
+    monitor: StepMonitor = SILENT,
+    resume: Snapshot | None = None,
+    keep: Callable[[Snapshot], None] | None = None,
+) -> Evolution:
+    """Follow a contact in time.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        The question; it has a ``transient`` table.
+    options : Options
+        How hard to try; the defaults if left out.
+    monitor : StepMonitor
+        Told of each step.
+    resume : Snapshot
+        Where an interrupted run of the same question got to.
+    keep : callable
+        Given a snapshot after each step, to keep it or not.
+
+    Returns
+    -------
+    Evolution
+        The film in time; its ``status`` says whether it came to the end.
+
+    Raises
+    ------
+    ConvergenceError
+        When the steady film of the beginning was not reached.
+    InputError
+        When the question cannot be followed in time, or does not fit into the memory.
+    """
+    options = options or Options()
+    transient = problem.transient
+    if transient is None:
+        raise InputError("the case has no [transient] table: tehl.solve computes the steady film")
+    check_memory(options, problem)
+    warm_up(coupled=problem.is_coupled)
+    wall, cpu = time.perf_counter(), time.process_time()
+    run = Run(problem, options, transient, monitor)
+    if resume is not None:
+        run.recall(resume)
+    status = run.go(monitor, keep)
+    cost = Cost(cpu_seconds=time.process_time() - cpu, wall_seconds=time.perf_counter() - wall)
+    return run.evolution(status, cost)
+
+
+class Run:
+    """A run in time: its steady beginning, its stepper, and the record of what has happened."""
+
+    def __init__(
+        self,
+        problem: ContactProblem,
+        options: Options,
+        transient: Transient,
+        monitor: StepMonitor,
+    ) -> None:
+        self.problem, self.transient = problem, transient
+        self.scales, self.groups = scales(problem), groups(problem)
+        grid = finest_grid(problem, options)
+        smooth = transient.start == "smooth"
+        self.heights = MovingHeights(
+            problem, self.scales, grid, transient.entrance if smooth else None
+        )
+        self.seconds = transient.stride * grid.dx * self.scales.half_width_x / self.scales.speed
+        self.steps = number_of_steps(problem, self.scales, self.seconds)
+        every = self.steps / max(transient.frames - 1, 1)
+        self.kept = {round(n * every) for n in range(transient.frames)}
+        attempt, self.start = begin(problem, options, rough=not smooth, monitor=monitor)
+        self.stepper = Stepper(attempt.run, transient, SETTINGS)
+        self.record = Record()
+        self._note(0, self.heights.at(0.0), None)
+
+    @property
+    def level(self) -> Level:
+        """The finest level."""
+        return self.stepper.run.finest
+
+    def go(self, monitor: StepMonitor, keep: Callable[[Snapshot], None] | None = None) -> Status:
+        """Step to the end, or until a step fails; return how it ended."""
+        for step in range(len(self.record.rows), self.steps + 1):
+            time_now = step * self.seconds
+            heights = self.heights.at(time_now)
+            try:
+                settled = self.stepper.step(
+                    heights[0] + heights[1], self.transient.load_at(time_now)
+                )
+            except StepError as error:
+                return failed(error, time_now, self.level)
+            self._note(step, heights, settled)
+            if not self.level.film.h.min() > self.level.floor:
+                return touching(time_now, self.level)
+            monitor.step(self._report(step, settled))
+            if keep is not None:
+                keep(self.snapshot())
+        return Status(kind="converged")
+
+    def _note(self, step: int, heights: tuple[Array, Array], settled: Settled | None) -> None:
+        time_now = step * self.seconds
+        load = self.transient.load_at(time_now)
+        moment = Moment(
+            time=time_now,
+            load=load,
+            traction=self._traction(load),
+            cycles=settled.cycles if settled else 0,
+            change=settled.change if settled else 0.0,
+        )
+        self.record.note(self.level, heights, moment, keep=step in self.kept)
+
+    def _traction(self, load: float) -> float:
+        """Return the mid-film traction coefficient."""
+        level, coupling = self.level, self.stepper.run.coupling
+        if isinstance(coupling, FilmCoupling) and coupling.state is not None:
+            stress = coupling.state.view("tau_x").T
+        else:
+            stress = newtonian_sliding(level, self.problem, self.scales)
+        wet = np.where(level.film.p > 0.0, stress, 0.0)
+        area = self.scales.half_width_x * self.scales.half_width_y
+        unit = stress_unit(self.scales) * area / (self.scales.load * load)
+        return level.load.integral(wet) * unit
+
+    def _report(self, step: int, settled: Settled) -> StepReport:
+        central, minimum = film_numbers(self.level)
+        return StepReport(
+            step=step,
+            steps=self.steps,
+            time=step * self.seconds,
+            cycles=settled.cycles,
+            change=settled.change,
+            load_error=settled.load_error,
+            film_central=central,
+            film_minimum=minimum,
+            pressure_max=float(self.level.film.p.max()),
+            smoother=settled.smoother,
+        )
+
+    def snapshot(self) -> Snapshot:
+        """Return what is needed to go on from here."""
+        return Snapshot(
+            setting=self.stepper.setting,
+            rigid_approach=self.level.rigid_approach,
+            fields={
+                "pressure": self.level.film.p,
+                "mass": self.stepper.now,
+                "mass_before": self.stepper.before,
+                **self.stepper.run.coupling.memory(self.stepper.run.levels),
+            },
+            record=self.record,
+        )
+
+    def recall(self, snapshot: Snapshot) -> None:
+        """Go back to a snapshot of the same question.
+
+        Raises
+        ------
+        InputError
+            If it is of another grid.
+        """
+        level, fields = self.level, dict(snapshot.fields)
+        if fields["pressure"].shape != level.grid.shape:
+            raise InputError("the snapshot is of another grid than the case")
+        level.film.p[:] = fields.pop("pressure")
+        self.stepper.now, self.stepper.before = fields.pop("mass"), fields.pop("mass_before")
+        level.rigid_approach, level.stale = snapshot.rigid_approach, True
+        self.stepper.choose(snapshot.setting)
+        self.stepper.run.coupling.recall(self.stepper.run.levels, fields)
+        self.record = snapshot.record
+
+    def evolution(self, status: Status, cost: Cost) -> Evolution:
+        """Return the answer."""
+        full = (self.level.grid.ny, self.level.grid.nx)
+        return Evolution(
+            start=self.start,
+            history=self.record.history(self.scales),
+            profiles=self.record.lines(self.scales),
+            frames=self.record.fields(self.scales, full),
+            time_step=self.seconds,
+            status=status,
+            cost=cost,
+            provenance=self.start.provenance,
+        )
+
+
+def begin(
+    problem: ContactProblem, options: Options, *, rough: bool, monitor: StepMonitor
+) -> tuple[Attempt, Result]:
+    """Solve for the steady film of the beginning: of smooth surfaces, or as they stand at zero.
+
+    Raises
+    ------
+    ConvergenceError
+        When it was not reached.
+    """
+    tight = options.model_copy(
+        update={"accuracy": "tight", "tolerance": min(options.tolerance, START_TOLERANCE)}
+    )
+    attempt, result = solve_attempt(problem, tight, monitor=monitor, rough=rough)
+    if not result.status.converged:
+        raise ConvergenceError(
+            f"the steady film at time zero was not reached: {result.status.message}", result
+        )
+    return attempt, replace(result, options=options)
+
+
+def number_of_steps(problem: ContactProblem, units: Scales, seconds: float) -> int:
+    """Return the steps of ``seconds`` until the end of the question.
+
+    Raises
+    ------
+    InputError
+        If there are more than anybody wants.
+    """
+    duration = duration_of(problem, units)
+    steps = math.ceil(duration / seconds * (1.0 - 1e-9))
+    if steps > MOST_STEPS:
+        raise InputError(
+            f"transient.duration = {duration:g} s takes {steps} steps of {seconds:.3g} s, more "
+            f"than {MOST_STEPS}: give a shorter one, or a larger transient.stride"
+        )
+    return steps
+
+
+def duration_of(problem: ContactProblem, units: Scales) -> float:
+    """Return how long the run lasts [s]: as stated, or until what moves has passed the contact."""
+    transient, motion = problem.transient, problem.motion
+    if transient is None:
+        return 0.0
+    if transient.duration is not None:
+        return transient.duration
+    distance = (transient.entrance + BEYOND) * units.half_width_x
+    speeds = ((problem.surface_1, motion.speed_1), (problem.surface_2, motion.speed_2))
+    moving = [abs(speed) for one, speed in speeds if not one.roughness.is_smooth and speed != 0]
+    passing = distance / min(moving) if moving else 0.0
+    loaded = max((time for time, _ in transient.load), default=0.0)
+    return max(passing, loaded, units.half_width_x / units.speed)
+
+
+def failed(error: StepError, seconds: float, level: Level) -> Status:
+    """Return the status of a run whose step did not settle."""
+    return Status(
+        kind="diverged" if error.cause == "diverged" else "stalled",
+        cause="step_not_settled",
+        message=(
+            f"The step to {seconds:.4g} s did not settle on {level.grid.nx} x {level.grid.ny} "
+            f"nodes: the last change of P is {error.change:.2g}. What came before is kept."
+        ),
+        hint=(
+            "Take lower or longer asperities, more nodes (numerics.points), or more cycles per "
+            "step (transient.max_cycles)."
+        ),
+    )
+
+
+def touching(seconds: float, level: Level) -> Status:
+    """Return the status of a run whose surfaces would touch."""
+    grid, h = level.grid, level.film.h
+    row, column = np.unravel_index(int(np.argmin(h)), h.shape)
+    return Status(
+        kind="not_converged",
+        cause="asperity_contact",
+        message=(
+            f"At {seconds:.4g} s the film is not positive: smallest H = {h.min():.3g} at "
+            f"X = {grid.x[column]:.3g}, Y = {grid.y[row]:.3g}. Asperities would touch there, which "
+            "a film that carries all of the load cannot describe. What came before is kept."
+        ),
+        hint="Take lower or longer asperities, more speed, or more nodes (numerics.points).",
+    )

@@ -1,0 +1,175 @@
+"""Runs in time: what a film must do when nothing changes, and when waves pass."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from tehl import InputError, march, solve
+from tehl.evolution import Evolution
+from tehl.options import Domain, Options
+from tehl.problem import ContactProblem
+from tehl.scaling import scales
+from tests.reference import DOMAIN, moes_contact
+
+M, L = 50.0, 10.0
+OPTIONS = Options(points=65, domain=DOMAIN)
+
+
+def in_time(distance: float, *, slide: float = 0.0, **tables: object) -> ContactProblem:
+    """M = 50, L = 10 while the mean of both surfaces moves on by ``distance`` half-widths."""
+    case = moes_contact(M, L)
+    units = scales(case)
+    given = case.model_dump(exclude_none=True)
+    given["contact"]["slide_roll_ratio"] = slide
+    surfaces = {key: given[key] | tables.pop(key, {}) for key in ("surface_1", "surface_2")}
+    transient = {"duration": distance * units.half_width_x / units.speed, "frames": 3}
+    transient |= tables.pop("transient", {})
+    return ContactProblem.model_validate(given | surfaces | {"transient": transient} | tables)
+
+
+def wave(amplitude: float = 0.01, wavelength: float = 1.5, phase: float = 0.0) -> dict:
+    """A transverse wave as a table, in units of a^2/R and a."""
+    units = scales(moes_contact(M, L))
+    return {
+        "roughness": {
+            "type": "wave",
+            "amplitude": amplitude * units.film_thickness,
+            "wavelength": wavelength * units.half_width_x,
+            "phase": phase,
+        }
+    }
+
+
+@cache
+def rolling(phase: float = 0.0) -> Evolution:
+    """Pure rolling, a wave on surface 1 passes."""
+    return march(in_time(7.5, surface_1=wave(phase=phase)), OPTIONS)
+
+
+def test_a_film_without_roughness_stays_the_steady_one():
+    run = march(in_time(1.0), OPTIONS)
+    start, history = run.start, run.history
+    assert run.status.converged
+    assert len(history.time) == 12
+    assert (history.cycles[1:] <= 2).all()
+    np.testing.assert_allclose(run.profiles.film, run.profiles.film[:1].repeat(12, 0), rtol=1e-6)
+    largest = start.pressure.max()
+    np.testing.assert_allclose(run.frames.pressure[-1], start.pressure, rtol=0, atol=1e-6 * largest)
+
+
+def test_the_beginning_is_the_steady_film():
+    run = rolling()
+    steady = solve(moes_contact(M, L), Options(points=65, domain=DOMAIN, accuracy="tight"))
+    assert run.history.film_central[0] == pytest.approx(steady.film.central, rel=1e-6)
+    assert run.history.cycles[0] == 0
+
+
+def test_a_wave_is_flattened_but_keeps_its_length():
+    run = rolling()
+    assert run.status.converged
+    units = run.start.scales
+    x = run.start.scaled.x
+    centre = int(np.argmin(np.abs(x)))
+    period = 1.5 * units.half_width_x / units.speed
+    last = run.history.time > run.history.time[-1] - period * (1 + 1e-9)
+    film = run.profiles.film[last, centre] / units.film_thickness
+    assert 0.3 < 0.5 * np.ptp(film) / 0.01 < 0.9
+    # the film at one place repeats after the time in which the surfaces move on by a wavelength
+    earlier = np.interp(
+        run.history.time[last] - period, run.history.time, run.profiles.film[:, centre]
+    )
+    assert np.corrcoef(earlier, run.profiles.film[last, centre])[0, 1] > 0.9
+
+
+def test_a_wave_on_either_surface_is_the_same_in_pure_rolling():
+    first, second = rolling(), march(in_time(7.5, surface_2=wave()), OPTIONS)
+    np.testing.assert_allclose(
+        first.profiles.film, second.profiles.film, rtol=0, atol=1e-12 * first.start.film.central
+    )
+
+
+def test_a_wave_turned_by_half_a_period_makes_the_opposite_ripple():
+    """Small waves are linear: the mean of both films is the smooth one, to second order."""
+    one, other = rolling(), rolling(np.pi)
+    mean = 0.5 * (one.profiles.film + other.profiles.film)
+    ripple = np.abs(one.profiles.film - other.profiles.film).max()
+    x = np.abs(one.start.scaled.x) < 0.7
+    assert np.abs(mean - one.profiles.film[:1])[:, x].max() < 0.12 * ripple
+
+
+def test_mass_travels_through_the_contact_at_the_mean_speed():
+    """Under high pressure nothing but the surfaces moves the oil: rho h is carried along whole."""
+    case = moes_contact(300.0, L)
+    units = scales(case)
+    given = case.model_dump(exclude_none=True)
+    given["surface_1"]["roughness"] = {
+        "type": "wave",
+        "amplitude": 0.004 * units.film_thickness,
+        "wavelength": 0.75 * units.half_width_x,
+    }
+    given["transient"] = {"duration": 4.5 * units.half_width_x / units.speed, "tolerance": 1e-4}
+    run = march(
+        ContactProblem.model_validate(given),
+        Options(points=129, domain=Domain(x=(-2.5, 1.5), y=(-2.0, 2.0))),
+    )
+    density = case.lubricant.density.density(run.profiles.pressure, case.inlet_temperature)
+    mass = density * run.profiles.film
+    x, mesh = run.start.scaled.x, 4.0 / 128
+    ahead, behind = (int(np.argmin(np.abs(x - place))) for place in (0.25, -0.25))
+    steps = round(0.5 / mesh)
+    arriving, leaving = mass[-40 - steps : -steps, behind], mass[-40:, ahead]
+    assert ahead - behind == steps
+    assert np.ptp(arriving) > 0.02 * arriving.mean()
+    difference = (arriving - arriving.mean()) - (leaving - leaving.mean())
+    assert np.abs(difference).max() < 0.05 * np.ptp(arriving)
+
+
+def test_the_load_follows_its_table():
+    units = scales(moes_contact(M, L))
+    end = 2.0 * units.half_width_x / units.speed
+    run = march(in_time(2.0, transient={"load": [[0.0, 1.0], [end, 1.3]]}), OPTIONS)
+    cell = run.start.scaled
+    area = (cell.x[1] - cell.x[0]) * (cell.y[1] - cell.y[0])
+    carried = run.frames.pressure[-1].sum() * area / run.start.scales.hertz_pressure
+    load = run.history.load[run.frames.step[-1]]
+    assert load == pytest.approx(1.3, rel=0.05)
+    assert carried == pytest.approx(load * 2 * np.pi / 3, rel=2e-4)
+    assert run.history.pressure_max[-1] > 1.05 * run.history.pressure_max[0]
+
+
+def test_a_snapshot_goes_on_bit_by_bit():
+    case = in_time(1.0, slide=0.5, surface_1=wave())
+    kept = []
+
+    def keep(snapshot):
+        if len(snapshot.record.rows) == 6:
+            kept.append(snapshot.copy())
+
+    whole = march(case, OPTIONS, keep=keep)
+    again = march(case, OPTIONS, resume=kept[0])
+    for name in ("pressure", "film", "height_1"):
+        assert (getattr(whole.profiles, name) == getattr(again.profiles, name)).all()
+        assert (whole.frames.pressure == again.frames.pressure).all()
+    assert (whole.history.rigid_approach == again.history.rigid_approach).all()
+
+
+def test_a_surface_that_stands_still_never_brings_its_roughness_in():
+    case = in_time(1.0, slide=-2.0, surface_1=wave())
+    with pytest.raises(InputError, match="surface_1 stands still"):
+        march(case, OPTIONS)
+
+
+def test_too_many_steps_are_refused_before_any_work():
+    with pytest.raises(InputError, match=r"give a shorter one, or a larger transient\.stride"):
+        march(in_time(1e6), OPTIONS)
+
+
+def test_solving_a_question_with_time_as_a_steady_one_is_refused():
+    with pytest.raises(InputError, match=r"tehl\.march"):
+        solve(in_time(1.0), OPTIONS)
+
+
+def test_a_steady_question_has_no_time():
+    with pytest.raises(InputError, match=r"no \[transient\] table"):
+        march(moes_contact(M, L), OPTIONS)
