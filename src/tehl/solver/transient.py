@@ -21,7 +21,7 @@ from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.multigrid import film_numbers
 from tehl.solver.outputs import newtonian_sliding
 from tehl.solver.record import Moment, Record
-from tehl.solver.smoother import CAREFUL, ROUGH
+from tehl.solver.smoother import CAREFUL, FAST, ROUGH
 from tehl.solver.steady import Attempt, finest_grid, solve_attempt
 from tehl.solver.stepper import Settled, StepError, Stepper
 from tehl.solver.thermal import FilmCoupling
@@ -29,7 +29,7 @@ from tehl.solver.warmup import warm_up
 from tehl.transient import Transient
 from tehl.typing import Array
 
-SETTINGS = (ROUGH, CAREFUL)
+SETTINGS = (FAST, ROUGH, CAREFUL)
 """Of the relaxation of a step, the fastest first."""
 START_TOLERANCE = 1e-7
 """Tolerance of the steady film at the beginning."""
