@@ -6,8 +6,10 @@ from types import SimpleNamespace
 import pytest
 
 from tehl import cli
+from tehl.cli.twins import smooth_beside, smooth_file
 from tehl.io.store import save
 from tehl.plots import film_map
+from tehl.post.micro_film import effect_block, roughness_effect
 
 
 @pytest.fixture
@@ -69,6 +71,30 @@ def test_the_report_lands_beside_the_result(stored, run, monkeypatch):
     monkeypatch.setattr("tehl.report.html._CAPTIONS", {})
     assert run("report", str(stored)).code == 0
     assert "<!DOCTYPE html>" in (stored.parent / "ball.html").read_text(encoding="utf-8")
+
+
+def test_the_smooth_film_beside_a_rough_one_is_taken_if_it_fits(rough, smooth, result, tmp_path):
+    stored = tmp_path / "wavy.nc"
+    assert smooth_file(stored).name == "wavy.smooth.nc"
+    assert smooth_beside(stored, rough) is None
+    save(smooth, smooth_file(stored))
+    assert smooth_beside(stored, rough) is not None
+    assert smooth_beside(stored, smooth) is None  # it has no roughness to show
+    save(result, smooth_file(stored))
+    assert smooth_beside(stored, rough) is None  # it lies on another grid
+    smooth_file(stored).write_text("broken")
+    assert smooth_beside(stored, rough) is None
+
+
+def test_the_report_of_a_rough_result_shows_what_roughness_does(
+    rough, smooth, tmp_path, run, monkeypatch
+):
+    monkeypatch.setattr("tehl.report.html._CAPTIONS", {})
+    block = {"roughness_effect": effect_block(roughness_effect(rough, smooth))}
+    save(rough, tmp_path / "wavy.nc", extra=block)
+    assert run("report", str(tmp_path / "wavy.nc")).code == 0
+    page = (tmp_path / "wavy.html").read_text(encoding="utf-8")
+    assert "Film with roughness and without" in page
 
 
 @pytest.mark.parametrize("command", [["export", "--to", "csv"], ["report"]])

@@ -45,6 +45,16 @@ THERMAL = (
 )
 
 
+ROUGH = CASE.replace(
+    "[lubricant]",
+    'roughness = { type = "wave", amplitude = "20 nm", wavelength = "80 um" }\n[lubricant]',
+)
+BOTH = THERMAL.replace(
+    "[lubricant]",
+    'roughness = { type = "wave", amplitude = "20 nm", wavelength = "80 um" }\n[lubricant]',
+)
+
+
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
@@ -56,6 +66,13 @@ def folder(tmp_path, monkeypatch):
 def warm(folder):
     (folder / "warm.toml").write_text(THERMAL)
     return folder
+
+
+@pytest.fixture
+def wavy(warm):
+    (warm / "wavy.toml").write_text(ROUGH)
+    (warm / "both.toml").write_text(BOTH)
+    return warm
 
 
 @pytest.fixture
@@ -171,9 +188,51 @@ def test_without_the_question_there_is_no_answer_about_the_twin(warm, solver, ru
     assert len(solver.calls) == 1
 
 
+def test_the_smooth_twin_is_solved_stored_and_told(wavy, solver, run):
+    answer = run("solve", "wavy.toml", "--with-smooth")
+    first, second = (call.problem for call in solver.calls)
+    assert first.is_rough
+    assert not second.is_rough
+    assert solver.calls[1].options == solver.calls[0].options
+    assert solver.calls[0].options.accuracy == "tight"
+    assert "over smooth      1.0000 of the central" in answer.out
+    assert "between smooth surfaces" in answer.err
+    assert not load("wavy.smooth.nc").problem.is_rough
+    assert "written: wavy.smooth.nc" in answer.err
+
+
+def test_heat_and_roughness_may_be_left_out_in_one_command(wavy, solver, run):
+    answer = run("solve", "both.toml", "--with-smooth", "--with-isothermal", "--json")
+    rough, cold, smooth = (call.problem for call in solver.calls)
+    assert (rough.is_rough, cold.is_rough, smooth.is_rough) == (True, True, False)
+    assert (rough.thermal is None, cold.thermal is None, smooth.thermal is None) == (
+        False, True, False
+    )  # fmt: skip
+    content = json.loads(answer.out)
+    assert content["thermal_effect"]["central"] == content["roughness_effect"]["central"] == 1.0
+    with h5netcdf.File("both.nc") as file:
+        assert json.loads(file.attrs["summary"]) == content
+
+
+def test_a_smooth_twin_without_an_answer_spoils_nothing(wavy, solver, run):
+    solver.cold = Status(kind="stalled", cause="grid_too_coarse", message="too coarse", hint="h")
+    answer = run("solve", "wavy.toml", "--with-smooth", "--json")
+    assert answer.code == 0
+    assert "no answer between smooth surfaces to compare with" in answer.err
+    assert json.loads(answer.out)["roughness_effect"] is None
+    assert not Path("wavy.smooth.nc").exists()
+
+
+def test_a_failure_asks_for_no_twins(wavy, solver, run):
+    solver.outcome = Status(kind="stalled", cause="grid_too_coarse", message="m", hint="h")
+    assert run("solve", "wavy.toml", "--with-smooth").code == 1
+    assert len(solver.calls) == 1
+
+
 @pytest.mark.parametrize(
     ("words", "reason"),
     [
+        (["ball.toml", "--with-smooth"], "both surfaces are smooth"),
         (["ball.toml", "--with-isothermal"], "no [thermal] table"),
         (["none.toml"], "no such case file"),
         (["ball.toml", "-o", "none/out.nc"], "does not exist"),

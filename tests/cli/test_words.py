@@ -1,13 +1,17 @@
 """The lines that a solve prints."""
 
+import math
 from dataclasses import replace
 
-from tehl.cli.words import as_text, effect_as_text, headline
+from tehl.cli.words import as_text, effect_as_text, headline, roughness_effect_as_text
 from tehl.film_formulas import InletFactor
+from tehl.post.micro_film import roughness_effect
+from tehl.post.roughness import rough_film
 from tehl.post.thermal_effect import ThermalEffect
 from tehl.report.explain import length
 from tehl.report.html import report_text
 from tehl.result import Estimate, Status
+from tests.fixtures_rough import make_rough
 
 
 def test_a_film_reads_in_the_unit_that_explain_takes(result):
@@ -66,6 +70,28 @@ def test_the_effect_of_heat_names_its_formulas():
     assert "0.9300 of the central, 0.9100 of the minimum" in shown
     assert "0.9500 Wilson-Sheu" in shown
     assert "formula" not in effect_as_text(replace(effect, inlet_factors=()))
+
+
+def test_a_rough_run_tells_its_lambda_ratio_and_what_is_left_of_its_wave(rough, smooth):
+    lines = {line[2:19].strip(): line[19:] for line in as_text(rough).splitlines()[1:]}
+    assert f"lambda = {rough.roughness.lambda_ratio:.3g} " in lines["roughness"]
+    assert " at 45 deg: " in lines["waves left"]
+    assert "20 % in the film (theory" in as_text(rough, rough=rough_film(rough, smooth))
+    assert "roughness" not in as_text(smooth)
+
+
+def test_crests_along_the_entrainment_are_left_to_the_inlet():
+    shown = as_text(make_rough(angle=0.5 * math.pi))
+    assert "as the inlet lets it" in shown
+    assert " at 90 deg: " in shown
+
+
+def test_the_effect_of_roughness_is_told_with_traction_where_there_is_sliding(rough, smooth):
+    effect = roughness_effect(rough, smooth)
+    assert "1.0000 of the central" in roughness_effect_as_text(effect)
+    assert "traction" not in roughness_effect_as_text(effect)
+    sliding = replace(effect, traction=1.25)
+    assert "1.2500 of the traction" in roughness_effect_as_text(sliding)
 
 
 def test_a_case_without_a_title_has_one(result):

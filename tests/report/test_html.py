@@ -6,6 +6,7 @@ from html.parser import HTMLParser
 import pytest
 
 from tehl.film_formulas import InletFactor
+from tehl.post.micro_film import roughness_effect
 from tehl.post.thermal_effect import ThermalEffect
 from tehl.report import html
 from tehl.report.html import report_text, write_report
@@ -152,3 +153,15 @@ def test_the_film_without_heat_stands_beside_the_one_with_it(thermal, monkeypatc
     assert "Film with heat and without" in text
     assert all(number in text for number in ("0.9875", "0.9625", "1234 nm", "0.9375", "odd"))
     assert "Film with heat and without" not in report_text(thermal)
+
+
+def test_a_rough_film_has_a_section_with_its_waves_and_pictures(rough, smooth):
+    effect = roughness_effect(rough, smooth)
+    page = Page(report_text(rough, dpi=30, roughness=effect, smooth=smooth))
+    words = " ".join(page.words)
+    assert "lambda ratio" in words
+    assert "left in the film" in words
+    assert "(20 %)" in words
+    assert "Film with roughness and without" in words
+    assert "Ripples of film and pressure." in words
+    assert "Roughness" not in " ".join(Page(report_text(smooth, dpi=30)).words)

@@ -15,6 +15,7 @@ def plot(
     dpi: Annotated[int, typer.Option(min=30, max=1200, help="Dots per inch.")] = 150,
 ) -> None:
     """Draw all pictures of a stored result; nothing is compiled or solved."""
+    from tehl.cli.twins import smooth_beside
     from tehl.io.atomic import check_folder
     from tehl.io.store import load
     from tehl.plots.save import save_all
@@ -22,5 +23,5 @@ def plot(
     folder = stored.with_name(f"{stored.stem}_plots") if output is None else output
     check_folder(folder)
     result = load(stored)
-    for path in save_all(result, folder, dpi=dpi):
+    for path in save_all(result, folder, dpi=dpi, smooth=smooth_beside(stored, result)):
         typer.echo(path)

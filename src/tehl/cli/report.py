@@ -13,13 +13,21 @@ def report(
     ] = None,
 ) -> None:
     """Write one self-contained HTML page: inputs, groups, pictures, formulas, convergence."""
+    from tehl.cli.twins import smooth_beside
     from tehl.io.atomic import check_writable
     from tehl.io.store import load, load_summary
-    from tehl.post.thermal_effect import stored_effect
+    from tehl.post import micro_film, thermal_effect
     from tehl.report.html import write_report
 
     path = stored.with_suffix(".html") if output is None else output
     check_writable(path, sources=(stored,))
     result = load(stored)
-    write_report(result, path, effect=stored_effect(load_summary(stored)))
+    summary = load_summary(stored)
+    write_report(
+        result,
+        path,
+        effect=thermal_effect.stored_effect(summary),
+        roughness=micro_film.stored_effect(summary),
+        smooth=smooth_beside(stored, result),
+    )
     typer.echo(path)

@@ -1,13 +1,13 @@
 """``tehl solve``: from a case file to a stored film."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 if TYPE_CHECKING:
+    from tehl.cli.twins import Effects, Twins
     from tehl.options import Options
-    from tehl.post.thermal_effect import ThermalEffect
     from tehl.problem import ContactProblem
     from tehl.result import Result
 
@@ -40,6 +40,13 @@ def solve(  # noqa: PLR0913, PLR0917 (the options of the command)
             "--with-isothermal", help="Solve without heat too: what heat does to the film."
         ),
     ] = False,
+    with_smooth: Annotated[
+        bool,
+        typer.Option(
+            "--with-smooth",
+            help="Solve between smooth surfaces too: what roughness does to the film.",
+        ),
+    ] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Show no progress.")] = False,
 ) -> None:
     """Solve a case and store the result.
@@ -47,6 +54,7 @@ def solve(  # noqa: PLR0913, PLR0917 (the options of the command)
     Exit code 0: converged; 1: not converged, the result is stored and marked; 2: bad input,
     nothing is written; 3: the environment failed.
     """
+    from tehl.cli.twins import smooth_file, twins_of
     from tehl.io.case import read_case_and_options
     from tehl.memory import check_memory
 
@@ -54,21 +62,22 @@ def solve(  # noqa: PLR0913, PLR0917 (the options of the command)
     problem, options = read_case_and_options(case, changes)
     _check_output(target, case, plot)
     check_memory(options, problem)
-    twin = _twin(problem) if with_isothermal else None
-    if twin is not None and options.accuracy != "tight":  # small differences need settled films
+    twins = twins_of(problem, cold=with_isothermal, smooth=with_smooth)
+    if twins.smooth is not None:
+        _check_output(smooth_file(target), case, plot)
+    if twins.wanted and options.accuracy != "tight":  # small differences need settled films
         options = options.model_copy(update={"accuracy": "tight", "tolerance": COMPARED_TO})
     result, failure = _run(problem, options, certify=certify, quiet=quiet)
     if as_json:
         result = _with_work(result)
     result.save(target)
-    effect = None
-    if twin is not None and failure is None:
-        effect = _effect(result, twin, quiet=quiet)
-        _save_effect(result, effect, target)
-    _tell(result, effect, as_json=as_json, compared=twin is not None)
+    effects = _effects(result, twins, target, quiet=quiet) if failure is None else _no_effects()
+    _tell(result, effects, as_json=as_json)
     typer.echo(f"written: {target}", err=True)
+    if effects.smooth is not None:
+        typer.echo(f"written: {smooth_file(target)}", err=True)
     if plot is not None:
-        _draw(result, plot)
+        _draw(result, plot, effects.smooth)
     if failure is not None:
         _explain_failure(result, failure)
         raise typer.Exit(1)
@@ -113,59 +122,54 @@ def _with_work(result: "Result") -> "Result":
     return with_work(result)
 
 
-def _twin(problem: "ContactProblem") -> "ContactProblem":
-    from tehl.post.thermal_effect import isothermal_twin
+def _no_effects() -> "Effects":
+    from tehl.cli.twins import Effects
 
-    return isothermal_twin(problem)
-
-
-def _effect(result: "Result", twin: "ContactProblem", *, quiet: bool) -> "ThermalEffect | None":
-    """Solve the isothermal twin; return the comparison, None when the twin has no answer."""
-    from tehl.post.thermal_effect import thermal_effect
-
-    if not quiet:
-        typer.echo("without heat", err=True)
-    other, failure = _run(twin, result.options, certify=False, quiet=quiet)
-    if failure is not None:
-        typer.echo(f"tehl: no answer without heat to compare with: {failure}", err=True)
-        return None
-    return thermal_effect(result, other)
+    return Effects()
 
 
-def _save_effect(result: "Result", effect: "ThermalEffect | None", target: Path) -> None:
+def _effects(result: "Result", twins: "Twins", target: Path, *, quiet: bool) -> "Effects":
+    """Solve the twins, store what they show, and return it."""
+    from tehl.cli.twins import effects_of, smooth_file
     from tehl.io.store import save
 
-    save(result, target, extra=_block(effect))
+    def solved(twin: "ContactProblem", what: str) -> "Result | None":
+        if not quiet:
+            typer.echo(what, err=True)
+        other, failure = _run(twin, result.options, certify=False, quiet=quiet)
+        if failure is None:
+            return other
+        typer.echo(f"tehl: no answer {what} to compare with: {failure}", err=True)
+        return None
+
+    if not twins.wanted:
+        return _no_effects()
+    effects = effects_of(result, twins, solved)
+    save(result, target, extra=effects.blocks)
+    if effects.smooth is not None:
+        effects.smooth.save(smooth_file(target))
+    return effects
 
 
-def _block(effect: "ThermalEffect | None") -> dict[str, Any]:
-    """Return what the summary says of the comparison, null where there is none."""
-    from tehl.io.summary import plain
-    from tehl.post.thermal_effect import effect_block
-
-    return {"thermal_effect": None if effect is None else plain(effect_block(effect))}
-
-
-def _tell(
-    result: "Result", effect: "ThermalEffect | None", *, as_json: bool, compared: bool
-) -> None:
+def _tell(result: "Result", effects: "Effects", *, as_json: bool) -> None:
     import json
 
-    from tehl.cli.words import as_text, effect_as_text
+    from tehl.cli.words import as_text, effect_as_text, roughness_effect_as_text
 
     if as_json:
-        summary = result.summary() | (_block(effect) if compared else {})
-        typer.echo(json.dumps(summary, allow_nan=False))
+        typer.echo(json.dumps(result.summary() | effects.blocks, allow_nan=False))
         return
-    typer.echo(as_text(result))
-    if effect is not None:
-        typer.echo(effect_as_text(effect))
+    typer.echo(as_text(result, rough=effects.rough_film))
+    if effects.heat is not None:
+        typer.echo(effect_as_text(effects.heat))
+    if effects.roughness is not None:
+        typer.echo(roughness_effect_as_text(effects.roughness))
 
 
-def _draw(result: "Result", folder: Path) -> None:
+def _draw(result: "Result", folder: Path, smooth: "Result | None") -> None:
     from tehl.plots.save import save_all
 
-    for path in save_all(result, folder):
+    for path in save_all(result, folder, smooth=smooth):
         typer.echo(f"written: {path}", err=True)
 
 

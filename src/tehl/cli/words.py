@@ -1,12 +1,16 @@
 """A result told to people, in a few lines."""
 
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from tehl.report.explain import UNTITLED, length_unit
 
 if TYPE_CHECKING:
+    from tehl.post.micro_film import RoughnessEffect
+    from tehl.post.roughness import RoughFilm
     from tehl.post.thermal_effect import ThermalEffect
+    from tehl.post.waviness import WaveResponse
     from tehl.result import Result
 
 UNUSUAL_BALANCE = 0.05
@@ -18,8 +22,16 @@ def headline(result: "Result") -> str:
     return f"{result.problem.title or UNTITLED} - {result.status.outcome}"
 
 
-def as_text(result: "Result") -> str:
-    """Return the numbers of ``result`` that people ask for first, one per line."""
+def as_text(result: "Result", *, rough: "RoughFilm | None" = None) -> str:
+    """Return the numbers of ``result`` that people ask for first, one per line.
+
+    Parameters
+    ----------
+    result : Result
+        What to tell.
+    rough : RoughFilm or None
+        Its film between rough surfaces, if it is known better than the result alone knows it.
+    """
     groups, nx, ny = result.groups, result.scaled.x.size, result.scaled.y.size
     x, y = result.scaled.x, result.scaled.y
     rows = [
@@ -28,6 +40,7 @@ def as_text(result: "Result") -> str:
         ("largest pressure", _pressure(result)),
         *_heat(result),
         *_traction(result),
+        *_roughness(rough or result.roughness),
         ("groups", f"M = {groups.M:.4g}, L = {groups.L:.4g}, alpha p_h = {groups.alpha_bar:.4g}"),
         ("grid", f"{nx} x {ny} on [{x[0]:g}, {x[-1]:g}] x [{y[0]:g}, {y[-1]:g}] half-widths"),
         ("effort", _effort(result)),
@@ -103,6 +116,37 @@ def too_much_traction(result: "Result") -> str:
     return f"more than any oil bears: the shear law is {law}, {how}"
 
 
+def _roughness(found: "RoughFilm | None") -> Iterator[tuple[str, str]]:
+    """Yield the rows of a film between surfaces that are not ideally smooth."""
+    if found is None:
+        return
+    yield (
+        "roughness",
+        f"Sq = {_length(found.composite)} of both, lambda = {found.lambda_ratio:.3g} (film over Sq)"
+        f", {100 * found.below_composite:.2g} % of the contact below Sq",
+    )
+    for number, wave in enumerate(found.waves):
+        yield "" if number else "waves left", wave_in_words(wave)
+
+
+def wave_in_words(wave: "WaveResponse") -> str:
+    """Return what is left of a wave in film and pressure, in a line."""
+    giga, along = 1e-9, wave.theory.pressure == 0
+    film = "as the inlet lets it" if along else f"theory {100 * wave.theory.film_ratio:.3g}"
+    pressure = "" if along else f"theory {wave.theory.pressure * giga:.3g}, "
+    return (
+        f"{_length(wave.wavelength)} at {math.degrees(wave.angle) + 0.0:.3g} deg: "
+        f"{100 * wave.film_ratio:.3g} % in the film ({film}), "
+        f"{wave.pressure_amplitude * giga:.3g} GPa "
+        f"({pressure}{wave.theory.elastic_pressure * giga:.3g} flattens it)"
+    )
+
+
+def _length(metres: float) -> str:
+    factor, unit = length_unit(metres)
+    return f"{metres * factor:.4g} {unit}"
+
+
 def effect_as_text(effect: "ThermalEffect") -> str:
     """Return what heat does to the film in a line or two."""
     parts = [
@@ -113,6 +157,15 @@ def effect_as_text(effect: "ThermalEffect") -> str:
         factors = ", ".join(f"{one.factor:.4f} {one.formula}" for one in effect.inlet_factors)
         parts.append(f"  {'inlet heating':<17}by formula {factors}")
     return "\n".join(parts)
+
+
+def roughness_effect_as_text(effect: "RoughnessEffect") -> str:
+    """Return what roughness does to the film in a line."""
+    traction = "" if effect.traction is None else f", {effect.traction:.4f} of the traction"
+    return (
+        f"  {'over smooth':<17}{effect.central:.4f} of the central, {effect.minimum:.4f} of the "
+        f"minimum film, {effect.largest_pressure:.4f} of the largest pressure{traction}"
+    )
 
 
 def _bar(result: "Result", name: str, unit: float, word: str) -> str:

@@ -4,6 +4,12 @@ from tehl.plots.history import residual_history
 from tehl.plots.interferogram import Optics, interferogram
 from tehl.plots.lines import centre_lines
 from tehl.plots.maps import film_map, pressure_map, pressure_surface
+from tehl.plots.roughness import (
+    film_distribution,
+    heights_map,
+    micro_film_map,
+    rough_centre_line,
+)
 from tehl.plots.save import save_all
 from tehl.plots.shear import shear_stress_map
 from tehl.plots.temperature import (
@@ -17,12 +23,16 @@ from tehl.plots.traction import traction_curve
 __all__ = [
     "Optics",
     "centre_lines",
+    "film_distribution",
     "film_map",
+    "heights_map",
     "interferogram",
+    "micro_film_map",
     "mid_film_temperature",
     "pressure_map",
     "pressure_surface",
     "residual_history",
+    "rough_centre_line",
     "save_all",
     "shear_stress_map",
     "surface_heat",

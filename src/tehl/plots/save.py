@@ -1,6 +1,7 @@
 """All pictures of a result into a folder."""
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -10,6 +11,12 @@ from tehl.plots.history import residual_history
 from tehl.plots.interferogram import Optics, interferogram
 from tehl.plots.lines import centre_lines
 from tehl.plots.maps import film_map, pressure_map, pressure_surface
+from tehl.plots.roughness import (
+    film_distribution,
+    heights_map,
+    micro_film_map,
+    rough_centre_line,
+)
 from tehl.plots.shear import shear_stress_map
 from tehl.plots.temperature import (
     mid_film_temperature,
@@ -19,7 +26,9 @@ from tehl.plots.temperature import (
 )
 from tehl.result import Result
 
-PICTURES: dict[str, Callable[[Result], Figure]] = {
+Picture = Callable[[Result], Figure]
+
+PICTURES: dict[str, Picture] = {
     "film": film_map,
     "pressure": pressure_map,
     "pressure_surface": pressure_surface,
@@ -34,10 +43,10 @@ PICTURES: dict[str, Callable[[Result], Figure]] = {
 
 """Pictures that every result has, by name."""
 
-SHEAR_PICTURES: dict[str, Callable[[Result], Figure]] = {"shear_stress": shear_stress_map}
+SHEAR_PICTURES: dict[str, Picture] = {"shear_stress": shear_stress_map}
 """Pictures of a film that slides."""
 
-HEAT_PICTURES: dict[str, Callable[[Result], Figure]] = {
+HEAT_PICTURES: dict[str, Picture] = {
     "temperature": mid_film_temperature,
     "temperature_layers": temperature_layers,
     "temperature_section": temperature_section,
@@ -46,17 +55,41 @@ HEAT_PICTURES: dict[str, Callable[[Result], Figure]] = {
 """Pictures of a thermal run."""
 
 
-def pictures_of(result: Result) -> dict[str, Callable[[Result], Figure]]:
-    """Return the pictures that ``result`` has, by name."""
+def rough_pictures(result: Result, smooth: Result | None) -> dict[str, Picture]:
+    """Return the pictures of a film between surfaces that are not ideally smooth, by name."""
+    if result.roughness is None:
+        return {}
+    heights: dict[str, Picture] = {
+        "heights": heights_map,
+        "micro_film": partial(micro_film_map, smooth=smooth),
+        "rough_centre_line": partial(rough_centre_line, smooth=smooth),
+    }
+    stands = result.heights is not None
+    return {**(heights if stands else {}), "film_distribution": film_distribution}
+
+
+def pictures_of(result: Result, smooth: Result | None = None) -> dict[str, Picture]:
+    """Return the pictures that ``result`` has, by name.
+
+    Parameters
+    ----------
+    result : Result
+        What to draw.
+    smooth : Result or None
+        The film between smooth surfaces on the same grid, for pictures of ripples.
+    """
     slides = result.shear is not None and result.problem.slide_roll_ratio != 0
     return {
         **PICTURES,
+        **rough_pictures(result, smooth),
         **(SHEAR_PICTURES if slides else {}),
         **(HEAT_PICTURES if result.heat is not None else {}),
     }
 
 
-def save_all(result: Result, folder: str | Path, *, dpi: int = 150) -> list[Path]:
+def save_all(
+    result: Result, folder: str | Path, *, dpi: int = 150, smooth: Result | None = None
+) -> list[Path]:
     """Draw all pictures that ``result`` has as PNG files; each appears whole or not at all.
 
     Parameters
@@ -67,6 +100,8 @@ def save_all(result: Result, folder: str | Path, *, dpi: int = 150) -> list[Path
         Where; made if it is missing.
     dpi : int
         Dots per inch.
+    smooth : Result or None
+        The film between smooth surfaces on the same grid, for pictures of ripples.
 
     Returns
     -------
@@ -83,7 +118,7 @@ def save_all(result: Result, folder: str | Path, *, dpi: int = 150) -> list[Path
     place.mkdir(parents=True, exist_ok=True)
     return [
         _save(draw(result), place / f"{name}.png", dpi)
-        for name, draw in pictures_of(result).items()
+        for name, draw in pictures_of(result, smooth).items()
     ]
 
 

@@ -11,11 +11,14 @@ from matplotlib.figure import Figure
 from tehl.film_formulas import film_estimates
 from tehl.io.atomic import check_writable, replacing
 from tehl.io.content import DEFINITIONS
-from tehl.plots.save import pictures_of
+from tehl.plots.save import Picture, pictures_of
 from tehl.post.film import no_film
 from tehl.post.heat import Temperature
+from tehl.post.micro_film import RoughnessEffect
+from tehl.post.roughness import rough_film
 from tehl.post.thermal_effect import ThermalEffect
 from tehl.report.inputs import input_rows
+from tehl.report.rough_film import WAVE_HEAD, WAVE_NOTE, effect_rows, film_rows, wave_rows
 from tehl.result import ErrorEstimate, Estimate, FilmHeat, HeatBalance, Result
 
 _STYLE = """
@@ -56,6 +59,10 @@ _CAPTIONS = {
     "pressure_surface": "Pressure along x, one profile behind another.",
     "centre_lines": "Pressure and film on the centre lines over the dry contact.",
     "residuals": "Convergence, grid after grid.",
+    "heights": "Heights of both surfaces together, positive outwards: peaks narrow the film.",
+    "micro_film": "Ripples of film and pressure.",
+    "rough_centre_line": "Pressure, film and heights along y = 0.",
+    "film_distribution": "How the film is distributed over the Hertz contact.",
     "shear_stress": "Shear stress half-way between the surfaces.",
     "temperature": "Temperature rise half-way between the surfaces, over the oil at the inlet.",
     "temperature_layers": "Temperature rise on both surfaces and in the film.",
@@ -66,7 +73,14 @@ _CAPTIONS = {
 }
 
 
-def write_report(result: Result, path: str | Path, *, effect: ThermalEffect | None = None) -> None:
+def write_report(
+    result: Result,
+    path: str | Path,
+    *,
+    effect: ThermalEffect | None = None,
+    roughness: RoughnessEffect | None = None,
+    smooth: Result | None = None,
+) -> None:
     """Write ``result`` as one HTML file with its pictures inside; whole, or not at all.
 
     Parameters
@@ -77,6 +91,10 @@ def write_report(result: Result, path: str | Path, *, effect: ThermalEffect | No
         The file; an older one is replaced.
     effect : ThermalEffect or None
         What heat does to the film, from an isothermal twin, if it was solved.
+    roughness : RoughnessEffect or None
+        What roughness does to the film, from a smooth twin, if it was solved.
+    smooth : Result or None
+        That twin, for the pictures.
 
     Raises
     ------
@@ -84,12 +102,19 @@ def write_report(result: Result, path: str | Path, *, effect: ThermalEffect | No
         If the file cannot be written there.
     """
     check_writable(path)
-    text = report_text(result, effect=effect)
+    text = report_text(result, effect=effect, roughness=roughness, smooth=smooth)
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
 
 
-def report_text(result: Result, *, dpi: int = 110, effect: ThermalEffect | None = None) -> str:
+def report_text(
+    result: Result,
+    *,
+    dpi: int = 110,
+    effect: ThermalEffect | None = None,
+    roughness: RoughnessEffect | None = None,
+    smooth: Result | None = None,
+) -> str:
     """Return the page as text.
 
     Parameters
@@ -100,6 +125,10 @@ def report_text(result: Result, *, dpi: int = 110, effect: ThermalEffect | None 
         Dots per inch of the pictures.
     effect : ThermalEffect or None
         What heat does to the film, if it is known.
+    roughness : RoughnessEffect or None
+        What roughness does to the film, if it is known.
+    smooth : Result or None
+        The film between smooth surfaces, if it is known.
     """
     title = escape(result.problem.title or "Lubricated point contact")
     sections = (
@@ -107,7 +136,8 @@ def report_text(result: Result, *, dpi: int = 110, effect: ThermalEffect | None 
         *_heat_section(result),
         *_effect_section(result, effect),
         *_traction_section(result),
-        _section("Pictures", _pictures(result, dpi)),
+        *_roughness_section(result, roughness, smooth),
+        _section("Pictures", _pictures(pictures_of(result, smooth), result, dpi)),
         _section("Formulas against computed", _formulas(result)),
         _section("Inputs", _inputs(result)),
         _section("Dimensionless groups", _groups(result)),
@@ -283,8 +313,25 @@ def _traction_section(result: Result) -> Iterator[str]:
     )
 
 
-def _pictures(result: Result, dpi: int) -> str:
-    known = pictures_of(result)
+def _roughness_section(
+    result: Result, effect: RoughnessEffect | None, smooth: Result | None
+) -> Iterator[str]:
+    """Yield the section about rough surfaces, nothing for smooth ones."""
+    found = rough_film(result, smooth)
+    if found is None:
+        return
+    body = _table(("", "", ""), film_rows(found))
+    if found.waves:
+        body += "<h3>Waves of the surfaces, in the middle of the contact</h3>"
+        body += _table(WAVE_HEAD, wave_rows(found.waves))
+        body += f"<p class=small>{escape(WAVE_NOTE)}</p>"
+    if effect is not None:
+        body += "<h3>Film with roughness and without</h3>"
+        body += _table(("", "rough", "smooth", "ratio"), effect_rows(result, effect))
+    yield _section("Roughness", body)
+
+
+def _pictures(known: dict[str, Picture], result: Result, dpi: int) -> str:
     figures = [
         f'<figure><img alt="{escape(caption)}" src="{_image(known[name](result), dpi)}">'
         f"<figcaption>{escape(caption)}</figcaption></figure>"
