@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tehl.cli import COMMANDS, main
-from tehl.io.templates import templates
+from tehl.io.templates import template_text, templates
 
 HEAVY = ("numba", "scipy", "xarray", "matplotlib", "h5py", "pandas")
 
@@ -55,6 +55,12 @@ def test_help_loads_no_machinery():
 
 def test_explain_loads_no_machinery(case: Path):
     assert not loaded("explain", str(case)) & {*HEAVY, "rich"}
+
+
+def test_explain_of_a_wave_loads_no_machinery(tmp_path: Path):
+    path = tmp_path / "rough.toml"
+    path.write_text(template_text("rough"), encoding="utf-8")
+    assert not loaded("explain", str(path)) & {*HEAVY, "rich"}
 
 
 def test_new_lists_its_templates(monkeypatch, capsys):

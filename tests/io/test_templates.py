@@ -23,7 +23,9 @@ def test_every_template_is_a_case(name: str, tmp_path: Path):
     assert 0.3e9 < problem.hertz.pressure < 2e9
 
 
-@pytest.mark.parametrize("name", ["ball-on-disc", "moes", "thermal", "dimple", "data-sheet"])
+@pytest.mark.parametrize(
+    "name", ["ball-on-disc", "moes", "rough", "thermal", "dimple", "data-sheet"]
+)
 def test_a_template_does_not_look_odd(name: str):
     problem, options = case_from_tables(tomllib.loads(template_text(name)))
     assert explain(problem, options).questions == ()

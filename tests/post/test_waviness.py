@@ -9,6 +9,7 @@ import pytest
 from tehl.post.waviness import bulk_modulus, wave_responses
 from tehl.problem import ContactProblem
 from tehl.result import SurfaceHeights
+from tehl.transient import Transient
 from tests.fixtures_result import CASE, make_result
 from tests.fixtures_rough import (
     AMPLITUDE,
@@ -81,7 +82,9 @@ def test_the_bulk_modulus_is_that_of_the_law(result):
     p, s, c = 0.8e9, 0.6e-9, 1.7e-9
     slope = s / (1 + c * p) ** 2
     expected = (1 + s * p / (1 + c * p)) / slope
-    assert bulk_modulus(result, p, 313.15) == pytest.approx(expected, rel=1e-6)
+    assert bulk_modulus(result.problem.lubricant.density, p, 313.15) == pytest.approx(
+        expected, rel=1e-6
+    )
 
 
 def test_the_strongest_waves_of_any_surface_are_found(rough):
@@ -104,6 +107,16 @@ def test_waves_too_long_for_the_middle_and_smooth_surfaces_have_no_response(roug
     assert (
         wave_responses(replace(rough, heights=SurfaceHeights(surface_1=flat, surface_2=flat))) == ()
     )
+
+
+def test_a_wave_that_moves_with_the_mean_speed_is_left_to_the_inlet_too(rough):
+    rolling = rough.problem.contact.model_copy(update={"slide_roll_ratio": 0.0})
+    moving = {"transient": Transient(), "contact": rolling}
+    (wave,) = wave_responses(replace(rough, problem=rough.problem.model_copy(update=moving)))
+    assert wave.theory.film_ratio == 1.0
+    sliding = rough.problem.model_copy(update={"transient": Transient()})
+    (wave,) = wave_responses(replace(rough, problem=sliding))
+    assert wave.theory.film_ratio < 0.2
 
 
 def test_both_waves_of_a_sum_are_found():

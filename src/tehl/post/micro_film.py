@@ -70,7 +70,7 @@ class RoughnessEffect:
 
 
 def smooth_twin(problem: ContactProblem) -> ContactProblem:
-    """Return ``problem`` with both surfaces smooth.
+    """Return ``problem`` with both surfaces smooth, and steady.
 
     Raises
     ------
@@ -83,7 +83,7 @@ def smooth_twin(problem: ContactProblem) -> ContactProblem:
         name: getattr(problem, name).model_copy(update={"roughness": Smooth()})
         for name in ("surface_1", "surface_2")
     }
-    return problem.model_copy(update=surfaces)
+    return problem.model_copy(update=surfaces | {"transient": None})
 
 
 def micro_film(rough: Result, smooth: Result | None = None) -> MicroFilm:

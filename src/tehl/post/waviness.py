@@ -6,11 +6,12 @@ a contact. There linear theory gives the ripple of film and pressure, with
 
 .. math:: \frac{\hat p}{A} = -\frac{\kappa E'}{4}\,\frac{iQ}{1 - iQ - iCQ}, \quad
           \frac{\hat h}{A} = -1 - \frac{iQ}{1 - iQ - iCQ}, \quad
-          C = \frac{h E' \kappa}{4B}, \quad Q = -\frac{48\,\eta\,u_m w_x}{E' h^3 \kappa^3}
+          C = \frac{h E' \kappa}{4B}, \quad Q = \frac{48\,\eta\,(u_s - u_m) w_x}{E' h^3 \kappa^3}
 
-B is the bulk modulus. The viscosity in a contact is so large that Q is as good as infinite unless
-crests lie along the entrainment: ``C/(1 + C)`` of the wave is left in the film, and the pressure
-carries ``1/(1 + C)`` of what flattens the whole wave.
+B is the bulk modulus and u_s the speed of the wave, zero for one that stands. The viscosity in a
+contact is so large that Q is as good as infinite unless crests lie along the entrainment or move
+with the mean speed: ``C/(1 + C)`` of the wave is left in the film, and the pressure carries
+``1/(1 + C)`` of what flattens the whole wave.
 
 References
 ----------
@@ -25,6 +26,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tehl.lubricant.density import DensityLaw
+from tehl.problem import ContactProblem
 from tehl.result import Result
 from tehl.roughness import AnyRoughness, Sum, WaveVector
 from tehl.roughness.waves import HarmonicModel
@@ -41,7 +44,7 @@ _STEP = 1e5
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class LinearTheory:
-    """Ripples that linear theory expects of a standing wave.
+    """Ripples that linear theory expects of a wave.
 
     Attributes
     ----------
@@ -128,8 +131,9 @@ def wave_responses(result: Result, smooth: Result | None = None) -> tuple[WaveRe
         return ()
     patch = _Patch.of(result)
     heights = patch.cut(result.heights.together)
-    waves = [wave for wave in _known_waves(result) if patch.holds(wave)]
-    if not waves and not list(_known_waves(result)):
+    known = list(drifting_waves(result.problem))
+    waves = [wave for wave, _ in known if patch.holds(wave)]
+    if not known:
         waves = patch.strongest(heights)
     if not waves:
         return ()
@@ -139,17 +143,33 @@ def wave_responses(result: Result, smooth: Result | None = None) -> tuple[WaveRe
         film, pressure = film - smooth.film_thickness, pressure - smooth.pressure
     fields = (heights, patch.cut(film), patch.cut(pressure))
     ripples = [fit.ripples(field) for field in fields]
-    level = _Level.of(result, patch)
+    level = _flat_film(result, patch)
+    drifts = dict(known) | dict.fromkeys(set(waves) - set(dict(known)), -result.scales.speed)
     return tuple(
-        _response(wave, (r[n] for r in ripples), fit.carried(fields[1], wave), level, patch)
+        WaveResponse(
+            **_place(wave, patch),
+            **_ripple(*(pairs[n] for pairs in ripples)),
+            carried_amplitude=fit.carried(fields[1], wave),
+            theory=level.theory(wave, abs(ripples[0][n]), drifts[wave]),
+        )
         for n, wave in enumerate(waves)
         if abs(ripples[0][n]) > 0
     )
 
 
-def _known_waves(result: Result) -> Iterator[WaveVector]:
-    for surface in (result.problem.surface_1, result.problem.surface_2):
-        yield from waves_of(surface.roughness)
+def drifting_waves(problem: ContactProblem) -> Iterator[tuple[WaveVector, float]]:
+    """Yield each harmonic of both surfaces, and its speed less the mean speed [m/s].
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        Without ``transient`` its waves stand still.
+    """
+    motion = problem.motion
+    speeds = (0.0, 0.0) if problem.transient is None else (motion.speed_1, motion.speed_2)
+    for surface, speed in zip((problem.surface_1, problem.surface_2), speeds, strict=True):
+        for wave in waves_of(surface.roughness):
+            yield wave, speed - motion.entrainment_speed
 
 
 def waves_of(roughness: AnyRoughness) -> Iterator[WaveVector]:
@@ -277,40 +297,45 @@ class _Fit:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class _Level:
-    """What linear theory needs to know of the middle of the contact."""
+class FlatFilm:
+    """What linear theory knows of a film: one of constant thickness under constant pressure.
+
+    Attributes
+    ----------
+    film : float
+        Thickness [m].
+    bulk_modulus : float
+        Of the oil, B = rho dp/drho [Pa].
+    viscosity : float
+        Of the oil under that pressure [Pa s].
+    reduced_modulus : float
+        E' [Pa].
+    """
 
     film: float
     bulk_modulus: float
     viscosity: float
     reduced_modulus: float
-    speed: float
 
-    @classmethod
-    def of(cls, result: Result, patch: _Patch) -> "_Level":
-        pressure = float(patch.cut(result.pressure).mean())
-        temperature = result.scales.temperature
-        if result.heat is not None:
-            layers = np.tensordot(result.heat.weights, result.heat.temperature, axes=1)
-            temperature = float(patch.cut(layers).mean())
-        thinning = 1.0 if result.shear is None else float(patch.cut(result.shear.thinning).mean())
-        law = result.problem.lubricant.viscosity
-        return cls(
-            film=float(patch.cut(result.film_thickness).mean()),
-            bulk_modulus=bulk_modulus(result, pressure, temperature),
-            viscosity=thinning * float(law.viscosity(np.array(pressure), temperature)),
-            reduced_modulus=result.problem.reduced_modulus,
-            speed=result.scales.speed,
-        )
+    def theory(self, wave: WaveVector, amplitude: float, drift: float) -> LinearTheory:
+        """Return the ripples that a wave makes.
 
-    def theory(self, wave: WaveVector, amplitude: float) -> LinearTheory:
-        """Return the ripples of a standing wave of ``amplitude`` [m]."""
+        Parameters
+        ----------
+        wave : WaveVector
+            Its wave numbers.
+        amplitude : float
+            Of the heights [m].
+        drift : float
+            Speed of the wave less the mean speed of both surfaces [m/s]: minus the latter for one
+            that stands.
+        """
         number, stiffness = wave.number, 0.25 * wave.number * self.reduced_modulus
         compressed = self.film * stiffness / self.bulk_modulus
-        carried = 48.0 * self.viscosity * self.speed * wave.along
-        ratio = carried / (self.reduced_modulus * (self.film * number) ** 3)
-        # With v = iQ/(1 - iQ - iCQ), written so that an infinite Q does no harm.
-        flattened = 0j if ratio == 0 else -1.0 / (1.0 + compressed - 1j / ratio)
+        ratio = 48.0 * self.viscosity * drift * wave.along
+        ratio /= self.reduced_modulus * (self.film * number) ** 3
+        # iQ/(1 - iQ - iCQ), written so that an infinite Q does no harm.
+        flattened = 0j if ratio == 0 else -1.0 / (1.0 + compressed + 1j / ratio)
         return LinearTheory(
             compressibility=compressed,
             film_ratio=abs(1.0 + flattened),
@@ -319,35 +344,52 @@ class _Level:
         )
 
 
-def bulk_modulus(result: Result, pressure: float, temperature: float) -> float:
-    """Return rho dp/drho of the oil [Pa] at ``pressure`` [Pa] and ``temperature`` [K]."""
-    law = result.problem.lubricant.density
+def _flat_film(result: Result, patch: _Patch) -> FlatFilm:
+    """Return the means of a film over the patch."""
+    pressure = float(patch.cut(result.pressure).mean())
+    temperature = result.scales.temperature
+    if result.heat is not None:
+        layers = np.tensordot(result.heat.weights, result.heat.temperature, axes=1)
+        temperature = float(patch.cut(layers).mean())
+    thinning = 1.0 if result.shear is None else float(patch.cut(result.shear.thinning).mean())
+    oil = result.problem.lubricant
+    return FlatFilm(
+        film=float(patch.cut(result.film_thickness).mean()),
+        bulk_modulus=bulk_modulus(oil.density, pressure, temperature),
+        viscosity=thinning * float(oil.viscosity.viscosity(np.array(pressure), temperature)),
+        reduced_modulus=result.problem.reduced_modulus,
+    )
+
+
+def bulk_modulus(law: DensityLaw, pressure: float, temperature: float) -> float:
+    """Return rho dp/drho [Pa] at ``pressure`` [Pa] and ``temperature`` [K]."""
     below, here, above = law.density(pressure + np.array([-_STEP, 0.0, _STEP]), temperature)
     return float(here * 2.0 * _STEP / (above - below)) if above > below else math.inf
 
 
-def _response(
-    wave: WaveVector,
-    ripples: Iterator[complex],
-    carried: float,
-    level: _Level,
-    patch: _Patch,
-) -> WaveResponse:
-    height, film, pressure = ripples
-    number = -1.0 if wave.along < 0 or (wave.along == 0 and wave.across > 0) else 1.0
-    angle = math.atan2(-number * wave.across, number * wave.along)
-    return WaveResponse(
-        wavelength=2.0 * math.pi / wave.number,
-        angle=angle,
-        amplitude=abs(height),
-        points_per_wave=patch.points_per_wave(wave),
-        film_amplitude=abs(film),
-        film_phase=_lag(film / -height),
-        pressure_amplitude=abs(pressure),
-        pressure_phase=_lag(pressure / height),
-        carried_amplitude=carried,
-        theory=level.theory(wave, abs(height)),
-    )
+def angle_of(wave: WaveVector) -> float:
+    """Return the angle of a wave as cases state it, between -pi/2 and pi/2 [rad]."""
+    backwards = wave.along < 0 or (wave.along == 0 and wave.across > 0)
+    sign = -1.0 if backwards else 1.0
+    return math.atan2(-sign * wave.across, sign * wave.along)
+
+
+def _place(wave: WaveVector, patch: _Patch) -> dict[str, float]:
+    return {
+        "wavelength": 2.0 * math.pi / wave.number,
+        "angle": angle_of(wave),
+        "points_per_wave": patch.points_per_wave(wave),
+    }
+
+
+def _ripple(height: complex, film: complex, pressure: complex) -> dict[str, float]:
+    return {
+        "amplitude": abs(height),
+        "film_amplitude": abs(film),
+        "film_phase": _lag(film / -height),
+        "pressure_amplitude": abs(pressure),
+        "pressure_phase": _lag(pressure / height),
+    }
 
 
 def _lag(ratio: complex) -> float:

@@ -1,5 +1,6 @@
 """The answer before the solve: what a case means, by formulas alone, at once."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -20,6 +21,14 @@ from tehl.heat import source_form
 from tehl.memory import available_memory, needed_memory
 from tehl.options import Domain, Options, coarsenable
 from tehl.problem import ContactProblem
+from tehl.report.asperities import (
+    ANSWERS,
+    CONVERGES,
+    Asperities,
+    ExpectedWave,
+    asperities,
+    odd_asperities,
+)
 from tehl.report.bodies import BodyEffect, body_effect
 from tehl.report.heating import ExpectedHeat, expected_heat
 from tehl.report.suspicion import questions
@@ -55,6 +64,8 @@ class Explanation:
         By each formula.
     lambda_ratio : float or None
         Central film over roughness of both surfaces [-]; None when no roughness is stated.
+    roughness : Asperities or None
+        What the heights of the surfaces mean; None where both are smooth.
     peclet : tuple of (float or None)
         ``|u_s| a_x / (2 diffusivity)`` of both solids [-]; None where a property is not stated.
     inlet_heating : float or None
@@ -89,6 +100,7 @@ class Explanation:
     central_film: float
     films: tuple[FilmEstimate, ...]
     lambda_ratio: float | None
+    roughness: Asperities | None
     peclet: tuple[float | None, float | None]
     inlet_heating: float | None
     inlet_factors: tuple[InletFactor, ...]
@@ -110,7 +122,10 @@ def explain(problem: ContactProblem, options: Options) -> Explanation:
     film = expected_central_film(case_groups) * case_scales.film_thickness
     wanted = recommended_domain(case_groups)
     nodes = options.shape[0] * options.shape[1]
-    rough, (first, second) = problem.rms_roughness, problem.solid_peclet
+    first, second = problem.solid_peclet
+    domain = options.domain if isinstance(options.domain, Domain) else wanted
+    heights = asperities(problem, options, domain, film)
+    rough = problem.rms_roughness if heights is None else heights.composite
     heat, bodies = expected_heat(problem), body_effect(problem)
     thinnest = bodies.groups if bodies is not None and bodies.ratio < 1 else case_groups
     return Explanation(
@@ -122,6 +137,7 @@ def explain(problem: ContactProblem, options: Options) -> Explanation:
         central_film=film,
         films=film_estimates(case_groups, case_scales),
         lambda_ratio=film / rough if rough > 0 else None,
+        roughness=heights,
         peclet=(None if first is None else abs(first), None if second is None else abs(second)),
         inlet_heating=inlet_heating_factor(problem),
         inlet_factors=inlet_factors(problem),
@@ -129,12 +145,15 @@ def explain(problem: ContactProblem, options: Options) -> Explanation:
         bodies=bodies,
         heat=heat,
         sources=(_source(problem, first), _source(problem, second)),
-        domain=options.domain if isinstance(options.domain, Domain) else wanted,
+        domain=domain,
         recommended_domain=wanted,
         needed_points=coarsenable(needed_points(thinnest) - 2)[1],
         memory=needed_memory(options, problem),
         seconds=(SECONDS_COUPLED if problem.is_coupled else SECONDS_PER_NODE) * nodes,
-        questions=questions(problem, options, case_groups, film, heat=heat),
+        questions=(
+            *questions(problem, options, case_groups, film, heat=heat),
+            *odd_asperities(heights, problem, options, film),
+        ),
     )
 
 
@@ -160,6 +179,7 @@ def as_summary(explanation: Explanation) -> dict[str, Any]:
         "central_film_m": case.central_film,
         "films": [asdict(film) | {"valid": film.valid} for film in case.films],
         "lambda_ratio": case.lambda_ratio,
+        "roughness": None if case.roughness is None else asdict(case.roughness),
         "solid_peclet": list(case.peclet),
         "inlet_heating_factor": case.inlet_heating,
         "inlet_factors": [asdict(factor) for factor in case.inlet_factors],
@@ -186,6 +206,7 @@ def as_text(explanation: Explanation) -> str:
         _about_case(explanation),
         _about_groups(explanation),
         _about_film(explanation),
+        *([_about_roughness(explanation.roughness)] if explanation.roughness else []),
         _about_heat(explanation),
         _about_numerics(explanation),
         _about_questions(explanation),
@@ -270,6 +291,36 @@ def _about_bodies(bodies: BodyEffect) -> Iterator[str]:
         f"      note: with oil of {bodies.temperature - 273.15:.4g} degC, the mean of both bodies, "
         f"{bodies.ratio:.2g} times that of Nijenbanning-Venner-Moes"
     )
+
+
+def _about_roughness(found: Asperities) -> Iterator[str]:
+    if found.stands:
+        yield "Roughness (without [transient] it stands still in the contact: quasi-steady)"
+    else:
+        yield "Roughness (moves with its surfaces)"
+    first, second = map(length, found.sq)
+    yield _row("Sq", f"surface 1 {first}", f"surface 2 {second}", f"both {length(found.composite)}")
+    yield _row("steepest slope", f"{found.steepest:.2g}")
+    enough = (found.points_to_converge, found.points_to_answer)
+    yield _row(
+        "shortest wave",
+        f"{length(found.shortest_wave)} along an axis",
+        f"{found.points_per_wave:.3g} nodes on it",
+        f"({CONVERGES} to converge: {enough[0]}, {ANSWERS} for its ripples: {enough[1]} nodes)",
+    )
+    for wave in found.waves:
+        yield _row("wave", *_about_wave(wave))
+
+
+def _about_wave(wave: ExpectedWave) -> Iterator[str]:
+    yield f"{length(wave.wavelength)} at {math.degrees(wave.angle) + 0.0:.3g} deg"
+    giga = 1e-9
+    if wave.left_to_inlet:
+        yield "the inlet decides what is left of it"
+    else:
+        yield f"{100 * wave.film_ratio:.3g} % left in the film"
+        yield f"pressure +-{wave.pressure * giga:.2g} GPa"
+    yield f"({wave.elastic_pressure * giga:.2g} GPa flatten it)"
 
 
 def _about_heat(case: Explanation) -> Iterator[str]:

@@ -1,0 +1,257 @@
+"""What can be said of rough surfaces before the solve: heights, grid, waves, what is odd."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from tehl.options import Domain, Options, coarsenable
+from tehl.problem import ContactProblem, Surface
+from tehl.roughness import Roughness
+
+if TYPE_CHECKING:
+    from tehl.typing import Array
+
+CONVERGES, ANSWERS = 8, 16
+"""Nodes on the shortest wave with which runs converge, and with which ripples are right to 3 %."""
+STEEP = 0.1
+"""Slope from which on Reynolds' equation is doubted."""
+_SAMPLES = (129, 513)
+_LARGEST = 16385
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class ExpectedWave:
+    """One harmonic and what linear theory leaves of it.
+
+    Attributes
+    ----------
+    wavelength, angle, amplitude : float
+        [m], [rad], [m].
+    film_ratio : float
+        Part that is left in the film [-].
+    pressure, elastic_pressure : float
+        Amplitude of the pressure, and the one that flattens the whole wave [Pa].
+    """
+
+    wavelength: float
+    angle: float
+    amplitude: float
+    film_ratio: float
+    pressure: float
+    elastic_pressure: float
+
+    @property
+    def left_to_inlet(self) -> bool:
+        """Whether the pressure leaves the wave alone, so that the inlet decides."""
+        return self.pressure == 0
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Asperities:
+    """What the heights of a case mean for its contact and its grid.
+
+    Attributes
+    ----------
+    sq : (float, float)
+        Root mean square height of each surface where |X|, |Y| < 1; ``rms_roughness`` where a
+        smooth surface states it [m].
+    composite : float
+        Of both [m].
+    steepest : float
+        Largest slope of the heights [-].
+    shortest_wave : float
+        Shortest wave along either axis [m].
+    points_per_wave : float
+        Nodes of the grid on it [-].
+    points_to_converge, points_to_answer : int
+        Nodes per direction that put 8 and 16 on it.
+    stands : bool
+        Whether the roughness stands still in the contact.
+    waves : tuple of ExpectedWave
+        Of surfaces that consist of waves.
+    remarks : tuple of str
+        What is odd about a surface beside the contact.
+    """
+
+    sq: tuple[float, float]
+    composite: float
+    steepest: float
+    shortest_wave: float
+    points_per_wave: float
+    points_to_converge: int
+    points_to_answer: int
+    stands: bool
+    waves: tuple[ExpectedWave, ...]
+    remarks: tuple[str, ...]
+
+
+def asperities(
+    problem: ContactProblem, options: Options, domain: Domain, film: float
+) -> Asperities | None:
+    """Return what the heights of a case mean; None where both surfaces are smooth.
+
+    Parameters
+    ----------
+    problem, options : ContactProblem, Options
+        The case.
+    domain : Domain
+        That of the solve.
+    film : float
+        Central film to expect [m].
+
+    Raises
+    ------
+    InputError
+        If a measured surface cannot be read.
+    """
+    if not problem.is_rough:
+        return None
+    mesh = _mesh(problem, options, domain)
+    looks = [_look(surface.roughness, problem, mesh) for surface in _surfaces(problem)]
+    stated = [surface.rms_roughness for surface in _surfaces(problem)]
+    sq = tuple(look.sq or rms for look, rms in zip(looks, stated, strict=True))
+    waves = [min(pair) for pair in zip(*(look.waves for look in looks), strict=True)]
+    counts = [wave / step for wave, step in zip(waves, mesh, strict=True)]
+    fewest, axis = min((count, number) for number, count in enumerate(counts))
+    return Asperities(
+        sq=(sq[0], sq[1]),
+        composite=math.hypot(*sq),
+        steepest=max(look.steepest for look in looks),
+        shortest_wave=waves[axis],
+        points_per_wave=fewest,
+        points_to_converge=_needed(options, fewest, axis, CONVERGES),
+        points_to_answer=_needed(options, fewest, axis, ANSWERS),
+        stands=problem.transient is None,
+        waves=tuple(_expected_waves(problem, film)),
+        remarks=tuple(_remarks(problem)),
+    )
+
+
+def _surfaces(problem: ContactProblem) -> tuple[Surface, Surface]:
+    return problem.surface_1, problem.surface_2
+
+
+def _mesh(problem: ContactProblem, options: Options, domain: Domain) -> tuple[float, float]:
+    """Return the mesh widths of the finest grid [m]."""
+    ny, nx = options.shape
+    hertz = problem.hertz
+    return (
+        (domain.x[1] - domain.x[0]) / (nx - 1) * hertz.half_width_x,
+        (domain.y[1] - domain.y[0]) / (ny - 1) * hertz.half_width_y,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Look:
+    """Heights of one surface in the contact, as a mesh carries them."""
+
+    sq: float
+    steepest: float
+    waves: tuple[float, float]
+
+
+def _look(roughness: Roughness, problem: ContactProblem, mesh: tuple[float, float]) -> _Look:
+    import numpy as np  # noqa: PLC0415 (smooth cases are explained without arrays)
+
+    if roughness.is_smooth:
+        return _Look(0.0, 0.0, (math.inf, math.inf))
+    resolved, hertz = roughness.resolved_on(*mesh), problem.hertz
+    widths, waves = (hertz.half_width_x, hertz.half_width_y), resolved.shortest_wavelengths
+    finest = max(2.0 * width / wave for width, wave in zip(widths, waves, strict=True))
+    count = int(min(max(_SAMPLES[0], ANSWERS * finest), _SAMPLES[1]))
+    x, y = (np.linspace(-width, width, count) for width in widths)
+    heights = np.broadcast_to(resolved.height(x[None, :], y[:, None]), (count, count))
+    return _Look(float(np.std(heights)), _steepest(heights, x, y), waves)
+
+
+def _steepest(heights: "Array", x: "Array", y: "Array") -> float:
+    import numpy as np  # noqa: PLC0415
+
+    across, along = np.gradient(heights, y, x)
+    return float(np.hypot(across, along).max())
+
+
+def _needed(options: Options, fewest: float, axis: int, wanted: int) -> int:
+    """Return the nodes per direction that put ``wanted`` of them on the shortest wave."""
+    nodes = options.shape[1 - axis]
+    intervals = math.ceil((nodes - 1) * wanted / fewest)
+    return coarsenable(min(intervals, 2 * _LARGEST) - 1)[1]
+
+
+def _expected_waves(problem: ContactProblem, film: float) -> Iterator[ExpectedWave]:
+    """Yield the waves of both surfaces, under the pressure in the middle of the contact."""
+    from tehl.post.waviness import FlatFilm, angle_of, bulk_modulus, drifting_waves  # noqa: PLC0415
+
+    oil, pressure = problem.lubricant, problem.hertz.pressure
+    temperature = problem.inlet_temperature
+    flat = FlatFilm(
+        film=film,
+        bulk_modulus=bulk_modulus(oil.density, pressure, temperature),
+        viscosity=oil.viscosity.viscosity_at(pressure, temperature),
+        reduced_modulus=problem.reduced_modulus,
+    )
+    for wave, drift in drifting_waves(problem):
+        theory = flat.theory(wave, wave.amplitude, drift)
+        yield ExpectedWave(
+            wavelength=2.0 * math.pi / wave.number,
+            angle=angle_of(wave),
+            amplitude=wave.amplitude,
+            film_ratio=theory.film_ratio,
+            pressure=theory.pressure,
+            elastic_pressure=theory.elastic_pressure,
+        )
+
+
+def _remarks(problem: ContactProblem) -> Iterator[str]:
+    hertz = problem.hertz
+    size = (2.0 * hertz.half_width_x, 2.0 * hertz.half_width_y)
+    for name in ("surface_1", "surface_2"):
+        for sentence in getattr(problem, name).roughness.fits(*size):
+            yield f"{name}: {sentence}"
+
+
+def odd_asperities(
+    found: Asperities | None, problem: ContactProblem, options: Options, film: float
+) -> Iterator[str]:
+    """Yield what a careful reader would ask about rough surfaces, a sentence each.
+
+    Parameters
+    ----------
+    found : Asperities or None
+        What the heights mean; None asks nothing.
+    problem, options : ContactProblem, Options
+        The case.
+    film : float
+        Central film to expect [m].
+    """
+    if found is None:
+        return
+    yield from found.remarks
+    if found.points_per_wave < CONVERGES:
+        yield (
+            f"numerics.points = {min(options.shape)} puts {found.points_per_wave:.2g} nodes on the "
+            f"shortest wave of the surfaces ({found.shortest_wave * 1e6:.3g} um), and a run may "
+            f"not converge: {_nodes(found.points_to_converge)} put {CONVERGES} on it, "
+            f"{_nodes(found.points_to_answer)} the {ANSWERS} that its ripples take"
+        )
+    if found.steepest > STEEP:
+        yield (
+            f"the surfaces have slopes up to {found.steepest:.2g}, but Reynolds' equation asks for "
+            "gentle ones: are the units of height and length right?"
+        )
+    if film < found.composite:
+        yield (
+            f"the film is {film / found.composite:.2g} times Sq: asperities may touch, and the run "
+            "will say where there is no film"
+        )
+    largest = max((wave.pressure for wave in found.waves), default=0.0)
+    if largest > problem.hertz.pressure:
+        yield (
+            f"a wave takes {largest / problem.hertz.pressure:.2g} Hertz pressures to be flattened: "
+            "its valleys will cavitate, and a run may not converge"
+        )
+
+
+def _nodes(points: int) -> str:
+    return f"more than {_LARGEST} nodes" if points > _LARGEST else f"{points} nodes"

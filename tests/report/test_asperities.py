@@ -1,0 +1,112 @@
+"""What is said about rough surfaces before the solve."""
+
+import json
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tehl.errors import InputError
+from tehl.io.case import case_from_tables
+from tehl.report.explain import Explanation, as_summary, as_text, explain
+from tests.cases import ball_tables
+
+WAVE = {"type": "wave", "amplitude": "50 nm", "wavelength": "80 um", "angle": "0 deg"}
+
+
+def explained(roughness: Any, **tables: Any) -> Explanation:
+    """Return the explanation of the ball on a disc that has heights."""
+    surface = {"material": "steel", "roughness": roughness}
+    return explain(*case_from_tables(ball_tables(surface_2=surface) | tables))
+
+
+def test_smooth_surfaces_have_none():
+    case = explain(*case_from_tables(ball_tables()))
+    assert case.roughness is None
+    assert "Roughness" not in as_text(case)
+    assert as_summary(case)["roughness"] is None
+
+
+def test_a_wave_has_its_sq_slope_and_lambda_ratio():
+    case = explained(WAVE)
+    found = case.roughness
+    assert found.sq[0] == 0.0
+    # 5.5 waves in the contact, so that the mean is not quite zero
+    assert found.composite == pytest.approx(50e-9 / math.sqrt(2), rel=0.02)
+    assert found.steepest == pytest.approx(2 * math.pi * 50e-9 / 80e-6, rel=0.02)
+    assert case.lambda_ratio == pytest.approx(case.central_film / found.composite)
+    assert case.questions == ()
+    json.dumps(as_summary(case), allow_nan=False)
+
+
+def test_the_nodes_that_are_told_carry_eight_and_sixteen_of_a_wave():
+    found = explained(WAVE).roughness
+    for points, wanted in ((found.points_to_converge, 8), (found.points_to_answer, 16)):
+        there = explained(WAVE, numerics={"points": points}).roughness.points_per_wave
+        assert there >= wanted
+    assert found.points_per_wave == pytest.approx(
+        explained(WAVE, numerics={"points": 513}).roughness.points_per_wave / 2
+    )
+
+
+def test_theory_flattens_a_transverse_wave_and_leaves_a_longitudinal_one_to_the_inlet():
+    across = explained(WAVE).roughness.waves[0]
+    assert across.film_ratio == pytest.approx(
+        1 - across.pressure / across.elastic_pressure, rel=1e-3
+    )
+    along = explained(WAVE | {"angle": "90 deg"})
+    assert along.roughness.waves[0].left_to_inlet
+    assert "the inlet decides" in as_text(along)
+    assert "% left in the film" in as_text(explained(WAVE))
+
+
+def test_it_is_told_whether_the_roughness_stands_or_moves():
+    assert "quasi-steady" in as_text(explained(WAVE))
+    assert "moves with its surfaces" in as_text(explained(WAVE, transient={}))
+
+
+def test_a_bump_beside_a_stated_roughness_counts_both():
+    surface = {"material": "steel", "rms_roughness": "30 nm"}
+    bump = {"type": "bump", "amplitude": "0.2 um", "radius": "50 um"}
+    case = explained(bump, surface_1=surface)
+    assert case.roughness.sq[0] == 30e-9
+    assert case.roughness.waves == ()
+    assert case.lambda_ratio == pytest.approx(case.central_film / case.roughness.composite)
+
+
+ODD = [
+    (WAVE | {"wavelength": "30 um"}, {}, "nodes on the shortest wave"),
+    (WAVE | {"amplitude": "2 um"}, {}, "slopes up to 0.16"),
+    (WAVE | {"amplitude": "1 um"}, {}, "asperities may touch"),
+    (WAVE | {"amplitude": "0.5 um"}, {}, "Hertz pressures to be flattened"),
+    (
+        {"type": "random", "rms": "1 nm", "correlation_length": "1 um"},
+        {},
+        "surface_2: the random surface repeats",
+    ),
+    (WAVE | {"wavelength": "1 um", "amplitude": "1 nm"}, {}, "more than 16385 nodes"),
+]
+
+
+@pytest.mark.parametrize(("roughness", "tables", "words"), ODD)
+def test_odd_heights_are_questioned(roughness: Any, tables: Any, words: str):
+    assert any(words in question for question in explained(roughness, **tables).questions)
+
+
+def test_a_map_that_is_not_there_is_bad_input():
+    missing = {"type": "map", "file": "none.npy", "unit": "um", "pixel": "1 um"}
+    with pytest.raises(InputError, match=r"none\.npy"):
+        explained(missing)
+
+
+def test_a_measured_surface_is_explained(tmp_path):
+    x = np.linspace(0, 1e-3, 201)
+    np.save(tmp_path / "wave.npy", np.tile(0.05 * np.cos(2 * np.pi * x / 1e-4), (201, 1)))
+    table = {
+        "type": "map", "file": str(tmp_path / "wave.npy"), "unit": "um", "pixel": "5 um",
+        "level": "mean",
+    }  # fmt: skip
+    found = explained(table).roughness
+    assert found.composite == pytest.approx(0.05e-6 / math.sqrt(2), rel=0.05)
+    assert found.shortest_wave == pytest.approx(1e-4, rel=0.1)
