@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from tehl.errors import ConvergenceError, FileFormatError, InputError, TehlError
     from tehl.evolution import Evolution
     from tehl.io.case import read_case, read_case_and_options
-    from tehl.io.store import load
+    from tehl.io.evolution_store import load
     from tehl.lubricant import Lubricant, oil
     from tehl.materials import Solid, material
     from tehl.options import Domain, Options
@@ -67,7 +67,7 @@ _HOMES = {
     "Surface": "tehl.problem",
     "TehlError": "tehl.errors",
     "certify": "tehl.solver",
-    "load": "tehl.io.store",
+    "load": "tehl.io.evolution_store",
     "march": "tehl.solver",
     "material": "tehl.materials",
     "oil": "tehl.lubricant",

@@ -1,9 +1,14 @@
 """The answer to a question with time: a film that changes while its surfaces move on."""
 
 from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from tehl.result import Cost, Provenance, Result, Status
 from tehl.typing import Array, IntArray, SingleArray
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -151,3 +156,21 @@ class Evolution:
     def y(self) -> Array:
         """Coordinates across entrainment [m], (ny,)."""
         return self.start.y
+
+    def save(self, path: str | Path) -> None:
+        """Write the run to a NetCDF-4 file; nothing is left behind when writing fails."""
+        from tehl.io.evolution_store import save  # noqa: PLC0415 (a method users expect here)
+
+        save(self, path)
+
+    def to_xarray(self) -> "xr.Dataset":
+        """Return the run as a dataset with dimensions time, frame, y and x, units and names."""
+        from tehl.io.evolution_store import to_dataset  # noqa: PLC0415
+
+        return to_dataset(self)
+
+    def summary(self) -> dict[str, Any]:
+        """Return the JSON summary of the run, as ``tehl solve --json`` prints it."""
+        from tehl.io.evolution_summary import evolution_summary  # noqa: PLC0415
+
+        return evolution_summary(self)

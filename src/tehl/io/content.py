@@ -193,12 +193,12 @@ def attributes(result: Result) -> dict[str, str | int]:
         "converged": int(result.status.converged),
         "source": f"tehl {result.provenance.versions.get('tehl', 'of unknown version')}",
         "created": result.provenance.created,
-        "versions": _text(result.provenance.versions),
+        "versions": json_text(result.provenance.versions),
         "definitions": DEFINITIONS,
-        "problem": _text(result.problem.model_dump(mode="json")),
-        "options": _text(result.options.model_dump(mode="json")),
-        "summary": _text(summary(result)),
-        "state": _text(TypeAdapter(State).dump_python(state)),
+        "problem": json_text(result.problem.model_dump(mode="json")),
+        "options": json_text(result.options.model_dump(mode="json")),
+        "summary": json_text(summary(result)),
+        "state": json_text(TypeAdapter(State).dump_python(state)),
     }
 
 
@@ -218,7 +218,7 @@ def rebuild(arrays: dict[str, NDArray[Any]], attrs: dict[str, Any]) -> Result:
         If something is missing or does not fit; the message names it.
     """
     state = TypeAdapter(State).validate_python(json.loads(attrs["state"]))
-    reader = _Reader(arrays=arrays, finite=state.status.converged)
+    reader = Reader(arrays=arrays, finite=state.status.converged)
     scaled = _fields(reader)
     return Result(
         problem=ContactProblem.model_validate(json.loads(attrs["problem"])),
@@ -238,19 +238,19 @@ def _heat_state(heat: FilmHeat | None) -> HeatState | None:
     return HeatState(balance=heat.balance, solid_peclet=heat.solid_peclet, sources=heat.sources)
 
 
-def _fields(reader: "_Reader") -> Fields:
+def _fields(reader: "Reader") -> Fields:
     x, y = reader.axis("X"), reader.axis("Y")
     shape = (y.size, x.size)
     return Fields(x=x, y=y, pressure=reader.field("P", shape), film=reader.field("H", shape))
 
 
-def _shear(reader: "_Reader", shape: tuple[int, ...]) -> FilmShear | None:
+def _shear(reader: "Reader", shape: tuple[int, ...]) -> FilmShear | None:
     if _SHEAR[0][1] not in reader.arrays:
         return None
     return FilmShear(**{field: reader.field(name, shape) for field, name, *_ in _SHEAR})
 
 
-def _heat(reader: "_Reader", shape: tuple[int, ...], state: HeatState | None) -> FilmHeat | None:
+def _heat(reader: "Reader", shape: tuple[int, ...], state: HeatState | None) -> FilmHeat | None:
     if state is None:
         return None
     zeta = reader.axis("zeta")
@@ -264,15 +264,23 @@ def _heat(reader: "_Reader", shape: tuple[int, ...], state: HeatState | None) ->
     )
 
 
-def _heights(reader: "_Reader", shape: tuple[int, ...]) -> SurfaceHeights | None:
+def _heights(reader: "Reader", shape: tuple[int, ...]) -> SurfaceHeights | None:
     if _HEIGHTS[0][1] not in reader.arrays:
         return None
     return SurfaceHeights(**{field: reader.field(name, shape) for field, name, _ in _HEIGHTS})
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class _Reader:
-    """Takes arrays out of a file and looks whether they can be what they claim to be."""
+class Reader:
+    """Takes arrays out of a file and looks whether they can be what they claim to be.
+
+    Attributes
+    ----------
+    arrays : dict of str to array
+        All of the file, by name.
+    finite : bool
+        Whether numbers have to be finite: those of a converged result.
+    """
 
     arrays: dict[str, NDArray[Any]]
     finite: bool
@@ -352,7 +360,7 @@ def _history(arrays: dict[str, NDArray[Any]]) -> tuple[CycleReport, ...]:
     )
 
 
-def _text(value: Any) -> str:
+def json_text(value: Any) -> str:
     """Return strict JSON; infinities and NaN become words that pydantic reads back as floats."""
     return json.dumps(_spelled(value), allow_nan=False)
 

@@ -2,8 +2,9 @@
 
 import io
 import json
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,10 @@ if TYPE_CHECKING:
     import xarray as xr
 
 __all__ = ["check_writable", "load", "save", "to_dataset"]
+
+STEADY = "steady"
+"""Kind of a file that holds a steady film; those of older versions do not say."""
+Made = TypeVar("Made")
 
 _COORDINATES = ("x", "y", "X", "Y", "zeta", "cycle")
 _HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
@@ -39,14 +44,20 @@ def to_dataset(result: Result) -> "xr.Dataset":
         ``units`` and ``long_name`` on each variable; inputs, groups, status, definitions and
         versions as attributes.
     """
+    return dataset(variables(result), attributes(result), _COORDINATES)
+
+
+def dataset(
+    arrays: Iterable[Variable], attrs: Mapping[str, str | int], coordinates: Iterable[str]
+) -> "xr.Dataset":
+    """Return arrays and attributes as a dataset; ``coordinates`` are those among the arrays."""
     import xarray as xr  # noqa: PLC0415 (a second of import that saving and loading do without)
 
     packed = {
-        v.name: (v.dims, v.data, {"units": v.units, "long_name": v.long_name})
-        for v in variables(result)
+        v.name: (v.dims, v.data, {"units": v.units, "long_name": v.long_name}) for v in arrays
     }
-    coordinates = {name: packed.pop(name) for name in _COORDINATES if name in packed}
-    return xr.Dataset(packed, coords=coordinates, attrs=attributes(result))
+    coords = {name: packed.pop(name) for name in coordinates if name in packed}
+    return xr.Dataset(packed, coords=coords, attrs=dict(attrs))
 
 
 def save(result: Result, path: str | Path, *, extra: dict[str, Any] | None = None) -> None:
@@ -66,21 +77,41 @@ def save(result: Result, path: str | Path, *, extra: dict[str, Any] | None = Non
     InputError
         If the file cannot be written there.
     """
+    attrs = attributes(result)
+    if extra:
+        attrs["summary"] = json.dumps(plain(summary(result) | extra), allow_nan=False)
+    write(path, variables(result), attrs)
+
+
+def write(path: str | Path, arrays: Iterable[Variable], attrs: Mapping[str, str | int]) -> None:
+    """Write arrays and attributes to a NetCDF-4 file; whole, or not at all.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file; an older one is replaced.
+    arrays : iterable of Variable
+        What it holds; none of them is empty.
+    attrs : mapping
+        Its attributes.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written there.
+    """
     with replacing(path) as temporary:
-        temporary.write_bytes(_image(result, extra or {}))
+        temporary.write_bytes(_image(arrays, attrs))
 
 
-def _image(result: Result, extra: dict[str, Any]) -> bytes:
+def _image(arrays: Iterable[Variable], attrs: Mapping[str, str | int]) -> bytes:
     """Return the content of the file; made in memory, as HDF5 does not survive a full disk."""
     import h5netcdf  # noqa: PLC0415 (0.1 s)
 
     image = io.BytesIO()
     with h5netcdf.File(image, "w") as file:
-        file.attrs.update(attributes(result))
-        if extra:
-            whole = plain(summary(result) | extra)
-            file.attrs["summary"] = json.dumps(whole, allow_nan=False)
-        for variable in variables(result):
+        file.attrs.update(attrs)
+        for variable in arrays:
             for name, size in zip(variable.dims, variable.data.shape, strict=True):
                 if name not in file.dimensions:
                     file.dimensions[name] = size
@@ -108,7 +139,7 @@ def _write(file: "h5netcdf.File", name: str, dims: tuple[str, ...], data: NDArra
             dims,
             data.dtype,
             data=data,
-            chunks=data.shape,
+            chunks=(1, *data.shape[1:]) if dims[0] == "frame" else data.shape,
             compression="gzip",
             compression_opts=1,
             shuffle=True,
@@ -137,11 +168,46 @@ def load(path: str | Path) -> Result:
         If it is truncated, foreign or of a format that this version does not know.
     """
     source = Path(path)
+    arrays, attrs = read(source)
+    if attrs.get("tehl_kind", STEADY) != STEADY:
+        raise FileFormatError(
+            f"{source} holds a film in time, not a steady one: tehl.load reads it, tehl plot and "
+            "tehl animate show it"
+        )
+    return rebuilt(source, arrays, attrs, rebuild)
+
+
+def read(source: Path) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
+    """Return arrays and attributes of a file of this package, by name.
+
+    Raises
+    ------
+    InputError
+        If there is no such file.
+    FileFormatError
+        If it is truncated, foreign or of a format that this version does not know.
+    """
     _check_signature(source)
     arrays, attrs = _read(source)
     _check_version(source, attrs)
+    return arrays, attrs
+
+
+def rebuilt(
+    source: Path,
+    arrays: dict[str, NDArray[Any]],
+    attrs: dict[str, Any],
+    make: Callable[[dict[str, NDArray[Any]], dict[str, Any]], Made],
+) -> Made:
+    """Return what ``make`` makes of a file.
+
+    Raises
+    ------
+    FileFormatError
+        If something is missing or does not fit; the message names it.
+    """
     try:
-        return rebuild(arrays, attrs)
+        return make(arrays, attrs)
     except KeyError as error:
         raise FileFormatError(f"{source} is not a whole tehl result: {error} is missing") from None
     except ValueError as error:

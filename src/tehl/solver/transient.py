@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from tehl.duration import duration_of
 from tehl.errors import ConvergenceError, InputError
 from tehl.evolution import Evolution, StepReport
 from tehl.memory import check_memory
@@ -35,8 +36,6 @@ START_TOLERANCE = 1e-7
 """Tolerance of the steady film at the beginning."""
 MOST_STEPS = 20_000
 """Steps that nobody asks for by accident."""
-BEYOND = 1.5
-"""How far downstream of the centre everything has passed [a_x]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -289,21 +288,6 @@ def number_of_steps(problem: ContactProblem, units: Scales, seconds: float) -> i
             f"than {MOST_STEPS}: give a shorter one, or a larger transient.stride"
         )
     return steps
-
-
-def duration_of(problem: ContactProblem, units: Scales) -> float:
-    """Return how long the run lasts [s]: as stated, or until what moves has passed the contact."""
-    transient, motion = problem.transient, problem.motion
-    if transient is None:
-        return 0.0
-    if transient.duration is not None:
-        return transient.duration
-    distance = (transient.entrance + BEYOND) * units.half_width_x
-    speeds = ((problem.surface_1, motion.speed_1), (problem.surface_2, motion.speed_2))
-    moving = [abs(speed) for one, speed in speeds if not one.roughness.is_smooth and speed != 0]
-    passing = distance / min(moving) if moving else 0.0
-    loaded = max((time for time, _ in transient.load), default=0.0)
-    return max(passing, loaded, units.half_width_x / units.speed)
 
 
 def failed(error: StepError, seconds: float, level: Level) -> Status:

@@ -1,0 +1,79 @@
+"""The numbers of a run in time as one JSON object."""
+
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from tehl.evolution import Evolution
+from tehl.io.summary import plain, summary
+from tehl.typing import Array
+
+
+def evolution_summary(run: Evolution) -> dict[str, Any]:
+    """Return the summary of ``run`` as JSON can hold it: null where a number is not finite.
+
+    Keys that end in a unit (``_m``, ``_pa``, ``_s``) are SI, the others dimensionless. ``start`` is
+    the summary of the steady film at the beginning. Times belong to the value before them.
+
+    Parameters
+    ----------
+    run : Evolution
+        What a run in time returned or a file held.
+    """
+    status, history = run.status, run.history
+    content = {
+        "kind": "evolution",
+        "title": run.start.problem.title,
+        "status": status.kind,
+        "cause": status.cause,
+        "message": status.message,
+        "hint": status.hint,
+        "time": _time(run),
+        "film": {
+            "h_min_m": _extreme(history.film_minimum, history.time, np.argmin),
+            "h_central_m": _range(history.film_central),
+        },
+        "pressure": {"p_max_pa": _extreme(history.pressure_max, history.time, np.argmax)},
+        "traction": _range(history.traction),
+        "load_factor": _range(history.load),
+        "cycles": _cycles(run),
+        "cost": asdict(run.cost),
+        "start": summary(run.start),
+    }
+    plain_content: dict[str, Any] = plain(content)
+    return plain_content
+
+
+def _time(run: Evolution) -> dict[str, Any]:
+    return {
+        "duration_s": float(run.history.time[-1]),
+        "step_s": run.time_step,
+        "steps": len(run.history.time) - 1,
+        "frames": len(run.frames.step),
+    }
+
+
+def _extreme(values: Array, times: Array, find: Any) -> dict[str, float]:
+    place = int(find(values))
+    return {"value": float(values[place]), "time_s": float(times[place]), "start": float(values[0])}
+
+
+def _range(values: Array) -> dict[str, float]:
+    return {
+        "least": float(values.min()),
+        "largest": float(values.max()),
+        "start": float(values[0]),
+        "end": float(values[-1]),
+    }
+
+
+def _cycles(run: Evolution) -> dict[str, float]:
+    cycles = run.history.cycles[1:]
+    if not cycles.size:
+        return {"per_step": 0.0, "most": 0.0, "total": 0.0}
+    return {
+        "per_step": float(cycles.mean()),
+        "most": float(cycles.max()),
+        "total": float(cycles.sum()),
+    }

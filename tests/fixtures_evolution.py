@@ -1,0 +1,79 @@
+"""A run in time made without the solver: a dent or a wave passes a horseshoe film."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+
+from tehl.evolution import Evolution, Frames, History, Profiles
+from tehl.problem import ContactProblem
+from tehl.result import Cost, Provenance, Status
+from tests.fixtures_result import CASE, make_result
+
+STEPS = 60
+DENT = {"type": "bump", "amplitude": -2e-7, "radius": 5e-5, "x": -2e-4}
+
+
+@cache
+def make_evolution(*, points: int = 33, slide: float = 0.5, frames: bool = True) -> Evolution:
+    """Return a run in which a dent of surface 1 passes; the film follows it in full."""
+    contact = CASE["contact"] | {"slide_roll_ratio": slide}
+    surface = CASE["surface_1"] | {"roughness": DENT}
+    case = CASE | {"contact": contact, "surface_1": surface, "transient": {}}
+    return passing(case, points=points, frames=frames)
+
+
+def passing(
+    case: dict, *, points: int = 33, frames: bool = True, flattened: float = 0.0
+) -> Evolution:
+    """Return a run in which the roughness of surface 1 passes; its film lacks a part of it."""
+    problem = ContactProblem.model_validate(case)
+    start = replace(make_result(points), problem=problem)
+    units = start.scales
+    step = (start.x[1] - start.x[0]) / units.speed
+    time = step * np.arange(STEPS + 1)
+    heights = np.stack(
+        [
+            np.broadcast_to(
+                problem.surface_1.roughness.height(
+                    start.x[None, :], start.y[:, None], float(t), problem.motion.speed_1
+                ),
+                (points, points),
+            )
+            for t in time
+        ]
+    )
+    film = start.film_thickness - (1 - flattened) * heights
+    pressure = start.pressure * (1 + 1e5 * heights)
+    row = points // 2
+    kept = np.linspace(0, STEPS, 4).astype(np.int64) if frames else np.zeros(0, np.int64)
+    return Evolution(
+        start=start,
+        history=History(
+            time=time,
+            load=np.ones_like(time),
+            film_central=film[:, row, int(np.argmin(np.abs(start.x)))].copy(),
+            film_minimum=film.min(axis=(1, 2)),
+            pressure_max=pressure.max(axis=(1, 2)),
+            traction=np.linspace(-0.04, -0.05, time.size),
+            rigid_approach=np.full_like(time, -0.9),
+            cycles=np.r_[0, np.full(STEPS, 3)],
+            change=np.r_[0.0, np.full(STEPS, 5e-4)],
+        ),
+        profiles=Profiles(
+            pressure=pressure[:, row].copy(),
+            film=film[:, row].copy(),
+            height_1=heights[:, row].copy(),
+            height_2=np.zeros_like(heights[:, row]),
+        ),
+        frames=Frames(
+            step=kept,
+            pressure=pressure[kept].astype(np.float32),
+            film=film[kept].astype(np.float32),
+            height=heights[kept].astype(np.float32),
+        ),
+        time_step=float(step),
+        status=Status(kind="converged"),
+        cost=Cost(cpu_seconds=4.5, wall_seconds=4.6),
+        provenance=Provenance(versions={"tehl": "0.1.0"}, created="2026-01-01T00:00:00+00:00"),
+    )

@@ -1,0 +1,112 @@
+"""Runs in time on disk: there and back without loss, and what is told of other files."""
+
+from dataclasses import asdict, fields, replace
+
+import h5netcdf
+import h5py
+import numpy as np
+import pytest
+
+import tehl
+from tehl.errors import FileFormatError
+from tehl.io import store
+from tehl.io.evolution_store import load_evolution
+from tehl.result import Status
+from tests.fixtures_evolution import make_evolution
+
+
+@pytest.fixture
+def stored(tmp_path):
+    path = tmp_path / "run.nc"
+    make_evolution().save(path)
+    return path
+
+
+def same(one, other) -> None:
+    for field in fields(one):
+        np.testing.assert_array_equal(getattr(one, field.name), getattr(other, field.name))
+
+
+def test_a_run_comes_back_bit_by_bit(stored):
+    run, again = make_evolution(), tehl.load(stored)
+    assert isinstance(again, tehl.Evolution)
+    for name in ("history", "profiles", "frames"):
+        same(getattr(run, name), getattr(again, name))
+    assert again.frames.film.dtype == np.float32
+    assert again.start.problem == run.start.problem
+    assert (again.start.pressure == run.start.pressure).all()
+    assert (again.time_step, again.status, again.cost) == (run.time_step, run.status, run.cost)
+    assert again.provenance == run.provenance
+
+
+def test_a_run_without_fields_comes_back(tmp_path):
+    run = make_evolution(frames=False)
+    run.save(tmp_path / "run.nc")
+    again = tehl.load(tmp_path / "run.nc")
+    assert again.frames.film.shape == (0, 33, 33)
+
+
+def test_a_failed_run_says_so_in_its_file(tmp_path):
+    status = Status(kind="stalled", cause="step_not_settled", message="it did not settle")
+    replace(make_evolution(), status=status).save(tmp_path / "run.nc")
+    with h5netcdf.File(tmp_path / "run.nc") as file:
+        assert file.attrs["converged"] == 0
+    assert tehl.load(tmp_path / "run.nc").status == status
+
+
+def test_a_steady_film_is_loaded_as_one(tmp_path, result):
+    result.save(tmp_path / "film.nc")
+    assert isinstance(tehl.load(tmp_path / "film.nc"), tehl.Result)
+    with pytest.raises(FileFormatError, match="holds a steady film"):
+        load_evolution(tmp_path / "film.nc")
+
+
+def test_a_reader_of_steady_films_refuses_a_run_in_time(stored):
+    with pytest.raises(FileFormatError, match="holds a film in time"):
+        store.load(stored)
+
+
+def test_the_dataset_has_units_and_dimensions():
+    data = make_evolution().to_xarray()
+    assert data.film_centre_line.dims == ("time", "x")
+    assert data.film_frames.dims == ("frame", "y", "x")
+    assert data.p_max.attrs["units"] == "Pa"
+    assert "time" in data.coords
+    assert all(one.attrs["long_name"] for one in data.variables.values())
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (lambda file: file.pop("film_frames"), "'film_frames' is missing"),
+        (lambda file: file.pop("time"), "'time' is missing"),
+        (lambda file: file["h_min"].write_direct(np.full(61, np.nan)), "h_min holds values"),
+        (lambda file: file.attrs.update(tehl_kind="movie"), "of the kind 'movie'"),
+        (lambda file: file["frame_step"].write_direct(np.full(4, 99)), "frame_step names steps"),
+        (lambda file: file.attrs.update(evolution="{"), "not a valid tehl result"),
+    ],
+)
+def test_what_does_not_fit_is_told_in_one_sentence(stored, change, words):
+    with h5py.File(stored, "a") as file:
+        change(file)
+    with pytest.raises(FileFormatError, match=words) as caught:
+        tehl.load(stored)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_truncated_file_is_told(stored):
+    stored.write_bytes(stored.read_bytes()[:5000])
+    with pytest.raises(FileFormatError, match="truncated or damaged"):
+        tehl.load(stored)
+
+
+def test_the_summary_tells_extremes_with_their_times():
+    run = make_evolution()
+    found = run.summary()
+    least = found["film"]["h_min_m"]
+    assert least["value"] == run.history.film_minimum.min()
+    assert least["time_s"] == run.history.time[run.history.film_minimum.argmin()]
+    assert found["cycles"]["per_step"] == 3.0
+    assert found["start"]["film"]["h_min_m"] == pytest.approx(run.start.film.minimum)
+    assert found["cost"] == asdict(run.cost)
+    assert found["time"]["steps"] == 60
