@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from pathlib import Path
 
-from benchmarks import deformation, domain, rate, robustness, speed, thermal
+from benchmarks import deformation, domain, rate, robustness, speed, thermal, waves
 from benchmarks.table import Table
 
 TOPICS: dict[str, Callable[..., Table | Iterable[Table]]] = {
@@ -21,6 +21,7 @@ TOPICS: dict[str, Callable[..., Table | Iterable[Table]]] = {
     "domain": domain.table,
     "robustness": robustness.table,
     "heat": thermal.tables,
+    "waves": waves.table,
 }
 BY_DEFAULT = ("speed", "rate", "deformation")
 
