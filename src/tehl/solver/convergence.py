@@ -97,12 +97,12 @@ def iterated_enough(now: GridTrace, coarser: GridTrace | None) -> bool:
     )
 
 
-def stalled(now: GridTrace) -> bool:
-    """Whether the residual has not halved over the last cycles."""
-    residuals = [report.residual for report in now.reports]
-    if len(residuals) <= STALL_CYCLES:
+def stalled(now: GridTrace, patience: int = 1) -> bool:
+    """Whether the residual has not halved over the last cycles, ``patience`` times as many."""
+    residuals, cycles = [report.residual for report in now.reports], patience * STALL_CYCLES
+    if len(residuals) <= cycles:
         return False
-    return residuals[-1] > STALL_FACTOR * residuals[-1 - STALL_CYCLES]
+    return residuals[-1] > STALL_FACTOR * residuals[-1 - cycles]
 
 
 def error_estimate(traces: list[GridTrace], order: int) -> ErrorEstimate:

@@ -32,7 +32,7 @@ from tehl.solver.film_numbers import film_summary
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.multigrid import Multigrid
 from tehl.solver.outputs import film_heat, film_shear, newtonian_shear
-from tehl.solver.smoother import BROAD, CAREFUL, DAMPED, FAST, ROBUST, ROUGH, SETTINGS, Setting
+from tehl.solver.smoother import BROAD, CAREFUL, FAST, GENTLE, ROBUST, ROUGH, SETTINGS, Setting
 from tehl.solver.thermal import Coupling, FilmCoupling, Uncoupled
 from tehl.solver.verdict import diverged, verdict
 from tehl.solver.warmup import warm_up
@@ -144,7 +144,7 @@ def _settings(
     if options.smoother != "auto":
         return [(SETTINGS[options.smoother], False)]
     if rough:
-        return [(ROUGH, False), (DAMPED, False), (CAREFUL, False)]
+        return [(ROUGH, False), (CAREFUL, False), (GENTLE, False)]
     if not problem.is_coupled:
         return [(FAST, False), (ROBUST, False)]
     attempts = [(BROAD, False), (ROBUST, False)]
