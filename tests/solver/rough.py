@@ -16,9 +16,7 @@ def wave(grid: Grid, amplitude: float, length: float, degrees: float) -> Heights
     along, across = (float(np.round(f(np.radians(degrees)), 12)) for f in (np.cos, np.sin))
     phase = grid.x[None, :] * along - grid.y[:, None] * across
     lengths = (length / along if along else np.inf, length / across if across else np.inf)
-    return Heights(
-        values=-amplitude * np.cos(2.0 * np.pi * phase / length), wavelengths=lengths
-    )
+    return Heights(values=-amplitude * np.cos(2.0 * np.pi * phase / length), wavelengths=lengths)
 
 
 def bump(grid: Grid, height: float, radius: float) -> Heights:

@@ -15,6 +15,7 @@ from tehl.solver.anderson import Anderson
 from tehl.solver.coarsest import CoarsestSolver
 from tehl.solver.convergence import (
     LARGEST_CHANGE,
+    LARGEST_ROUGH_CHANGE,
     GridTrace,
     converged,
     error_estimate,
@@ -120,7 +121,9 @@ class Multigrid:
         alike = [self.coarsest_trace, *self.traces]
         if self.is_rough:
             alike = alike[self.first_rough :]
-        return error_estimate(alike, self.options.wedge_order) if len(alike) > 1 else None
+        if len(alike) < 2:
+            return None
+        return error_estimate(alike, self.options.wedge_order, rough=self.is_rough)
 
     @property
     def is_rough(self) -> bool:
@@ -230,6 +233,8 @@ class Multigrid:
             for level in levels:
                 level.set_smoother(self.setting)
         trace = GridTrace()
+        if len(levels) > self.first_rough:
+            trace.largest_change = LARGEST_ROUGH_CHANGE
         self.traces.append(trace)
         coarser = self._coarser_trace()
         shape = Cycle.of(self.options, levels[0].grid, self.expected_film)

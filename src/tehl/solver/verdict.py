@@ -22,6 +22,9 @@ LARGEST_COOLING = 5.0
 LARGEST_MISSING_HEAT = 0.3
 """Part of the heat that may be missing: in pure rolling, where there is little of it, the backflow
 in the inlet keeps some for long."""
+THIN = 0.05
+"""Minimum film between rough surfaces, over the expected central film, that a single grid with
+their heights does not show: on twice finer grids such films doubled."""
 STARVED = 0.9
 """Film over fully flooded film below which an edge is called too close."""
 
@@ -44,8 +47,12 @@ def verdict(run: Multigrid, cycled_out: bool, errors: ErrorEstimate | None) -> S
         return diverged(run)
     if not film.h.min() > level.floor:
         return _asperity_contact(level) if run.is_rough else _film_not_positive(level, groups)
+    if cycled_out and run.is_rough:  # another setting may still get there, on this very grid
+        return _not_reached(run)
     if errors is not None and errors.discretisation_minimum > LARGEST_BAR:
         return _too_coarse(level.grid, groups, errors.discretisation_minimum)
+    if errors is None and run.is_rough and film.h.min() < THIN * run.expected_film:
+        return _thin(level, groups)
     if cycled_out:
         return _not_reached(run)
     heated = _heat_status(run)
@@ -150,6 +157,20 @@ def _asperity_contact(level: Level) -> Status:
             "touch there, which a film that carries all of the load cannot describe."
         ),
         hint="Take lower or longer asperities, more speed, or more nodes (numerics.points).",
+    )
+
+
+def _thin(level: Level, groups: Groups) -> Status:
+    """Refuse a thin film of which no coarser grid can tell the error."""
+    return Status(
+        kind="not_converged",
+        cause="grid_too_coarse",
+        message=(
+            f"Only the finest grid of {level.grid.nx} x {level.grid.ny} nodes resolves the "
+            f"asperities, and the smallest film on it, H = {level.film.h.min():.3g}, is too thin "
+            "to be believed without a second grid."
+        ),
+        hint=f"Take {_grid_hint(level.grid, groups)}.",
     )
 
 
