@@ -10,9 +10,9 @@ LEAST_CYCLES = 2
 SAFETY = 2.0
 """Factor on the discretisation error where three grids show its order: the coarser ones are not
 iterated to the end."""
-ROUGH_PAIR = 0.6
-"""Error over the change of the film between the only two grids that carry the heights: a third if
-of second order; measured 0.3 to 0.6 for the minimum film between waves (257 and 513 nodes)."""
+ROUGH_PART = 0.6
+"""Error over the last change of the film between grids that all resolve the heights: a third if of
+second order; measured 0.3 to 0.6 for the minimum film between waves (257 and 513 nodes)."""
 SHARED = 0.25
 """Least part of the change of the central film that a minimum is uncertain by: two coarse grids may
 agree on a thin minimum by chance."""
@@ -120,8 +120,11 @@ def error_estimate(traces: list[GridTrace], order: int, *, rough: bool = False) 
         sequence = [getattr(trace, name) for trace in traces[-3:]]
         value = abs(sequence[-1].values[-1]) or 1.0
         values = [trace.values[-1] for trace in sequence]
-        bar = discretisation_bar(values) if order > 1 else first_order_bar(values)
-        bar *= ROUGH_PAIR if rough and len(values) == 2 else 1.0
+        bar = (
+            discretisation_bar(values, ROUGH_PART if rough else 1.0)
+            if order > 1
+            else first_order_bar(values)
+        )
         changes.append(abs(values[-1] - values[-2]))
         bar = max(bar, SHARED * changes[0])
         parts.append((bar / value, sequence[-1].iteration_error() / value))
@@ -142,11 +145,11 @@ def first_order_bar(values: list[float]) -> float:
     return 2.0 * max(abs(b - a) for a, b in pairwise(values))
 
 
-def discretisation_bar(values: list[float]) -> float:
+def discretisation_bar(values: list[float], otherwise: float = 1.0) -> float:
     """Return the error bar of the last of two or three values on grids halved each time.
 
     A third of the last change, with a safety factor, where the three values show second order;
-    the whole change where they do not: coarse grids may be far from their limit.
+    ``otherwise`` times the change where they do not: coarse grids may be far from their limit.
     """
     change = abs(values[-1] - values[-2])
     if len(values) == 3 and change > 0:
@@ -154,4 +157,4 @@ def discretisation_bar(values: list[float]) -> float:
         near = min(values) > 0.3 * values[-1] > 0 and change < 0.3 * values[-1]
         if near and 3.0 <= ratio <= 5.6:
             return SAFETY * change / 3.0
-    return change
+    return otherwise * change

@@ -76,15 +76,13 @@ class Setting:
 FAST = Setting(name="fast", threshold=1.0, point=0.7, dipole=0.6)
 BROAD = Setting(name="broad", threshold=10.0, point=0.7, dipole=0.6)
 ROBUST = Setting(name="robust", threshold=1.0, point=0.4, dipole=0.3)
-ROUGH = Setting(name="rough", threshold=1.0, point=0.6, dipole=0.4)
+ROUGH = Setting(name="rough", threshold=1.0, point=0.6, dipole=0.4, rough=Rough(lines=4, memory=5))
 CAREFUL = Setting(
     name="careful",
     threshold=1.0,
     point=0.5,
     dipole=0.35,
-    rough=Rough(
-        correction=0.3, limit=0.3, ramp=8, points=12.0, lines=4, stiff=True, memory=10, patience=2
-    ),
+    rough=Rough(correction=0.5, limit=0.3, ramp=8, lines=4, stiff=True, memory=8, patience=2),
 )
 GENTLE = Setting(
     name="gentle",

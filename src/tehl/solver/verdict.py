@@ -49,14 +49,23 @@ def verdict(run: Multigrid, cycled_out: bool, errors: ErrorEstimate | None) -> S
         return _asperity_contact(level) if run.is_rough else _film_not_positive(level, groups)
     if cycled_out and run.is_rough:  # another setting may still get there, on this very grid
         return _not_reached(run)
-    if errors is not None and errors.discretisation_minimum > LARGEST_BAR:
-        return _too_coarse(level.grid, groups, errors.discretisation_minimum)
-    if errors is None and run.is_rough and film.h.min() < THIN * run.expected_film:
-        return _thin(level, groups)
+    resolved = _resolution_status(run, errors)
+    if not resolved.converged:
+        return resolved
     if cycled_out:
         return _not_reached(run)
     heated = _heat_status(run)
     return _domain_status(run) if heated.converged else heated
+
+
+def _resolution_status(run: Multigrid, errors: ErrorEstimate | None) -> Status:
+    """Judge whether the grid resolves the film."""
+    level, groups = run.finest, run.groups
+    if errors is not None and errors.discretisation_minimum > LARGEST_BAR:
+        return _too_coarse(level.grid, groups, errors.discretisation_minimum)
+    if errors is None and run.is_rough and level.film.h.min() < THIN * run.expected_film:
+        return _thin(level, groups)
+    return Status(kind="converged")
 
 
 def _domain_status(run: Multigrid) -> Status:
