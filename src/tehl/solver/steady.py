@@ -44,10 +44,17 @@ PACKAGES = ("tehl", "numpy", "scipy", "numba")
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Attempt:
-    """What one setting of the smoother reached."""
+    """What one setting of the smoother reached, and whether its cycles got where they should."""
 
     run: Multigrid
     status: Status
+    reached: bool
+
+    @property
+    def is_final(self) -> bool:
+        """Whether no other setting would end otherwise."""
+        touching = self.reached and self.status.cause == "asperity_contact"
+        return self.status.converged or self.status.cause in GRID_CAUSES or touching
 
 
 def solve(
@@ -90,7 +97,7 @@ def solve(
     attempts = []
     for attempt in _attempts(problem, options, history, heights):
         attempts.append(attempt)
-        if attempt.status.converged or attempt.status.cause in GRID_CAUSES:
+        if attempt.is_final:
             break
     best = min(attempts, key=lambda a: (not a.status.converged, a.status.kind == "diverged"))
     cost = Cost(cpu_seconds=time.process_time() - cpu, wall_seconds=time.perf_counter() - wall)
@@ -134,7 +141,7 @@ def _attempts(
         if heights is not None:
             run.roughen(heights)
         last = number == len(attempts) - 1
-        yield Attempt(run=run, status=_run(run, monitor, patient=last))
+        yield _run(run, monitor, patient=last)
 
 
 def _settings(
@@ -151,15 +158,15 @@ def _settings(
     return [*attempts, (ROBUST, True)] if problem.slide_roll_ratio else attempts
 
 
-def _run(run: Multigrid, monitor: Monitor, *, patient: bool) -> Status:
+def _run(run: Multigrid, monitor: Monitor, *, patient: bool) -> Attempt:
     """Run and judge; a value that is not finite ends the run."""
     with np.errstate(all="ignore"):  # a run away is judged below, not warned of on the way
         try:
             reached = run.solve(monitor, patient=patient)
         except ArithmeticError:
             run.salvage()
-            return diverged(run)
-    return verdict(run, not reached, run.errors())
+            return Attempt(run=run, status=diverged(run), reached=False)
+    return Attempt(run=run, status=verdict(run, not reached, run.errors()), reached=reached)
 
 
 def coupling_of(problem: ContactProblem, options: Options, *, ramped: bool) -> Coupling:

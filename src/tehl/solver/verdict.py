@@ -22,6 +22,7 @@ LARGEST_COOLING = 5.0
 LARGEST_MISSING_HEAT = 0.3
 """Part of the heat that may be missing: in pure rolling, where there is little of it, the backflow
 in the inlet keeps some for long."""
+LESS_ROUGH = "Take lower or longer asperities, more speed, or more nodes (numerics.points)."
 THIN = 0.05
 """Minimum film between rough surfaces, over the expected central film, that a single grid with
 their heights does not show: on twice finer grids such films doubled."""
@@ -124,7 +125,8 @@ def diverged(run: Multigrid) -> Status:
             f"The iteration diverged on {grid.nx} x {grid.ny} nodes at M = {groups.M:.4g}, "
             f"L = {groups.L:.4g}."
         ),
-        hint=_smoother_hint(run) or f"Take {_grid_hint(grid, groups)}.",
+        hint=_smoother_hint(run)
+        or (LESS_ROUGH if run.is_rough else f"Take {_grid_hint(grid, groups)}."),
     )
 
 
@@ -165,7 +167,7 @@ def _asperity_contact(level: Level) -> Status:
             f"{np.count_nonzero(h <= level.floor)} nodes are as thin as that. Asperities would "
             "touch there, which a film that carries all of the load cannot describe."
         ),
-        hint="Take lower or longer asperities, more speed, or more nodes (numerics.points).",
+        hint=LESS_ROUGH,
     )
 
 
