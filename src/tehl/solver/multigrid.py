@@ -20,6 +20,7 @@ from tehl.solver.convergence import (
     converged,
     error_estimate,
     iterated_enough,
+    single_grid_estimate,
     stalled,
 )
 from tehl.solver.fas import Cycle, cycle
@@ -91,6 +92,7 @@ class Multigrid:
             level.floor = FLOOR * self.expected_film
         self.first_rough = len(self.levels)
         self.smooth: tuple[int, Array, float] | None = None
+        self.ripple = (np.inf, 0.0)
         self.coarsest_trace = GridTrace()
         self.traces: list[GridTrace] = []
 
@@ -113,6 +115,8 @@ class Multigrid:
             for level in self.levels[blurred:]:
                 level.limit = rough.limit
         self.first_rough = first
+        inside = np.hypot.outer(self.finest.grid.y, self.finest.grid.x) < 1.0
+        self.ripple = (points[-1], 0.5 * float(np.ptp(fields[-1][inside])))
 
     def errors(self) -> ErrorEstimate | None:
         """Return estimated errors of the film; None before the finest grid was cycled on."""
@@ -121,8 +125,8 @@ class Multigrid:
         alike = [self.coarsest_trace, *self.traces]
         if self.is_rough:
             alike = alike[self.first_rough :]
-        if len(alike) < 2:
-            return None
+        if self.is_rough and len(alike) < 2:
+            return single_grid_estimate(self.traces[-1], self.finest.grid.dx, *self.ripple)
         return error_estimate(alike, self.options.wedge_order, rough=self.is_rough)
 
     @property

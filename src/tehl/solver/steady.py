@@ -99,7 +99,7 @@ def solve(
         attempts.append(attempt)
         if attempt.is_final:
             break
-    best = min(attempts, key=lambda a: (not a.status.converged, a.status.kind == "diverged"))
+    best = min(attempts, key=_rank)
     cost = Cost(cpu_seconds=time.process_time() - cpu, wall_seconds=time.perf_counter() - wall)
     result = _result(problem, options, best, tuple(history.reports), cost)
     if not result.status.converged:
@@ -122,6 +122,12 @@ class _History:
         """Keep the report and pass it on."""
         self.reports.append(report)
         self.monitor.cycle(report)
+
+
+def _rank(attempt: Attempt) -> tuple[bool, bool, bool]:
+    """Return what puts the best attempt first: converged, got there, or at least finite."""
+    status = attempt.status
+    return not status.converged, not attempt.reached, status.kind == "diverged"
 
 
 def _attempts(

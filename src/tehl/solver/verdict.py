@@ -23,9 +23,6 @@ LARGEST_MISSING_HEAT = 0.3
 """Part of the heat that may be missing: in pure rolling, where there is little of it, the backflow
 in the inlet keeps some for long."""
 LESS_ROUGH = "Take lower or longer asperities, more speed, or more nodes (numerics.points)."
-THIN = 0.05
-"""Minimum film between rough surfaces, over the expected central film, that a single grid with
-their heights does not show: on twice finer grids such films doubled."""
 STARVED = 0.9
 """Film over fully flooded film below which an edge is called too close."""
 
@@ -64,8 +61,6 @@ def _resolution_status(run: Multigrid, errors: ErrorEstimate | None) -> Status:
     level, groups = run.finest, run.groups
     if errors is not None and errors.discretisation_minimum > LARGEST_BAR:
         return _too_coarse(level.grid, groups, errors.discretisation_minimum)
-    if errors is None and run.is_rough and level.film.h.min() < THIN * run.expected_film:
-        return _thin(level, groups)
     return Status(kind="converged")
 
 
@@ -168,20 +163,6 @@ def _asperity_contact(level: Level) -> Status:
             "touch there, which a film that carries all of the load cannot describe."
         ),
         hint=LESS_ROUGH,
-    )
-
-
-def _thin(level: Level, groups: Groups) -> Status:
-    """Refuse a thin film of which no coarser grid can tell the error."""
-    return Status(
-        kind="not_converged",
-        cause="grid_too_coarse",
-        message=(
-            f"Only the finest grid of {level.grid.nx} x {level.grid.ny} nodes resolves the "
-            f"asperities, and the smallest film on it, H = {level.film.h.min():.3g}, is too thin "
-            "to be believed without a second grid."
-        ),
-        hint=f"Take {_grid_hint(level.grid, groups)}.",
     )
 
 
