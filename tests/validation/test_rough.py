@@ -98,8 +98,9 @@ def test_strong_waves_have_the_film_of_a_newton_solver(contact, shape, central):
 def test_waves_beyond_the_plain_cycle_converge(contact, shape):
     options = tight(257, half_domain="auto" if shape[2] == 0.0 else "never")
     try:
-        last = rough_film(contact, options, shape).history[-1]
-    except ConvergenceError as error:  # 257 nodes are too few for some of these films
-        assert error.result.status.cause == "grid_too_coarse"
-        last = error.result.history[-1]
+        result = rough_film(contact, options, shape)
+    except ConvergenceError as error:
+        result = error.result
+    assert result.status.cause in (None, "grid_too_coarse")  # some films are too thin for 257 nodes
+    last = result.history[-1]
     assert max(last.residual, last.change, abs(last.load_error)) <= options.tolerance
