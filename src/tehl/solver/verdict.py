@@ -201,7 +201,7 @@ def _not_reached(run: Multigrid) -> Status:
          ("load error", abs(last.load_error))),
         key=lambda pair: pair[1],
     )  # fmt: skip
-    stalled = len(reports) < run.options.max_cycles
+    stalled = len(reports) < run.options.max_cycles * run.setting.rough.patience
     wanted = (
         f"the tolerance is {run.options.tolerance:.1e}"
         if run.options.accuracy == "tight"
