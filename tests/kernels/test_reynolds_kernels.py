@@ -35,6 +35,7 @@ def relaxation_of(shape, xi=0.0, omega=(1.0, 1.0), influence=0.0):
         kind=np.zeros(shape, np.uint8),
         delta=np.zeros(shape),
         frozen=np.zeros(shape, np.uint8),
+        steep=np.zeros(shape),
     )
 
 
@@ -306,3 +307,39 @@ def test_a_broken_pressure_is_not_passed_over():
     assert np.isnan(out[2, 4:7]).all()
     rest = np.zeros(12)
     assert reynolds.wet_range(film.p[2] * 0.0, np.zeros(12, np.uint8), rest) == (5, 5)
+
+
+@MIRROR
+def test_the_stiffness_of_a_hollow_is_the_slope_of_the_flow_into_it(mirror):
+    """At a node lower than its neighbours the conductance alone changes the flow: by its slope."""
+    step, decay = 1e-3, 12.0
+    rows = np.arange(4001) * step
+    mobility, ones = np.exp(-decay * rows), np.ones_like(rows)
+    table = np.stack([mobility, -decay * step * mobility, ones, 0.0 * ones], axis=1)
+    mesh, p = mesh_of(mirror), 1.0 + 0.1 * np.random.default_rng(3).random((7, 8))
+    p[3, 4] = 0.3
+    fields = (np.empty_like(p) for _ in range(3))
+    film, flows, nudge = isotropic(p, np.ones_like(p), *fields), [], 1e-5
+    for sign in (-1.0, 1.0):
+        moved = p.copy()
+        moved[3, 4] += sign * nudge
+        reynolds.properties(film._replace(p=moved), table, step, 0.0)
+        out = np.empty_like(p)
+        reynolds.operator(film, mesh, out)  # the pressure itself stays
+        flows.append(out[3, 4])
+    reynolds.properties(film, table, step, 0.0)
+    steep = np.empty_like(p)
+    reynolds.stiffen(film, mesh, table, step, steep)
+    assert steep[3, 4] == pytest.approx((flows[0] - flows[1]) / (2 * nudge), rel=1e-2)
+    assert (steep >= 0.0).all()
+
+
+def test_a_steep_node_moves_by_less():
+    shape, mesh = (7, 8), mesh_of(0)
+    film, changes = random_film(shape), []
+    for steep in (0.0, 50.0):
+        p, relaxation = film.p.copy(), relaxation_of(shape)
+        relaxation.steep[3, 4] = steep
+        reynolds.relax_lines(film._replace(p=p), mesh, np.zeros(shape), relaxation)
+        changes.append(abs(p[3, 4] - film.p[3, 4]))
+    assert 0.0 < changes[1] < changes[0]

@@ -18,7 +18,7 @@ Span = tuple[int, int]
 LANES = 8  # lines of one colour that are solved side by side
 PASSES = 6  # of the policy iteration, before clipping
 CHUNK = 32  # nodes copied at a time, so that their cells stay in the first cache
-EAST, ACROSS, SQUEEZE, RHO, DIPOLE, REST, P, STATE, BAND = range(9)
+EAST, ACROSS, SQUEEZE, RHO, DIPOLE, REST, P, STATE, STEEP, BAND = range(10)
 UP1, UP2, U, FIELDS = BAND + 6, BAND + 7, BAND + 8, BAND + 9
 
 
@@ -59,7 +59,8 @@ class Relaxation(NamedTuple):
 
     ``point[m]`` and ``dipole[m]``: film at distance m along the line per unit change of a point
     and of a dipole; ``kind`` (ny, nx) marks the dipoles; ``delta`` (ny, nx) stores them until both
-    colours are done; ``frozen`` (ny, nx) marks nodes that keep their pressure.
+    colours are done; ``frozen`` (ny, nx) marks nodes that keep their pressure; ``steep`` (ny, nx)
+    is what the change of conductance adds to the diagonal (`stiffen`).
     """
 
     xi: float
@@ -70,6 +71,7 @@ class Relaxation(NamedTuple):
     kind: FlagArray
     delta: Array
     frozen: FlagArray
+    steep: Array
 
 
 @njit(cache=True, fastmath={"contract"})
@@ -261,6 +263,29 @@ def mark_dipoles(film: Film, mesh: Mesh, relaxation: Relaxation) -> None:
                 kind[j, i] = 1
 
 
+@njit(cache=True)
+def stiffen(film: Film, mesh: Mesh, table: Array, step: float, out: Array) -> None:
+    """Write to ``out`` what the change of conductance with pressure adds to the diagonal.
+
+    Where the pressure rises to a neighbour by many times the pressure that thickens the oil by a
+    factor of e, the flow between both follows the conductance of the lower one, and that much more
+    steeply than the difference of pressure. Columns of ``table`` as in `properties`.
+    """
+    ny, nx = film.p.shape
+    last = table.shape[0] - 2
+    out[:] = 0.0
+    for j in range(0 if mesh.mirror else 1, ny - 1):
+        south = j - 1 if j > 0 else 1
+        for i in range(1, nx - 1):
+            p = film.p[j, i]
+            k = int(min(p / step, last))
+            decay = max(-table[k, 1] / (table[k, 0] * step), 0.0)
+            along = max(film.p[j, i - 1] - p, 0.0) + max(film.p[j, i + 1] - p, 0.0)
+            across = max(film.p[south, i] - p, 0.0) + max(film.p[j + 1, i] - p, 0.0)
+            slope = mesh.cx * film.eps_x[j, i] * along + mesh.cy * film.eps[j, i] * across
+            out[j, i] = 0.5 * decay * slope
+
+
 class Batch(NamedTuple):
     """Lines of one colour that are solved side by side, and their workspace.
 
@@ -312,6 +337,7 @@ def load_line(
     eps_n, eps_s = film.eps[j + 1, a:b], film.eps[south, a:b]
     p, rho, h, drho = film.p[j, a:b], film.rho[j, a:b], film.h[j, a:b], film.drho[j, a:b]
     kind, frozen = relaxation.kind[j, a:b], relaxation.frozen[j, a:b]
+    steep = relaxation.steep[j, a:b]
     rest = batch.rest[lane, a:b]
     half_x, half_y = 0.5 * mesh.cx, 0.5 * mesh.cy
     cells = batch.cells[at(a + 3, 0) + lane :]
@@ -323,6 +349,7 @@ def load_line(
         cells[at(i, DIPOLE)] = kind[i]
         cells[at(i, REST)] = rest[i]
         cells[at(i, P)] = p[i]
+        cells[at(i, STEEP)] = steep[i]
         dry = 1.0 if p[i] <= 0.0 and rest[i] >= 0.0 else 0.0
         cells[at(i, STATE)] = 2.0 if frozen[i] else dry
 
@@ -348,7 +375,7 @@ def fill_band(batch: Batch, mesh: Mesh, relaxation: Relaxation, low: int, high: 
             east, west, across = c[at(3, EAST) + k], c[at(2, EAST) + k], c[at(3, ACROSS) + k]
             a_ww = -w2 * c[at(1, SQUEEZE) + k]
             a_w = west - w1 * c[at(2, SQUEEZE) + k]
-            a_c = -east - west - across - w0 * c[at(3, SQUEEZE) + k]
+            a_c = -east - west - across - w0 * c[at(3, SQUEEZE) + k] - c[at(3, STEEP) + k]
             b_ww, b_w, b_c = (
                 -w2 * c[at(1, RHO) + k],
                 -w1 * c[at(2, RHO) + k],

@@ -150,7 +150,7 @@ class Level:
         """Smooth the error of pressure and film in place."""
         for _ in range(sweeps):
             self.update()
-            self.smoother.sweep(self.film, self.mesh, self.rhs)
+            self.smoother.sweep(self.film, self.mesh, self.rhs, self.flow)
             self.stale = True
 
     def evaluate_residual(self) -> float:

@@ -1,7 +1,5 @@
 """Full multigrid: from the coarsest grid up, each grid starts from the next coarser solution."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from tehl.film_formulas import expected_central_film
@@ -13,13 +11,16 @@ from tehl.operators.transfer import refine
 from tehl.options import Options
 from tehl.result import CycleReport, ErrorEstimate
 from tehl.scaling import Groups
+from tehl.solver.anderson import Anderson
 from tehl.solver.coarsest import CoarsestSolver
 from tehl.solver.convergence import (
     LARGEST_CHANGE,
+    LARGEST_ROUGH_CHANGE,
     GridTrace,
     converged,
     error_estimate,
     iterated_enough,
+    single_grid_estimate,
     stalled,
 )
 from tehl.solver.fas import Cycle, cycle
@@ -28,9 +29,7 @@ from tehl.solver.level import Level
 from tehl.solver.monitor import Monitor
 from tehl.solver.smoother import BROAD, FAST, Setting
 from tehl.solver.thermal import Coupling, Uncoupled
-
-if TYPE_CHECKING:
-    from tehl.typing import Array
+from tehl.typing import Array
 
 FIRST_STEPS = 6
 """Newton steps on the coarsest grid at the start; they may cycle there, which does no harm."""
@@ -38,6 +37,10 @@ COARSE_CYCLES = 4
 """Most cycles on a grid that only gives the start for the next finer one."""
 RUNAWAY = 100.0
 """Load error and central film that no iteration comes back from (H of a contact is below 2)."""
+WILD = 10.0
+"""Change of pressure per cycle that no iteration comes back from between rough surfaces."""
+APPROACH = 10.0
+"""Weight of the rigid approach among the pressures, where states are compared."""
 SMOOTH_CYCLES = 2
 """Cycles without heights on the first grid that gets them."""
 BLURRED = 12.0
@@ -90,6 +93,7 @@ class Multigrid:
             level.floor = FLOOR * self.expected_film
         self.first_rough = len(self.levels)
         self.smooth: tuple[int, Array, float] | None = None
+        self.ripple = (np.inf, 0.0)
         self.coarsest_trace = GridTrace()
         self.traces: list[GridTrace] = []
 
@@ -112,6 +116,8 @@ class Multigrid:
             for level in self.levels[blurred:]:
                 level.limit = rough.limit
         self.first_rough = first
+        inside = np.hypot.outer(self.finest.grid.y, self.finest.grid.x) < 1.0
+        self.ripple = (points[-1], 0.5 * float(np.ptp(fields[-1][inside])))
 
     def errors(self) -> ErrorEstimate | None:
         """Return estimated errors of the film; None before the finest grid was cycled on."""
@@ -120,7 +126,9 @@ class Multigrid:
         alike = [self.coarsest_trace, *self.traces]
         if self.is_rough:
             alike = alike[self.first_rough :]
-        return error_estimate(alike, self.options.wedge_order) if len(alike) > 1 else None
+        if self.is_rough and len(alike) < 2:
+            return single_grid_estimate(self.traces[-1], self.finest.grid.dx, *self.ripple)
+        return error_estimate(alike, self.options.wedge_order, rough=self.is_rough)
 
     @property
     def is_rough(self) -> bool:
@@ -238,21 +246,34 @@ class Multigrid:
             for level in levels:
                 level.set_smoother(self.setting)
         trace = GridTrace()
+        if len(levels) > self.first_rough:
+            trace.largest_change = LARGEST_ROUGH_CHANGE
         self.traces.append(trace)
         coarser = self._coarser_trace()
         shape = Cycle.of(self.options, levels[0].grid, self.expected_film)
         done = self._ramp(levels, shape, monitor)
         trace.note(*film_numbers(fine))
-        for number in range(1, (self.options.max_cycles if last else COARSE_CYCLES) + 1):
+        anderson = self._anderson(levels)
+        patience = self.setting.rough.patience
+        most = patience * self.options.max_cycles if last else COARSE_CYCLES
+        for number in range(1, most + 1):
+            before = state_of(fine)
             report = self._cycle(levels, shape, number + done)
             trace.reports.append(report)
             trace.note(report.film_central, report.film_minimum)
             trace.rise.values.append(report.temperature_rise)
             monitor.cycle(report)
-            if last and (converged(trace, coarser, self.options) or stalled(trace)):
+            if last and (converged(trace, coarser, self.options) or stalled(trace, patience)):
                 return
             if not last and iterated_enough(trace, coarser):
                 return
+            if anderson is not None:
+                take_state(fine, anderson.combine(before, state_of(fine)))
+
+    def _anderson(self, levels: list[Level]) -> Anderson | None:
+        """Return the acceleration of the cycles on the last of ``levels``, if they need one."""
+        memory = self.setting.rough.memory
+        return Anderson(memory) if memory and len(levels) > self.first_rough else None
 
     def _ramp(self, levels: list[Level], shape: Cycle, monitor: Monitor) -> int:
         """Raise the heights step by step on the first level that has them; return the cycles."""
@@ -297,7 +318,22 @@ class Multigrid:
         )
         if not (np.isfinite(residual) and abs(report.load_error) < RUNAWAY and central < RUNAWAY):
             raise DivergedError
+        if self.is_rough and not report.change < WILD:
+            raise DivergedError
         return report
+
+
+def state_of(level: Level) -> Array:
+    """Return pressure and approach of a level as one array."""
+    return np.append(level.film.p.ravel(), APPROACH * level.rigid_approach)
+
+
+def take_state(level: Level, state: Array) -> None:
+    """Set pressure and approach; what is cavitated stays so, and no pressure is negative."""
+    p = np.maximum(state[:-1].reshape(level.film.p.shape), 0.0)
+    level.film.p[:] = np.where(level.film.p > 0.0, p, 0.0)
+    level.rigid_approach = float(state[-1]) / APPROACH
+    level.stale = True
 
 
 def film_numbers(level: Level) -> tuple[float, float]:

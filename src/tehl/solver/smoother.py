@@ -7,7 +7,8 @@ import numpy as np
 
 from tehl.grid import Grid
 from tehl.kernels.gauss_seidel import relax_points
-from tehl.kernels.reynolds import Film, Mesh, Relaxation, relax_lines
+from tehl.kernels.reynolds import Film, Mesh, Relaxation, relax_lines, stiffen
+from tehl.operators.flow import FlowTable
 from tehl.operators.influence import Influence
 from tehl.operators.reynolds import line_influence
 from tehl.typing import Array, FlagArray
@@ -27,12 +28,26 @@ class Rough:
         Cycles over which the heights are raised on the first grid that has them.
     points : float
         Nodes per wave from which a grid has the heights [-].
+    lines : int
+        Lines to each side that are taken to move with a line where its points are solved for. On
+        the steep flank of a ridge along them they do, and together move the film by more than
+        each by itself.
+    stiff : bool
+        Add the change of conductance with pressure to the diagonal.
+    memory : int
+        Earlier cycles of which the next start is combined (`tehl.solver.anderson`); none if 0.
+    patience : int
+        Factor on the cycles after which a run is given up.
     """
 
     correction: float = 1.0
     limit: float = np.inf
     ramp: int = 4
     points: float = 8.0
+    lines: int = 0
+    stiff: bool = False
+    memory: int = 0
+    patience: int = 1
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -61,20 +76,29 @@ class Setting:
 FAST = Setting(name="fast", threshold=1.0, point=0.7, dipole=0.6)
 BROAD = Setting(name="broad", threshold=10.0, point=0.7, dipole=0.6)
 ROBUST = Setting(name="robust", threshold=1.0, point=0.4, dipole=0.3)
-ROUGH = Setting(name="rough", threshold=1.0, point=0.6, dipole=0.4)
-DAMPED = Setting(
-    name="damped",
-    threshold=1.0,
-    point=0.6,
-    dipole=0.4,
-    rough=Rough(correction=0.5, limit=0.3, points=12.0),
-)
+ROUGH = Setting(name="rough", threshold=1.0, point=0.6, dipole=0.4, rough=Rough(lines=4, memory=5))
 CAREFUL = Setting(
     name="careful",
     threshold=1.0,
     point=0.5,
     dipole=0.35,
-    rough=Rough(correction=0.3, limit=0.3, ramp=8, points=12.0),
+    rough=Rough(correction=0.5, limit=0.3, ramp=8, lines=4, stiff=True, memory=8, patience=2),
+)
+GENTLE = Setting(
+    name="gentle",
+    threshold=1.0,
+    point=0.3,
+    dipole=0.2,
+    rough=Rough(
+        correction=0.15,
+        limit=0.15,
+        ramp=48,
+        points=12.0,
+        lines=4,
+        stiff=True,
+        memory=10,
+        patience=3,
+    ),
 )
 POINTWISE = Setting(name="gauss-seidel", threshold=0.0, point=0.5, dipole=0.0)
 SETTINGS = {setting.name: setting for setting in (FAST, BROAD, ROBUST, POINTWISE)}
@@ -86,7 +110,7 @@ class Smoother(Protocol):
     frozen: FlagArray
     """Nodes that keep their pressure on this level, (ny, nx) of 0 and 1."""
 
-    def sweep(self, film: Film, mesh: Mesh, rhs: Array) -> None:
+    def sweep(self, film: Film, mesh: Mesh, rhs: Array, flow: FlowTable) -> None:
         """Relax ``film.p`` in place."""
         ...
 
@@ -96,7 +120,9 @@ class LineSmoother:
 
     def __init__(self, grid: Grid, influence: Influence, setting: Setting) -> None:
         point, dipole = line_influence(influence)
+        point += 2.0 * neighbours(influence, setting.rough.lines, point.size)
         self.frozen = np.zeros(grid.shape, np.uint8)
+        self.steep = np.zeros(grid.shape)
         self.relaxation = Relaxation(
             xi=setting.threshold,
             omega_point=setting.point,
@@ -106,10 +132,14 @@ class LineSmoother:
             kind=np.zeros(grid.shape, np.uint8),
             delta=np.zeros(grid.shape),
             frozen=self.frozen,
+            steep=self.steep,
         )
+        self.is_stiff = setting.rough.stiff
 
-    def sweep(self, film: Film, mesh: Mesh, rhs: Array) -> None:
+    def sweep(self, film: Film, mesh: Mesh, rhs: Array, flow: FlowTable) -> None:
         """Relax ``film.p`` in place."""
+        if self.is_stiff:
+            stiffen(film, mesh, flow.table, flow.step, self.steep)
         relax_lines(film, mesh, rhs, self.relaxation)
 
 
@@ -121,9 +151,18 @@ class PointSmoother:
         self.point, _ = line_influence(influence)
         self.omega = setting.point
 
-    def sweep(self, film: Film, mesh: Mesh, rhs: Array) -> None:
+    def sweep(self, film: Film, mesh: Mesh, rhs: Array, flow: FlowTable) -> None:
         """Relax ``film.p`` in place."""
+        del flow
         relax_points(film, mesh, rhs, self.point, self.omega)
+
+
+def neighbours(influence: Influence, lines: int, size: int) -> Array:
+    """Return the film along a line by a unit change of nodes abreast of it on 1 to ``lines``."""
+    total = np.zeros(size)
+    for line in range(1, lines + 1):
+        total += influence(line, slice(0, size))
+    return total
 
 
 def make_smoother(grid: Grid, influence: Influence, setting: Setting) -> Smoother:

@@ -34,7 +34,7 @@ from tehl.solver.film_numbers import film_summary
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.multigrid import Multigrid
 from tehl.solver.outputs import film_heat, film_shear, newtonian_shear
-from tehl.solver.smoother import BROAD, CAREFUL, DAMPED, FAST, ROBUST, ROUGH, SETTINGS, Setting
+from tehl.solver.smoother import BROAD, CAREFUL, FAST, GENTLE, ROBUST, ROUGH, SETTINGS, Setting
 from tehl.solver.thermal import Coupling, FilmCoupling, Uncoupled
 from tehl.solver.verdict import diverged, verdict
 from tehl.solver.warmup import warm_up
@@ -46,10 +46,17 @@ PACKAGES = ("tehl", "numpy", "scipy", "numba")
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Attempt:
-    """What one setting of the smoother reached."""
+    """What one setting of the smoother reached, and whether its cycles got where they should."""
 
     run: Multigrid
     status: Status
+    reached: bool
+
+    @property
+    def is_final(self) -> bool:
+        """Whether no other setting would end otherwise."""
+        touching = self.reached and self.status.cause == "asperity_contact"
+        return self.status.converged or self.status.cause in GRID_CAUSES or touching
 
 
 def solve(
@@ -114,9 +121,9 @@ def solve_attempt(
     attempts = []
     for attempt in _attempts(problem, options, history, grid, heights):
         attempts.append(attempt)
-        if attempt.status.converged or attempt.status.cause in GRID_CAUSES:
+        if attempt.is_final:
             break
-    best = min(attempts, key=lambda a: (not a.status.converged, a.status.kind == "diverged"))
+    best = min(attempts, key=_rank)
     cost = Cost(cpu_seconds=time.process_time() - cpu, wall_seconds=time.perf_counter() - wall)
     result = _result(problem, options, best, tuple(history.reports), cost)
     return best, replace(result, heights=_surfaces(grid, heights, result.scales))
@@ -150,6 +157,12 @@ def _surfaces(grid: Grid, heights: Heights | None, case_scales: Scales) -> Surfa
     return SurfaceHeights(surface_1=first, surface_2=second)
 
 
+def _rank(attempt: Attempt) -> tuple[bool, bool, bool]:
+    """Return what puts the best attempt first: converged, got there, or at least finite."""
+    status = attempt.status
+    return not status.converged, not attempt.reached, status.kind == "diverged"
+
+
 def _attempts(
     problem: ContactProblem,
     options: Options,
@@ -170,7 +183,7 @@ def _attempts(
         if heights is not None:
             run.roughen(heights)
         last = number == len(attempts) - 1
-        yield Attempt(run=run, status=_run(run, monitor, patient=last))
+        yield _run(run, monitor, patient=last)
 
 
 def _settings(
@@ -180,22 +193,22 @@ def _settings(
     if options.smoother != "auto":
         return [(SETTINGS[options.smoother], False)]
     if rough:
-        return [(ROUGH, False), (DAMPED, False), (CAREFUL, False)]
+        return [(ROUGH, False), (CAREFUL, False), (GENTLE, False)]
     if not problem.is_coupled:
         return [(FAST, False), (ROBUST, False)]
     attempts = [(BROAD, False), (ROBUST, False)]
     return [*attempts, (ROBUST, True)] if problem.slide_roll_ratio else attempts
 
 
-def _run(run: Multigrid, monitor: Monitor, *, patient: bool) -> Status:
+def _run(run: Multigrid, monitor: Monitor, *, patient: bool) -> Attempt:
     """Run and judge; a value that is not finite ends the run."""
     with np.errstate(all="ignore"):  # a run away is judged below, not warned of on the way
         try:
             reached = run.solve(monitor, patient=patient)
         except ArithmeticError:
             run.salvage()
-            return diverged(run)
-    return verdict(run, not reached, run.errors())
+            return Attempt(run=run, status=diverged(run), reached=False)
+    return Attempt(run=run, status=verdict(run, not reached, run.errors()), reached=reached)
 
 
 def coupling_of(problem: ContactProblem, options: Options, *, ramped: bool) -> Coupling:

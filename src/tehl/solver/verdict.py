@@ -23,6 +23,7 @@ LARGEST_COOLING = 5.0
 LARGEST_MISSING_HEAT = 0.3
 """Part of the heat that may be missing: in pure rolling, where there is little of it, the backflow
 in the inlet keeps some for long."""
+LESS_ROUGH = "Take lower or longer asperities, more speed, or more nodes (numerics.points)."
 STARVED = 0.9
 """Film over fully flooded film below which an edge is called too close."""
 
@@ -45,12 +46,23 @@ def verdict(run: Multigrid, cycled_out: bool, errors: ErrorEstimate | None) -> S
         return diverged(run)
     if not film.h.min() > level.floor:
         return _asperity_contact(level) if run.is_rough else _film_not_positive(level, groups)
-    if errors is not None and errors.discretisation_minimum > LARGEST_BAR:
-        return _too_coarse(level.grid, groups, errors.discretisation_minimum)
+    if cycled_out and run.is_rough:  # another setting may still get there, on this very grid
+        return _not_reached(run)
+    resolved = _resolution_status(run, errors)
+    if not resolved.converged:
+        return resolved
     if cycled_out:
         return _not_reached(run)
     heated = _heat_status(run)
     return _domain_status(run) if heated.converged else heated
+
+
+def _resolution_status(run: Multigrid, errors: ErrorEstimate | None) -> Status:
+    """Judge whether the grid resolves the film."""
+    level, groups = run.finest, run.groups
+    if errors is not None and errors.discretisation_minimum > LARGEST_BAR:
+        return _too_coarse(level.grid, groups, errors.discretisation_minimum)
+    return Status(kind="converged")
 
 
 def _domain_status(run: Multigrid) -> Status:
@@ -108,9 +120,13 @@ def diverged(run: Multigrid) -> Status:
     )
     found, other = _suspect(run), _smoother_hint(run)
     if found is None:
-        hint = other or (
-            f"Nothing about the case is conspicuous: take {grid_hint(grid, groups)}, or come "
-            "nearer in steps, from less load, less sliding or a thicker film."
+        hint = (
+            other
+            or (LESS_ROUGH if run.is_rough else "")
+            or (
+                f"Nothing about the case is conspicuous: take {grid_hint(grid, groups)}, or come "
+                "nearer in steps, from less load, less sliding or a thicker film."
+            )
         )
         return Status(kind="diverged", cause="diverged", message=what, hint=hint)
     message = f"{what} A likely cause: {found.message}"
@@ -161,7 +177,7 @@ def _asperity_contact(level: Level) -> Status:
             f"{np.count_nonzero(h <= level.floor)} nodes are as thin as that. Asperities would "
             "touch there, which a film that carries all of the load cannot describe."
         ),
-        hint="Take lower or longer asperities, more speed, or more nodes (numerics.points).",
+        hint=LESS_ROUGH,
     )
 
 
@@ -205,7 +221,7 @@ def _not_reached(run: Multigrid) -> Status:
          ("load error", abs(last.load_error))),
         key=lambda pair: pair[1],
     )  # fmt: skip
-    stalled = len(reports) < run.options.max_cycles
+    stalled = len(reports) < run.options.max_cycles * run.setting.rough.patience
     wanted = (
         f"the tolerance is {run.options.tolerance:.1e}"
         if run.options.accuracy == "tight"

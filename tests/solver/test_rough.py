@@ -1,0 +1,110 @@
+"""Surfaces that are rough and stand still: what the cycles reach, and what the verdict says."""
+
+import numpy as np
+import pytest
+
+from tehl.errors import ConvergenceError
+from tehl.operators.heights import Heights, full_weighting
+from tehl.options import Options
+from tehl.scaling import groups
+from tehl.solver.anderson import Anderson
+from tehl.solver.steady import finest_grid, solve
+from tests.reference import DOMAIN, moes_contact
+from tests.solver.rough import bump, rough_film, wave
+from tests.solver.runs import film_of, tight
+
+FULL = {"half_domain": "never"}
+
+
+def options(points: int, **changes: object) -> Options:
+    """Return the options of a default run on the domain of most published films."""
+    return Options.model_validate({"points": points, "domain": DOMAIN, **changes})
+
+
+def test_heights_fade_on_coarser_grids_and_keep_their_mean():
+    grid = finest_grid(tight(65, half_domain="never"), groups(moes_contact(200.0, 10.0)))
+    heights = wave(grid, 0.1, 8.0 * grid.dx, 0.0)
+    coarse, fine = heights.on([grid.coarser(), grid])
+    inner = (slice(2, -2), slice(2, -2))
+    # eight nodes per wave: the 1-2-1 means leave (1 + cos(pi/4))/2
+    assert coarse[inner] == pytest.approx(fine[::2, ::2][inner] * (1 + np.sqrt(0.5)) / 2)
+    assert heights.points_per_wave(grid.coarser()) == pytest.approx(4.0)
+
+
+def test_the_mirror_row_is_weighed_with_its_image():
+    half = np.arange(25.0).reshape(5, 5) ** 2
+    whole = np.concatenate([half[:0:-1], half])
+    assert full_weighting(half, mirror=True) == pytest.approx(
+        full_weighting(whole, mirror=False)[2:]
+    )
+
+
+def test_heights_of_zero_give_the_smooth_film():
+    problem, smooth = moes_contact(20.0, 10.0), film_of(20.0, 10.0, tight(65))
+    shape = finest_grid(tight(65), groups(problem)).shape
+    flat = Heights(values=np.zeros(shape), wavelengths=(4.0, 4.0))
+    result = solve(problem, tight(65), heights=flat)
+    assert result.scaled.film == pytest.approx(smooth.scaled.film, abs=1e-5)
+
+
+def test_half_and_full_domain_agree_between_symmetric_waves():
+    half, full = (
+        rough_film((57.0, 10.0), tight(65, **more), (0.03, 1.0, 0.0)) for more in ({}, FULL)
+    )
+    assert full.scaled.film == pytest.approx(half.scaled.film, abs=1e-5)
+
+
+@pytest.mark.parametrize("degrees", [0.0, 45.0, 90.0])
+def test_a_wave_converges_as_fast_as_a_smooth_contact(degrees):
+    result = rough_film((200.0, 10.0), tight(129, **FULL), (0.03, 1.0, degrees))
+    last = [report for report in result.history if report.points == (129, 129)]
+    assert {report.smoother for report in last} == {"rough"}
+    assert len(last) < 16
+
+
+def test_a_strong_wave_falls_back_to_the_accelerated_cycles():
+    result = rough_film((126.0, 12.34), tight(129), (0.2, 1.0, 0.0))
+    assert result.status.converged
+    assert result.scaled.film.min() > 0.0
+
+
+def test_a_default_run_is_near_the_tight_one():
+    default, exact = (
+        rough_film((57.21, 10.52), o, (0.1, 1.0, 45.0))
+        for o in (options(129, **FULL), tight(129, **FULL))
+    )
+    assert default.errors is not None
+    for name in ("central", "minimum"):
+        value, true = (getattr(r.film_scaled, name) for r in (default, exact))
+        bar = getattr(default.errors, f"discretisation_{name}")
+        assert abs(value - true) < bar * true / 3
+
+
+@pytest.mark.parametrize("height", [-0.3, 0.3])
+def test_a_dent_and_a_bump_change_the_film_where_they_are(height):
+    problem, chosen = moes_contact(200.0, 10.0), options(129)
+    grid = finest_grid(chosen, groups(problem))
+    result = solve(problem, chosen, heights=bump(grid, height, 0.3))
+    smooth = solve(problem, chosen)
+    assert (result.film_scaled.central - smooth.film_scaled.central) * height < 0
+    assert abs(result.film_scaled.central - smooth.film_scaled.central) < 0.5 * abs(height)
+
+
+def test_asperities_that_would_touch_are_named_with_their_place():
+    with pytest.raises(ConvergenceError) as caught:
+        rough_film((500.0, 10.0), options(65), (0.2, 1.5, 90.0))
+    status = caught.value.result.status
+    assert status.cause in ("asperity_contact", "grid_too_coarse")
+    assert caught.value.result.scaled.pressure.shape == (65, 65)
+
+
+def test_anderson_solves_a_linear_iteration_that_diverges():
+    generator = np.random.default_rng(1)
+    rates = np.concatenate([[-1.6, 1.3], np.linspace(-0.5, 0.5, 30)])
+    turn = np.linalg.qr(generator.standard_normal((32, 32)))[0]
+    matrix, goal = turn @ np.diag(rates) @ turn.T, generator.standard_normal(32)
+    anderson, state = Anderson(10), np.zeros(32)
+    for _ in range(40):
+        after = goal + matrix @ (state - goal)
+        state = anderson.combine(state, after)
+    assert np.abs(state - goal).max() < 1e-6
