@@ -9,6 +9,8 @@ from tehl.problem import ContactProblem
 
 DOMAIN = Domain(x=(-4.5, 1.5), y=(-3.0, 3.0))
 """The domain of most published films, in Hertz half-widths."""
+CLOSE = Domain(x=(-2.5, 1.5), y=(-2.0, 2.0))
+"""A domain close to the contact, for short waves on 513 nodes; theory takes the film as it is."""
 
 
 def read(name: str) -> dict[str, Any]:
@@ -58,6 +60,34 @@ def moes_contact(
             },
         }
     )
+
+
+def wavy_contact(
+    load: float, speed: float, *, amplitude: float, wavelength: float, angle: float
+) -> ContactProblem:
+    """Return the contact of the reference films with a wave that stands on surface 2.
+
+    Parameters
+    ----------
+    load, speed : float
+        Moes numbers [-].
+    amplitude, wavelength : float
+        In a^2/R and in a [-].
+    angle : float
+        Zero is transverse [degree].
+    """
+    smooth = moes_contact(load, speed)
+    width = smooth.hertz.half_width_x
+    wave = {
+        "type": "wave",
+        "amplitude": amplitude * width**2 / smooth.radius_x,
+        "wavelength": wavelength * width,
+        "angle": f"{angle} deg",
+    }
+    surface = {"material": "steel", "roughness": wave}
+    title = f"M = {load:g}, L = {speed:g}, wave of {wavelength:g} a at {angle:g} degrees"
+    tables = smooth.model_dump(mode="json") | {"surface_2": surface, "title": title}
+    return ContactProblem.model_validate(tables)
 
 
 def heated_contact(
