@@ -4,13 +4,12 @@ import numpy as np
 import pytest
 
 from tehl.errors import ConvergenceError
-from tehl.operators.heights import Heights, full_weighting
+from tehl.operators.heights import full_weighting
 from tehl.options import Options
-from tehl.scaling import groups
 from tehl.solver.anderson import Anderson
 from tehl.solver.steady import finest_grid, solve
 from tests.reference import DOMAIN, moes_contact
-from tests.solver.rough import bump, rough_film, wave
+from tests.solver.rough import bumpy, rough_film, wave_on
 from tests.solver.runs import film_of, tight
 
 FULL = {"half_domain": "never"}
@@ -22,8 +21,8 @@ def options(points: int, **changes: object) -> Options:
 
 
 def test_heights_fade_on_coarser_grids_and_keep_their_mean():
-    grid = finest_grid(tight(65, half_domain="never"), groups(moes_contact(200.0, 10.0)))
-    heights = wave(grid, 0.1, 8.0 * grid.dx, 0.0)
+    grid = finest_grid(moes_contact(200.0, 10.0), tight(65, half_domain="never"))
+    heights = wave_on(grid, 0.1, 8.0 * grid.dx)
     coarse, fine = heights.on([grid.coarser(), grid])
     inner = (slice(2, -2), slice(2, -2))
     # eight nodes per wave: the 1-2-1 means leave (1 + cos(pi/4))/2
@@ -40,10 +39,9 @@ def test_the_mirror_row_is_weighed_with_its_image():
 
 
 def test_heights_of_zero_give_the_smooth_film():
-    problem, smooth = moes_contact(20.0, 10.0), film_of(20.0, 10.0, tight(65))
-    shape = finest_grid(tight(65), groups(problem)).shape
-    flat = Heights(values=np.zeros(shape), wavelengths=(4.0, 4.0))
-    result = solve(problem, tight(65), heights=flat)
+    smooth = film_of(20.0, 10.0, tight(65))
+    result = rough_film((20.0, 10.0), tight(65), (1e-12, 1.0, 0.0))
+    assert result.heights is not None
     assert result.scaled.film == pytest.approx(smooth.scaled.film, abs=1e-5)
 
 
@@ -82,10 +80,9 @@ def test_a_default_run_is_near_the_tight_one():
 
 @pytest.mark.parametrize("height", [-0.3, 0.3])
 def test_a_dent_and_a_bump_change_the_film_where_they_are(height):
-    problem, chosen = moes_contact(200.0, 10.0), options(129)
-    grid = finest_grid(chosen, groups(problem))
-    result = solve(problem, chosen, heights=bump(grid, height, 0.3))
-    smooth = solve(problem, chosen)
+    contact, chosen = (200.0, 10.0), options(129)
+    result = solve(bumpy(contact, height, 0.3), chosen)
+    smooth = solve(moes_contact(*contact), chosen)
     assert (result.film_scaled.central - smooth.film_scaled.central) * height < 0
     assert abs(result.film_scaled.central - smooth.film_scaled.central) < 0.5 * abs(height)
 
