@@ -250,8 +250,8 @@ def wavy() -> Iterator[str]:
     yield (
         "\nHeld to 3 %, also for 30° and for amplitudes of 0.003 and 0.005 a²/R. Crests along the "
         "entrainment (90°) are left to the inlet, of which this theory knows nothing; what the "
-        "film does not keep of them is flattened by the pressure. Without the smooth film subtracted, a "
-        "quadratic background costs up to 5 % at λ = a/2 and 2 % at shorter waves."
+        "film does not keep of them is flattened by the pressure. Without the smooth film "
+        "subtracted, a quadratic background costs up to 5 % at λ = a/2 and 2 % at shorter waves."
     )
 
 

@@ -104,3 +104,23 @@ def test_heat_of_the_inlet_thins_a_fast_film_as_formulas_say():
     for name in ("Murch-Wilson", "Wilson-Sheu", "Gupta"):
         # 10 to 15 % is what the formulas promise
         assert table[8.0]["computed"] == pytest.approx(table[8.0][name], rel=0.12)
+
+
+def test_a_standing_wave_is_flattened_as_theory_says_and_leaves_stripes():
+    table = example("standing_wave").main()
+    # an independent multigrid program on the same grid: 0.0606, 0.1154 and 0.0154, 0.0362
+    for load, smallest, central in ((126.0, 0.0606, 0.1154), (500.0, 0.0154, 0.0362)):
+        assert table[load]["smallest node H"] == pytest.approx(smallest, rel=5e-3)
+        assert table[load]["central film H"] == pytest.approx(central, rel=5e-3)
+        # theory is linear, and this wave is no longer low
+        assert table[load]["left of the wave"] == pytest.approx(table[load]["by theory"], rel=0.05)
+        assert table[load]["streaks over wave"] > 0.3
+
+
+def test_a_bump_is_pressed_flat_and_a_dent_partly_filled():
+    table = example("dented_surface").main()
+    films = {name: numbers["central film [nm]"] for name, numbers in table.items()}
+    assert table["bump"]["largest pressure"] == pytest.approx(2.165, rel=1e-2)
+    assert films["smooth"] - films["bump"] == pytest.approx(19.7, abs=1.5)
+    assert films["dent"] - films["smooth"] == pytest.approx(60.9, abs=2.0)
+    assert table["dent"]["central pressure"] < 0.4
