@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from pathlib import Path
 
-from benchmarks import deformation, domain, rate, robustness, speed, thermal, waves
+from benchmarks import deformation, domain, rate, robustness, rough, speed, thermal, waves
 from benchmarks.table import Table
 
 TOPICS: dict[str, Callable[..., Table | Iterable[Table]]] = {
@@ -22,6 +22,7 @@ TOPICS: dict[str, Callable[..., Table | Iterable[Table]]] = {
     "robustness": robustness.table,
     "heat": thermal.tables,
     "waves": waves.table,
+    "rough": rough.tables,
 }
 BY_DEFAULT = ("speed", "rate", "deformation")
 
@@ -48,7 +49,7 @@ def main() -> None:
     tables = []
     for topic in asked.topics or BY_DEFAULT:
         make = TOPICS[topic]
-        if topic == "robustness":
+        if topic in ("robustness", "rough"):
             make = partial(make, asked.points)
         if topic == "heat":
             make = partial(make, asked.points, finer=asked.judge, jobs=asked.jobs)

@@ -75,7 +75,9 @@ class Setting:
 
 FAST = Setting(name="fast", threshold=1.0, point=0.7, dipole=0.6)
 BROAD = Setting(name="broad", threshold=10.0, point=0.7, dipole=0.6)
-ROBUST = Setting(name="robust", threshold=1.0, point=0.4, dipole=0.3)
+ROBUST = Setting(
+    name="robust", threshold=1.0, point=0.4, dipole=0.3, rough=Rough(lines=4, stiff=True)
+)
 ROUGH = Setting(name="rough", threshold=1.0, point=0.6, dipole=0.4, rough=Rough(lines=4, memory=5))
 CAREFUL = Setting(
     name="careful",

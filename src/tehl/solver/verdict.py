@@ -16,6 +16,9 @@ from tehl.solver.thermal import FilmCoupling
 
 LARGEST_BAR = 0.5
 """Relative discretisation error of the film beyond which a grid is called too coarse."""
+LARGEST_ROUGH_BAR = 1.0
+"""The same of the minimum between rough surfaces: one spot beside an asperity, whose bar is stated.
+Beyond that nobody knows whether there is a film."""
 LARGEST_DOMAIN_ERROR = 0.1
 """Estimated part of the central film beyond which a domain is called too small."""
 LARGEST_COOLING = 5.0
@@ -60,8 +63,15 @@ def verdict(run: Multigrid, cycled_out: bool, errors: ErrorEstimate | None) -> S
 def _resolution_status(run: Multigrid, errors: ErrorEstimate | None) -> Status:
     """Judge whether the grid resolves the film."""
     level, groups = run.finest, run.groups
-    if errors is not None and errors.discretisation_minimum > LARGEST_BAR:
-        return _too_coarse(level.grid, groups, errors.discretisation_minimum)
+    if errors is None:
+        return Status(kind="converged")
+    largest = LARGEST_ROUGH_BAR if run.is_rough else LARGEST_BAR
+    for error, limit in (
+        (errors.discretisation_minimum, largest),
+        (errors.discretisation_central, LARGEST_BAR),
+    ):
+        if error > limit:
+            return _too_coarse(level.grid, groups, error)
     return Status(kind="converged")
 
 
