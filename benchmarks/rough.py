@@ -16,7 +16,6 @@ from tehl import solve
 from tehl.errors import ConvergenceError
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.result import Result
 from tehl.scaling import Scales, scales
 
 CONTACTS = ((57.21, 10.52), (126.0, 12.34), (200.0, 10.0), (500.0, 12.34))
@@ -110,7 +109,7 @@ def row(case: Case, points: int) -> tuple[Cell, ...]:
     """Solve a case and return its row."""
     start = time.process_time()
     try:
-        run: Result = solve(case.problem(), Options(points=points, domain=DOMAIN))
+        run = solve(case.problem(), Options(points=points, domain=DOMAIN))
     except ConvergenceError as error:
         run = error.result
     last, film, errors = run.history[-1], run.film_scaled, run.errors
