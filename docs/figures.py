@@ -12,6 +12,8 @@ from tehl.kernels.reynolds import mark_dipoles
 from tehl.operators.flow import flow_table
 from tehl.operators.influence import influence_of
 from tehl.operators.reynolds import line_influence
+from tehl.post.waviness import WaveResponse, wave_responses
+from tehl.roughness import Wave
 from tehl.scaling import groups, scales
 from tehl.solver.fas import Cycle, cycle
 from tehl.solver.level import Level
@@ -24,16 +26,17 @@ POINTS = 129
 def make(folder: Path) -> None:
     """Draw all figures into ``folder``."""
     folder.mkdir(exist_ok=True)
-    for name, draw in {"dipoles": dipoles, "regions": regions, "visits": visits}.items():
+    drawings = {"dipoles": dipoles, "regions": regions, "visits": visits, "ripples": ripples}
+    for name, draw in drawings.items():
         path = folder / f"{name}.svg"
         if not path.exists() or path.stat().st_mtime < Path(__file__).stat().st_mtime:
             draw().savefig(path)
 
 
-def problem() -> tehl.ContactProblem:
-    """Return the contact of the drawings: M = 100, L = 10."""
+def problem(load: float = 100.0) -> tehl.ContactProblem:
+    """Return the contact of the drawings: L = 10, and M = 100 if not said."""
     return tehl.ContactProblem(
-        contact=tehl.Contact(radius="20 mm", moes_load=100.0, moes_speed=10.0),
+        contact=tehl.Contact(radius="20 mm", moes_load=load, moes_speed=10.0),
         surface_1=tehl.Surface(material="steel"),
         surface_2=tehl.Surface(material="steel"),
         lubricant="mineral-oil",
@@ -45,7 +48,7 @@ def level() -> Level:
     case, options = problem(), tehl.Options(points=POINTS, half_domain="never")
     result = tehl.solve(case, options)
     numbers = groups(case)
-    grid = finest_grid(options, numbers)
+    grid = finest_grid(case, options)
     here = Level(grid, numbers, flow_table(case, scales(case), numbers), options, FAST)
     here.film.p[:] = result.scaled.pressure
     here.film.h[:] = result.scaled.film
@@ -80,7 +83,7 @@ def regions() -> Figure:
 
 def dipoles() -> Figure:
     """Draw how far a change of one node and a dipole reach."""
-    grid = finest_grid(tehl.Options(points=POINTS), groups(problem()))
+    grid = finest_grid(problem(), tehl.Options(points=POINTS))
     point, dipole = line_influence(influence_of(grid, groups(problem())))
     figure = Figure(figsize=(5.4, 3.4), layout="constrained")
     axes = figure.add_subplot(
@@ -126,3 +129,34 @@ def visits() -> Figure:
     axes.plot(path, "o-", ms=3, lw=1)
     axes.set_xlabel("upward by interpolation, then two V-cycles on each grid")
     return figure
+
+
+def ripples() -> Figure:
+    """Draw what is left in the film of standing waves, computed and by theory."""
+    lengths = (0.25, 0.35, 0.5)
+    figure = Figure(figsize=(5.6, 3.8), layout="constrained")
+    axes = figure.add_subplot(xlabel="wavelength / a", ylabel="left in the film / wave")
+    options = tehl.Options(points=257, domain=tehl.Domain(x=(-2.5, 1.5), y=(-2.0, 2.0)))
+    smooth = tehl.solve(problem(200.0), options)
+    for angle, mark in ((0.0, "o"), (45.0, "+"), (90.0, "^")):
+        found = [response(length, angle, options, smooth) for length in lengths]
+        left = [wave.film_ratio for wave in found]
+        axes.plot(lengths, left, mark, ms=9, mfc="none", label=f"computed, {angle:g}°")
+        if angle == 0.0:
+            axes.plot(lengths, [w.theory.film_ratio for w in found], "k-", lw=0.8, label="theory")
+    axes.set(ylim=(0, 1), title="M = 200, L = 10, crests across the entrainment at 0°")
+    axes.legend()
+    return figure
+
+
+def response(
+    length: float, angle: float, options: tehl.Options, smooth: tehl.Result
+) -> WaveResponse:
+    """Return what is left of a standing wave of ``length`` [a] at ``angle`` [degree]."""
+    case = problem(200.0)
+    a = case.hertz.half_width_x
+    height = 0.004 * a**2 / case.radius_x
+    wave = Wave(amplitude=height, wavelength=length * a, angle=np.deg2rad(angle))
+    wavy = case.surface_2.model_copy(update={"roughness": wave})
+    rough = tehl.solve(case.model_copy(update={"surface_2": wavy}), options)
+    return wave_responses(rough, smooth)[0]

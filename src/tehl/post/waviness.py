@@ -15,7 +15,8 @@ with the mean speed: ``C/(1 + C)`` of the wave is left in the film, and the pres
 
 References
 ----------
-.. [1] C. J. Hooke, Proc. IMechE Part J 220 (2006), 901-913.
+.. [1] G. E. Morales-Espejel and V. Brizmer, Tribology Transactions 54 (2011), 625-643, after
+   C. J. Hooke (2006).
 .. [2] J. A. Greenwood and G. E. Morales-Espejel, Proc. IMechE Part J 208 (1994), 121-132.
 """
 
