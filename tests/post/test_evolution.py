@@ -1,0 +1,112 @@
+"""Reading a run in time: profiles that move along, envelopes, what is left of a passing wave."""
+
+import math
+
+import numpy as np
+import pytest
+
+from tehl.errors import InputError
+from tehl.post.evolution import (
+    amplitude_reduction,
+    envelope,
+    moving_profiles,
+    nabla_of,
+    passing_wave,
+)
+from tehl.roughness import Wave
+from tests.fixtures_evolution import make_evolution, passing
+from tests.fixtures_result import CASE, make_result
+
+LENGTH = 3e-4
+
+
+def wave_case(**changes: float) -> dict:
+    roughness = {"type": "wave", "amplitude": 1e-8, "wavelength": LENGTH} | changes
+    surface = CASE["surface_1"] | {"roughness": roughness}
+    return CASE | {"surface_1": surface, "transient": {"start": "standing"}}
+
+
+def test_a_dent_stands_still_for_somebody_on_its_surface():
+    seen = moving_profiles(make_evolution(points=65), 1, reach=1e-4)
+    whole = ~np.isnan(seen.height).any(axis=1)
+    assert whole.sum() > 10
+    depth = seen.height[whole].min(axis=1)
+    # 200 nm deep; a mesh of a fifth of its radius loses 2 % of it between two nodes
+    np.testing.assert_allclose(depth, -2e-7, rtol=0.05)
+    middle = seen.offset[seen.height[whole].argmin(axis=1)]
+    assert np.abs(middle).max() <= 1.1 * (seen.offset[1] - seen.offset[0])
+
+
+def test_somebody_on_the_other_surface_sees_it_pass():
+    run = make_evolution(points=65)
+    seen = moving_profiles(run, 2, start=-2e-4)
+    assert seen.place[0] == -2e-4
+    assert seen.place[-1] == pytest.approx(-2e-4 + 0.75 * 1.5 * run.history.time[-1])
+    assert (seen.height[~np.isnan(seen.height)] == 0.0).all()
+
+
+def test_what_lies_outside_the_domain_is_not_a_number():
+    assert np.isnan(moving_profiles(make_evolution(), 1).film[-1]).any()
+
+
+@pytest.mark.parametrize(
+    ("words", "call"),
+    [
+        ("surface = 3 must be 1 or 2", lambda run: moving_profiles(run, 3)),
+        ("reach = -1.0 m must be positive", lambda run: moving_profiles(run, 1, reach=-1.0)),
+        ("no step lies between", lambda run: envelope(run, since=1.0)),
+        ("surface_1 has no wave", lambda run: passing_wave(run, 1)),
+    ],
+)
+def test_what_cannot_be_is_told(words, call):
+    with pytest.raises(InputError, match=words):
+        call(make_evolution())
+
+
+def test_the_envelope_holds_all_profiles():
+    run = make_evolution()
+    found = envelope(run)
+    assert (found.film_least <= run.profiles.film).all()
+    assert (found.film_largest >= run.profiles.film).all()
+    late = envelope(run, since=float(run.history.time[-1]))
+    np.testing.assert_array_equal(late.pressure_least, run.profiles.pressure[-1])
+
+
+@pytest.mark.parametrize("phase", [0.0, 2.0])
+def test_what_is_left_of_a_wave_is_found(phase):
+    run = passing(wave_case(phase=phase), points=65, flattened=0.3)
+    found = passing_wave(run, 1, x=2e-5)
+    assert found.amplitude == pytest.approx(1e-8, rel=0.01)
+    assert found.film_ratio == pytest.approx(0.7, rel=1e-6)
+    assert abs(found.film_phase) < 1e-6
+    assert abs(found.pressure_phase) < 1e-3  # the pressure changes between the nodes
+    speed = run.start.problem.motion.speed_1
+    assert found.steps_per_period == pytest.approx(LENGTH / speed / run.time_step)
+    assert 1 <= found.periods <= 4
+
+
+def test_a_run_that_ends_too_early_is_told():
+    case = wave_case()
+    case["transient"] = {"entrance": 6.0}
+    with pytest.raises(InputError, match=r"let transient\.duration be longer"):
+        passing_wave(passing(case, points=65), 1)
+
+
+def test_a_wave_of_too_few_steps_is_told():
+    with pytest.raises(InputError, match="8 or more: take more nodes"):
+        passing_wave(passing(wave_case(wavelength=1e-4)), 1)
+
+
+def test_the_published_curve():
+    for nabla, ratio in ((0.5, 0.92700), (2.0, 0.73529), (10.0, 0.25)):
+        assert amplitude_reduction(nabla) == pytest.approx(ratio, abs=1e-5)
+    assert amplitude_reduction(10.0, ratio=2.0) == pytest.approx(
+        amplitude_reduction(10.0 * math.exp(0.5))
+    )
+
+
+def test_nabla_takes_the_shorter_wavelength():
+    run, result = make_evolution(), make_result(33)
+    wave = Wave(amplitude=1e-8, wavelength=LENGTH).components[0]
+    expected = LENGTH / result.scales.half_width_x * math.sqrt(result.groups.M / result.groups.L)
+    assert nabla_of(run, wave) == pytest.approx(expected)
