@@ -12,7 +12,7 @@ from matplotlib.patheffects import AbstractPathEffect, withStroke
 from matplotlib.ticker import MaxNLocator
 
 from tehl.post.film import no_film
-from tehl.result import Result
+from tehl.result import Result, Status
 from tehl.typing import Array
 
 MICRO = 1e6
@@ -46,8 +46,7 @@ def map_figure(result: Result, note: str = "") -> Figure:
 
 def _dress(picture: Figure, result: Result, note: str = "") -> None:
     picture.suptitle(f"{_heading(result)}\n{note}".strip(), fontsize=9)
-    if not result.status.converged:
-        _banner(picture, result)
+    banner(picture, result.status)
 
 
 def subtitle(result: Result) -> str:
@@ -75,8 +74,10 @@ def _heading(result: Result) -> str:
     return f"{title}\n{subtitle(result)}"
 
 
-def _banner(picture: Figure, result: Result) -> None:
-    status = result.status
+def banner(picture: Figure, status: Status) -> None:
+    """Write across the foot of a picture that it shows no answer, if it shows none."""
+    if status.converged:
+        return
     text = f"NOT AN ANSWER: {status.outcome}"
     picture.supxlabel(text, color="white", backgroundcolor="#b3001b", fontsize=11, weight="bold")
 

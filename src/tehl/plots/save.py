@@ -117,12 +117,13 @@ def save_all(
     check_folder(place)
     place.mkdir(parents=True, exist_ok=True)
     return [
-        _save(draw(result), place / f"{name}.png", dpi)
+        save_picture(draw(result), place / f"{name}.png", dpi)
         for name, draw in pictures_of(result, smooth).items()
     ]
 
 
-def _save(picture: Figure, path: Path, dpi: int) -> Path:
+def save_picture(picture: Figure, path: Path, dpi: int) -> Path:
+    """Write a figure as a PNG file, whole or not at all; return its path."""
     with replacing(path) as temporary:
         picture.savefig(temporary, dpi=dpi, format="png")
     return path
