@@ -32,6 +32,9 @@ from tehl.report.asperities import (
 from tehl.report.bodies import BodyEffect, body_effect
 from tehl.report.heating import ExpectedHeat, expected_heat
 from tehl.report.suspicion import questions
+from tehl.report.time import TimePlan, time_plan
+from tehl.report.time import as_lines as time_as_lines
+from tehl.report.time import as_summary as time_as_summary
 from tehl.scaling import Groups, Scales, groups, scales
 
 SECONDS_PER_NODE = 1.5e-6
@@ -88,6 +91,8 @@ class Explanation:
         Nodes per direction that give the central film to about three percent.
     memory, seconds : float
         Estimated peak memory [byte] and time [s] of a solve.
+    time : TimePlan or None
+        What a run in time will do; None for a steady case.
     questions : tuple of str
         What looks odd.
     """
@@ -113,6 +118,7 @@ class Explanation:
     needed_points: int
     memory: float
     seconds: float
+    time: TimePlan | None
     questions: tuple[str, ...]
 
 
@@ -127,6 +133,7 @@ def explain(problem: ContactProblem, options: Options) -> Explanation:
     heights = asperities(problem, options, domain, film)
     rough = problem.rms_roughness if heights is None else heights.composite
     heat, bodies = expected_heat(problem), body_effect(problem)
+    plan = time_plan(problem, options)
     thinnest = bodies.groups if bodies is not None and bodies.ratio < 1 else case_groups
     return Explanation(
         problem=problem,
@@ -150,9 +157,11 @@ def explain(problem: ContactProblem, options: Options) -> Explanation:
         needed_points=coarsenable(needed_points(thinnest) - 2)[1],
         memory=needed_memory(options, problem),
         seconds=(SECONDS_COUPLED if problem.is_coupled else SECONDS_PER_NODE) * nodes,
+        time=plan,
         questions=(
             *questions(problem, options, case_groups, film, heat=heat),
             *odd_asperities(heights, problem, options, film),
+            *(plan.questions if plan else ()),
         ),
     )
 
@@ -196,6 +205,7 @@ def as_summary(explanation: Explanation) -> dict[str, Any]:
         "needed_points": case.needed_points,
         "memory_bytes": case.memory,
         "seconds": case.seconds,
+        "time": None if case.time is None else time_as_summary(case.time),
         "questions": list(case.questions),
     }
 
@@ -209,6 +219,7 @@ def as_text(explanation: Explanation) -> str:
         *([_about_roughness(explanation.roughness)] if explanation.roughness else []),
         _about_heat(explanation),
         _about_numerics(explanation),
+        *([time_as_lines(explanation.time)] if explanation.time else []),
         _about_questions(explanation),
     )
     return "\n\n".join("\n".join(section) for section in sections)

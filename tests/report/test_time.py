@@ -1,0 +1,65 @@
+"""What is said of a run in time before it is made."""
+
+import pytest
+
+from tehl.io.case import case_from_tables
+from tehl.report.explain import as_summary, as_text, explain
+from tehl.report.time import seconds_in_words, time_plan
+from tests.cases import ball_tables
+
+WAVE = {"type": "wave", "amplitude": "20 nm", "wavelength": "200 um"}
+
+
+def plan(**changes):
+    tables = ball_tables(
+        surface_1={"material": "steel", "roughness": changes.pop("roughness", WAVE)},
+        transient={"duration": "1 ms"} | changes.pop("transient", {}),
+        numerics={"points": 257, "domain": {"x": [-2.5, 1.5], "y": [-2.0, 2.0]}},
+    )
+    tables["contact"] = tables["contact"] | changes
+    problem, options = case_from_tables(tables)
+    return time_plan(problem, options), problem, options
+
+
+def test_steps_follow_from_the_mesh_and_the_mean_speed():
+    found, problem, _ = plan()
+    step = 4.0 / 256 * problem.hertz.half_width_x / 1.5
+    assert found.step == pytest.approx(step)
+    assert found.steps == pytest.approx(1e-3 / step, abs=1)
+    assert found.distance == pytest.approx(1e-3 * 1.5 / problem.hertz.half_width_x)
+    assert found.points_per_wave[0] == pytest.approx(
+        200e-6 / (4.0 / 256 * problem.hertz.half_width_x)
+    )
+    assert found.questions == ()
+
+
+def test_speeds_are_those_of_both_surfaces():
+    found, *_ = plan(slide_roll_ratio=1.0)
+    assert found.speeds == pytest.approx((2.25, 0.75))
+    assert found.shift == pytest.approx((1.5, 0.5))
+
+
+def test_a_wave_of_few_points_is_questioned():
+    found, *_ = plan(roughness=WAVE | {"wavelength": "30 um"})
+    assert any("points on its shortest wave" in one for one in found.questions)
+
+
+def test_asperities_that_jump_are_questioned():
+    found, *_ = plan(slide_roll_ratio=1.5, transient={"stride": 2})
+    assert any("1.5 mesh widths per step ahead of" in one for one in found.questions)
+
+
+def test_an_explanation_tells_of_time_only_where_there_is_some():
+    _, problem, options = plan()
+    told = explain(problem, options)
+    assert "points per wave" in as_text(told)
+    assert as_summary(told)["time"]["points_per_wave"][1] is None
+    steady = problem.model_copy(update={"transient": None})
+    assert as_summary(explain(steady, options))["time"] is None
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"), [(2.0, "2 s"), (1.5e-3, "1.5 ms"), (2.5e-5, "25 us"), (0.0, "0 us")]
+)
+def test_times_are_told_in_their_unit(seconds, words):
+    assert seconds_in_words(seconds) == words
