@@ -11,7 +11,18 @@ import typer
 
 from tehl.errors import ConvergenceError, TehlError
 
-COMMANDS = ("new", "explain", "solve", "plot", "export", "report", "surface", "doctor", "schema")
+COMMANDS = (
+    "new",
+    "explain",
+    "solve",
+    "plot",
+    "animate",
+    "export",
+    "report",
+    "surface",
+    "doctor",
+    "schema",
+)
 """Module of this package, function in it and word on the command line; in the order of the help."""
 
 NOT_CONVERGED, BAD_INPUT, ENVIRONMENT = 1, 2, 3

@@ -48,12 +48,16 @@ def solve(  # noqa: PLR0913, PLR0917 (the options of the command)
         ),
     ] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Show no progress.")] = False,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Go on with a run in time that was interrupted.")
+    ] = False,
 ) -> None:
     """Solve a case and store the result.
 
     Exit code 0: converged; 1: not converged, the result is stored and marked; 2: bad input,
     nothing is written; 3: the environment failed.
     """
+    from tehl.cli.evolution import Wishes, refuse, solve_in_time
     from tehl.cli.twins import smooth_file, twins_of
     from tehl.io.case import read_case_and_options
     from tehl.memory import check_memory
@@ -62,6 +66,16 @@ def solve(  # noqa: PLR0913, PLR0917 (the options of the command)
     problem, options = read_case_and_options(case, changes)
     _check_output(target, case, plot)
     check_memory(options, problem)
+    steady_only = {
+        "--certify": certify,
+        "--with-isothermal": with_isothermal,
+        "--with-smooth": with_smooth,
+    }
+    refuse(problem, steady_only=steady_only, in_time_only={"--resume": resume})
+    if problem.transient is not None:
+        wishes = Wishes(target=target, plot=plot, as_json=as_json, quiet=quiet, resume=resume)
+        solve_in_time(problem, options, wishes)
+        return
     twins = twins_of(problem, cold=with_isothermal, smooth=with_smooth)
     if twins.smooth is not None:
         _check_output(smooth_file(target), case, plot)

@@ -1,0 +1,218 @@
+"""``tehl solve`` of a case with ``[transient]``: checkpoints on the way, and what is told."""
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import typer
+
+if TYPE_CHECKING:
+    from tehl.evolution import Evolution
+    from tehl.io.checkpoint import Fingerprint
+    from tehl.options import Options
+    from tehl.problem import ContactProblem
+    from tehl.solver.transient import Snapshot
+
+CHECKPOINT_SECONDS = 30.0
+"""CPU time between two checkpoints [s]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Wishes:
+    """What the command line asks of a run in time: where to, what to show, whether to go on."""
+
+    target: Path
+    plot: Path | None
+    as_json: bool
+    quiet: bool
+    resume: bool
+
+
+def refuse(
+    problem: "ContactProblem", *, steady_only: dict[str, bool], in_time_only: dict[str, bool]
+) -> None:
+    """Refuse options that belong to steady cases only, or to runs in time only.
+
+    Raises
+    ------
+    InputError
+        If one is given that the case has no use for.
+    """
+    from tehl.errors import InputError
+
+    in_time = problem.transient is not None
+    for option, given in (steady_only if in_time else in_time_only).items():
+        if given and in_time:
+            raise InputError(f"{option} is for steady cases: leave it out, or [transient]")
+        if given:
+            raise InputError(f"{option} is for runs in time, and the case has no [transient]")
+
+
+class Keeper:
+    """Takes the snapshot of each step, and writes it from time to time.
+
+    Parameters
+    ----------
+    path : Path
+        The checkpoint.
+    owner : Fingerprint
+        Of the run.
+    """
+
+    def __init__(self, path: Path, owner: "Fingerprint") -> None:
+        self.path, self.owner = path, owner
+        self.last: Snapshot | None = None
+        self._written, self._told = time.process_time(), False
+
+    def __call__(self, snapshot: "Snapshot") -> None:
+        """Take the state after a step."""
+        self.last = snapshot.copy()
+        if time.process_time() - self._written >= CHECKPOINT_SECONDS:
+            self.write()
+            self._written = time.process_time()
+
+    def write(self) -> bool:
+        """Write the last state; a full disk is told once and does not end the run."""
+        from tehl.errors import InputError
+        from tehl.io.checkpoint import write_checkpoint
+        from tehl.solver.packing import pack
+
+        if self.last is None:
+            return False
+        try:
+            write_checkpoint(self.path, self.owner, pack(self.last))
+        except (OSError, InputError) as error:
+            if not self._told:
+                typer.echo(f"tehl: no checkpoint is kept: {error}", err=True)
+            self._told = True
+            return False
+        return True
+
+
+def solve_in_time(problem: "ContactProblem", options: "Options", wishes: Wishes) -> None:
+    """Follow a case in time, store the run and tell of it.
+
+    Parameters
+    ----------
+    problem, options : ContactProblem, Options
+        The case; it has a ``transient`` table.
+    wishes : Wishes
+        What the command line says.
+
+    Raises
+    ------
+    typer.Exit
+        With code 1 when the run did not come to its end.
+    """
+    from tehl.errors import ConvergenceError
+    from tehl.io.checkpoint import checkpoint_of, fingerprint
+
+    path, owner = checkpoint_of(wishes.target), fingerprint(problem, options)
+    snapshot = _begin(path, owner, resume=wishes.resume)
+    try:
+        run = _march(problem, options, Keeper(path, owner), snapshot, quiet=wishes.quiet)
+    except ConvergenceError as error:
+        error.result.save(wishes.target)
+        typer.echo(f"written: {wishes.target}", err=True)
+        raise
+    run.save(wishes.target)
+    path.unlink(missing_ok=True)
+    _tell(run, wishes)
+
+
+def _begin(path: Path, owner: "Fingerprint", *, resume: bool) -> "Snapshot | None":
+    """Return where to go on, None at the beginning.
+
+    Raises
+    ------
+    InputError
+        If the checkpoint is of another run, or is of this one and nobody asked to go on.
+    FileFormatError
+        If it cannot be read.
+    """
+    from tehl.errors import InputError
+    from tehl.io.atomic import check_writable
+    from tehl.io.checkpoint import check_owner, read_checkpoint
+    from tehl.solver.packing import unpack
+
+    check_writable(path)
+    if not path.exists():
+        if resume:
+            typer.echo(f"there is no checkpoint {path}: the run begins at time zero", err=True)
+        return None
+    if not resume:
+        raise InputError(
+            f"{path} holds an unfinished run: --resume goes on from it, and removing it begins anew"
+        )
+    found, arrays = read_checkpoint(path)
+    check_owner(path, found, owner)
+    snapshot = unpack(arrays)
+    typer.echo(f"going on after step {len(snapshot.record.rows) - 1} of {path}", err=True)
+    return snapshot
+
+
+def _march(
+    problem: "ContactProblem",
+    options: "Options",
+    keeper: Keeper,
+    snapshot: "Snapshot | None",
+    *,
+    quiet: bool,
+) -> "Evolution":
+    """Return the run; what ends it from outside leaves a checkpoint."""
+    from tehl import solver
+    from tehl.cli.step_progress import step_progress
+    from tehl.scaling import scales
+
+    with (
+        _kept(keeper),
+        step_progress(scales(problem), quiet=quiet, coupled=problem.is_coupled) as monitor,
+    ):
+        return solver.march(problem, options, monitor=monitor, resume=snapshot, keep=keeper)
+
+
+@contextmanager
+def _kept(keeper: Keeper) -> Iterator[None]:
+    """Write the last state when a signal or a lack of memory ends the run."""
+    try:
+        yield
+    except (KeyboardInterrupt, SystemExit, MemoryError):
+        if keeper.write() and keeper.last is not None:
+            step = len(keeper.last.record.rows) - 1
+            typer.echo(
+                f"tehl: step {step} is kept in {keeper.path}; tehl solve --resume goes on from it",
+                err=True,
+            )
+        raise
+
+
+def _tell(run: "Evolution", wishes: Wishes) -> None:
+    """Print the numbers, draw what is wished, and exit with 1 if the run has no end."""
+    import json
+
+    from tehl.cli.evolution_words import as_text
+
+    if wishes.as_json:
+        typer.echo(json.dumps(run.summary(), allow_nan=False))
+    else:
+        typer.echo(as_text(run))
+    typer.echo(f"written: {wishes.target}", err=True)
+    if wishes.plot is not None:
+        draw(run, wishes.plot, told=lambda path: typer.echo(f"written: {path}", err=True))
+    if run.status.converged:
+        return
+    typer.echo(f"tehl: not an answer ({run.status.kind}): {run.status.message}", err=True)
+    if run.status.hint:
+        typer.echo(f"hint: {run.status.hint}", err=True)
+    raise typer.Exit(1)
+
+
+def draw(run: "Evolution", folder: Path, *, told: Callable[[Path], None], dpi: int = 150) -> None:
+    """Draw all pictures of a run in time into ``folder``, and tell of each."""
+    from tehl.plots.evolution import save_evolution
+
+    for path in save_evolution(run, folder, dpi=dpi):
+        told(path)

@@ -1,0 +1,88 @@
+"""A run in time told to people, in a few lines."""
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
+
+from tehl.cli.words import too_much_traction
+from tehl.report.explain import UNTITLED, length_unit
+from tehl.report.time import seconds_in_words
+
+if TYPE_CHECKING:
+    from tehl.evolution import Evolution
+    from tehl.typing import Array
+
+
+def as_text(run: "Evolution") -> str:
+    """Return the numbers of ``run`` that people ask for first, one per line."""
+    title = run.start.problem.title or UNTITLED
+    lines = (f"  {name:<17}{value}" for name, value in _rows(run))
+    return "\n".join([f"{title} - {run.status.outcome}", *lines])
+
+
+def _rows(run: "Evolution") -> Iterator[tuple[str, str]]:
+    history, start = run.history, run.start
+    groups, x, y = start.groups, start.scaled.x, start.scaled.y
+    thinnest, highest = int(history.film_minimum.argmin()), int(history.pressure_max.argmax())
+    steps, end = len(history.time) - 1, float(history.time[-1])
+    yield (
+        "duration",
+        f"{seconds_in_words(end)} in {steps} steps of {seconds_in_words(run.time_step)}; the mean "
+        f"of both surfaces moves on by {end * start.scales.speed / start.scales.half_width_x:.3g} "
+        "half-widths",
+    )
+    yield (
+        "minimum film",
+        f"{_length(history.film_minimum[thinnest])} at the least, at "
+        f"{seconds_in_words(history.time[thinnest])}   (at the start "
+        f"{_length(history.film_minimum[0])})",
+    )
+    yield "central film", _between(run.history.film_central, _length)
+    yield (
+        "largest pressure",
+        f"{_giga(history.pressure_max[highest])} at {seconds_in_words(history.time[highest])}   "
+        f"(at the start {_giga(history.pressure_max[0])})",
+    )
+    yield "traction", f"{_between(history.traction, _clean)}   (at mid-film)"
+    told = start.traction
+    if told is not None and not told.credible:
+        yield "", too_much_traction(start)
+    if history.load.min() < history.load.max():
+        yield "load", _between(history.load * start.problem.load, _newton)
+    yield (
+        "groups",
+        f"M = {groups.M:.4g}, L = {groups.L:.4g}, alpha p_h = {groups.alpha_bar:.4g}, "
+        f"SRR = {start.problem.slide_roll_ratio:g}",
+    )
+    yield (
+        "grid",
+        f"{x.size} x {y.size} on [{x[0]:g}, {x[-1]:g}] x [{y[0]:g}, {y[-1]:g}] half-widths, "
+        f"{len(run.frames.step)} fields kept",
+    )
+    yield "effort", _effort(run)
+
+
+def _between(values: "Array", word: Callable[[float], str]) -> str:
+    return f"{word(values.min())} to {word(values.max())}   (at the start {word(values[0])})"
+
+
+def _length(metres: float) -> str:
+    factor, unit = length_unit(metres)
+    return f"{metres * factor:.4g} {unit}"
+
+
+def _giga(pascal: float) -> str:
+    return f"{pascal * 1e-9:.4g} GPa"
+
+
+def _newton(load: float) -> str:
+    return f"{load:.4g} N"
+
+
+def _clean(value: float) -> str:
+    return "0" if abs(value) < 1e-12 else f"{value:.4g}"
+
+
+def _effort(run: "Evolution") -> str:
+    cycles = run.history.cycles[1:]
+    mean, most = (float(cycles.mean()), int(cycles.max())) if cycles.size else (0.0, 0)
+    return f"{mean:.3g} cycles per step, {most} at most, {run.cost.cpu_seconds:.3g} s"

@@ -1,0 +1,121 @@
+"""Checkpoints: the state of an unfinished run in time on disk, and whether it is of this run."""
+
+import hashlib
+import json
+import zipfile
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tehl.errors import FileFormatError, InputError
+from tehl.io.atomic import replacing
+from tehl.options import Options
+from tehl.problem import ContactProblem
+from tehl.roughness import Map, Sum
+
+Arrays = dict[str, NDArray[Any]]
+
+_LABEL = "tehl_checkpoint"
+
+
+@dataclass(frozen=True, slots=True)
+class Fingerprint:
+    """What a checkpoint belongs to.
+
+    Attributes
+    ----------
+    version : str
+        Of this package.
+    input : str
+        SHA-256 sum of the case, its options and the measured surfaces that it reads.
+    """
+
+    version: str
+    input: str
+
+
+def fingerprint(problem: ContactProblem, options: Options) -> Fingerprint:
+    """Return the fingerprint of a question, the same however its case file is written."""
+    from tehl import __version__  # noqa: PLC0415 (the package is being imported before)
+
+    maps = [one.fingerprint for one in _maps(problem)]
+    content = [problem.model_dump(mode="json"), options.model_dump(mode="json"), maps]
+    text = json.dumps(content, sort_keys=True)
+    return Fingerprint(__version__, hashlib.sha256(text.encode()).hexdigest())
+
+
+def _maps(problem: ContactProblem) -> Iterator[Map]:
+    for surface in (problem.surface_1, problem.surface_2):
+        roughness = surface.roughness
+        parts = roughness.parts if isinstance(roughness, Sum) else (roughness,)
+        yield from (part for part in parts if isinstance(part, Map))
+
+
+def checkpoint_of(output: str | Path) -> Path:
+    """Return the checkpoint beside an output file."""
+    target = Path(output)
+    return target.with_name(f"{target.name}.checkpoint")
+
+
+def write_checkpoint(path: str | Path, owner: Fingerprint, arrays: Mapping[str, Any]) -> None:
+    """Write the state of a run; whole, or the older one stays.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file; an older one is replaced.
+    owner : Fingerprint
+        Of the run.
+    arrays : mapping
+        Numbers and arrays by name; no objects.
+    """
+    label = np.array([owner.version, owner.input])
+    with replacing(path) as temporary, temporary.open("wb") as file:
+        np.savez(file, allow_pickle=False, **{_LABEL: label}, **arrays)
+
+
+def read_checkpoint(path: str | Path) -> tuple[Fingerprint, Arrays]:
+    """Return whose state a checkpoint holds, and the state.
+
+    Raises
+    ------
+    InputError
+        If there is no such file.
+    FileFormatError
+        If it is no checkpoint, or not whole.
+    """
+    if not Path(path).is_file():
+        raise InputError(f"there is no checkpoint {path}")
+    try:
+        with Path(path).open("rb") as opened, np.load(opened, allow_pickle=False) as file:
+            arrays = {name: file[name] for name in file.files}
+        version, case = (str(word) for word in arrays.pop(_LABEL))
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, AttributeError):
+        raise FileFormatError(
+            f"{path} is no whole checkpoint: remove it, and the run begins anew"
+        ) from None
+    return Fingerprint(version, case), arrays
+
+
+def check_owner(path: str | Path, found: Fingerprint, wanted: Fingerprint) -> None:
+    """Refuse the checkpoint of another run.
+
+    Raises
+    ------
+    InputError
+        If it is of another version of this package, or of another case.
+    """
+    if found.version != wanted.version:
+        raise InputError(
+            f"{path} was written by tehl {found.version}, and this is {wanted.version}: go on with "
+            "that version, or remove the checkpoint and begin anew"
+        )
+    if found.input != wanted.input:
+        raise InputError(
+            f"{path} belongs to another case, other options or another measured surface: go on "
+            "with the unchanged case, or remove the checkpoint and begin anew"
+        )

@@ -1,0 +1,291 @@
+# ruff: noqa: ARG001 (fixtures that prepare and are not read)
+"""``tehl solve`` of a case with time, killed and resumed; pictures and moving pictures of it."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from rich.console import Console
+from rich.live import Live
+
+import tehl
+from tehl import cli
+from tehl.cli import evolution
+from tehl.cli.step_progress import LiveSteps, StepLines, step_progress
+from tehl.errors import ConvergenceError
+from tehl.evolution import StepReport
+from tehl.io.checkpoint import Fingerprint, read_checkpoint
+from tehl.plots import animation
+from tests.fixtures_evolution import make_evolution
+from tests.fixtures_result import make_result
+
+CASE = """
+title = "A wave passes"
+[contact]
+radius = "20 mm"
+moes_load = 50
+moes_speed = 10
+slide_roll_ratio = 0.5
+[surface_1]
+material = "steel"
+roughness = { type = "wave", amplitude = "30 nm", wavelength = "250 um" }
+[surface_2]
+material = "steel"
+[lubricant]
+viscosity = { law = "roelands", eta_0 = "0.04 Pa s", alpha = "22 1/GPa" }
+density = { law = "dowson-higginson", rho_0 = "890 kg/m^3" }
+[transient]
+frames = 3
+duration = "0.8 ms"
+[numerics]
+points = 65
+domain = { x = [-4.5, 1.5], y = [-3.0, 3.0] }
+"""
+KEEPING = "import sys, tehl.cli.evolution as e; e.CHECKPOINT_SECONDS = 0; import tehl.cli as c;"
+TEHL = (sys.executable, "-c", f"{KEEPING} sys.argv = ['tehl', *sys.argv[1:]]; c.main()")
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "wave.toml").write_text(CASE)
+    return tmp_path
+
+
+@pytest.fixture
+def run(monkeypatch, capsys):
+    def call(*words: str) -> SimpleNamespace:
+        monkeypatch.setattr(sys, "argv", ["tehl", *words])
+        with pytest.raises(SystemExit) as end:
+            cli.main()
+        captured = capsys.readouterr()
+        return SimpleNamespace(code=end.value.code or 0, out=captured.out, err=captured.err)
+
+    return call
+
+
+def names(folder) -> list[str]:
+    return sorted(path.name for path in folder.iterdir())
+
+
+def equal(one: tehl.Evolution, other: tehl.Evolution) -> bool:
+    pairs = (
+        (one.profiles.pressure, other.profiles.pressure),
+        (one.profiles.film, other.profiles.film),
+        (one.frames.film, other.frames.film),
+        (one.history.rigid_approach, other.history.rigid_approach),
+        (one.history.cycles, other.history.cycles),
+    )
+    return all(np.array_equal(*pair) for pair in pairs)
+
+
+def stopped_by(number: int, folder, step: int) -> subprocess.Popen:
+    """Start a run, and end it by a signal once its checkpoint has come so far."""
+    job = subprocess.Popen(
+        [*TEHL, "solve", "wave.toml"], cwd=folder, stderr=subprocess.PIPE, text=True
+    )
+    kept, deadline = folder / "wave.nc.checkpoint", time.monotonic() + 120
+    while time.monotonic() < deadline and job.poll() is None:
+        if kept.exists() and len(read_checkpoint(kept)[1]["rows"]) > step:
+            break
+        time.sleep(0.01)
+    job.send_signal(number)
+    job.told = job.communicate(timeout=60)[1]
+    return job
+
+
+def test_a_killed_run_goes_on_bit_by_bit(folder, run):
+    assert run("solve", "wave.toml", "-o", "whole.nc", "--quiet").code == 0
+    job = stopped_by(signal.SIGKILL, folder, 5)
+    assert job.returncode == -signal.SIGKILL
+    assert not (folder / "wave.nc").exists()
+    refused = run("solve", "wave.toml")
+    assert refused.code == 2
+    assert "--resume goes on from it" in refused.err
+    other = run("solve", "wave.toml", "--resume", "--set", "contact.moes_load=51")
+    assert other.code == 2
+    assert "belongs to another case" in other.err
+    answer = run("solve", "wave.toml", "--resume")
+    assert answer.code == 0
+    assert "going on after step" in answer.err
+    assert equal(tehl.load("whole.nc"), tehl.load("wave.nc"))
+    assert not (folder / "wave.nc.checkpoint").exists()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
+def test_a_run_that_is_asked_to_end_keeps_its_last_step(folder):
+    job = stopped_by(signal.SIGTERM, folder, 2)
+    assert job.returncode == 128 + signal.SIGTERM
+    assert "tehl solve --resume goes on from it" in job.told
+    assert names(folder) == ["wave.nc.checkpoint", "wave.toml"]
+
+
+def test_a_checkpoint_of_another_version_is_refused(folder, run, monkeypatch):
+    stopped_by(signal.SIGTERM, folder, 2)
+    monkeypatch.setattr(tehl, "__version__", "9.9.9")
+    answer = run("solve", "wave.toml", "--resume")
+    assert answer.code == 2
+    assert "and this is 9.9.9" in answer.err
+
+
+def test_a_broken_checkpoint_is_refused(folder, run):
+    (folder / "wave.nc.checkpoint").write_bytes(b"PK\x03\x04 and then nothing")
+    answer = run("solve", "wave.toml", "--resume")
+    assert answer.code == 2
+    assert "is no whole checkpoint" in answer.err
+
+
+@pytest.fixture
+def marched(monkeypatch):
+    """Let runs in time have their outcome at once."""
+
+    def give(outcome):
+        def march(problem, options, *, monitor, resume, keep):
+            del options, monitor, resume, keep
+            if isinstance(outcome, Exception):
+                raise outcome
+            assert problem.transient is not None
+            return outcome
+
+        monkeypatch.setattr("tehl.solver.march", march)
+
+    return give
+
+
+def test_the_numbers_of_a_run_are_told(folder, run, marched):
+    marched(make_evolution())
+    answer = run("solve", "wave.toml", "--plot", "pictures")
+    assert answer.code == 0
+    assert "60 steps" in answer.out
+    assert "minimum film" in answer.out
+    assert names(folder / "pictures") == [
+        "history.png",
+        "moments.png",
+        "passage.png",
+        "space_time.png",
+    ]
+
+
+def test_json_prints_one_object(folder, run, marched):
+    marched(make_evolution())
+    answer = run("solve", "wave.toml", "--json")
+    assert json.loads(answer.out)["time"]["steps"] == 60
+
+
+def test_a_run_without_an_end_is_stored_marked_and_exits_with_1(folder, run, marched):
+    status = tehl.result.Status(
+        kind="not_converged", cause="asperity_contact", message="they touch", hint="go faster"
+    )
+    marched(replace(make_evolution(), status=status))
+    answer = run("solve", "wave.toml")
+    assert answer.code == 1
+    assert "they touch" in answer.err
+    assert "hint: go faster" in answer.err
+    assert tehl.load("wave.nc").status == status
+
+
+def test_a_beginning_that_is_not_reached_is_stored_and_exits_with_1(folder, run, marched):
+    marched(ConvergenceError("the steady film at time zero was not reached", make_result(33)))
+    answer = run("solve", "wave.toml")
+    assert answer.code == 1
+    assert isinstance(tehl.load("wave.nc"), tehl.Result)
+
+
+@pytest.mark.parametrize("option", ["--certify", "--with-smooth", "--with-isothermal"])
+def test_options_of_steady_cases_are_refused(folder, run, option):
+    answer = run("solve", "wave.toml", option)
+    assert answer.code == 2
+    assert f"{option} is for steady cases" in answer.err
+
+
+def test_a_steady_case_has_nothing_to_resume(folder, run):
+    (folder / "steady.toml").write_text(
+        CASE.replace('[transient]\nframes = 3\nduration = "0.8 ms"\n', "")
+    )
+    answer = run("solve", "steady.toml", "--resume")
+    assert answer.code == 2
+    assert "the case has no [transient]" in answer.err
+
+
+def test_a_full_disk_does_not_end_a_run(folder, capsys, monkeypatch):
+    keeper = evolution.Keeper(folder / "nowhere" / "x", Fingerprint("0.1.0", "abc"))
+    keeper.last = object()
+    monkeypatch.setattr("tehl.solver.packing.pack", lambda _: {})
+    assert not keeper.write()
+    assert not keeper.write()
+    assert capsys.readouterr().err.count("no checkpoint is kept") == 1
+
+
+def report(step: int) -> StepReport:
+    return StepReport(
+        step=step,
+        steps=200,
+        time=1e-6 * step,
+        cycles=3,
+        change=5e-4,
+        load_error=1e-5,
+        film_central=0.1,
+        film_minimum=0.06,
+        pressure_max=1.01,
+        smoother="rough",
+    )
+
+
+def test_progress_is_about_twenty_plain_lines_on_a_pipe(capsys):
+    with step_progress(make_result(33).scales, quiet=False) as monitor:
+        assert isinstance(monitor, StepLines)
+        for step in range(1, 201):
+            monitor.step(report(step))
+    told = capsys.readouterr().err
+    assert 20 <= told.count("\n") <= 24
+    assert "\x1b" not in told
+
+
+def test_progress_on_a_terminal_shows_the_last_steps(capsys):
+    console = Console(force_terminal=True, width=120)
+    with Live(console=console, auto_refresh=False) as live:
+        monitor = LiveSteps(make_result(33).scales, live)
+        monitor.cycle(make_result(33).history[0])
+        for step in range(1, 31):
+            monitor.step(report(step))
+    shown = capsys.readouterr().out
+    assert "30/200" in shown
+    assert "steady film at time zero" in shown
+
+
+def test_a_moving_picture_of_a_stored_run(folder, run):
+    make_evolution().save("run.nc")
+    assert run("animate", "run.nc", "--dpi", "30").code == 0
+    assert (folder / "run.gif").read_bytes()[:6] == b"GIF89a"
+    assert run("animate", "run.nc", "-o", "run.html", "--dpi", "30").code == 0
+    assert "<script" in (folder / "run.html").read_text()
+    assert names(folder) == ["run.gif", "run.html", "run.nc", "wave.toml"]
+
+
+def test_a_moving_picture_without_ffmpeg_is_refused_before_any_work(folder, run, monkeypatch):
+    monkeypatch.setattr(animation.shutil, "which", lambda _: None)
+    answer = run("animate", "none.nc", "-o", "run.mp4")
+    assert answer.code == 2
+    assert "ffmpeg, which is not installed" in answer.err
+    assert "ends in .gif, .mp4, .html" in run("animate", "none.nc", "-o", "run.avi").err
+
+
+def test_a_steady_film_does_not_move(folder, run):
+    make_result(33).save("film.nc")
+    answer = run("animate", "film.nc")
+    assert answer.code == 2
+    assert "nothing that moves" in answer.err
+
+
+def test_plot_draws_what_the_file_holds(folder, run):
+    make_evolution().save("run.nc")
+    answer = run("plot", "run.nc")
+    assert answer.code == 0
+    assert "space_time.png" in names(folder / "run_plots")
