@@ -137,9 +137,9 @@ def heated_quantities(case: dict[str, Any], run: Result) -> dict[str, float]:
 WAVY = """\
 A wave of height stands on surface 2. Ripples of film and pressure are fitted where |X|, |Y| < 0.4
 after the smooth film was subtracted, an oblique wave together with the streaks that it makes in the
-inlet and the film carries along x. Theory (Greenwood and Morales-Espejel, Proc. IMechE J 208 (1994),
-121-132; Hooke 2006, as Morales-Espejel and Brizmer, Tribology Transactions 54 (2011), 625-643, have
-it) in the limit of the large viscosity of the
+inlet and the film carries along x. Theory (Greenwood and Morales-Espejel, Proc. IMechE J 208
+(1994), 121-132; Hooke 2006, as Morales-Espejel and Brizmer, Tribology Transactions 54 (2011),
+625-643, have it) in the limit of the large viscosity of the
 contact: the film keeps C/(1 + C) of the wave and the pressure has 1/(1 + C) of π E' A/(2 λ), which
 flattens it, with C = h E' π/(2 λ B) and the bulk modulus B by the density law. 513 x 513 nodes on
 [-2.5, 1.5] x [-2, 2], so that 19 to 90 nodes lie on a wave; density constants 0.6 and 1.7 /GPa.

@@ -37,6 +37,8 @@ _SHOWN = (0.5, 99.5)
 """Percentiles between which colours change."""
 _REACH = 1.25
 """Half-widths of the centre line on each side."""
+_FILTERED = 0.75
+"""Part of the contact in which ripples by a filter are shown: its rim is no ripple."""
 
 
 def heights_of(result: Result) -> SurfaceHeights:
@@ -124,7 +126,7 @@ def micro_film_map(result: Result, smooth: Result | None = None) -> Figure:
         Of a rough contact.
     smooth : Result or None
         Its smooth twin, which is subtracted; without it long waves are filtered off, and the
-        ripples outside the contact are left blank.
+        ripples at the rim of the contact and beyond are left blank.
 
     Returns
     -------
@@ -156,7 +158,7 @@ _UNITS = {"film": (1e9, "nm"), "pressure": (1e-6, "MPa")}
 
 def _ripple_panel(axes: Axes, result: Result, ripples: MicroFilm, name: str) -> None:
     factor, unit = _UNITS[name]
-    contact = in_contact(result)
+    contact = in_contact(result, 1.0 if ripples.by_twin else _FILTERED)
     values = getattr(ripples, name) * factor
     reach = float(np.percentile(np.abs(values[contact]), 99.0)) or 1.0
     shown = values if ripples.by_twin else np.where(contact, values, np.nan)
@@ -222,7 +224,9 @@ def rough_centre_line(result: Result, smooth: Result | None = None) -> Figure:
         upper.set_title("thin lines: smooth surfaces", fontsize=8)
     _line_of_heights(lower, place, heights.together[row, inside])
     ripple = micro_film(result, smooth).film[row, inside] * 1e9
-    _line_of_ripples(lower, place, np.where(np.abs(result.scaled.x[inside]) < 1, ripple, np.nan))
+    reach = _FILTERED if smooth is None else 1.0
+    shown = np.abs(result.scaled.x[inside]) < reach
+    _line_of_ripples(lower, place, np.where(shown, ripple, np.nan))
     lower.set(xlabel="x along entrainment [µm]  (y = 0)", xlim=(place[0], place[-1]))
     lower.legend(loc="upper left", bbox_to_anchor=(0.0, -0.22), ncols=2, fontsize=8, frameon=False)
     return picture

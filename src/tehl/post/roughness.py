@@ -139,9 +139,9 @@ def middle_film(result: Result) -> float:
     return float(result.film_thickness[part].mean())
 
 
-def in_contact(result: Result) -> BoolArray:
-    """Return which nodes lie in the Hertz contact, (ny, nx)."""
-    inside: BoolArray = result.scaled.x**2 + result.scaled.y[:, None] ** 2 < 1.0
+def in_contact(result: Result, reach: float = 1.0) -> BoolArray:
+    """Return which nodes lie in the Hertz contact, (ny, nx), or in ``reach`` times its ellipse."""
+    inside: BoolArray = result.scaled.x**2 + result.scaled.y[:, None] ** 2 < reach**2
     return inside
 
 
