@@ -57,6 +57,7 @@ def passing(
             pressure_max=pressure.max(axis=(1, 2)),
             traction=np.linspace(-0.04, -0.05, time.size),
             rigid_approach=np.full_like(time, -0.9),
+            temperature_rise=np.zeros_like(time),
             cycles=np.r_[0, np.full(STEPS, 3)],
             change=np.r_[0.0, np.full(STEPS, 5e-4)],
         ),

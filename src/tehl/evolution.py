@@ -63,6 +63,8 @@ class History:
         Mid-film traction coefficient, over the load at that time [-].
     rigid_approach : array
         H00 [-].
+    temperature_rise : array
+        Largest rise of the film over the oil at the inlet [K]; zero where it is isothermal.
     cycles : array of int
         Multigrid cycles of the step.
     change : array
@@ -76,6 +78,7 @@ class History:
     pressure_max: Array
     traction: Array
     rigid_approach: Array
+    temperature_rise: Array
     cycles: IntArray
     change: Array
 

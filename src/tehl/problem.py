@@ -291,15 +291,28 @@ class ContactProblem(BaseModel):
         if self.transient is None:
             return
         if self.thermal is not None:
-            raise ValueError(
-                "transient and thermal cannot go together in this version: leave one of the two "
-                "tables out"
-            )
+            self._check_heat_in_time(self.transient.stride)
         if self.transient.duration is None and not (self.is_rough or self.transient.load):
             raise ValueError(
                 "transient has nothing that changes in time: give a surface roughness, or "
                 "transient.load, or a duration"
             )
+
+    def _check_heat_in_time(self, stride: int) -> None:
+        """Refuse surfaces whose heat cannot be carried along in steps of time."""
+        if self.thermal is not None and self.thermal.sources == "full":
+            raise ValueError(
+                'thermal.sources = "full" is for steady films: in time the surfaces are heated by '
+                "lines that they carry along"
+            )
+        motion = self.motion
+        for key, speed in (("surface_1", motion.speed_1), ("surface_2", motion.speed_2)):
+            if not speed * stride >= 0.5 * self.entrainment_speed * (1.0 - 1e-9):
+                raise ValueError(
+                    f"{key} moves at {speed:g} m/s, less than half the entrainment speed over "
+                    f"transient.stride = {stride}, too slow for heat in time: let the stride be "
+                    f"larger, or the slide_roll_ratio smaller"
+                )
 
     def _need(self, key: str, value: object, quantity: Quantity) -> None:
         if value is None:
@@ -404,7 +417,7 @@ class ContactProblem(BaseModel):
             reynolds=self.thermal.reynolds,
             layers=self.thermal.nodes,
             scheme=self.thermal.scheme,
-            sources=self.thermal.sources,
+            sources="line" if self.transient is not None else self.thermal.sources,
         )
 
     @property

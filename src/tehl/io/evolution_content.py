@@ -27,6 +27,8 @@ _HISTORY = (
     ("pressure_max", "p_max", "Pa", "largest pressure"),
     ("traction", "traction", "1", "mid-film traction coefficient, over the load at that time"),
     ("rigid_approach", "H00", "1", "rigid approach"),
+    ("temperature_rise", "temperature_rise", "K", "largest rise of the film over the oil entering"),
+    ("temperature_rise", "film_rise_max", "K", "largest rise over the oil at the inlet"),
     ("cycles", "step_cycles", "1", "multigrid cycles of the step"),
     ("change", "step_change", "1", "largest change of P in the last cycle of the step"),
 )

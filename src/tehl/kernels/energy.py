@@ -107,7 +107,8 @@ class Terms(NamedTuple):
 
     ``peclet, compression, brinkman``: factors of convection, compression and shear heat;
     ``poiseuille`` is 12/lambda; ``slide`` (u2 - u1)/u_m; ``speed`` u1/u_m; ``over_x, over_y``
-    1/dx and 1/(kappa dy); ``w0, w1, w2`` upstream weights; ``mirror`` whether row 0 is a symmetry
+    1/dx and 1/(kappa dy); ``over_t`` the weight of the present in a derivative by time, 0 where it
+    is steady; ``w0, w1, w2`` upstream weights; ``mirror`` whether row 0 is a symmetry
     line; ``mean`` 0 local properties, 1 mean ones in Reynolds, 2 mean ones everywhere; ``inlet``
     the temperature of the oil; ``heat`` 0 keeps the temperature as it is.
     """
@@ -120,6 +121,7 @@ class Terms(NamedTuple):
     speed: float
     over_x: float
     over_y: float
+    over_t: float
     w0: float
     w1: float
     w2: float
@@ -160,7 +162,9 @@ class Fields(NamedTuple):
 
     In: ``p, h, px, py`` (nx, ny), ``capacity, conductivity`` ratios to those at ambient pressure,
     ``stress`` one over the scale of the shear law. In and out: ``temperature``
-    (nx + 4, n, ny + 4), ``tau_x, tau_y`` mid-film stress (nx, ny). Out: ``mobility, density`` of
+    (nx + 4, n, ny + 4), ``tau_x, tau_y`` mid-film stress (nx, ny). In, where time passes:
+    ``past`` (nx, n, ny) what former temperatures bring to their derivative, ``pressing`` (nx, ny)
+    the derivative of the pressure. Out: ``mobility, density`` of
     the Reynolds equation, ``enthalpy_x, enthalpy_y`` fluxes, ``shear, work`` powers,
     ``effective`` viscosity ratio, ``steep``: how the mobility follows the Newtonian one, both as
     logarithms, ``stretch``: mobility along x of a small change over ``mobility``.
@@ -185,6 +189,8 @@ class Fields(NamedTuple):
     effective: Array
     steep: Array
     stretch: Array
+    past: Array
+    pressing: Array
 
 
 class Work(NamedTuple):
@@ -225,8 +231,8 @@ class Place(NamedTuple):
 
 
 # cells of a block: values without layers
-P, H, PX, PY, CAPACITY, CONDUCTIVITY, STRESS, TAU_X, TAU_Y, PER, PULL, THINS, ETA = (
-    LANES * field for field in range(13)
+P, H, PX, PY, CAPACITY, CONDUCTIVITY, STRESS, TAU_X, TAU_Y, PER, PULL, THINS, PT, ETA = (
+    LANES * field for field in range(14)
 )
 DENSITY = ETA + LANES * ETA_TERMS
 LINE = DENSITY + LANES * RHO_TERMS
@@ -292,7 +298,7 @@ def exponential(x: float) -> float:
 
 
 @njit(cache=True)
-def load_block(fields: Fields, work: Work, place: Place) -> None:
+def load_block(model: Model, fields: Fields, work: Work, place: Place) -> None:
     """Copy what the block needs of the fields to its cells."""
     cells, base, at = work.cells, place.base, place.i * place.ny + place.j
     h, conductivity = load(fields.h, at), load(fields.conductivity, at)
@@ -306,6 +312,9 @@ def load_block(fields: Fields, work: Work, place: Place) -> None:
     store(cells, base + STRESS, load(fields.stress, at))
     store(cells, base + TAU_X, load(fields.tau_x, at))
     store(cells, base + TAU_Y, load(fields.tau_y, at))
+    store(cells, base + PT, 0.0 * h)
+    if model.terms.over_t > 0.0:
+        store(cells, base + PT, load(fields.pressing, at))
     for k in range(place.n):
         store(cells, layer(place, k) + T, load(fields.temperature, node(place, 0, k)))
 
@@ -720,7 +729,7 @@ def heat_sources(model: Model, work: Work, place: Place, k: int) -> tuple[float,
     rise = -terms.compression * load(cells, here + T) / load(cells, here + RHO)
     flow_x = load(cells, here + U) * load(cells, base + PX)
     flow_y = load(cells, here + V) * load(cells, base + PY)
-    return shear, rise * load(cells, here + RHO_T) * (flow_x + flow_y)
+    return shear, rise * load(cells, here + RHO_T) * (flow_x + flow_y + load(cells, base + PT))
 
 
 @njit(cache=True)
@@ -733,7 +742,7 @@ def hold(along: float) -> float:
 def convection(
     model: Model, fields: Fields, work: Work, place: Place, k: int
 ) -> tuple[float, float]:
-    """Return the diagonal of the convection along the film, and what its neighbours bring.
+    """Return the diagonal of convection and change in time, and what neighbours and past bring.
 
     Those across and, against the march, along x are of the last sweep: there the upstream
     difference is of second order only where conduction across the film holds it.
@@ -756,6 +765,9 @@ def convection(
     diagonal += (1.0 + third) * sideways
     rest += sideways * (one + third * (2.0 * one - two))
     store(cells, here + ASIDE, if_positive(v, sideways, -1.0 * sideways))
+    if terms.over_t > 0.0:
+        diagonal += dense * terms.over_t
+        rest += dense * load(fields.past, (place.i * place.n + k) * place.ny + place.j)
     return diagonal, rest
 
 
@@ -1027,7 +1039,7 @@ def mirror_station(temperature: Array, place: Place) -> None:
 @njit(cache=True)
 def flow_of_block(model: Model, fields: Fields, work: Work, place: Place, steps: int) -> None:
     """Evaluate laws, flow and mass fluxes of a block at its last temperature."""
-    load_block(fields, work, place)
+    load_block(model, fields, work, place)
     evaluate_laws(model, work, place)
     flow(model, steps, work, place)
     mass_fluxes(model.across, work, place)

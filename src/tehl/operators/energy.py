@@ -6,6 +6,7 @@ from tehl.grid import Grid
 from tehl.heat import FilmEnergy
 from tehl.kernels import energy
 from tehl.operators.across import SCHEMES
+from tehl.operators.film_in_time import FilmInTime
 from tehl.operators.law_table import law_table
 from tehl.operators.line_source import history
 from tehl.operators.surfaces import Side, Solids, sides
@@ -88,12 +89,14 @@ class FilmState:
         others = {
             name: np.zeros(shape)
             for name in energy.Fields._fields
-            if name not in ("temperature", "capacity", "conductivity")
+            if name not in ("temperature", "capacity", "conductivity", "past", "pressing")
         }
         self.fields = energy.Fields(
             temperature=temperature,
             capacity=np.ones(shape),
             conductivity=np.ones(shape),
+            past=np.zeros(1),
+            pressing=np.zeros(1),
             **others,
         )
         self.fields.h[:] = FAR_FILM
@@ -115,6 +118,7 @@ class FilmState:
             finest=finest,
         )
         self.thorough, self.finest, self.sweeps = thorough, finest, 0
+        self.time: FilmInTime | None = None
         modes = len(self.surfaces[0].decay)
         self.work = energy.scratch(nodes, ny, modes)
         self.known = energy.known(self.model, self.fields, self.surfaces, self.work)
@@ -176,6 +180,8 @@ class FilmState:
             fields.conductivity[:] *= np.maximum(mixed, 1.0)
             ambient = lubricant.ambient_heat_capacity or 1.0
             fields.capacity[:] = lubricant.heat_capacity_at(si) / ambient
+        if self.time is not None:
+            self.time.set_pressure(fields)
 
     def refine_from(self, coarse: "FilmState") -> None:
         """Take temperature and stress of a coarser grid by linear interpolation."""
@@ -193,7 +199,11 @@ class FilmState:
         terms = self.model.terms._replace(slide=full, speed=1.0 - 0.5 * full)
         if terms != self.model.terms:
             self.model = self.model._replace(terms=terms)
-            self.known = energy.known(self.model, self.fields, self.surfaces, self.work)
+            self.prepare()
+
+    def prepare(self) -> None:
+        """Tell the sweep of other arrays or numbers."""
+        self.known = energy.known(self.model, self.fields, self.surfaces, self.work)
 
     def sweep(self, steps: int) -> float:
         """March once; return the largest change of temperature [K].
@@ -208,6 +218,8 @@ class FilmState:
         """
         if self.model.terms.heat and (self.thorough or self._is_second_of_many()):
             energy.sweep_back(self.known)
+        if self.time is not None:
+            self.time.heat_surfaces(self.surfaces)
         change = energy.sweep(self.known, self.work, steps)
         self.sweeps += 1
         self.update_surfaces()
@@ -216,6 +228,28 @@ class FilmState:
     def _is_second_of_many(self) -> bool:
         """Whether to march back once: the finer grids take it from here."""
         return self.sweeps == 1 and not self.finest
+
+    def begin_time(self, time_step: float) -> None:
+        """Let time pass from here: the present film has been the same for ever.
+
+        Parameters
+        ----------
+        time_step : float
+            In units of a_x / u_m [-].
+        """
+        nx, ny = self.fields.p.shape
+        shape = (nx, self.model.across.zeta.size, ny)
+        self.fields = self.fields._replace(past=np.zeros(shape), pressing=np.zeros((nx, ny)))
+        speed = self.scales.speed
+        paths = [
+            (side.bulk, surface.factor, self.grid.dx * speed / (side.speed * time_step))
+            for side, surface in zip(self.sides, self.surfaces, strict=True)
+        ]
+        self.time = FilmInTime(self.fields, self.surfaces, self.grid.dx, time_step, paths)
+        self.surfaces = (alone(self.surfaces[0]), alone(self.surfaces[1]))
+        terms = self.model.terms._replace(over_t=1.5 / time_step)
+        self.model = self.model._replace(terms=terms)
+        self.prepare()
 
     def update_surfaces(self) -> None:
         """Let the surfaces follow the heat that flows into them, as far as no line source does."""
@@ -265,6 +299,7 @@ def film_terms(
         speed=1.0 - 0.5 * slide,
         over_x=1.0 / grid.dx,
         over_y=1.0 / (groups.ellipticity * grid.dy),
+        over_t=0.0,
         w0=w0,
         w1=w1,
         w2=w2,
@@ -293,4 +328,14 @@ def line_surface(grid: Grid, scales: Scales, side: Side, flux_unit: float) -> en
         factor=side.line_factor(scales, flux_unit) if side.marches else 0.0,
         flux=np.zeros((nx + 2 * GHOSTS, ny)),
         **history(nx, grid.dx)._asdict(),
+    )
+
+
+def alone(surface: energy.Surface) -> energy.Surface:
+    """Return a surface whose history the march need not carry along: ``bulk`` will have it."""
+    return surface._replace(
+        next_=0.0,
+        decay=np.zeros_like(surface.decay),
+        older=np.zeros_like(surface.older),
+        newer=np.zeros_like(surface.newer),
     )

@@ -91,10 +91,12 @@ class Level:
             Over the load of the contact [-].
         """
         self.history, self.heights = history, heights
-        np.negative(history, out=self.rhs)
         self.roughen(1.0)
         self.load_target = load * TARGET
         self.smoother.frozen[:] = 0
+        self.update()
+        reynolds.tangent_source(self.film, self.mesh, self.rhs)
+        self.add_history()
 
     def add_history(self) -> None:
         """Bring back what a new right-hand side has overwritten."""

@@ -15,11 +15,12 @@ Heights = tuple[Array, Array]
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """What belongs to a step besides its film: time [s], load, traction, cycles and change."""
+    """What belongs to a step besides its film: time [s], load, traction, rise [K], and the cycles."""
 
     time: float
     load: float
     traction: float
+    rise: float
     cycles: int
     change: float
 
@@ -50,6 +51,7 @@ class Record:
                 float(level.film.p.max()),
                 moment.traction,
                 level.rigid_approach,
+                moment.rise,
                 float(moment.cycles),
                 moment.change,
             )
@@ -84,8 +86,9 @@ class Record:
             pressure_max=columns[4] * pressure,
             traction=columns[5],
             rigid_approach=columns[6],
-            cycles=columns[7].astype(np.int64),
-            change=columns[8],
+            temperature_rise=columns[7],
+            cycles=columns[8].astype(np.int64),
+            change=columns[9],
         )
 
     def lines(self, scales: Scales) -> Profiles:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl.operators.reynolds import step_stencil, upstream
+from tehl.solver.convergence import LEAST_KELVIN
 from tehl.solver.fas import Cycle, cycle
 from tehl.solver.multigrid import RUNAWAY, Multigrid
 from tehl.solver.smoother import Setting
@@ -14,6 +15,8 @@ from tehl.typing import Array
 
 LARGEST_LOAD_ERROR = 1e-4
 """Load error at which a step is balanced."""
+HEATED = 0.01
+"""Change of temperature in the last cycle of a step, over the largest rise."""
 LEAST_CYCLES = 2
 
 
@@ -56,6 +59,7 @@ class Stepper:
         self.before = self.now.copy()
         for one in run.levels:
             one.mesh = step_stencil(one.mesh, self.time_step)
+        run.coupling.begin_time(run.levels, self.time_step)
         self.shape = Cycle(kind="V", pre_sweeps=2, post_sweeps=1)
         self.setting = 0
         self.choose(0)
@@ -85,6 +89,7 @@ class Stepper:
             level.pose_step(history, heights, load)
             if number > first:
                 level.film.p[:], level.rigid_approach = start
+                self.run.coupling.go_back(self.run.levels)
             level.update()
             try:
                 settled = self._settle(self.settings[number].name)
@@ -93,6 +98,7 @@ class Stepper:
                     raise
                 continue
             self.before, self.now = self.now, level.film.rho * level.film.h
+            self.run.coupling.advance(self.run.levels)
             return settled
         raise StepError("stalled", np.inf)
 
@@ -109,13 +115,14 @@ class Stepper:
             before = level.film.p.copy()
             cycle(self.run.levels, self.run.coarsest.step, self.shape)
             level.update()
-            self.run.coupling.update(self.run.levels)
+            warmer, rise = self.run.coupling.update(self.run.levels)
             np.subtract(level.film.p, before, out=before)
             change = float(max(before.max(), -before.min()))
             error = level.load_error()
             if not (np.isfinite(change) and abs(error) < RUNAWAY):
                 raise StepError("diverged", change)
             settled = change <= self.transient.tolerance and abs(error) <= LARGEST_LOAD_ERROR
+            settled = settled and warmer <= max(HEATED * rise, LEAST_KELVIN)
             if number >= LEAST_CYCLES and settled:
                 return Settled(cycles=number, change=change, load_error=error, smoother=name)
         raise StepError("stalled", change)

@@ -33,6 +33,8 @@ RAMP = 24
 """Sweeps over which sliding is raised from nothing, if it is."""
 UNSETTLED = 100.0
 """Change of temperature [K] that a sweep before the end of that counts for."""
+CARRIED = ("temperature", "tau_x", "tau_y")
+"""Fields of the film that one sweep takes from the last."""
 SETTLED = 3.0
 """Change of temperature [K] at which the first sweeps may end."""
 
@@ -58,6 +60,18 @@ class Coupling(Protocol):
 
     def recall(self, levels: Sequence[Level], fields: dict[str, Array]) -> None:
         """Remember what `memory` has returned."""
+        ...
+
+    def begin_time(self, levels: Sequence[Level], time_step: float) -> None:
+        """Let time pass from the present state on, in steps of ``time_step`` [a_x / u_m]."""
+        ...
+
+    def advance(self, levels: Sequence[Level]) -> None:
+        """Take the present state for the past of the next step."""
+        ...
+
+    def go_back(self, levels: Sequence[Level]) -> None:
+        """Take the state of the last step again."""
         ...
 
 
@@ -86,6 +100,18 @@ class Uncoupled:
     def recall(self, levels: Sequence[Level], fields: dict[str, Array]) -> None:
         """Do nothing."""
         del levels, fields
+
+    def begin_time(self, levels: Sequence[Level], time_step: float) -> None:
+        """Do nothing."""
+        del levels, time_step
+
+    def advance(self, levels: Sequence[Level]) -> None:
+        """Do nothing."""
+        del levels
+
+    def go_back(self, levels: Sequence[Level]) -> None:
+        """Do nothing."""
+        del levels
 
 
 class FilmCoupling:
@@ -120,6 +146,7 @@ class FilmCoupling:
         self.thorough = options.accuracy == "tight" or counter_moving
         self.sweeps_left = RAMP if ramped else 0
         self.state: FilmState | None = None
+        self.factors: reynolds.Factors | None = None
 
     def begin(self, levels: Sequence[Level], *, finest: bool) -> bool:
         """Heat the last of ``levels`` from the temperature of the one before it.
@@ -176,16 +203,39 @@ class FilmCoupling:
         if state is None or factors is None:
             return {}
         known = {f"factor_{name}": getattr(factors, name) for name in factors._fields}
-        return known | {f"film_{name}": state.view(name) for name in ("tau_x", "tau_y")}
+        known |= {f"film_{name}": getattr(state.fields, name) for name in CARRIED}
+        return known | (state.time.memory() if state.time is not None else {})
 
     def recall(self, levels: Sequence[Level], fields: dict[str, Array]) -> None:
         """Take them back."""
         if self.state is None or not fields:
             return
-        for name in ("tau_x", "tau_y"):
-            self.state.view(name)[:] = fields[f"film_{name}"]
+        for name in CARRIED:
+            getattr(self.state.fields, name)[:] = fields[f"film_{name}"]
+        if self.state.time is not None:
+            self.state.time.recall(fields)
         names = reynolds.Factors._fields
         self._hand_down(levels, reynolds.Factors(*(fields[f"factor_{name}"] for name in names)))
+        self.factors = levels[-1].factors
+
+    def begin_time(self, levels: Sequence[Level], time_step: float) -> None:
+        """Let the temperatures change in time, if there are any."""
+        self.factors = levels[-1].factors
+        if self.state is not None and self.state.model.terms.heat:
+            self.state.begin_time(time_step)
+
+    def advance(self, levels: Sequence[Level]) -> None:
+        """Keep temperatures, stresses and factors."""
+        self.factors = levels[-1].factors
+        if self.state is not None and self.state.time is not None:
+            self.state.time.advance()
+
+    def go_back(self, levels: Sequence[Level]) -> None:
+        """Take them again."""
+        if self.state is not None and self.state.time is not None:
+            self.state.time.go_back()
+        if self.factors is not None:
+            self._hand_down(levels, self.factors)
 
     def _sweep(self, state: FilmState, levels: Sequence[Level], steps: int) -> float:
         fine = levels[-1]

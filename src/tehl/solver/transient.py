@@ -172,10 +172,18 @@ class Run:
             time=time_now,
             load=load,
             traction=self._traction(load),
+            rise=self._rise(),
             cycles=settled.cycles if settled else 0,
             change=settled.change if settled else 0.0,
         )
         self.record.note(self.level, heights, moment, keep=step in self.kept)
+
+    def _rise(self) -> float:
+        """Return the largest temperature over that of the oil at the inlet [K]."""
+        coupling = self.stepper.run.coupling
+        if not isinstance(coupling, FilmCoupling) or coupling.state is None:
+            return 0.0
+        return float(coupling.state.temperature.max()) - self.scales.temperature
 
     def _traction(self, load: float) -> float:
         """Return the mid-film traction coefficient."""

@@ -1,0 +1,62 @@
+"""Surface temperature in time: each material point remembers the heat that it has taken up.
+
+The flux that has reached a surface at x came in upstream, when the material was there,
+
+    T(x, t) - T_b = 1/sqrt(pi rho c k u_s) int q(s, t - (x - s)/u_s) / sqrt(x - s) ds,
+
+so that the exponentials of `tehl.operators.line_source` are carried on from a node to the next, and
+at the same time by the time that the surface takes for a mesh width. Between steps of time they are
+interpolated to second order.
+"""
+
+import numpy as np
+
+from tehl.kernels import trail
+from tehl.operators.line_source import history
+from tehl.typing import Array
+
+LONGEST_LAG = 2.0
+"""Steps that a surface may take for one mesh width: the former times that are kept."""
+
+
+class Trail:
+    """History of one surface on one grid.
+
+    Parameters
+    ----------
+    flux : (nx, ny) array
+        Steady flux at the beginning, dimensionless.
+    spacing : float
+        Mesh width [a_x].
+    lag : float
+        Steps of time that the surface takes for a mesh width, at most `LONGEST_LAG`.
+    """
+
+    def __init__(self, flux: Array, spacing: float, lag: float) -> None:
+        nx, ny = flux.shape
+        weights = history(nx, spacing)
+        self.weights = trail.Weights(*(weights.next_, weights.decay, weights.older, weights.newer))
+        self.lags = (lag_of(lag, 0), lag_of(2.0 * lag, min(int(2.0 * lag), 2)))
+        self.fluxes = np.repeat(flux[None], 5, axis=0)
+        self.modes = np.zeros((3, nx, len(weights.decay), ny))
+        self.past = np.zeros((nx, ny))
+        steady = (trail.Lag(0, 1.0, 0.0, 0.0), trail.Lag(0, 1.0, 0.0, 0.0))
+        trail.carry(self.modes, self.fluxes, self.weights, steady, self.past)
+        self.modes[1:] = self.modes[0]
+
+    def update(self, flux: Array) -> Array:
+        """Return what the flux upstream has done to each node by now, (nx, ny)."""
+        self.fluxes[0] = flux
+        trail.carry(self.modes, self.fluxes, self.weights, self.lags, self.past)
+        return self.past
+
+    def advance(self) -> None:
+        """Let the present be the past of the next step."""
+        self.fluxes[1:] = self.fluxes[:-1].copy()
+        self.modes[1:] = self.modes[:-1].copy()
+
+
+def lag_of(steps: float, first: int) -> trail.Lag:
+    """Return the weights of a time some ``steps`` ago: a parabola through three levels."""
+    s = steps - first
+    return trail.Lag(first, 0.5 * (s - 1.0) * (s - 2.0), s * (2.0 - s), 0.5 * s * (s - 1.0))

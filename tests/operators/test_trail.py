@@ -1,0 +1,54 @@
+"""Surfaces that remember their heat in time."""
+
+import numpy as np
+import pytest
+
+from tehl.operators.line_source import history
+from tehl.operators.trail import Trail, lag_of
+
+NODES, ROWS = 65, 8
+
+
+@pytest.mark.parametrize(("steps", "first"), [(0.0, 0), (0.7, 0), (1.0, 0), (2.0, 0), (3.3, 2)])
+def test_a_lag_finds_parabolas_exactly(steps, first):
+    lag = lag_of(steps, first)
+    ago = np.arange(3.0) + first
+    weights = np.array([lag.now, lag.before, lag.older])
+    for power in range(3):
+        assert weights @ ago**power == pytest.approx(steps**power, abs=1e-12)
+
+
+@pytest.mark.parametrize("lag", [0.6, 1.0, 1.5])
+def test_a_steady_flux_leaves_the_steady_rise(lag):
+    x = np.linspace(0.0, 1.0, NODES)
+    flux = np.repeat(np.sin(np.pi * x)[:, None] ** 2, ROWS, axis=1)
+    trail = Trail(flux, x[1], lag)
+    first = trail.past.copy()
+    for _ in range(5):
+        trail.update(flux)
+        trail.advance()
+    np.testing.assert_allclose(trail.past, first, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("lag", [0.6, 1.0, 1.5])
+def test_a_flux_that_grows_in_time_reaches_a_point_with_the_delay_of_the_way(lag):
+    """Of q = x^2 (1 + g t): 16/15 x^(5/2) (1 + g t) - 16/105 g x^(7/2) / u."""
+    spacing, growth = 1.0 / (NODES - 1), 0.8
+    x = spacing * np.arange(NODES)[:, None]
+    step = spacing / lag  # of time, at the speed u = 1 of the surface
+
+    def flux(time: float) -> np.ndarray:
+        return np.repeat(x**2 * (1.0 + growth * time), ROWS, axis=1)
+
+    trail = Trail(flux(0.0), spacing, lag)
+    steps = int(1.2 / step)  # before time zero the flux was constant: until that has left
+    for number in range(1, steps + 1):
+        trail.update(flux(number * step))
+        if number < steps:
+            trail.advance()
+    end = steps * step
+    rise = trail.past + history(NODES, spacing).near * flux(end)
+    delay = 16.0 / 105.0 * growth * x**3.5
+    exact = 16.0 / 15.0 * x**2.5 * (1.0 + growth * end) - delay
+    assert delay[-1] > 0.05 * exact[-1]
+    np.testing.assert_allclose(rise, np.repeat(exact, ROWS, 1), rtol=0, atol=5e-4)

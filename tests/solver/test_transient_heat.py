@@ -1,0 +1,123 @@
+"""Heated films in time."""
+
+import numpy as np
+import pytest
+
+from tehl import InputError, march
+from tehl.grid import Grid
+from tehl.operators.energy import FilmState, HeatedFilm
+from tehl.options import Options
+from tehl.problem import ContactProblem
+from tehl.scaling import groups, scales
+from tests.reference import DOMAIN, heated_contact
+
+OPTIONS = Options(points=65, domain=DOMAIN)
+SMALL = 1e-3
+"""Rise [K] that leaves the density as it is."""
+WAVE = {"amplitude": 0.02, "wavelength": 1.0}
+
+
+def hot(distance: float, slide: float = 0.5, *, wavy: bool = False, **tables) -> ContactProblem:
+    """The heated reference contact while its surfaces move on by ``distance`` half-widths."""
+    case = heated_contact(slide, shear=tables.pop("shear", None))
+    units, given = scales(case), case.model_dump(exclude_none=True)
+    if wavy:
+        given["surface_1"]["roughness"] = {
+            "type": "wave",
+            "amplitude": WAVE["amplitude"] * units.film_thickness,
+            "wavelength": WAVE["wavelength"] * units.half_width_x,
+        }
+    duration = distance * units.half_width_x / units.speed
+    given["transient"] = {"duration": duration, "frames": 0} | tables.pop("transient", {})
+    return ContactProblem.model_validate(given | tables)
+
+
+def test_a_heated_film_without_roughness_stays_the_steady_one():
+    run = march(hot(1.0), OPTIONS)
+    assert run.status.converged
+    film, rise = run.history.film_central, run.history.temperature_rise
+    np.testing.assert_allclose(film, film[0], rtol=1e-6)
+    assert rise[0] > 10.0
+    np.testing.assert_allclose(rise, rise[0], rtol=0, atol=1e-4)
+
+
+def test_a_film_at_rest_cools_by_conduction_as_it_must():
+    """Between walls that keep their temperature sin(pi zeta) decays with the diffusion time."""
+    problem = heated_contact(0.0)
+    grid = Grid(nx=17, ny=17, domain=DOMAIN, mirror=True)
+    film = HeatedFilm(problem, scales(problem), groups(problem))
+    state = FilmState(grid, film, 2)
+    state.surfaces = tuple(surface._replace(factor=0.0) for surface in state.surfaces)
+    terms = state.model.terms._replace(speed=0.0, slide=0.0, poiseuille=0.0, brinkman=0.0)
+    state.model = state.model._replace(terms=terms)
+    thick = 0.02  # so thin that no layer counts as mixed
+    state.set_film(np.zeros(grid.shape), np.full(grid.shape, thick))
+    decay = np.pi**2 / (terms.peclet * thick**2)
+    zeta = film.across.zeta
+    errors = []
+    for steps in (20, 40):
+        step = 1.0 / decay / steps
+        bump = SMALL * np.sin(np.pi * zeta)[None, :, None]
+        state.temperature[:] = 313.0 + bump
+        state.begin_time(step)
+        earlier = 313.0 + np.exp(decay * step) * bump
+        state.time.temperatures[1][:] = earlier
+        state.time.recall(state.time.memory())
+        for _ in range(steps):
+            state.set_film(np.zeros(grid.shape), np.full(grid.shape, thick))
+            state.sweep(1)
+            state.time.advance()
+        middle = state.temperature[8, zeta.size // 2, 3] - 313.0
+        errors.append(abs(middle / SMALL - np.exp(-1.0)))
+    assert errors[0] < 2e-3
+    assert errors[1] < 0.3 * errors[0]
+
+
+def test_waves_make_the_temperature_swing_and_keep_the_film():
+    run = march(hot(5.5, wavy=True), OPTIONS)
+    assert run.status.converged
+    rise = run.history.temperature_rise
+    late = run.history.time > 0.7 * run.history.time[-1]
+    assert np.ptp(rise[late]) > 0.3
+    assert 0.5 * rise[0] < rise.min() < rise.max() < 2.0 * rise[0]
+
+
+def test_equal_solids_do_not_know_which_of_them_has_the_wave():
+    ahead = march(hot(2.5, 0.5, wavy=True), OPTIONS)
+    other = hot(2.5, -0.5, wavy=True).model_dump(exclude_none=True)
+    other["surface_2"]["roughness"] = other["surface_1"].pop("roughness")
+    behind = march(ContactProblem.model_validate(other), OPTIONS)
+    np.testing.assert_allclose(
+        ahead.profiles.film, behind.profiles.film, rtol=0, atol=1e-7 * ahead.start.film.central
+    )
+    np.testing.assert_allclose(
+        ahead.history.temperature_rise, behind.history.temperature_rise, rtol=0, atol=1e-4
+    )
+
+
+@pytest.mark.parametrize("shear", [None, {"law": "eyring", "stress": "5 MPa"}])
+def test_a_heated_run_goes_on_bit_by_bit(shear):
+    case, kept = hot(0.8, wavy=True, shear=shear), []
+
+    def keep(snapshot):
+        if len(snapshot.record.rows) == 4:
+            kept.append(snapshot.copy())
+
+    whole = march(case, OPTIONS, keep=keep)
+    again = march(case, OPTIONS, resume=kept[0])
+    assert (whole.profiles.pressure == again.profiles.pressure).all()
+    assert (whole.history.temperature_rise == again.history.temperature_rise).all()
+
+
+def test_a_surface_too_slow_for_heat_in_time_is_refused():
+    with pytest.raises(ValueError, match="too slow for heat in time"):
+        hot(1.0, 1.5)
+
+
+def test_a_longer_stride_serves_slower_surfaces():
+    run = march(hot(1.0, 1.4, transient={"stride": 2}), OPTIONS)
+    assert run.status.converged
+    with pytest.raises(ValueError, match=r"thermal\.sources"):
+        hot(1.0, thermal={"sources": "full"})
+    with pytest.raises(InputError, match="stride"):
+        march(hot(1e5), OPTIONS)
