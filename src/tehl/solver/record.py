@@ -15,7 +15,7 @@ Heights = tuple[Array, Array]
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """What belongs to a step besides its film: time [s], load, traction, rise [K], and the cycles."""
+    """What belongs to a step besides its film: time [s], load, traction, rise [K], the cycles."""
 
     time: float
     load: float

@@ -47,10 +47,10 @@ def verdict(run: Multigrid, cycled_out: bool, errors: ErrorEstimate | None) -> S
     film = level.film
     if not (np.isfinite(film.p).all() and np.isfinite(film.h).all() and film.p.min() >= 0):
         return diverged(run)
-    if not film.h.min() > level.floor:
-        return _asperity_contact(level) if run.is_rough else _film_not_positive(level, groups)
     if cycled_out and run.is_rough:  # another setting may still get there, on this very grid
         return _not_reached(run)
+    if not film.h.min() > level.floor:
+        return _touching(run, errors) if run.is_rough else _film_not_positive(level, groups)
     resolved = _resolution_status(run, errors)
     if not resolved.converged:
         return resolved
@@ -172,6 +172,13 @@ def _film_not_positive(level: Level, groups: Groups) -> Status:
         ),
         hint=f"Take {grid_hint(grid, groups)}.",
     )
+
+
+def _touching(run: Multigrid, errors: ErrorEstimate | None) -> Status:
+    """Judge a film that is not positive between asperities: they touch, or the grid cannot tell."""
+    if errors is not None and errors.discretisation_minimum > LARGEST_ROUGH_BAR:
+        return _too_coarse(run.finest.grid, run.groups, errors.discretisation_minimum)
+    return _asperity_contact(run.finest)
 
 
 def _asperity_contact(level: Level) -> Status:
