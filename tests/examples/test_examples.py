@@ -98,6 +98,18 @@ def test_the_traction_of_a_warm_film_rises_peaks_and_falls():
     assert curve[peak] == pytest.approx(0.0387, rel=1e-2)
 
 
+def test_the_film_of_a_dent_travels_at_the_mean_speed():
+    found = example("passing_dent").main()
+    ahead = {slide: one["thick film ahead of the dent [um]"] for slide, one in found.items()}
+    # the mesh is 10 um wide
+    assert ahead[0.0] == pytest.approx(0.0, abs=5.0)
+    assert ahead[0.5] == pytest.approx(-48.0, abs=10.0)
+    assert ahead[-0.5] == pytest.approx(56.0, abs=10.0)
+    assert found[0.0]["largest film over smooth"] == pytest.approx(1.596, rel=1e-2)
+    assert found[0.0]["largest pressure over smooth"] == pytest.approx(1.016, rel=1e-2)
+    assert found[-0.5]["largest pressure over smooth"] == pytest.approx(1.373, rel=2e-2)
+
+
 def test_heat_of_the_inlet_thins_a_fast_film_as_formulas_say():
     table = example("inlet_heating").main()
     assert table[8.0]["computed"] == pytest.approx(0.883, abs=5e-3)

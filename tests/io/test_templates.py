@@ -24,7 +24,7 @@ def test_every_template_is_a_case(name: str, tmp_path: Path):
 
 
 @pytest.mark.parametrize(
-    "name", ["ball-on-disc", "moes", "rough", "thermal", "dimple", "data-sheet"]
+    "name", ["ball-on-disc", "moes", "rough", "thermal", "dimple", "data-sheet", "passing-dent"]
 )
 def test_a_template_does_not_look_odd(name: str):
     problem, options = case_from_tables(tomllib.loads(template_text(name)))

@@ -5,7 +5,16 @@ from pathlib import Path
 
 from tehl.errors import InputError
 
-_NAMES = ("ball-on-disc", "moes", "gear-ellipse", "rough", "thermal", "dimple", "data-sheet")
+_NAMES = (
+    "ball-on-disc",
+    "moes",
+    "gear-ellipse",
+    "rough",
+    "thermal",
+    "dimple",
+    "data-sheet",
+    "passing-dent",
+)
 
 
 def templates() -> dict[str, str]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from tehl.options import Domain, Options, coarsenable
 from tehl.problem import ContactProblem, Surface
-from tehl.roughness import Roughness
+from tehl.roughness import AnyRoughness, Bump, Dimple, Ridge, Roughness
 
 if TYPE_CHECKING:
     from tehl.typing import Array
@@ -108,7 +108,7 @@ def asperities(
     if not problem.is_rough:
         return None
     mesh = _mesh(problem, options, domain)
-    looks = [_look(surface.roughness, problem, mesh) for surface in _surfaces(problem)]
+    looks = [_look(roughness, problem, mesh) for roughness in _as_they_pass(problem)]
     stated = [surface.rms_roughness for surface in _surfaces(problem)]
     sq = tuple(look.sq or rms for look, rms in zip(looks, stated, strict=True))
     waves = [min(pair) for pair in zip(*(look.waves for look in looks), strict=True)]
@@ -126,6 +126,14 @@ def asperities(
         waves=tuple(_expected_waves(problem, film)),
         remarks=tuple(_remarks(problem)),
     )
+
+
+def _as_they_pass(problem: ContactProblem) -> Iterator[AnyRoughness]:
+    """Yield the roughness of both surfaces; a feature that moves, when it is in the middle."""
+    for surface in _surfaces(problem):
+        roughness = surface.roughness
+        moves = problem.transient is not None and isinstance(roughness, Bump | Dimple | Ridge)
+        yield roughness.model_copy(update={"x": 0.0}) if moves else roughness
 
 
 def _surfaces(problem: ContactProblem) -> tuple[Surface, Surface]:

@@ -1,0 +1,79 @@
+"""A dent passes: the film that it lets in travels at the mean speed.
+
+A ball has a dent in its surface, 0.3 um deep and about as wide as half of the contact's radius; the
+film is 0.32 um thick. The contact is followed in time while the dent comes in, passes and leaves
+(the template `passing-dent`). Each picture shows four moments: the film over the line y = 0, the
+pressure, and below them the surface as it would be without load.
+
+**In pure rolling** the dent and the oil in it move on together. The film keeps more than half of
+the dent's depth, and the pressure knows little of it.
+
+**When the surfaces slide they part.** The oil in the contact is far too stiff to be moved by the
+pressure: it moves on at the mean speed of both surfaces, and so does the thick film that the dent
+let in at the inlet. The dent itself moves with its surface. If that is the fast one (SRR = 0.5) the
+thick film falls behind, if it is the slow one (SRR = -0.5) it runs ahead. What remains of the dent
+away from its oil is flattened, and the pressure shows it: low over the dent, and up to half as high
+again as in the smooth contact over the thick film. The picture of place and time shows the two
+paths: the thick film along that of the mean speed, the dent along that of its surface.
+
+A Newtonian film without heat tells how a dent changes film and pressure, but not the traction.
+"""
+
+import sys
+import tomllib
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+import tehl
+from tehl.io.templates import template_text
+from tehl.plots.evolution import moments, space_time
+from tehl.post.evolution import envelope, moving_profiles
+
+SLIDES = (0.0, 0.5, -0.5)
+
+
+@cache
+def followed(slide: float, points: int = 129) -> tehl.Evolution:
+    """Return the film in time at one slide-to-roll ratio."""
+    case = tomllib.loads(template_text("passing-dent"))
+    del case["numerics"]
+    case["contact"]["slide_roll_ratio"] = slide
+    return tehl.march(tehl.ContactProblem(**case), tehl.Options(points=points))
+
+
+def numbers(run: tehl.Evolution) -> dict[str, float]:
+    """Return what one passage does along y = 0 inside the contact."""
+    inside = np.abs(run.start.scaled.x) < 0.7
+    limits, smooth = envelope(run), run.profiles.film[0]
+    seen = moving_profiles(run, 1)
+    step = int(np.argmin(np.abs(seen.place)))
+    change = run.profiles.film[step] - smooth
+    return {
+        "largest film over smooth": float((limits.film_largest / smooth)[inside].max()),
+        "least film over smooth": float((limits.film_least / smooth)[inside].min()),
+        "largest pressure over smooth": float(
+            run.history.pressure_max.max() / run.history.pressure_max[0]
+        ),
+        "thick film ahead of the dent [um]": 1e6
+        * float(run.x[inside][change[inside].argmax()] - seen.place[step]),
+    }
+
+
+def main() -> dict[float, dict[str, float]]:
+    """Return what a passage does, by slide-to-roll ratio."""
+    return {slide: numbers(followed(slide)) for slide in SLIDES}
+
+
+if __name__ == "__main__":
+    folder = Path(sys.argv[1] if len(sys.argv) > 1 else "out")
+    folder.mkdir(parents=True, exist_ok=True)
+    table = main()
+    print(f"{'SRR':<34}", *(f"{slide:8g}" for slide in SLIDES))
+    for name in table[0.0]:
+        print(f"{name:<34}", *(f"{table[slide][name]:8.3f}" for slide in SLIDES))
+    for slide in SLIDES:
+        ending = f"{slide:g}".replace("-", "minus_").replace(".", "_")
+        moments(followed(slide)).savefig(folder / f"moments_{ending}.png", dpi=100)
+    space_time(followed(0.5)).savefig(folder / "space_time.png", dpi=100)
