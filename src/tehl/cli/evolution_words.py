@@ -46,6 +46,14 @@ def _rows(run: "Evolution") -> Iterator[tuple[str, str]]:
     told = start.traction
     if told is not None and not told.credible:
         yield "", too_much_traction(start)
+    hottest = int(history.temperature_rise.argmax())
+    if history.temperature_rise[hottest] > 0:
+        yield (
+            "film temperature",
+            f"rise {history.temperature_rise[hottest]:.4g} K at most, at "
+            f"{seconds_in_words(history.time[hottest])}   (at the start "
+            f"{history.temperature_rise[0]:.4g} K)",
+        )
     if history.load.min() < history.load.max():
         yield "load", _between(history.load * start.problem.load, _newton)
     yield (

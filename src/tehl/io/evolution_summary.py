@@ -13,8 +13,9 @@ from tehl.typing import Array
 def evolution_summary(run: Evolution) -> dict[str, Any]:
     """Return the summary of ``run`` as JSON can hold it: null where a number is not finite.
 
-    Keys that end in a unit (``_m``, ``_pa``, ``_s``) are SI, the others dimensionless. ``start`` is
-    the summary of the steady film at the beginning. Times belong to the value before them.
+    Keys that end in a unit (``_m``, ``_pa``, ``_k``, ``_s``) are SI, the others dimensionless.
+    ``start`` is the summary of the steady film at the beginning. Times belong to the value before
+    them; ``temperature`` is null for an isothermal run.
 
     Parameters
     ----------
@@ -35,6 +36,7 @@ def evolution_summary(run: Evolution) -> dict[str, Any]:
             "h_central_m": _range(history.film_central),
         },
         "pressure": {"p_max_pa": _extreme(history.pressure_max, history.time, np.argmax)},
+        "temperature": _temperature(run),
         "traction": _range(history.traction),
         "load_factor": _range(history.load),
         "cycles": _cycles(run),
@@ -57,6 +59,14 @@ def _time(run: Evolution) -> dict[str, Any]:
 def _extreme(values: Array, times: Array, find: Any) -> dict[str, float]:
     place = int(find(values))
     return {"value": float(values[place]), "time_s": float(times[place]), "start": float(values[0])}
+
+
+def _temperature(run: Evolution) -> dict[str, Any] | None:
+    """Return the largest rise, nothing for an isothermal run."""
+    rise = run.history.temperature_rise
+    if run.start.heat is None:
+        return None
+    return {"film_rise_max_k": _extreme(rise, run.history.time, np.argmax)}
 
 
 def _range(values: Array) -> dict[str, float]:

@@ -53,7 +53,7 @@ def time_unit(run: Evolution) -> tuple[float, str]:
 
 
 def history(run: Evolution) -> Figure:
-    """Draw film, largest pressure, traction and load over the time.
+    """Draw film, largest pressure, traction, and rise and load if they change, over the time.
 
     Parameters
     ----------
@@ -67,25 +67,29 @@ def history(run: Evolution) -> Figure:
     """
     factor, unit = time_unit(run)
     told, time = run.history, run.history.time * factor
-    changes = np.ptp(told.load) > 0
-    picture = evolution_figure(run, (7.0, 8.2 if changes else 6.6))
-    panels = picture.subplots(4 if changes else 3, sharex=True)
+    curves = [
+        ("largest pressure [GPa]", told.pressure_max * GIGA, PRESSURE),
+        ("traction at mid-film [-]", told.traction, "#3f7d20"),
+    ]
+    if told.temperature_rise.max() > 0:
+        curves.append(("largest rise [K]", told.temperature_rise, "#8a1c7c"))
+    if np.ptp(told.load) > 0:
+        curves.append(("load [N]", told.load * run.start.problem.load, "0.2"))
+    picture = evolution_figure(run, (7.0, 1.8 + 1.6 * (1 + len(curves))))
+    panels = picture.subplots(1 + len(curves), sharex=True)
     panels[0].plot(time, told.film_central * MICRO, color=FILM, label="central")
     panels[0].plot(time, told.film_minimum * MICRO, color=FILM, ls="--", label="smallest")
     panels[0].set_ylabel("film h [µm]")
     panels[0].legend(fontsize=8, ncols=2, frameon=False)
-    panels[1].plot(time, told.pressure_max * GIGA, color=PRESSURE)
-    panels[1].set_ylabel("largest pressure [GPa]")
-    panels[2].plot(time, told.traction, color="#3f7d20")
-    panels[2].set_ylabel("traction at mid-film [-]")
-    if changes:
-        panels[3].plot(time, told.load * run.start.problem.load, color="0.2")
-        panels[3].set_ylabel("load [N]")
+    for axes, (label, values, colour) in zip(panels[1:], curves, strict=True):
+        axes.plot(time, values, color=colour)
+        axes.set_ylabel(label)
     panels[-1].set_xlabel(f"time [{unit}]")
     for axes in panels:
         axes.grid(lw=0.3)
         axes.margins(x=0)
     _distance_axis(panels[0], run, factor)
+    picture.align_ylabels(panels)
     return picture
 
 

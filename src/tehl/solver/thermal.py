@@ -204,6 +204,7 @@ class FilmCoupling:
             return {}
         known = {f"factor_{name}": getattr(factors, name) for name in factors._fields}
         known |= {f"film_{name}": getattr(state.fields, name) for name in CARRIED}
+        known["film_back"] = state.work.back  # how far the march back goes before the next sweep
         return known | (state.time.memory() if state.time is not None else {})
 
     def recall(self, levels: Sequence[Level], fields: dict[str, Array]) -> None:
@@ -212,6 +213,7 @@ class FilmCoupling:
             return
         for name in CARRIED:
             getattr(self.state.fields, name)[:] = fields[f"film_{name}"]
+        self.state.work.back[:] = fields["film_back"]
         if self.state.time is not None:
             self.state.time.recall(fields)
         names = reynolds.Factors._fields
