@@ -11,6 +11,8 @@ from typing import Any
 
 from tests.reference import CLOSE, DOMAIN, heated_contact, moes_contact, read, wavy_contact
 
+from benchmarks import waves
+from benchmarks.table import show
 from tehl.options import Options
 from tehl.post.waviness import WaveResponse, wave_responses
 from tehl.result import Result
@@ -149,6 +151,19 @@ WAVES = (0.15, 0.25, 0.35, 0.5)
 ANGLES = (0.0, 45.0, 60.0, 90.0)
 HEIGHT, WAVY_POINTS = 0.004, 513
 
+PASSING = """\
+Surface 1 brings in a wave; its harmonic in the film at the centre is fitted over two periods.
+The curve is 1/(1 + 0.15 ∇ + 0.015 ∇²) with ∇ = (λ/a) √(M/L) (Venner and Lubrecht, Proc.
+IMechE J 214 (2000), 43-62, eq. 29), a fit to computations. 257 x 257 nodes on [-2.5, 1.5] x
+[-2, 2], where a step of time moves the surfaces by a mesh width; extrapolated with 129 x 129
+to order two. Amplitudes of the waves are 5 % of the film."""
+PASSED = """
+All within 16 % of the curve, and equal ∇ gives equal amplitudes to 3 %. The curve lies below
+its own source where ∇ is about 2: the one value printed there, 0.739 (M = 1007.6, L = 12.05,
+λ = a/4, isotropic), is 5 % above it and 2 % below ours; transverse waves keep a little more
+than isotropic ones, of which the curve knows nothing. Dashes: 129 nodes are too few for the
+film. Order in space and time together (M = 50, L = 10, λ = a on [-4.5, 1.5], 65, 129 and 257
+nodes): 0.8521, 0.8144, 0.8044, which is 1.9."""
 BALANCE_GRIDS, BALANCE_LAYERS = (65, 129, 257), (9, 13, 21)
 LABELS = {
     "h_central": ("central film", 5),
@@ -276,6 +291,20 @@ def wavy_row(
     )  # fmt: skip
 
 
+def passing() -> Iterator[str]:
+    """Yield the amplitudes of waves that pass in pure rolling, beside the published curve."""
+    yield "\n## Waves that pass\n"
+    yield PASSING
+    made = waves.table()
+    kept = ("form", "M", "L", "wavelength [a]", "nabla", "amplitude", "extrapolated", "curve",
+            "over the curve")  # fmt: skip
+    places = [made.columns.index(name) for name in kept]
+    yield from head(*kept)
+    for cells in made.rows:
+        yield row(*(show(cells[place]) for place in places))
+    yield PASSED
+
+
 def constants(table: dict[str, Any]) -> str:
     """Return the constants of the density law as text."""
     slope, saturation = (1e9 * table[f"density_{name}"] for name in ("slope", "saturation"))
@@ -291,6 +320,7 @@ def main() -> None:
         *c_program(films["c_program"]),
         *heated(read("thermal")["independent"]),
         *wavy(),
+        *passing(),
         ONE,
     ]
     PAGE.write_text("\n".join(lines), encoding="utf-8")
