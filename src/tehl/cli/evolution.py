@@ -108,6 +108,7 @@ def solve_in_time(problem: "ContactProblem", options: "Options", wishes: Wishes)
         With code 1 when the run did not come to its end.
     """
     from tehl.errors import ConvergenceError
+    from tehl.io.atomic import remove_with_parts
     from tehl.io.checkpoint import checkpoint_of, fingerprint
 
     path, owner = checkpoint_of(wishes.target), fingerprint(problem, options)
@@ -119,7 +120,7 @@ def solve_in_time(problem: "ContactProblem", options: "Options", wishes: Wishes)
         typer.echo(f"written: {wishes.target}", err=True)
         raise
     run.save(wishes.target)
-    path.unlink(missing_ok=True)
+    remove_with_parts(path)
     _tell(run, wishes)
 
 

@@ -1,5 +1,6 @@
 """Files appear whole or not at all."""
 
+import glob
 import os
 import stat
 import tempfile
@@ -16,6 +17,9 @@ _KINDS = (
     (stat.S_ISFIFO, "a pipe"),
     (stat.S_ISSOCK, "a socket"),
 )
+
+_NAMED = 40
+"""Letters of a file in the name of its temporary one."""
 
 
 @contextmanager
@@ -39,7 +43,7 @@ def replacing(path: str | Path) -> Iterator[Path]:
     """
     check_writable(path)
     target = Path(os.path.realpath(path))
-    temporary = target.with_name(f".{target.name[:40]}.{uuid.uuid4().hex[:12]}.part")
+    temporary = target.with_name(f".{target.name[:_NAMED]}.{uuid.uuid4().hex[:12]}.part")
     try:
         yield temporary
         temporary.replace(target)
@@ -49,6 +53,22 @@ def replacing(path: str | Path) -> Iterator[Path]:
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
+
+
+def remove_with_parts(path: str | Path) -> None:
+    """Remove a file, and what a killed program has left of writing it.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file; it may be missing.
+    """
+    target = Path(os.path.realpath(path))
+    target.unlink(missing_ok=True)
+    if len(target.name) > _NAMED:  # others may begin with the same letters
+        return
+    for part in target.parent.glob(f".{glob.escape(target.name)}.*.part"):
+        part.unlink(missing_ok=True)
 
 
 def check_writable(path: str | Path, *, sources: tuple[str | Path, ...] = ()) -> None:
