@@ -25,7 +25,52 @@ LEAST_THETA = 0.01
 _ROELANDS_TEMPERATURE = 138.0  # [K]
 
 
-class Roelands(BaseModel):
+class _RoelandsPressure(BaseModel):
+    """How the viscosity grows with pressure, the same in both laws."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
+    law: str
+    eta_0: Viscosity
+    alpha: PressureCoefficient | None = None
+    z: Ratio | None = None
+    gamma: TemperatureCoefficient | None = None
+
+    @model_validator(mode="after")
+    def _must_be_complete(self) -> Self:
+        self._check_slope()
+        return self
+
+    def _check_slope(self) -> None:
+        """Refuse what fixes no slope against pressure."""
+        if (self.alpha is None) == (self.z is None):
+            raise ValueError("needs exactly one of alpha and z")
+        if not self.viscosity_span > 0:
+            raise ValueError(
+                f"has eta_0 = {self.eta_0:g} Pa s, but the Roelands law needs more than 6.3e-5 Pa s"
+            )
+
+    @property
+    def viscosity_span(self) -> float:
+        """Return ``ln eta_0 + 9.67`` [-]."""
+        return math.log(self.eta_0) + ROELANDS_OFFSET
+
+    @property
+    def pressure_index(self) -> float:
+        """Return z [-], stated or from alpha."""
+        if self.z is not None:
+            return self.z
+        return (self.alpha or 0.0) * ROELANDS_PRESSURE / self.viscosity_span
+
+    @property
+    def pressure_coefficient(self) -> float:
+        """Return alpha [1/Pa], stated or from z."""
+        if self.alpha is not None:
+            return self.alpha
+        return (self.z or 0.0) * self.viscosity_span / ROELANDS_PRESSURE
+
+
+class Roelands(_RoelandsPressure):
     r"""Roelands' law of viscosity against pressure and temperature.
 
     .. math:: \eta = \eta_0 \exp\{(\ln\eta_0 + 9.67)
@@ -58,19 +103,13 @@ class Roelands(BaseModel):
     .. [2] L. Houpert, J. Tribology 107 (1985), 241-247 (the form with alpha and S0).
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
-
     law: Literal["roelands"] = "roelands"
-    eta_0: Viscosity
-    alpha: PressureCoefficient | None = None
-    z: Ratio | None = None
-    gamma: TemperatureCoefficient | None = None
     S0: Ratio | None = None
     reference_temperature: Temperature = 313.15
 
     @model_validator(mode="after")
     def _must_be_complete(self) -> Self:
-        _check_pressure(self.eta_0, self.alpha, self.z)
+        self._check_slope()
         if self.gamma is not None and self.S0 is not None:
             raise ValueError("takes only one of gamma and S0")
         if not self.reference_temperature > _ROELANDS_TEMPERATURE:
@@ -81,31 +120,12 @@ class Roelands(BaseModel):
         return self
 
     @property
-    def viscosity_span(self) -> float:
-        """Return ``ln eta_0 + 9.67`` [-]."""
-        return math.log(self.eta_0) + ROELANDS_OFFSET
-
-    @property
-    def pressure_index(self) -> float:
-        """Return z [-], stated or from alpha."""
-        if self.z is not None:
-            return self.z
-        return (self.alpha or 0.0) * ROELANDS_PRESSURE / self.viscosity_span
-
-    @property
     def temperature_index(self) -> float:
         """Return S0 [-], stated or from gamma; zero when neither is stated."""
         if self.S0 is not None:
             return self.S0
         above = self.reference_temperature - _ROELANDS_TEMPERATURE
         return (self.gamma or 0.0) * above / self.viscosity_span
-
-    @property
-    def pressure_coefficient(self) -> float:
-        """Return alpha [1/Pa], stated or from z."""
-        if self.alpha is not None:
-            return self.alpha
-        return (self.z or 0.0) * self.viscosity_span / ROELANDS_PRESSURE
 
     @property
     def temperature_coefficient(self) -> float:
@@ -163,7 +183,7 @@ class Roelands(BaseModel):
         return exponential(self.eta_0, growth)
 
 
-class RoelandsExponential(BaseModel):
+class RoelandsExponential(_RoelandsPressure):
     r"""Roelands' law against pressure, exponential against temperature.
 
     .. math:: \eta = \eta_0 \exp\{(\ln\eta_0 + 9.67)
@@ -190,38 +210,8 @@ class RoelandsExponential(BaseModel):
     .. [1] K. H. Kim, P. Ehret, D. Dowson and C. M. Taylor, Proc. IMechE Part J 215 (2001), 339-352.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
-
     law: Literal["roelands-exponential"] = "roelands-exponential"
-    eta_0: Viscosity
-    alpha: PressureCoefficient | None = None
-    z: Ratio | None = None
-    gamma: TemperatureCoefficient | None = None
     reference_temperature: Temperature = 313.15
-
-    @model_validator(mode="after")
-    def _must_be_complete(self) -> Self:
-        _check_pressure(self.eta_0, self.alpha, self.z)
-        return self
-
-    @property
-    def viscosity_span(self) -> float:
-        """Return ``ln eta_0 + 9.67`` [-]."""
-        return math.log(self.eta_0) + ROELANDS_OFFSET
-
-    @property
-    def pressure_index(self) -> float:
-        """Return z [-], stated or from alpha."""
-        if self.z is not None:
-            return self.z
-        return (self.alpha or 0.0) * ROELANDS_PRESSURE / self.viscosity_span
-
-    @property
-    def pressure_coefficient(self) -> float:
-        """Return alpha [1/Pa], stated or from z."""
-        if self.alpha is not None:
-            return self.alpha
-        return (self.z or 0.0) * self.viscosity_span / ROELANDS_PRESSURE
 
     @property
     def temperature_coefficient(self) -> float:
@@ -264,13 +254,3 @@ class RoelandsExponential(BaseModel):
             warmer = temperature - self.reference_temperature
             growth = growth - self.temperature_coefficient * warmer
         return exponential(self.eta_0, growth)
-
-
-def _check_pressure(eta_0: float, alpha: float | None, z: float | None) -> None:
-    """Refuse what fixes no slope against pressure."""
-    if (alpha is None) == (z is None):
-        raise ValueError("needs exactly one of alpha and z")
-    if not math.log(eta_0) + ROELANDS_OFFSET > 0:
-        raise ValueError(
-            f"has eta_0 = {eta_0:g} Pa s, but the Roelands law needs more than 6.3e-5 Pa s"
-        )

@@ -32,10 +32,24 @@ _SMALL = 0.05  # below, the power series is the more accurate
 _STEPS = 100  # of Newton's method; it needs fewer than twenty
 
 
-class Newtonian(BaseModel):
-    """Stress is viscosity times shear rate, however large."""
+class _Law(BaseModel):
+    """What the laws share: most thin an oil, and each layer by the stress that it feels."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
+    @property
+    def is_newtonian(self) -> bool:
+        """Whether F is one at every stress."""
+        return False
+
+    @property
+    def yields_as_a_whole(self) -> bool:
+        """Whether F is that of the mid-film stress at all layers."""
+        return False
+
+
+class Newtonian(_Law):
+    """Stress is viscosity times shear rate, however large."""
 
     law: Literal["newtonian"] = "newtonian"
 
@@ -43,11 +57,6 @@ class Newtonian(BaseModel):
     def is_newtonian(self) -> bool:
         """Whether F is one at every stress."""
         return True
-
-    @property
-    def yields_as_a_whole(self) -> bool:
-        """Whether F is that of the mid-film stress at all layers."""
-        return False
 
     @property
     def largest_stress(self) -> float:
@@ -72,7 +81,7 @@ class Newtonian(BaseModel):
         return _floats(rate)
 
 
-class Eyring(BaseModel):
+class Eyring(_Law):
     r"""Ree and Eyring's law of thermally activated flow.
 
     .. math:: \eta\dot\gamma = \tau_0 \sinh(\tau/\tau_0), \quad F = \sinh(s)/s
@@ -87,8 +96,6 @@ class Eyring(BaseModel):
     .. [1] K. L. Johnson and J. L. Tevaarwerk, Proc. R. Soc. A 356 (1977), 215-236.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
-
     law: Literal["eyring"] = "eyring"
     stress: Stress
 
@@ -99,16 +106,6 @@ class Eyring(BaseModel):
                 f'has stress = {self.stress:g} Pa, but oils thin from some MPa on: write "5 MPa"'
             )
         return self
-
-    @property
-    def is_newtonian(self) -> bool:
-        """Whether F is one at every stress."""
-        return False
-
-    @property
-    def yields_as_a_whole(self) -> bool:
-        """Whether F is that of the mid-film stress at all layers."""
-        return False
 
     @property
     def largest_stress(self) -> float:
@@ -141,7 +138,7 @@ class Eyring(BaseModel):
         return np.arcsinh(_floats(rate))
 
 
-class Carreau(BaseModel):
+class Carreau(_Law):
     r"""Carreau's law, a power law above a modulus.
 
     .. math:: \eta_e = \eta \left[1 + (\eta\dot\gamma/G)^2\right]^{(n-1)/2}, \quad
@@ -159,8 +156,6 @@ class Carreau(BaseModel):
     .. [1] S. Bair, Tribology Letters 16 (2004), 267-276.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
-
     law: Literal["carreau"] = "carreau"
     modulus: Stress
     exponent: Annotated[float, Field(ge=0.01, le=1.0, allow_inf_nan=False, examples=[0.4])]
@@ -169,11 +164,6 @@ class Carreau(BaseModel):
     def is_newtonian(self) -> bool:
         """Whether F is one at every stress."""
         return self.exponent == 1.0
-
-    @property
-    def yields_as_a_whole(self) -> bool:
-        """Whether F is that of the mid-film stress at all layers."""
-        return False
 
     @property
     def largest_stress(self) -> float:
@@ -219,7 +209,7 @@ class Carreau(BaseModel):
         return y * np.hypot(1.0, y) ** (self.exponent - 1.0)
 
 
-class Limiting(BaseModel):
+class Limiting(_Law):
     r"""Bair and Winer's law without its elastic part: the stress has a limit.
 
     .. math:: \tau = \tau_L \left[1 - e^{-\eta\dot\gamma/\tau_L}\right], \quad
@@ -246,8 +236,6 @@ class Limiting(BaseModel):
     .. [2] R. Gohar, Elastohydrodynamics, Ellis Horwood, 1988 (the exponential form).
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
-
     law: Literal["limiting"] = "limiting"
     stress: NonNegativeStress = 0.0
     slope: Annotated[StressSlope, Field(examples=[0.04])] = 0.0
@@ -257,11 +245,6 @@ class Limiting(BaseModel):
         if not (self.stress > 0 or self.slope > 0):
             raise ValueError('needs stress or slope, such as slope = 0.04 or stress = "20 MPa"')
         return self
-
-    @property
-    def is_newtonian(self) -> bool:
-        """Whether F is one at every stress."""
-        return False
 
     @property
     def yields_as_a_whole(self) -> bool:
