@@ -1,15 +1,13 @@
 """Solids: elastic and thermal properties, and the library of named materials."""
 
-import difflib
-import tomllib
 from collections.abc import Mapping
-from functools import cache
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
 from tehl.errors import InputError
+from tehl.named import find_table, read_tables
 from tehl.units import Pressure, SolidConductivity, SolidDensity, SolidHeatCapacity
 
 
@@ -56,16 +54,13 @@ def reduced_modulus(first: Solid, second: Solid) -> float:
     return 2.0 / (first.compliance + second.compliance)
 
 
-@cache
-def _tables() -> dict[str, dict[str, Any]]:
-    """Return the tables of the library, by name."""
-    text = Path(__file__).with_name("materials.toml").read_text(encoding="utf-8")
-    return {name: {"name": name} | table for name, table in tomllib.loads(text).items()}
+_SOLIDS = Path(__file__).with_name("materials.toml")
+_NEEDS = "young_modulus and poisson_ratio"
 
 
 def library() -> dict[str, Solid]:
     """Return the named solids, by name."""
-    return {name: Solid(**table) for name, table in _tables().items()}
+    return {name: Solid(**table) for name, table in read_tables(_SOLIDS).items()}
 
 
 def material(name: str) -> Solid:
@@ -86,20 +81,12 @@ def _by_name(value: object) -> object:
     """Return the table of a name, a table as it is."""
     if isinstance(value, Mapping | Solid):
         return value
-    known = _tables()
+    known = read_tables(_SOLIDS)
     if not isinstance(value, str):
         raise ValueError(
-            f"must be the name of a solid ({', '.join(known)}) or a table with young_modulus and "
-            "poisson_ratio"
+            f"must be the name of a solid ({', '.join(known)}) or a table with {_NEEDS}"
         )
-    if value in known:
-        return known[value]
-    close = difflib.get_close_matches(value, known, n=1)
-    guess = f"did you mean {close[0]}? " if close else ""
-    raise ValueError(
-        f"is no known solid: {guess}known are {', '.join(known)}; or give a table with "
-        "young_modulus and poisson_ratio"
-    )
+    return find_table(known, value, "solid", _NEEDS)
 
 
 NamedSolid = Annotated[Solid, BeforeValidator(_by_name, json_schema_input_type=str | Solid)]

@@ -1,10 +1,7 @@
 """The lubricant: its laws and thermal properties, and the library of named oils."""
 
-import difflib
 import json
-import tomllib
 from collections.abc import Mapping
-from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -24,6 +21,7 @@ from tehl.lubricant.density import DensityLaw
 from tehl.lubricant.shear import Newtonian, ShearLaw
 from tehl.lubricant.viscosity import ViscosityLaw
 from tehl.lubricant.walther import Walther
+from tehl.named import find_table, read_tables
 from tehl.units import Conductivity, HeatCapacity, PressureCoefficient, Temperature
 
 if TYPE_CHECKING:
@@ -187,16 +185,13 @@ def _grown(stated: Property, name: str, pressure: "Array") -> "Array":
     return np.full(np.shape(pressure), stated)
 
 
-@cache
-def _tables() -> dict[str, dict[str, Any]]:
-    """Return the tables of the library, by name."""
-    text = Path(__file__).with_name("oils.toml").read_text(encoding="utf-8")
-    return {name: {"name": name} | table for name, table in tomllib.loads(text).items()}
+_OILS = Path(__file__).with_name("oils.toml")
+_LAWS = {"viscosity", "density"}
 
 
 def library() -> dict[str, Lubricant]:
     """Return the named oils, by name."""
-    return {name: Lubricant(**table) for name, table in _tables().items()}
+    return {name: Lubricant(**table) for name, table in read_tables(_OILS).items()}
 
 
 def oil(name: str) -> Lubricant:
@@ -213,9 +208,6 @@ def oil(name: str) -> Lubricant:
         raise InputError(f"{name!r} {error}") from None
 
 
-_LAWS = {"viscosity", "density"}
-
-
 def _by_name(value: object) -> object:
     """Return the table of a named oil, with what a table of that name adds; others as they are."""
     if isinstance(value, str):
@@ -227,21 +219,12 @@ def _by_name(value: object) -> object:
             raise ValueError(f"name = {json.dumps(value['name'])} {error}") from None
     if isinstance(value, Mapping | Lubricant):
         return value
-    raise ValueError(
-        f"must be the name of an oil ({', '.join(_tables())}) or a table with viscosity and density"
-    )
+    known = ", ".join(read_tables(_OILS))
+    raise ValueError(f"must be the name of an oil ({known}) or a table with viscosity and density")
 
 
 def _named(name: str) -> dict[str, Any]:
-    known = _tables()
-    if name in known:
-        return known[name]
-    close = difflib.get_close_matches(name, known, n=1)
-    guess = f"did you mean {close[0]}? " if close else ""
-    raise ValueError(
-        f"is no known oil: {guess}known are {', '.join(known)}; or give a table with "
-        "viscosity and density"
-    )
+    return find_table(read_tables(_OILS), name, "oil", "viscosity and density")
 
 
 class OilByName(BaseModel):
