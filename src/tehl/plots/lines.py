@@ -11,7 +11,8 @@ from tehl.plots.temperature import temperature_lines
 from tehl.post.film import Profile, profile_x, profile_y
 from tehl.result import Result
 
-_PRESSURE, _FILM = "#1f4e9c", "#c2410c"
+PRESSURE, FILM = "#1f4e9c", "#c2410c"
+"""Colours of pressure and film."""
 
 
 def centre_lines(result: Result) -> Figure:
@@ -78,16 +79,21 @@ def _panel(axes: Axes, result: Result, profile: Profile, window: Span) -> list[A
     axes.plot(
         place, profile.hertz_pressure * GIGA, color="0.45", lw=1.0, ls="--", label="dry Hertz"
     )
-    axes.plot(place, profile.pressure * GIGA, color=_PRESSURE, lw=1.4, label="pressure")
-    axes.set_ylabel("pressure p [GPa]", color=_PRESSURE)
+    axes.plot(place, profile.pressure * GIGA, color=PRESSURE, lw=1.4, label="pressure")
+    axes.set_ylabel("pressure p [GPa]", color=PRESSURE)
     axes.set_ylim(bottom=0.0)
     axes.set_xlim(_limits(profile, window))
     film = axes.twinx()
-    film.plot(place, profile.dry_gap * MICRO, color=_FILM, lw=0.8, ls=":", label="dry gap")
-    film.plot(place, profile.film_thickness * MICRO, color=_FILM, lw=1.4, label="film")
-    film.set_ylabel("film h [µm]", color=_FILM)
+    film.plot(place, profile.dry_gap * MICRO, color=FILM, lw=0.8, ls=":", label="dry gap")
+    film.plot(place, profile.film_thickness * MICRO, color=FILM, lw=1.4, label="film")
+    show_film_behind(axes, film, result, 4.0)
+    return [*axes.lines, *film.lines]
+
+
+def show_film_behind(axes: Axes, film: Axes, result: Result, most: float) -> None:
+    """Give drawn axes of the film [um] up to ``most`` central films, behind the pressure's."""
+    film.set_ylabel("film h [µm]", color=FILM)
     central = result.film.central * MICRO
-    film.set_ylim(0.0, 4.0 * central if central > 0 else None)
+    film.set_ylim(0.0, most * central if central > 0 else None)
     axes.set_zorder(film.get_zorder() + 1)
     axes.patch.set_visible(False)
-    return [*axes.lines, *film.lines]

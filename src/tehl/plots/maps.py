@@ -21,6 +21,7 @@ from tehl.plots.frame import (
     map_figure,
     nice_levels,
     span_part,
+    window,
     window_part,
 )
 from tehl.result import Result
@@ -52,7 +53,7 @@ def film_map(result: Result) -> Figure:
     picture = map_figure(result)
     axes = contact_axes(picture, result)
     part = window_part(result)
-    x, y = result.x[part[1]] * MICRO, result.y[part[0]] * MICRO
+    x, y = window_places(result)
     film = result.film_thickness[part] * MICRO
     low, central = _film_range(result, film)
     bottom, top = 0.95 * low, 1.6 * central
@@ -69,6 +70,18 @@ def film_map(result: Result) -> Figure:
     ticks = ticks[(ticks >= bottom) & (ticks <= top)]
     bar.ax.set_yticks(ticks, [f"{tick:.4g}" for tick in ticks], fontsize=8)
     return picture
+
+
+def window_places(result: Result) -> tuple[Array, Array]:
+    """Return x and y [um] of the nodes that :func:`window_part` shows."""
+    rows, columns = window_part(result)
+    return result.x[columns] * MICRO, result.y[rows] * MICRO
+
+
+def slenderness(result: Result) -> float:
+    """Return how many times as long across entrainment as along it the window is."""
+    (west, east), (south, north) = window(result)
+    return (north - south) / (east - west) * result.groups.ellipticity
 
 
 def _film_contours(axes: Axes, x: Array, y: Array, film: Array, levels: _Levels) -> None:
@@ -142,7 +155,7 @@ def pressure_map(result: Result) -> Figure:
     picture = map_figure(result)
     axes = contact_axes(picture, result)
     part = window_part(result)
-    x, y = result.x[part[1]] * MICRO, result.y[part[0]] * MICRO
+    x, y = window_places(result)
     pressure = result.pressure[part] * GIGA
     mesh = axes.pcolormesh(x, y, pressure, shading="gouraud", cmap="cividis", rasterized=True)
     levels = _pressure_levels(pressure)

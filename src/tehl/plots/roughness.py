@@ -22,9 +22,10 @@ from tehl.plots.frame import (
     legend_above,
     length,
     map_figure,
-    window,
     window_part,
 )
+from tehl.plots.lines import FILM, PRESSURE, show_film_behind
+from tehl.plots.maps import slenderness, window_places
 from tehl.post.film import hertz_pressure
 from tehl.post.micro_film import MicroFilm, micro_film
 from tehl.post.roughness import RoughFilm, film_histogram, in_contact, rough_film
@@ -32,7 +33,7 @@ from tehl.result import Result, SurfaceHeights
 from tehl.typing import Array
 
 _HEIGHTS, _RIPPLES = "viridis", "RdBu_r"
-_PRESSURE, _FILM, _SURFACE = "#1f4e9c", "#c2410c", "#3f7d20"
+_SURFACE = "#3f7d20"
 _SHOWN = (0.5, 99.5)
 """Percentiles between which colours change."""
 _REACH = 1.25
@@ -108,11 +109,9 @@ def _ends(shown: Array, span: Span) -> Any:
 
 
 def _coloured(axes: Axes, result: Result, values: Array, colours: str, span: Span) -> Any:
-    part = window_part(result)
-    x, y = result.x[part[1]] * MICRO, result.y[part[0]] * MICRO
-    return axes.pcolormesh(
-        x, y, values[part], shading="gouraud", cmap=colours, clim=span, rasterized=True
-    )
+    x, y = window_places(result)
+    shown = values[window_part(result)]
+    return axes.pcolormesh(x, y, shown, shading="gouraud", cmap=colours, clim=span, rasterized=True)
 
 
 def micro_film_map(result: Result, smooth: Result | None = None) -> Figure:
@@ -140,9 +139,7 @@ def micro_film_map(result: Result, smooth: Result | None = None) -> Figure:
     """
     heights_of(result)
     ripples = micro_film(result, smooth)
-    (west, east), (south, north) = window(result)
-    slender = (north - south) / (east - west) * result.groups.ellipticity
-    side_by_side = slender > 0.5
+    side_by_side = slenderness(result) > 0.5
     picture = figure(result, (9.6, 5.2) if side_by_side else (6.4, 6.4))
     rows, columns = (1, 2) if side_by_side else (2, 1)
     panels = picture.subplots(rows, columns, squeeze=False).ravel()
@@ -208,18 +205,15 @@ def rough_centre_line(result: Result, smooth: Result | None = None) -> Figure:
     upper, lower = picture.subplots(2, 1, sharex=True, height_ratios=[1.5, 1.0])
     dry = hertz_pressure(result.scaled.x[inside], result.scaled.y[row])
     upper.plot(place, dry * result.scales.hertz_pressure * GIGA, color="0.45", ls="--", lw=1.0)
-    upper.plot(place, result.pressure[row, inside] * GIGA, color=_PRESSURE, lw=1.4)
+    upper.plot(place, result.pressure[row, inside] * GIGA, color=PRESSURE, lw=1.4)
     film = upper.twinx()
-    film.plot(place, result.film_thickness[row, inside] * MICRO, color=_FILM, lw=1.4)
+    film.plot(place, result.film_thickness[row, inside] * MICRO, color=FILM, lw=1.4)
     if smooth is not None:
-        upper.plot(place, smooth.pressure[row, inside] * GIGA, color=_PRESSURE, lw=0.7)
-        film.plot(place, smooth.film_thickness[row, inside] * MICRO, color=_FILM, lw=0.7)
-    upper.set_ylabel("pressure p [GPa], dashed: dry Hertz", color=_PRESSURE)
-    film.set_ylabel("film h [µm]", color=_FILM)
+        upper.plot(place, smooth.pressure[row, inside] * GIGA, color=PRESSURE, lw=0.7)
+        film.plot(place, smooth.film_thickness[row, inside] * MICRO, color=FILM, lw=0.7)
+    upper.set_ylabel("pressure p [GPa], dashed: dry Hertz", color=PRESSURE)
     upper.set_ylim(bottom=0.0)
-    film.set_ylim(0.0, _top(result))
-    upper.set_zorder(film.get_zorder() + 1)
-    upper.patch.set_visible(False)
+    show_film_behind(upper, film, result, 3.0)
     if smooth is not None:
         upper.set_title("thin lines: smooth surfaces", fontsize=8)
     _line_of_heights(lower, place, heights.together[row, inside])
@@ -232,11 +226,6 @@ def rough_centre_line(result: Result, smooth: Result | None = None) -> Figure:
     return picture
 
 
-def _top(result: Result) -> float | None:
-    central = result.film.central * MICRO
-    return 3.0 * central if central > 0 else None
-
-
 def _line_of_heights(axes: Axes, place: Array, heights: Array) -> None:
     axes.plot(
         place, -heights * 1e9, color=_SURFACE, lw=1.2, label="gap left by undeformed heights (-s)"
@@ -246,7 +235,7 @@ def _line_of_heights(axes: Axes, place: Array, heights: Array) -> None:
 
 
 def _line_of_ripples(axes: Axes, place: Array, ripple: Array) -> None:
-    axes.plot(place, ripple, color=_FILM, lw=1.2, label="ripple of the film")
+    axes.plot(place, ripple, color=FILM, lw=1.2, label="ripple of the film")
 
 
 def film_distribution(result: Result) -> Figure:
@@ -275,11 +264,11 @@ def film_distribution(result: Result) -> Figure:
     axes.stairs(share / unit, edges * unit, fill=True, color="#9db8dc")
     axes.set(xlabel="film thickness h [nm]", ylabel="part of the contact by film [1/nm]")
     axes.set_xlim(float(edges[0]) * unit, float(edges[-1]) * unit)
-    axes.axvline(found.composite * unit, color=_FILM, lw=1.2, ls="--", label="Sq of both surfaces")
+    axes.axvline(found.composite * unit, color=FILM, lw=1.2, ls="--", label="Sq of both surfaces")
     thinner = axes.twinx()
     below = np.concatenate([[0.0], np.cumsum(share * np.diff(edges))])
-    thinner.plot(edges * unit, 100.0 * below, color=_PRESSURE, lw=1.3)
-    thinner.set_ylabel("part with a thinner film [%]", color=_PRESSURE)
+    thinner.plot(edges * unit, 100.0 * below, color=PRESSURE, lw=1.3)
+    thinner.set_ylabel("part with a thinner film [%]", color=PRESSURE)
     thinner.set_ylim(0.0, 100.0)
     median = dict(found.quantiles)[0.5]
     if math.isfinite(median):

@@ -29,6 +29,7 @@ from tehl.plots.frame import (
     window,
     window_part,
 )
+from tehl.plots.maps import slenderness, window_places
 from tehl.post.heat import Temperature
 from tehl.result import FilmHeat, Result
 from tehl.typing import Array
@@ -103,9 +104,8 @@ def _rule(bar: Any, lines: Any, span: Span) -> None:
 
 def _map(axes: Axes, result: Result, rise: Array, span: Span) -> tuple[Any, Any]:
     """Draw one map of a rise; return what the colours and the contour lines belong to."""
-    part = window_part(result)
-    x, y = np.meshgrid(result.x[part[1]] * MICRO, result.y[part[0]] * MICRO)
-    return _coloured(axes, (x, y), rise[part], span)
+    x, y = np.meshgrid(*window_places(result))
+    return _coloured(axes, (x, y), rise[window_part(result)], span)
 
 
 def _coloured(axes: Axes, places: tuple[Array, Array], rise: Array, span: Span) -> tuple[Any, Any]:
@@ -134,8 +134,7 @@ def temperature_layers(result: Result) -> Figure:
     """
     found = heat_of(result)[1]
     layers = _layers(result)
-    (west, east), (south, north) = window(result)
-    slender = (north - south) / (east - west) * result.groups.ellipticity
+    slender = slenderness(result)
     columns = 2 if slender < 0.5 else 3 if slender < 2.0 else 6
     rows = len(layers) // columns
     width = 6.6 / columns
@@ -206,7 +205,7 @@ def temperature_section(result: Result) -> Figure:
     lower.set(ylabel="z [nm]", ylim=(0.0, top if top > 0 else 1.0), facecolor="0.88")
     lower.set(xlabel="x along entrainment [µm]  (y = 0)", xlim=(x[0], x[-1]))
     for axes in (upper, lower):
-        _mark_ends(axes, result)
+        _mark_ends(axes, result, "white", 1.0)
     _name_surfaces(upper)
     bar = picture.colorbar(mesh, ax=[upper, lower], label="temperature rise [K]", pad=0.02)
     _rule(bar, lines, span)
@@ -236,11 +235,11 @@ def _refined(heat: FilmHeat, row: int, columns: slice, inlet: float) -> tuple[Ar
     return zeta, CubicSpline(heat.zeta, rise, axis=0)(zeta)
 
 
-def _mark_ends(axes: Axes, result: Result) -> None:
+def _mark_ends(axes: Axes, result: Result, colour: str, width: float) -> None:
     """Mark where the Hertz contact begins and ends."""
     for side in (-1.0, 1.0):
         place = side * result.scales.half_width_x * MICRO
-        axes.axvline(place, color="white", lw=1.0, ls="--")
+        axes.axvline(place, color=colour, lw=width, ls="--")
 
 
 def surface_heat(result: Result) -> Figure:
@@ -273,8 +272,7 @@ def surface_heat(result: Result) -> Figure:
         axes.legend(
             fontsize=8, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 0.98), ncols=4
         )
-        for side in (-1.0, 1.0):
-            axes.axvline(side * result.scales.half_width_x * MICRO, color="0.6", lw=0.8, ls="--")
+        _mark_ends(axes, result, "0.6", 0.8)
     return picture
 
 
