@@ -27,6 +27,8 @@ FIRST_SWEEPS = 10
 """Energy sweeps on the first heated grid before its first cycle."""
 MOST_SWEEPS, RESTLESS = 4, 5.0
 """Most energy sweeps after a cycle, and the change of temperature [K] that asks for another."""
+QUIET = 0.025
+"""Change of temperature over its largest rise below which the next cycle may do without a sweep."""
 FIRST_STEPS, STEPS = 40, 3
 """Newton steps for the shear stress on the first sweep and later."""
 RAMP = 24
@@ -147,6 +149,7 @@ class FilmCoupling:
         self.sweeps_left = RAMP if ramped else 0
         self.state: FilmState | None = None
         self.factors: reynolds.Factors | None = None
+        self.change, self.quiet = 0.0, False
 
     def begin(self, levels: Sequence[Level], *, finest: bool) -> bool:
         """Heat the last of ``levels`` from the temperature of the one before it.
@@ -159,6 +162,7 @@ class FilmCoupling:
         sound = not fine.started_dry and float(fine.film.h.min()) > SOUND * fine.floor
         if not (finest or coarser is not None or (large and sound)):
             return False
+        self.quiet = False
         state = FilmState(
             fine.grid,
             self.film,
@@ -181,15 +185,25 @@ class FilmCoupling:
     def update(self, levels: Sequence[Level]) -> tuple[float, float]:
         """Sweep; return the largest change and the largest rise of the temperature [K].
 
-        One sweep follows a film that settles; a restless one is swept again.
+        One sweep follows a film that settles; a restless one is swept again, and a quiet one is
+        left alone for a cycle, unless the answer is to be tight.
         """
         if self.state is None:
             return 0.0, 0.0
+        if self.quiet:
+            self.quiet = False
+            return self.change, self._rise(self.state)
         for _ in range(MOST_SWEEPS):
-            change = self._sweep(self.state, levels, STEPS)
-            if change < RESTLESS or self.sweeps_left:
+            self.change = self._sweep(self.state, levels, STEPS)
+            if self.change < RESTLESS or self.sweeps_left:
                 break
-        return change, float(self.state.temperature.max()) - self.film.scales.temperature
+        rise = self._rise(self.state)
+        self.quiet = not self.thorough and self.change < QUIET * rise
+        return self.change, rise
+
+    def _rise(self, state: FilmState) -> float:
+        """Return the largest temperature over that of the oil at the inlet [K]."""
+        return float(state.temperature.max()) - self.film.scales.temperature
 
     def forget(self, levels: Sequence[Level]) -> None:
         """Start again on the next grid, from an isothermal film."""
