@@ -17,6 +17,7 @@ def duration_of(problem: ContactProblem, units: Scales) -> float:
     distance = (transient.entrance + BEYOND) * units.half_width_x
     speeds = ((problem.surface_1, motion.speed_1), (problem.surface_2, motion.speed_2))
     moving = [abs(speed) for one, speed in speeds if not one.roughness.is_smooth and speed != 0]
-    passing = distance / min(moving) if moving else 0.0
+    # what a surface lets in at the inlet travels at the mean speed, however fast the surface is
+    passing = distance / min(*moving, units.speed) if moving else 0.0
     loaded = max((time for time, _ in transient.load), default=0.0)
     return max(passing, loaded, units.half_width_x / units.speed)

@@ -20,7 +20,8 @@ class Transient(BaseModel):
     duration : float or None
         Until when [s]; None is until all that moves has passed the contact.
     stride : int
-        Mesh widths that the mean of both surfaces moves on in one step of time.
+        Mesh widths that the mean of both surfaces moves on in one step of time: what changes is
+        resolved as on a grid so many times coarser.
     start : {"smooth", "standing"}
         From which film: the smooth one, waves and random surfaces coming in from the inlet; or the
         steady one of the surfaces as they stand at time zero.
@@ -41,7 +42,7 @@ class Transient(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     duration: Time | None = None
-    stride: Annotated[int, Field(ge=1, le=64)] = 1
+    stride: Annotated[int, Field(ge=1, le=8)] = 1
     start: Literal["smooth", "standing"] = "smooth"
     entrance: PositiveNumber = 2.5
     load: tuple[tuple[Instant, PositiveNumber], ...] = ()

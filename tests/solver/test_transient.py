@@ -139,7 +139,7 @@ def test_the_load_follows_its_table():
 
 
 def test_a_snapshot_goes_on_bit_by_bit():
-    case = in_time(1.0, slide=0.5, surface_1=wave())
+    case = in_time(1.0, slide=0.5, surface_1=wave(), transient={"entrance": 0.6})
     kept = []
 
     def keep(snapshot):
@@ -158,6 +158,35 @@ def test_a_surface_that_stands_still_never_brings_its_roughness_in():
     case = in_time(1.0, slide=-2.0, surface_1=wave())
     with pytest.raises(InputError, match="surface_1 stands still"):
         march(case, OPTIONS)
+
+
+@pytest.mark.parametrize("stride", [2, 4])
+def test_a_longer_step_keeps_the_steady_film_and_carries_a_wave(stride):
+    still = march(in_time(1.0, transient={"stride": stride}), OPTIONS)
+    film = still.history.film_central
+    np.testing.assert_allclose(film, film[0], rtol=1e-6)
+    short, long = (
+        rolling(),
+        march(in_time(7.5, surface_1=wave(), transient={"stride": stride}), OPTIONS),
+    )
+    centre = int(np.argmin(np.abs(short.start.scaled.x)))
+    last = [run.history.time > 0.75 * run.history.time[-1] for run in (short, long)]
+    first = np.ptp(short.profiles.film[last[0], centre])
+    assert np.ptp(long.profiles.film[last[1], centre]) == pytest.approx(first, rel=0.06)
+
+
+FAR = {"type": "bump", "amplitude": 1e-8, "radius": 1e-4, "x": -1.0}
+REFUSED = [
+    ({"transient": {"stride": 8}}, r"take 4 or less"),
+    ({"surface_1": wave(wavelength=0.2)}, "shortest wave of the surfaces has 2.1 nodes"),
+    ({"surface_1": {"roughness": FAR}}, "does not come into the contact"),
+]
+
+
+@pytest.mark.parametrize(("tables", "words"), REFUSED)
+def test_a_run_that_would_say_nothing_is_refused(tables, words):
+    with pytest.raises(InputError, match=words):
+        march(in_time(4.0, **tables), OPTIONS)
 
 
 def test_too_many_steps_are_refused_before_any_work():

@@ -97,7 +97,7 @@ def test_equal_solids_do_not_know_which_of_them_has_the_wave():
 
 @pytest.mark.parametrize("shear", [None, {"law": "eyring", "stress": "5 MPa"}])
 def test_a_heated_run_goes_on_bit_by_bit(shear):
-    case, kept = hot(0.8, wavy=True, shear=shear), []
+    case, kept = hot(0.8, wavy=True, shear=shear, transient={"entrance": 0.6}), []
 
     def keep(snapshot):
         if len(snapshot.record.rows) == 4:

@@ -110,6 +110,7 @@ class MovingHeights:
     ) -> None:
         width, length = scales.half_width_x, scales.half_width_y
         self.x, self.y = grid.x[None, :] * width, grid.y[:, None] * length
+        self.widths = (width, length)
         self.shape, self.unit = grid.shape, scales.film_thickness
         motion, self.entrance = problem.motion, entrance
         self.front = None if entrance is None else entrance * width
@@ -123,6 +124,18 @@ class MovingHeights:
                 )
             resolved = roughness.resolved_on(grid.dx * width, grid.dy * length)
             self.parts.append((resolved, speed, self._fade(resolved, grid.dx * width)))
+
+    @property
+    def is_rough(self) -> bool:
+        """Whether either surface has heights."""
+        return any(not surface.is_smooth for surface, _, _ in self.parts)
+
+    @property
+    def wavelengths(self) -> tuple[float, float]:
+        """Return the shortest wavelengths along x [a_x] and y [a_y]."""
+        pairs = [surface.shortest_wavelengths for surface, _, _ in self.parts]
+        along, across = (min(pair) for pair in zip(*pairs, strict=True))
+        return along / self.widths[0], across / self.widths[1]
 
     def _fade(self, surface: Roughness, dx: float) -> float:
         """Return over what length a surface that comes in begins [m], 0 if it does not."""

@@ -55,8 +55,9 @@ class Stepper:
         self.run, self.transient, self.settings = run, transient, settings
         level = run.finest
         self.time_step = transient.stride * level.grid.dx
-        self.now = level.film.rho * level.film.h
-        self.before = self.now.copy()
+        self.steady = level.film.rho * level.film.h
+        self.wedge = steady_wedge(self.steady, level.grid.dx, run.options.wedge_order)
+        self.now, self.before = self.steady.copy(), self.steady.copy()
         for one in run.levels:
             one.mesh = step_stencil(one.mesh, self.time_step)
         run.coupling.begin_time(run.levels, self.time_step)
@@ -79,9 +80,7 @@ class Stepper:
         StepError
             When no setting makes it settle; pressure and film are those of the last attempt.
         """
-        level, stride = self.run.finest, self.transient.stride
-        history = 2.0 * upstream(self.now, stride) - 0.5 * upstream(self.before, 2 * stride)
-        history /= self.time_step
+        level, history = self.run.finest, self._history()
         start = level.film.p.copy(), level.rigid_approach
         first = self.setting
         for number in range(first, len(self.settings)):
@@ -102,6 +101,17 @@ class Stepper:
             return settled
         raise StepError("stalled", np.inf)
 
+    def _history(self) -> Array:
+        """Return what is known of wedge and squeeze, (ny, nx).
+
+        The mass of the steady film at the beginning has the wedge of that film, however long the
+        step; only what has changed since is followed along the motion.
+        """
+        stride, steady = self.transient.stride, self.steady
+        last = 2.0 * upstream(self.now - steady, stride)
+        before = 0.5 * upstream(self.before - steady, 2 * stride)
+        return (last - before + 1.5 * steady) / self.time_step - self.wedge
+
     def choose(self, number: int) -> None:
         """Relax with a setting from now on."""
         self.setting = number
@@ -111,7 +121,8 @@ class Stepper:
     def _settle(self, name: str) -> Settled:
         """Cycle until the step has settled."""
         level, change = self.run.finest, np.inf
-        for number in range(1, self.transient.max_cycles + 1):
+        # a slower setting is given more of them
+        for number in range(1, (1 + self.setting) * self.transient.max_cycles + 1):
             before = level.film.p.copy()
             cycle(self.run.levels, self.run.coarsest.step, self.shape)
             level.update()
@@ -126,3 +137,10 @@ class Stepper:
             if number >= LEAST_CYCLES and settled:
                 return Settled(cycles=number, change=change, load_error=error, smoother=name)
         raise StepError("stalled", change)
+
+
+def steady_wedge(mass: Array, spacing: float, order: int) -> Array:
+    """Return the upstream difference of a mass rho h along x, of the order of the steady film."""
+    if order == 1:
+        return (mass - upstream(mass, 1)) / spacing
+    return (1.5 * mass - 2.0 * upstream(mass, 1) + 0.5 * upstream(mass, 2)) / spacing

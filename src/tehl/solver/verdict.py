@@ -81,7 +81,9 @@ def _domain_status(run: Multigrid) -> Status:
     left_out = domain_error(groups, level.grid.domain)
     if left_out > LARGEST_DOMAIN_ERROR:
         return _domain_too_small(groups, left_out)
-    return edge_status(level.grid, groups, run.traces[-1].central.values[-1])
+    # in a dent the film says nothing of the oil that the contact needs
+    central = run.expected_film if run.is_rough else run.traces[-1].central.values[-1]
+    return edge_status(level.grid, groups, central)
 
 
 def _heat_status(run: Multigrid) -> Status:
@@ -204,10 +206,15 @@ def _too_coarse(grid: Grid, groups: Groups, error: float) -> Status:
         cause="grid_too_coarse",
         message=(
             f"The grid of {grid.nx} x {grid.ny} nodes is too coarse for the film, which "
-            f"may be wrong by {100 * error:.0f} %."
+            f"may be wrong by {_share(error)}."
         ),
         hint=f"Take {grid_hint(grid, groups)}.",
     )
+
+
+def _share(error: float) -> str:
+    """Return a relative error in words: beyond all of it no number means anything."""
+    return "more than all of it" if error > 1.0 else f"{100 * error:.0f} %"
 
 
 def too_coarse(result: Result, error: float) -> Status:
