@@ -6,7 +6,7 @@ from pathlib import Path
 _FOLDER = Path(__file__).parent
 
 
-HEATED = "energy.py"
+HEATED = ("energy.py", "trail.py")
 """The kernels that only heated and shear-thinning films need."""
 
 
@@ -28,7 +28,7 @@ def is_cold(*, coupled: bool) -> bool:
         for source in _FOLDER.glob("*.py")
         if "@njit" in source.read_text(encoding="utf-8")
         and source.name not in ("cache.py", "gauss_seidel.py")
-        and (coupled or source.name != HEATED)
+        and (coupled or source.name not in HEATED)
     )
 
 

@@ -17,7 +17,7 @@ from tehl.film_formulas import (
     regime,
     thermal_loading,
 )
-from tehl.heat import source_form
+from tehl.heat import FilmEnergy, source_form
 from tehl.memory import available_memory, needed_memory
 from tehl.options import Domain, Options, coarsenable
 from tehl.problem import ContactProblem
@@ -167,7 +167,8 @@ def explain(problem: ContactProblem, options: Options) -> Explanation:
 
 
 def _source(problem: ContactProblem, peclet: float | None) -> str | None:
-    stated = problem.thermal.sources if problem.thermal else "auto"
+    heat = problem.heat
+    stated = heat.sources if isinstance(heat, FilmEnergy) else "auto"
     return None if peclet is None else source_form(stated, peclet)
 
 

@@ -11,6 +11,7 @@ from tehl.operators.energy import FilmState, HeatedFilm
 from tehl.operators.film import hertz_pressure
 from tehl.operators.flow import flow_table
 from tehl.operators.reynolds import stencil
+from tehl.operators.trail import Trail
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.scaling import groups, scales
@@ -59,6 +60,7 @@ def _one_sweep() -> None:
     state.set_film(hertz_pressure(grid), np.ones(grid.shape))
     state.sweep(1)
     energy.sweep_back(state.known)
+    Trail(np.ones((5, energy.BLOCK)), 0.1, 1.0)
     film = reynolds.Film(*(np.ones(grid.shape) for _ in range(6)))
     reynolds.scale_properties(film, reynolds.Factors(*film[:4]), 0.0)
     reynolds.tangent_source(film, stencil(grid, groups(problem), 2), np.empty(grid.shape))
