@@ -33,6 +33,8 @@ from tehl.typing import Array
 
 FIRST_STEPS = 6
 """Newton steps on the coarsest grid at the start; they may cycle there, which does no harm."""
+DRY_CYCLES = 2
+"""Cycles after which a grid that began with the dry pressure has a film."""
 COARSE_CYCLES = 4
 """Most cycles on a grid that only gives the start for the next finer one."""
 RUNAWAY = 100.0
@@ -242,9 +244,7 @@ class Multigrid:
         fine, last = levels[-1], levels[-1] is self.finest
         fine.pose_problem()
         fine.update()
-        if self.coupling.begin(levels, finest=last):
-            for level in levels:
-                level.set_smoother(self.setting)
+        self._couple(levels, finest=last)
         trace = GridTrace()
         if len(levels) > self.first_rough:
             trace.largest_change = LARGEST_ROUGH_CHANGE
@@ -257,6 +257,9 @@ class Multigrid:
         patience = self.setting.rough.patience
         most = patience * self.options.max_cycles if last else COARSE_CYCLES
         for number in range(1, most + 1):
+            if number > DRY_CYCLES and fine.started_dry and not last:
+                fine.started_dry = False  # now there is a film to heat
+                self._couple(levels, finest=False)
             before = state_of(fine)
             report = self._cycle(levels, shape, number + done)
             trace.reports.append(report)
@@ -269,6 +272,12 @@ class Multigrid:
                 return
             if anderson is not None:
                 take_state(fine, anderson.combine(before, state_of(fine)))
+
+    def _couple(self, levels: list[Level], *, finest: bool) -> None:
+        """Begin the coupling on the last of ``levels``, if it is worth it there."""
+        if self.coupling.begin(levels, finest=finest):
+            for level in levels:
+                level.set_smoother(self.setting)
 
     def _anderson(self, levels: list[Level]) -> Anderson | None:
         """Return the acceleration of the cycles on the last of ``levels``, if they need one."""
