@@ -136,3 +136,11 @@ def test_a_bump_is_pressed_flat_and_a_dent_partly_filled():
     assert films["smooth"] - films["bump"] == pytest.approx(19.7, abs=1.5)
     assert films["dent"] - films["smooth"] == pytest.approx(60.9, abs=2.0)
     assert table["dent"]["central pressure"] < 0.4
+
+
+def test_a_measured_surface_keeps_its_grooves_along_the_entrainment():
+    found = example("measured_map").main()
+    assert found["Sq [nm]"] == pytest.approx(19.2, abs=0.5)
+    assert 0.4 * found["Sq [nm]"] < found["Sq of the film ripple [nm]"] < found["Sq [nm]"]
+    assert found["central film over smooth"] == pytest.approx(0.986, abs=0.01)
+    assert found["minimum film over smooth"] == pytest.approx(0.876, abs=0.03)

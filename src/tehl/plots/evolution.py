@@ -309,10 +309,10 @@ def passage(run: Evolution) -> Figure:
         (lower, found.film_least, found.film_largest, run.profiles.film[0], FILM, MICRO),
     )
     for axes, least, largest, start, colour, unit in bands:
-        axes.fill_between(
-            x, least[part] * unit, largest[part] * unit, color=colour, alpha=0.3, lw=0
-        )
-        axes.plot(x, start[part] * unit, color=colour, lw=1.3, label="steady film of the beginning")
+        low, high = least[part] * unit, largest[part] * unit
+        band = "least to largest of the passage"
+        axes.fill_between(x, low, high, color=colour, alpha=0.3, lw=0, label=band)
+        axes.plot(x, start[part] * unit, color=colour, lw=1.3, label="at the beginning, steady")
         axes.grid(axis="y", lw=0.3)
         axes.legend(fontsize=8, frameon=False)
     inside = np.abs(run.start.scaled.x) < 0.8
