@@ -27,8 +27,11 @@ FIRST_SWEEPS = 10
 """Energy sweeps on the first heated grid before its first cycle."""
 MOST_SWEEPS, RESTLESS = 4, 5.0
 """Most energy sweeps after a cycle, and the change of temperature [K] that asks for another."""
-QUIET = 0.025
-"""Change of temperature over its largest rise below which the next cycle may do without a sweep."""
+QUIET, CALM = 0.05, 0.0015
+"""Largest change of the temperature by a sweep, and change of its largest rise since the last one,
+over that rise, below which the next cycle may do without a sweep."""
+LEAST_SWEEPS = 2
+"""Sweeps on a grid before one may be left out."""
 FIRST_STEPS, STEPS = 40, 3
 """Newton steps for the shear stress on the first sweep and later."""
 RAMP = 24
@@ -149,7 +152,7 @@ class FilmCoupling:
         self.sweeps_left = RAMP if ramped else 0
         self.state: FilmState | None = None
         self.factors: reynolds.Factors | None = None
-        self.change, self.quiet = 0.0, False
+        self.change, self.rise, self.quiet = 0.0, 0.0, False
 
     def begin(self, levels: Sequence[Level], *, finest: bool) -> bool:
         """Heat the last of ``levels`` from the temperature of the one before it.
@@ -192,14 +195,16 @@ class FilmCoupling:
             return 0.0, 0.0
         if self.quiet:
             self.quiet = False
-            return self.change, self._rise(self.state)
+            return self.change, self.rise
         for _ in range(MOST_SWEEPS):
             self.change = self._sweep(self.state, levels, STEPS)
             if self.change < RESTLESS or self.sweeps_left:
                 break
-        rise = self._rise(self.state)
-        self.quiet = not self.thorough and self.change < QUIET * rise
-        return self.change, rise
+        before, self.rise = self.rise, self._rise(self.state)
+        calm = abs(self.rise - before) < CALM * self.rise
+        settling = self.state.sweeps >= LEAST_SWEEPS and not self.thorough
+        self.quiet = settling and calm and self.change < QUIET * self.rise
+        return self.change, self.rise
 
     def _rise(self, state: FilmState) -> float:
         """Return the largest temperature over that of the oil at the inlet [K]."""
