@@ -18,7 +18,7 @@ Span = tuple[int, int]
 LANES = 8  # lines of one colour that are solved side by side
 PASSES = 6  # of the policy iteration, before clipping
 CHUNK = 32  # nodes copied at a time, so that their cells stay in the first cache
-EAST, ACROSS, SQUEEZE, RHO, DIPOLE, REST, P, STATE, STEEP, BAND = range(10)
+EAST, ACROSS, SQUEEZE, RHO, DIPOLE, REST, P, STATE, BAND = range(9)
 UP1, UP2, U, FIELDS = BAND + 6, BAND + 7, BAND + 8, BAND + 9
 
 
@@ -343,13 +343,12 @@ def load_line(
     cells = batch.cells[at(a + 3, 0) + lane :]
     for i in range(b - a):
         cells[at(i, EAST)] = half_x * (eps_x[i] + eps_e[i])
-        cells[at(i, ACROSS)] = half_y * (2.0 * eps[i] + eps_n[i] + eps_s[i])
+        cells[at(i, ACROSS)] = half_y * (2.0 * eps[i] + eps_n[i] + eps_s[i]) + steep[i]
         cells[at(i, SQUEEZE)] = drho[i] * h[i]
         cells[at(i, RHO)] = rho[i]
         cells[at(i, DIPOLE)] = kind[i]
         cells[at(i, REST)] = rest[i]
         cells[at(i, P)] = p[i]
-        cells[at(i, STEEP)] = steep[i]
         dry = 1.0 if p[i] <= 0.0 and rest[i] >= 0.0 else 0.0
         cells[at(i, STATE)] = 2.0 if frozen[i] else dry
 
@@ -375,7 +374,7 @@ def fill_band(batch: Batch, mesh: Mesh, relaxation: Relaxation, low: int, high: 
             east, west, across = c[at(3, EAST) + k], c[at(2, EAST) + k], c[at(3, ACROSS) + k]
             a_ww = -w2 * c[at(1, SQUEEZE) + k]
             a_w = west - w1 * c[at(2, SQUEEZE) + k]
-            a_c = -east - west - across - w0 * c[at(3, SQUEEZE) + k] - c[at(3, STEEP) + k]
+            a_c = -east - west - across - w0 * c[at(3, SQUEEZE) + k]
             b_ww, b_w, b_c = (
                 -w2 * c[at(1, RHO) + k],
                 -w1 * c[at(2, RHO) + k],

@@ -267,11 +267,21 @@ def padded_rows(grid: Grid) -> int:
 
 def pressure_slopes(grid: Grid, groups: Groups, pressure: Array) -> tuple[Array, Array]:
     """Return dP/dX and dP/(kappa dY) by central differences, one-sided ones on the edges."""
-    slope_x = np.gradient(pressure, grid.dx, axis=1, edge_order=2)
-    slope_y = np.gradient(pressure, groups.ellipticity * grid.dy, axis=0, edge_order=2)
+    slope_x = slope_along(pressure.T, grid.dx).T
+    slope_y = slope_along(pressure, groups.ellipticity * grid.dy)
     if grid.mirror:
         slope_y[0] = 0.0
     return slope_x, slope_y
+
+
+def slope_along(field: Array, spacing: float) -> Array:
+    """Return the derivative along the first axis, of second order; `numpy.gradient` is slower."""
+    slope = np.empty_like(field)
+    np.subtract(field[2:], field[:-2], out=slope[1:-1])
+    slope[0] = 4.0 * field[1] - 3.0 * field[0] - field[2]
+    slope[-1] = 3.0 * field[-1] - 4.0 * field[-2] + field[-3]
+    slope *= 0.5 / spacing
+    return slope
 
 
 def stress_unit(scales: Scales) -> float:

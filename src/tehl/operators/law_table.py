@@ -7,6 +7,7 @@ what is interpolated. That keeps ln eta to 2e-6 and rho to a relative 1e-6 where
 """
 
 from collections.abc import Callable
+from functools import lru_cache
 
 import numpy as np
 
@@ -37,6 +38,7 @@ SOLID = 300.0
 """ln eta beyond which the viscosity no longer counts: the film is a solid for every purpose."""
 
 
+@lru_cache(maxsize=8)
 def law_table(lubricant: Lubricant, scales: Scales) -> Laws:
     """Tabulate viscosity, density and thinning of ``lubricant``.
 

@@ -40,7 +40,7 @@ UNSETTLED = 100.0
 """Change of temperature [K] that a sweep before the end of that counts for."""
 CARRIED = ("temperature", "tau_x", "tau_y")
 """Fields of the film that one sweep takes from the last."""
-SETTLED = 3.0
+SETTLED = 8.0
 """Change of temperature [K] at which the first sweeps may end."""
 
 
@@ -177,7 +177,8 @@ class FilmCoupling:
         if coarser is not None:
             state.refine_from(coarser)
             state.set_film(fine.film.p, fine.film.h, fine.floor)
-            state.update_surfaces()
+            if not all(side.marches for side in state.sides):  # a line needs no help to begin
+                state.update_surfaces()
             self._hand_down(levels, refined(levels[-2]))
             return True
         for _ in range(FIRST_SWEEPS):
