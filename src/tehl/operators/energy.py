@@ -118,6 +118,7 @@ class FilmState:
             finest=finest,
         )
         self.thorough, self.finest, self.sweeps = thorough, finest, 0
+        self.refined = False
         self.time: FilmInTime | None = None
         modes = len(self.surfaces[0].decay)
         self.work = energy.scratch(nodes, ny, modes)
@@ -185,6 +186,7 @@ class FilmState:
 
     def refine_from(self, coarse: "FilmState") -> None:
         """Take temperature and stress of a coarser grid by linear interpolation."""
+        self.refined = True
         self.temperature[:] = midpoints(coarse.temperature)
         for name in ("tau_x", "tau_y"):
             self.view(name)[:] = midpoints(coarse.view(name))
@@ -226,8 +228,8 @@ class FilmState:
         return change
 
     def _is_second_of_many(self) -> bool:
-        """Whether to march back once: the finer grids take it from here."""
-        return self.sweeps == 1 and not self.finest
+        """Whether to march back once: the finer grids take it from the first one."""
+        return self.sweeps == 1 and not (self.finest or self.refined)
 
     def begin_time(self, time_step: float) -> None:
         """Let time pass from here: the present film has been the same for ever.
