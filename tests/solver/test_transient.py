@@ -10,6 +10,9 @@ from tehl.evolution import Evolution
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.scaling import scales
+from tehl.solver.monitor import SILENT
+from tehl.solver.stepper import StepError
+from tehl.solver.transient import Run
 from tests.reference import DOMAIN, moes_contact
 
 M, L = 50.0, 10.0
@@ -202,3 +205,31 @@ def test_solving_a_question_with_time_as_a_steady_one_is_refused():
 def test_a_steady_question_has_no_time():
     with pytest.raises(InputError, match=r"no \[transient\] table"):
         march(moes_contact(M, L), OPTIONS)
+
+
+def test_a_setting_that_runs_away_leaves_nothing_to_the_next_one():
+    """A step whose pressure is no number any more is taken again from the last sound film."""
+    case = in_time(1.0, surface_1=wave(), transient={"entrance": 0.6})
+    assert case.transient is not None
+    run = Run(case, OPTIONS, case.transient, SILENT)
+    stepper, level = run.stepper, run.level
+    settle, calls = stepper._settle, []
+
+    def run_away_once(name: str) -> object:
+        calls.append(name)
+        if len(calls) > 1:
+            return settle(name)
+        level.film.p[:] = np.nan
+        level.rigid_approach = np.nan
+        level.stale = True
+        raise StepError("diverged", np.nan)
+
+    stepper._settle = run_away_once
+    assert run.go(SILENT).converged
+    assert calls[1] != calls[0]
+    sound = march(case, OPTIONS)
+    film = run.evolution(
+        Status(kind="converged"), Cost(cpu_seconds=0.0, wall_seconds=0.0)
+    ).profiles.film
+    # both within the tolerance of a step, 1e-3 of the pressure
+    np.testing.assert_allclose(film, sound.profiles.film, rtol=2e-3)

@@ -260,7 +260,7 @@ class Multigrid:
             if number > DRY_CYCLES and fine.started_dry and not last:
                 fine.started_dry = False  # now there is a film to heat
                 self._couple(levels, finest=False)
-            before = state_of(fine)
+            before = state_of(fine) if anderson else None
             report = self._cycle(levels, shape, number + done)
             trace.reports.append(report)
             trace.note(report.film_central, report.film_minimum)
@@ -270,7 +270,7 @@ class Multigrid:
                 return
             if not last and iterated_enough(trace, coarser):
                 return
-            if anderson is not None:
+            if anderson is not None and before is not None:
                 take_state(fine, anderson.combine(before, state_of(fine)))
 
     def _couple(self, levels: list[Level], *, finest: bool) -> None:

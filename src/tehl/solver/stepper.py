@@ -85,11 +85,12 @@ class Stepper:
         first = self.setting
         for number in range(first, len(self.settings)):
             self.choose(number)
-            level.pose_step(history, heights, load)
-            if number > first:
+            if number > first:  # before the step is posed: it takes stresses from this film
                 level.film.p[:], level.rigid_approach = start
+                level.stale = True
+                level.update()
                 self.run.coupling.go_back(self.run.levels)
-            level.update()
+            level.pose_step(history, heights, load)
             try:
                 settled = self._settle(self.settings[number].name)
             except StepError:
