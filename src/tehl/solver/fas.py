@@ -55,6 +55,38 @@ class Cycle:
         return tuple(replace(self, kind=kind) for kind in kinds)
 
 
+class Cycles:
+    """Cycles on some levels, as a method to solve the finest of them.
+
+    Parameters
+    ----------
+    levels : sequence of Level
+        Coarsest first.
+    solve_coarsest : callable
+        What is done there.
+    shape : Cycle
+        What one cycle does.
+    ramp : int
+        Cycles over which heights are raised.
+    """
+
+    def __init__(
+        self, levels: Sequence[Level], solve_coarsest: Callable[[], None], shape: Cycle, ramp: int
+    ) -> None:
+        self.levels, self.solve_coarsest, self.shape = levels, solve_coarsest, shape
+        self.ramp = ramp
+
+    def step(self) -> None:
+        """Run one cycle."""
+        cycle(self.levels, self.solve_coarsest, self.shape)
+
+    def raise_heights(self, once: Callable[[], float]) -> None:
+        """Raise the heights in equal parts, one per cycle, up to the last part."""
+        for number in range(1, self.ramp):
+            self.levels[-1].roughen(number / self.ramp)
+            once()
+
+
 def cycle(
     levels: Sequence[Level], solve_coarsest: Callable[[], None], shape: Cycle, extra: int = 0
 ) -> None:

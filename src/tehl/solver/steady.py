@@ -34,7 +34,17 @@ from tehl.solver.film_numbers import film_summary
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.multigrid import Multigrid
 from tehl.solver.outputs import film_heat, film_shear, newtonian_shear
-from tehl.solver.smoother import BROAD, CAREFUL, FAST, GENTLE, ROBUST, ROUGH, SETTINGS, Setting
+from tehl.solver.smoother import (
+    BROAD,
+    CAREFUL,
+    FAST,
+    GENTLE,
+    NEWTON,
+    ROBUST,
+    ROUGH,
+    SETTINGS,
+    Setting,
+)
 from tehl.solver.thermal import Coupling, FilmCoupling, Uncoupled
 from tehl.solver.verdict import diverged, verdict
 from tehl.solver.warmup import warm_up
@@ -193,7 +203,7 @@ def _settings(
     if options.smoother != "auto":
         return [(SETTINGS[options.smoother], False)]
     if rough:
-        return [(ROUGH, False), (CAREFUL, False), (GENTLE, False)]
+        return [(setting, False) for setting in (ROUGH, CAREFUL, GENTLE, NEWTON)]
     if not problem.is_coupled:
         return [(FAST, False), (ROBUST, False)]
     attempts = [(BROAD, False), (ROBUST, False)]
