@@ -7,8 +7,6 @@ from tehl.grid import Grid
 from tehl.options import Options
 from tehl.solver.level import Level
 
-EXTRA_SWEEPS = 1
-"""Sweeps added on coarser levels: a V-cycle leaves error there, and sweeps there are cheap."""
 UNRESOLVED = 0.5
 """Mesh width of the coarsest grid, in Hertz half-widths, beyond which it hardly sees the contact.
 One visit then overshoots the load balance (by its own size at M = 5); a second one, through the
@@ -28,6 +26,8 @@ class Cycle:
         Order of visits.
     pre_sweeps, post_sweeps : int
         Relaxation sweeps on the finest level of the cycle.
+    extra_sweeps : int
+        Sweeps added on coarser levels: a V-cycle leaves error there, and sweeps there are cheap.
     twice : bool
         A V-cycle goes down twice from the level next but one to the coarsest.
     """
@@ -35,6 +35,7 @@ class Cycle:
     kind: str
     pre_sweeps: int
     post_sweeps: int
+    extra_sweeps: int = 1
     twice: bool = False
 
     @classmethod
@@ -99,6 +100,6 @@ def cycle(
     fine.relax(shape.pre_sweeps + extra)
     fine.restrict_to(coarse)
     for visit in shape.coarse_visits(len(coarser)):
-        cycle(coarser, solve_coarsest, visit, EXTRA_SWEEPS)
+        cycle(coarser, solve_coarsest, visit, shape.extra_sweeps)
     fine.correct_from(coarse)
     fine.relax(shape.post_sweeps + extra)
