@@ -176,3 +176,15 @@ def finished(problem: ContactProblem, options: Options) -> Result:
         return solve(problem, options)
     except ConvergenceError as error:
         return error.result
+
+
+def test_a_film_that_fails_on_the_way_is_told_with_the_part_of_the_heights(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Ridges far too high: the climb ends where the film is not positive any more."""
+    monkeypatch.setattr(steady, "_settings", lambda *_, **__: [(NEWTON, False)])
+    run = finished(wavy((20.0, 10.0), (3.0, 2.0, 0.0)), Options(points=33, domain=DOMAIN))
+    assert run.status.cause in ("asperity_contact", "grid_too_coarse")
+    assert run.status.message is not None
+    assert "of the heights" in run.status.message
+    assert run.film_scaled.minimum <= 0.0

@@ -34,7 +34,7 @@ from tehl.solver.level import Level
 from tehl.solver.monitor import Monitor
 from tehl.solver.newton import Newton
 from tehl.solver.smoother import BROAD, FAST, Setting
-from tehl.solver.state import DivergedError, keep_cavities, state_of, take_state
+from tehl.solver.state import DivergedError, TouchingError, keep_cavities, state_of, take_state
 from tehl.solver.thermal import Coupling, Uncoupled
 
 if TYPE_CHECKING:
@@ -277,7 +277,12 @@ class Multigrid:
         self.traces.append(trace)
         coarser = self._coarser_trace()
         method = self._method(levels)
-        done = self._ramp(levels, method, monitor)
+        try:
+            done = self._ramp(levels, method, monitor)
+        except TouchingError:  # what was found is all that there is to tell
+            trace.reports.append(self._report(fine, fine.film.p.copy(), 0, (0.0, 0.0)))
+            trace.note(*film_numbers(fine))
+            raise
         trace.note(*film_numbers(fine))
         anderson = self._anderson(levels)
         patience = self.setting.rough.patience
@@ -319,7 +324,7 @@ class Multigrid:
         if not (self.setting.rough.newton and len(levels) > self.first_rough):
             return self._cycles(levels)
         coarse = next(level.grid for level in levels if level.grid.nx >= DISTANT)
-        return Newton(levels[-1], coarse, patient=levels[-1] is self.finest)
+        return Newton(levels[-1], coarse)
 
     def _cycles(self, levels: list[Level]) -> Cycles:
         shape = Cycle.of(self.options, levels[0].grid, self.expected_film)

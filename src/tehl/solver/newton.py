@@ -30,7 +30,7 @@ from tehl.operators.jacobian import (
     stencil_of,
 )
 from tehl.solver.level import Level
-from tehl.solver.state import APPROACH, DivergedError, state_of, take_state
+from tehl.solver.state import APPROACH, DivergedError, TouchingError, state_of, take_state
 from tehl.typing import Array, BoolArray
 
 REACH = 1
@@ -46,11 +46,11 @@ LARGEST_CHANGE = 1.5
 DESCENT, SHORTEST = 0.1, 0.02
 """Part of the fall of the residual that a step must keep of what it promises, and the shortest step
 before the level is given up."""
-FIRST_PART, LEAST_PART = 0.25, 0.01
+FIRST_PART, LEAST_PART = 0.25, 0.02
 """Part of the heights that is raised first, and the least one before the level is given up."""
 RAISED = 1e-4
 """Residual at which the next part is raised."""
-MOST_STEPS, QUICK, SLUGGISH, SMALLER = 12, 6, 9, 0.4
+MOST_STEPS, QUICK, SLUGGISH, SMALLER = 12, 6, 9, 0.25
 """Steps for one part; those after which the next part is larger, and smaller; and what is left of
 a part that could not be raised."""
 
@@ -64,13 +64,10 @@ class Newton:
         The unknowns, changed in place.
     coarse : Grid
         A coarser grid, of some hundred nodes.
-    patient : bool
-        Go on although the film that is found is not positive everywhere: the grid is that of the
-        answer. A coarser one that does not carry the heights is no start then.
     """
 
-    def __init__(self, level: Level, coarse: Grid, *, patient: bool = True) -> None:
-        self.level, self.patient = level, patient
+    def __init__(self, level: Level, coarse: Grid) -> None:
+        self.level = level
         self.stencil: Stencil = stencil_of(level.grid, level.mesh)
         self.near = near(level.grid, level.influence, REACH)
         self.to_fine = interpolation(level.grid, coarse)
@@ -132,6 +129,8 @@ class Newton:
 
         Raises
         ------
+        TouchingError
+            When the film is not positive with a part of them.
         DivergedError
             When a small part more cannot be solved.
         """
@@ -147,7 +146,9 @@ class Newton:
             else:
                 before, known = known, (part, state_of(level))
                 size *= 1.5 if steps <= QUICK else 0.7 if steps > SLUGGISH else 1.0
-            if size < LEAST_PART or not (self.patient or level.film.h.min() > 0.0):
+                if part < 1.0 and not level.film.h.min() > 0.0:
+                    raise TouchingError(part)
+            if size < LEAST_PART:
                 raise DivergedError
 
 

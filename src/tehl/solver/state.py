@@ -13,6 +13,14 @@ class DivergedError(ArithmeticError):
     """The unknowns ran away."""
 
 
+class TouchingError(DivergedError):
+    """The film is not positive with ``part`` of the heights already."""
+
+    def __init__(self, part: float) -> None:
+        super().__init__(part)
+        self.part = part
+
+
 def state_of(level: Level) -> Array:
     """Return pressure and approach of a level as one array."""
     return np.append(level.film.p.ravel(), APPROACH * level.rigid_approach)

@@ -45,8 +45,9 @@ from tehl.solver.smoother import (
     SETTINGS,
     Setting,
 )
+from tehl.solver.state import TouchingError
 from tehl.solver.thermal import Coupling, FilmCoupling, Uncoupled
-from tehl.solver.verdict import diverged, verdict
+from tehl.solver.verdict import diverged, touching, verdict
 from tehl.solver.warmup import warm_up
 
 GRID_CAUSES = ("grid_too_coarse", "domain_too_small", "inlet_too_short", "sides_too_close")
@@ -187,7 +188,9 @@ def _attempts(
     for number, (setting, ramped) in enumerate(attempts):
         if number:
             how = ", sliding step by step" if ramped else ""
-            monitor.message(f"falling back to the {setting.name} smoother{how}")
+            newton = "Newton's method, which takes a while"
+            name = newton if setting.rough.newton else f"the {setting.name} smoother"
+            monitor.message(f"falling back to {name}{how}")
         coupling = coupling_of(problem, options, ramped=ramped)
         run = Multigrid(grid, case_groups, flow, options, setting, coupling)
         if heights is not None:
@@ -215,6 +218,8 @@ def _run(run: Multigrid, monitor: Monitor, *, patient: bool) -> Attempt:
     with np.errstate(all="ignore"):  # a run away is judged below, not warned of on the way
         try:
             reached = run.solve(monitor, patient=patient)
+        except TouchingError as error:
+            return Attempt(run=run, status=touching(run, error.part), reached=True)
         except ArithmeticError:
             run.salvage()
             return Attempt(run=run, status=diverged(run), reached=False)
