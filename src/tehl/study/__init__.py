@@ -1,0 +1,49 @@
+"""Studies: many contacts, in parallel, resumable, one table.
+
+::
+
+    cases = [Case(f"SRR {s}", problem_at(s), options, {"SRR": s}) for s in (0.01, 0.1, 1.0)]
+    store = Store("out/traction")
+    run(cases, store, jobs=2)
+    table(cases, store)
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from tehl.study.case import SOLVER_VERSION, Case
+    from tehl.study.monitor import StudyMonitor
+    from tehl.study.row import Row
+    from tehl.study.runner import Outcome, run
+    from tehl.study.store import Store
+    from tehl.study.tables import table
+
+_HOMES = {
+    "SOLVER_VERSION": "case",
+    "Case": "case",
+    "Outcome": "runner",
+    "Row": "row",
+    "Store": "store",
+    "StudyMonitor": "monitor",
+    "run": "runner",
+    "table": "tables",
+}
+
+__all__ = [
+    "SOLVER_VERSION",
+    "Case",
+    "Outcome",
+    "Row",
+    "Store",
+    "StudyMonitor",
+    "run",
+    "table",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Load an export from where it lives."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
