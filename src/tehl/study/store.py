@@ -86,7 +86,7 @@ class Store:
     def rows(self, cases: Iterable[Case]) -> dict[str, Row]:
         """Return the rows of those cases that are finished, by key."""
         keys = list(dict.fromkeys(case.key for case in cases))
-        if self._connection is None:
+        if self._connection is None and not self._file.exists():
             return {}
         found: dict[str, Row] = {}
         with self._telling() as connection:
@@ -182,6 +182,9 @@ class Store:
                 raise FileFormatError(
                     f"{self._file} is a store of format {version}; this tehl knows {FORMAT}"
                 )
+            # a kill loses nothing that was committed, and no commit waits for the disk
+            connection.execute("PRAGMA journal_mode = WAL")
+            connection.execute("PRAGMA synchronous = NORMAL")
             if version == 0:
                 connection.executescript(_SCHEMA)
 
