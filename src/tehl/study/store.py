@@ -66,6 +66,10 @@ class Store:
         if self._file.exists():
             self._open()
 
+    def __del__(self) -> None:
+        if getattr(self, "_connection", None) is not None:
+            self.close()
+
     @property
     def _file(self) -> Path:
         return self.directory / _ROWS
