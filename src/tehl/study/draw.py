@@ -32,6 +32,7 @@ def draw(picture: Picture, table: "pd.DataFrame") -> "Figure":
     figure = curves(table, x, y, picture.hue, picture.style, picture.log)
     if picture.overlay is not None:
         overlay(figure, table, x, y, path=Path(picture.overlay))
+    figure.axes[0].set(xlim=picture.x_range, ylim=picture.y_range)
     return figure
 
 

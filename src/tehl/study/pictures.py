@@ -6,6 +6,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from tehl.errors import InputError
 
+Range = tuple[float, float]
 _KEYS = ("x", "y", "z", "hue", "style", "log", "map", "overlay", "file")
 
 
@@ -23,6 +24,8 @@ class Picture(BaseModel):
         Columns that tell the curves apart, by colour and by line.
     log : {"", "x", "y", "xy"}
         Axes with a logarithmic scale.
+    x_range, y_range : (float, float) or None
+        What the axes show, in the unit that they show.
     map : {"moes"} or None
         A ready picture instead: how far film formulas are off over M and L.
     overlay : str or None
@@ -39,6 +42,8 @@ class Picture(BaseModel):
     hue: str | None = None
     style: str | None = None
     log: Literal["", "x", "y", "xy"] = ""
+    x_range: Range | None = None
+    y_range: Range | None = None
     map: Literal["moes"] | None = None
     overlay: str | None = None
     file: Annotated[str, Field(pattern=r"^[A-Za-z0-9._-]+$")] | None = None
