@@ -66,12 +66,11 @@ def study(  # noqa: PLR0913, PLR0917 (the options of the command)
     failed, what is finished is kept.
     """
     from tehl.study.pictures import picture_of
-    from tehl.study.plan import study_of
 
     pictures = tuple(picture_of(words) for words in plots)
     plan, folder = _plan(source, output, changes, yes=yes)
     _check_folder(folder, source)
-    chosen = study_of(plan)
+    chosen = _study(plan, source)
     if dry_run:
         _tell_forecast(chosen, folder, _workers(jobs, len(chosen.cases)), as_json=as_json)
         return
@@ -107,6 +106,18 @@ def _plan(
             "study file"
         )
     return load_plan(source), source
+
+
+def _study(plan: "Plan", source: Path) -> "Study":
+    """Return all cases, checked."""
+    from tehl.errors import InputError
+    from tehl.io.atomic import shortened
+    from tehl.study.plan import study_of
+
+    try:
+        return study_of(plan)
+    except InputError as error:
+        raise InputError(f"{shortened(source)}: {error}") from None
 
 
 def _check_folder(folder: Path, source: Path) -> None:

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     import pandas as pd
     from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
 
 _WORDS = {
     "film.h_central_m": "central film thickness $h_c$",
@@ -145,10 +146,25 @@ def answers(table: "pd.DataFrame") -> "pd.DataFrame":
 def dress(axes: "Axes", x: Column, y: Column, log: str) -> None:
     """Give axes their titles, scales and a light grid."""
     axes.set(xlabel=x.title, ylabel=y.title)
-    for letter, setter in (("x", axes.set_xscale), ("y", axes.set_yscale)):
+    for letter, axis, setter in (
+        ("x", axes.xaxis, axes.set_xscale),
+        ("y", axes.yaxis, axes.set_yscale),
+    ):
         if letter in log:
             setter("log")
+            _plain_decades(axis)
     axes.grid(lw=0.3, which="both" if log else "major")
+
+
+def _plain_decades(axis: "Axis") -> None:
+    """Label a logarithmic axis with plain numbers, and with 2 and 5 between few decades."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: PLC0415
+
+    low, high = axis.get_view_interval()
+    if 0 < low and high / low < 2e3:
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(NullFormatter())
 
 
 def note_left_out(axes: "Axes", table: "pd.DataFrame") -> None:

@@ -98,9 +98,8 @@ def moes_map(table: "pd.DataFrame") -> Figure:
         lines = axes.tricontour(mesh, off, (-10, -5, 5, 10), colors="0.25", linewidths=0.6)
         axes.clabel(lines, fmt="%d %%", fontsize=7)
         axes.set_title(title, fontsize=9)
-    picture.colorbar(
-        panels[1].collections[0], ax=panels, label="formula over computed film, less one [%]"
-    )
+    words = "formula over computed film, less one [%]"
+    picture.colorbar(panels[1].collections[0], ax=panels, label=words, ticks=LEVELS)
     _mark(panels, table, (load, speed))
     return picture
 

@@ -12,8 +12,11 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from tehl.study.axes import Axis, Sample
     from tehl.study.case import SOLVER_VERSION, Case
     from tehl.study.monitor import StudyMonitor
+    from tehl.study.plan import Study
+    from tehl.study.quick import cases_of, run_study
     from tehl.study.row import Row
     from tehl.study.runner import Outcome, run
     from tehl.study.store import Store
@@ -21,23 +24,33 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "SOLVER_VERSION": "case",
+    "Axis": "axes",
     "Case": "case",
     "Outcome": "runner",
     "Row": "row",
+    "Sample": "axes",
     "Store": "store",
+    "Study": "plan",
     "StudyMonitor": "monitor",
+    "cases_of": "quick",
     "run": "runner",
+    "run_study": "quick",
     "table": "tables",
 }
 
 __all__ = [
     "SOLVER_VERSION",
+    "Axis",
     "Case",
     "Outcome",
     "Row",
+    "Sample",
     "Store",
+    "Study",
     "StudyMonitor",
+    "cases_of",
     "run",
+    "run_study",
     "table",
 ]
 

@@ -87,7 +87,7 @@ def read_study(path: str | Path, overrides: Sequence[str] = (), *, huge: bool = 
         stated = StudyFile.model_validate(tables)
         return plan_of(stated, Path(path).parent, overrides, huge=huge)
     except ValidationError as error:
-        raise InputError(f"{shown}: {_told(error, tables)}") from None
+        raise InputError(f"{shown}: {told(error, tables)}") from None
     except (InputError, ValueError) as error:
         raise InputError(f"{shown}: {error}") from None
 
@@ -195,8 +195,16 @@ def _as_study(message: str) -> str:
     return message.replace("case file", "study file")
 
 
-def _told(error: ValidationError, tables: Mapping[str, Any]) -> str:
-    """Return the first mistake of a study file in one sentence."""
+def told(error: ValidationError, tables: Mapping[str, Any]) -> str:
+    """Return the first mistake of a study in one sentence.
+
+    Parameters
+    ----------
+    error : ValidationError
+        What pydantic found.
+    tables : mapping
+        What it was given.
+    """
     first = min(error.errors(include_url=False), key=lambda one: one["type"] != "extra_forbidden")
     where = [part for part in first["loc"] if part not in ("str", "dict[str,any]")]
     name = _place(where, tables)
@@ -223,7 +231,7 @@ def _place(where: Sequence[int | str], tables: Mapping[str, Any]) -> str:
     words = [f"[{part + 1}]" if isinstance(part, int) else f".{part}" for part in where]
     name = "".join(words).lstrip(".")
     if len(where) >= 2 and where[0] == "axes" and isinstance(where[1], int):
-        axes = tables["axes"]
+        axes = tables.get("axes")
         axis = axes[where[1]] if isinstance(axes, list) else None
         if isinstance(axis, Mapping) and isinstance(axis.get("path"), str):
             return f"{name} ({axis['path'][:60]})"
