@@ -13,7 +13,7 @@ from tehl.plots.roughness import (
 from tehl.plots.save import save_all
 from tehl.plots.shear import shear_stress_map
 from tehl.plots.table_curves import curves
-from tehl.plots.table_maps import contour_map, moes_map
+from tehl.plots.table_maps import contour_map, film_deviations, moes_map
 from tehl.plots.temperature import (
     mid_film_temperature,
     surface_heat,
@@ -27,6 +27,7 @@ __all__ = [
     "centre_lines",
     "contour_map",
     "curves",
+    "film_deviations",
     "film_distribution",
     "film_map",
     "heights_map",

@@ -92,8 +92,7 @@ def moes_map(table: "pd.DataFrame") -> Figure:
     picture = Figure(figsize=(11.5, 6.8), layout="constrained")
     panels = picture.subplots(2, 3, sharex=True, sharey=True).ravel()
     _film_panel(panels[0], mesh, numbers(rows, "film.H_central_moes").values)
-    for axes, (title, formula, which) in zip(panels[1:], _FORMULAS, strict=True):
-        off = deviation(rows, formula, which)
+    for axes, (title, off) in zip(panels[1:], film_deviations(rows).items(), strict=True):
         axes.tricontourf(mesh, np.clip(off, -99, 99), LEVELS, cmap="RdBu_r", extend="both")
         lines = axes.tricontour(mesh, off, (-10, -5, 5, 10), colors="0.25", linewidths=0.6)
         axes.clabel(lines, fmt="%d %%", fontsize=7)
@@ -104,18 +103,29 @@ def moes_map(table: "pd.DataFrame") -> Figure:
     return picture
 
 
-def deviation(rows: "pd.DataFrame", formula: Callable[[Groups], FilmRatio], which: str) -> Array:
-    """Return the film of a formula over the computed one, less one [%]; NaN where either is not.
+def film_deviations(table: "pd.DataFrame") -> dict[str, Array]:
+    """Return films by formula over the computed ones, less one [%], by the name of the formula.
 
     Parameters
     ----------
-    rows : pandas.DataFrame
-        Cases with the groups and the Moes films of the summary.
-    formula : callable
-        From groups to the film over R_x.
-    which : {"central", "minimum"}
-        The film.
+    table : pandas.DataFrame
+        As :func:`tehl.study.table` gives it.
+
+    Returns
+    -------
+    dict of str to array
+        For each case that converged, in their order.
+
+    Raises
+    ------
+    InputError
+        If none converged.
     """
+    rows = answers(table)
+    return {name: _deviation(rows, formula, which) for name, formula, which in _FORMULAS}
+
+
+def _deviation(rows: "pd.DataFrame", formula: Callable[[Groups], FilmRatio], which: str) -> Array:
     computed = rows[_COMPUTED[which]].to_numpy(np.float64, na_value=np.nan)
     columns = [rows[f"groups.{name}"] for name in _GROUPS]
     ratios = []

@@ -40,6 +40,8 @@ def save_pictures(
     pictures: tuple[Picture, ...], table: "pd.DataFrame", folder: Path
 ) -> tuple[list[Path], list[str]]:
     """Draw pictures into a folder; return their files, and why others were not drawn."""
+    if not pictures:
+        return [], []
     from tehl.plots.save import save_picture  # noqa: PLC0415 (matplotlib)
 
     written, complaints = [], []

@@ -8,7 +8,7 @@ import errno
 import json
 import sqlite3
 from collections.abc import Collection, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import fields
 from pathlib import Path
 from typing import Literal, get_args
@@ -187,7 +187,8 @@ class Store:
                     f"{self._file} is a store of format {version}; this tehl knows {FORMAT}"
                 )
             # a kill loses nothing that was committed, and no commit waits for the disk
-            connection.execute("PRAGMA journal_mode = WAL")
+            with suppress(sqlite3.OperationalError):  # file systems without shared memory
+                connection.execute("PRAGMA journal_mode = WAL")
             connection.execute("PRAGMA synchronous = NORMAL")
             if version == 0:
                 connection.executescript(_SCHEMA)
