@@ -38,15 +38,15 @@ PROBLEM = tehl.ContactProblem(
 )
 
 
-def films(loads: tuple[float, ...], speeds: tuple[float, ...], folder: Path | None = None):
-    """Return the table of the contacts with these M and L; finished ones are found in a folder."""
+def films(loads: tuple[float, ...], speeds: tuple[float, ...], jobs: int = 1):
+    """Return the table of the contacts with these M and L."""
     nodes = [NODES.get(load, 257) for load in loads]
     axes = [
         study.Axis(path="contact.moes_load", name="M", values=list(loads), zip="load"),
         study.Axis(path="numerics.points", values=nodes, zip="load"),
         study.Axis(path="contact.moes_speed", name="L", values=list(speeds)),
     ]
-    return tehl.run_study(PROBLEM, axes, store=folder, jobs=1 if folder is None else 2)
+    return tehl.run_study(PROBLEM, axes, jobs=jobs)
 
 
 def main() -> dict[tuple[float, float], dict[str, float]]:
@@ -62,7 +62,7 @@ def main() -> dict[tuple[float, float], dict[str, float]]:
 if __name__ == "__main__":
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else "out")
     folder.mkdir(parents=True, exist_ok=True)
-    table = films(LOADS, SPEEDS, folder / "finished")
+    table = films(LOADS, SPEEDS, jobs=2)
     print(f"{(table['status'] == 'converged').sum()} of {len(table)} contacts converged")
     for name, values in plots.film_deviations(table).items():
         print(f"{name:<36} off by {values.min():5.1f} to {values.max():5.1f} %")
