@@ -176,6 +176,7 @@ def _run(
                 jobs=jobs,
                 scheduler=wishes["scheduler"],
                 retry_failed=wishes["retry_failed"],
+                warm_start=chosen.plan.warm_start,
                 monitor=monitor,
             )
     except (KeyboardInterrupt, SystemExit, OSError):

@@ -39,6 +39,8 @@ class StudyFile(BaseModel):
         Error bars for each case.
     keep : {"summary", "fields"}
         Whether the fields of each case are kept too.
+    warm_start : bool
+        Start from the nearest finished case.
     store : str or None
         Folder of finished cases that several studies share.
     largest : int or None
@@ -56,6 +58,7 @@ class StudyFile(BaseModel):
     cases: str | None = None
     certify: bool = False
     keep: Keep = "summary"
+    warm_start: bool = False
     store: str | None = None
     largest: Annotated[int, Field(ge=1)] | None = None
     pictures: list[Picture] = []
@@ -120,6 +123,8 @@ def plan_of(
     _check_count(count, stated, huge=huge)
     if stated.sample is not None and not any(axis.is_drawn for axis in stated.axes):
         raise InputError("sample is stated, but no axis is sampled: give one uniform = [low, high]")
+    if stated.warm_start and stated.keep != "fields":
+        raise InputError('warm_start takes the fields of neighbours: give keep = "fields" too')
     blocks = (*listed, *(block_of(group, stated.sample) for group in groups))
     _check_paths(blocks)
     base, place = _base(stated, folder, overrides)
@@ -130,6 +135,7 @@ def plan_of(
         blocks=blocks,
         certify=stated.certify,
         keep=stated.keep,
+        warm_start=stated.warm_start,
         store=None if stated.store is None else folder / stated.store,
         pictures=tuple(_placed(picture, folder) for picture in stated.pictures),
     )

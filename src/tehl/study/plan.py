@@ -39,6 +39,8 @@ class Plan:
         Error bars for each case.
     keep : {"summary", "fields"}
         What the store keeps.
+    warm_start : bool
+        Start from the nearest finished case.
     store : Path or None
         Where finished cases are kept, if not in the folder of the study.
     pictures : tuple of Picture
@@ -51,6 +53,7 @@ class Plan:
     blocks: tuple[Block, ...]
     certify: bool = False
     keep: Keep = "summary"
+    warm_start: bool = False
     store: Path | None = None
     pictures: tuple[Picture, ...] = field(default_factory=tuple)
 
@@ -87,6 +90,10 @@ def study_of(plan: Plan) -> Study:
             raise InputError(f"case {number} of {plan.count}: {error}") from None
         names[case.name] = count = names.get(case.name, 0) + 1
         cases.append(case if count == 1 else replace(case, name=f"{case.name} ({count})"))
+    if plan.warm_start and not any(case.options.accuracy == "tight" for case in cases):
+        raise InputError(
+            'warm_start saves nothing at this accuracy: state numerics.accuracy = "tight" too'
+        )
     return Study(plan=plan, cases=tuple(cases), units=units)
 
 

@@ -2,7 +2,7 @@
 
 import time
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from concurrent.futures import (
     FIRST_COMPLETED,
     BrokenExecutor,
@@ -13,11 +13,14 @@ from concurrent.futures import (
 )
 from contextlib import suppress
 from dataclasses import dataclass
+from pathlib import Path
 
+from tehl.errors import InputError
 from tehl.kernels.cache import is_cold
 from tehl.study.case import Case
 from tehl.study.engines import Engine, engine_of
 from tehl.study.monitor import QUIET, StudyMonitor
+from tehl.study.neighbours import Neighbours
 from tehl.study.row import Row
 from tehl.study.store import Store
 from tehl.study.work import work
@@ -62,13 +65,14 @@ class Outcome:
     wall_seconds: float
 
 
-def run(
+def run(  # noqa: PLR0913 (keywords with defaults)
     cases: Iterable[Case],
     store: Store,
     *,
     jobs: int = 1,
     scheduler: str | None = None,
     retry_failed: bool = False,
+    warm_start: bool = False,
     monitor: StudyMonitor = QUIET,
 ) -> Outcome:
     """Solve the cases that the store does not have yet, and keep each as soon as it is finished.
@@ -88,6 +92,10 @@ def run(
         Address of a running dask cluster to solve on instead.
     retry_failed : bool
         Solve those again that have no answer.
+    warm_start : bool
+        Start cases of ``accuracy = "tight"`` from the nearest finished one. It takes a store that
+        keeps fields, saves work where neighbours have nearly the same film, and gives the same
+        answers to the tolerance, no longer to the last digit.
     monitor : StudyMonitor
         Told of each case.
 
@@ -105,7 +113,8 @@ def run(
         done = {key: row for key, row in done.items() if row.converged}
     waiting = [case for key, case in every.items() if key not in done]
     monitor.begin(len(every), len(done))
-    solved = _solve(waiting, store, (jobs, scheduler), monitor) if waiting else {}
+    known = _finished(every.values(), done, store) if warm_start else None
+    solved = _solve(waiting, store, (jobs, scheduler), known, monitor) if waiting else {}
     rows = done | solved
     return Outcome(
         total=len(every),
@@ -117,8 +126,19 @@ def run(
     )
 
 
+def _finished(cases: Iterable[Case], done: Mapping[str, Row], store: Store) -> Neighbours:
+    """Return the cases with an answer to start from."""
+    if store.keep != "fields":
+        raise InputError('a warm start takes a store that keeps the fields: keep = "fields"')
+    return Neighbours(case for case in cases if case.key in done and done[case.key].converged)
+
+
 def _solve(
-    cases: list[Case], store: Store, place: tuple[int, str | None], monitor: StudyMonitor
+    cases: list[Case],
+    store: Store,
+    place: tuple[int, str | None],
+    known: Neighbours | None,
+    monitor: StudyMonitor,
 ) -> dict[str, Row]:
     jobs, scheduler = place
     store.prepare()
@@ -126,7 +146,7 @@ def _solve(
     with engine_of(min(jobs, len(cases)), scheduler) as engine:
         if engine.local:
             _warm(cases, monitor)
-        return _Run(cases, store, engine, monitor).go()
+        return _Run(cases, store, engine, known, monitor).go()
 
 
 def _warm(cases: list[Case], monitor: StudyMonitor) -> None:
@@ -148,10 +168,16 @@ class _Run:
     """
 
     def __init__(
-        self, cases: list[Case], store: Store, engine: Engine, monitor: StudyMonitor
+        self,
+        cases: list[Case],
+        store: Store,
+        engine: Engine,
+        known: Neighbours | None,
+        monitor: StudyMonitor,
     ) -> None:
         self.waiting, self.suspects = deque(cases), deque[Case]()
         self.store, self.engine, self.monitor = store, engine, monitor
+        self.known = known
         self.running: dict[Future[Row], Case] = {}
         self.alone = False
         self.rows: dict[str, Row] = {}
@@ -185,13 +211,18 @@ class _Run:
             self._submit(executor, self.waiting.popleft())
 
     def _submit(self, executor: Executor, case: Case) -> None:
-        path = None if self.folder is None else self.folder / self.store.fields_path(case).name
+        guess = None if self.known is None else self.known.nearest(case)
+        paths = [self._path(one) for one in (case, guess) if one is not None]
         try:
-            future = executor.submit(work, case, path)
+            future = executor.submit(work, case, *paths)
         except BrokenExecutor as error:  # a worker died since
             future = Future()
             future.set_exception(error)
         self.running[future] = case
+
+    def _path(self, case: Case) -> Path | None:
+        """Return where a worker finds or leaves the fields of a case; None if nobody keeps them."""
+        return None if self.folder is None else self.folder / self.store.fields_path(case).name
 
     def _take(self) -> bool:
         """Keep what is finished, once something is; return False when workers have died."""
@@ -216,6 +247,8 @@ class _Run:
     def _keep(self, case: Case, row: Row) -> None:
         self.store.put(row)
         self.rows[case.key] = row
+        if self.known is not None and row.converged:
+            self.known.add(case)
         self.monitor.finished(case, row)
 
     def _renewed(self) -> Executor:

@@ -3,13 +3,13 @@
 import time
 from pathlib import Path
 
-from tehl.errors import ConvergenceError, InputError
+from tehl.errors import ConvergenceError, InputError, TehlError
 from tehl.result import Cost, Result
 from tehl.study.case import Case
 from tehl.study.row import Row, row_of
 
 
-def work(case: Case, fields: Path | None) -> Row:
+def work(case: Case, fields: Path | None, guess: Path | None = None) -> Row:
     """Return the row of a case; whatever goes wrong with the case is in the row.
 
     Parameters
@@ -18,6 +18,8 @@ def work(case: Case, fields: Path | None) -> Row:
         What to solve.
     fields : Path or None
         File for the result, converged or not; None if only the row is wanted.
+    guess : Path or None
+        File with the result of a neighbour to start from.
 
     Raises
     ------
@@ -26,7 +28,7 @@ def work(case: Case, fields: Path | None) -> Row:
     """
     start = time.perf_counter(), time.process_time()
     try:
-        result = _solved(case)
+        result = _solved(case, guess)
         row = row_of(case.key, result)
     except InputError as error:
         return _without_result(case, "bad_input", "bad_input", str(error), start)
@@ -41,15 +43,27 @@ def work(case: Case, fields: Path | None) -> Row:
     return row
 
 
-def _solved(case: Case) -> Result:
+def _solved(case: Case, guess: Path | None) -> Result:
     """Return the result, also when it is no answer."""
     from tehl import solver  # noqa: PLC0415 (whoever reads a store compiles nothing)
 
-    solve = solver.certify if case.certify else solver.solve
     try:
-        return solve(case.problem, case.options)
+        if case.certify:
+            return solver.certify(case.problem, case.options)
+        known = None if guess is None else _loaded(guess)
+        return solver.solve(case.problem, case.options, guess=known)
     except ConvergenceError as error:
         return error.result
+
+
+def _loaded(guess: Path) -> Result | None:
+    """Return a result to start from; a file that cannot be read is no reason to fail."""
+    from tehl.io.store import load  # noqa: PLC0415 (HDF5, for warm starts only)
+
+    try:
+        return load(guess)
+    except TehlError:
+        return None
 
 
 def _without_result(
