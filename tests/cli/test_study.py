@@ -215,6 +215,7 @@ WRONG = {
     "impossible": (STUDY.replace("20 N", "-20 N"), "must be positive"),
     "no toml": ("case = ", "is no TOML"),
     "a picture": (STUDY + '[[pictures]]\nx = "load"', "pictures[1] needs x and y, or map"),
+    "a case": (CASE, "is a case file: tehl solve takes it"),
     "no list": ('cases = "none.csv"\ncase = "ball.toml"', "there is no list of cases none.csv"),
 }
 

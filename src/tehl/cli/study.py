@@ -72,7 +72,7 @@ def study(  # noqa: PLR0913, PLR0917 (the options of the command)
     _check_folder(folder, source)
     chosen = _study(plan, source)
     if dry_run:
-        _tell_forecast(chosen, folder, _workers(jobs, len(chosen.cases)), as_json=as_json)
+        _tell_forecast(chosen, folder, _workers(jobs), as_json=as_json)
         return
     if table_only or pictures:
         _show(chosen, folder, pictures, as_json=as_json)
@@ -133,14 +133,14 @@ def _check_folder(folder: Path, source: Path) -> None:
             )
 
 
-def _workers(jobs: int | None, cases: int) -> int:
+def _workers(jobs: int | None) -> int:
     """Return how many processes to take: as stated, or one per core of this process."""
     import os
 
     if jobs is not None:
         return jobs
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-    return max(1, min(cores or 1, cases))
+    return max(1, cores or 1)
 
 
 def _again(source: Path, output: Path | None, scheduler: str | None) -> str:
@@ -162,11 +162,10 @@ def _run(
     from tehl.study.forecast import check_memory_of, forecast
 
     store = store_of(chosen.plan, folder)
-    jobs = _workers(wishes["jobs"], len(chosen.cases))
+    jobs = _workers(wishes["jobs"])
     if wishes["scheduler"] is None:
         finished = store.finished(chosen.cases)
-        waiting = [case for case in chosen.cases if case.key not in finished]
-        check_memory_of(forecast(chosen.cases, waiting, jobs=jobs, fields=False), jobs)
+        check_memory_of(forecast(chosen.cases, finished, jobs=jobs, fields=False), jobs)
     save_plan(chosen.plan, folder)
     try:
         with study_progress(quiet=wishes["quiet"]) as monitor:
@@ -249,8 +248,8 @@ def _tell_forecast(chosen: "Study", folder: Path, jobs: int, *, as_json: bool) -
 
     store = store_of(chosen.plan, folder)
     finished = store.finished(chosen.cases)
-    waiting = list({c.key: c for c in chosen.cases if c.key not in finished}.values())
-    found = forecast(chosen.cases, waiting, jobs=jobs, fields=chosen.plan.keep == "fields")
+    found = forecast(chosen.cases, finished, jobs=jobs, fields=chosen.plan.keep == "fields")
+    store.close()
     if as_json:
         typer.echo(json.dumps(asdict(found) | {"jobs": jobs}))
         return

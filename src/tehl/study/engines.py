@@ -14,6 +14,7 @@ from contextlib import contextmanager
 from multiprocessing.connection import wait
 from typing import Any, Protocol
 
+from tehl import __version__
 from tehl.errors import InputError
 
 ONE_THREAD = (
@@ -53,13 +54,15 @@ class Engine(Protocol):
 
 
 @contextmanager
-def engine_of(jobs: int, scheduler: str | None) -> Iterator[Engine]:
+def engine_of(jobs: int, cases: int, scheduler: str | None) -> Iterator[Engine]:
     """Yield the engine for a number of workers, or of a running dask cluster.
 
     Parameters
     ----------
     jobs : int
         Workers on this machine; one solves in this process.
+    cases : int
+        No more workers than these are begun.
     scheduler : str or None
         Address of a dask scheduler, ``"tcp://host:8786"``; ``jobs`` does not count then.
 
@@ -82,7 +85,7 @@ def engine_of(jobs: int, scheduler: str | None) -> Iterator[Engine]:
         yield Serial()
         return
     with _environment(dict.fromkeys(ONE_THREAD, "1")):
-        yield Pool(jobs)
+        yield Pool(min(jobs, cases))
 
 
 class Serial:
@@ -187,7 +190,23 @@ def _cluster(address: str) -> Iterator[Cluster]:
     except (OSError, ValueError) as error:  # the time ran out, or that is no address
         raise OSError(f"no dask scheduler answers at {address} ({error})") from None
     with client:
+        _check_versions(client)
         yield Cluster(client)
+
+
+def _check_versions(client: Any) -> None:
+    """Refuse workers that have another version: their answers would be kept under a wrong name."""
+    others = {version for version in client.run(version_here).values() if version != __version__}
+    if others:
+        raise OSError(
+            f"workers of the cluster have tehl {', '.join(sorted(others))}, this is {__version__}: "
+            "install the same version everywhere"
+        )
+
+
+def version_here() -> str:
+    """Return the version of this package in the process that asks."""
+    return __version__
 
 
 @contextmanager

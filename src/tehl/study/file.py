@@ -214,6 +214,8 @@ def told(error: ValidationError, tables: Mapping[str, Any]) -> str:
     first = min(error.errors(include_url=False), key=lambda one: one["type"] != "extra_forbidden")
     where = [part for part in first["loc"] if part not in ("str", "dict[str,any]")]
     name = _place(where, tables)
+    if first["type"] == "extra_forbidden" and where == ["contact"]:
+        return "is a case file: tehl solve takes it; a study has it as its base, case = ..."
     if first["type"] == "extra_forbidden":
         return f"{name} is no key of a study: {_near(where)}"
     if first["type"] == "missing":

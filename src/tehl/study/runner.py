@@ -143,7 +143,7 @@ def _solve(
     jobs, scheduler = place
     store.prepare()
     store.sweep(cases)
-    with engine_of(min(jobs, len(cases)), scheduler) as engine:
+    with engine_of(jobs, len(cases), scheduler) as engine:
         if engine.local:
             _warm(cases, monitor)
         return _Run(cases, store, engine, known, monitor).go()

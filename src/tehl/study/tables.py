@@ -32,9 +32,9 @@ def table(
     Returns
     -------
     pandas.DataFrame
-        Columns ``name``, the labels, ``status``, ``cause``, ``message``, and every scalar of the
-        summary by its dotted name: ``film.h_min_m``. ``attrs["units"]`` has the unit of each
-        column of numbers.
+        Columns ``name``, the labels, ``status``, ``cause``, ``message``, every scalar of the
+        summary by its dotted name: ``film.h_min_m``, and ``key``, under which fields are kept.
+        ``attrs["units"]`` has the unit of each column of numbers.
     """
     import pandas as pd  # noqa: PLC0415 (0.5 s)
 
@@ -45,7 +45,7 @@ def table(
         row = rows.get(case.key)
         outcome = (_OPEN, None, None) if row is None else (row.status, row.cause, row.message)
         line = {"name": case.name, **case.labels, **dict(zip(OUTCOME, outcome, strict=True))}
-        lines.append(line | dict({} if row is None else row.summary))
+        lines.append(line | dict({} if row is None else row.summary) | {"key": case.key})
     frame = pd.DataFrame(lines, columns=_columns(cases, lines))
     numbers = [
         name
@@ -61,4 +61,5 @@ def _columns(cases: list[Case], lines: list[dict[str, Scalar]]) -> list[str]:
     """Return the names of the columns: labels first, numbers in the order of the summary."""
     labels = [label for case in cases for label in case.labels]
     numbers = [name for line in lines for name in line]
-    return list(dict.fromkeys(["name", *labels, *OUTCOME, *numbers]))
+    names = dict.fromkeys(["name", *labels, *OUTCOME, *numbers])
+    return [name for name in names if name != "key"] + ["key"]
