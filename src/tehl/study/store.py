@@ -140,9 +140,7 @@ class Store:
         values = (
             row.key,
             row.status,
-            row.cause,
-            row.message,
-            row.hint,
+            *map(_text, (row.cause, row.message, row.hint)),
             json.dumps(dict(row.summary), allow_nan=False),
             row.cost.cpu_seconds,
             row.cost.wall_seconds,
@@ -207,6 +205,11 @@ class Store:
             raise OSError(code, f"{error}", str(self._file)) from error
         except sqlite3.DatabaseError as error:
             raise FileFormatError(f"{self._file} is no store of a study: {error}") from None
+
+
+def _text(words: str | None) -> str | None:
+    """Return words that a file can hold: names of files may have half letters."""
+    return None if words is None else words.encode("utf-8", "replace").decode("utf-8")
 
 
 def _row(line: tuple[str, ...]) -> Row:
