@@ -146,6 +146,8 @@ def test_a_folder_draws_its_table(folder, run):
     assert done.code == 0
     assert done.out.split() == ["out/h_min_m_over_load.png"]
     assert (folder / "out" / "h_min_m_over_load.png").stat().st_size > 10_000
+    assert run("out", "--plot", "x=load,y=h_min_m,format=svg,file=paper").code == 0
+    assert (folder / "out" / "paper.svg").read_text().startswith("<?xml")
 
 
 def test_a_table_of_an_unfinished_study_says_what_is_open(folder, run, monkeypatch):

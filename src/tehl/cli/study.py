@@ -212,8 +212,7 @@ def _show(chosen: "Study", folder: Path, pictures: tuple["Picture", ...], *, as_
     import json
 
     from tehl.errors import InputError
-    from tehl.plots.save import save_picture
-    from tehl.study.draw import DPI, draw
+    from tehl.study.draw import save
     from tehl.study.folder import store_of, write_table
 
     store = store_of(chosen.plan, folder)
@@ -222,10 +221,7 @@ def _show(chosen: "Study", folder: Path, pictures: tuple["Picture", ...], *, as_
     if (frame["status"] == "open").all():
         raise InputError(f"no case of the study is finished yet in {folder}")
     files = [] if pictures else write_table(frame, folder)
-    files += [
-        save_picture(draw(one, frame), folder / f"{one.stem}.png", DPI)
-        for one in pictures or chosen.plan.pictures
-    ]
+    files += [save(one, frame, folder) for one in pictures or chosen.plan.pictures]
     if as_json:
         counts = {str(key): int(n) for key, n in frame["status"].value_counts().items()}
         typer.echo(json.dumps({"cases": len(frame), "status": counts, "files": _words(files)}))

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tehl.errors import InputError
+from tehl.io.atomic import replacing
 from tehl.study.pictures import Picture
 
 if TYPE_CHECKING:
@@ -36,19 +37,28 @@ def draw(picture: Picture, table: "pd.DataFrame") -> "Figure":
     return figure
 
 
+def save(picture: Picture, table: "pd.DataFrame", folder: Path) -> Path:
+    """Draw a picture into a folder; return its file, which appears whole or not at all.
+
+    Raises
+    ------
+    InputError
+        As :func:`draw`.
+    """
+    figure, path = draw(picture, table), folder / f"{picture.stem}.{picture.format}"
+    with replacing(path) as temporary:
+        figure.savefig(temporary, dpi=DPI, format=picture.format)
+    return path
+
+
 def save_pictures(
     pictures: tuple[Picture, ...], table: "pd.DataFrame", folder: Path
 ) -> tuple[list[Path], list[str]]:
     """Draw pictures into a folder; return their files, and why others were not drawn."""
-    if not pictures:
-        return [], []
-    from tehl.plots.save import save_picture  # noqa: PLC0415 (matplotlib)
-
     written, complaints = [], []
     for picture in pictures:
         try:
-            path = folder / f"{picture.stem}.png"
-            written.append(save_picture(draw(picture, table), path, DPI))
+            written.append(save(picture, table, folder))
         except InputError as error:
             complaints.append(f"picture {picture.stem}: {error}")
     return written, complaints

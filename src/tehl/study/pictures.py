@@ -7,7 +7,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 from tehl.errors import InputError
 
 Range = tuple[float, float]
-_KEYS = ("x", "y", "z", "hue", "style", "log", "map", "overlay", "file")
+_KEYS = ("x", "y", "z", "hue", "style", "log", "map", "overlay", "file", "format")
 
 
 class Picture(BaseModel):
@@ -30,6 +30,8 @@ class Picture(BaseModel):
         A ready picture instead: how far film formulas are off over M and L.
     overlay : str or None
         A CSV file with measured points: columns x and y, and if known their error and name.
+    format : {"png", "pdf", "svg"}
+        Of the file.
     file : str or None
         Name of the picture without its ending.
     """
@@ -46,6 +48,7 @@ class Picture(BaseModel):
     y_range: Range | None = None
     map: Literal["moes"] | None = None
     overlay: str | None = None
+    format: Literal["png", "pdf", "svg"] = "png"
     file: Annotated[str, Field(pattern=r"^[A-Za-z0-9._-]+$")] | None = None
 
     @model_validator(mode="after")
