@@ -159,7 +159,7 @@ def test_a_table_of_an_unfinished_study_says_what_is_open(folder, run, monkeypat
     monkeypatch.setattr(runner, "work", stopped)
     done = run("loads.toml", "-o", "out", "--jobs", "1")
     assert done.code == 130
-    assert "go on with: tehl study loads.toml -o out" in done.err
+    assert "go on with: tehl study out" in done.err
     found = json.loads(run("out", "--table", "--json").out)
     assert found["status"] == {"converged": 4, "open": 4}
     monkeypatch.setattr(runner, "work", answer)

@@ -81,7 +81,7 @@ def study(  # noqa: PLR0913, PLR0917 (the options of the command)
         chosen,
         folder,
         {"jobs": jobs, "scheduler": scheduler, "retry_failed": retry_failed, "quiet": quiet},
-        again=_again(source, output, scheduler),
+        again=_again(folder, scheduler),
     )
     written = _write(chosen, store, folder, plan.pictures)
     _tell(outcome, written, as_json=as_json)
@@ -143,12 +143,11 @@ def _workers(jobs: int | None) -> int:
     return max(1, cores or 1)
 
 
-def _again(source: Path, output: Path | None, scheduler: str | None) -> str:
-    """Return the command that goes on."""
+def _again(folder: Path, scheduler: str | None) -> str:
+    """Return the command that goes on, whatever was changed."""
     import shlex
 
-    words = ["tehl", "study", str(source)]
-    words += [] if output is None else ["-o", str(output)]
+    words = ["tehl", "study", str(folder)]
     words += [] if scheduler is None else ["--scheduler", scheduler]
     return shlex.join(words)
 
