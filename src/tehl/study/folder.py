@@ -34,8 +34,11 @@ def save_plan(plan: Plan, folder: Path) -> None:
     check_folder(folder)
     folder.mkdir(parents=True, exist_ok=True)
     content = {"tehl_study": _FORMAT, "plan": TypeAdapter(Plan).dump_python(plan, mode="json")}
-    with replacing(folder / PLAN) as temporary:
-        temporary.write_text(json.dumps(content, default=str, indent=1), encoding="utf-8")
+    path, text = folder / PLAN, json.dumps(content, default=str, indent=1)
+    if path.is_file() and path.read_bytes() == text.encode():
+        return  # so that a study goes on where nothing more can be written
+    with replacing(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
 
 
 def load_plan(folder: Path) -> Plan:
