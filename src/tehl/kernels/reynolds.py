@@ -210,6 +210,14 @@ def line_diagonal(film: Film, mesh: Mesh, self_film: float, j: int, out: Array) 
         target[i] += mesh.w0 * (drho[i] * h[i] + rho[i] * self_film)
 
 
+@njit(cache=True)
+def diagonal(film: Film, mesh: Mesh, self_film: float, out: Array) -> None:
+    """Write ``-dL/dp`` on the diagonal to ``out`` (ny, nx), zero on the edges."""
+    out[:] = 0.0
+    for j in range(0 if mesh.mirror else 1, film.p.shape[0] - 1):
+        line_diagonal(film, mesh, self_film, j, out[j])
+
+
 @njit(cache=True, fastmath={"contract", "reassoc"}, error_model="numpy")
 def line_norm(p: Array, rhs: Array, diagonal: Array, out: Array) -> tuple[float, int]:
     """Turn L(p) in ``out`` to ``rhs - L(p)``, zero where cavitated; return sum and count.

@@ -6,12 +6,9 @@ from tehl.kernels import reynolds
 from tehl.kernels.newton import Coarse, System, newton_step
 from tehl.operators.influence import dense_matrix
 from tehl.solver.level import Level
-from tehl.typing import Array
 
 LONGEST_STEP = 0.3
 """Largest change of pressure in one step, in Hertz pressures."""
-PRESSURE_STEP = 1e-6
-"""Step of the derivative of the conductance by pressure; its error is of this relative size."""
 
 
 class CoarsestSolver:
@@ -28,7 +25,7 @@ class CoarsestSolver:
         residual = np.empty_like(level.residual)
         reynolds.operator(level.film, level.mesh, residual)
         np.subtract(level.rhs, residual, out=residual)
-        by_pressure, by_film = self._slopes()
+        by_pressure, by_film = level.conductance_slopes()
         film = level.film
         system = System(
             residual=residual,
@@ -46,18 +43,3 @@ class CoarsestSolver:
         )
         level.rigid_approach += change
         level.stale = True
-
-    def _slopes(self) -> tuple[Array, Array]:
-        """Return the derivatives of the conductance by pressure and by film."""
-        level = self.level
-        film = level.film
-        scratch = (np.empty_like(film.p) for _ in range(4))
-        shifted = reynolds.Film(film.p + PRESSURE_STEP, film.h, *scratch)
-        reynolds.properties(shifted, level.flow.table, level.flow.step, level.floor)
-        if level.factors is not None:
-            reynolds.scale_properties(shifted, level.factors, level.floor)
-        by_pressure = (shifted.eps - film.eps) / PRESSURE_STEP
-        by_film = np.where(
-            film.h > level.floor, 3.0 * film.eps / np.maximum(film.h, level.floor), 0.0
-        )
-        return by_pressure, by_film

@@ -7,8 +7,6 @@ from tehl.grid import Grid
 from tehl.options import Options
 from tehl.solver.level import Level
 
-EXTRA_SWEEPS = 1
-"""Sweeps added on coarser levels: a V-cycle leaves error there, and sweeps there are cheap."""
 UNRESOLVED = 0.5
 """Mesh width of the coarsest grid, in Hertz half-widths, beyond which it hardly sees the contact.
 One visit then overshoots the load balance (by its own size at M = 5); a second one, through the
@@ -28,6 +26,8 @@ class Cycle:
         Order of visits.
     pre_sweeps, post_sweeps : int
         Relaxation sweeps on the finest level of the cycle.
+    extra_sweeps : int
+        Sweeps added on coarser levels: a V-cycle leaves error there, and sweeps there are cheap.
     twice : bool
         A V-cycle goes down twice from the level next but one to the coarsest.
     """
@@ -35,6 +35,7 @@ class Cycle:
     kind: str
     pre_sweeps: int
     post_sweeps: int
+    extra_sweeps: int = 1
     twice: bool = False
 
     @classmethod
@@ -55,6 +56,38 @@ class Cycle:
         return tuple(replace(self, kind=kind) for kind in kinds)
 
 
+class Cycles:
+    """Cycles on some levels, as a method to solve the finest of them.
+
+    Parameters
+    ----------
+    levels : sequence of Level
+        Coarsest first.
+    solve_coarsest : callable
+        What is done there.
+    shape : Cycle
+        What one cycle does.
+    ramp : int
+        Cycles over which heights are raised.
+    """
+
+    def __init__(
+        self, levels: Sequence[Level], solve_coarsest: Callable[[], None], shape: Cycle, ramp: int
+    ) -> None:
+        self.levels, self.solve_coarsest, self.shape = levels, solve_coarsest, shape
+        self.ramp = ramp
+
+    def step(self) -> None:
+        """Run one cycle."""
+        cycle(self.levels, self.solve_coarsest, self.shape)
+
+    def raise_heights(self, once: Callable[[], float]) -> None:
+        """Raise the heights in equal parts, one per cycle, up to the last part."""
+        for number in range(1, self.ramp):
+            self.levels[-1].roughen(number / self.ramp)
+            once()
+
+
 def cycle(
     levels: Sequence[Level], solve_coarsest: Callable[[], None], shape: Cycle, extra: int = 0
 ) -> None:
@@ -67,6 +100,6 @@ def cycle(
     fine.relax(shape.pre_sweeps + extra)
     fine.restrict_to(coarse)
     for visit in shape.coarse_visits(len(coarser)):
-        cycle(coarser, solve_coarsest, visit, EXTRA_SWEEPS)
+        cycle(coarser, solve_coarsest, visit, shape.extra_sweeps)
     fine.correct_from(coarse)
     fine.relax(shape.post_sweeps + extra)

@@ -24,6 +24,8 @@ from tehl.solver.smoother import Setting, make_smoother
 if TYPE_CHECKING:
     from tehl.typing import Array
 
+PRESSURE_STEP = 1e-6
+"""Step of the derivative of the conductance by pressure; its error is of this relative size."""
 FROZEN_BELOW = 1e-3
 """Pressure below which a coarse node beside a cavity is left to the finer grid."""
 
@@ -135,6 +137,19 @@ class Level:
         reynolds.properties(self.film, self.flow.table, self.flow.step, self.floor)
         if self.factors is not None:
             reynolds.scale_properties(self.film, self.factors, self.floor)
+
+    def conductance_slopes(self) -> "tuple[Array, Array]":
+        """Return the derivatives of the conductance by pressure and by film; it is up to date."""
+        film = self.film
+        scratch = (np.empty_like(film.p) for _ in range(4))
+        shifted = reynolds.Film(film.p + PRESSURE_STEP, film.h, *scratch)
+        reynolds.properties(shifted, self.flow.table, self.flow.step, self.floor)
+        if self.factors is not None:
+            reynolds.scale_properties(shifted, self.factors, self.floor)
+        by_pressure = (shifted.eps - film.eps) / PRESSURE_STEP
+        thick = film.h > self.floor
+        by_film = np.where(thick, 3.0 * film.eps / np.maximum(film.h, self.floor), 0.0)
+        return by_pressure, by_film
 
     def couple(self, factors: reynolds.Factors) -> None:
         """Take what heat and shear thinning make of the flow; the film is up to date."""

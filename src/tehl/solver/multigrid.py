@@ -1,5 +1,10 @@
 """Full multigrid: from the coarsest grid up, each grid starts from the next coarser solution."""
 
+from collections.abc import Callable
+from functools import partial
+from itertools import count
+from typing import TYPE_CHECKING, Protocol
+
 import numpy as np
 
 from tehl.film_formulas import expected_central_film
@@ -23,14 +28,18 @@ from tehl.solver.convergence import (
     single_grid_estimate,
     stalled,
 )
-from tehl.solver.fas import Cycle, cycle
+from tehl.solver.fas import Cycle, Cycles
 from tehl.solver.film_numbers import central_value
 from tehl.solver.guess import start_from
 from tehl.solver.level import Level
 from tehl.solver.monitor import Monitor
+from tehl.solver.newton import Newton
 from tehl.solver.smoother import BROAD, FAST, Setting
+from tehl.solver.state import DivergedError, TouchingError, keep_cavities, state_of, take_state
 from tehl.solver.thermal import Coupling, Uncoupled
-from tehl.typing import Array
+
+if TYPE_CHECKING:
+    from tehl.typing import Array
 
 FIRST_STEPS = 6
 """Newton steps on the coarsest grid at the start; they may cycle there, which does no harm."""
@@ -42,18 +51,31 @@ RUNAWAY = 100.0
 """Load error and central film that no iteration comes back from (H of a contact is below 2)."""
 WILD = 10.0
 """Change of pressure per cycle that no iteration comes back from between rough surfaces."""
-APPROACH = 10.0
-"""Weight of the rigid approach among the pressures, where states are compared."""
 SMOOTH_CYCLES = 2
 """Cycles without heights on the first grid that gets them."""
 BLURRED = 12.0
 """Nodes per wave below which a grid does not resolve it well enough for its whole correction."""
+RESOLVED = 8.0
+"""Nodes per wave from which the film of a grid says something of that of the next one."""
+DISTANT = 33
+"""Least nodes along x of the grid on which Newton's method sees what distant nodes do."""
 FLOOR = 0.02
 """Least film in the conductance, over the expected central film: coarse grids may need it."""
 
 
-class DivergedError(ArithmeticError):
-    """The unknowns ran away."""
+class Method(Protocol):
+    """What brings a level nearer to its solution."""
+
+    def step(self) -> object:
+        """Do so once."""
+        ...
+
+    def raise_heights(self, once: Callable[[], float]) -> None:
+        """Raise the heights of the level from nearly none to nearly all.
+
+        ``once`` takes a step, tells of it and returns the residual.
+        """
+        ...
 
 
 class Multigrid:
@@ -94,7 +116,7 @@ class Multigrid:
         self.expected_film = expected_central_film(groups)
         for level in self.levels:
             level.floor = FLOOR * self.expected_film
-        self.first_rough = len(self.levels)
+        self.first_rough = self.first_alike = len(self.levels)
         self.smooth: tuple[int, Array, float] | None = None
         self.ripple = (np.inf, 0.0)
         self.coarsest_trace = GridTrace()
@@ -120,6 +142,8 @@ class Multigrid:
             for level in self.levels[blurred:]:
                 level.limit = rough.limit
         self.first_rough = first
+        alike = (k for k in range(first, last) if points[k] >= RESOLVED)
+        self.first_alike = next(alike, last)
         inside = np.hypot.outer(self.finest.grid.y, self.finest.grid.x) < 1.0
         self.ripple = (points[-1], 0.5 * float(np.ptp(fields[-1][inside])))
 
@@ -129,7 +153,7 @@ class Multigrid:
             return None
         alike = [self.coarsest_trace, *self.traces]
         if self.is_rough:
-            alike = alike[self.first_rough :]
+            alike = alike[self.first_alike :]
         if self.is_rough and len(alike) < 2:
             return single_grid_estimate(self.traces[-1], self.finest.grid.dx, *self.ripple)
         return error_estimate(alike, self.options.wedge_order, rough=self.is_rough)
@@ -165,24 +189,24 @@ class Multigrid:
         self.levels[0].update()
         self.coarsest_trace.note(*film_numbers(self.levels[0]))
         orderly = True
-        for count in range(2, len(self.levels) + 1):
-            coarse, fine = self.levels[count - 2 : count]
+        for held in range(2, len(self.levels) + 1):
+            coarse, fine = self.levels[held - 2 : held]
             if orderly:
                 fine.film.p[:] = refine(coarse.film.p, fine.grid)
                 fine.rigid_approach = coarse.rigid_approach
-            elif self.smooth is not None:
-                self._start_smooth(count - 1)
+            elif held > self.first_rough + 1:
+                self._start_smooth(held - 1)
             else:
                 self._start_dry(fine)
             if fine is self.finest:
                 if not (orderly or patient):
                     raise DivergedError
                 start_from(fine, self.guess)
-                self._cycle_on(self.levels[:count], monitor)
+                self._cycle_on(self.levels[:held], monitor)
             else:
-                orderly = self._prepare_on(self.levels[:count], monitor)
+                orderly = self._prepare_on(self.levels[:held], monitor)
                 if not orderly:
-                    self._forget(self.levels[:count])
+                    self._forget(self.levels[:held])
         return converged(self.traces[-1], self._coarser_trace(), self.options)
 
     def _forget(self, levels: list[Level]) -> None:
@@ -193,18 +217,20 @@ class Multigrid:
 
     def _start_smooth(self, number: int) -> None:
         """Start a rough level from the smooth film, and raise the heights there once more."""
+        self.first_rough = number
+        self.first_alike = max(self.first_alike, number)
         if self.smooth is None:
-            raise ValueError("there is no smooth film yet")
+            self._start_dry(self.levels[number])
+            return
         known, p, approach = self.smooth
         for level in self.levels[known + 1 : number + 1]:
             p = refine(p, level.grid)
         self.levels[number].film.p[:] = p
         self.levels[number].rigid_approach = approach
-        self.first_rough = number
 
     def _coarser_trace(self) -> GridTrace | None:
         """Return the trace of the grid before the last one; None where that had another film."""
-        if len(self.traces) < 2 or len(self.traces) == self.first_rough:
+        if len(self.traces) < 2 or len(self.traces) == self.first_alike:
             return None
         return self.traces[-2]
 
@@ -253,8 +279,13 @@ class Multigrid:
             trace.largest_change = LARGEST_ROUGH_CHANGE
         self.traces.append(trace)
         coarser = self._coarser_trace()
-        shape = Cycle.of(self.options, levels[0].grid, self.expected_film)
-        done = self._ramp(levels, shape, monitor)
+        method = self._method(levels)
+        try:
+            done = self._ramp(levels, method, monitor)
+        except TouchingError:  # what was found is all that there is to tell
+            trace.reports.append(self._report(fine, fine.film.p.copy(), 0, (0.0, 0.0)))
+            trace.note(*film_numbers(fine))
+            raise
         trace.note(*film_numbers(fine))
         anderson = self._anderson(levels)
         patience = self.setting.rough.patience
@@ -264,7 +295,7 @@ class Multigrid:
                 fine.started_dry = False  # now there is a film to heat
                 self._couple(levels, finest=False)
             before = state_of(fine) if anderson else None
-            report = self._cycle(levels, shape, number + done)
+            report = self._cycle(levels, method, number + done)
             trace.reports.append(report)
             trace.note(report.film_central, report.film_minimum)
             trace.rise.values.append(report.temperature_rise)
@@ -274,7 +305,8 @@ class Multigrid:
             if not last and iterated_enough(trace, coarser):
                 return
             if anderson is not None and before is not None:
-                take_state(fine, anderson.combine(before, state_of(fine)))
+                combined = anderson.combine(before, state_of(fine))
+                take_state(fine, keep_cavities(fine, combined))
 
     def _couple(self, levels: list[Level], *, finest: bool) -> None:
         """Begin the coupling on the last of ``levels``, if it is worth it there."""
@@ -287,25 +319,45 @@ class Multigrid:
         memory = self.setting.rough.memory
         return Anderson(memory) if memory and len(levels) > self.first_rough else None
 
-    def _ramp(self, levels: list[Level], shape: Cycle, monitor: Monitor) -> int:
+    def _method(self, levels: list[Level]) -> Method:
+        """Return what brings the last of ``levels`` nearer to its solution.
+
+        Cycles; between rough surfaces, if the setting says so, Newton's method.
+        """
+        if not (self.setting.rough.newton and len(levels) > self.first_rough):
+            return self._cycles(levels)
+        coarse = next(level.grid for level in levels if level.grid.nx >= DISTANT)
+        return Newton(levels[-1], coarse)
+
+    def _cycles(self, levels: list[Level]) -> Cycles:
+        shape = Cycle.of(self.options, levels[0].grid, self.expected_film)
+        return Cycles(levels, self.coarsest.step, shape, self.setting.rough.ramp)
+
+    def _ramp(self, levels: list[Level], method: Method, monitor: Monitor) -> int:
         """Raise the heights step by step on the first level that has them; return the cycles."""
-        fine, steps = levels[-1], self.setting.rough.ramp
         if len(levels) - 1 != self.first_rough:
             return 0
-        for number in range(1, SMOOTH_CYCLES + steps):
-            fine.roughen(max(number - SMOOTH_CYCLES, 0) / steps)
-            monitor.cycle(self._cycle(levels, shape, number))
-            if number == SMOOTH_CYCLES:
-                self.smooth = (len(levels) - 1, fine.film.p.copy(), fine.rigid_approach)
+        fine, numbers = levels[-1], count(1)
+
+        def once(how: Method) -> float:
+            report = self._cycle(levels, how, next(numbers))
+            monitor.cycle(report)
+            return report.residual
+
+        fine.roughen(0.0)
+        for _ in range(SMOOTH_CYCLES):
+            once(self._cycles(levels))
+        self.smooth = (len(levels) - 1, fine.film.p.copy(), fine.rigid_approach)
+        method.raise_heights(partial(once, method))
         fine.roughen(1.0)
         fine.update()
-        return SMOOTH_CYCLES + steps - 1
+        return next(numbers) - 1
 
-    def _cycle(self, levels: list[Level], shape: Cycle, number: int) -> CycleReport:
-        """Run one cycle on the last of ``levels`` and report it."""
+    def _cycle(self, levels: list[Level], method: Method, number: int) -> CycleReport:
+        """Bring the last of ``levels`` nearer to its solution once and report it."""
         fine = levels[-1]
         before = fine.film.p.copy()
-        cycle(levels, self.coarsest.step, shape)
+        method.step()
         fine.update()
         heating = self.coupling.update(levels)
         return self._report(fine, before, number, heating)
@@ -333,19 +385,6 @@ class Multigrid:
         if self.is_rough and not report.change < WILD:
             raise DivergedError
         return report
-
-
-def state_of(level: Level) -> Array:
-    """Return pressure and approach of a level as one array."""
-    return np.append(level.film.p.ravel(), APPROACH * level.rigid_approach)
-
-
-def take_state(level: Level, state: Array) -> None:
-    """Set pressure and approach; what is cavitated stays so, and no pressure is negative."""
-    p = np.maximum(state[:-1].reshape(level.film.p.shape), 0.0)
-    level.film.p[:] = np.where(level.film.p > 0.0, p, 0.0)
-    level.rigid_approach = float(state[-1]) / APPROACH
-    level.stale = True
 
 
 def film_numbers(level: Level) -> tuple[float, float]:

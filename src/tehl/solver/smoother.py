@@ -38,6 +38,8 @@ class Rough:
         Earlier cycles of which the next start is combined (`tehl.solver.anderson`); none if 0.
     patience : int
         Factor on the cycles after which a run is given up.
+    newton : bool
+        Take Newton's method in place of the cycles (`tehl.solver.newton`).
     """
 
     correction: float = 1.0
@@ -48,6 +50,7 @@ class Rough:
     stiff: bool = False
     memory: int = 0
     patience: int = 1
+    newton: bool = False
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -101,6 +104,9 @@ GENTLE = Setting(
         memory=10,
         patience=3,
     ),
+)
+NEWTON = Setting(
+    name="newton", threshold=1.0, point=0.5, dipole=0.35, rough=Rough(points=5.0, newton=True)
 )
 POINTWISE = Setting(name="gauss-seidel", threshold=0.0, point=0.5, dipole=0.0)
 SETTINGS = {setting.name: setting for setting in (FAST, BROAD, ROBUST, POINTWISE)}

@@ -34,9 +34,20 @@ from tehl.solver.film_numbers import film_summary
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.multigrid import Multigrid
 from tehl.solver.outputs import film_heat, film_shear, newtonian_shear
-from tehl.solver.smoother import BROAD, CAREFUL, FAST, GENTLE, ROBUST, ROUGH, SETTINGS, Setting
+from tehl.solver.smoother import (
+    BROAD,
+    CAREFUL,
+    FAST,
+    GENTLE,
+    NEWTON,
+    ROBUST,
+    ROUGH,
+    SETTINGS,
+    Setting,
+)
+from tehl.solver.state import TouchingError
 from tehl.solver.thermal import Coupling, FilmCoupling, Uncoupled
-from tehl.solver.verdict import diverged, verdict
+from tehl.solver.verdict import diverged, touching, verdict
 from tehl.solver.warmup import warm_up
 
 GRID_CAUSES = ("grid_too_coarse", "domain_too_small", "inlet_too_short", "sides_too_close")
@@ -188,7 +199,9 @@ def _attempts(
     for number, (setting, ramped) in enumerate(attempts):
         if number:
             how = ", sliding step by step" if ramped else ""
-            monitor.message(f"falling back to the {setting.name} smoother{how}")
+            newton = "Newton's method, which takes a while"
+            name = newton if setting.rough.newton else f"the {setting.name} smoother"
+            monitor.message(f"falling back to {name}{how}")
         coupling = coupling_of(problem, options, ramped=ramped)
         run = Multigrid(grid, case_groups, flow, options, setting, coupling)
         if heights is not None:
@@ -205,7 +218,7 @@ def _settings(
     if options.smoother != "auto":
         return [(SETTINGS[options.smoother], False)]
     if rough:
-        return [(ROUGH, False), (CAREFUL, False), (GENTLE, False)]
+        return [(setting, False) for setting in (ROUGH, CAREFUL, GENTLE, NEWTON)]
     if not problem.is_coupled:
         return [(FAST, False), (ROBUST, False)]
     attempts = [(BROAD, False), (ROBUST, False)]
@@ -217,6 +230,8 @@ def _run(run: Multigrid, monitor: Monitor, *, patient: bool) -> Attempt:
     with np.errstate(all="ignore"):  # a run away is judged below, not warned of on the way
         try:
             reached = run.solve(monitor, patient=patient)
+        except TouchingError as error:
+            return Attempt(run=run, status=touching(run, error.part), reached=True)
         except ArithmeticError:
             run.salvage()
             return Attempt(run=run, status=diverged(run), reached=False)

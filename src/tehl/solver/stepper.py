@@ -18,6 +18,8 @@ LARGEST_LOAD_ERROR = 1e-4
 HEATED = 0.01
 """Change of temperature in the last cycle of a step, over the largest rise."""
 LEAST_CYCLES = 2
+SHAPE = Cycle(kind="V", pre_sweeps=2, post_sweeps=1, extra_sweeps=0)
+"""A step begins near its end, and a coarse grid has little to add."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -58,10 +60,10 @@ class Stepper:
         self.steady = level.film.rho * level.film.h
         self.wedge = steady_wedge(self.steady, level.grid.dx, run.options.wedge_order)
         self.now, self.before = self.steady.copy(), self.steady.copy()
+        self.pressure_before = level.film.p.copy()
         for one in run.levels:
             one.mesh = step_stencil(one.mesh, self.time_step)
         run.coupling.begin_time(run.levels, self.time_step)
-        self.shape = Cycle(kind="V", pre_sweeps=2, post_sweeps=1)
         self.setting = 0
         self.choose(0)
 
@@ -90,6 +92,8 @@ class Stepper:
                 level.stale = True
                 level.update()
                 self.run.coupling.go_back(self.run.levels)
+            else:
+                self._extrapolate()
             level.pose_step(history, heights, load)
             try:
                 settled = self._settle(self.settings[number].name)
@@ -98,9 +102,17 @@ class Stepper:
                     raise
                 continue
             self.before, self.now = self.now, level.film.rho * level.film.h
+            self.pressure_before = start[0]
             self.run.coupling.advance(self.run.levels)
             return settled
         raise StepError("stalled", np.inf)
+
+    def _extrapolate(self) -> None:
+        """Start from where the pressure goes; cavities stay."""
+        level = self.run.finest
+        onward = np.maximum(2.0 * level.film.p - self.pressure_before, 0.0)
+        level.film.p[:] = np.where(level.film.p > 0.0, onward, 0.0)
+        level.stale = True
 
     def _history(self) -> Array:
         """Return what is known of wedge and squeeze, (ny, nx).
@@ -125,7 +137,7 @@ class Stepper:
         # a slower setting is given more of them
         for number in range(1, (1 + self.setting) * self.transient.max_cycles + 1):
             before = level.film.p.copy()
-            cycle(self.run.levels, self.run.coarsest.step, self.shape)
+            cycle(self.run.levels, self.run.coarsest.step, SHAPE)
             level.update()
             warmer, rise = self.run.coupling.update(self.run.levels)
             np.subtract(level.film.p, before, out=before)

@@ -1,5 +1,7 @@
 """The truth about a run: whether its result may be believed, and if not, why and what to try."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from tehl.domain import domain_error
@@ -174,6 +176,13 @@ def _film_not_positive(level: Level, groups: Groups) -> Status:
         ),
         hint=f"Take {grid_hint(grid, groups)}.",
     )
+
+
+def touching(run: Multigrid, part: float) -> Status:
+    """Return the status of a film that fails with ``part`` of the heights already."""
+    status = _touching(run, run.errors())
+    message = f"{status.message} The film shown has {100 * part:.0f} % of the heights."
+    return replace(status, message=message)
 
 
 def _touching(run: Multigrid, errors: ErrorEstimate | None) -> Status:

@@ -1,0 +1,137 @@
+"""Jacobian of the discrete Reynolds operator as sparse matrices, nodes numbered row by row.
+
+A change v of the pressure changes the film by D v + c, with the elastic deflection D and the change
+c of the rigid approach, and so the operator L of `tehl.kernels.reynolds` by
+
+    by_pressure v + by_film (D v + c).
+
+D couples all nodes and is applied, never written down; `near` is its part between close nodes.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.sparse import csr_matrix, diags, kron
+
+from tehl.grid import Grid
+from tehl.kernels.reynolds import Film, Mesh
+from tehl.operators.influence import Influence
+from tehl.typing import Array, BoolArray
+
+
+class Stencil(NamedTuple):
+    """Matrices that pick a neighbour of each inner node; the rows of the others are zero.
+
+    ``upstream`` is the difference of the wedge.
+    """
+
+    here: csr_matrix
+    east: csr_matrix
+    west: csr_matrix
+    north: csr_matrix
+    south: csr_matrix
+    upstream: csr_matrix
+
+
+def neighbour(
+    grid: Grid, inner: BoolArray, rows: int, columns: int, weight: float = 1.0
+) -> csr_matrix:
+    """Return the matrix that picks the node ``rows, columns`` away of the nodes ``inner`` marks."""
+    ny, nx = grid.shape
+    j, i = np.nonzero(inner)
+    there = np.abs(j + rows) if grid.mirror else j + rows
+    column = i + columns
+    held = (there >= 0) & (there < ny) & (column >= 0) & (column < nx)
+    places = (j[held] * nx + i[held], there[held] * nx + column[held])
+    weights = np.full(places[0].size, weight)
+    return csr_matrix((weights, places), shape=(ny * nx, ny * nx))
+
+
+def stencil_of(grid: Grid, mesh: Mesh) -> Stencil:
+    """Return the neighbours of the inner nodes; node 1 of a line continues rho h linearly."""
+    inner = np.zeros(grid.shape, bool)
+    inner[(0 if grid.mirror else 1) : -1, 1:-1] = True
+    first = inner.copy()
+    first[:, 2:] = False
+    others = inner & ~first
+    upstream = sum(
+        (
+            neighbour(grid, others, 0, -1, mesh.w1),
+            neighbour(grid, others, 0, -2, mesh.w2),
+            neighbour(grid, first, 0, 0, mesh.w0 - mesh.w2),
+            neighbour(grid, first, 0, -1, mesh.w1 + 2.0 * mesh.w2),
+        ),
+        neighbour(grid, others, 0, 0, mesh.w0),
+    )
+    return Stencil(
+        here=neighbour(grid, inner, 0, 0),
+        east=neighbour(grid, inner, 0, 1),
+        west=neighbour(grid, inner, 0, -1),
+        north=neighbour(grid, inner, 1, 0),
+        south=neighbour(grid, inner, -1, 0),
+        upstream=upstream,
+    )
+
+
+def near(grid: Grid, influence: Influence, reach: int) -> csr_matrix:
+    """Return the film by unit pressures up to ``reach`` nodes away, in either direction."""
+    everywhere = np.ones(grid.shape, bool)
+    offsets = range(-reach, reach + 1)
+    parts = (
+        neighbour(grid, everywhere, rows, columns, float(influence(abs(rows), abs(columns))))
+        for rows in offsets
+        for columns in offsets
+    )
+    return sum(parts, csr_matrix((everywhere.size, everywhere.size)))
+
+
+def jacobian(
+    film: Film, mesh: Mesh, stencil: Stencil, by_pressure: Array, by_film: Array
+) -> tuple[csr_matrix, csr_matrix]:
+    """Return the derivatives of L by the pressures, and by the films, of all nodes.
+
+    Parameters
+    ----------
+    film : Film
+        The state, its properties up to date.
+    mesh : Mesh
+        Weights of the operator.
+    stencil : Stencil
+        Of `stencil_of`.
+    by_pressure, by_film : (ny, nx) array
+        Derivatives of the conductance.
+    """
+    n, (p, eps, eps_x) = stencil, (field.ravel() for field in (film.p, film.eps, film.eps_x))
+    half_x, half_y = 0.5 * mesh.cx, 0.5 * mesh.cy
+    sides = ((n.east, half_x, eps_x), (n.west, half_x, eps_x),
+             (n.north, half_y, eps), (n.south, half_y, eps))  # fmt: skip
+    flow, opening = csr_matrix(n.here.shape), csr_matrix(n.here.shape)
+    for there, half, conductance in sides:
+        step = there - n.here
+        flow = flow + rows(half * ((there + n.here) @ conductance)) @ step
+        opening = opening + rows(half * (step @ p)) @ (there + n.here)
+    thicker, denser = film.rho.ravel(), (film.drho * film.h).ravel()
+    pressed = flow + opening @ rows(by_pressure.ravel()) - n.upstream @ rows(denser)
+    opened = opening @ rows(by_film.ravel()) - n.upstream @ rows(thicker)
+    return csr_matrix(pressed), csr_matrix(opened)
+
+
+def rows(weights: Array) -> csr_matrix:
+    """Return the matrix that multiplies each value by a weight of its own."""
+    return diags(weights, format="csr")
+
+
+def interpolation(fine: Grid, coarse: Grid) -> csr_matrix:
+    """Return the bilinear interpolation from a coarser grid of the same domain."""
+    lines = (between(nf, nc) for nf, nc in zip(fine.shape, coarse.shape, strict=True))
+    return csr_matrix(kron(*lines))
+
+
+def between(fine: int, coarse: int) -> csr_matrix:
+    """Return the linear interpolation from ``coarse`` to ``fine`` nodes of a line."""
+    place = np.arange(fine) * ((coarse - 1) / (fine - 1))
+    low = np.minimum(place.astype(int), coarse - 2)
+    part, node = place - low, np.arange(fine)
+    weights = np.concatenate([1.0 - part, part])
+    places = (np.concatenate([node, node]), np.concatenate([low, low + 1]))
+    return csr_matrix((weights, places), shape=(fine, coarse))

@@ -1,0 +1,264 @@
+"""Newton's method on one level, for films where no relaxation converges.
+
+Between steep asperities the conductance changes by orders of magnitude from node to node, and
+faster with pressure and film than any relaxation follows that keeps it meanwhile. Newton's method
+takes all of that into its step. The nodes that may move are those that are wet or ought to be
+(a primal-dual active set, Hintermueller, Ito and Kunisch 2003); the linear equations are solved by
+a Krylov method whose products contain the whole elastic deflection, and whose preconditioner is a
+sparse elimination of what close nodes do to each other after a correction on a coarse grid of what
+distant ones do.
+"""
+
+import warnings
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+from scipy.linalg import LinAlgWarning, lu_factor, lu_solve
+from scipy.sparse import csc_matrix, csr_matrix
+from scipy.sparse.linalg import LinearOperator, gcrotmk, splu
+
+from tehl.grid import Grid
+from tehl.kernels import reynolds
+from tehl.operators.influence import dense_matrix, influence_of
+from tehl.operators.jacobian import (
+    Stencil,
+    interpolation,
+    jacobian,
+    near,
+    rows,
+    stencil_of,
+)
+from tehl.solver.level import Level
+from tehl.solver.state import APPROACH, DivergedError, TouchingError, state_of, take_state
+from tehl.typing import Array, BoolArray
+
+REACH = 1
+"""Nodes in either direction whose deflection of a node the sparse elimination knows."""
+ACCURACY = 0.03
+"""Residual of the linear equations, over its first value."""
+VECTORS, ROUNDS = 40, 2
+"""Directions of the Krylov method before it starts again, and how often."""
+SLOW = 24
+"""Products with the Jacobian, two per direction, after which the next step eliminates anew."""
+LARGEST_CHANGE = 1.5
+"""Of the pressure in one step, in Hertz pressures."""
+DESCENT, SHORTEST = 0.1, 0.02
+"""Part of the fall of the residual that a step must keep of what it promises, and the shortest step
+before the level is given up."""
+FIRST_PART, LEAST_PART = 0.25, 0.02
+"""Part of the heights that is raised first, and the least one before the level is given up."""
+RAISED = 1e-4
+"""Residual at which the next part is raised."""
+MOST_STEPS, QUICK, SLUGGISH, SMALLER = 12, 6, 9, 0.25
+"""Steps for one part; those after which the next part is larger, and smaller; and what is left of
+a part that could not be raised."""
+
+
+class Newton:
+    """Newton's method for pressure and rigid approach of a level, load balance included.
+
+    Parameters
+    ----------
+    level : Level
+        The unknowns, changed in place.
+    coarse : Grid
+        A coarser grid, of some hundred nodes.
+    """
+
+    def __init__(self, level: Level, coarse: Grid) -> None:
+        self.level = level
+        self.stencil: Stencil = stencil_of(level.grid, level.mesh)
+        self.near = near(level.grid, level.influence, REACH)
+        self.to_fine = interpolation(level.grid, coarse)
+        self.to_coarse = csr_matrix(
+            rows(1.0 / np.asarray(self.to_fine.sum(0)).ravel()) @ self.to_fine.T
+        )
+        coarse_influence = influence_of(coarse, level.groups)
+        self.deflection = dense_matrix(coarse.shape, coarse.mirror, coarse_influence)
+        weights = np.full(level.grid.shape, level.load.area * (2.0 if level.grid.mirror else 1.0))
+        weights[0] = level.load.area
+        self.load_weights = weights.ravel()
+        self.preconditioner: Preconditioner | None = None
+
+    def step(self) -> float:
+        """Take one step; return the part of it that was taken.
+
+        Raises
+        ------
+        DivergedError
+            When even a short step does not bring the film nearer to a solution.
+        """
+        level = self.level
+        level.update()
+        system = System(self)
+        if self.preconditioner is None:
+            self.preconditioner = Preconditioner(system)
+        change = system.solve(self.preconditioner)
+        part = self.walk(change)
+        if system.products > SLOW or part < 1.0:
+            self.preconditioner = None
+        return part
+
+    def walk(self, change: Array) -> float:
+        """Go as far along ``change`` as the residual falls; return the part."""
+        level, start = self.level, state_of(self.level)
+        residual = level.evaluate_residual()
+        part = min(1.0, LARGEST_CHANGE / float(np.abs(change[:-1]).max()))
+        while np.isfinite(part) and part > SHORTEST:
+            take_state(level, start + part * change)
+            level.update()
+            if level.evaluate_residual() < (1.0 - DESCENT * part) * residual:
+                return part
+            part *= 0.5
+        take_state(level, start)
+        level.update()
+        if residual < RAISED * RAISED:  # nothing is left to gain
+            return 1.0
+        raise DivergedError
+
+    def raise_heights(self, once: Callable[[], float]) -> None:
+        """Raise the heights of the level from none to all, part by part.
+
+        Each part starts on the line through the films of the last two.
+
+        Parameters
+        ----------
+        once : callable
+            Takes a step, reports it, and returns the residual.
+
+        Raises
+        ------
+        TouchingError
+            When the film is not positive with a part of them.
+        DivergedError
+            When a small part more cannot be solved.
+        """
+        level = self.level
+        before, known, size = None, (0.0, state_of(level)), FIRST_PART
+        while known[0] < 1.0:
+            part = min(known[0] + size, 1.0)
+            level.roughen(part)
+            take_state(level, known[1] if before is None else on_line(before, known, part))
+            steps = steps_to(RAISED, once)
+            if steps is None:
+                self.preconditioner, size = None, SMALLER * size
+            else:
+                before, known = known, (part, state_of(level))
+                size *= 1.5 if steps <= QUICK else 0.7 if steps > SLUGGISH else 1.0
+                if part < 1.0 and not level.film.h.min() > 0.0:
+                    raise TouchingError(part)
+            if size < LEAST_PART:
+                raise DivergedError
+
+
+class System:
+    """The linear equations of one step, each over the diagonal of the Reynolds operator."""
+
+    def __init__(self, newton: Newton) -> None:
+        self.newton, level = newton, newton.level
+        film, mesh = level.film, level.mesh
+        self.shape, self.products = film.p.shape, 0
+        rest = np.empty(self.shape)
+        reynolds.operator(film, mesh, rest)
+        np.subtract(level.rhs, rest, out=rest)
+        inner = newton.stencil.here.diagonal() > 0.0
+        self.free: BoolArray = inner & ((film.p > 0.0) | (rest < 0.0)).ravel()
+        self.kept = rows(self.free.astype(float))
+        diagonal = np.empty(self.shape)
+        reynolds.diagonal(film, mesh, level.self_film, diagonal)
+        self.scale = np.where(self.free, 1.0 / np.where(self.free, diagonal.ravel(), 1.0), 0.0)
+        by_pressure, by_film = jacobian(film, mesh, newton.stencil, *level.conductance_slopes())
+        self.by_pressure = csr_matrix(rows(self.scale) @ by_pressure @ self.kept)
+        self.by_film = csr_matrix(rows(self.scale) @ by_film)
+        missing = level.load_target - level.load.integral(film.p)
+        self.rest = np.append(self.scale * rest.ravel(), missing)
+
+    def product(self, change: Array) -> Array:
+        """Return what a change of pressures and approach makes of the equations."""
+        self.products += 1
+        pressure = np.where(self.free, change[:-1], 0.0)
+        film = np.empty(self.shape)
+        self.newton.level.deformation.deflect(pressure.reshape(self.shape), film)
+        flow = self.by_pressure @ pressure + self.by_film @ (film.ravel() + change[-1])
+        kept = np.where(self.free, flow, change[:-1])
+        return np.append(kept, self.newton.load_weights @ pressure)
+
+    def solve(self, preconditioner: "Preconditioner") -> Array:
+        """Return the step in the units of `tehl.solver.state`."""
+        size = self.rest.size
+        change, _ = gcrotmk(
+            LinearOperator((size, size), matvec=self.product, dtype=float),
+            self.rest,
+            rtol=ACCURACY,
+            maxiter=ROUNDS,
+            m=VECTORS,
+            M=LinearOperator((size, size), matvec=partial(preconditioner.solve, self), dtype=float),
+        )
+        change[-1] *= APPROACH
+        return np.asarray(change)
+
+
+class Preconditioner:
+    """An approximate inverse: a coarse correction, then a sparse elimination.
+
+    Parameters
+    ----------
+    system : System
+        Of the state at which it is made; it serves for later ones as well.
+    """
+
+    def __init__(self, system: System) -> None:
+        newton = system.newton
+        fixed = rows(1.0 - system.free.astype(float))
+        close = system.by_pressure + system.by_film @ newton.near @ system.kept + fixed
+        self.close = splu(
+            csc_matrix(close, dtype=np.float32),
+            permc_spec="MMD_AT_PLUS_A",
+            diag_pivot_thresh=0.01,
+            options={"SymmetricMode": True},
+        )
+        self.to_fine = csr_matrix(system.kept @ newton.to_fine)
+        self.to_coarse = newton.to_coarse
+        with warnings.catch_warnings(action="ignore", category=LinAlgWarning):
+            self.coarse = lu_factor(self._coarse_matrix(system))
+
+    def _coarse_matrix(self, system: System) -> Array:
+        """Return the equations of the coarse grid: pressures, and the approach with the load."""
+        newton = system.newton
+        by_film = csr_matrix(self.to_coarse @ system.by_film)
+        size = newton.deflection.shape[0]
+        matrix = np.zeros((size + 1, size + 1))
+        matrix[:-1, :-1] = (self.to_coarse @ system.by_pressure @ self.to_fine).toarray()
+        matrix[:-1, :-1] += (by_film @ newton.to_fine) @ newton.deflection
+        matrix[:-1, -1] = by_film @ np.ones(system.free.size)
+        matrix[-1, :-1] = newton.load_weights @ self.to_fine
+        empty = np.nonzero(~matrix[:-1, :-1].any(axis=1))[0]
+        matrix[empty, empty] = 1.0
+        return matrix
+
+    def solve(self, system: System, rest: Array) -> Array:
+        """Return an approximate solution of ``system`` for the right-hand side ``rest``."""
+        coarse = lu_solve(self.coarse, np.append(self.to_coarse @ rest[:-1], rest[-1]))
+        change = np.append(self.to_fine @ coarse[:-1], coarse[-1])
+        left = rest - system.product(change)
+        change[:-1] += self.close.solve(left[:-1].astype(np.float32))
+        return change
+
+
+def steps_to(residual: float, once: Callable[[], float]) -> int | None:
+    """Step down to a residual; return the steps, None if it is not reached."""
+    for number in range(1, MOST_STEPS + 1):
+        try:
+            if once() < residual:
+                return number
+        except ArithmeticError:
+            return None
+    return None
+
+
+def on_line(before: tuple[float, Array], known: tuple[float, Array], part: float) -> Array:
+    """Return the state at ``part`` on the line through two others; cavities stay."""
+    slope = (known[1] - before[1]) / (known[0] - before[0])
+    onward = known[1] + (part - known[0]) * slope
+    return np.where(known[1] == 0.0, 0.0, onward)

@@ -1,0 +1,190 @@
+"""Newton's method: its Jacobian, its rate, and the films that only it finds."""
+
+import numpy as np
+import pytest
+
+from tehl import ContactProblem, ConvergenceError, Options, Result, solve
+from tehl.grid import Grid
+from tehl.kernels import reynolds
+from tehl.operators.flow import flow_table
+from tehl.operators.jacobian import interpolation, jacobian, near, stencil_of
+from tehl.scaling import groups, scales
+from tehl.solver import steady
+from tehl.solver.level import Level
+from tehl.solver.newton import Newton
+from tehl.solver.smoother import NEWTON, ROUGH, Setting
+from tehl.solver.state import DivergedError, state_of, take_state
+from tests.reference import DOMAIN, moes_contact
+from tests.solver.rough import wavy
+
+POINTS = 65
+
+
+def level(mirror: bool = True, points: int = POINTS) -> Level:
+    """Return the level of a light contact, at a pressure near its solution."""
+    problem = moes_contact(20.0, 10.0)
+    grid = Grid(nx=points, ny=points, domain=DOMAIN, mirror=mirror)
+    case_groups = groups(problem)
+    flow = flow_table(problem, scales(problem), case_groups)
+    made = Level(grid, case_groups, flow, Options(deformation="fft"), ROUGH)
+    run = solve(problem, Options(points=points, domain=DOMAIN))
+    made.pose_problem()
+    made.film.p[:] = run.scaled.pressure[-grid.shape[0] :]
+    made.rigid_approach = run.rigid_approach
+    made.update()
+    return made
+
+
+@pytest.mark.parametrize("mirror", [True, False])
+def test_jacobian_is_the_change_of_the_operator(mirror: bool) -> None:
+    """Products with the Jacobian are the difference of L between two states, to second order."""
+    fine = level(mirror)
+    shape = fine.film.p.shape
+    rng = np.random.default_rng(1)
+    change = np.where(fine.film.p > 0.05, rng.standard_normal(shape), 0.0)
+    by_pressure, by_film = jacobian(
+        fine.film, fine.mesh, stencil_of(fine.grid, fine.mesh), *fine.conductance_slopes()
+    )
+    bent = np.empty(shape)
+    fine.deformation.deflect(change, bent)
+    linear = (by_pressure @ change.ravel() + by_film @ (bent.ravel() + 0.3)).reshape(shape)
+    before, errors = fine.film.p.copy(), []
+    for step in (1e-4, 1e-5):
+        sides = []
+        for sign in (1.0, -1.0):
+            fine.film.p[:] = before + sign * step * change
+            fine.rigid_approach += sign * step * 0.3
+            fine.stale = True
+            fine.update()
+            fine.rigid_approach -= sign * step * 0.3
+            operator = np.empty(shape)
+            reynolds.operator(fine.film, fine.mesh, operator)
+            sides.append(operator)
+        numeric = (sides[0] - sides[1]) / (2.0 * step)
+        errors.append(np.abs(numeric - linear).max() / np.abs(linear).max())
+    assert errors[1] < 1e-5
+    assert errors[1] < 0.1 * errors[0] + 1e-6
+
+
+@pytest.mark.parametrize("mirror", [True, False])
+def test_near_influence_is_that_of_the_deflection(mirror: bool) -> None:
+    """The film by a unit pressure, among its neighbours."""
+    grid = Grid(nx=17, ny=17, domain=DOMAIN, mirror=mirror)
+    problem = moes_contact(20.0, 10.0)
+    case = Level(
+        grid,
+        groups(problem),
+        flow_table(problem, scales(problem), groups(problem)),
+        Options(deformation="fft"),
+        ROUGH,
+    )
+    reach = 2
+    matrix = near(grid, case.influence, reach)
+    for row in (0, 1, 4):
+        unit, film = np.zeros(grid.shape), np.empty(grid.shape)
+        unit[row, 5] = 1.0
+        case.deformation.deflect(unit, film)
+        column = (matrix @ unit.ravel()).reshape(grid.shape)
+        around = np.s_[max(row - reach, 0) : row + reach + 1, 5 - reach : 5 + reach + 1]
+        if row == 0 or not mirror:  # elsewhere images beyond the reach count too
+            np.testing.assert_allclose(column[around], film[around], rtol=1e-9)
+        assert np.count_nonzero(column) == column[around].size
+
+
+def test_interpolation_keeps_planes() -> None:
+    """Bilinear interpolation from a coarser grid."""
+    fine, coarse = (Grid(nx=n, ny=n, domain=DOMAIN, mirror=False) for n in (33, 9))
+    matrix = interpolation(fine, coarse)
+    planes = [np.add.outer(2.0 * g.y, -3.0 * g.x).ravel() + 1.0 for g in (fine, coarse)]
+    np.testing.assert_allclose(matrix @ planes[1], planes[0], atol=1e-12)
+
+
+def test_converges_quadratically_to_the_film_of_the_cycles() -> None:
+    """From a disturbed film, with load balance: the same film, and the error squares."""
+    fine = level()
+    newton = Newton(fine, Grid(nx=17, ny=17, domain=DOMAIN, mirror=True))
+    central = fine.film.h[0, fine.grid.nx // 2]
+    fine.film.p[:] *= 1.0 + 0.05 * np.cos(3.0 * fine.grid.x)
+    fine.stale = True
+    residuals = []
+    for _ in range(7):
+        newton.step()
+        residuals.append(fine.evaluate_residual())
+    assert residuals[-1] < 1e-9
+    assert abs(fine.load_error()) < 1e-8
+    assert fine.film.h[0, fine.grid.nx // 2] == pytest.approx(central, rel=2e-3)
+
+
+def test_no_step_downhill_is_told() -> None:
+    """A state that no step improves ends the level, and is left as it was."""
+    fine = level()
+    newton = Newton(fine, Grid(nx=17, ny=17, domain=DOMAIN, mirror=True))
+    fine.film.p[:] *= 1.05
+    fine.stale = True
+    fine.update()
+    before = state_of(fine)
+    with pytest.raises(DivergedError):
+        newton.walk(np.append(np.ones(before.size - 1), 1.0))
+    np.testing.assert_array_equal(state_of(fine), before)
+
+
+def test_state_goes_back_and_forth() -> None:
+    """Pressure and approach as one array."""
+    fine = level()
+    before = state_of(fine)
+    fine.film.p[:] = 0.0
+    fine.rigid_approach = 7.0
+    take_state(fine, before)
+    np.testing.assert_allclose(state_of(fine), before, rtol=1e-15)
+    assert fine.stale
+
+
+@pytest.mark.parametrize("settings", [(ROUGH,), (NEWTON,)])
+def test_finds_the_film_of_the_cycles_between_waves(
+    settings: tuple[Setting, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A wave three times as high as the smooth film, by either method."""
+    monkeypatch.setattr(steady, "_settings", lambda *_, **__: [(one, False) for one in settings])
+    run = finished(wavy((57.21, 10.52), (0.4, 1.0, 0.0)), Options(points=65, domain=DOMAIN))
+    assert run.history[-1].smoother == settings[0].name
+    assert run.film_scaled.central == pytest.approx(0.4232, rel=5e-4)
+    assert run.film_scaled.minimum == pytest.approx(0.0106, abs=2e-4)
+
+
+@pytest.mark.slow
+def test_newton_finishes_what_no_cycle_does() -> None:
+    """Waves of six smooth films: all cycles stall, Newton's method ends and tells of contact."""
+    run = finished(wavy((126.0, 12.34), (0.4, 0.5, 0.0)), Options(points=129, domain=DOMAIN))
+    assert run.history[-1].smoother == "newton"
+    assert run.history[-1].residual < 1e-5
+    assert run.status.cause == "asperity_contact"
+
+
+@pytest.mark.slow
+def test_newton_finds_a_film_that_diverges_otherwise() -> None:
+    """M = 200, A = 0.2, wavelength 0.5 on 257 nodes: positive, with the load it has to carry."""
+    run = finished(wavy((200.0, 10.0), (0.2, 0.5, 0.0)), Options(points=257, domain=DOMAIN))
+    assert run.status.converged
+    assert run.history[-1].smoother == "newton"
+    assert run.film_scaled.minimum == pytest.approx(0.0142, abs=2e-4)
+    assert run.film_scaled.central == pytest.approx(0.1763, rel=2e-3)
+
+
+def finished(problem: ContactProblem, options: Options) -> Result:
+    """Return the result, converged or not."""
+    try:
+        return solve(problem, options)
+    except ConvergenceError as error:
+        return error.result
+
+
+def test_a_film_that_fails_on_the_way_is_told_with_the_part_of_the_heights(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Ridges far too high: the climb ends where the film is not positive any more."""
+    monkeypatch.setattr(steady, "_settings", lambda *_, **__: [(NEWTON, False)])
+    run = finished(wavy((20.0, 10.0), (3.0, 2.0, 0.0)), Options(points=33, domain=DOMAIN))
+    assert run.status.cause in ("asperity_contact", "grid_too_coarse")
+    assert run.status.message is not None
+    assert "of the heights" in run.status.message
+    assert run.film_scaled.minimum <= 0.0
