@@ -4,7 +4,7 @@ import pytest
 
 from tehl.study import Store, run, runner, table
 from tests.study import mishaps
-from tests.study.contacts import Notes, cases
+from tests.study.contacts import Notes, assert_same_numbers, cases
 
 distributed = pytest.importorskip("distributed")
 
@@ -20,10 +20,6 @@ def cluster():
         yield found.scheduler_address
 
 
-def untimed(frame):
-    return frame.drop(columns=[name for name in frame if name.endswith("_seconds")])
-
-
 def test_a_cluster_finds_what_one_process_finds_and_keeps_fields(cluster, tmp_path):
     here, there = Store(tmp_path / "here"), Store(tmp_path / "there", keep="fields")
     run(cases(COUNT), here)
@@ -31,7 +27,7 @@ def test_a_cluster_finds_what_one_process_finds_and_keeps_fields(cluster, tmp_pa
     outcome = run(cases(COUNT), there, scheduler=cluster, monitor=notes)
     assert outcome.converged == COUNT
     assert len(notes.names) == COUNT
-    assert untimed(table(cases(COUNT), there)).equals(untimed(table(cases(COUNT), here)))
+    assert_same_numbers(table(cases(COUNT), there), table(cases(COUNT), here))
     assert there.result(cases(1)[0]).status.converged
 
 
