@@ -1,5 +1,6 @@
 """``tehl study``: many cases, in parallel, resumable, one table."""
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -77,12 +78,10 @@ def study(  # noqa: PLR0913, PLR0917 (the options of the command)
     if table_only or pictures:
         _show(chosen, folder, pictures, as_json=as_json)
         return
-    outcome, store = _run(
-        chosen,
-        folder,
-        {"jobs": jobs, "scheduler": scheduler, "retry_failed": retry_failed, "quiet": quiet},
-        again=_again(folder, scheduler),
+    wishes = _Wishes(
+        jobs=_workers(jobs), scheduler=scheduler, retry_failed=retry_failed, quiet=quiet
     )
+    outcome, store = _run(chosen, folder, wishes)
     written = _write(chosen, store, folder, plan.pictures)
     _tell(outcome, written, as_json=as_json)
     if outcome.failed:
@@ -152,32 +151,41 @@ def _again(folder: Path, scheduler: str | None) -> str:
     return shlex.join(words)
 
 
-def _run(
-    chosen: "Study", folder: Path, wishes: dict[str, Any], *, again: str
-) -> tuple["Outcome", "Store"]:
+@dataclass(frozen=True, kw_only=True, slots=True)
+class _Wishes:
+    """How to run a study, as the command line says it."""
+
+    jobs: int
+    scheduler: str | None
+    retry_failed: bool
+    quiet: bool
+
+
+def _run(chosen: "Study", folder: Path, wishes: _Wishes) -> tuple["Outcome", "Store"]:
     from tehl.cli.study_progress import study_progress
     from tehl.study import run
     from tehl.study.folder import save_plan, store_of
     from tehl.study.forecast import check_memory_of, forecast
 
     store = store_of(chosen.plan, folder)
-    jobs = _workers(wishes["jobs"])
-    if wishes["scheduler"] is None:
+    if wishes.scheduler is None:
         finished = store.finished(chosen.cases)
-        check_memory_of(forecast(chosen.cases, finished, jobs=jobs, fields=False), jobs)
+        needs = forecast(chosen.cases, finished, jobs=wishes.jobs, fields=False)
+        check_memory_of(needs, wishes.jobs)
     save_plan(chosen.plan, folder)
     try:
-        with study_progress(quiet=wishes["quiet"]) as monitor:
+        with study_progress(quiet=wishes.quiet) as monitor:
             outcome = run(
                 chosen.cases,
                 store,
-                jobs=jobs,
-                scheduler=wishes["scheduler"],
-                retry_failed=wishes["retry_failed"],
+                jobs=wishes.jobs,
+                scheduler=wishes.scheduler,
+                retry_failed=wishes.retry_failed,
                 warm_start=chosen.plan.warm_start,
                 monitor=monitor,
             )
     except (KeyboardInterrupt, SystemExit, OSError):
+        again = _again(folder, wishes.scheduler)
         typer.echo(f"tehl: finished cases are kept; go on with: {again}", err=True)
         raise
     finally:
@@ -269,7 +277,8 @@ def _tell(outcome: "Outcome", written: dict[str, Any], *, as_json: bool) -> None
 
     if as_json:
         failed = [
-            {"name": case.name, "status": row.status, "cause": row.cause, "message": row.message}
+            {"name": case.name}
+            | {key: getattr(row, key) for key in ("status", "cause", "message", "hint")}
             for case, row in outcome.failed
         ]
         counts = {

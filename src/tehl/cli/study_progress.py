@@ -156,6 +156,6 @@ def _live() -> Iterator[Live]:
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn
 
-    columns = (BarColumn(), TextColumn("{task.fields[words]}"))
+    columns = (BarColumn(bar_width=20), TextColumn("{task.fields[words]}"))
     with Progress(*columns, console=Console(stderr=True), refresh_per_second=4) as progress:
         yield Live(progress)

@@ -169,9 +169,12 @@ def _plain_decades(axis: "Axis") -> None:
 
 def note_left_out(axes: "Axes", table: "pd.DataFrame") -> None:
     """Tell below the axes how many cases have no answer and are not shown."""
-    count = int((table["status"] != "converged").sum())
-    if count:
-        words = f"{count} of {len(table)} cases have no answer and are left out"
+    unfinished = int((table["status"] == "open").sum())
+    count = int((table["status"] != "converged").sum()) - unfinished
+    words = f"{count} of {len(table)} cases have no answer and are left out" if count else ""
+    if unfinished:
+        words += f"{'; ' if count else ''}{unfinished} of {len(table)} are not finished yet"
+    if words:
         axes.figure.supxlabel(words, fontsize=8, color="#b3001b")
 
 
