@@ -162,6 +162,8 @@ class _Wishes:
 
 
 def _run(chosen: "Study", folder: Path, wishes: _Wishes) -> tuple["Outcome", "Store"]:
+    import logging
+
     from tehl.cli.study_progress import study_progress
     from tehl.study import run
     from tehl.study.folder import save_plan, store_of
@@ -172,6 +174,8 @@ def _run(chosen: "Study", folder: Path, wishes: _Wishes) -> tuple["Outcome", "St
         finished = store.finished(chosen.cases)
         needs = forecast(chosen.cases, finished, jobs=wishes.jobs, fields=False)
         check_memory_of(needs, wishes.jobs)
+    else:  # what the cluster says of a scheduler that is gone, we say in a sentence
+        logging.disable()
     save_plan(chosen.plan, folder)
     try:
         with study_progress(quiet=wishes.quiet) as monitor:
