@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tehl.errors import InputError
@@ -33,6 +33,7 @@ def test_geomspace_keeps_its_unit():
     ]
 
 
+@settings(deadline=None)
 @given(
     low=st.floats(1e-9, 1e9),
     ratio=st.floats(1.001, 1e6),
@@ -68,6 +69,7 @@ def test_a_sample_lies_in_its_box_and_follows_its_seed(method):
         assert 1 <= number <= 1000
 
 
+@settings(deadline=None)
 @given(number=st.integers(2, 40), seed=st.integers(0, 1000))
 def test_a_latin_hypercube_has_one_point_in_each_part_of_each_axis(number, seed):
     places = Sample(number=number, seed=seed).places(3)
@@ -128,6 +130,7 @@ def test_false_leaves_a_key_out_and_a_name_becomes_a_table():
     assert base == {"lubricant": "mineral-oil", "thermal": {"layers": 9}}
 
 
+@settings(deadline=None)
 @given(
     path=st.lists(st.sampled_from("abc"), min_size=1, max_size=4).map(".".join),
     value=st.integers(),

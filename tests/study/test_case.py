@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tehl.options import Options
@@ -26,6 +26,7 @@ def test_a_key_has_64_hexadecimal_digits():
     assert int(CASE.key, 16) > 0
 
 
+@settings(deadline=None)
 @given(name=st.text(max_size=20), labels=st.dictionaries(st.text(max_size=5), st.floats()))
 def test_name_and_labels_do_not_count(name, labels):
     assert Case(name, problem(), QUICK, labels).key == CASE.key

@@ -56,7 +56,7 @@ def test_a_damaged_plan_is_told(tmp_path, text):
 SCALARS = st.none() | st.booleans() | st.integers(-(10**9), 10**9) | st.floats(-1e300, 1e300)
 
 
-@settings(max_examples=25)
+@settings(max_examples=25, deadline=None)
 @given(
     summary=st.dictionaries(st.text(min_size=1), SCALARS),
     words=st.tuples(*(st.none() | st.text() for _ in range(3))),
