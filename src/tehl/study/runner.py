@@ -12,7 +12,7 @@ from concurrent.futures import (
     wait,
 )
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from tehl.errors import InputError
@@ -50,7 +50,8 @@ class Outcome:
     converged : int
         Cases with an answer, those of before included.
     failed : tuple of (Case, Row)
-        Cases without an answer, those of before included, in the order of the study.
+        Cases without an answer, those of before included, in the order of the study; their rows
+        are without numbers.
     cpu_seconds : float
         Of the solves of this run.
     wall_seconds : float
@@ -246,7 +247,7 @@ class _Run:
 
     def _keep(self, case: Case, row: Row) -> None:
         self.store.put(row)
-        self.rows[case.key] = row
+        self.rows[case.key] = replace(row, summary={})  # thousands of them need their room
         if self.known is not None and row.converged:
             self.known.add(case)
         self.monitor.finished(case, row)

@@ -87,8 +87,9 @@ class Store:
         """Return the row of a case, None when it is not finished."""
         return self.rows([case]).get(case.key)
 
-    def rows(self, cases: Iterable[Case]) -> dict[str, Row]:
-        """Return the rows of those cases that are finished, by key."""
+    def rows(self, cases: Iterable[Case], *, summaries: bool = True) -> dict[str, Row]:
+        """Return the rows of those cases that are finished, by key, if wanted without numbers."""
+        columns = _COLUMNS if summaries else _COLUMNS.replace("summary", "'{}'")
         keys = list(dict.fromkeys(case.key for case in cases))
         if self._connection is None and not self._file.exists():
             return {}
@@ -97,14 +98,17 @@ class Store:
             for start in range(0, len(keys), _AT_ONCE):
                 some = keys[start : start + _AT_ONCE]
                 marks = ", ".join("?" * len(some))
-                query = f"SELECT {_COLUMNS} FROM rows WHERE key IN ({marks})"
+                query = f"SELECT {columns} FROM rows WHERE key IN ({marks})"
                 found |= {line[0]: _row(line) for line in connection.execute(query, some)}
         return found
 
     def finished(self, cases: Iterable[Case]) -> dict[str, Row]:
-        """Return the rows of the cases that need no work, by key; lost fields are work."""
+        """Return the outcome of the cases that need no work, by key, without their numbers.
+
+        Lost fields are work.
+        """
         cases = list(cases)
-        rows = self.rows(cases)
+        rows = self.rows(cases, summaries=False)
         if self.keep == "summary":
             return rows
         lost = {
