@@ -12,7 +12,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from tehl import plots
+    from tehl import plots, study
     from tehl.errors import ConvergenceError, FileFormatError, InputError, TehlError
     from tehl.evolution import Evolution
     from tehl.io.case import read_case, read_case_and_options
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from tehl.problem import Contact, ContactProblem, Surface
     from tehl.result import Result
     from tehl.solver import certify, march, solve
+    from tehl.study import run_study
 
 __all__ = [
     "Contact",
@@ -47,7 +48,9 @@ __all__ = [
     "plots",
     "read_case",
     "read_case_and_options",
+    "run_study",
     "solve",
+    "study",
 ]
 
 __version__ = "0.1.0"
@@ -73,14 +76,15 @@ _HOMES = {
     "oil": "tehl.lubricant",
     "read_case": "tehl.io.case",
     "read_case_and_options": "tehl.io.case",
+    "run_study": "tehl.study",
     "solve": "tehl.solver",
 }
 
 
 def __getattr__(name: str) -> Any:
     """Load an export from where it lives."""
-    if name == "plots":
-        return import_module("tehl.plots")
+    if name in ("plots", "study"):
+        return import_module(f"tehl.{name}")
     if name not in _HOMES:
         raise AttributeError(f"module 'tehl' has no attribute {name!r}")
     return getattr(import_module(_HOMES[name]), name)

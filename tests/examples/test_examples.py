@@ -144,3 +144,14 @@ def test_a_measured_surface_keeps_its_grooves_along_the_entrainment():
     assert 0.4 * found["Sq [nm]"] < found["Sq of the film ripple [nm]"] < found["Sq [nm]"]
     assert found["central film over smooth"] == pytest.approx(0.986, abs=0.01)
     assert found["minimum film over smooth"] == pytest.approx(0.876, abs=0.03)
+
+
+def test_film_formulas_are_off_as_the_map_shows():
+    off = example("moes_map").main()
+    middle, light = off[100, 10], off[10, 2]
+    assert middle["Nijenbanning, Venner, Moes: central"] == pytest.approx(7.5, abs=0.5)
+    assert middle["Hamrock, Dowson: central"] == pytest.approx(6.2, abs=0.5)
+    assert middle["Chittenden et al.: central"] == pytest.approx(2.3, abs=0.5)
+    # minimum films by formula hardly know the load
+    assert middle["Hamrock, Dowson: minimum"] > 10.0
+    assert light["Hamrock, Dowson: minimum"] < -20.0

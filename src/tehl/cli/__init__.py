@@ -15,6 +15,7 @@ COMMANDS = (
     "new",
     "explain",
     "solve",
+    "study",
     "plot",
     "animate",
     "export",

@@ -63,9 +63,9 @@ def read_case_and_options(
         right.
     """
     try:
-        tables = _tables(Path(path))
+        tables = toml_tables(Path(path))
         for override in overrides:
-            _change(tables, override)
+            change(tables, override)
         return case_from_tables(tables, Path(path).parent)
     except InputError as error:
         raise InputError(f"{shortened(path)}: {error}") from error
@@ -134,7 +134,14 @@ def describe(error: ValidationError, data: object, prefix: str = "") -> str:
 # ---- reading
 
 
-def _tables(path: Path) -> dict[str, Any]:
+def toml_tables(path: Path) -> dict[str, Any]:
+    """Return the tables of a file in TOML, unchecked.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read as TOML; the message does not name the file.
+    """
     text = _text(path)
     try:
         return tomllib.loads(text)
@@ -175,8 +182,14 @@ def _syntax(message: str, text: str) -> str:
     return f"line {number}: {line} is no TOML: {_short(what, 100)}"
 
 
-def _change(tables: dict[str, Any], override: str) -> None:
-    """Make one change ``key.path=value`` in place."""
+def change(tables: dict[str, Any], override: str) -> None:
+    """Make one change ``key.path=value`` in place.
+
+    Raises
+    ------
+    InputError
+        If that is no change.
+    """
     key, equals, text = (part.strip() for part in override.partition("="))
     names, shown = key.split("."), _shown(override)
     if not equals or not all(names):
@@ -190,10 +203,10 @@ def _change(tables: dict[str, Any], override: str) -> None:
         node = node.setdefault(name, {})
         if not isinstance(node, dict):
             raise InputError(f"{shown} changes a key of {_short(name, 40)}, which is no table")
-    node[names[-1]] = _value(text)
+    node[names[-1]] = plain_value(text)
 
 
-def _value(text: str) -> object:
+def plain_value(text: str) -> object:
     """Return a value as TOML reads it, and what is no TOML as a word."""
     try:
         tables = tomllib.loads(f"value = {text}")

@@ -1,4 +1,4 @@
-"""The commented cases that ``tehl new`` prints."""
+"""The commented cases and studies that ``tehl new`` prints."""
 
 import difflib
 from pathlib import Path
@@ -15,6 +15,12 @@ _NAMES = (
     "data-sheet",
     "passing-dent",
 )
+_STUDIES = ("traction-curve", "film-vs-speed", "film-vs-load", "moes-map", "stribeck")
+
+
+def study_templates() -> dict[str, str]:
+    """Return the first comment line of each template of a study, by name."""
+    return {name: _text(name).splitlines()[0].lstrip("# ") for name in _STUDIES}
 
 
 def templates() -> dict[str, str]:
@@ -23,19 +29,21 @@ def templates() -> dict[str, str]:
 
 
 def template_text(name: str) -> str:
-    """Return a commented case file.
+    """Return a commented case file or study file.
 
     Raises
     ------
     InputError
         If there is no such template; the message lists those there are.
     """
-    if name in _NAMES:
+    known = (*_NAMES, *_STUDIES)
+    if name in known:
         return _text(name)
-    close = difflib.get_close_matches(name, _NAMES, n=1)
+    close = difflib.get_close_matches(name, known, n=1)
     guess = f"did you mean {close[0]}? " if close else ""
-    raise InputError(f"{name} is no template: {guess}known are {', '.join(_NAMES)}")
+    raise InputError(f"{name} is no template: {guess}known are {', '.join(known)}")
 
 
 def _text(name: str) -> str:
-    return (Path(__file__).with_name("cases") / f"{name}.toml").read_text(encoding="utf-8")
+    folder = "studies" if name in _STUDIES else "cases"
+    return (Path(__file__).with_name(folder) / f"{name}.toml").read_text(encoding="utf-8")

@@ -12,6 +12,8 @@ from tehl.plots.roughness import (
 )
 from tehl.plots.save import save_all
 from tehl.plots.shear import shear_stress_map
+from tehl.plots.table_curves import curves
+from tehl.plots.table_maps import contour_map, film_deviations, moes_map
 from tehl.plots.temperature import (
     mid_film_temperature,
     surface_heat,
@@ -23,12 +25,16 @@ from tehl.plots.traction import traction_curve
 __all__ = [
     "Optics",
     "centre_lines",
+    "contour_map",
+    "curves",
+    "film_deviations",
     "film_distribution",
     "film_map",
     "heights_map",
     "interferogram",
     "micro_film_map",
     "mid_film_temperature",
+    "moes_map",
     "pressure_map",
     "pressure_surface",
     "residual_history",

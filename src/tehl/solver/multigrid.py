@@ -14,7 +14,7 @@ from tehl.operators.flow import FlowTable
 from tehl.operators.heights import Heights
 from tehl.operators.transfer import refine
 from tehl.options import Options
-from tehl.result import CycleReport, ErrorEstimate
+from tehl.result import CycleReport, ErrorEstimate, Result
 from tehl.scaling import Groups
 from tehl.solver.anderson import Anderson
 from tehl.solver.coarsest import CoarsestSolver
@@ -30,6 +30,7 @@ from tehl.solver.convergence import (
 )
 from tehl.solver.fas import Cycle, Cycles
 from tehl.solver.film_numbers import central_value
+from tehl.solver.guess import start_from
 from tehl.solver.level import Level
 from tehl.solver.monitor import Monitor
 from tehl.solver.newton import Newton
@@ -120,6 +121,7 @@ class Multigrid:
         self.ripple = (np.inf, 0.0)
         self.coarsest_trace = GridTrace()
         self.traces: list[GridTrace] = []
+        self.guess: Result | None = None
 
     def roughen(self, heights: Heights) -> None:
         """Make the surfaces rough: give heights on the finest grid to the levels that resolve them.
@@ -199,6 +201,7 @@ class Multigrid:
             if fine is self.finest:
                 if not (orderly or patient):
                     raise DivergedError
+                start_from(fine, self.guess)
                 self._cycle_on(self.levels[:held], monitor)
             else:
                 orderly = self._prepare_on(self.levels[:held], monitor)

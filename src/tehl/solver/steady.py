@@ -74,6 +74,7 @@ def solve(
     problem: ContactProblem,
     options: Options | None = None,
     *,
+    guess: Result | None = None,
     monitor: Monitor = SILENT,
 ) -> Result:
     """Solve a steady contact by full multigrid.
@@ -84,6 +85,10 @@ def solve(
         The contact in SI.
     options : Options
         How hard to try; the defaults if left out.
+    guess : Result
+        The film of a similar contact. The finest grid starts from it if ``options.accuracy`` is
+        "tight" and it is much nearer to the answer than the film of the coarser grid; less exact
+        runs are over before that counts. The answer is the same, to the tolerance.
     monitor : Monitor
         Told of each cycle.
 
@@ -106,20 +111,25 @@ def solve(
             "tehl solve does so by itself)"
         )
     check_memory(options, problem)
-    _, result = solve_attempt(problem, options, monitor=monitor, rough=True)
+    _, result = solve_attempt(problem, options, monitor=monitor, rough=True, guess=guess)
     if not result.status.converged:
         raise ConvergenceError(result.status.message or "not converged", result)
     return result
 
 
 def solve_attempt(
-    problem: ContactProblem, options: Options, *, monitor: Monitor, rough: bool
+    problem: ContactProblem,
+    options: Options,
+    *,
+    monitor: Monitor,
+    rough: bool,
+    guess: Result | None = None,
 ) -> tuple[Attempt, Result]:
     """Return the best attempt at the steady film, and its result, converged or not.
 
     Parameters
     ----------
-    problem, options, monitor
+    problem, options, monitor, guess
         As in `solve`.
     rough : bool
         With the roughness of the surfaces, as they stand; without it they are smooth.
@@ -130,7 +140,7 @@ def solve_attempt(
     wall, cpu = time.perf_counter(), time.process_time()
     history = _History(monitor)
     attempts = []
-    for attempt in _attempts(problem, options, history, grid, heights):
+    for attempt in _attempts(problem, options, history, grid, heights, guess):
         attempts.append(attempt)
         if attempt.is_final:
             break
@@ -180,6 +190,7 @@ def _attempts(
     monitor: Monitor,
     grid: Grid,
     heights: Heights | None,
+    guess: Result | None,
 ) -> Iterator[Attempt]:
     """Yield the outcome of each setting worth trying, the most promising first."""
     case_scales, case_groups = scales(problem), groups(problem)
@@ -195,6 +206,7 @@ def _attempts(
         run = Multigrid(grid, case_groups, flow, options, setting, coupling)
         if heights is not None:
             run.roughen(heights)
+        run.guess = guess if options.accuracy == "tight" else None
         last = number == len(attempts) - 1
         yield _run(run, monitor, patient=last)
 

@@ -1,0 +1,180 @@
+"""Maps over two columns of a table, and film formulas against computed films over M and L."""
+
+import math
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.tri import Triangulation
+
+from tehl.errors import InputError
+from tehl.film_formulas import (
+    FilmRatio,
+    chittenden,
+    hamrock_dowson,
+    nijenbanning_venner_moes,
+)
+from tehl.plots.table_columns import answers, dress, note_left_out, numbers
+from tehl.scaling import Groups
+from tehl.typing import Array
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+LEVELS = (-50, -30, -20, -10, -5, -2, 2, 5, 10, 20, 30, 50)
+"""Deviations between which the colours change [%]."""
+_FORMULAS: tuple[tuple[str, Callable[[Groups], FilmRatio], str], ...] = (
+    ("Nijenbanning, Venner, Moes: central", nijenbanning_venner_moes, "central"),
+    ("Hamrock, Dowson: central", hamrock_dowson, "central"),
+    ("Chittenden et al.: central", chittenden, "central"),
+    ("Hamrock, Dowson: minimum", hamrock_dowson, "minimum"),
+    ("Chittenden et al.: minimum", chittenden, "minimum"),
+)
+_COMPUTED = {"central": "film.H_central_moes", "minimum": "film.H_min_moes"}
+_GROUPS = ("M", "L", "U", "W", "G", "lambda_bar", "alpha_bar", "ellipticity", "radius_ratio")
+
+
+def contour_map(table: "pd.DataFrame", x: str, y: str, z: str, log: str = "") -> Figure:
+    """Draw contours of a column over two others, which need not form a grid.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        As :func:`tehl.study.table` gives it; cases that did not converge are left out.
+    x, y, z : str
+        Columns of numbers.
+    log : {"", "x", "y", "xy"}
+        Axes with a logarithmic scale.
+
+    Raises
+    ------
+    InputError
+        If a column is missing, or the points span no area.
+    """
+    rows = answers(table)
+    across, up, shown = numbers(rows, x), numbers(rows, y), numbers(rows, z)
+    picture = Figure(figsize=(6.6, 5.0), layout="constrained")
+    axes = picture.add_subplot()
+    known = np.isfinite(shown.values)
+    mesh = _mesh(across.values[known], up.values[known], log)
+    filled = axes.tricontourf(mesh, shown.values[known], 14, cmap="viridis")
+    picture.colorbar(filled, ax=axes, label=shown.title)
+    axes.plot(across.values, up.values, "k.", ms=1.5, alpha=0.5)
+    dress(axes, across, up, log)
+    note_left_out(axes, table)
+    return picture
+
+
+def moes_map(table: "pd.DataFrame") -> Figure:
+    """Draw how far film formulas are off the computed films, over the Moes numbers M and L.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        As :func:`tehl.study.table` gives it, of contacts with many M and L.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The computed central film in Moes form, and for each formula its film over the computed
+        one less one, in per cent. Crosses are cases without an answer.
+
+    Raises
+    ------
+    InputError
+        If the points span no area.
+    """
+    rows = answers(table)
+    load, speed = numbers(rows, "groups.M").values, numbers(rows, "groups.L").values
+    mesh = _mesh(load, speed, "xy")
+    picture = Figure(figsize=(11.5, 6.8), layout="constrained")
+    panels = picture.subplots(2, 3, sharex=True, sharey=True).ravel()
+    _film_panel(panels[0], mesh, numbers(rows, "film.H_central_moes").values)
+    for axes, (title, off) in zip(panels[1:], film_deviations(rows).items(), strict=True):
+        axes.tricontourf(mesh, np.clip(off, -99, 99), LEVELS, cmap="RdBu_r", extend="both")
+        lines = axes.tricontour(mesh, off, (-10, -5, 5, 10), colors="0.25", linewidths=0.6)
+        axes.clabel(lines, fmt="%d %%", fontsize=7)
+        axes.set_title(title, fontsize=9)
+    words = "formula over computed film, less one [%]"
+    picture.colorbar(panels[1].collections[0], ax=panels, label=words, ticks=LEVELS)
+    _mark(panels, table, (load, speed))
+    return picture
+
+
+def film_deviations(table: "pd.DataFrame") -> dict[str, Array]:
+    """Return films by formula over the computed ones, less one [%], by the name of the formula.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        As :func:`tehl.study.table` gives it.
+
+    Returns
+    -------
+    dict of str to array
+        For each case that converged, in their order.
+
+    Raises
+    ------
+    InputError
+        If none converged.
+    """
+    rows = answers(table)
+    return {name: _deviation(rows, formula, which) for name, formula, which in _FORMULAS}
+
+
+def _deviation(rows: "pd.DataFrame", formula: Callable[[Groups], FilmRatio], which: str) -> Array:
+    computed = rows[_COMPUTED[which]].to_numpy(np.float64, na_value=np.nan)
+    columns = [rows[f"groups.{name}"] for name in _GROUPS]
+    ratios = []
+    for line in zip(*columns, strict=True):
+        groups = Groups(**dict(zip(_GROUPS, line, strict=True)), deflection_factor=math.nan)
+        film = getattr(formula(groups), which)
+        ratios.append(math.nan if film is None else film / math.sqrt(2.0 * groups.U))
+    off: Array = 100.0 * (np.array(ratios) / computed - 1.0)
+    return off
+
+
+def _film_panel(axes: Axes, mesh: Triangulation, film: Array) -> None:
+    axes.tricontourf(mesh, np.log10(film), 14, cmap="viridis")
+    low, high = float(np.log10(film).min()), float(np.log10(film).max())
+    levels = np.linspace(low, high, 8)[1:-1]
+    lines = axes.tricontour(mesh, np.log10(film), levels, colors="white", linewidths=0.7)
+    axes.clabel(lines, fmt=lambda level: f"{10**level:.2g}", fontsize=7)
+    axes.set_title("computed central film, $h_c/R_x \\, (2U)^{-1/2}$", fontsize=9)
+
+
+def _mark(panels: Sequence[Axes], table: "pd.DataFrame", points: tuple[Array, Array]) -> None:
+    """Show where the cases are, and which of them have no answer."""
+    missing = table[table["status"] != "converged"].dropna(
+        subset=[name for name in ("groups.M", "groups.L") if name in table]
+    )
+    for number, axes in enumerate(panels):
+        axes.plot(*points, "k.", ms=1.2, alpha=0.5)
+        if len(missing):
+            axes.plot(missing["groups.M"], missing["groups.L"], "x", color="#b3001b", ms=4)
+        axes.set(xscale="log", yscale="log")
+        axes.set(xlabel="M" if number > 2 else "", ylabel="L" if number % 3 == 0 else "")
+
+
+def _mesh(x: Array, y: Array, log: str) -> Triangulation:
+    """Return triangles between points, made where the axes are straight.
+
+    Raises
+    ------
+    InputError
+        If the points span no area.
+    """
+    places: list[Any] = []
+    for letter, values in (("x", x), ("y", y)):
+        if letter in log and not (values > 0).all():
+            raise InputError(f"the {letter} axis cannot be logarithmic: it has values up to zero")
+        straight = np.log(values) if letter in log else values
+        places.append((straight - straight.min()) / (np.ptp(straight) or 1.0))
+    try:
+        triangles = Triangulation(*places).triangles
+    except (ValueError, RuntimeError):
+        raise InputError("a map needs at least three cases that are not in one line") from None
+    return Triangulation(x, y, triangles)

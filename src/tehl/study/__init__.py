@@ -1,0 +1,67 @@
+"""Studies: many contacts, in parallel, resumable, one table.
+
+::
+
+    cases = [Case(f"SRR {s}", problem_at(s), options, {"SRR": s}) for s in (0.01, 0.1, 1.0)]
+    store = Store("out/traction")
+    run(cases, store, jobs=2)
+    table(cases, store)
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from tehl.study.axes import Axis, Sample
+    from tehl.study.case import SOLVER_VERSION, Case
+    from tehl.study.monitor import StudyMonitor
+    from tehl.study.plan import Study
+    from tehl.study.quick import cases_of, run_study
+    from tehl.study.row import Row
+    from tehl.study.runner import Outcome, run
+    from tehl.study.store import Store
+    from tehl.study.tables import table
+
+_HOMES = {
+    "SOLVER_VERSION": "case",
+    "Axis": "axes",
+    "Case": "case",
+    "Outcome": "runner",
+    "Row": "row",
+    "Sample": "axes",
+    "Store": "store",
+    "Study": "plan",
+    "StudyMonitor": "monitor",
+    "cases_of": "quick",
+    "run": "runner",
+    "run_study": "quick",
+    "table": "tables",
+}
+
+__all__ = [
+    "SOLVER_VERSION",
+    "Axis",
+    "Case",
+    "Outcome",
+    "Row",
+    "Sample",
+    "Store",
+    "Study",
+    "StudyMonitor",
+    "cases_of",
+    "run",
+    "run_study",
+    "table",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Load an export from where it lives."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    """Show the exports, loaded or not, and nothing else."""
+    return sorted(__all__)

@@ -1,0 +1,121 @@
+"""A study in one call, without a study file."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+from pydantic import ValidationError
+
+from tehl.errors import InputError
+from tehl.options import Options
+from tehl.problem import ContactProblem
+from tehl.study.axes import Axis, Sample
+from tehl.study.file import StudyFile, plan_of, told
+from tehl.study.plan import Study, study_of
+from tehl.study.runner import run
+from tehl.study.store import Store
+from tehl.study.tables import table
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Axes = Mapping[str, Sequence[Any]] | Sequence[Axis]
+
+
+def cases_of(
+    problem: ContactProblem,
+    axes: Axes,
+    options: Options | None = None,
+    *,
+    sample: Sample | None = None,
+    certify: bool = False,
+) -> Study:
+    """Return the cases of a problem along axes, and the units of their labels.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        The base case.
+    axes : mapping of str to sequence, or sequence of Axis
+        Dotted paths of the case with their values, numbers in SI or strings with units:
+        ``{"contact.load": ["20 N", "50 N"]}``. The cases are their grid, the last axis the
+        fastest. As :class:`Axis` they can be sampled and zipped too.
+    options : Options
+        How hard to try; the defaults if left out. Paths that begin with ``numerics`` change them.
+    sample : Sample or None
+        How sampled axes take their values.
+    certify : bool
+        Error bars for each case.
+
+    Raises
+    ------
+    InputError
+        If an axis cannot be; the message names it.
+    """
+    base = problem.model_dump(mode="json", exclude_unset=True)
+    base["numerics"] = (options or Options()).model_dump(mode="json", exclude_unset=True)
+    try:
+        stated = StudyFile(
+            case=base, axes=_axes(axes), sample=sample, certify=certify, title=problem.title
+        )
+        return study_of(plan_of(stated, Path(), huge=True))
+    except ValidationError as error:
+        raise InputError(told(error, {})) from None
+    except ValueError as error:
+        raise InputError(str(error)) from None
+
+
+def run_study(
+    problem: ContactProblem,
+    axes: Axes,
+    options: Options | None = None,
+    *,
+    store: Store | str | Path | None = None,
+    jobs: int = 1,
+    certify: bool = False,
+) -> "pd.DataFrame":
+    """Solve a problem along axes; return one row per case.
+
+    For clusters, sampled axes and kept fields, take :func:`cases_of`, :func:`run` and
+    :func:`table`, of which this is made.
+
+    Parameters
+    ----------
+    problem, axes, options, certify
+        As in :func:`cases_of`.
+    store : Store, str, Path or None
+        Where finished cases are kept and found again; nowhere if left out.
+    jobs : int
+        Processes. With more than one, a script needs ``if __name__ == "__main__":``.
+
+    Returns
+    -------
+    pandas.DataFrame
+        As :func:`table` gives it: ``frame.attrs["units"]`` has the units. Of a full grid,
+        ``frame.set_index(list(axes)).to_xarray()`` is the dataset over the axes.
+
+    Raises
+    ------
+    InputError
+        If an axis cannot be; the message names it.
+    """
+    study = cases_of(problem, axes, options, certify=certify)
+    if store is None:
+        with TemporaryDirectory() as folder:
+            return _solved(study, Store(folder), jobs)
+    return _solved(study, store if isinstance(store, Store) else Store(store), jobs)
+
+
+def _solved(study: Study, store: Store, jobs: int) -> "pd.DataFrame":
+    try:
+        run(study.cases, store, jobs=jobs)
+        return table(study.cases, store, study.units)
+    finally:
+        store.close()
+
+
+def _axes(axes: Axes) -> list[Axis]:
+    if isinstance(axes, Mapping):
+        return [Axis(path=path, values=list(values)) for path, values in axes.items()]
+    return list(axes)

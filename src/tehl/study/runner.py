@@ -1,0 +1,301 @@
+"""Run the cases of a study that are not finished yet."""
+
+import time
+from collections import deque
+from collections.abc import Iterable, Mapping
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    BrokenExecutor,
+    CancelledError,
+    Executor,
+    Future,
+    wait,
+)
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from tehl.errors import InputError
+from tehl.kernels.cache import is_cold
+from tehl.study.case import Case
+from tehl.study.engines import Engine, engine_of
+from tehl.study.monitor import QUIET, StudyMonitor
+from tehl.study.neighbours import Neighbours
+from tehl.study.row import Row
+from tehl.study.store import Store
+from tehl.study.work import work
+
+_KILLED = "KilledWorker"
+"""What a cluster calls the error of a case whose workers died again and again."""
+_DIED = (
+    "the process that solved this case died, and died again when it solved nothing else; the "
+    "system may have ended it for lack of memory"
+)
+_NO_WORKER = (
+    "no worker process begins; a script that solves with jobs > 1 must do its work below "
+    'if __name__ == "__main__":'
+)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Outcome:
+    """What a run of a study did.
+
+    Attributes
+    ----------
+    total : int
+        Different cases, by what they ask.
+    reused : int
+        Cases that were finished before.
+    converged : int
+        Cases with an answer, those of before included.
+    failed : tuple of (Case, Row)
+        Cases without an answer, those of before included, in the order of the study; their rows
+        are without numbers.
+    cpu_seconds : float
+        Of the solves of this run.
+    wall_seconds : float
+        Of this run.
+    """
+
+    total: int
+    reused: int
+    converged: int
+    failed: tuple[tuple[Case, Row], ...]
+    cpu_seconds: float
+    wall_seconds: float
+
+
+def run(  # noqa: PLR0913 (keywords with defaults)
+    cases: Iterable[Case],
+    store: Store,
+    *,
+    jobs: int = 1,
+    scheduler: str | None = None,
+    retry_failed: bool = False,
+    warm_start: bool = False,
+    monitor: StudyMonitor = QUIET,
+) -> Outcome:
+    """Solve the cases that the store does not have yet, and keep each as soon as it is finished.
+
+    A case without an answer is a row with its cause; it is not tried again unless asked for.
+
+    Parameters
+    ----------
+    cases : iterable of Case
+        The study; cases that ask the same are solved once.
+    store : Store
+        Where finished cases are kept.
+    jobs : int
+        Processes on this machine; 1 solves in this process. With more, a script needs
+        ``if __name__ == "__main__":`` around its work.
+    scheduler : str or None
+        Address of a running dask cluster to solve on instead.
+    retry_failed : bool
+        Solve those again that have no answer.
+    warm_start : bool
+        Start cases of ``accuracy = "tight"`` from the nearest finished one. It takes a store that
+        keeps fields, saves work where neighbours have nearly the same film, and gives the same
+        answers to the tolerance, no longer to the last digit.
+    monitor : StudyMonitor
+        Told of each case.
+
+    Raises
+    ------
+    InputError
+        If jobs or the folder of the store cannot be.
+    OSError
+        If rows or fields cannot be written, or no worker begins; what is finished is kept.
+    """
+    start = time.perf_counter()
+    every = {case.key: case for case in cases}
+    done = store.finished(every.values())
+    if retry_failed:
+        done = {key: row for key, row in done.items() if row.converged}
+    waiting = [case for key, case in every.items() if key not in done]
+    monitor.begin(len(every), len(done))
+    known = _finished(every.values(), done, store) if warm_start else None
+    solved = _solve(waiting, store, (jobs, scheduler), known, monitor) if waiting else {}
+    rows = done | solved
+    return Outcome(
+        total=len(every),
+        reused=len(done),
+        converged=sum(row.converged for row in rows.values()),
+        failed=tuple((every[key], rows[key]) for key in every if not rows[key].converged),
+        cpu_seconds=sum(row.cost.cpu_seconds for row in solved.values()),
+        wall_seconds=time.perf_counter() - start,
+    )
+
+
+def _finished(cases: Iterable[Case], done: Mapping[str, Row], store: Store) -> Neighbours:
+    """Return the cases with an answer to start from."""
+    if store.keep != "fields":
+        raise InputError('a warm start takes a store that keeps the fields: keep = "fields"')
+    return Neighbours(case for case in cases if case.key in done and done[case.key].converged)
+
+
+def _solve(
+    cases: list[Case],
+    store: Store,
+    place: tuple[int, str | None],
+    known: Neighbours | None,
+    monitor: StudyMonitor,
+) -> dict[str, Row]:
+    jobs, scheduler = place
+    store.prepare()
+    store.sweep(cases)
+    with engine_of(jobs, len(cases), scheduler) as engine:
+        if engine.local:
+            _warm(cases, monitor)
+        return _Run(cases, store, engine, known, monitor).go()
+
+
+def _warm(cases: list[Case], monitor: StudyMonitor) -> None:
+    """Compile in this process what workers would all compile at the same time."""
+    coupled = any(case.problem.is_coupled for case in cases)
+    if not is_cold(coupled=coupled):
+        return
+    from tehl.solver.warmup import warm_up  # noqa: PLC0415 (not needed once it is compiled)
+
+    monitor.message("compiling once, about a minute")
+    warm_up(coupled=coupled)
+
+
+class _Run:
+    """The cases on their way through an engine.
+
+    A worker that dies takes the work of its pool along. Then each case that was in the pool is
+    solved alone, so that the one that kills its worker is known by doing it twice.
+    """
+
+    def __init__(
+        self,
+        cases: list[Case],
+        store: Store,
+        engine: Engine,
+        known: Neighbours | None,
+        monitor: StudyMonitor,
+    ) -> None:
+        self.waiting, self.suspects = deque(cases), deque[Case]()
+        self.store, self.engine, self.monitor = store, engine, monitor
+        self.known = known
+        self.running: dict[Future[Row], Case] = {}
+        self.alone = False
+        self.rows: dict[str, Row] = {}
+        self.folder = store.fields_folder.resolve() if store.keep == "fields" else None
+
+    def go(self) -> dict[str, Row]:
+        """Solve all; return the rows by key."""
+        executor = self.engine.executor()
+        try:
+            while self.waiting or self.suspects or self.running:
+                self._fill(executor)
+                if not self._take():
+                    self.engine.leave(executor, at_once=True)
+                    executor = self._renewed()
+        except BaseException:
+            self._keep_finished()
+            self.engine.leave(executor, at_once=True)
+            raise
+        self.engine.leave(executor, at_once=False)
+        return self.rows
+
+    def _fill(self, executor: Executor) -> None:
+        """Give the executor as many cases as it should have; suspects one by one."""
+        if self.alone and self.running:
+            return
+        self.alone = bool(self.suspects)
+        if self.alone:
+            self._submit(executor, self.suspects.popleft())
+            return
+        while self.waiting and len(self.running) < self.engine.window():
+            self._submit(executor, self.waiting.popleft())
+
+    def _submit(self, executor: Executor, case: Case) -> None:
+        guess = None if self.known is None else self.known.nearest(case)
+        paths = [self._path(one) for one in (case, guess) if one is not None]
+        try:
+            future = executor.submit(work, case, *paths)
+        except BrokenExecutor as error:  # a worker died since
+            future = Future()
+            future.set_exception(error)
+        self.running[future] = case
+
+    def _path(self, case: Case) -> Path | None:
+        """Return where a worker finds or leaves the fields of a case; None if nobody keeps them."""
+        return None if self.folder is None else self.folder / self.store.fields_path(case).name
+
+    def _take(self) -> bool:
+        """Keep what is finished, once something is; return False when workers have died."""
+        done, _ = wait(self.running, return_when=FIRST_COMPLETED)
+        broken = any(isinstance(_error(future), BrokenExecutor) for future in done)
+        if broken:
+            done, _ = wait(self.running)  # all of a broken pool are done at once
+        dead = []
+        for future in [future for future in self.running if future in done]:
+            case = self.running.pop(future)
+            if isinstance(_error(future), BrokenExecutor):
+                dead.append(case)
+            else:
+                self._keep(case, _row(case, future))
+        if self.alone:
+            for case in dead:
+                self._keep(case, _died(case))
+        else:
+            self.suspects.extend(dead)
+        return not broken
+
+    def _keep(self, case: Case, row: Row) -> None:
+        self.store.put(row)
+        self.rows[case.key] = replace(row, summary={})  # thousands of them need their room
+        if self.known is not None and row.converged:
+            self.known.add(case)
+        self.monitor.finished(case, row)
+
+    def _renewed(self) -> Executor:
+        """Return a fresh executor; make sure that its workers begin if none has worked yet."""
+        executor = self.engine.executor()
+        if not self.rows:
+            try:
+                executor.submit(int).result()
+            except BrokenExecutor:
+                raise OSError(_NO_WORKER) from None
+        return executor
+
+    def _keep_finished(self) -> None:
+        """Keep what was finished when the run was stopped, as far as it can be kept."""
+        for future, case in self.running.items():
+            if future.done() and _error(future) is None:
+                with suppress(OSError):
+                    self.store.put(future.result())
+                    self.monitor.finished(case, future.result())
+
+
+def _error(future: "Future[Row]") -> BaseException | None:
+    """Return the error of a future that is done."""
+    try:
+        return future.exception()
+    except CancelledError as error:
+        return error
+
+
+def _row(case: Case, future: "Future[Row]") -> Row:
+    """Return the row of a case that is done.
+
+    Raises
+    ------
+    OSError
+        If the cluster is gone, or the fields could not be written.
+    """
+    error = _error(future)
+    if error is None:
+        return future.result()
+    if isinstance(error, CancelledError):
+        raise OSError("the cluster has dropped its work: its scheduler is gone") from None
+    if type(error).__name__ == _KILLED:
+        return _died(case)
+    raise error
+
+
+def _died(case: Case) -> Row:
+    return Row(key=case.key, status="failed", cause="worker_died", message=_DIED)

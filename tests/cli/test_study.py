@@ -1,0 +1,304 @@
+# ruff: noqa: ARG001 (fixtures that prepare and are not read)
+"""``tehl study``: what it writes, prints and returns, with work that answers at once."""
+
+import json
+import sys
+from types import SimpleNamespace
+
+import pandas as pd
+import pytest
+
+from tehl import cli
+from tehl.cli.study_progress import Lines, Tally, duration
+from tehl.io.templates import study_templates, template_text
+from tehl.result import Cost
+from tehl.study import Row, runner
+from tehl.study.file import read_study
+from tehl.study.plan import study_of
+
+STUDY = """
+title = "Loads"
+case = "ball.toml"
+[[axes]]
+path = "contact.load"
+linspace = ["20 N", "80 N", 4]
+[[axes]]
+path = "contact.slide_roll_ratio"
+values = [0.0, 0.5]
+"""
+CASE = """
+title = "Ball"
+[contact]
+radius = "20 mm"
+load = "80 N"
+entrainment_speed = "1.5 m/s"
+[surface_1]
+material = "steel"
+[surface_2]
+material = "steel"
+[lubricant]
+viscosity = { law = "roelands", eta_0 = "0.04 Pa s", alpha = "22 1/GPa" }
+density = { law = "dowson-higginson", rho_0 = "890 kg/m^3" }
+"""
+
+
+def answer(case, fields=None):
+    """Return a row whose film grows with the load; a ball that slides fails at 80 N."""
+    del fields
+    load, slides = case.labels["contact.load"], case.labels.get("contact.slide_roll_ratio", 0) > 0
+    cost = Cost(cpu_seconds=0.5, wall_seconds=0.5)
+    if load == 80 and slides:
+        words = {"cause": "grid_too_coarse", "message": "It is too coarse.", "hint": "Take 513."}
+        return Row(key=case.key, status="not_converged", **words)
+    film = {"film.h_min_m": 1e-9 * load, "uncertainty.film.h_min_m.value": 1e-9 * load}
+    bars = {"uncertainty.film.h_min_m.uncertainty": 1e-10 * load}
+    return Row(key=case.key, status="converged", summary=film | bars, cost=cost)
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(runner, "work", answer)
+    (tmp_path / "ball.toml").write_text(CASE)
+    (tmp_path / "loads.toml").write_text(STUDY)
+    return tmp_path
+
+
+@pytest.fixture
+def run(monkeypatch, capsys):
+    def call(*words: str) -> SimpleNamespace:
+        monkeypatch.setattr(sys, "argv", ["tehl", "study", *words])
+        with pytest.raises(SystemExit) as end:
+            cli.main()
+        captured = capsys.readouterr()
+        return SimpleNamespace(code=end.value.code or 0, out=captured.out, err=captured.err)
+
+    return call
+
+
+def names(folder) -> list[str]:
+    return sorted(path.name for path in folder.iterdir())
+
+
+def test_the_table_has_a_row_per_case_and_units_beside_it(folder, run):
+    done = run("loads.toml", "-o", "out", "--jobs", "1")
+    assert done.code == 1  # one case has no answer
+    assert "slide_roll_ratio = 0.5: It is too coarse." in done.out
+    assert "hint: Take 513." in done.out
+    frame = pd.read_csv("out/table.csv")
+    assert list(frame["contact.load"]) == [20, 20, 40, 40, 60, 60, 80, 80]
+    assert list(frame["status"]).count("converged") == 7
+    assert frame["cause"].iloc[-1] == "grid_too_coarse"
+    units = json.loads((folder / "out" / "units.json").read_text())
+    assert units["contact.load"] == "N"
+    assert units["film.h_min_m"] == "m"
+
+
+def test_parquet_and_csv_hold_the_same(folder, run):
+    pytest.importorskip("pyarrow")
+    run("loads.toml", "-o", "out", "--jobs", "1")
+    first, second = pd.read_csv("out/table.csv"), pd.read_parquet("out/table.parquet")
+    assert list(first) == list(second)
+    assert first["film.h_min_m"].equals(second["film.h_min_m"])
+
+
+def test_the_same_command_again_solves_nothing(folder, run):
+    run("loads.toml", "-o", "out", "--jobs", "1")
+    again = run("loads.toml", "-o", "out", "--jobs", "1", "--json")
+    found = json.loads(again.out)
+    assert (found["cases"], found["reused"], found["converged"]) == (8, 8, 7)
+    assert [one["cause"] for one in found["failed"]] == ["grid_too_coarse"]
+    assert again.out.count("\n") == 1
+    assert run("out", "--jobs", "1", "--retry-failed", "--json").code == 1
+
+
+def test_another_study_finds_the_cases_of_a_shared_store(folder, run):
+    shared = 'store = "kept"\n' + STUDY
+    (folder / "a.toml").write_text(shared)
+    (folder / "b.toml").write_text(shared.replace("80 N", "100 N").replace("4]", "5]"))
+    run("a.toml", "--jobs", "1")
+    found = json.loads(run("b.toml", "--jobs", "1", "--json").out)
+    assert (found["cases"], found["reused"]) == (10, 8)
+    assert names(folder / "a") == names(folder / "b")
+    assert "rows.sqlite" not in names(folder / "a")
+
+
+def test_a_dry_run_writes_nothing(folder, run):
+    done = run("loads.toml", "-o", "out", "--dry-run")
+    assert done.code == 0
+    assert "8, from load = 20" in done.out
+    found = json.loads(run("loads.toml", "--dry-run", "--json", "--jobs", "2").out)
+    assert (found["cases"], found["open"], found["jobs"]) == (8, 8, 2)
+    assert found["cpu_seconds"] > 0
+    assert names(folder) == ["ball.toml", "loads.toml"]
+
+
+def test_set_changes_the_base_case(folder, run):
+    run("loads.toml", "-o", "out", "--jobs", "1", "--set", "numerics.points=129")
+    assert json.loads(run("out", "--dry-run", "--json").out)["open"] == 0
+    assert json.loads(run("loads.toml", "-o", "out", "--dry-run", "--json").out)["open"] == 8
+
+
+def test_a_folder_draws_its_table(folder, run):
+    run("loads.toml", "-o", "out", "--jobs", "1")
+    (folder / "lab.csv").write_text("load [N], film [nm], error\n20, 21, 1\n80, 79, 2\n")
+    done = run("out", "--plot", "x=load,y=h_min_m,hue=slide_roll_ratio,log=xy,overlay=lab.csv")
+    assert done.code == 0
+    assert done.out.split() == ["out/h_min_m_over_load.png"]
+    assert (folder / "out" / "h_min_m_over_load.png").stat().st_size > 10_000
+    assert run("out", "--plot", "x=load,y=h_min_m,format=svg,file=paper").code == 0
+    assert (folder / "out" / "paper.svg").read_text().startswith("<?xml")
+
+
+def test_a_table_of_an_unfinished_study_says_what_is_open(folder, run, monkeypatch):
+    def stopped(case, fields):
+        if case.labels["contact.load"] == 60:
+            raise KeyboardInterrupt
+        return answer(case, fields)
+
+    monkeypatch.setattr(runner, "work", stopped)
+    done = run("loads.toml", "-o", "out", "--jobs", "1")
+    assert done.code == 130
+    assert "go on with: tehl study out" in done.err
+    found = json.loads(run("out", "--table", "--json").out)
+    assert found["status"] == {"converged": 4, "open": 4}
+    monkeypatch.setattr(runner, "work", answer)
+    assert json.loads(run("out", "--jobs", "1", "--json").out)["reused"] == 4
+
+
+def test_a_full_disk_is_told_with_the_way_to_go_on(folder, run, monkeypatch):
+    def full(*_):
+        raise OSError(28, "No space left on device", "out/fields/x.nc")
+
+    monkeypatch.setattr(runner, "work", full)
+    done = run("loads.toml", "-o", "out", "--jobs", "1")
+    assert done.code == 3
+    assert "No space left on device" in done.err
+    assert "go on with" in done.err
+
+
+def test_a_list_of_cases_in_a_csv_file(folder, run):
+    (folder / "list.csv").write_text(
+        "name,contact.load [N],contact.slide_roll_ratio\nfirst,20,0.1\nsecond,30,\n"
+    )
+    (folder / "listed.toml").write_text('case = "ball.toml"\ncases = "list.csv"\n')
+    plan = read_study("listed.toml")
+    cases = study_of(plan).cases
+    assert [case.name for case in cases] == ["first", "second"]
+    assert cases[0].problem.load == 20
+    assert cases[1].problem.slide_roll_ratio == 0
+    assert run("listed.toml", "--jobs", "1").code == 0
+
+
+WRONG = {
+    "no such case": (STUDY.replace("ball.toml", "bell.toml"), "bell.toml: there is no such case"),
+    "no case": (STUDY.replace('case = "ball.toml"', ""), "case is missing: give the base case"),
+    "unknown path": (STUDY.replace("contact.load", "contact.lod"), "contact.lod is no key"),
+    "wrong unit": (STUDY.replace(" N", " mm"), 'contact.load = "20.0 mm" has the unit of a length'),
+    "two units": (STUDY.replace("80 N", "80 kN"), "has the units N and kN"),
+    "empty": (STUDY.replace("[0.0, 0.5]", "[]"), "(contact.slide_roll_ratio) has an empty list"),
+    "no values": (STUDY.replace("values = [0.0, 0.5]", ""), "has no values: give one of values"),
+    "two ways": (STUDY + "linspace = [0, 1, 3]", "states values and linspace"),
+    "unknown key": (STUDY + "valeus = [1]", "axes[2].valeus (contact.slide_roll_ratio) is no key"),
+    "typo on top": ("certfy = true\n" + STUDY, "certfy is no key of a study: did you mean certify"),
+    "twice": (STUDY.replace("slide_roll_ratio", "load"), "two axes with the path contact.load"),
+    "no sample": (STUDY.replace("values = [0.0", "uniform = [0.0"), "is sampled, but there is no"),
+    "unsampled": (STUDY + "[sample]\nnumber = 3", "no axis is sampled"),
+    "lengths": (
+        STUDY.replace("values", 'zip = "a"\nvalues').replace("linspace", 'zip = "a"\nlinspace'),
+        "joins axes of different lengths: contact.load 4, contact.slide_roll_ratio 2",
+    ),
+    "a million": (STUDY.replace("4]", "1_000_000]"), "has 2,000,000 cases, more than 10,000"),
+    "above its own": ("largest = 7\n" + STUDY, "has 8 cases, more than 7"),
+    "in time": (
+        STUDY + '[[axes]]\npath = "transient.frames"\nvalues = [3]',
+        "axis transient.frames: a study of steady films",
+    ),
+    "impossible": (STUDY.replace("20 N", "-20 N"), "must be positive"),
+    "no toml": ("case = ", "is no TOML"),
+    "a picture": (STUDY + '[[pictures]]\nx = "load"', "pictures[1] needs x and y, or map"),
+    "a case": (CASE, "is a case file: tehl solve takes it"),
+    "no list": ('cases = "none.csv"\ncase = "ball.toml"', "there is no list of cases none.csv"),
+}
+
+
+@pytest.mark.parametrize("what", WRONG)
+def test_a_wrong_study_is_one_sentence_before_any_work(folder, run, monkeypatch, what):
+    text, words = WRONG[what]
+    monkeypatch.setattr(runner, "work", None)
+    (folder / "wrong.toml").write_text(text)
+    done = run("wrong.toml")
+    assert done.code == 2
+    assert words in done.err
+    assert done.err.startswith("tehl: wrong.toml: ")
+    assert done.err.count("\n") == 1
+    assert names(folder) == ["ball.toml", "loads.toml", "wrong.toml"]
+
+
+def test_many_cases_can_be_meant(folder, run):
+    text = STUDY.replace("4]", "5001]")
+    (folder / "many.toml").write_text(text)
+    assert run("many.toml", "--dry-run").code == 2
+    plan = read_study("many.toml", huge=True)
+    (folder / "said.toml").write_text("largest = 10_002\n" + text)
+    assert read_study("said.toml").count == plan.count == 10_002
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["nowhere.toml"], "there is no such study file"),
+        (["out", "--set", "a.b=1"], "is planned already"),
+        (["empty"], "is no folder of a study"),
+        (["out", "--plot", "x=load"], "is no picture"),
+        (["out", "--plot", "x=load,y=h_mn_m"], "has no column h_mn_m"),
+        (["out", "--plot", "color=load"], "is no part of a picture"),
+        (["out", "--plot", "x=load,y=h_min_m,overlay=no.csv"], "no file of measured points"),
+        (["loads.toml", "-o", "fresh", "--table"], "no case of the study is finished"),
+    ],
+)
+def test_a_wrong_command_is_one_sentence(folder, run, words, told):
+    (folder / "empty").mkdir()
+    if words[0] == "out":
+        run("loads.toml", "-o", "out", "--jobs", "1")
+    done = run(*words)
+    assert done.code == 2
+    assert told in done.err
+    assert done.err.count("\n") == 1
+
+
+@pytest.mark.parametrize("name", list(study_templates()))
+def test_every_template_of_a_study_is_one(name, tmp_path):
+    path = tmp_path / f"{name}.toml"
+    path.write_text(template_text(name), encoding="utf-8")
+    study = study_of(read_study(path))
+    assert 20 < len(study.cases) < 100
+    assert study.plan.pictures
+    assert len(study_templates()[name]) > 20
+
+
+def test_plain_lines_come_now_and_then_and_name_failures(capsys, folder):
+    now = [0.0]
+    lines = Lines(clock=lambda: now[0])
+    case = study_of(read_study("loads.toml")).cases[0]
+    lines.begin(30, 10)
+    for number in range(20):
+        now[0] += 1.0
+        status = "stalled" if number == 3 else "converged"
+        lines.finished(case, Row(key=case.key, status=status))
+    told = capsys.readouterr().err.splitlines()
+    assert told[0] == "30 cases, 10 of them finished before"
+    assert told[1].startswith("no answer: load = 20")
+    assert told[2] == "20 of 30 cases, 1 per second, 10 s left, 1 without an answer"
+    assert len(told) == 4
+
+
+def test_the_tally_knows_rate_and_time_left():
+    now = [0.0]
+    tally = Tally(clock=lambda: now[0])
+    tally.begin(100, 50)
+    now[0] = 10.0
+    for _ in range(20):
+        tally.count(Row(key="a", status="converged"))
+    assert (tally.rate, tally.open) == (2.0, 30)
+    assert [duration(s) for s in (5, 600, 7200)] == ["5 s", "10 min", "2.0 h"]

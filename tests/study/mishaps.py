@@ -1,0 +1,64 @@
+"""Work that goes wrong on purpose, in the place of that of the solver; and a program that runs it.
+
+``python -m tests.study.mishaps DIR JOBS COUNT`` is a study of quick rows.
+"""
+
+import os
+import signal
+import sys
+import time
+from pathlib import Path
+
+from tehl.study import Case, Row, Store, run, runner
+from tests.study.contacts import cases
+
+
+def quick(case: Case, fields: Path | None) -> Row:
+    """Return a row of many numbers at once; a file for its fields holds the name of the case."""
+    time.sleep(0.01)
+    if fields is not None:
+        fields.write_text(case.name)
+    load = float(case.labels["M"])
+    return Row(key=case.key, status="converged", summary={f"n.{k}": load * k for k in range(40)})
+
+
+def deadly(case: Case, fields: Path | None) -> Row:
+    """Kill the worker at M = 5.5."""
+    if case.labels["M"] == 5.5:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return quick(case, fields)
+
+
+def once(case: Case, fields: Path | None) -> Row:
+    """Kill the worker at M = 5.5, the first time."""
+    assert fields is not None
+    mark = fields.with_name("killed")
+    if case.labels["M"] == 5.5 and not mark.exists():
+        mark.touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+    return quick(case, fields)
+
+
+def lazy(case: Case, fields: Path | None) -> Row:
+    """Leave the number of the process behind, and take a while."""
+    assert fields is not None
+    fields.with_name(f"{os.getpid()}.pid").touch()
+    time.sleep(0.1)
+    return quick(case, fields)
+
+
+def full(case: Case, fields: Path | None) -> Row:
+    """Find no room for the fields of M = 5.5."""
+    if case.labels["M"] == 5.5:
+        raise OSError(28, "No space left on device", str(fields))
+    return quick(case, fields)
+
+
+def main(folder: str, jobs: str, count: str) -> None:
+    keep = "fields" if jobs != "1" else "summary"
+    runner.work = lazy if keep == "fields" else quick
+    run(cases(int(count)), Store(folder, keep=keep), jobs=int(jobs))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

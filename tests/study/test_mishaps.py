@@ -1,0 +1,184 @@
+"""Killed workers, a killed program, a full disk: no finished case is lost or damaged."""
+
+import os
+import resource
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from tehl.errors import FileFormatError
+from tehl.study import Store, run, runner, table
+from tests.study import mishaps
+from tests.study.contacts import Notes, cases
+
+COUNT = 8
+
+
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory):
+    store = Store(tmp_path_factory.mktemp("undisturbed"))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(runner, "work", mishaps.quick)
+        run(cases(60), store)
+    return table(cases(60), store)
+
+
+def is_like(frame, undisturbed) -> bool:
+    return frame.equals(undisturbed.head(len(frame)))
+
+
+def test_a_case_that_kills_its_worker_costs_itself_only(tmp_path, monkeypatch, undisturbed):
+    monkeypatch.setattr(runner, "work", mishaps.deadly)
+    store = Store(tmp_path)
+    outcome = run(cases(COUNT), store, jobs=2)
+    assert [(c.labels["M"], r.status, r.cause) for c, r in outcome.failed] == [
+        (5.5, "failed", "worker_died")
+    ]
+    assert "memory" in outcome.failed[0][1].message
+    assert outcome.converged == COUNT - 1
+    monkeypatch.setattr(runner, "work", mishaps.quick)
+    again = run(cases(COUNT), store, retry_failed=True)
+    assert (again.reused, again.converged) == (COUNT - 1, COUNT)
+    assert is_like(table(cases(COUNT), store), undisturbed)
+
+
+def test_a_worker_that_is_killed_from_outside_costs_nothing(tmp_path, monkeypatch, undisturbed):
+    monkeypatch.setattr(runner, "work", mishaps.once)
+    store, notes = Store(tmp_path, keep="fields"), Notes()
+    outcome = run(cases(COUNT), store, jobs=2, monitor=notes)
+    assert outcome.failed == ()
+    assert len(notes.names) == COUNT
+    assert is_like(table(cases(COUNT), store), undisturbed)
+
+
+def program(*words: str, **options) -> subprocess.Popen:
+    command = [sys.executable, "-m", "tests.study.mishaps", *words]
+    return subprocess.Popen(command, cwd=Path(__file__).parents[2], **options)
+
+
+def wait_for(condition, seconds: float = 60.0) -> None:
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "it takes too long"
+        time.sleep(0.02)
+
+
+def is_alive(pid: int) -> bool:
+    try:
+        status = Path(f"/proc/{pid}/stat").read_text()
+    except OSError:
+        return False
+    return status.rpartition(")")[2].split()[0] != "Z"
+
+
+def finished(folder: Path) -> int:
+    return len(Store(folder).rows(cases(60)))
+
+
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
+def test_a_program_that_is_killed_goes_on_where_it_stopped(tmp_path, undisturbed, how):
+    process = program(str(tmp_path), "2", "60", stderr=subprocess.DEVNULL)
+    wait_for(lambda: (tmp_path / "rows.sqlite").exists() and finished(tmp_path) >= 4)
+    process.send_signal(how)
+    process.wait(30)
+    workers = [int(path.stem) for path in (tmp_path / "fields").glob("*.pid")]
+    assert workers
+    wait_for(lambda: not any(map(is_alive, workers)))
+    kept = finished(tmp_path)
+    assert 4 <= kept < 60
+    with sqlite3.connect(tmp_path / "rows.sqlite") as connection:
+        assert connection.execute("PRAGMA integrity_check").fetchone() == ("ok",)
+    store = Store(tmp_path)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(runner, "work", mishaps.quick)
+        assert run(cases(60), store).reused == kept
+    assert table(cases(60), store).equals(undisturbed)
+
+
+def test_a_full_disk_under_the_rows_ends_the_study_and_keeps_what_is_finished(
+    tmp_path, undisturbed
+):
+    def cramped():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (40_000, 40_000))
+
+    process = program(str(tmp_path), "1", "60", preexec_fn=cramped, stderr=subprocess.PIPE)
+    _, told = process.communicate(timeout=60)
+    assert process.returncode != 0
+    assert b"OSError" in told
+    store = Store(tmp_path)
+    kept = store.rows(cases(60))
+    assert 0 < len(kept) < 60
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(runner, "work", mishaps.quick)
+        assert run(cases(60), store).reused == len(kept)
+    assert table(cases(60), store).equals(undisturbed)
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_full_disk_under_the_fields_is_no_fault_of_the_case(
+    tmp_path, monkeypatch, undisturbed, jobs
+):
+    monkeypatch.setattr(runner, "work", mishaps.full)
+    store = Store(tmp_path, keep="fields")
+    with pytest.raises(OSError, match="No space left"):
+        run(cases(COUNT), store, jobs=jobs)
+    assert store.row(cases(COUNT)[2]) is None
+    monkeypatch.setattr(runner, "work", mishaps.quick)
+    assert run(cases(COUNT), store).converged == COUNT
+    assert is_like(table(cases(COUNT), store), undisturbed)
+
+
+def test_what_killed_workers_left_of_their_files_goes_away(tmp_path, monkeypatch):
+    monkeypatch.setattr(runner, "work", mishaps.quick)
+    store = Store(tmp_path, keep="fields")
+    store.prepare()
+    mine = store.fields_folder / f".{cases(1)[0].key[:40]}.0123456789ab.part"
+    other = store.fields_folder / f".{'f' * 40}.0123456789ab.part"
+    for part in (mine, other):
+        part.write_text("half")
+    run(cases(2), store)
+    assert not mine.exists()
+    assert other.exists()
+
+
+def test_a_script_without_a_guard_is_told_so(tmp_path):
+    script = tmp_path / "bare.py"
+    script.write_text(
+        "from tehl.study import Store, run\n"
+        "from tests.study.contacts import cases\n"
+        f"run(cases(3), Store({str(tmp_path / 'store')!r}), jobs=2)\n"
+    )
+    root = Path(__file__).parents[2]
+    path = os.pathsep.join([str(root), os.environ.get("PYTHONPATH", "")])
+    done = subprocess.run(
+        [sys.executable, str(script)],
+        env=os.environ | {"PYTHONPATH": path},
+        capture_output=True,
+        text=True,
+        timeout=100,
+        check=False,
+    )
+    assert done.returncode == 1
+    assert 'if __name__ == "__main__":' in done.stderr.splitlines()[-1]
+
+
+@pytest.mark.parametrize("content", [b"", b"no store at all, but more than a hundred bytes " * 5])
+def test_a_file_that_is_no_store_is_refused(tmp_path, content):
+    (tmp_path / "rows.sqlite").write_bytes(content)
+    if not content:
+        assert Store(tmp_path).rows(cases(1)) == {}  # as SQLite makes it, before anything is in
+        return
+    with pytest.raises(FileFormatError, match="is no store of a study"):
+        Store(tmp_path)
+
+
+def test_a_store_of_another_format_is_refused(tmp_path):
+    with sqlite3.connect(tmp_path / "rows.sqlite") as connection:
+        connection.execute("PRAGMA user_version = 99")
+    with pytest.raises(FileFormatError, match="format 99"):
+        Store(tmp_path)

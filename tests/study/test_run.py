@@ -1,0 +1,163 @@
+"""Runs of studies in this process and in others, the store, and the table."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tehl import solver
+from tehl.errors import InputError
+from tehl.study import Store, run, table
+from tehl.study.row import flat, unit_of
+from tests.study.contacts import Notes, assert_same_numbers, cases, failing
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """A study of four cases solved here, with its fields."""
+    store = Store(tmp_path_factory.mktemp("study") / "new" / "store", keep="fields")
+    outcome = run(cases(), store)
+    return store, outcome
+
+
+def test_each_case_has_a_row_with_the_numbers_of_its_summary(finished):
+    store, outcome = finished
+    assert (outcome.total, outcome.reused) == (4, 0)
+    for case in cases():
+        row, result = store.row(case), store.result(case)
+        assert row.key == case.key
+        assert row.status == result.status.kind
+        assert row.summary["film.h_min_m"] == pytest.approx(result.film.minimum, rel=1e-15)
+        assert row.summary["film.minimum_at.0"] == result.film_scaled.minimum_at[0]
+        assert row.cost == result.cost
+
+
+def test_the_kept_fields_are_those_of_a_solve(finished):
+    store, _ = finished
+    case = cases()[1]
+    alone = solver.solve(case.problem, case.options)
+    assert store.result(case).scaled.film == pytest.approx(alone.scaled.film, rel=1e-12)
+
+
+def test_a_study_that_is_finished_solves_nothing(finished):
+    store, _ = finished
+    notes = Notes()
+    again = run(cases(), Store(store.directory, keep="fields"), jobs=2, monitor=notes)
+    assert (again.total, again.reused, again.cpu_seconds) == (4, 4, 0.0)
+    assert (notes.begun, notes.names) == ([(4, 4)], [])
+
+
+def test_cases_added_later_are_the_only_work(tmp_path):
+    store = Store(tmp_path)
+    run(cases(2), store)
+    notes = Notes()
+    run(cases(3), store, monitor=notes)
+    assert notes.names == [(cases(3)[2].name, "converged")]
+
+
+def test_processes_find_what_one_process_finds(finished, tmp_path):
+    store = Store(tmp_path)
+    run(cases(), store, jobs=2)
+    assert_same_numbers(table(cases(), store), table(cases(), finished[0]))
+
+
+def test_a_case_that_does_not_converge_is_a_row_with_its_cause_and_its_last_fields(tmp_path):
+    store = Store(tmp_path, keep="fields")
+    outcome = run([failing(), *cases(1)], store)
+    row = store.row(failing())
+    assert (row.status, row.cause) == ("not_converged", "grid_too_coarse")
+    assert "coarse" in row.message
+    assert row.hint
+    assert store.result(failing()).status.cause == "grid_too_coarse"
+    assert [case.name for case, _ in outcome.failed] == ["too coarse"]
+    assert outcome.converged == 1
+
+
+def test_a_failure_is_tried_again_on_request_only(tmp_path):
+    store, tried, again = Store(tmp_path), Notes(), Notes()
+    run([failing(), *cases(1)], store)
+    assert run([failing(), *cases(1)], store, monitor=tried).reused == 2
+    assert tried.names == []
+    run([failing(), *cases(1)], store, retry_failed=True, monitor=again)
+    assert again.names == [("too coarse", "not_converged")]
+
+
+def test_what_the_solver_refuses_is_a_row_too(tmp_path):
+    few = replace(cases(1)[0], certify=True)  # 65 nodes cannot be halved twice
+    store = Store(tmp_path)
+    run([few], store)
+    row = store.row(few)
+    assert (row.status, row.cause) == ("bad_input", "bad_input")
+    assert "too few to certify" in row.message
+    assert row.summary == {}
+
+
+def test_a_fault_of_the_program_is_a_row_too(tmp_path, monkeypatch):
+    def broken(*_, **__):
+        raise ZeroDivisionError("by  zero")
+
+    monkeypatch.setattr(solver, "solve", broken)
+    store = Store(tmp_path)
+    outcome = run(cases(1), store)
+    row = store.row(cases(1)[0])
+    assert (row.status, row.cause) == ("failed", "error")
+    assert row.message == "ZeroDivisionError: by zero"
+    assert outcome.converged == 0
+
+
+def test_cases_that_ask_the_same_are_solved_once(tmp_path):
+    same = [replace(cases(1)[0], name=name, labels={"way": name}) for name in "ab"]
+    store, notes = Store(tmp_path), Notes()
+    assert run(same, store, monitor=notes).total == 1
+    frame = table(same, store)
+    assert list(frame["way"]) == ["a", "b"]
+    assert frame["film.h_min_m"].nunique() == 1
+    assert len(notes.names) == 1
+
+
+def test_lost_fields_are_made_again(tmp_path):
+    store = Store(tmp_path, keep="fields")
+    case = cases(1)[0]
+    run([case], store)
+    store.fields_path(case).unlink()
+    assert store.result(case) is None
+    assert run([case], Store(tmp_path)).reused == 1  # who wants rows has them
+    assert run([case], store).reused == 0
+    assert store.result(case) is not None
+
+
+def test_the_table_has_labels_outcome_numbers_and_their_units(finished):
+    frame = table(cases(5), finished[0], units={"M": "1"})
+    assert list(frame.columns[:5]) == ["name", "M", "status", "cause", "message"]
+    assert list(frame["status"]) == ["converged"] * 4 + ["open"]
+    assert np.isnan(frame["film.h_min_m"].iloc[4])
+    units = frame.attrs["units"]
+    assert units["film.h_min_m"] == "m"
+    assert units["groups.hertz_pressure_pa"] == "Pa"
+    assert units["film.H_min"] == units["M"] == "1"
+    assert units["cost.cpu_seconds"] == "s"
+    assert "laws.density" not in units
+
+
+def test_nested_tables_and_lists_become_dotted_names():
+    tree = {"a": {"b": [1, {"c": None}]}, "d": "word"}
+    assert dict(flat(tree)) == {"a.b.0": 1, "a.b.1.c": None, "d": "word"}
+
+
+@pytest.mark.parametrize(
+    ("name", "unit"),
+    [
+        ("uncertainty.film.h_min_m.uncertainty", "m"),
+        ("uncertainty.film.H_min.values.0", "1"),
+        ("roughness.waves.0.film_phase_rad", "rad"),
+        ("temperature.film_rise_max_k", "K"),
+        ("heat.shear_w", "W"),
+    ],
+)
+def test_the_name_of_a_number_tells_its_unit(name, unit):
+    assert unit_of(name) == unit
+
+
+def test_a_worker_count_that_cannot_be_is_refused(tmp_path):
+    with pytest.raises(InputError, match="jobs = 0"):
+        run(cases(1), Store(tmp_path), jobs=0)
