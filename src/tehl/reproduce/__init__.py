@@ -1,0 +1,1 @@
+"""The founding paper of this package, reproduced and judged."""
