@@ -73,9 +73,22 @@ def conclusion_1(book: Book) -> Proposition:
             if finding is not None:
                 parts.append((f"{name} ({where})", finding.holds, finding.numbers))
     fine = [part for part in parts if "converged" in part[0]]
-    verdict = _all_or(fine)
-    return Proposition(
-        "C1", printed().conclusion(1), verdict, _lines(parts) + _spike_on_grids(book)
+    numbers = _lines(parts) + _spike_on_grids(book)
+    brief = "; ".join(words for name in ("A", "B") if (words := _ends(book, name)))
+    return Proposition("C1", printed().conclusion(1), _all_or(fine), numbers, brief)
+
+
+def _ends(book: Book, name: str) -> str:
+    """Return isothermal film and spike at both ends of a series."""
+    line = book.line(name, "converged", "isothermal")
+    if not line:
+        return ""
+    low, high = min(line), max(line)
+    first, last = line[low], line[high]
+    return (
+        f"{book.series[name].symbol} = {low:g} to {high:g} takes H_min from "
+        f"{first.film.best_minimum:.3f} to {last.film.best_minimum:.3f} and the spike from "
+        f"{first.pressure.crest:.2f} to {last.pressure.crest:.2f}"
     )
 
 

@@ -76,7 +76,7 @@ def table_1(book: Book) -> Table:
         notes=(
             "“Table 1 (Continued)” is lost; the values without print are assumed. The four speeds "
             "L of series B are in the ratios of 2U = 4.2, 5, 6 and 7e-11 with one G = 5126; set A "
-            "has G = 5115.",
+            "has G = 5117.",
             "“Density of surfaces 2000” repeats the heat capacity of the lubricant.",
             "“Temperature-viscosity coefficient -1.1” is the index of Roelands' law with its sign, "
             "S0 = 1.1: read as gamma = 1.1 1/K it would thin the oil by e for each kelvin, read as "
