@@ -80,9 +80,11 @@ class Options(BaseModel):
         Setting of the hybrid line relaxation; ``"auto"`` falls back from fast to robust, and from
         broad to robust where heat or shear thinning widen the zone in which the film conducts.
         ``"gauss-seidel"`` is plain point relaxation, which fails at load; kept for teaching.
-    accuracy : {"discretisation", "tight"}
+    accuracy : {"discretisation", "tight", "change"}
         Stop when the estimated iteration error of minimum and central film is below a third of
-        the discretisation error, or at ``tolerance`` on residual, change and load.
+        the discretisation error, or at ``tolerance`` on residual, change and load. ``"change"``
+        stops as much of the literature does, as soon as one cycle changes pressure and temperature
+        by little; whether the result may be believed is judged as for ``"discretisation"``.
     tolerance : float
         Limit of the diagonal-scaled residual, the change per cycle and the load error [-].
     max_cycles : int
@@ -101,7 +103,7 @@ class Options(BaseModel):
     post_sweeps: Annotated[Count, Field(ge=0, le=10)] = 2
     wedge_order: Literal[1, 2] = 2
     smoother: Literal["auto", "fast", "broad", "robust", "gauss-seidel"] = "auto"
-    accuracy: Literal["discretisation", "tight"] = "discretisation"
+    accuracy: Literal["discretisation", "tight", "change"] = "discretisation"
     tolerance: Annotated[Real, Field(gt=0, lt=1)] = 1e-6
     max_cycles: Annotated[Count, Field(ge=1, le=1000)] = 40
     half_domain: Literal["auto", "never"] = "auto"

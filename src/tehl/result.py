@@ -81,6 +81,8 @@ class CycleReport:
         of the Hertz pressure [K]; zero in an isothermal run.
     temperature_rise : float
         Largest rise of the film temperature over the inlet [K]; zero in an isothermal run.
+    mean_change : float
+        Sum of the changes of pressure in this cycle over the sum of pressures [-]; not stored.
     """
 
     points: tuple[int, int]
@@ -93,6 +95,7 @@ class CycleReport:
     smoother: str
     temperature_change: float = 0.0
     temperature_rise: float = 0.0
+    mean_change: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -16,6 +16,7 @@ COMMANDS = (
     "explain",
     "solve",
     "study",
+    "reproduce",
     "plot",
     "animate",
     "export",

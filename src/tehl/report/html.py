@@ -1,12 +1,8 @@
 """A result as one HTML page that needs nothing else: for a screen, a phone and paper."""
 
-import base64
-import io
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator
 from html import escape
 from pathlib import Path
-
-from matplotlib.figure import Figure
 
 from tehl.film_formulas import film_estimates
 from tehl.io.atomic import check_writable, replacing
@@ -18,40 +14,9 @@ from tehl.post.micro_film import RoughnessEffect
 from tehl.post.roughness import rough_film
 from tehl.post.thermal_effect import ThermalEffect
 from tehl.report.inputs import input_rows
+from tehl.report.parts import STYLE, image, section, table
 from tehl.report.rough_film import WAVE_HEAD, WAVE_NOTE, effect_rows, film_rows, wave_rows
 from tehl.result import ErrorEstimate, Estimate, FilmHeat, HeatBalance, Result
-
-_STYLE = """
-:root { color-scheme: light; }
-body { font: 15px/1.45 system-ui, sans-serif; color: #1b1f24; max-width: 62rem;
-       margin: 0 auto; padding: 1rem; }
-h1 { font-size: 1.5rem; margin: .2rem 0 .6rem; }
-h2 { font-size: 1.1rem; margin: 1.8rem 0 .5rem; border-bottom: 1px solid #d0d7de; }
-.status { padding: .5rem .8rem; border-radius: .3rem; font-weight: 600; }
-.good { background: #dafbe1; color: #0b4a1d; }
-.bad { background: #b3001b; color: #fff; }
-.status p { margin: .3rem 0 0; font-weight: 400; }
-.wide { overflow-x: auto; }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
-th, td { padding: .2rem .7rem .2rem 0; text-align: left; vertical-align: top;
-         border-bottom: 1px solid #eaeef2; }
-th { font-weight: 600; }
-td.number { text-align: right; white-space: nowrap; }
-.pictures { display: grid; gap: 2rem; grid-template-columns: minmax(0, 1fr); }
-figure { margin: 0; min-width: 0; break-inside: avoid; }
-img { max-width: 100%; height: auto; }
-h1, .status { overflow-wrap: anywhere; }
-td.text { max-width: 26rem; overflow-wrap: break-word; }
-h3 { font-size: .95rem; margin: 1rem 0 .2rem; }
-figcaption, .small { font-size: .85rem; color: #57606a; }
-pre { white-space: pre-wrap; font-size: .85rem; }
-@media (min-width: 90rem) { body { max-width: 84rem; }
-               .pictures { grid-template-columns: repeat(2, minmax(0, 1fr)); } }
-@media (max-width: 40rem) { body { padding: .6rem; font-size: 14px; }
-               th, td { padding-right: .5rem; } td.text { max-width: 60vw; } }
-@media print { body { font-size: 11px; max-width: none; padding: 0; }
-               h2 { break-after: avoid; } tr { break-inside: avoid; } }
-"""
 
 _CAPTIONS = {
     "film": "Film thickness. The dashed line is the Hertz contact; oil enters at the left.",
@@ -132,42 +97,26 @@ def report_text(
     """
     title = escape(result.problem.title or "Lubricated point contact")
     sections = (
-        _section("Result", _numbers(result)),
+        section("Result", _numbers(result)),
         *_heat_section(result),
         *_effect_section(result, effect),
         *_traction_section(result),
         *_roughness_section(result, roughness, smooth),
-        _section("Pictures", _pictures(pictures_of(result, smooth), result, dpi)),
-        _section("Formulas against computed", _formulas(result)),
-        _section("Inputs", _inputs(result)),
-        _section("Dimensionless groups", _groups(result)),
-        _section("Errors", _errors(result)),
-        _section("Convergence", _convergence(result)),
-        _section("Conventions", f"<pre>{escape(DEFINITIONS)}</pre>"),
-        _section("Provenance", _provenance(result)),
+        section("Pictures", _pictures(pictures_of(result, smooth), result, dpi)),
+        section("Formulas against computed", _formulas(result)),
+        section("Inputs", _inputs(result)),
+        section("Dimensionless groups", _groups(result)),
+        section("Errors", _errors(result)),
+        section("Convergence", _convergence(result)),
+        section("Conventions", f"<pre>{escape(DEFINITIONS)}</pre>"),
+        section("Provenance", _provenance(result)),
     )
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        f"<title>{title}</title>\n<style>{_STYLE}</style>\n</head>\n<body>\n"
+        f"<title>{title}</title>\n<style>{STYLE}</style>\n</head>\n<body>\n"
         f"<h1>{title}</h1>\n{_status(result)}\n{''.join(sections)}</body>\n</html>\n"
     )
-
-
-def _section(title: str, body: str) -> str:
-    return f"<section>\n<h2>{title}</h2>\n{body}\n</section>\n"
-
-
-def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """Return a table; cells that begin like numbers are set to the right."""
-    lines = [f"<tr>{''.join(f'<th>{escape(cell)}</th>' for cell in head)}</tr>"]
-    lines += [f"<tr>{''.join(_cell(cell) for cell in row)}</tr>" for row in rows]
-    return f'<div class="wide"><table>\n{chr(10).join(lines)}\n</table></div>'
-
-
-def _cell(text: str) -> str:
-    number = text[:1].isdigit() or text[:2].lstrip("-+±").isdigit()
-    return f"<td class={'number' if number else 'text'}>{escape(text)}</td>"
 
 
 def _status(result: Result) -> str:
@@ -197,8 +146,8 @@ def _numbers(result: Result) -> str:
     ]
     certified = ["certified"] if bars else []
     shown = [row if bars else (row[0], *row[2:]) for row in rows]
-    table = _table(("", *certified, "on this grid", "grid error", "dimensionless"), shown)
-    return f"{table}<p class=small>The minimum lies at x, y = {place} ({x:.4g}, {y:.4g}).</p>"
+    body = table(("", *certified, "on this grid", "grid error", "dimensionless"), shown)
+    return f"{body}<p class=small>The minimum lies at x, y = {place} ({x:.4g}, {y:.4g}).</p>"
 
 
 def _value(
@@ -217,11 +166,11 @@ def _heat_section(result: Result) -> Iterator[str]:
     heat, found = result.heat, result.temperature
     if heat is None or found is None:
         return
-    yield _section(
+    yield section(
         "Temperature",
-        _table(("", f"rise over {_celsius(found.inlet)}", "temperature", ""), _rises(heat, found))
+        table(("", f"rise over {_celsius(found.inlet)}", "temperature", ""), _rises(heat, found))
         + "<h3>Heat</h3>"
-        + _table(("", "power"), _powers(heat.balance))
+        + table(("", "power"), _powers(heat.balance))
         + f"<p class=small>The powers balance to {_percent(heat.balance.error)}.</p>",
     )
 
@@ -245,16 +194,16 @@ def _effect_section(result: Result, effect: ThermalEffect | None) -> Iterator[st
             f"{effect.minimum:.4f}",
         ),
     ]
-    body = _table(("", "with heat", "without", "ratio"), rows)
+    body = table(("", "with heat", "without", "ratio"), rows)
     if effect.inlet_factors:
         factors = (
             (f"{one.formula} ({one.source})", f"{one.factor:.4f}", "; ".join(one.remarks))
             for one in effect.inlet_factors
         )
         head = ("by heating in the inlet alone, by formula", "ratio", "remarks")
-        body += f"<h3>Formulas</h3>{_table(head, factors)}"
+        body += f"<h3>Formulas</h3>{table(head, factors)}"
     note = "Without heat the oil is as warm everywhere as it is at the inlet."
-    yield _section("Film with heat and without", f"{body}<p class=small>{note}</p>")
+    yield section("Film with heat and without", f"{body}<p class=small>{note}</p>")
 
 
 def _rises(heat: FilmHeat, found: Temperature) -> list[tuple[str, str, str, str]]:
@@ -303,9 +252,9 @@ def _traction_section(result: Result) -> Iterator[str]:
     ]
     law = result.problem.lubricant.shear.law
     doubt = "" if found.credible else f"<p>More than any oil bears: the shear law is {law}.</p>"
-    yield _section(
+    yield section(
         "Traction",
-        _table(("integral of tau = eta du/dz", "coefficient", "force"), rows)
+        table(("integral of tau = eta du/dz", "coefficient", "force"), rows)
         + doubt
         + "<p class=small>Negative where surface 1 is the faster: the film holds it back. The "
         f"surfaces spend {found.friction_power:.4g} W. Forces on the film balance to "
@@ -320,31 +269,25 @@ def _roughness_section(
     found = rough_film(result, smooth)
     if found is None:
         return
-    body = _table(("", "", ""), film_rows(found))
+    body = table(("", "", ""), film_rows(found))
     if found.waves:
         body += "<h3>Waves of the surfaces, in the middle of the contact</h3>"
-        body += _table(WAVE_HEAD, wave_rows(found.waves))
+        body += table(WAVE_HEAD, wave_rows(found.waves))
         body += f"<p class=small>{escape(WAVE_NOTE)}</p>"
     if effect is not None:
         body += "<h3>Film with roughness and without</h3>"
-        body += _table(("", "rough", "smooth", "ratio"), effect_rows(result, effect))
-    yield _section("Roughness", body)
+        body += table(("", "rough", "smooth", "ratio"), effect_rows(result, effect))
+    yield section("Roughness", body)
 
 
 def _pictures(known: dict[str, Picture], result: Result, dpi: int) -> str:
     figures = [
-        f'<figure><img alt="{escape(caption)}" src="{_image(known[name](result), dpi)}">'
+        f'<figure><img alt="{escape(caption)}" src="{image(known[name](result), dpi)}">'
         f"<figcaption>{escape(caption)}</figcaption></figure>"
         for name, caption in _CAPTIONS.items()
         if name in known
     ]
     return f'<div class="pictures">\n{chr(10).join(figures)}\n</div>'
-
-
-def _image(picture: Figure, dpi: int) -> str:
-    buffer = io.BytesIO()
-    picture.savefig(buffer, format="png", dpi=dpi)
-    return f"data:image/png;base64,{base64.b64encode(buffer.getvalue()).decode('ascii')}"
 
 
 def _formulas(result: Result) -> str:
@@ -364,7 +307,7 @@ def _formulas(result: Result) -> str:
         )
         for estimate in film_estimates(result.groups, result.scales)
     ]
-    return _table(
+    return table(
         ("", "central film", "formula - solve", "minimum film", "formula - solve", "remarks"), rows
     )
 
@@ -388,7 +331,7 @@ def _inputs(result: Result) -> str:
         value = f"{row.value} {row.unit}".strip()
         parts.setdefault(row.path.split(".")[0], []).append((row.path, value))
     return "\n".join(
-        f"<h3>{escape(part.replace('_', ' '))}</h3>\n{_table(('key', 'value'), part_rows)}"
+        f"<h3>{escape(part.replace('_', ' '))}</h3>\n{table(('key', 'value'), part_rows)}"
         for part, part_rows in parts.items()
         if part != "title"
     )
@@ -411,7 +354,7 @@ def _groups(result: Result) -> str:
         ("w", f"{scales.load:.6g} N", "load"),
         ("u_m", f"{scales.speed:.6g} m/s", "entrainment speed"),
     ]
-    return _table(("group", "value", ""), rows)
+    return table(("group", "value", ""), rows)
 
 
 def _errors(result: Result) -> str:
@@ -434,14 +377,14 @@ def _error_bars(result: Result) -> str:
         for name, estimate in result.uncertainty.items()
     ]
     head = ("certified", "value", "± all", "± grid", "± domain", "order", "on the grids")
-    return _table(head, rows)
+    return table(head, rows)
 
 
 def _estimates(errors: ErrorEstimate) -> str:
     grid = (errors.discretisation_central, errors.discretisation_minimum)
     iteration = (errors.iteration_central, errors.iteration_minimum)
     rows = [("grid", *map(_percent, grid)), ("iteration", *map(_percent, iteration))]
-    return _table(("estimated, relative", "central film", "minimum film"), rows)
+    return table(("estimated, relative", "central film", "minimum film"), rows)
 
 
 def _certified(name: str, estimate: Estimate, unit: float, word: str) -> tuple[str, ...]:
@@ -479,8 +422,8 @@ def _convergence(result: Result) -> str:
         )
         for report in result.history
     ]
-    table = _table((*head, *warming, "sweeps"), rows)
-    return table if rows else "<p>No cycles were recorded.</p>"
+    body = table((*head, *warming, "sweeps"), rows)
+    return body if rows else "<p>No cycles were recorded.</p>"
 
 
 def _provenance(result: Result) -> str:
@@ -491,4 +434,4 @@ def _provenance(result: Result) -> str:
         ("grid", f"{result.scaled.x.size} × {result.scaled.y.size} nodes"),
         *sorted(result.provenance.versions.items()),
     ]
-    return _table(("", ""), rows)
+    return table(("", ""), rows)

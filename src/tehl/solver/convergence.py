@@ -35,6 +35,9 @@ LEAST_KELVIN = 0.02
 """Change of temperature [K] that never counts."""
 TIGHTER = 100.0
 """Factor between the tolerance of the film and that of the temperature rise, which follows it."""
+MEAN_CHANGE, KELVIN_CHANGE = 1e-4, 3e-3
+"""Sum of the changes of pressure by a cycle over the sum of pressures, and largest change of
+temperature [K], at which ``accuracy = "change"`` stops; 3 mK are 1e-5 of the inlet temperature."""
 STALL_CYCLES = 8
 STALL_FACTOR = 0.5
 
@@ -71,6 +74,14 @@ class GridTrace:
         """Take the film numbers after a cycle (or before the first)."""
         self.central.values.append(central)
         self.minimum.values.append(minimum)
+
+
+def ended(now: GridTrace, coarser: GridTrace | None, options: Options) -> bool:
+    """Whether the options stop the cycles on this grid here, converged or not."""
+    if options.accuracy != "change":
+        return converged(now, coarser, options)
+    last = now.reports[-1]
+    return last.mean_change <= MEAN_CHANGE and last.temperature_change <= KELVIN_CHANGE
 
 
 def converged(now: GridTrace, coarser: GridTrace | None, options: Options) -> bool:

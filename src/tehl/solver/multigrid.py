@@ -23,6 +23,7 @@ from tehl.solver.convergence import (
     LARGEST_ROUGH_CHANGE,
     GridTrace,
     converged,
+    ended,
     error_estimate,
     iterated_enough,
     single_grid_estimate,
@@ -300,7 +301,7 @@ class Multigrid:
             trace.note(report.film_central, report.film_minimum)
             trace.rise.values.append(report.temperature_rise)
             monitor.cycle(report)
-            if last and (converged(trace, coarser, self.options) or stalled(trace, patience)):
+            if last and (ended(trace, coarser, self.options) or stalled(trace, patience)):
                 return
             if not last and iterated_enough(trace, coarser):
                 return
@@ -367,6 +368,7 @@ class Multigrid:
     ) -> CycleReport:
         residual = level.evaluate_residual()
         np.subtract(level.film.p, before, out=before)
+        mean_change = float(np.abs(before).sum() / (level.film.p.sum() or 1.0))
         central, minimum = film_numbers(level)
         report = CycleReport(
             points=(level.grid.nx, level.grid.ny),
@@ -379,6 +381,7 @@ class Multigrid:
             smoother=self.setting.name,
             temperature_change=heating[0],
             temperature_rise=heating[1],
+            mean_change=mean_change,
         )
         if not (np.isfinite(residual) and abs(report.load_error) < RUNAWAY and central < RUNAWAY):
             raise DivergedError

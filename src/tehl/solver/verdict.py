@@ -264,6 +264,9 @@ def _not_reached(run: Multigrid) -> Status:
         f"After {len(reports)} cycles on {last.points[0]} x {last.points[1]} nodes the "
         f"{worst[0]} is {worst[1]:.1e}; {wanted}."
     )
+    if run.options.accuracy == "change":
+        hint = "Leave numerics.accuracy out: a small change in one cycle is no error estimate."
+        return Status(kind="not_converged", cause="too_few_cycles", message=message, hint=hint)
     if not stalled:
         hint = "Raise numerics.max_cycles."
         return Status(kind="not_converged", cause="too_few_cycles", message=message, hint=hint)

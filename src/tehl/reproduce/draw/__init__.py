@@ -1,0 +1,1 @@
+"""Pictures of the figures: from stored runs to a matplotlib figure."""
