@@ -162,7 +162,7 @@ def test_newton_finishes_what_no_cycle_does() -> None:
 
 @pytest.mark.slow
 def test_newton_finds_a_film_that_diverges_otherwise() -> None:
-    """M = 200, A = 0.2, wavelength 0.5 on 257 nodes: positive, if not yet known to within itself."""
+    """M = 200, A = 0.2, wavelength 0.5 on 257 nodes: positive, if not known to within itself."""
     run = finished(wavy((200.0, 10.0), (0.2, 0.5, 0.0)), Options(points=257, domain=DOMAIN))
     assert run.status.converged or run.status.cause == "grid_too_coarse"
     assert run.history[-1].residual < 1e-5
