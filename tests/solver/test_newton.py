@@ -1,5 +1,8 @@
 """Newton's method: its Jacobian, its rate, and the films that only it finds."""
 
+from dataclasses import replace
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -8,6 +11,7 @@ from tehl.grid import Grid
 from tehl.kernels import reynolds
 from tehl.operators.flow import flow_table
 from tehl.operators.jacobian import interpolation, jacobian, near, stencil_of
+from tehl.result import Status
 from tehl.scaling import groups, scales
 from tehl.solver import steady
 from tehl.solver.level import Level
@@ -190,3 +194,31 @@ def test_a_film_that_fails_on_the_way_is_told_with_the_part_of_the_heights(
     assert run.status.message is not None
     assert "of the heights" in run.status.message
     assert run.film_scaled.minimum <= 0.0
+
+
+def test_the_last_relaxation_goes_to_the_end_before_newton(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Grids in disorder do not stop it; with heat it is the last setting of all."""
+    seen: list[tuple[str, bool]] = []
+    run = steady._run
+
+    def noted(*args: Any, patient: bool) -> Any:
+        seen.append((args[0].setting.name, patient))
+        return replace(run(*args, patient=patient), status=Status(kind="stalled", cause="stalled"))
+
+    monkeypatch.setattr(steady, "_run", noted)
+    smooth = wavy((20.0, 10.0), (0.01, 2.0, 0.0))
+    sheared = smooth.model_copy(update={"lubricant": thinning(smooth)})
+    for problem in (smooth, sheared):
+        finished(problem, Options(points=33, domain=DOMAIN))
+    relaxed = [("rough", False), ("careful", False), ("gentle", True)]
+    assert seen == [*relaxed, ("newton", True), *relaxed]
+
+
+def thinning(problem: ContactProblem) -> Any:
+    """Return the lubricant with an Eyring stress."""
+    given = problem.lubricant.model_dump(exclude_none=True)
+    return type(problem.lubricant).model_validate(
+        given | {"shear": {"law": "eyring", "stress": 5e6}}
+    )

@@ -207,8 +207,8 @@ def _attempts(
         if heights is not None:
             run.roughen(heights)
         run.guess = guess if options.accuracy == "tight" else None
-        last = number == len(attempts) - 1
-        yield _run(run, monitor, patient=last)
+        relaxing = [one for one, _ in attempts[number + 1 :] if not one.rough.newton]
+        yield _run(run, monitor, patient=not relaxing)
 
 
 def _settings(
@@ -218,7 +218,9 @@ def _settings(
     if options.smoother != "auto":
         return [(SETTINGS[options.smoother], False)]
     if rough:
-        return [(setting, False) for setting in (ROUGH, CAREFUL, GENTLE, NEWTON)]
+        relaxations = [(ROUGH, False), (CAREFUL, False), (GENTLE, False)]
+        # heat follows Newton's steps no better than cycles, at ten times the cost
+        return relaxations if problem.is_coupled else [*relaxations, (NEWTON, False)]
     if not problem.is_coupled:
         return [(FAST, False), (ROBUST, False)]
     attempts = [(BROAD, False), (ROBUST, False)]
