@@ -17,7 +17,7 @@ from tehl.reproduce.book import Book
 from tehl.reproduce.figures import FigureSpec, figures
 from tehl.reproduce.findings import Findings, findings
 from tehl.reproduce.series import all_series, runs_of
-from tehl.reproduce.wishes import Wishes, wishes
+from tehl.reproduce.wishes import wishes
 from tehl.study import Store, StudyMonitor, run, table
 from tehl.study.engines import begin_worker
 from tehl.study.monitor import QUIET
@@ -103,7 +103,7 @@ def reproduce(
     _book.cache_clear()
     book = place.book()
     found = findings(book, wanted, seconds=time.perf_counter() - start, reused=outcome.reused)
-    return _write(folder, book, wanted, found)
+    return _write(folder, book, found)
 
 
 def _check(folder: Path, points: int | None) -> None:
@@ -167,7 +167,7 @@ def _all(jobs: int, tasks: list[tuple[Any, ...]]) -> None:
             raise
 
 
-def _write(folder: Path, book: Book, wanted: Wishes, found: Findings) -> Path:
+def _write(folder: Path, book: Book, found: Findings) -> Path:
     """Write the page, the same as Markdown, and the numbers of all runs."""
     from tehl.reproduce.page import page  # noqa: PLC0415
     from tehl.reproduce.text import text  # noqa: PLC0415
@@ -180,5 +180,4 @@ def _write(folder: Path, book: Book, wanted: Wishes, found: Findings) -> Path:
     for name, content in texts.items():
         with replacing(folder / name) as temporary:
             temporary.write_text(content, encoding="utf-8")
-    del wanted
     return folder / "index.html"
