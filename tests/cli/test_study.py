@@ -218,6 +218,25 @@ WRONG = {
     "no toml": ("case = ", "is no TOML"),
     "a picture": (STUDY + '[[pictures]]\nx = "load"', "pictures[1] needs x and y, or map"),
     "a case": (CASE, "is a case file: tehl solve takes it"),
+    "a table and its key": (
+        STUDY.replace("contact.slide_roll_ratio", "contact").replace("[0.0, 0.5]", "[{}]"),
+        "has an axis contact and an axis contact.load, which is a key of it",
+    ),
+    "a built-in name": (STUDY + 'name = "film.h_min_m"', 'name "film.h_min_m", which is another'),
+    "a status": (STUDY + 'name = "status"', 'an axis with the name "status"'),
+    "one name": (STUDY + 'name = "contact.load"', "two axes with the name contact.load: give each"),
+    "a column": (
+        STUDY + '[[pictures]]\nx = "load"\ny = "h_mn_m"',
+        'pictures[1].y = "h_mn_m": the table will have no column h_mn_m: did you mean h_min_m?',
+    ),
+    "one file": (
+        STUDY + '[[pictures]]\nx="load"\ny="h_min_m"\n[[pictures]]\nx="load"\ny="h_min_m"\nlog="x"',
+        "pictures[1] and pictures[2] would both be h_min_m_over_load.png",
+    ),
+    "too few to certify": (
+        "certify = true\n" + STUDY + '[[axes]]\npath = "numerics.points"\nvalues = [129, 65]',
+        "case 2 of 16: points = 65 is too few to certify",
+    ),
     "no list": ('cases = "none.csv"\ncase = "ball.toml"', "there is no list of cases none.csv"),
 }
 
@@ -233,6 +252,20 @@ def test_a_wrong_study_is_one_sentence_before_any_work(folder, run, monkeypatch,
     assert done.err.startswith("tehl: wrong.toml: ")
     assert done.err.count("\n") == 1
     assert names(folder) == ["ball.toml", "loads.toml", "wrong.toml"]
+
+
+def test_a_column_of_a_list_may_be_no_key_of_another_axis(folder, run):
+    (folder / "list.csv").write_text("contact,contact.moes_load\n1,2\n")
+    (folder / "overlap.toml").write_text('case = "ball.toml"\ncases = "list.csv"\n')
+    done = run("overlap.toml", "--dry-run")
+    assert done.code == 2
+    assert "an axis contact and an axis contact.moes_load" in done.err
+
+
+def test_identical_pictures_are_drawn_once(folder, run):
+    picture = '[[pictures]]\nx = "load"\ny = "-h_min_m"\nhue = "slide_roll_ratio"\n'
+    (folder / "drawn.toml").write_text(STUDY + picture + picture)
+    assert len(read_study("drawn.toml").pictures) == 1
 
 
 def test_many_cases_can_be_meant(folder, run):

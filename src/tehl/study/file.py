@@ -10,7 +10,8 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from tehl.errors import InputError
 from tehl.io.atomic import shortened
 from tehl.io.case import change, toml_tables
-from tehl.study.axes import Axis, Block, Sample, block_of, count_of, groups_of
+from tehl.study.axes import Axis, Sample, block_of, count_of, groups_of
+from tehl.study.checks import check_axes, checked_pictures
 from tehl.study.listed import block_of_file
 from tehl.study.pictures import Picture
 from tehl.study.plan import Plan
@@ -126,7 +127,8 @@ def plan_of(
     if stated.warm_start and stated.keep != "fields":
         raise InputError('warm_start takes the fields of neighbours: give keep = "fields" too')
     blocks = (*listed, *(block_of(group, stated.sample) for group in groups))
-    _check_paths(blocks)
+    check_axes(blocks)
+    pictures = checked_pictures(stated.pictures, blocks)
     base, place = _base(stated, folder, overrides)
     return Plan(
         title=stated.title or str(base.get("title", "")),
@@ -137,7 +139,7 @@ def plan_of(
         keep=stated.keep,
         warm_start=stated.warm_start,
         store=None if stated.store is None else folder / stated.store,
-        pictures=tuple(_placed(picture, folder) for picture in stated.pictures),
+        pictures=tuple(_placed(picture, folder) for picture in pictures),
     )
 
 
@@ -148,19 +150,6 @@ def _check_count(count: int, stated: StudyFile, *, huge: bool) -> None:
             f"has {count:,} cases, more than {most:,}: if they are meant, state largest = {count} "
             "in the file or give --yes"
         )
-
-
-def _check_paths(blocks: Sequence[Block]) -> None:
-    """Refuse to vary the same thing twice."""
-    paths = [path for block in blocks for path in block.paths]
-    names = [name for block in blocks for name in block.names]
-    for what, words in (("path", paths), ("name", names)):
-        twice = [word for word in words if words.count(word) > 1]
-        if twice:
-            raise InputError(f"has two axes with the {what} {twice[0]}: zip different ones")
-    for path in paths:
-        if path.split(".")[0] in ("title", "transient"):
-            raise InputError(f"axis {path}: a study of steady films does not vary it")
 
 
 def _base(

@@ -9,7 +9,7 @@ from typing import Any
 
 from tehl.errors import InputError
 from tehl.io.case import case_from_tables
-from tehl.options import Options
+from tehl.options import Options, check_certifiable
 from tehl.problem import ContactProblem
 from tehl.study.axes import Block, Setting
 from tehl.study.case import Case, Label
@@ -105,6 +105,8 @@ def _case(plan: Plan, rows: tuple[int, ...], units: dict[str, str]) -> Case:
     problem, options = case_from_tables(tables, plan.folder)
     if problem.transient is not None:
         raise InputError("has a [transient] table: a study is one of steady films")
+    if plan.certify:
+        check_certifiable(options)
     labels = _labels(plan, rows, (problem, options), units)
     titles = [b.titles[row] for b, row in zip(plan.blocks, rows, strict=True) if b.titles]
     name = ", ".join(titles) or _name(labels) or problem.title or "base case"
