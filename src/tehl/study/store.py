@@ -25,9 +25,12 @@ FORMAT = 1
 _ROWS, _FIELDS = "rows.sqlite", "fields"
 _PATIENCE = 60.0
 """Seconds to wait for another study that writes into the same store."""
+_ANEW = "bring back a copy of it, or remove it and all its cases are solved again"
 _AT_ONCE = 500
 """Keys of one query."""
 _COLUMNS = "key, status, cause, message, hint, summary, cpu_seconds, wall_seconds"
+_WHOLE = "CASE WHEN json_valid(summary) THEN json_type(summary) = 'object' ELSE 0 END"
+"""Whether the numbers of a row can be read, so that one without them is not taken for finished."""
 _SCHEMA = f"""
 CREATE TABLE IF NOT EXISTS rows (
     key TEXT PRIMARY KEY, status TEXT NOT NULL, cause TEXT, message TEXT, hint TEXT,
@@ -83,12 +86,20 @@ class Store:
         """Return where the fields of a case lie, if they are kept."""
         return self.fields_folder / f"{case.key}.nc"
 
+    @property
+    def is_begun(self) -> bool:
+        """Whether there is a file for rows."""
+        return self._file.exists()
+
     def row(self, case: Case) -> Row | None:
         """Return the row of a case, None when it is not finished."""
         return self.rows([case]).get(case.key)
 
     def rows(self, cases: Iterable[Case], *, summaries: bool = True) -> dict[str, Row]:
-        """Return the rows of those cases that are finished, by key, if wanted without numbers."""
+        """Return the rows of those cases that are finished, by key, if wanted without numbers.
+
+        A row that is damaged is none.
+        """
         columns = _COLUMNS if summaries else _COLUMNS.replace("summary", "'{}'")
         keys = list(dict.fromkeys(case.key for case in cases))
         if self._connection is None and not self._file.exists():
@@ -98,8 +109,9 @@ class Store:
             for start in range(0, len(keys), _AT_ONCE):
                 some = keys[start : start + _AT_ONCE]
                 marks = ", ".join("?" * len(some))
-                query = f"SELECT {columns} FROM rows WHERE key IN ({marks})"
-                found |= {line[0]: _row(line) for line in connection.execute(query, some)}
+                query = f"SELECT {columns} FROM rows WHERE key IN ({marks}) AND {_WHOLE}"
+                rows = map(_row, connection.execute(query, some))
+                found |= {row.key: row for row in rows if row is not None}
         return found
 
     def finished(self, cases: Iterable[Case]) -> dict[str, Row]:
@@ -181,12 +193,15 @@ class Store:
         self._connection = sqlite3.connect(
             self._file, timeout=_PATIENCE, isolation_level="IMMEDIATE", check_same_thread=False
         )
+        # half a letter is no reason not to read the others
+        self._connection.text_factory = lambda text: text.decode("utf-8", "replace")
         with self._telling() as connection:
             version = connection.execute("PRAGMA user_version").fetchone()[0]
             if version not in (0, FORMAT):
                 self.close()
                 raise FileFormatError(
-                    f"{self._file} is a store of format {version}; this tehl knows {FORMAT}"
+                    f"{self._file} is a store of format {version}, this tehl knows {FORMAT}: "
+                    f"{_ANEW}"
                 )
             # a kill loses nothing that was committed, and no commit waits for the disk
             with suppress(sqlite3.OperationalError):  # file systems without shared memory
@@ -208,7 +223,9 @@ class Store:
             code = errno.ENOSPC if full else errno.EIO
             raise OSError(code, f"{error}", str(self._file)) from error
         except sqlite3.DatabaseError as error:
-            raise FileFormatError(f"{self._file} is no store of a study: {error}") from None
+            raise FileFormatError(
+                f"{self._file} is no store of a study ({error}): {_ANEW}"
+            ) from None
 
 
 def _text(words: str | None) -> str | None:
@@ -216,11 +233,14 @@ def _text(words: str | None) -> str | None:
     return None if words is None else words.encode("utf-8", "replace").decode("utf-8")
 
 
-def _row(line: tuple[str, ...]) -> Row:
-    """Return a row as the columns have it."""
+def _row(line: tuple[str, ...]) -> Row | None:
+    """Return a row as the columns have it, None if it is damaged."""
     names = [f.name for f in fields(Row)][:5]
-    return Row(
-        **dict(zip(names, line[:5], strict=True)),
-        summary=json.loads(line[5]),
-        cost=Cost(cpu_seconds=float(line[6]), wall_seconds=float(line[7])),
-    )
+    try:
+        return Row(
+            **dict(zip(names, line[:5], strict=True)),
+            summary=json.loads(line[5]),
+            cost=Cost(cpu_seconds=float(line[6]), wall_seconds=float(line[7])),
+        )
+    except (ValueError, TypeError):
+        return None
