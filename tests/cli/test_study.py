@@ -2,6 +2,7 @@
 """``tehl study``: what it writes, prints and returns, with work that answers at once."""
 
 import json
+import subprocess
 import sys
 from types import SimpleNamespace
 
@@ -14,6 +15,7 @@ from tehl.io.templates import study_templates, template_text
 from tehl.result import Cost
 from tehl.study import Row, runner
 from tehl.study.file import read_study
+from tehl.study.lock import only_run_in
 from tehl.study.plan import study_of
 
 STUDY = """
@@ -136,7 +138,105 @@ def test_a_dry_run_writes_nothing(folder, run):
 def test_set_changes_the_base_case(folder, run):
     run("loads.toml", "-o", "out", "--jobs", "1", "--set", "numerics.points=129")
     assert json.loads(run("out", "--dry-run", "--json").out)["open"] == 0
-    assert json.loads(run("loads.toml", "-o", "out", "--dry-run", "--json").out)["open"] == 8
+    assert json.loads(run("loads.toml", "-o", "other", "--dry-run", "--json").out)["open"] == 8
+
+
+PICTURES = """
+[[pictures]]
+x = "load"
+y = "h_min_m"
+[[pictures]]
+x = "load"
+y = "film_rise_max_k"
+"""
+
+
+def test_a_picture_that_cannot_be_drawn_is_a_warning_beside_the_table(folder, run):
+    (folder / "drawn.toml").write_text(STUDY + PICTURES)  # nothing is warm, so one is not drawn
+    done = run("drawn.toml", "-o", "out", "--jobs", "1", "--json")
+    again = run("out", "--table", "--json")
+    for one in (done, again):
+        assert one.code == 1  # as one case has no answer
+        assert "picture film_rise_max_k_over_load: the table has no column" in one.err
+        assert one.out.count("\n") == 1
+    assert json.loads(again.out)["files"][-1] == "out/h_min_m_over_load.png"
+
+
+def test_other_values_on_the_same_axes_go_on_in_the_folder(folder, run):
+    run("loads.toml", "-o", "out", "--jobs", "1")
+    (folder / "more.toml").write_text(STUDY.replace("Loads", "More").replace("0.5]", "0.5, 1.0]"))
+    found = json.loads(run("more.toml", "-o", "out", "--jobs", "1", "--json").out)
+    assert (found["cases"], found["reused"]) == (12, 8)
+
+
+OTHERS = {
+    "base case": STUDY.replace("ball.toml", "cube.toml"),
+    "choice of axes": STUDY.replace("contact.slide_roll_ratio", "numerics.points").replace(
+        "[0.0, 0.5]", "[65, 129]"
+    ),
+}
+
+
+@pytest.mark.parametrize("what", OTHERS)
+def test_the_folder_of_another_study_is_left_alone_unless_it_is_to_be_replaced(folder, run, what):
+    (folder / "drawn.toml").write_text(STUDY + PICTURES)
+    (folder / "cube.toml").write_text(CASE.replace("20 mm", "30 mm"))
+    (folder / "another.toml").write_text(OTHERS[what])
+    run("drawn.toml", "-o", "out", "--jobs", "1")
+    before = {path: path.read_bytes() for path in (folder / "out").iterdir()}
+    for words in ([], ["--dry-run"], ["--table"]):
+        done = run("another.toml", "-o", "out", "--jobs", "1", *words)
+        assert done.code == 2
+        assert f"out holds a study with another {what}: take another folder" in done.err
+        assert done.err.count("\n") == 1
+    assert {path: path.read_bytes() for path in (folder / "out").iterdir()} == before
+    assert run("another.toml", "-o", "out", "--jobs", "1", "--replace").code in (0, 1)
+    assert "h_min_m_over_load.png" not in names(folder / "out")
+    assert run("another.toml", "-o", "out", "--jobs", "1").code in (0, 1)
+
+
+def test_a_folder_takes_one_run_at_a_time(folder, run):
+    (folder / "out").mkdir()
+    with only_run_in(folder / "out"):
+        done = run("loads.toml", "-o", "out", "--jobs", "1")
+    assert done.code == 3
+    assert "another tehl study runs in out: wait until it ends" in done.err
+    assert done.err.count("\n") == 1
+    assert names(folder / "out") == ["study.lock"]
+    assert run("loads.toml", "-o", "out", "--jobs", "1").code == 1
+
+
+def test_a_lock_goes_with_the_program_that_held_it(folder, run):
+    (folder / "out").mkdir()
+    code = (
+        "import time, pathlib\nfrom tehl.study.lock import only_run_in\n"
+        "with only_run_in(pathlib.Path('out')):\n    print('held', flush=True)\n    time.sleep(60)"
+    )
+    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == b"held\n"
+        assert run("loads.toml", "-o", "out", "--jobs", "1").code == 3
+        process.kill()
+    assert run("loads.toml", "-o", "out", "--jobs", "1").code == 1
+
+
+def test_a_scheduler_that_is_not_there_leaves_no_folder(folder, run):
+    pytest.importorskip("distributed")
+    done = run("loads.toml", "-o", "a/b", "--scheduler", "nonsense://nowhere")
+    assert done.code == 3
+    assert "no dask scheduler answers" in done.err
+    assert "are kept" not in done.err
+    assert names(folder) == ["ball.toml", "loads.toml"]
+
+
+def test_a_damaged_plan_is_replaced_on_request(folder, run):
+    run("loads.toml", "-o", "out", "--jobs", "1")
+    (folder / "out" / "study.json").write_text("{")
+    done = run("loads.toml", "-o", "out", "--jobs", "1")
+    assert done.code == 2
+    assert "run the study file again with -o and --replace" in done.err
+    found = json.loads(run("loads.toml", "-o", "out", "--jobs", "1", "--replace", "--json").out)
+    assert found["reused"] == 8
 
 
 def test_a_folder_draws_its_table(folder, run):
