@@ -2,6 +2,7 @@
 """``tehl study``: what it writes, prints and returns, with work that answers at once."""
 
 import json
+import os
 import subprocess
 import sys
 from types import SimpleNamespace
@@ -11,6 +12,7 @@ import pytest
 
 from tehl import cli
 from tehl.cli.study_progress import Lines, Tally, duration
+from tehl.io import atomic
 from tehl.io.templates import study_templates, template_text
 from tehl.result import Cost
 from tehl.study import Row, runner
@@ -227,6 +229,41 @@ def test_a_scheduler_that_is_not_there_leaves_no_folder(folder, run):
     assert "no dask scheduler answers" in done.err
     assert "are kept" not in done.err
     assert names(folder) == ["ball.toml", "loads.toml"]
+
+
+@pytest.fixture
+def protected(folder, run, monkeypatch):
+    """The folder of a study that takes no more files, for who may write anywhere too."""
+    run("loads.toml", "-o", "out", "--jobs", "1")
+    may = os.access
+
+    def refused(**_):
+        raise PermissionError(13, "Permission denied")
+
+    def access(path, mode):
+        return mode != os.W_OK and may(path, mode)
+
+    monkeypatch.setattr(atomic.tempfile, "TemporaryFile", refused)
+    monkeypatch.setattr(os, "access", access)
+    return folder / "out"
+
+
+def test_a_dry_run_reads_where_nothing_can_be_written(protected, run):
+    before = {path: path.read_bytes() for path in protected.iterdir()}
+    done = run("out", "--dry-run", "--json")
+    assert done.code == 0
+    assert json.loads(done.out)["open"] == 0
+    assert {path: path.read_bytes() for path in protected.iterdir()} == before
+
+
+@pytest.mark.parametrize("words", [["--table"], ["--plot", "x=load,y=h_min_m"], ["--jobs", "1"]])
+def test_what_cannot_be_written_is_a_fault_of_the_environment(protected, run, words):
+    before = names(protected)
+    done = run("out", *words)
+    assert done.code == 3
+    assert "cannot write into" in done.err
+    assert done.err.count("\n") == 1
+    assert names(protected) == before
 
 
 def test_a_damaged_plan_is_replaced_on_request(folder, run):

@@ -135,9 +135,9 @@ def _study(plan: "Plan", source: Path) -> "Study":
 
 def _check_folder(folder: Path, source: Path) -> None:
     from tehl.errors import InputError
-    from tehl.io.atomic import check_folder
+    from tehl.io.atomic import check_place
 
-    check_folder(folder)
+    check_place(folder)
     if folder.is_dir() and not (folder / "study.json").exists() and folder != source:
         foreign = [path.name for path in folder.iterdir() if path.name in ("table.csv", "fields")]
         if foreign:
@@ -179,10 +179,10 @@ class _Wishes:
 @contextmanager
 def _alone(folder: Path) -> Iterator[None]:
     """Make the folder and keep other runs out of it; without an outcome it goes away again."""
-    from tehl.io.atomic import check_folder
+    from tehl.study.folder import check_can_write
     from tehl.study.lock import LOCK, only_run_in
 
-    check_folder(folder)
+    check_can_write(folder)
     missing = [place for place in (folder, *folder.parents) if not place.exists()]
     folder.mkdir(parents=True, exist_ok=True)
     with only_run_in(folder):
@@ -277,13 +277,14 @@ def _show(
 
     from tehl.errors import InputError
     from tehl.study.draw import save
-    from tehl.study.folder import store_of
+    from tehl.study.folder import check_can_write, store_of
 
     store = store_of(chosen.plan, folder)
     frame = _table(chosen, store)
     store.close()
     if (frame["status"] == "open").all():
         raise InputError(f"no case of the study is finished yet in {folder}")
+    check_can_write(folder)
     files = [save(one, frame, folder) for one in pictures]
     if whole or not pictures:
         written = _write_frame(frame, folder, chosen.plan.pictures)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import TypeAdapter
 
 from tehl.errors import FileFormatError, InputError
-from tehl.io.atomic import check_folder, replacing
+from tehl.io.atomic import check_folder, check_place, replacing
 from tehl.study.plan import Plan
 from tehl.study.store import Store
 
@@ -24,6 +24,23 @@ _ANEW = (
 def store_of(plan: Plan, folder: Path) -> Store:
     """Return the store of a study, in its folder if it names no other."""
     return Store(plan.store or folder, keep=plan.keep)
+
+
+def check_can_write(folder: Path) -> None:
+    """Refuse a folder that takes no files.
+
+    Raises
+    ------
+    InputError
+        If something else is in its way.
+    OSError
+        If it cannot be written.
+    """
+    check_place(folder)
+    try:
+        check_folder(folder)
+    except InputError as error:
+        raise OSError(str(error)) from None
 
 
 def save_plan(plan: Plan, folder: Path) -> bool:

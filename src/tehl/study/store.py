@@ -6,6 +6,7 @@ file whole or not at all. So a kill at any time costs the cases in work and no f
 
 import errno
 import json
+import os
 import sqlite3
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager, suppress
@@ -14,7 +15,7 @@ from pathlib import Path
 from typing import Literal, get_args
 
 from tehl.errors import FileFormatError, InputError
-from tehl.io.atomic import check_folder
+from tehl.io.atomic import check_place
 from tehl.result import Cost, Result
 from tehl.study.case import Case
 from tehl.study.row import Row
@@ -64,7 +65,7 @@ class Store:
         if keep not in get_args(Keep):
             raise InputError(f'keep = "{keep}" is not known: known are summary and fields')
         self.directory, self.keep = Path(directory), keep
-        check_folder(self.directory)
+        check_place(self.directory)
         self._connection: sqlite3.Connection | None = None
         if self._file.exists():
             self._open()
@@ -190,8 +191,13 @@ class Store:
         self._connection = None
 
     def _open(self) -> None:
+        place, is_uri = self._address()
         self._connection = sqlite3.connect(
-            self._file, timeout=_PATIENCE, isolation_level="IMMEDIATE", check_same_thread=False
+            place,
+            timeout=_PATIENCE,
+            isolation_level="IMMEDIATE",
+            check_same_thread=False,
+            uri=is_uri,
         )
         # half a letter is no reason not to read the others
         self._connection.text_factory = lambda text: text.decode("utf-8", "replace")
@@ -209,6 +215,14 @@ class Store:
             connection.execute("PRAGMA synchronous = NORMAL")
             if version == 0:
                 connection.executescript(_SCHEMA)
+
+    def _address(self) -> tuple[str, bool]:
+        """Return how to open the file of rows, and whether that is a URI: to read it only."""
+        if os.access(self.directory, os.W_OK):
+            return str(self._file), False
+        log = self._file.with_name(f"{self._file.name}-wal")
+        how = "mode=ro" if log.exists() else "immutable=1"  # without a log nobody writes it
+        return f"{self._file.resolve().as_uri()}?{how}", True
 
     @contextmanager
     def _telling(self) -> Iterator[sqlite3.Connection]:
