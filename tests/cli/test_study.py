@@ -130,7 +130,7 @@ def test_another_study_finds_the_cases_of_a_shared_store(folder, run):
 def test_a_dry_run_writes_nothing(folder, run):
     done = run("loads.toml", "-o", "out", "--dry-run")
     assert done.code == 0
-    assert "8, from load = 20" in done.out
+    assert "8, from load = 20 N, slide_roll_ratio = 0 to" in done.out
     found = json.loads(run("loads.toml", "--dry-run", "--json", "--jobs", "2").out)
     assert (found["cases"], found["open"], found["jobs"]) == (8, 8, 2)
     assert found["cpu_seconds"] > 0
@@ -374,6 +374,13 @@ WRONG = {
         "certify = true\n" + STUDY + '[[axes]]\npath = "numerics.points"\nvalues = [129, 65]',
         "case 2 of 16: points = 65 is too few to certify",
     ),
+    "one bracket": ('case = "ball.toml"\n[axes]\npath = "contact.load"', "write [[axes]], with"),
+    "one bracket twice": (STUDY.replace("[[axes]]", "[axes]"), "twice: write [[axes]], with two"),
+    "a word for true": ('certify = "yes"\n' + STUDY, "certify = 'yes' must be true or false"),
+    "a number for true": ("certify = 1\n" + STUDY, "certify = 1 must be true or false"),
+    "a value twice": (STUDY.replace("[0.0,", "[0.5,"), "has the value 0.5 twice: give each once"),
+    "one value often": (STUDY.replace("80 N", "20 N"), "has the value 20 N 4 times: give two"),
+    "a name twice": (STUDY + 'names = ["a", "a"]', 'has the name "a" twice: give each once'),
     "no list": ('cases = "none.csv"\ncase = "ball.toml"', "there is no list of cases none.csv"),
 }
 
@@ -389,6 +396,26 @@ def test_a_wrong_study_is_one_sentence_before_any_work(folder, run, monkeypatch,
     assert done.err.startswith("tehl: wrong.toml: ")
     assert done.err.count("\n") == 1
     assert names(folder) == ["ball.toml", "loads.toml", "wrong.toml"]
+
+
+def test_the_lines_of_a_list_are_counted_as_an_editor_does(folder, run):
+    (folder / "list.csv").write_text("\ncontact.load [N]\n20\n\n\n30,40\n")
+    (folder / "listed.toml").write_text('case = "ball.toml"\ncases = "list.csv"\n')
+    done = run("listed.toml", "--dry-run")
+    assert done.code == 2
+    assert "list.csv: line 6 has 2 cells, but the first has 1" in done.err
+
+
+def test_a_hint_of_many_cases_is_told_once(folder, run, monkeypatch):
+    def hopeless(case, fields):
+        words = {"cause": "stalled", "message": "It stalls.", "hint": "Take 513."}
+        return Row(key=case.key, status="stalled", **words)
+
+    monkeypatch.setattr(runner, "work", hopeless)
+    done = run("loads.toml", "-o", "out", "--jobs", "1")
+    assert done.out.count("It stalls.") == 8
+    assert done.out.count("hint") == 1
+    assert "hint for 8 of them: Take 513." in done.out
 
 
 def test_a_column_of_a_list_may_be_no_key_of_another_axis(folder, run):
@@ -419,6 +446,9 @@ def test_many_cases_can_be_meant(folder, run):
     [
         (["nowhere.toml"], "there is no such study file"),
         (["out", "--set", "a.b=1"], "is planned already"),
+        (["loads.toml", "--jobs", "0"], "--jobs 0 must be a whole number of processes, 1 or more"),
+        (["loads.toml", "--jobs", "abc"], "--jobs abc must be a whole number"),
+        (["out", "--plot", "foo"], '"foo" is no picture'),
         (["empty"], "is no folder of a study"),
         (["out", "--plot", "x=load"], "is no picture"),
         (["out", "--plot", "x=load,y=h_mn_m"], "has no column h_mn_m"),

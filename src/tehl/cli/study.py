@@ -1,5 +1,6 @@
 """``tehl study``: many cases, in parallel, resumable, one table."""
 
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -28,7 +29,8 @@ def study(  # noqa: PLR0913, PLR0917 (the options of the command)
         typer.Option("-o", "--output", metavar="DIR", help="Folder; STUDY here if left out."),
     ] = None,
     jobs: Annotated[
-        int | None, typer.Option("--jobs", "-j", min=1, help="Processes; one per core if left out.")
+        str | None,
+        typer.Option("--jobs", "-j", metavar="N", help="Processes; one per core if left out."),
     ] = None,
     scheduler: Annotated[
         str | None,
@@ -75,20 +77,20 @@ def study(  # noqa: PLR0913, PLR0917 (the options of the command)
     from tehl.study.folder import check_same
     from tehl.study.pictures import picture_of
 
-    pictures = tuple(picture_of(words) for words in plots)
+    workers, pictures = _workers(jobs), tuple(picture_of(words) for words in plots)
     plan, folder = _plan(source, output, changes, yes=yes)
     _check_folder(folder, source)
     chosen = _study(plan, source)
     if not replace:
         check_same(plan, folder)
     if dry_run:
-        _tell_forecast(chosen, folder, _workers(jobs), as_json=as_json)
+        _tell_forecast(chosen, folder, workers, as_json=as_json)
         return
     if table_only or pictures:
         _show(chosen, folder, pictures, whole=table_only, as_json=as_json)
         return
     wishes = _Wishes(
-        jobs=_workers(jobs),
+        jobs=workers,
         scheduler=scheduler,
         retry_failed=retry_failed,
         quiet=quiet,
@@ -146,12 +148,17 @@ def _check_folder(folder: Path, source: Path) -> None:
             )
 
 
-def _workers(jobs: int | None) -> int:
+def _workers(jobs: str | None) -> int:
     """Return how many processes to take: as stated, or one per core of this process."""
     import os
 
+    from tehl.errors import InputError
+
     if jobs is not None:
-        return jobs
+        number = int(jobs) if jobs.isascii() and jobs.isdigit() and len(jobs) < 7 else 0
+        if number < 1:
+            raise InputError(f"--jobs {jobs[:40]} must be a whole number of processes, 1 or more")
+        return number
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
     return max(1, cores or 1)
 
@@ -247,7 +254,9 @@ def _write(
     chosen: "Study", store: "Store", folder: Path, pictures: tuple["Picture", ...]
 ) -> dict[str, Any]:
     """Write table and pictures; return the files by kind."""
-    return _write_frame(_table(chosen, store), folder, pictures)
+    frame = _table(chosen, store)
+    store.close()
+    return _write_frame(frame, folder, pictures)
 
 
 def _write_frame(
@@ -359,9 +368,10 @@ def _tell(outcome: "Outcome", written: dict[str, Any], *, as_json: bool) -> None
     )
     for case, row in outcome.failed[:SHOWN]:
         typer.echo(f"  no answer: {case.name}: {row.message or row.cause}")
-        if row.hint:
-            typer.echo(f"    hint: {row.hint}")
     if len(outcome.failed) > SHOWN:
         typer.echo(f"  and {len(outcome.failed) - SHOWN} more, see the table")
+    hints = Counter(row.hint for _, row in outcome.failed if row.hint)
+    for hint, count in hints.most_common(SHOWN):
+        typer.echo(f"  hint: {hint}" if count == 1 else f"  hint for {count} of them: {hint}")
     for path in (*written["table"], *written["pictures"]):
         typer.echo(f"written: {path}", err=True)

@@ -1,11 +1,12 @@
 """Study files: TOML in, a plan out, and every mistake told in one sentence before any work."""
 
 import difflib
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any, cast
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, StrictBool, ValidationError
 
 from tehl.errors import InputError
 from tehl.io.atomic import shortened
@@ -57,9 +58,9 @@ class StudyFile(BaseModel):
     axes: list[Axis] = []
     sample: Sample | None = None
     cases: str | None = None
-    certify: bool = False
+    certify: StrictBool = False
     keep: Keep = "summary"
-    warm_start: bool = False
+    warm_start: StrictBool = False
     store: str | None = None
     largest: Annotated[int, Field(ge=1)] | None = None
     pictures: list[Picture] = []
@@ -187,7 +188,9 @@ def _placed(picture: Picture, folder: Path) -> Picture:
 
 
 def _as_study(message: str) -> str:
-    return message.replace("case file", "study file")
+    again = re.search(r"Cannot declare \('(axes|pictures)',\) twice", message)
+    hint = f": write [[{again[1]}]], with two brackets" if again else ""
+    return message.replace("case file", "study file") + hint
 
 
 def told(error: ValidationError, tables: Mapping[str, Any]) -> str:
@@ -212,6 +215,10 @@ def told(error: ValidationError, tables: Mapping[str, Any]) -> str:
     message = first["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
     if first["type"] == "value_error":
         return f"{name} {message}"
+    if first["type"] == "list_type" and len(where) == 1 and where[0] in ("axes", "pictures"):
+        return f"{name} must be a list of tables: write [[{name}]], with two brackets"
+    if first["type"] == "bool_type":
+        message = "must be true or false"
     shown = repr(first["input"])
     return f"{name} = {shown if len(shown) <= 60 else f'{shown[:57]}...'} {message}"
 
