@@ -186,7 +186,7 @@ def test_the_folder_of_another_study_is_left_alone_unless_it_is_to_be_replaced(f
     (folder / "another.toml").write_text(OTHERS[what])
     run("drawn.toml", "-o", "out", "--jobs", "1")
     before = {path: path.read_bytes() for path in (folder / "out").iterdir()}
-    for words in ([], ["--dry-run"], ["--table"]):
+    for words in ([], ["--dry-run"], ["--table"], ["--table", "--replace"]):
         done = run("another.toml", "-o", "out", "--jobs", "1", *words)
         assert done.code == 2
         assert f"out holds a study with another {what}: take another folder" in done.err

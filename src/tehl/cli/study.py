@@ -81,7 +81,7 @@ def study(  # noqa: PLR0913, PLR0917 (the options of the command)
     plan, folder = _plan(source, output, changes, yes=yes)
     _check_folder(folder, source)
     chosen = _study(plan, source)
-    if not replace:
+    if not replace or table_only or pictures:
         check_same(plan, folder)
     if dry_run:
         _tell_forecast(chosen, folder, workers, as_json=as_json)
