@@ -32,11 +32,12 @@ _BLOCKS = {
     "area_below_half_median minimum_at.0 P_max ripples_x.count ripples_x.depth_m ripples_y.count "
     "ripples_y.depth_m " + " ".join(f"waves.0.{key}" for key in _WAVE.split()),
     "convergence": "cycles residual change load_error heat_balance_error",
+    "errors": "discretisation_central discretisation_minimum iteration_central iteration_minimum",
     "cost": "points.0 cpu_seconds wall_seconds work",
 }
 """Columns of the summary by their blocks; of a list, the first entry stands for all."""
-_FREE = ("uncertainty", "errors")
-"""Blocks that mirror others, or have whatever the solver estimates."""
+_FREE = ("uncertainty",)
+"""Blocks that mirror others."""
 
 NUMBERS = tuple(f"{block}.{key}" for block, keys in _BLOCKS.items() for key in keys.split())
 """Columns of the summary."""
