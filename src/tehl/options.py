@@ -5,6 +5,8 @@ from typing import Annotated, Literal, Self
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
+from tehl.errors import InputError
+
 
 def _not_a_truth(value: object) -> object:
     """Refuse true and false, which Python takes for 1 and 0."""
@@ -141,6 +143,10 @@ class Options(BaseModel):
         return self
 
 
+HALVED_TO_CERTIFY = 2
+"""How often the grid of a certification is halved; the coarsest must still be halved once."""
+
+
 def coarsenings(nodes: int) -> int:
     """Return how often a grid line of ``nodes`` can be halved down to 16 to 31 intervals."""
     intervals, count = nodes - 1, 0
@@ -156,3 +162,18 @@ def coarsenable(nodes: int) -> tuple[int, int]:
     step = 2 ** max(1, (intervals // 16).bit_length() - 1)
     fewer = intervals // step * step
     return fewer + 1, fewer + step + 1
+
+
+def check_certifiable(options: Options) -> None:
+    """Refuse options whose grid cannot be certified.
+
+    Raises
+    ------
+    InputError
+        When the grid cannot be halved twice.
+    """
+    if min(coarsenings(nodes) for nodes in options.shape) < HALVED_TO_CERTIFY + 1:
+        raise InputError(
+            f"points = {options.points} is too few to certify: the grid is halved twice, "
+            "which takes 129 nodes or more per direction"
+        )

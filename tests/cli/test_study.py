@@ -2,6 +2,8 @@
 """``tehl study``: what it writes, prints and returns, with work that answers at once."""
 
 import json
+import os
+import subprocess
 import sys
 from types import SimpleNamespace
 
@@ -10,10 +12,12 @@ import pytest
 
 from tehl import cli
 from tehl.cli.study_progress import Lines, Tally, duration
+from tehl.io import atomic
 from tehl.io.templates import study_templates, template_text
 from tehl.result import Cost
 from tehl.study import Row, runner
 from tehl.study.file import read_study
+from tehl.study.lock import only_run_in
 from tehl.study.plan import study_of
 
 STUDY = """
@@ -126,7 +130,7 @@ def test_another_study_finds_the_cases_of_a_shared_store(folder, run):
 def test_a_dry_run_writes_nothing(folder, run):
     done = run("loads.toml", "-o", "out", "--dry-run")
     assert done.code == 0
-    assert "8, from load = 20" in done.out
+    assert "8, from load = 20 N, slide_roll_ratio = 0 to" in done.out
     found = json.loads(run("loads.toml", "--dry-run", "--json", "--jobs", "2").out)
     assert (found["cases"], found["open"], found["jobs"]) == (8, 8, 2)
     assert found["cpu_seconds"] > 0
@@ -136,7 +140,140 @@ def test_a_dry_run_writes_nothing(folder, run):
 def test_set_changes_the_base_case(folder, run):
     run("loads.toml", "-o", "out", "--jobs", "1", "--set", "numerics.points=129")
     assert json.loads(run("out", "--dry-run", "--json").out)["open"] == 0
-    assert json.loads(run("loads.toml", "-o", "out", "--dry-run", "--json").out)["open"] == 8
+    assert json.loads(run("loads.toml", "-o", "other", "--dry-run", "--json").out)["open"] == 8
+
+
+PICTURES = """
+[[pictures]]
+x = "load"
+y = "h_min_m"
+[[pictures]]
+x = "load"
+y = "film_rise_max_k"
+"""
+
+
+def test_a_picture_that_cannot_be_drawn_is_a_warning_beside_the_table(folder, run):
+    (folder / "drawn.toml").write_text(STUDY + PICTURES)  # nothing is warm, so one is not drawn
+    done = run("drawn.toml", "-o", "out", "--jobs", "1", "--json")
+    again = run("out", "--table", "--json")
+    for one in (done, again):
+        assert one.code == 1  # as one case has no answer
+        assert "picture film_rise_max_k_over_load: the table has no column" in one.err
+        assert one.out.count("\n") == 1
+    assert json.loads(again.out)["files"][-1] == "out/h_min_m_over_load.png"
+
+
+def test_other_values_on_the_same_axes_go_on_in_the_folder(folder, run):
+    run("loads.toml", "-o", "out", "--jobs", "1")
+    (folder / "more.toml").write_text(STUDY.replace("Loads", "More").replace("0.5]", "0.5, 1.0]"))
+    found = json.loads(run("more.toml", "-o", "out", "--jobs", "1", "--json").out)
+    assert (found["cases"], found["reused"]) == (12, 8)
+
+
+OTHERS = {
+    "base case": STUDY.replace("ball.toml", "cube.toml"),
+    "choice of axes": STUDY.replace("contact.slide_roll_ratio", "numerics.points").replace(
+        "[0.0, 0.5]", "[65, 129]"
+    ),
+}
+
+
+@pytest.mark.parametrize("what", OTHERS)
+def test_the_folder_of_another_study_is_left_alone_unless_it_is_to_be_replaced(folder, run, what):
+    (folder / "drawn.toml").write_text(STUDY + PICTURES)
+    (folder / "cube.toml").write_text(CASE.replace("20 mm", "30 mm"))
+    (folder / "another.toml").write_text(OTHERS[what])
+    run("drawn.toml", "-o", "out", "--jobs", "1")
+    before = {path: path.read_bytes() for path in (folder / "out").iterdir()}
+    for words in ([], ["--dry-run"], ["--table"], ["--table", "--replace"]):
+        done = run("another.toml", "-o", "out", "--jobs", "1", *words)
+        assert done.code == 2
+        assert f"out holds a study with another {what}: take another folder" in done.err
+        assert done.err.count("\n") == 1
+    assert {path: path.read_bytes() for path in (folder / "out").iterdir()} == before
+    assert run("another.toml", "-o", "out", "--jobs", "1", "--replace").code in (0, 1)
+    assert "h_min_m_over_load.png" not in names(folder / "out")
+    assert run("another.toml", "-o", "out", "--jobs", "1").code in (0, 1)
+
+
+def test_a_folder_takes_one_run_at_a_time(folder, run):
+    (folder / "out").mkdir()
+    with only_run_in(folder / "out"):
+        done = run("loads.toml", "-o", "out", "--jobs", "1")
+    assert done.code == 3
+    assert "another tehl study runs in out: wait until it ends" in done.err
+    assert done.err.count("\n") == 1
+    assert names(folder / "out") == ["study.lock"]
+    assert run("loads.toml", "-o", "out", "--jobs", "1").code == 1
+
+
+def test_a_lock_goes_with_the_program_that_held_it(folder, run):
+    (folder / "out").mkdir()
+    code = (
+        "import time, pathlib\nfrom tehl.study.lock import only_run_in\n"
+        "with only_run_in(pathlib.Path('out')):\n    print('held', flush=True)\n    time.sleep(60)"
+    )
+    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == b"held\n"
+        assert run("loads.toml", "-o", "out", "--jobs", "1").code == 3
+        process.kill()
+    assert run("loads.toml", "-o", "out", "--jobs", "1").code == 1
+
+
+def test_a_scheduler_that_is_not_there_leaves_no_folder(folder, run):
+    pytest.importorskip("distributed")
+    done = run("loads.toml", "-o", "a/b", "--scheduler", "nonsense://nowhere")
+    assert done.code == 3
+    assert "no dask scheduler answers" in done.err
+    assert "are kept" not in done.err
+    assert names(folder) == ["ball.toml", "loads.toml"]
+
+
+@pytest.fixture
+def protected(folder, run, monkeypatch):
+    """The folder of a study that takes no more files, for who may write anywhere too."""
+    run("loads.toml", "-o", "out", "--jobs", "1")
+    may = os.access
+
+    def refused(**_):
+        raise PermissionError(13, "Permission denied")
+
+    def access(path, mode):
+        return mode != os.W_OK and may(path, mode)
+
+    monkeypatch.setattr(atomic.tempfile, "TemporaryFile", refused)
+    monkeypatch.setattr(os, "access", access)
+    return folder / "out"
+
+
+def test_a_dry_run_reads_where_nothing_can_be_written(protected, run):
+    before = {path: path.read_bytes() for path in protected.iterdir()}
+    done = run("out", "--dry-run", "--json")
+    assert done.code == 0
+    assert json.loads(done.out)["open"] == 0
+    assert {path: path.read_bytes() for path in protected.iterdir()} == before
+
+
+@pytest.mark.parametrize("words", [["--table"], ["--plot", "x=load,y=h_min_m"], ["--jobs", "1"]])
+def test_what_cannot_be_written_is_a_fault_of_the_environment(protected, run, words):
+    before = names(protected)
+    done = run("out", *words)
+    assert done.code == 3
+    assert "cannot write into" in done.err
+    assert done.err.count("\n") == 1
+    assert names(protected) == before
+
+
+def test_a_damaged_plan_is_replaced_on_request(folder, run):
+    run("loads.toml", "-o", "out", "--jobs", "1")
+    (folder / "out" / "study.json").write_text("{")
+    done = run("loads.toml", "-o", "out", "--jobs", "1")
+    assert done.code == 2
+    assert "run the study file again with -o and --replace" in done.err
+    found = json.loads(run("loads.toml", "-o", "out", "--jobs", "1", "--replace", "--json").out)
+    assert found["reused"] == 8
 
 
 def test_a_folder_draws_its_table(folder, run):
@@ -218,6 +355,32 @@ WRONG = {
     "no toml": ("case = ", "is no TOML"),
     "a picture": (STUDY + '[[pictures]]\nx = "load"', "pictures[1] needs x and y, or map"),
     "a case": (CASE, "is a case file: tehl solve takes it"),
+    "a table and its key": (
+        STUDY.replace("contact.slide_roll_ratio", "contact").replace("[0.0, 0.5]", "[{}]"),
+        "has an axis contact and an axis contact.load, which is a key of it",
+    ),
+    "a built-in name": (STUDY + 'name = "film.h_min_m"', 'name "film.h_min_m", which is another'),
+    "a status": (STUDY + 'name = "status"', 'an axis with the name "status"'),
+    "one name": (STUDY + 'name = "contact.load"', "two axes with the name contact.load: give each"),
+    "a column": (
+        STUDY + '[[pictures]]\nx = "load"\ny = "h_mn_m"',
+        'pictures[1].y = "h_mn_m": the table will have no column h_mn_m: did you mean h_min_m?',
+    ),
+    "one file": (
+        STUDY + '[[pictures]]\nx="load"\ny="h_min_m"\n[[pictures]]\nx="load"\ny="h_min_m"\nlog="x"',
+        "pictures[1] and pictures[2] would both be h_min_m_over_load.png",
+    ),
+    "too few to certify": (
+        "certify = true\n" + STUDY + '[[axes]]\npath = "numerics.points"\nvalues = [129, 65]',
+        "case 2 of 16: points = 65 is too few to certify",
+    ),
+    "one bracket": ('case = "ball.toml"\n[axes]\npath = "contact.load"', "write [[axes]], with"),
+    "one bracket twice": (STUDY.replace("[[axes]]", "[axes]"), "twice: write [[axes]], with two"),
+    "a word for true": ('certify = "yes"\n' + STUDY, "certify = 'yes' must be true or false"),
+    "a number for true": ("certify = 1\n" + STUDY, "certify = 1 must be true or false"),
+    "a value twice": (STUDY.replace("[0.0,", "[0.5,"), "has the value 0.5 twice: give each once"),
+    "one value often": (STUDY.replace("80 N", "20 N"), "has the value 20 N 4 times: give two"),
+    "a name twice": (STUDY + 'names = ["a", "a"]', 'has the name "a" twice: give each once'),
     "no list": ('cases = "none.csv"\ncase = "ball.toml"', "there is no list of cases none.csv"),
 }
 
@@ -235,6 +398,40 @@ def test_a_wrong_study_is_one_sentence_before_any_work(folder, run, monkeypatch,
     assert names(folder) == ["ball.toml", "loads.toml", "wrong.toml"]
 
 
+def test_the_lines_of_a_list_are_counted_as_an_editor_does(folder, run):
+    (folder / "list.csv").write_text("\ncontact.load [N]\n20\n\n\n30,40\n")
+    (folder / "listed.toml").write_text('case = "ball.toml"\ncases = "list.csv"\n')
+    done = run("listed.toml", "--dry-run")
+    assert done.code == 2
+    assert "list.csv: line 6 has 2 cells, but the first has 1" in done.err
+
+
+def test_a_hint_of_many_cases_is_told_once(folder, run, monkeypatch):
+    def hopeless(case, fields):
+        words = {"cause": "stalled", "message": "It stalls.", "hint": "Take 513."}
+        return Row(key=case.key, status="stalled", **words)
+
+    monkeypatch.setattr(runner, "work", hopeless)
+    done = run("loads.toml", "-o", "out", "--jobs", "1")
+    assert done.out.count("It stalls.") == 8
+    assert done.out.count("hint") == 1
+    assert "hint for 8 of them: Take 513." in done.out
+
+
+def test_a_column_of_a_list_may_be_no_key_of_another_axis(folder, run):
+    (folder / "list.csv").write_text("contact,contact.moes_load\n1,2\n")
+    (folder / "overlap.toml").write_text('case = "ball.toml"\ncases = "list.csv"\n')
+    done = run("overlap.toml", "--dry-run")
+    assert done.code == 2
+    assert "an axis contact and an axis contact.moes_load" in done.err
+
+
+def test_identical_pictures_are_drawn_once(folder, run):
+    picture = '[[pictures]]\nx = "load"\ny = "-h_min_m"\nhue = "slide_roll_ratio"\n'
+    (folder / "drawn.toml").write_text(STUDY + picture + picture)
+    assert len(read_study("drawn.toml").pictures) == 1
+
+
 def test_many_cases_can_be_meant(folder, run):
     text = STUDY.replace("4]", "5001]")
     (folder / "many.toml").write_text(text)
@@ -249,6 +446,9 @@ def test_many_cases_can_be_meant(folder, run):
     [
         (["nowhere.toml"], "there is no such study file"),
         (["out", "--set", "a.b=1"], "is planned already"),
+        (["loads.toml", "--jobs", "0"], "--jobs 0 must be a whole number of processes, 1 or more"),
+        (["loads.toml", "--jobs", "abc"], "--jobs abc must be a whole number"),
+        (["out", "--plot", "foo"], '"foo" is no picture'),
         (["empty"], "is no folder of a study"),
         (["out", "--plot", "x=load"], "is no picture"),
         (["out", "--plot", "x=load,y=h_mn_m"], "has no column h_mn_m"),

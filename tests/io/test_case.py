@@ -401,3 +401,17 @@ def test_a_key_near_one_of_the_stated_law_is_suggested_from_that_law(case: Path)
     changes = ['lubricant.shear={ law = "carreau", modulus = "5 MPa", exponnt = 0.4 }']
     with pytest.raises(InputError, match="did you mean exponent"):
         read_case_and_options(case, changes)
+
+
+@pytest.mark.parametrize(
+    ("stated", "words"),
+    [
+        ({}, "surface_1.roughness.type is missing: known are smooth, wave, .*, map, sum$"),
+        ([{"amplitude": "1 nm"}], r"roughness\.0\.type is missing: known are smooth, .*, map$"),
+        ({"type": "wav"}, 'surface_1.roughness.type = "wav" is not known: did you mean wave'),
+        ([{"type": "wave"}], r"roughness\.0\.amplitude is missing: give a length such as"),
+    ],
+)
+def test_a_roughness_without_its_type_is_told_what_there_is(stated, words):
+    with pytest.raises(InputError, match=words):
+        case_from_tables(ball_tables(surface_1={"material": "steel", "roughness": stated}))

@@ -182,3 +182,29 @@ def test_a_store_of_another_format_is_refused(tmp_path):
         connection.execute("PRAGMA user_version = 99")
     with pytest.raises(FileFormatError, match="format 99"):
         Store(tmp_path)
+
+
+@pytest.mark.parametrize("summary", ["{", "[1]", "", "\udcff"])
+def test_a_row_that_is_damaged_is_solved_again(tmp_path, monkeypatch, summary):
+    monkeypatch.setattr(runner, "work", mishaps.quick)
+    store = Store(tmp_path)
+    run(cases(3), store)
+    whole = table(cases(3), store)
+    store.close()
+    with sqlite3.connect(tmp_path / "rows.sqlite") as connection:
+        content = summary.encode("utf-8", "surrogateescape")
+        change = "UPDATE rows SET summary = CAST(? AS TEXT) WHERE key = ?"
+        connection.execute(change, (content, cases(3)[1].key))
+    assert list(table(cases(3), store)["status"]) == ["converged", "open", "converged"]
+    assert run(cases(3), store).reused == 2
+    assert table(cases(3), store).equals(whole)
+
+
+def test_a_row_without_a_cost_is_solved_again(tmp_path, monkeypatch):
+    monkeypatch.setattr(runner, "work", mishaps.quick)
+    store = Store(tmp_path)
+    run(cases(2), store)
+    store.close()
+    with sqlite3.connect(tmp_path / "rows.sqlite") as connection:
+        connection.execute("UPDATE rows SET cpu_seconds = 'much'")
+    assert run(cases(2), store).reused == 0

@@ -8,7 +8,8 @@ import pytest
 from tehl import solver
 from tehl.errors import InputError
 from tehl.study import Store, run, table
-from tehl.study.row import flat, unit_of
+from tehl.study.columns import is_number
+from tehl.study.row import flat, row_of, unit_of
 from tests.study.contacts import Notes, assert_same_numbers, cases, failing
 
 
@@ -161,3 +162,15 @@ def test_the_name_of_a_number_tells_its_unit(name, unit):
 def test_a_worker_count_that_cannot_be_is_refused(tmp_path):
     with pytest.raises(InputError, match="jobs = 0"):
         run(cases(1), Store(tmp_path), jobs=0)
+
+
+def test_each_number_of_a_summary_is_a_column_that_is_known_before(finished):
+    names = [name for name in table(cases(), finished[0]) if "." in name]
+    assert len(names) > 30
+    assert [name for name in names if not is_number(name)] == []
+
+
+@pytest.mark.parametrize("kind", ["thermal", "rough"])
+def test_numbers_of_heat_and_roughness_are_columns_that_are_known_before(kind, request):
+    names = row_of("key", request.getfixturevalue(kind)).summary
+    assert [name for name in names if not is_number(name)] == []

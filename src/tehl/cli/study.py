@@ -1,5 +1,8 @@
 """``tehl study``: many cases, in parallel, resumable, one table."""
 
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -26,7 +29,8 @@ def study(  # noqa: PLR0913, PLR0917 (the options of the command)
         typer.Option("-o", "--output", metavar="DIR", help="Folder; STUDY here if left out."),
     ] = None,
     jobs: Annotated[
-        int | None, typer.Option("--jobs", "-j", min=1, help="Processes; one per core if left out.")
+        str | None,
+        typer.Option("--jobs", "-j", metavar="N", help="Processes; one per core if left out."),
     ] = None,
     scheduler: Annotated[
         str | None,
@@ -42,6 +46,10 @@ def study(  # noqa: PLR0913, PLR0917 (the options of the command)
     ] = False,
     retry_failed: Annotated[
         bool, typer.Option("--retry-failed", help="Solve those again that have no answer.")
+    ] = False,
+    replace: Annotated[
+        bool,
+        typer.Option("--replace", help="Take the place of another study in the folder."),
     ] = False,
     table_only: Annotated[
         bool, typer.Option("--table", help="Write the table of what is finished; solve nothing.")
@@ -66,23 +74,31 @@ def study(  # noqa: PLR0913, PLR0917 (the options of the command)
     1: some have no answer and are named; 2: bad input, nothing is solved; 3: the environment
     failed, what is finished is kept.
     """
+    from tehl.study.folder import check_same
     from tehl.study.pictures import picture_of
 
-    pictures = tuple(picture_of(words) for words in plots)
+    workers, pictures = _workers(jobs), tuple(picture_of(words) for words in plots)
     plan, folder = _plan(source, output, changes, yes=yes)
     _check_folder(folder, source)
     chosen = _study(plan, source)
+    if not replace or table_only or pictures:
+        check_same(plan, folder)
     if dry_run:
-        _tell_forecast(chosen, folder, _workers(jobs), as_json=as_json)
+        _tell_forecast(chosen, folder, workers, as_json=as_json)
         return
     if table_only or pictures:
-        _show(chosen, folder, pictures, as_json=as_json)
+        _show(chosen, folder, pictures, whole=table_only, as_json=as_json)
         return
     wishes = _Wishes(
-        jobs=_workers(jobs), scheduler=scheduler, retry_failed=retry_failed, quiet=quiet
+        jobs=workers,
+        scheduler=scheduler,
+        retry_failed=retry_failed,
+        quiet=quiet,
+        replace=replace,
     )
-    outcome, store = _run(chosen, folder, wishes)
-    written = _write(chosen, store, folder, plan.pictures)
+    with _alone(folder):
+        outcome, store = _run(chosen, folder, wishes)
+        written = _write(chosen, store, folder, plan.pictures)
     _tell(outcome, written, as_json=as_json)
     if outcome.failed:
         raise typer.Exit(1)
@@ -121,9 +137,9 @@ def _study(plan: "Plan", source: Path) -> "Study":
 
 def _check_folder(folder: Path, source: Path) -> None:
     from tehl.errors import InputError
-    from tehl.io.atomic import check_folder
+    from tehl.io.atomic import check_place
 
-    check_folder(folder)
+    check_place(folder)
     if folder.is_dir() and not (folder / "study.json").exists() and folder != source:
         foreign = [path.name for path in folder.iterdir() if path.name in ("table.csv", "fields")]
         if foreign:
@@ -132,12 +148,17 @@ def _check_folder(folder: Path, source: Path) -> None:
             )
 
 
-def _workers(jobs: int | None) -> int:
+def _workers(jobs: str | None) -> int:
     """Return how many processes to take: as stated, or one per core of this process."""
     import os
 
+    from tehl.errors import InputError
+
     if jobs is not None:
-        return jobs
+        number = int(jobs) if jobs.isascii() and jobs.isdigit() and len(jobs) < 7 else 0
+        if number < 1:
+            raise InputError(f"--jobs {jobs[:40]} must be a whole number of processes, 1 or more")
+        return number
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
     return max(1, cores or 1)
 
@@ -159,6 +180,31 @@ class _Wishes:
     scheduler: str | None
     retry_failed: bool
     quiet: bool
+    replace: bool
+
+
+@contextmanager
+def _alone(folder: Path) -> Iterator[None]:
+    """Make the folder and keep other runs out of it; without an outcome it goes away again."""
+    from tehl.study.folder import check_can_write
+    from tehl.study.lock import LOCK, only_run_in
+
+    check_can_write(folder)
+    missing = [place for place in (folder, *folder.parents) if not place.exists()]
+    folder.mkdir(parents=True, exist_ok=True)
+    with only_run_in(folder):
+        try:
+            yield
+        finally:
+            if missing and {path.name for path in folder.iterdir()} <= {LOCK}:
+                _remove(folder / LOCK, missing)
+
+
+def _remove(lock: Path, folders: list[Path]) -> None:
+    lock.unlink(missing_ok=True)
+    for folder in folders:
+        with suppress(OSError):
+            folder.rmdir()
 
 
 def _run(chosen: "Study", folder: Path, wishes: _Wishes) -> tuple["Outcome", "Store"]:
@@ -166,7 +212,7 @@ def _run(chosen: "Study", folder: Path, wishes: _Wishes) -> tuple["Outcome", "St
 
     from tehl.cli.study_progress import study_progress
     from tehl.study import run
-    from tehl.study.folder import save_plan, store_of
+    from tehl.study.folder import PLAN, check_same, forget_outcome, save_plan, store_of
     from tehl.study.forecast import check_memory_of, forecast
 
     store = store_of(chosen.plan, folder)
@@ -176,7 +222,11 @@ def _run(chosen: "Study", folder: Path, wishes: _Wishes) -> tuple["Outcome", "St
         check_memory_of(needs, wishes.jobs)
     else:  # what the cluster says of a scheduler that is gone, we say in a sentence
         logging.disable()
-    save_plan(chosen.plan, folder)
+    if wishes.replace:
+        forget_outcome(folder)
+    else:
+        check_same(chosen.plan, folder)  # again, now that nobody else changes it
+    is_new = save_plan(chosen.plan, folder)
     try:
         with study_progress(quiet=wishes.quiet) as monitor:
             outcome = run(
@@ -189,8 +239,11 @@ def _run(chosen: "Study", folder: Path, wishes: _Wishes) -> tuple["Outcome", "St
                 monitor=monitor,
             )
     except (KeyboardInterrupt, SystemExit, OSError):
-        again = _again(folder, wishes.scheduler)
-        typer.echo(f"tehl: finished cases are kept; go on with: {again}", err=True)
+        if store.is_begun:
+            again = _again(folder, wishes.scheduler)
+            typer.echo(f"tehl: finished cases are kept; go on with: {again}", err=True)
+        elif is_new:
+            (folder / PLAN).unlink()
         raise
     finally:
         store.close()
@@ -201,10 +254,17 @@ def _write(
     chosen: "Study", store: "Store", folder: Path, pictures: tuple["Picture", ...]
 ) -> dict[str, Any]:
     """Write table and pictures; return the files by kind."""
+    frame = _table(chosen, store)
+    store.close()
+    return _write_frame(frame, folder, pictures)
+
+
+def _write_frame(
+    frame: "pd.DataFrame", folder: Path, pictures: tuple["Picture", ...]
+) -> dict[str, Any]:
     from tehl.study.draw import save_pictures
     from tehl.study.folder import write_table
 
-    frame = _table(chosen, store)
     written: dict[str, Any] = {"table": write_table(frame, folder)}
     written["pictures"], complaints = save_pictures(pictures, frame, folder)
     for complaint in complaints:
@@ -218,27 +278,33 @@ def _table(chosen: "Study", store: "Store") -> "pd.DataFrame":
     return table(chosen.cases, store, chosen.units)
 
 
-def _show(chosen: "Study", folder: Path, pictures: tuple["Picture", ...], *, as_json: bool) -> None:
-    """Write the table of what is finished, and draw; solve nothing."""
+def _show(
+    chosen: "Study", folder: Path, pictures: tuple["Picture", ...], *, whole: bool, as_json: bool
+) -> None:
+    """Draw what is asked for, or write table and pictures of what is finished; solve nothing."""
     import json
 
     from tehl.errors import InputError
     from tehl.study.draw import save
-    from tehl.study.folder import store_of, write_table
+    from tehl.study.folder import check_can_write, store_of
 
     store = store_of(chosen.plan, folder)
     frame = _table(chosen, store)
     store.close()
     if (frame["status"] == "open").all():
         raise InputError(f"no case of the study is finished yet in {folder}")
-    files = [] if pictures else write_table(frame, folder)
-    files += [save(one, frame, folder) for one in pictures or chosen.plan.pictures]
+    check_can_write(folder)
+    files = [save(one, frame, folder) for one in pictures]
+    if whole or not pictures:
+        written = _write_frame(frame, folder, chosen.plan.pictures)
+        files += [*written["table"], *written["pictures"]]
+    counts = {str(key): int(n) for key, n in frame["status"].value_counts().items()}
     if as_json:
-        counts = {str(key): int(n) for key, n in frame["status"].value_counts().items()}
         typer.echo(json.dumps({"cases": len(frame), "status": counts, "files": _words(files)}))
-        return
-    for path in files:
-        typer.echo(path)
+    else:
+        typer.echo("\n".join(_words(files)))
+    if whole and counts.keys() - {"converged", "open"}:
+        raise typer.Exit(1)
 
 
 def _words(paths: list[Path]) -> list[str]:
@@ -302,9 +368,10 @@ def _tell(outcome: "Outcome", written: dict[str, Any], *, as_json: bool) -> None
     )
     for case, row in outcome.failed[:SHOWN]:
         typer.echo(f"  no answer: {case.name}: {row.message or row.cause}")
-        if row.hint:
-            typer.echo(f"    hint: {row.hint}")
     if len(outcome.failed) > SHOWN:
         typer.echo(f"  and {len(outcome.failed) - SHOWN} more, see the table")
+    hints = Counter(row.hint for _, row in outcome.failed if row.hint)
+    for hint, count in hints.most_common(SHOWN):
+        typer.echo(f"  hint: {hint}" if count == 1 else f"  hint for {count} of them: {hint}")
     for path in (*written["table"], *written["pictures"]):
         typer.echo(f"written: {path}", err=True)

@@ -131,6 +131,22 @@ def check_folder(folder: str | Path) -> None:
     InputError
         If a file is in the way or the place takes no files.
     """
+    _check_folder(check_place(folder))
+
+
+def check_place(folder: str | Path) -> Path:
+    """Refuse a folder with something else in its way; return what there is of its path.
+
+    Parameters
+    ----------
+    folder : str or Path
+        A folder to be read or made; missing parents are allowed.
+
+    Raises
+    ------
+    InputError
+        If a file or a broken link is in the way.
+    """
     place, shown = Path(folder), shortened(folder)
     try:
         while not place.exists():
@@ -142,7 +158,7 @@ def check_folder(folder: str | Path) -> None:
         raise InputError(f"output folder {shown} cannot be made: {reason.lower()}") from None
     if not place.is_dir():
         raise InputError(f"output folder {shown}: {shortened(place)} is a file")
-    _check_folder(place)
+    return place
 
 
 def _check_folder(folder: Path) -> None:

@@ -273,7 +273,8 @@ def _models_at(root: type[BaseModel], path: tuple[str | int, ...]) -> list[list[
     steps = [[root]]
     for key in path:
         field = _field(steps[-1], key)
-        steps.append(list(_models(field.annotation)) if field else [])
+        inside = steps[-1] if isinstance(key, int) else []
+        steps.append(list(_models(field.annotation)) if field else inside)
     return steps
 
 
@@ -325,14 +326,23 @@ def _missing(mistake: _Mistake) -> str:
 
 
 def _law_missing(mistake: _Mistake) -> str:
-    known = [tag for model in mistake.models[-1] for tag in tags(model)]
-    return f"{mistake.name}.law is missing: known are {', '.join(known)}"
+    key = _discriminator(mistake)
+    known = [tag for model in mistake.models[-1] for tag in tags(model, key)]
+    if isinstance(mistake.path[-1], int):  # a sum within a sum
+        known = [tag for tag in known if tag != "sum"]
+    return f"{mistake.name}.{key} is missing: known are {', '.join(known)}"
 
 
 def _law_unknown(mistake: _Mistake) -> str:
     tag, tags = mistake.error["ctx"]["tag"], mistake.error["ctx"]["expected_tags"]
     known = re.findall(r"'([^']+)'", tags)
-    return f"{mistake.name}.law = {_shown(tag)} is not known: {_suggest(str(tag), known)}"
+    key = _discriminator(mistake)
+    return f"{mistake.name}.{key} = {_shown(tag)} is not known: {_suggest(str(tag), known)}"
+
+
+def _discriminator(mistake: _Mistake) -> str:
+    """Return the key that chooses among several tables: law or type."""
+    return str(mistake.error["ctx"]["discriminator"]).strip("'")
 
 
 def _word_unknown(mistake: _Mistake) -> str:

@@ -9,9 +9,9 @@ from pydantic import BaseModel
 from tehl.io.field_words import example
 
 
-def tags(model: type[BaseModel]) -> tuple[str, ...]:
-    """Return the words that choose a law; none for a model that is no law."""
-    law = model.model_fields.get("law")
+def tags(model: type[BaseModel], key: str = "law") -> tuple[str, ...]:
+    """Return the words under ``key`` that choose a law; none for a model that is no law."""
+    law = model.model_fields.get(key)
     annotation = law.annotation if law else None
     return get_args(annotation) if get_origin(annotation) is Literal else ()
 

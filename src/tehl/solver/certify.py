@@ -3,8 +3,8 @@
 import math
 from dataclasses import dataclass, replace
 
-from tehl.errors import ConvergenceError, InputError
-from tehl.options import Domain, Options, coarsenings
+from tehl.errors import ConvergenceError
+from tehl.options import Domain, Options, check_certifiable
 from tehl.problem import ContactProblem
 from tehl.result import Cost, Estimate, Result
 from tehl.solver.monitor import SILENT, Monitor
@@ -52,11 +52,7 @@ def certify(
         When the grid cannot be halved twice.
     """
     options = (options or Options()).model_copy(update={"accuracy": "tight"})
-    if min(coarsenings(n) for n in options.shape) < 3:
-        raise InputError(
-            f"points = {options.points} is too few to certify: the grid is halved twice, "
-            "which takes 129 nodes or more per direction"
-        )
+    check_certifiable(options)
     grids: list[_Grid] = []
     for number, times in enumerate((2, 1), start=1):
         monitor.message(f"certify: grid {number} of 3")

@@ -1,5 +1,7 @@
 """The axes of a study file: paths of the case and the values that they take."""
 
+import json
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal, Self
@@ -12,6 +14,8 @@ from tehl.typing import Array
 KINDS = ("values", "linspace", "geomspace", "uniform", "loguniform")
 """Ways to state the values of an axis; the last two are sampled."""
 DRAWN = ("uniform", "loguniform")
+_LONGEST = 60
+"""Letters of a value in a message."""
 
 Steps = tuple[End, End, Annotated[int, Field(ge=1)]]
 Ends = tuple[End, End]
@@ -67,7 +71,18 @@ class Axis(BaseModel):
         if not all(part.strip() for part in self.path.split(".")):
             raise ValueError("has no dotted path of a case, such as contact.load")
         self._check_ends(stated[0])
+        if self.zip is None:  # zipped values may come again, beside others
+            self._check_once()
         return self
+
+    def _check_once(self) -> None:
+        """Refuse a value or a name that comes twice."""
+        if (steps := self.linspace or self.geomspace) and steps[0] == steps[1] and steps[2] > 1:
+            raise ValueError(f"has the value {steps[0]} {steps[2]} times: give two different ends")
+        for what, found in (("value", self.values), ("name", self.names)):
+            words = Counter(json.dumps(one, default=str, sort_keys=True) for one in found or ())
+            if twice := [word for word, count in words.items() if count > 1]:
+                raise ValueError(f"has the {what} {twice[0][:_LONGEST]} twice: give each once")
 
     def _check_ends(self, kind: str) -> None:
         if kind == "values":

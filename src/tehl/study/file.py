@@ -1,16 +1,18 @@
 """Study files: TOML in, a plan out, and every mistake told in one sentence before any work."""
 
 import difflib
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any, cast
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, StrictBool, ValidationError
 
 from tehl.errors import InputError
 from tehl.io.atomic import shortened
 from tehl.io.case import change, toml_tables
-from tehl.study.axes import Axis, Block, Sample, block_of, count_of, groups_of
+from tehl.study.axes import Axis, Sample, block_of, count_of, groups_of
+from tehl.study.checks import check_axes, checked_pictures
 from tehl.study.listed import block_of_file
 from tehl.study.pictures import Picture
 from tehl.study.plan import Plan
@@ -56,9 +58,9 @@ class StudyFile(BaseModel):
     axes: list[Axis] = []
     sample: Sample | None = None
     cases: str | None = None
-    certify: bool = False
+    certify: StrictBool = False
     keep: Keep = "summary"
-    warm_start: bool = False
+    warm_start: StrictBool = False
     store: str | None = None
     largest: Annotated[int, Field(ge=1)] | None = None
     pictures: list[Picture] = []
@@ -126,7 +128,8 @@ def plan_of(
     if stated.warm_start and stated.keep != "fields":
         raise InputError('warm_start takes the fields of neighbours: give keep = "fields" too')
     blocks = (*listed, *(block_of(group, stated.sample) for group in groups))
-    _check_paths(blocks)
+    check_axes(blocks)
+    pictures = checked_pictures(stated.pictures, blocks)
     base, place = _base(stated, folder, overrides)
     return Plan(
         title=stated.title or str(base.get("title", "")),
@@ -137,7 +140,7 @@ def plan_of(
         keep=stated.keep,
         warm_start=stated.warm_start,
         store=None if stated.store is None else folder / stated.store,
-        pictures=tuple(_placed(picture, folder) for picture in stated.pictures),
+        pictures=tuple(_placed(picture, folder) for picture in pictures),
     )
 
 
@@ -148,19 +151,6 @@ def _check_count(count: int, stated: StudyFile, *, huge: bool) -> None:
             f"has {count:,} cases, more than {most:,}: if they are meant, state largest = {count} "
             "in the file or give --yes"
         )
-
-
-def _check_paths(blocks: Sequence[Block]) -> None:
-    """Refuse to vary the same thing twice."""
-    paths = [path for block in blocks for path in block.paths]
-    names = [name for block in blocks for name in block.names]
-    for what, words in (("path", paths), ("name", names)):
-        twice = [word for word in words if words.count(word) > 1]
-        if twice:
-            raise InputError(f"has two axes with the {what} {twice[0]}: zip different ones")
-    for path in paths:
-        if path.split(".")[0] in ("title", "transient"):
-            raise InputError(f"axis {path}: a study of steady films does not vary it")
 
 
 def _base(
@@ -198,7 +188,9 @@ def _placed(picture: Picture, folder: Path) -> Picture:
 
 
 def _as_study(message: str) -> str:
-    return message.replace("case file", "study file")
+    again = re.search(r"Cannot declare \('(axes|pictures)',\) twice", message)
+    hint = f": write [[{again[1]}]], with two brackets" if again else ""
+    return message.replace("case file", "study file") + hint
 
 
 def told(error: ValidationError, tables: Mapping[str, Any]) -> str:
@@ -223,6 +215,10 @@ def told(error: ValidationError, tables: Mapping[str, Any]) -> str:
     message = first["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
     if first["type"] == "value_error":
         return f"{name} {message}"
+    if first["type"] == "list_type" and len(where) == 1 and where[0] in ("axes", "pictures"):
+        return f"{name} must be a list of tables: write [[{name}]], with two brackets"
+    if first["type"] == "bool_type":
+        message = "must be true or false"
     shown = repr(first["input"])
     return f"{name} = {shown if len(shown) <= 60 else f'{shown[:57]}...'} {message}"
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import TypeAdapter
 
 from tehl.errors import FileFormatError, InputError
-from tehl.io.atomic import check_folder, replacing
+from tehl.io.atomic import check_folder, check_place, replacing
 from tehl.study.plan import Plan
 from tehl.study.store import Store
 
@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 
 PLAN, TABLE, PARQUET, UNITS = "study.json", "table.csv", "table.parquet", "units.json"
 _FORMAT = 1
+_ANEW = (
+    "run the study file again with -o and --replace, which writes it anew and keeps finished cases"
+)
 
 
 def store_of(plan: Plan, folder: Path) -> Store:
@@ -23,8 +26,25 @@ def store_of(plan: Plan, folder: Path) -> Store:
     return Store(plan.store or folder, keep=plan.keep)
 
 
-def save_plan(plan: Plan, folder: Path) -> None:
-    """Keep a plan, so that the folder alone says what was studied.
+def check_can_write(folder: Path) -> None:
+    """Refuse a folder that takes no files.
+
+    Raises
+    ------
+    InputError
+        If something else is in its way.
+    OSError
+        If it cannot be written.
+    """
+    check_place(folder)
+    try:
+        check_folder(folder)
+    except InputError as error:
+        raise OSError(str(error)) from None
+
+
+def save_plan(plan: Plan, folder: Path) -> bool:
+    """Keep a plan, so that the folder alone says what was studied; return whether it is the first.
 
     Raises
     ------
@@ -35,10 +55,12 @@ def save_plan(plan: Plan, folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     content = {"tehl_study": _FORMAT, "plan": TypeAdapter(Plan).dump_python(plan, mode="json")}
     path, text = folder / PLAN, json.dumps(content, default=str, indent=1)
-    if path.is_file() and path.read_bytes() == text.encode():
-        return  # so that a study goes on where nothing more can be written
+    is_first = not path.is_file()
+    if not is_first and path.read_bytes() == text.encode():
+        return False  # so that a study goes on where nothing more can be written
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
+    return is_first
 
 
 def load_plan(folder: Path) -> Plan:
@@ -57,13 +79,64 @@ def load_plan(folder: Path) -> Plan:
     except FileNotFoundError:
         raise InputError(f"{folder} is no folder of a study: it has no {PLAN}") from None
     except (OSError, ValueError) as error:
-        raise FileFormatError(f"{path} cannot be read: {error}") from None
+        raise FileFormatError(f"{path} cannot be read ({error}): {_ANEW}") from None
     if not isinstance(content, dict) or content.get("tehl_study") != _FORMAT:
-        raise FileFormatError(f"{path} is not the plan of a study of format {_FORMAT}")
+        raise FileFormatError(f"{path} is not the plan of a study of format {_FORMAT}: {_ANEW}")
     try:
         return TypeAdapter(Plan).validate_python(content["plan"])
     except (KeyError, ValueError) as error:
-        raise FileFormatError(f"{path} is damaged: {str(error).splitlines()[0]}") from None
+        reason = str(error).splitlines()[0]
+        raise FileFormatError(f"{path} is damaged ({reason}): {_ANEW}") from None
+
+
+def check_same(plan: Plan, folder: Path) -> None:
+    """Refuse a folder that holds a study with another question.
+
+    Other values along the same axes are the same question, and so is another title.
+
+    Raises
+    ------
+    InputError
+        If base case or axes differ; the message says which, and how to go on.
+    FileFormatError
+        If the plan in the folder is damaged or of another version.
+    """
+    if not (folder / PLAN).is_file():
+        return
+    mine, other = _question(plan), _question(load_plan(folder))
+    differ = next((what for what in mine if mine[what] != other[what]), None)
+    if differ is not None:
+        raise InputError(
+            f"{folder} holds a study with another {differ}: take another folder with -o, or give "
+            "--replace to put this study in its place"
+        )
+
+
+def _question(plan: Plan) -> dict[str, Any]:
+    """Return what a study asks, as JSON holds it, without its values."""
+    base = json.loads(json.dumps(plan.base, default=str))
+    columns = [column for b in plan.blocks for column in zip(b.paths, b.names, strict=True)]
+    return {
+        "base case": {key: value for key, value in base.items() if key != "title"},
+        "choice of axes": sorted(columns),
+    }
+
+
+def forget_outcome(folder: Path) -> None:
+    """Remove plan, table and pictures of a study; its finished cases stay for those who ask them.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the study; pictures are those that its plan names.
+    """
+    try:
+        pictures = load_plan(folder).pictures
+    except (InputError, FileFormatError):
+        pictures = ()
+    files = [f"{picture.stem}.{picture.format}" for picture in pictures]
+    for name in (*files, TABLE, UNITS, PARQUET, PLAN):
+        (folder / name).unlink(missing_ok=True)
 
 
 def write_table(frame: "pd.DataFrame", folder: Path) -> list[Path]:

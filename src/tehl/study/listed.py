@@ -31,22 +31,29 @@ def block_of_file(path: Path) -> Block:
         if path.stat().st_size > _LARGEST:
             raise InputError(f"{shown} is larger than {_LARGEST // 10**6} MB, so no list of cases")
         with path.open(encoding="utf-8-sig", newline="") as file:
-            lines = [line for line in csv.reader(file) if any(cell.strip() for cell in line)]
+            reader = csv.reader(file)
+            lines = [(reader.line_num, line) for line in reader if any(map(str.strip, line))]
     except FileNotFoundError:
         raise InputError(f"there is no list of cases {shown}") from None
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{shown} cannot be read as a list of cases: {error}") from None
     if len(lines) < 2:
         raise InputError(f"{shown} lists no cases: give a line of paths and a line per case")
-    return _block(shown, [cell.strip() for cell in lines[0]], lines[1:])
+    _check_lines(shown, lines)
+    return _block(shown, [cell.strip() for cell in lines[0][1]], [line for _, line in lines[1:]])
 
 
-def _block(shown: str, header: list[str], lines: list[list[str]]) -> Block:
-    for number, line in enumerate(lines, start=2):
+def _check_lines(shown: str, lines: list[tuple[int, list[str]]]) -> None:
+    """Refuse lines that have not as many cells as the first."""
+    (_, header), *others = lines
+    for number, line in others:
         if len(line) != len(header):
             raise InputError(
                 f"{shown}: line {number} has {len(line)} cells, but the first has {len(header)}"
             )
+
+
+def _block(shown: str, header: list[str], lines: list[list[str]]) -> Block:
     if "" in header or len(set(header)) < len(header):
         raise InputError(f"{shown}: each column needs a path of its own in the first line")
     split = [_split(cell) for cell in header]

@@ -74,10 +74,8 @@ def picture_of(words: str) -> Picture:
     InputError
         If it is none; the message says what would be.
     """
-    if "=" not in words:
-        words = f"map={words}"
     stated = {}
-    for part in words.split(","):
+    for part in (words if "=" in words else f"map={words}").split(","):
         key, equals, value = (piece.strip() for piece in part.partition("="))
         if not equals or not value or key not in _KEYS:
             raise InputError(

@@ -9,7 +9,7 @@ from typing import Any
 
 from tehl.errors import InputError
 from tehl.io.case import case_from_tables
-from tehl.options import Options
+from tehl.options import Options, check_certifiable
 from tehl.problem import ContactProblem
 from tehl.study.axes import Block, Setting
 from tehl.study.case import Case, Label
@@ -105,9 +105,11 @@ def _case(plan: Plan, rows: tuple[int, ...], units: dict[str, str]) -> Case:
     problem, options = case_from_tables(tables, plan.folder)
     if problem.transient is not None:
         raise InputError("has a [transient] table: a study is one of steady films")
+    if plan.certify:
+        check_certifiable(options)
     labels = _labels(plan, rows, (problem, options), units)
     titles = [b.titles[row] for b, row in zip(plan.blocks, rows, strict=True) if b.titles]
-    name = ", ".join(titles) or _name(labels) or problem.title or "base case"
+    name = ", ".join(titles) or _name(labels, units) or problem.title or "base case"
     return Case(name, problem, options, labels, plan.certify)
 
 
@@ -131,11 +133,15 @@ def _labels(
     return labels
 
 
-def _name(labels: Mapping[str, Label]) -> str:
+def _name(labels: Mapping[str, Label], units: Mapping[str, str]) -> str:
     parts = [
-        f"{name.rpartition('.')[2]} = {value:.6g}"
-        if isinstance(value, float)
-        else f"{name.rpartition('.')[2]} = {value}"
+        f"{name.rpartition('.')[2]} = {_in_words(value, units.get(name, '1'))}"
         for name, value in labels.items()
     ]
     return ", ".join(parts[:SHOWN])
+
+
+def _in_words(value: Label, unit: str) -> str:
+    if not isinstance(value, float):
+        return str(value)
+    return f"{value:.6g}" if unit == "1" else f"{value:.6g} {unit}"

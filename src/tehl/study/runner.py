@@ -142,9 +142,9 @@ def _solve(
     monitor: StudyMonitor,
 ) -> dict[str, Row]:
     jobs, scheduler = place
-    store.prepare()
-    store.sweep(cases)
-    with engine_of(jobs, len(cases), scheduler) as engine:
+    with engine_of(jobs, len(cases), scheduler) as engine:  # a cluster that is gone leaves nothing
+        store.prepare()
+        store.sweep(cases)
         if engine.local:
             _warm(cases, monitor)
         return _Run(cases, store, engine, known, monitor).go()

@@ -6,6 +6,7 @@ file whole or not at all. So a kill at any time costs the cases in work and no f
 
 import errno
 import json
+import os
 import sqlite3
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager, suppress
@@ -14,7 +15,7 @@ from pathlib import Path
 from typing import Literal, get_args
 
 from tehl.errors import FileFormatError, InputError
-from tehl.io.atomic import check_folder
+from tehl.io.atomic import check_place
 from tehl.result import Cost, Result
 from tehl.study.case import Case
 from tehl.study.row import Row
@@ -25,9 +26,12 @@ FORMAT = 1
 _ROWS, _FIELDS = "rows.sqlite", "fields"
 _PATIENCE = 60.0
 """Seconds to wait for another study that writes into the same store."""
+_ANEW = "bring back a copy of it, or remove it and all its cases are solved again"
 _AT_ONCE = 500
 """Keys of one query."""
 _COLUMNS = "key, status, cause, message, hint, summary, cpu_seconds, wall_seconds"
+_WHOLE = "CASE WHEN json_valid(summary) THEN json_type(summary) = 'object' ELSE 0 END"
+"""Whether the numbers of a row can be read, so that one without them is not taken for finished."""
 _SCHEMA = f"""
 CREATE TABLE IF NOT EXISTS rows (
     key TEXT PRIMARY KEY, status TEXT NOT NULL, cause TEXT, message TEXT, hint TEXT,
@@ -61,7 +65,7 @@ class Store:
         if keep not in get_args(Keep):
             raise InputError(f'keep = "{keep}" is not known: known are summary and fields')
         self.directory, self.keep = Path(directory), keep
-        check_folder(self.directory)
+        check_place(self.directory)
         self._connection: sqlite3.Connection | None = None
         if self._file.exists():
             self._open()
@@ -83,12 +87,20 @@ class Store:
         """Return where the fields of a case lie, if they are kept."""
         return self.fields_folder / f"{case.key}.nc"
 
+    @property
+    def is_begun(self) -> bool:
+        """Whether there is a file for rows."""
+        return self._file.exists()
+
     def row(self, case: Case) -> Row | None:
         """Return the row of a case, None when it is not finished."""
         return self.rows([case]).get(case.key)
 
     def rows(self, cases: Iterable[Case], *, summaries: bool = True) -> dict[str, Row]:
-        """Return the rows of those cases that are finished, by key, if wanted without numbers."""
+        """Return the rows of those cases that are finished, by key, if wanted without numbers.
+
+        A row that is damaged is none.
+        """
         columns = _COLUMNS if summaries else _COLUMNS.replace("summary", "'{}'")
         keys = list(dict.fromkeys(case.key for case in cases))
         if self._connection is None and not self._file.exists():
@@ -98,8 +110,9 @@ class Store:
             for start in range(0, len(keys), _AT_ONCE):
                 some = keys[start : start + _AT_ONCE]
                 marks = ", ".join("?" * len(some))
-                query = f"SELECT {columns} FROM rows WHERE key IN ({marks})"
-                found |= {line[0]: _row(line) for line in connection.execute(query, some)}
+                query = f"SELECT {columns} FROM rows WHERE key IN ({marks}) AND {_WHOLE}"
+                rows = map(_row, connection.execute(query, some))
+                found |= {row.key: row for row in rows if row is not None}
         return found
 
     def finished(self, cases: Iterable[Case]) -> dict[str, Row]:
@@ -178,15 +191,23 @@ class Store:
         self._connection = None
 
     def _open(self) -> None:
+        place, is_uri = self._address()
         self._connection = sqlite3.connect(
-            self._file, timeout=_PATIENCE, isolation_level="IMMEDIATE", check_same_thread=False
+            place,
+            timeout=_PATIENCE,
+            isolation_level="IMMEDIATE",
+            check_same_thread=False,
+            uri=is_uri,
         )
+        # half a letter is no reason not to read the others
+        self._connection.text_factory = lambda text: text.decode("utf-8", "replace")
         with self._telling() as connection:
             version = connection.execute("PRAGMA user_version").fetchone()[0]
             if version not in (0, FORMAT):
                 self.close()
                 raise FileFormatError(
-                    f"{self._file} is a store of format {version}; this tehl knows {FORMAT}"
+                    f"{self._file} is a store of format {version}, this tehl knows {FORMAT}: "
+                    f"{_ANEW}"
                 )
             # a kill loses nothing that was committed, and no commit waits for the disk
             with suppress(sqlite3.OperationalError):  # file systems without shared memory
@@ -194,6 +215,14 @@ class Store:
             connection.execute("PRAGMA synchronous = NORMAL")
             if version == 0:
                 connection.executescript(_SCHEMA)
+
+    def _address(self) -> tuple[str, bool]:
+        """Return how to open the file of rows, and whether that is a URI: to read it only."""
+        if os.access(self.directory, os.W_OK):
+            return str(self._file), False
+        log = self._file.with_name(f"{self._file.name}-wal")
+        how = "mode=ro" if log.exists() else "immutable=1"  # without a log nobody writes it
+        return f"{self._file.resolve().as_uri()}?{how}", True
 
     @contextmanager
     def _telling(self) -> Iterator[sqlite3.Connection]:
@@ -208,7 +237,9 @@ class Store:
             code = errno.ENOSPC if full else errno.EIO
             raise OSError(code, f"{error}", str(self._file)) from error
         except sqlite3.DatabaseError as error:
-            raise FileFormatError(f"{self._file} is no store of a study: {error}") from None
+            raise FileFormatError(
+                f"{self._file} is no store of a study ({error}): {_ANEW}"
+            ) from None
 
 
 def _text(words: str | None) -> str | None:
@@ -216,11 +247,14 @@ def _text(words: str | None) -> str | None:
     return None if words is None else words.encode("utf-8", "replace").decode("utf-8")
 
 
-def _row(line: tuple[str, ...]) -> Row:
-    """Return a row as the columns have it."""
+def _row(line: tuple[str, ...]) -> Row | None:
+    """Return a row as the columns have it, None if it is damaged."""
     names = [f.name for f in fields(Row)][:5]
-    return Row(
-        **dict(zip(names, line[:5], strict=True)),
-        summary=json.loads(line[5]),
-        cost=Cost(cpu_seconds=float(line[6]), wall_seconds=float(line[7])),
-    )
+    try:
+        return Row(
+            **dict(zip(names, line[:5], strict=True)),
+            summary=json.loads(line[5]),
+            cost=Cost(cpu_seconds=float(line[6]), wall_seconds=float(line[7])),
+        )
+    except (ValueError, TypeError):
+        return None

@@ -4,13 +4,13 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from tehl.study.case import Case
+from tehl.study.columns import OUTCOME
 from tehl.study.row import Scalar, unit_of
 from tehl.study.store import Store
 
 if TYPE_CHECKING:
     import pandas as pd
 
-OUTCOME = ("status", "cause", "message")
 _OPEN = "open"
 """Status of a case that is not finished."""
 
