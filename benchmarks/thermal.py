@@ -8,7 +8,7 @@ import multiprocessing
 import statistics
 import time
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
@@ -22,8 +22,8 @@ from tehl.operators.energy import FilmState
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import Result
-from tehl.solver import multigrid, solve
-from tehl.solver.level import Level
+from tehl.solver import solve
+from tehl.solver.fas import Cycles
 from tehl.solver.work import with_work
 
 EYRING = {"law": "eyring", "stress": 10e6}
@@ -57,7 +57,7 @@ class Clock:
 @contextmanager
 def timed_parts(points: int) -> Iterator[Clock]:
     """Time energy sweeps and multigrid cycles inside the block."""
-    clock, sweep, cycle = Clock(), FilmState.sweep, multigrid.cycle
+    clock, sweep, step = Clock(), FilmState.sweep, Cycles.step
 
     def timed_sweep(self: FilmState, *args: Any, **names: Any) -> float:
         start = time.process_time()
@@ -67,19 +67,19 @@ def timed_parts(points: int) -> Iterator[Clock]:
         clock.finest_sweeps += seconds if self.grid.nx == points else 0.0
         return change
 
-    def timed_cycle(levels: Sequence[Level], *args: Any, **names: Any) -> None:
+    def timed_step(self: Cycles) -> None:
         start = time.process_time()
-        cycle(levels, *args, **names)
-        if levels[-1].grid.nx == points:
+        step(self)
+        if self.levels[-1].grid.nx == points:
             clock.finest_cycles += time.process_time() - start
 
     FilmState.sweep = timed_sweep  # type: ignore[method-assign]
-    multigrid.cycle = timed_cycle
+    Cycles.step = timed_step  # type: ignore[method-assign]
     try:
         yield clock
     finally:
         FilmState.sweep = sweep  # type: ignore[method-assign]
-        multigrid.cycle = cycle
+        Cycles.step = step  # type: ignore[method-assign]
 
 
 def speed_contact(reynolds: str | None, shear: dict[str, Any] | None) -> ContactProblem:
