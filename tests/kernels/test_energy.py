@@ -210,3 +210,44 @@ def test_stress_of_a_couette_film(slide: float) -> None:
     exact = np.arcsinh(np.exp(ln_eta) * slide / h * scale)
     np.testing.assert_allclose(station.line("TAU_X") * scale, exact, rtol=2e-7)
     np.testing.assert_allclose(station.line("TAU_Y"), 0.0, atol=1e-12)
+
+
+@njit
+def write_tangent(
+    across: energy.Across, fluid: int, work: energy.Work, place: energy.Place, out: Array
+) -> None:
+    energy.moments(across, fluid, work, place)
+    store(out, place.j, energy.mobility(across, work, place))
+
+
+def flow_down(axis: str, slide: float, gradient: Array) -> tuple[Array, Array]:
+    """Return the flow of an Eyring film along the gradient, and what it should rise by with it."""
+    station = Station(shear=Eyring(stress=1e7))
+    terms = station.model.terms._replace(slide=slide)
+    station.model = station.model._replace(terms=terms)
+    station.fill("RHO", np.ones((station.nodes, ROWS)))
+    for name in ("PX", "PY"):
+        station.set_line(name, gradient if name[1:].lower() == axis else np.zeros(ROWS))
+    station.flow(steps=60)
+    rise = np.zeros(ROWS)
+    fluid = getattr(energy, f"TANGENT_{axis.upper()}")
+    velocity = station.layer({"x": "U", "y": "V"}[axis])
+    for place in station.places():
+        write_tangent(
+            addresses(station.across), fluid, addresses(station.work), place, addresses(rise)
+        )
+    return station.across.weights @ velocity, -terms.poiseuille / 12.0 * station.line(
+        "H"
+    ) ** 2 * rise
+
+
+@pytest.mark.parametrize(("axis", "slide"), [("x", 0.0), ("x", -0.4), ("y", 0.0)])
+def test_tangent_is_what_more_flows_when_the_gradient_grows(axis: str, slide: float) -> None:
+    """Along either axis, at stresses of several scales of the law, the sliding being kept."""
+    gradient, step = np.linspace(0.5, 6.0, ROWS), 1e-5
+    more, _ = flow_down(axis, slide, gradient + step)
+    less, _ = flow_down(axis, slide, gradient - step)
+    flow, rise = flow_down(axis, slide, gradient)
+    np.testing.assert_allclose((more - less) / (2.0 * step), rise, rtol=2e-5)
+    if slide == 0.0:
+        assert np.all(rise[-4:] / (flow[-4:] / gradient[-4:]) > 2.0)

@@ -11,7 +11,7 @@ MIRROR = pytest.mark.parametrize("mirror", [0, 1])
 
 def isotropic(p, h, eps, rho, drho):
     """A film that conducts alike along x and y."""
-    return Film(p, h, eps, rho, drho, eps_x=eps)
+    return Film(p, h, eps, rho, drho, eps_x=eps, eps_y=eps)
 
 
 def random_film(shape, seed=0):

@@ -25,6 +25,7 @@ def apply(grid: Grid, fields: dict[str, Array], *, ratio: float = 1.0, wedge: in
         rho=fields.get("rho", zero),
         drho=zero,
         eps_x=fields.get("eps", zero),
+        eps_y=fields.get("eps", zero),
     )
     out = np.empty(grid.shape)
     reynolds.operator(film, mesh, out)

@@ -167,7 +167,7 @@ class Fields(NamedTuple):
     the derivative of the pressure. Out: ``mobility, density`` of
     the Reynolds equation, ``enthalpy_x, enthalpy_y`` fluxes, ``shear, work`` powers,
     ``effective`` viscosity ratio, ``steep``: how the mobility follows the Newtonian one, both as
-    logarithms, ``stretch``: mobility along x of a small change over ``mobility``.
+    logarithms, ``stretch_x, stretch_y``: mobility of a small change along x or y over ``mobility``.
     """
 
     p: Array
@@ -188,7 +188,8 @@ class Fields(NamedTuple):
     work: Array
     effective: Array
     steep: Array
-    stretch: Array
+    stretch_x: Array
+    stretch_y: Array
     past: Array
     pressing: Array
 
@@ -237,10 +238,11 @@ P, H, PX, PY, CAPACITY, CONDUCTIVITY, STRESS, TAU_X, TAU_Y, PER, PULL, THINS, PT
 DENSITY = ETA + LANES * ETA_TERMS
 LINE = DENSITY + LANES * RHO_TERMS
 # and values of each layer
-T, LN_ETA, FLUIDITY, SLOPE, RHO, RHO_T, I0, I1, U, V, OMEGA, YIELD, TANGENT, SHARE, A, B, ASIDE = (
-    LANES * field for field in range(17)
+T, LN_ETA, FLUIDITY, SLOPE, RHO, RHO_T, I0, I1, U, V, OMEGA, YIELD, SHARE, A, B, ASIDE = (
+    LANES * field for field in range(16)
 )
-LAYER = LANES * 17
+TANGENT_X, TANGENT_Y = LANES * 16, LANES * 17
+LAYER = LANES * 18
 
 
 def scratch(nodes: int, rows: int, modes: int) -> Work:
@@ -423,7 +425,7 @@ def follow_temperature(model: Model, fields: Fields, work: Work, place: Place) -
         store(cells, here + RHO, load(cells, here + RHO) + load(cells, here + RHO_T) * step)
         growth = thinner - (load(cells, here + YIELD) - 1.0) * fall
         growth = exponential(lower(upper(growth, -LARGEST_GROWTH), LARGEST_GROWTH))
-        for quantity in (FLUIDITY, TANGENT):
+        for quantity in (FLUIDITY, TANGENT_X, TANGENT_Y):
             store(cells, here + quantity, load(cells, here + quantity) * growth)
     counts = if_positive(load(cells, place.base + P) - PRESSURISED, most, 0.0)
     store(work.change, 0, upper(load(work.change, 0), counts))
@@ -551,8 +553,8 @@ def newton_step(model: Model, work: Work, place: Place) -> float:
 def thin(model: Model, work: Work, place: Place, steps: int) -> None:
     """Find the mid-film stress in some Newton steps, and multiply the fluidity by F there.
 
-    ``YIELD`` is how fast the rate grows with the stress, both as logarithms; ``TANGENT`` the
-    fluidity of a small change of the stress along x.
+    ``YIELD`` is how fast the rate grows with the stress, both as logarithms; ``TANGENT_X`` and
+    ``TANGENT_Y`` the fluidity of a small change of the stress along x or y.
     """
     cells, along = work.cells, 0.0 if model.laws.uniform else 1.0
     for _ in range(steps):
@@ -563,10 +565,11 @@ def thin(model: Model, work: Work, place: Place, steps: int) -> None:
         x, y = stress_at(model, work, place, thinning_arm(model, k))
         square = x * x + y * y
         thinner, bend = thinning(model.laws, root(square) * load(cells, place.base + STRESS))
-        fluid, share = load(cells, here + FLUIDITY) * thinner, along * x * x / (square + 1e-300)
+        fluid, more = load(cells, here + FLUIDITY) * thinner, along * bend / (square + 1e-300)
         store(cells, here + FLUIDITY, fluid)
         store(cells, here + YIELD, 1.0 + bend)
-        store(cells, here + TANGENT, fluid * (1.0 + bend * share))
+        store(cells, here + TANGENT_X, fluid * (1.0 + more * x * x))
+        store(cells, here + TANGENT_Y, fluid * (1.0 + more * y * y))
 
 
 @njit(cache=True)
@@ -940,8 +943,8 @@ def mobility(across: Across, work: Work, place: Place) -> float:
 def reynolds_fields(model: Model, fields: Fields, work: Work, place: Place) -> None:
     """Write mobility and density of the Reynolds equation, and how they follow the pressure.
 
-    The density is that of the Couette flux over h u_m; ``stretch`` is by how much more a small
-    change of the gradient along x moves, the sliding being kept.
+    The density is that of the Couette flux over h u_m; ``stretch_x`` is by how much more a small
+    change of the gradient along x moves, the sliding being kept, ``stretch_y`` that along y.
     """
     cells, terms, at = work.cells, model.terms, place.i * place.ny + place.j
     middle = layer(place, place.n // 2)
@@ -957,10 +960,14 @@ def reynolds_fields(model: Model, fields: Fields, work: Work, place: Place) -> N
     store(fields.steep, at, 1.0 / load(cells, middle + YIELD))
     newtonian = exponential(-1.0 * load(cells, middle + LN_ETA))
     store(fields.effective, at, newtonian / load(cells, middle + FLUIDITY))
-    store(fields.stretch, at, 1.0)
     if thins(work, place):
-        moments(model.across, TANGENT, work, place)
-        store(fields.stretch, at, mobility(model.across, work, place) / whole_mobility)
+        moments(model.across, TANGENT_X, work, place)
+        store(fields.stretch_x, at, mobility(model.across, work, place) / whole_mobility)
+        moments(model.across, TANGENT_Y, work, place)
+        store(fields.stretch_y, at, mobility(model.across, work, place) / whole_mobility)
+    else:
+        store(fields.stretch_x, at, 1.0)
+        store(fields.stretch_y, at, 1.0)
 
 
 @njit(cache=True)

@@ -14,14 +14,14 @@ from tehl.typing import Array
 def relax_points(film: Film, mesh: Mesh, rhs: Array, self_film: Array, omega: float) -> None:
     """Sweep once in marching order; ``self_film[m]`` is the film at distance m per unit p."""
     ny, nx = film.p.shape
-    p, eps, eps_x = film.p, film.eps, film.eps_x
+    p, eps_x, eps_y = film.p, film.eps_x, film.eps_y
     for j in range(0 if mesh.mirror else 1, ny - 1):
         south = j - 1 if j > 0 else 1
         for i in range(1, nx - 1):
             east = 0.5 * mesh.cx * (eps_x[j, i] + eps_x[j, i + 1])
             west = 0.5 * mesh.cx * (eps_x[j, i] + eps_x[j, i - 1])
-            north = 0.5 * mesh.cy * (eps[j, i] + eps[j + 1, i])
-            below = 0.5 * mesh.cy * (eps[j, i] + eps[south, i])
+            north = 0.5 * mesh.cy * (eps_y[j, i] + eps_y[j + 1, i])
+            below = 0.5 * mesh.cy * (eps_y[j, i] + eps_y[south, i])
             mass = film.rho[j, i] * film.h[j, i]
             mass_w = film.rho[j, i - 1] * film.h[j, i - 1]
             if i == 1:

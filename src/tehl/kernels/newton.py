@@ -19,7 +19,8 @@ HERE, EAST, WEST, NORTH, SOUTH, FAR = range(6)
 class Coarse(NamedTuple):
     """State of the coarsest grid: fields (ny, nx) and the derivatives of the conductance.
 
-    Along x the conductance and its derivatives are ``stretch`` times as large.
+    Along x and y the conductance and its derivatives are ``stretch_x`` and ``stretch_y`` times as
+    large.
     """
 
     p: Array
@@ -29,7 +30,8 @@ class Coarse(NamedTuple):
     drho: Array
     eps_p: Array
     eps_h: Array
-    stretch: Array
+    stretch_x: Array
+    stretch_y: Array
 
 
 class System(NamedTuple):
@@ -103,12 +105,12 @@ def slopes(state: Coarse, mesh: Mesh, near: IntArray, by_p: Array, by_h: Array) 
     eps_p, eps_h = state.eps_p.ravel(), state.eps_h.ravel()
     by_p[:] = 0.0
     by_h[:] = 0.0
-    here, stretch = near[HERE], state.stretch.ravel()
+    here, stretch_x, stretch_y = near[HERE], state.stretch_x.ravel(), state.stretch_y.ravel()
     for n in range(EAST, FAR):
         there, along = near[n], n <= WEST
         c = 0.5 * (mesh.cx if along else mesh.cy)
-        mine = c * (stretch[here] if along else 1.0)
-        theirs = c * (stretch[there] if along else 1.0)
+        mine = c * (stretch_x[here] if along else stretch_y[here])
+        theirs = c * (stretch_x[there] if along else stretch_y[there])
         face, drop = mine * eps[here] + theirs * eps[there], p[there] - p[here]
         by_p[HERE] += drop * mine * eps_p[here] - face
         by_h[HERE] += drop * mine * eps_h[here]

@@ -41,9 +41,9 @@ class Mesh(NamedTuple):
 class Film(NamedTuple):
     """Pressure, film and the frozen flow properties on one grid, each (ny, nx).
 
-    ``eps_x`` is the conductance along x: ``eps`` itself, unless the film thins in shear. Then it is
-    the larger one of a small change of the pressure gradient, the sliding speed being kept, and
-    the right-hand side takes the difference back (`tangent_source`).
+    ``eps_x, eps_y`` are the conductances along x and y: ``eps`` itself, unless the film thins in
+    shear. Then they are the larger ones of a small change of the pressure gradient, the sliding
+    speed being kept, and the right-hand side takes the difference back (`tangent_source`).
     """
 
     p: Array
@@ -52,6 +52,7 @@ class Film(NamedTuple):
     rho: Array
     drho: Array
     eps_x: Array
+    eps_y: Array
 
 
 class Relaxation(NamedTuple):
@@ -112,13 +113,15 @@ class Factors(NamedTuple):
     """What heat and shear thinning make of the flow, each (ny, nx).
 
     The mobility becomes ``rest`` plus ``mobility`` times the isothermal Newtonian one, and that
-    along x ``stretch`` times as much; the density ``density`` times its own.
+    along x and y ``stretch_x`` and ``stretch_y`` times as much; the density ``density`` times its
+    own.
     """
 
     rest: Array
     mobility: Array
     density: Array
-    stretch: Array
+    stretch_x: Array
+    stretch_y: Array
 
 
 @njit(cache=True, fastmath={"contract"})
@@ -132,22 +135,34 @@ def scale_properties(film: Film, factors: Factors, floor: float) -> None:
             eps[i] = mobility[i] * eps[i] + rest[i] * (thick * thick * thick)
             rho[i] *= density[i]
             drho[i] *= density[i]
-        eps_x, stretch = film.eps_x[j], factors.stretch[j]
+        eps_x, eps_y = film.eps_x[j], film.eps_y[j]
+        stretch_x, stretch_y = factors.stretch_x[j], factors.stretch_y[j]
         for i in range(film.p.shape[1]):
-            eps_x[i] = stretch[i] * eps[i]
+            eps_x[i] = stretch_x[i] * eps[i]
+            eps_y[i] = stretch_y[i] * eps[i]
 
 
 @njit(cache=True)
 def tangent_source(film: Film, mesh: Mesh, out: Array) -> None:
-    """Write what ``eps_x`` adds to L(p) over ``eps`` at the present pressure, zero on the edges."""
+    """Write what ``eps_x`` and ``eps_y`` add to L(p) over ``eps`` at the present pressure.
+
+    Zero on the edges.
+    """
     ny, nx = film.p.shape
     out[:] = 0.0
-    half = 0.5 * mesh.cx
+    half_x, half_y = 0.5 * mesh.cx, 0.5 * mesh.cy
     for j in range(0 if mesh.mirror else 1, ny - 1):
+        south = j - 1 if j > 0 else 1
         p, more = film.p[j], film.eps_x[j] - film.eps[j]
+        p_n, p_s, more_y = film.p[j + 1], film.p[south], film.eps_y[j] - film.eps[j]
+        more_n = film.eps_y[j + 1] - film.eps[j + 1]
+        more_s = film.eps_y[south] - film.eps[south]
         for i in range(1, nx - 1):
             east, west = more[i] + more[i + 1], more[i] + more[i - 1]
-            out[j, i] = half * (east * (p[i + 1] - p[i]) - west * (p[i] - p[i - 1]))
+            north, back = more_y[i] + more_n[i], more_y[i] + more_s[i]
+            flow_y = north * (p_n[i] - p[i]) - back * (p[i] - p_s[i])
+            out[j, i] = half_x * (east * (p[i + 1] - p[i]) - west * (p[i] - p[i - 1]))
+            out[j, i] += half_y * flow_y
 
 
 @njit(cache=True, fastmath={"contract"})
@@ -161,12 +176,12 @@ def line_operator(film: Film, mesh: Mesh, j: int, out: Array) -> None:
     p_w, p, p_e = film.p[j, :-2], film.p[j, 1:-1], film.p[j, 2:]
     eps_w, eps_x, eps_e = film.eps_x[j, :-2], film.eps_x[j, 1:-1], film.eps_x[j, 2:]
     p_n, p_s = film.p[j + 1, 1:-1], film.p[south, 1:-1]
-    eps_n, eps, eps_s = film.eps[j + 1, 1:-1], film.eps[j, 1:-1], film.eps[south, 1:-1]
+    eps_n, eps_y, eps_s = film.eps_y[j + 1, 1:-1], film.eps_y[j, 1:-1], film.eps_y[south, 1:-1]
     half_x, half_y = 0.5 * mesh.cx, 0.5 * mesh.cy
     target = out[1:-1]
     for i in range(nx - 2):
         east, west = eps_x[i] + eps_e[i], eps_x[i] + eps_w[i]
-        north, back = eps[i] + eps_n[i], eps[i] + eps_s[i]
+        north, back = eps_y[i] + eps_n[i], eps_y[i] + eps_s[i]
         flow_x = east * (p_e[i] - p[i]) - west * (p[i] - p_w[i])
         flow_y = north * (p_n[i] - p[i]) - back * (p[i] - p_s[i])
         target[i] = half_x * flow_x + half_y * flow_y
@@ -199,13 +214,13 @@ def line_diagonal(film: Film, mesh: Mesh, self_film: float, j: int, out: Array) 
     """Write ``-dL/dp`` on the diagonal of line ``j``; ``self_film``: dh/dp of a point on itself."""
     south = j - 1 if j > 0 else 1
     eps_w, eps_x, eps_e = film.eps_x[j, :-2], film.eps_x[j, 1:-1], film.eps_x[j, 2:]
-    eps_n, eps, eps_s = film.eps[j + 1, 1:-1], film.eps[j, 1:-1], film.eps[south, 1:-1]
+    eps_n, eps_y, eps_s = film.eps_y[j + 1, 1:-1], film.eps_y[j, 1:-1], film.eps_y[south, 1:-1]
     rho, drho, h = film.rho[j, 1:-1], film.drho[j, 1:-1], film.h[j, 1:-1]
     half_x, half_y = 0.5 * mesh.cx, 0.5 * mesh.cy
     target = out[1:-1]
     for i in range(target.shape[0]):
         target[i] = half_x * (2.0 * eps_x[i] + eps_e[i] + eps_w[i])
-        target[i] += half_y * (2.0 * eps[i] + eps_n[i] + eps_s[i])
+        target[i] += half_y * (2.0 * eps_y[i] + eps_n[i] + eps_s[i])
     for i in range(target.shape[0]):
         target[i] += mesh.w0 * (drho[i] * h[i] + rho[i] * self_film)
 
@@ -259,15 +274,16 @@ def residual(film: Film, mesh: Mesh, rhs: Array, self_film: float, out: Array) -
 def mark_dipoles(film: Film, mesh: Mesh, relaxation: Relaxation) -> None:
     """Mark the nodes that relax as dipoles: small conductance all round, nothing cavitated."""
     ny, nx = film.p.shape
-    p, eps, kind = film.p, film.eps_x, relaxation.kind
+    p, eps_x, eps_y, kind = film.p, film.eps_x, film.eps_y, relaxation.kind
     limit = relaxation.xi / max(mesh.cx, mesh.cy)
     kind[:] = 0
     for j in range(0 if mesh.mirror else 1, ny - 1):
         south = j - 1 if j > 0 else 1
         for i in range(1, nx - 1):
-            largest = max(eps[j, i], eps[j, i - 1], eps[j, i + 1], eps[south, i], eps[j + 1, i])
+            along = max(eps_x[j, i], eps_x[j, i - 1], eps_x[j, i + 1])
+            across = max(eps_y[j, i], eps_y[south, i], eps_y[j + 1, i])
             smallest = min(p[j, i], p[j, i - 1], p[j, i + 1], p[south, i], p[j + 1, i])
-            if largest <= limit and smallest > 0.0:
+            if max(along, across) <= limit and smallest > 0.0:
                 kind[j, i] = 1
 
 
@@ -290,7 +306,7 @@ def stiffen(film: Film, mesh: Mesh, table: Array, step: float, out: Array) -> No
             decay = max(-table[k, 1] / (table[k, 0] * step), 0.0)
             along = max(film.p[j, i - 1] - p, 0.0) + max(film.p[j, i + 1] - p, 0.0)
             across = max(film.p[south, i] - p, 0.0) + max(film.p[j + 1, i] - p, 0.0)
-            slope = mesh.cx * film.eps_x[j, i] * along + mesh.cy * film.eps[j, i] * across
+            slope = mesh.cx * film.eps_x[j, i] * along + mesh.cy * film.eps_y[j, i] * across
             out[j, i] = 0.5 * decay * slope
 
 
@@ -341,8 +357,8 @@ def load_line(
     a, b = span
     j = batch.first + 2 * lane
     south = j - 1 if j > 0 else 1
-    eps, eps_x, eps_e = film.eps[j, a:b], film.eps_x[j, a:b], film.eps_x[j, a + 1 : b + 1]
-    eps_n, eps_s = film.eps[j + 1, a:b], film.eps[south, a:b]
+    eps_x, eps_e = film.eps_x[j, a:b], film.eps_x[j, a + 1 : b + 1]
+    eps_y, eps_n, eps_s = film.eps_y[j, a:b], film.eps_y[j + 1, a:b], film.eps_y[south, a:b]
     p, rho, h, drho = film.p[j, a:b], film.rho[j, a:b], film.h[j, a:b], film.drho[j, a:b]
     kind, frozen = relaxation.kind[j, a:b], relaxation.frozen[j, a:b]
     steep = relaxation.steep[j, a:b]
@@ -351,7 +367,7 @@ def load_line(
     cells = batch.cells[at(a + 3, 0) + lane :]
     for i in range(b - a):
         cells[at(i, EAST)] = half_x * (eps_x[i] + eps_e[i])
-        cells[at(i, ACROSS)] = half_y * (2.0 * eps[i] + eps_n[i] + eps_s[i]) + steep[i]
+        cells[at(i, ACROSS)] = half_y * (2.0 * eps_y[i] + eps_n[i] + eps_s[i]) + steep[i]
         cells[at(i, SQUEEZE)] = drho[i] * h[i]
         cells[at(i, RHO)] = rho[i]
         cells[at(i, DIPOLE)] = kind[i]

@@ -101,10 +101,10 @@ def jacobian(
     by_pressure, by_film : (ny, nx) array
         Derivatives of the conductance.
     """
-    n, (p, eps, eps_x) = stencil, (field.ravel() for field in (film.p, film.eps, film.eps_x))
+    n, (p, eps_x, eps_y) = stencil, (field.ravel() for field in (film.p, film.eps_x, film.eps_y))
     half_x, half_y = 0.5 * mesh.cx, 0.5 * mesh.cy
     sides = ((n.east, half_x, eps_x), (n.west, half_x, eps_x),
-             (n.north, half_y, eps), (n.south, half_y, eps))  # fmt: skip
+             (n.north, half_y, eps_y), (n.south, half_y, eps_y))  # fmt: skip
     flow, opening = csr_matrix(n.here.shape), csr_matrix(n.here.shape)
     for there, half, conductance in sides:
         step = there - n.here

@@ -34,9 +34,21 @@ class CoarsestSolver:
             area=level.load.area,
             missing_load=level.load_target - level.load.integral(film.p),
         )
-        stretch = np.ones_like(film.p) if level.factors is None else level.factors.stretch
+        factors, ones = level.factors, np.ones_like(film.p)
+        stretch_x = ones if factors is None else factors.stretch_x
+        stretch_y = ones if factors is None else factors.stretch_y
         change = newton_step(
-            Coarse(film.p, film.h, film.eps, film.rho, film.drho, by_pressure, by_film, stretch),
+            Coarse(
+                film.p,
+                film.h,
+                film.eps,
+                film.rho,
+                film.drho,
+                by_pressure,
+                by_film,
+                stretch_x,
+                stretch_y,
+            ),
             level.mesh,
             system,
             LONGEST_STEP,

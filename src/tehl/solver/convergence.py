@@ -1,5 +1,6 @@
 """When to stop: estimated iteration and discretisation errors of the film, stall, divergence."""
 
+import math
 from dataclasses import dataclass, field
 from itertools import pairwise
 
@@ -7,6 +8,8 @@ from tehl.options import Options
 from tehl.result import CycleReport, ErrorEstimate
 
 LEAST_CYCLES = 2
+LEAST_RATE, GUESSED_RATE, LARGEST_RATE = 0.2, 0.3, 0.8
+"""Convergence rates per cycle that iteration errors are estimated with."""
 SAFETY = 2.0
 """Factor on the discretisation error where three grids show its order: the coarser ones are not
 iterated to the end."""
@@ -47,16 +50,17 @@ class Trace:
     """A film number as it changes from cycle to cycle on one grid."""
 
     values: list[float] = field(default_factory=list)
+    least_rate: float = LEAST_RATE
 
     def iteration_error(self) -> float:
         """Estimate what further cycles would still change, from the last two changes."""
         if len(self.values) < 2:
             return float("inf")
         last = abs(self.values[-1] - self.values[-2])
-        rate = 0.3
+        rate = max(GUESSED_RATE, self.least_rate)
         if len(self.values) > 2:
             before = abs(self.values[-2] - self.values[-3])
-            rate = min(max(last / before if before > 0 else 0.0, 0.2), 0.8)
+            rate = min(max(last / before if before > 0 else 0.0, self.least_rate), LARGEST_RATE)
         return last * rate / (1.0 - rate)
 
 
@@ -69,6 +73,13 @@ class GridTrace:
     rise: Trace = field(default_factory=Trace)
     reports: list[CycleReport] = field(default_factory=list)
     largest_change: float = LARGEST_CHANGE
+    least_cycles: int = LEAST_CYCLES
+
+    def damp(self, follow: float) -> None:
+        """Take into account that heat and thinning act on the flow by a part per cycle only."""
+        self.least_cycles = max(LEAST_CYCLES, math.ceil(1.0 / follow))
+        for trace in (self.central, self.minimum, self.rise):
+            trace.least_rate = max(LEAST_RATE, 1.0 - follow)
 
     def note(self, central: float, minimum: float) -> None:
         """Take the film numbers after a cycle (or before the first)."""
@@ -86,7 +97,7 @@ def ended(now: GridTrace, coarser: GridTrace | None, options: Options) -> bool:
 
 def converged(now: GridTrace, coarser: GridTrace | None, options: Options) -> bool:
     """Whether the cycles on this grid have done what the options ask for."""
-    if len(now.reports) < LEAST_CYCLES:
+    if len(now.reports) < now.least_cycles:
         return False
     if options.accuracy == "tight":
         last = now.reports[-1]
@@ -109,7 +120,7 @@ def heated_enough(now: GridTrace, coarser: GridTrace | None) -> bool:
 
 def iterated_enough(now: GridTrace, coarser: GridTrace | None) -> bool:
     """Whether the iteration error is below a third of the discretisation error."""
-    if len(now.reports) < LEAST_CYCLES:
+    if len(now.reports) < now.least_cycles:
         return False
     if coarser is None:
         return now.reports[-1].change < 1e-3

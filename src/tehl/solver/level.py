@@ -63,7 +63,7 @@ class Level:
         self.correction, self.limit = 1.0, np.inf
         self.floor = 0.0
         p, h, eps, rho, drho = (np.zeros(grid.shape) for _ in range(5))
-        self.film = reynolds.Film(p, h, eps, rho, drho, eps_x=eps)
+        self.film = reynolds.Film(p, h, eps, rho, drho, eps_x=eps, eps_y=eps)
         self.deflection, self.residual, self.rhs, self.film_rhs, self.before = (
             np.zeros(grid.shape) for _ in range(5)
         )
@@ -141,7 +141,7 @@ class Level:
     def conductance_slopes(self) -> "tuple[Array, Array]":
         """Return the derivatives of the conductance by pressure and by film; it is up to date."""
         film = self.film
-        scratch = (np.empty_like(film.p) for _ in range(4))
+        scratch = (np.empty_like(film.p) for _ in range(5))
         shifted = reynolds.Film(film.p + PRESSURE_STEP, film.h, *scratch)
         reynolds.properties(shifted, self.flow.table, self.flow.step, self.floor)
         if self.factors is not None:
@@ -154,13 +154,14 @@ class Level:
     def couple(self, factors: reynolds.Factors) -> None:
         """Take what heat and shear thinning make of the flow; the film is up to date."""
         if self.factors is None:
-            self.film = self.film._replace(eps_x=np.empty(self.grid.shape))
+            eps_x, eps_y = np.empty(self.grid.shape), np.empty(self.grid.shape)
+            self.film = self.film._replace(eps_x=eps_x, eps_y=eps_y)
         self.factors = factors
 
     def uncouple(self) -> None:
         """Let the film be isothermal and Newtonian again."""
         self.factors = None
-        self.film = self.film._replace(eps_x=self.film.eps)
+        self.film = self.film._replace(eps_x=self.film.eps, eps_y=self.film.eps)
         self.stale = True
 
     def relax(self, sweeps: int) -> None:

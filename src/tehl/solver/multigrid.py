@@ -60,6 +60,8 @@ RESOLVED = 8.0
 """Nodes per wave from which the film of a grid says something of that of the next one."""
 DISTANT = 33
 """Least nodes along x of the grid on which Newton's method sees what distant nodes do."""
+DAMPED_MEMORY = 3
+"""Most earlier cycles that are combined where heat and thinning act by parts."""
 FLOOR = 0.02
 """Least film in the conductance, over the expected central film: coarse grids may need it."""
 
@@ -278,6 +280,7 @@ class Multigrid:
         trace = GridTrace()
         if len(levels) > self.first_rough:
             trace.largest_change = LARGEST_ROUGH_CHANGE
+        trace.damp(self.coupling.follow)
         self.traces.append(trace)
         coarser = self._coarser_trace()
         method = self._method(levels)
@@ -318,6 +321,8 @@ class Multigrid:
     def _anderson(self, levels: list[Level]) -> Anderson | None:
         """Return the acceleration of the cycles on the last of ``levels``, if they need one."""
         memory = self.setting.rough.memory
+        if self.coupling.follow < 1.0:  # another flow belongs to the older cycles
+            memory = min(memory, DAMPED_MEMORY)
         return Anderson(memory) if memory and len(levels) > self.first_rough else None
 
     def _method(self, levels: list[Level]) -> Method:

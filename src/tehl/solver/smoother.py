@@ -38,6 +38,9 @@ class Rough:
         Earlier cycles of which the next start is combined (`tehl.solver.anderson`); none if 0.
     patience : int
         Factor on the cycles after which a run is given up.
+    follow : float
+        Part of the way, in logarithms, that the flow follows what a sweep of the energy equation
+        says of heat and shear thinning [-].
     newton : bool
         Take Newton's method in place of the cycles (`tehl.solver.newton`).
     """
@@ -50,6 +53,7 @@ class Rough:
     stiff: bool = False
     memory: int = 0
     patience: int = 1
+    follow: float = 1.0
     newton: bool = False
 
 
@@ -87,7 +91,16 @@ CAREFUL = Setting(
     threshold=1.0,
     point=0.5,
     dipole=0.35,
-    rough=Rough(correction=0.5, limit=0.3, ramp=8, lines=4, stiff=True, memory=8, patience=2),
+    rough=Rough(
+        correction=0.5,
+        limit=0.3,
+        ramp=8,
+        lines=4,
+        stiff=True,
+        memory=8,
+        patience=2,
+        follow=0.3,
+    ),
 )
 GENTLE = Setting(
     name="gentle",
@@ -103,6 +116,7 @@ GENTLE = Setting(
         stiff=True,
         memory=10,
         patience=3,
+        follow=0.3,
     ),
 )
 NEWTON = Setting(

@@ -202,7 +202,8 @@ def _attempts(
             newton = "Newton's method, which takes a while"
             name = newton if setting.rough.newton else f"the {setting.name} smoother"
             monitor.message(f"falling back to {name}{how}")
-        coupling = coupling_of(problem, options, ramped=ramped)
+        follow = setting.rough.follow if heights is not None else 1.0
+        coupling = coupling_of(problem, options, ramped=ramped, follow=follow)
         run = Multigrid(grid, case_groups, flow, options, setting, coupling)
         if heights is not None:
             run.roughen(heights)
@@ -240,11 +241,14 @@ def _run(run: Multigrid, monitor: Monitor, *, patient: bool) -> Attempt:
     return Attempt(run=run, status=verdict(run, not reached, run.errors()), reached=reached)
 
 
-def coupling_of(problem: ContactProblem, options: Options, *, ramped: bool) -> Coupling:
+def coupling_of(
+    problem: ContactProblem, options: Options, *, ramped: bool, follow: float = 1.0
+) -> Coupling:
     """Return what acts on the film besides pressure and elasticity."""
     if not problem.is_coupled:
         return Uncoupled()
-    return FilmCoupling(problem, scales(problem), groups(problem), options, ramped=ramped)
+    units, numbers = scales(problem), groups(problem)
+    return FilmCoupling(problem, units, numbers, options, ramped=ramped, follow=follow)
 
 
 def finest_grid(problem: ContactProblem, options: Options) -> Grid:

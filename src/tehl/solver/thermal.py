@@ -47,6 +47,9 @@ SETTLED = 8.0
 class Coupling(Protocol):
     """What acts on the film besides pressure and elasticity."""
 
+    follow: float
+    """Part of the way that the flow follows per cycle [-]."""
+
     def begin(self, levels: Sequence[Level], *, finest: bool) -> bool:
         """Start on the last of ``levels`` from what is known before; return whether it acts."""
         ...
@@ -82,6 +85,8 @@ class Coupling(Protocol):
 
 class Uncoupled:
     """An isothermal Newtonian film: pressure alone rules the flow."""
+
+    follow = 1.0
 
     def begin(self, levels: Sequence[Level], *, finest: bool) -> bool:
         """Do nothing."""
@@ -132,6 +137,10 @@ class FilmCoupling:
         Order of the upstream differences, and how far the answer is iterated.
     ramped : bool
         Raise the sliding speed from nothing over the first sweeps.
+    follow : float
+        Part of the way that the flow follows each sweep, in logarithms [-]. Between rough surfaces
+        the pressure that drives the oil down a flank may make nearly all of its heat and thinning:
+        a flow that follows at once makes more of both, and the pressure moves too late.
     """
 
     def __init__(
@@ -142,6 +151,7 @@ class FilmCoupling:
         options: Options,
         *,
         ramped: bool = False,
+        follow: float = 1.0,
     ) -> None:
         self.film = HeatedFilm(problem, scales, groups)
         self.wedge_order = options.wedge_order
@@ -149,7 +159,7 @@ class FilmCoupling:
         counter_moving = min(motion.speed_1, motion.speed_2) <= 0.0
         # elsewhere the backflow of the coarser grids is a good one
         self.thorough = options.accuracy == "tight" or counter_moving
-        self.sweeps_left = RAMP if ramped else 0
+        self.sweeps_left, self.follow = RAMP if ramped else 0, follow
         self.state: FilmState | None = None
         self.factors: reynolds.Factors | None = None
         self.change, self.rise, self.quiet = 0.0, 0.0, False
@@ -203,7 +213,7 @@ class FilmCoupling:
                 break
         before, self.rise = self.rise, self._rise(self.state)
         calm = abs(self.rise - before) < CALM * self.rise
-        settling = self.state.sweeps >= LEAST_SWEEPS and not self.thorough
+        settling = self.state.sweeps >= LEAST_SWEEPS and not self.thorough and self.follow == 1.0
         self.quiet = settling and calm and self.change < QUIET * self.rise
         return self.change, self.rise
 
@@ -273,7 +283,7 @@ class FilmCoupling:
     def _couple(self, state: FilmState, levels: Sequence[Level]) -> None:
         """Hand what heat and thinning make of the flow to all of ``levels``."""
         fine, view = levels[-1], state.view
-        p, scratch = fine.film.p, (np.empty(fine.grid.shape) for _ in range(4))
+        p, scratch = fine.film.p, (np.empty(fine.grid.shape) for _ in range(5))
         isothermal = reynolds.Film(p, np.ones(p.shape), *scratch)
         reynolds.properties(isothermal, fine.flow.table, fine.flow.step, 0.0)
         mobility, steep = view("mobility").T / self.film.groups.lambda_bar, view("steep").T
@@ -281,8 +291,11 @@ class FilmCoupling:
             rest=mobility * (1.0 - steep),
             mobility=mobility * steep / isothermal.eps,
             density=view("density").T / isothermal.rho,
-            stretch=np.ascontiguousarray(view("stretch").T),
+            stretch_x=np.ascontiguousarray(view("stretch_x").T),
+            stretch_y=np.ascontiguousarray(view("stretch_y").T),
         )
+        if fine.factors is not None and self.follow < 1.0:
+            factors = between(fine.factors, factors, self.follow)
         self._hand_down(levels, factors)
 
     @staticmethod
@@ -295,6 +308,16 @@ class FilmCoupling:
         fine.update_properties()
         reynolds.tangent_source(fine.film, fine.mesh, fine.rhs)
         fine.add_history()
+
+
+def between(old: reynolds.Factors, new: reynolds.Factors, part: float) -> reynolds.Factors:
+    """Return factors some part of the way from old to new ones.
+
+    In logarithms, but for the rest of the mobility, which may vanish.
+    """
+    rest = old.rest + part * (new.rest - old.rest)
+    others = (a * (b / a) ** part for a, b in zip(old[1:], new[1:], strict=True))
+    return reynolds.Factors(rest, *others)
 
 
 def refined(coarse: Level) -> reynolds.Factors:

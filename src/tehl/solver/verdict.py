@@ -188,20 +188,29 @@ def touching(run: Multigrid, part: float) -> Status:
 def _touching(run: Multigrid, errors: ErrorEstimate | None) -> Status:
     """Judge a film that is not positive between asperities: they touch, or the grid cannot tell."""
     if errors is not None and errors.discretisation_minimum > LARGEST_ROUGH_BAR:
-        return _too_coarse(run.finest.grid, run.groups, errors.discretisation_minimum)
+        status = _too_coarse(run.finest.grid, run.groups, errors.discretisation_minimum)
+        place = "smallest H = {:.3g} at X = {:.3g}, Y = {:.3g}".format(*_thinnest(run.finest))
+        return replace(status, message=f"{status.message} It is not positive on it: {place}.")
     return _asperity_contact(run.finest)
+
+
+def _thinnest(level: Level) -> tuple[float, float, float]:
+    """Return the smallest film of a level, and X and Y of it."""
+    grid, h = level.grid, level.film.h
+    row, column = np.unravel_index(int(np.argmin(h)), h.shape)
+    return float(h.min()), float(grid.x[column]), float(grid.y[row])
 
 
 def _asperity_contact(level: Level) -> Status:
     """Name the place where the film of rough surfaces fails."""
     grid, h = level.grid, level.film.h
-    row, column = np.unravel_index(int(np.argmin(h)), h.shape)
+    smallest, x, y = _thinnest(level)
     return Status(
         kind="not_converged",
         cause="asperity_contact",
         message=(
             f"The film is not positive on {grid.nx} x {grid.ny} nodes: smallest H = "
-            f"{h.min():.3g} at X = {grid.x[column]:.3g}, Y = {grid.y[row]:.3g} (half-widths), and "
+            f"{smallest:.3g} at X = {x:.3g}, Y = {y:.3g} (half-widths), and "
             f"{np.count_nonzero(h <= level.floor)} nodes are as thin as that. Asperities would "
             "touch there, which a film that carries all of the load cannot describe."
         ),

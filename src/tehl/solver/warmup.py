@@ -61,8 +61,8 @@ def _one_sweep() -> None:
     state.sweep(1)
     energy.sweep_back(state.known)
     Trail(np.ones((5, energy.BLOCK)), 0.1, 1.0)
-    film = reynolds.Film(*(np.ones(grid.shape) for _ in range(6)))
-    reynolds.scale_properties(film, reynolds.Factors(*film[:4]), 0.0)
+    film = reynolds.Film(*(np.ones(grid.shape) for _ in range(7)))
+    reynolds.scale_properties(film, reynolds.Factors(*film[:5]), 0.0)
     reynolds.tangent_source(film, stencil(grid, groups(problem), 2), np.empty(grid.shape))
 
 

@@ -12,7 +12,7 @@ from tehl import __version__
 from tehl.options import Options
 from tehl.problem import ContactProblem
 
-SOLVER_VERSION = 1
+SOLVER_VERSION = 2
 """To be raised with each change of the solver after which answers kept before would mislead."""
 
 Label = float | str

@@ -1,0 +1,37 @@
+"""When cycles may end: what they would still change, where the flow follows heat by parts."""
+
+import numpy as np
+import pytest
+
+from tehl.kernels.reynolds import Factors
+from tehl.solver.convergence import GridTrace
+from tehl.solver.thermal import between
+
+
+@pytest.mark.parametrize("follow", [0.3, 0.5])
+def test_a_damped_cycle_knows_how_far_it_is_from_the_end(follow: float) -> None:
+    """The film goes a part of what is left per cycle: the estimate is what is left, or more."""
+    trace, left = GridTrace(), [1.0]
+    trace.damp(follow)
+    for _ in range(6):
+        trace.central.values.append(0.3 + left[-1])
+        left.append((1.0 - follow) * left[-1])
+        if len(trace.central.values) > 1:
+            assert trace.central.iteration_error() >= 0.999 * left[-2]
+
+
+def test_cycles_that_follow_at_once_are_judged_as_ever() -> None:
+    trace, same = GridTrace(), GridTrace()
+    trace.damp(1.0)
+    assert trace == same
+
+
+def test_factors_go_a_part_of_the_way_and_arrive() -> None:
+    """In logarithms; the rest of the mobility may vanish."""
+    old = Factors(*(np.array([value]) for value in (0.0, 1.0, 1.0, 1.0, 2.0)))
+    new = Factors(*(np.array([value]) for value in (0.5, 100.0, 0.9, 16.0, 2.0)))
+    half = between(old, new, 0.5)
+    np.testing.assert_allclose(np.ravel(half), [0.25, 10.0, 0.9**0.5, 4.0, 2.0])
+    for _ in range(60):
+        old = between(old, new, 0.3)
+    np.testing.assert_allclose(np.ravel(old), np.ravel(new), rtol=1e-8)
