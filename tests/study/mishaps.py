@@ -13,8 +13,9 @@ from tehl.study import Case, Row, Store, run, runner
 from tests.study.contacts import cases
 
 
-def quick(case: Case, fields: Path | None) -> Row:
+def quick(case: Case, fields: Path | None, guess: Path | None = None) -> Row:
     """Return a row of many numbers at once; a file for its fields holds the name of the case."""
+    del guess
     time.sleep(0.01)
     if fields is not None:
         fields.write_text(case.name)
@@ -22,36 +23,36 @@ def quick(case: Case, fields: Path | None) -> Row:
     return Row(key=case.key, status="converged", summary={f"n.{k}": load * k for k in range(40)})
 
 
-def deadly(case: Case, fields: Path | None) -> Row:
+def deadly(case: Case, fields: Path | None, guess: Path | None = None) -> Row:
     """Kill the worker at M = 5.5."""
     if case.labels["M"] == 5.5:
         os.kill(os.getpid(), signal.SIGKILL)
-    return quick(case, fields)
+    return quick(case, fields, guess)
 
 
-def once(case: Case, fields: Path | None) -> Row:
+def once(case: Case, fields: Path | None, guess: Path | None = None) -> Row:
     """Kill the worker at M = 5.5, the first time."""
     assert fields is not None
     mark = fields.with_name("killed")
     if case.labels["M"] == 5.5 and not mark.exists():
         mark.touch()
         os.kill(os.getpid(), signal.SIGKILL)
-    return quick(case, fields)
+    return quick(case, fields, guess)
 
 
-def lazy(case: Case, fields: Path | None) -> Row:
+def lazy(case: Case, fields: Path | None, guess: Path | None = None) -> Row:
     """Leave the number of the process behind, and take a while."""
     assert fields is not None
     fields.with_name(f"{os.getpid()}.pid").touch()
     time.sleep(0.1)
-    return quick(case, fields)
+    return quick(case, fields, guess)
 
 
-def full(case: Case, fields: Path | None) -> Row:
+def full(case: Case, fields: Path | None, guess: Path | None = None) -> Row:
     """Find no room for the fields of M = 5.5."""
     if case.labels["M"] == 5.5:
         raise OSError(28, "No space left on device", str(fields))
-    return quick(case, fields)
+    return quick(case, fields, guess)
 
 
 def main(folder: str, jobs: str, count: str) -> None:

@@ -29,7 +29,9 @@ _WAITING = 2
 _GRACE = 10.0
 """Seconds that a worker has to end."""
 _LEAST_ON_CLUSTER, _CONNECT = 64, 30.0
-"""Cases that a cluster is given at least, so that it can grow; seconds to find its scheduler."""
+"""Tasks that a cluster is given at least, so that it can grow; seconds to find its scheduler."""
+_TASK = 1.0
+"""Seconds of solving that are worth a message through the scheduler of a cluster."""
 
 
 class Engine(Protocol):
@@ -40,12 +42,17 @@ class Engine(Protocol):
         """Whether workers are processes that the caller has to warm the kernels for."""
         ...
 
+    @property
+    def task_seconds(self) -> float:
+        """Seconds of solving that cases are put together for; zero if each goes by itself."""
+        ...
+
     def executor(self) -> Executor:
         """Return a fresh executor."""
         ...
 
     def window(self) -> int:
-        """Return how many cases to have in the executor at a time."""
+        """Return how many tasks to have in the executor at a time."""
         ...
 
     def leave(self, executor: Executor, *, at_once: bool) -> None:
@@ -91,7 +98,7 @@ def engine_of(jobs: int, cases: int, scheduler: str | None) -> Iterator[Engine]:
 class Serial:
     """The process that calls, one case after the other."""
 
-    local = True
+    local, task_seconds = True, 0.0
 
     def executor(self) -> Executor:
         """Return an executor that works when it is asked to."""
@@ -121,7 +128,7 @@ class _Here(Executor):
 class Pool:
     """Fresh processes of this machine, one thread each."""
 
-    local = True
+    local, task_seconds = True, 0.0
 
     def __init__(self, jobs: int) -> None:
         self.jobs = jobs
@@ -162,7 +169,7 @@ def _end_with(sentinel: int) -> None:
 class Cluster:
     """A running dask cluster."""
 
-    local = False
+    local, task_seconds = False, _TASK
 
     def __init__(self, client: Any) -> None:
         self.client = client
@@ -173,7 +180,7 @@ class Cluster:
         return executor
 
     def window(self) -> int:
-        """Return three cases per thread that the cluster has now."""
+        """Return three tasks per thread that the cluster has now."""
         return max(3 * sum(self.client.nthreads().values()), _LEAST_ON_CLUSTER)
 
     def leave(self, executor: Executor, *, at_once: bool) -> None:

@@ -23,10 +23,10 @@ from tehl.study.monitor import QUIET, StudyMonitor
 from tehl.study.neighbours import Neighbours
 from tehl.study.row import Row
 from tehl.study.store import Store
-from tehl.study.work import work
+from tehl.study.work import Task, in_turn, work
 
 _KILLED = "KilledWorker"
-"""What a cluster calls the error of a case whose workers died again and again."""
+"""What a cluster calls the error of a task whose workers died again and again."""
 _DIED = (
     "the process that solved this case died, and died again when it solved nothing else; the "
     "system may have ended it for lack of memory"
@@ -164,8 +164,9 @@ def _warm(cases: list[Case], monitor: StudyMonitor) -> None:
 class _Run:
     """The cases on their way through an engine.
 
-    A worker that dies takes the work of its pool along. Then each case that was in the pool is
-    solved alone, so that the one that kills its worker is known by doing it twice.
+    A worker that dies takes the work of its pool along, or, on a cluster, what waited for it. Then
+    each case that was concerned is solved alone, so that the one that kills its worker is known by
+    doing it twice. Where a message costs as much as a quick case, several cases make a task.
     """
 
     def __init__(
@@ -179,7 +180,8 @@ class _Run:
         self.waiting, self.suspects = deque(cases), deque[Case]()
         self.store, self.engine, self.monitor = store, engine, monitor
         self.known = known
-        self.running: dict[Future[Row], Case] = {}
+        self.running: dict[Future[list[Row]], list[Case]] = {}
+        self.seconds = 0.0
         self.alone = False
         self.rows: dict[str, Row] = {}
         self.folder = store.fields_folder.resolve() if store.keep == "fields" else None
@@ -201,25 +203,37 @@ class _Run:
         return self.rows
 
     def _fill(self, executor: Executor) -> None:
-        """Give the executor as many cases as it should have; suspects one by one."""
-        if self.alone and self.running:
+        """Give the executor as many tasks as it should have; suspects one by one."""
+        if self.running and (self.alone or self.suspects):
             return
         self.alone = bool(self.suspects)
         if self.alone:
-            self._submit(executor, self.suspects.popleft())
+            self._submit(executor, [self.suspects.popleft()])
             return
         while self.waiting and len(self.running) < self.engine.window():
-            self._submit(executor, self.waiting.popleft())
+            count = min(self._together(), len(self.waiting))
+            self._submit(executor, [self.waiting.popleft() for _ in range(count)])
 
-    def _submit(self, executor: Executor, case: Case) -> None:
-        guess = None if self.known is None else self.known.nearest(case)
-        paths = [self._path(one) for one in (case, guess) if one is not None]
+    def _together(self) -> int:
+        """Return how many of the next cases make a task: none waits long for the others."""
+        if not (self.engine.task_seconds and self.rows):
+            return 1
+        quick = int(self.engine.task_seconds * len(self.rows) / max(self.seconds, 1e-9))
+        share = len(self.waiting) // (2 * self.engine.window())
+        return max(1, min(quick, share))
+
+    def _submit(self, executor: Executor, cases: list[Case]) -> None:
         try:
-            future = executor.submit(work, case, *paths)
+            future = executor.submit(in_turn, work, [self._task(case) for case in cases])
         except BrokenExecutor as error:  # a worker died since
             future = Future()
             future.set_exception(error)
-        self.running[future] = case
+        self.running[future] = cases
+
+    def _task(self, case: Case) -> Task:
+        """Return a case with the files that its worker leaves or finds."""
+        guess = None if self.known is None else self.known.nearest(case)
+        return case, self._path(case), None if guess is None else self._path(guess)
 
     def _path(self, case: Case) -> Path | None:
         """Return where a worker finds or leaves the fields of a case; None if nobody keeps them."""
@@ -233,11 +247,12 @@ class _Run:
             done, _ = wait(self.running)  # all of a broken pool are done at once
         dead = []
         for future in [future for future in self.running if future in done]:
-            case = self.running.pop(future)
-            if isinstance(_error(future), BrokenExecutor):
-                dead.append(case)
+            cases = self.running.pop(future)
+            if _is_death(_error(future)):
+                dead.extend(cases)
             else:
-                self._keep(case, _row(case, future))
+                for case, row in zip(cases, _rows(future), strict=True):
+                    self._keep(case, row)
         if self.alone:
             for case in dead:
                 self._keep(case, _died(case))
@@ -247,6 +262,7 @@ class _Run:
 
     def _keep(self, case: Case, row: Row) -> None:
         self.store.put(row)
+        self.seconds += row.cost.wall_seconds
         self.rows[case.key] = replace(row, summary={})  # thousands of them need their room
         if self.known is not None and row.converged:
             self.known.add(case)
@@ -264,14 +280,15 @@ class _Run:
 
     def _keep_finished(self) -> None:
         """Keep what was finished when the run was stopped, as far as it can be kept."""
-        for future, case in self.running.items():
+        for future, cases in self.running.items():
             if future.done() and _error(future) is None:
-                with suppress(OSError):
-                    self.store.put(future.result())
-                    self.monitor.finished(case, future.result())
+                for case, row in zip(cases, future.result(), strict=True):
+                    with suppress(OSError):
+                        self.store.put(row)
+                        self.monitor.finished(case, row)
 
 
-def _error(future: "Future[Row]") -> BaseException | None:
+def _error(future: "Future[list[Row]]") -> BaseException | None:
     """Return the error of a future that is done."""
     try:
         return future.exception()
@@ -279,8 +296,13 @@ def _error(future: "Future[Row]") -> BaseException | None:
         return error
 
 
-def _row(case: Case, future: "Future[Row]") -> Row:
-    """Return the row of a case that is done.
+def _is_death(error: BaseException | None) -> bool:
+    """Whether an error says that a worker died."""
+    return isinstance(error, BrokenExecutor) or type(error).__name__ == _KILLED
+
+
+def _rows(future: "Future[list[Row]]") -> list[Row]:
+    """Return the rows of a task that is done.
 
     Raises
     ------
@@ -292,8 +314,6 @@ def _row(case: Case, future: "Future[Row]") -> Row:
         return future.result()
     if isinstance(error, CancelledError):
         raise OSError("the cluster has dropped its work: its scheduler is gone") from None
-    if type(error).__name__ == _KILLED:
-        return _died(case)
     raise error
 
 

@@ -1,12 +1,22 @@
 """What a worker does: solve one case, keep its fields, tell the rest as a row."""
 
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 from tehl.errors import ConvergenceError, InputError, TehlError
 from tehl.result import Cost, Result
 from tehl.study.case import Case
 from tehl.study.row import Row, row_of
+
+
+Task = tuple[Case, Path | None, Path | None]
+"""A case, a file for its fields and one to start from."""
+
+
+def in_turn(solve: Callable[[Case, Path | None, Path | None], Row], tasks: list[Task]) -> list[Row]:
+    """Return the rows of some cases, one after the other."""
+    return [solve(*task) for task in tasks]
 
 
 def work(case: Case, fields: Path | None, guess: Path | None = None) -> Row:
