@@ -46,7 +46,7 @@ def films(loads: tuple[float, ...], speeds: tuple[float, ...], jobs: int = 1):
         study.Axis(path="numerics.points", values=nodes, zip="load"),
         study.Axis(path="contact.moes_speed", name="L", values=list(speeds)),
     ]
-    return tehl.run_study(PROBLEM, axes, jobs=jobs)
+    return tehl.study(PROBLEM, axes, jobs=jobs)
 
 
 def main() -> dict[tuple[float, float], dict[str, float]]:

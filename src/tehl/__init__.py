@@ -12,7 +12,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from tehl import plots, study
+    from tehl import plots, studies
     from tehl.errors import ConvergenceError, FileFormatError, InputError, TehlError
     from tehl.evolution import Evolution
     from tehl.io.case import read_case, read_case_and_options
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from tehl.problem import Contact, ContactProblem, Surface
     from tehl.result import Result
     from tehl.solver import certify, march, solve
-    from tehl.study import run_study
+    from tehl.studies import study
 
 __all__ = [
     "Contact",
@@ -48,8 +48,8 @@ __all__ = [
     "plots",
     "read_case",
     "read_case_and_options",
-    "run_study",
     "solve",
+    "studies",
     "study",
 ]
 
@@ -76,14 +76,14 @@ _HOMES = {
     "oil": "tehl.lubricant",
     "read_case": "tehl.io.case",
     "read_case_and_options": "tehl.io.case",
-    "run_study": "tehl.study",
     "solve": "tehl.solver",
+    "study": "tehl.studies",
 }
 
 
 def __getattr__(name: str) -> Any:
     """Load an export from where it lives."""
-    if name in ("plots", "study"):
+    if name in ("plots", "studies"):
         return import_module(f"tehl.{name}")
     if name not in _HOMES:
         raise AttributeError(f"module 'tehl' has no attribute {name!r}")

@@ -15,10 +15,10 @@ from tehl.cli.study_progress import Lines, Tally, duration
 from tehl.io import atomic
 from tehl.io.templates import study_templates, template_text
 from tehl.result import Cost
-from tehl.study import Row, runner
-from tehl.study.file import read_study
-from tehl.study.lock import only_run_in
-from tehl.study.plan import study_of
+from tehl.studies import Row, runner
+from tehl.studies.file import read_study
+from tehl.studies.lock import only_run_in
+from tehl.studies.plan import study_of
 
 STUDY = """
 title = "Loads"
@@ -46,9 +46,9 @@ density = { law = "dowson-higginson", rho_0 = "890 kg/m^3" }
 """
 
 
-def answer(case, fields=None):
+def answer(case, fields=None, guess=None):
     """Return a row whose film grows with the load; a ball that slides fails at 80 N."""
-    del fields
+    del fields, guess
     load, slides = case.labels["contact.load"], case.labels.get("contact.slide_roll_ratio", 0) > 0
     cost = Cost(cpu_seconds=0.5, wall_seconds=0.5)
     if load == 80 and slides:
@@ -211,7 +211,7 @@ def test_a_folder_takes_one_run_at_a_time(folder, run):
 def test_a_lock_goes_with_the_program_that_held_it(folder, run):
     (folder / "out").mkdir()
     code = (
-        "import time, pathlib\nfrom tehl.study.lock import only_run_in\n"
+        "import time, pathlib\nfrom tehl.studies.lock import only_run_in\n"
         "with only_run_in(pathlib.Path('out')):\n    print('held', flush=True)\n    time.sleep(60)"
     )
     with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) as process:
@@ -288,10 +288,10 @@ def test_a_folder_draws_its_table(folder, run):
 
 
 def test_a_table_of_an_unfinished_study_says_what_is_open(folder, run, monkeypatch):
-    def stopped(case, fields):
+    def stopped(case, *files):
         if case.labels["contact.load"] == 60:
             raise KeyboardInterrupt
-        return answer(case, fields)
+        return answer(case, *files)
 
     monkeypatch.setattr(runner, "work", stopped)
     done = run("loads.toml", "-o", "out", "--jobs", "1")
@@ -407,7 +407,7 @@ def test_the_lines_of_a_list_are_counted_as_an_editor_does(folder, run):
 
 
 def test_a_hint_of_many_cases_is_told_once(folder, run, monkeypatch):
-    def hopeless(case, fields):
+    def hopeless(case, *_):
         words = {"cause": "stalled", "message": "It stalls.", "hint": "Take 513."}
         return Row(key=case.key, status="stalled", **words)
 

@@ -4,7 +4,7 @@ import pandas as pd
 
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.study import Case
+from tehl.studies import Case
 from tests.cases import ball_tables
 
 QUICK = Options(points=65)

@@ -9,7 +9,7 @@ import sys
 import time
 from pathlib import Path
 
-from tehl.study import Case, Row, Store, run, runner
+from tehl.studies import Case, Row, Store, run, runner
 from tests.study.contacts import cases
 
 

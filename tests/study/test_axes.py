@@ -9,9 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tehl.errors import InputError
-from tehl.study import Axis, Sample, cases_of
-from tehl.study.axes import block_of
-from tehl.study.change import changed
+from tehl.studies import Axis, Sample, cases_of
+from tehl.studies.axes import block_of
+from tehl.studies.change import changed
 from tests.study.contacts import QUICK, problem
 
 

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.study import Case
-from tehl.study import case as case_module
+from tehl.studies import Case
+from tehl.studies import case as case_module
 from tests.cases import ball_tables
 from tests.study.contacts import QUICK, problem
 

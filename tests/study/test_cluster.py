@@ -2,7 +2,7 @@
 
 import pytest
 
-from tehl.study import Store, run, runner, table
+from tehl.studies import Store, run, runner, table
 from tests.study import mishaps
 from tests.study.contacts import Notes, assert_same_numbers, cases
 
@@ -39,6 +39,6 @@ def test_a_case_that_kills_its_workers_costs_itself_only(cluster, tmp_path, monk
 
 
 def test_an_address_without_a_scheduler_is_told(tmp_path, monkeypatch):
-    monkeypatch.setattr("tehl.study.engines._CONNECT", 1.0)
+    monkeypatch.setattr("tehl.studies.engines._CONNECT", 1.0)
     with pytest.raises(OSError, match="no dask scheduler answers at tcp"):
         run(cases(1), Store(tmp_path), scheduler="tcp://127.0.0.1:1")

@@ -10,13 +10,13 @@ from hypothesis import strategies as st
 from tehl.errors import FileFormatError, InputError
 from tehl.options import Options
 from tehl.result import Cost
-from tehl.study import Row, Store
-from tehl.study.axes import Block, Setting
-from tehl.study.case import Case
-from tehl.study.folder import load_plan, save_plan
-from tehl.study.forecast import Forecast, check_memory_of, forecast
-from tehl.study.pictures import picture_of
-from tehl.study.plan import Plan, study_of
+from tehl.studies import Row, Store
+from tehl.studies.axes import Block, Setting
+from tehl.studies.case import Case
+from tehl.studies.folder import load_plan, save_plan
+from tehl.studies.forecast import Forecast, check_memory_of, forecast
+from tehl.studies.pictures import picture_of
+from tehl.studies.plan import Plan, study_of
 from tests.cases import ball_tables
 from tests.study.contacts import QUICK, cases, problem
 

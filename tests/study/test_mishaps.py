@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from tehl.errors import FileFormatError
-from tehl.study import Store, run, runner, table
+from tehl.studies import Store, run, runner, table
 from tests.study import mishaps
 from tests.study.contacts import Notes, cases
 
@@ -149,7 +149,7 @@ def test_what_killed_workers_left_of_their_files_goes_away(tmp_path, monkeypatch
 def test_a_script_without_a_guard_is_told_so(tmp_path):
     script = tmp_path / "bare.py"
     script.write_text(
-        "from tehl.study import Store, run\n"
+        "from tehl.studies import Store, run\n"
         "from tests.study.contacts import cases\n"
         f"run(cases(3), Store({str(tmp_path / 'store')!r}), jobs=2)\n"
     )

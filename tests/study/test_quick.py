@@ -10,7 +10,7 @@ AXES = {"contact.moes_load": [5.0, 6.0], "contact.moes_speed": [10.0, 12.0]}
 
 
 def test_a_problem_along_axes_is_a_table_and_a_dataset(tmp_path):
-    frame = tehl.run_study(problem(), AXES, QUICK, store=tmp_path)
+    frame = tehl.study(problem(), AXES, QUICK, store=tmp_path)
     assert list(frame["status"]) == ["converged"] * 4
     assert frame.attrs["units"]["film.h_min_m"] == "m"
     grid = frame.set_index(list(AXES)).to_xarray()
@@ -19,24 +19,24 @@ def test_a_problem_along_axes_is_a_table_and_a_dataset(tmp_path):
     assert float(film.sel({"contact.moes_load": 5.0, "contact.moes_speed": 12.0})) > float(
         film.sel({"contact.moes_load": 5.0, "contact.moes_speed": 10.0})
     )
-    again = tehl.run_study(problem(), AXES, QUICK, store=tmp_path)
+    again = tehl.study(problem(), AXES, QUICK, store=tmp_path)
     assert again.equals(frame)  # with the seconds of the first time
 
 
 def test_nothing_is_left_behind_without_a_store(tmp_path, monkeypatch):
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    tehl.run_study(problem(), {"contact.moes_load": [5.0]}, QUICK)
+    tehl.study(problem(), {"contact.moes_load": [5.0]}, QUICK)
     assert list(tmp_path.iterdir()) == []
 
 
 def test_the_module_has_the_parts():
-    assert tehl.study.run_study is tehl.run_study
-    assert dir(tehl.study) == sorted(tehl.study.__all__)
-    assert all(getattr(tehl.study, name) is not None for name in tehl.study.__all__)
+    assert tehl.studies.study is tehl.study
+    assert dir(tehl.studies) == sorted(tehl.studies.__all__)
+    assert all(getattr(tehl.studies, name) is not None for name in tehl.studies.__all__)
     with pytest.raises(AttributeError, match="nonsense"):
-        _ = tehl.study.nonsense
+        _ = tehl.studies.nonsense
 
 
 def test_an_axis_without_values_is_told():
     with pytest.raises(InputError, match="empty list"):
-        tehl.run_study(problem(), {"contact.moes_load": []}, QUICK)
+        tehl.study(problem(), {"contact.moes_load": []}, QUICK)

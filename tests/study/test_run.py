@@ -7,9 +7,9 @@ import pytest
 
 from tehl import solver
 from tehl.errors import InputError
-from tehl.study import Store, run, table
-from tehl.study.columns import is_number
-from tehl.study.row import flat, row_of, unit_of
+from tehl.studies import Store, run, table
+from tehl.studies.columns import is_number
+from tehl.studies.row import flat, row_of, unit_of
 from tests.study.contacts import Notes, assert_same_numbers, cases, failing
 
 

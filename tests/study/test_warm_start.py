@@ -5,8 +5,8 @@ import pytest
 
 from tehl import Options, solve
 from tehl.errors import ConvergenceError, InputError
-from tehl.study import Case, Store, cases_of, run, table
-from tehl.study.neighbours import Neighbours
+from tehl.studies import Case, Store, cases_of, run, table
+from tehl.studies.neighbours import Neighbours
 from tests.cases import moes_problem
 from tests.study.contacts import QUICK, problem
 

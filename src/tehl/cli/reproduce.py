@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from tehl.study import Case, Row
+    from tehl.studies import Case, Row
 
 
 def reproduce(
@@ -31,7 +31,7 @@ def reproduce(
     Minutes the first time; what is solved is kept in DIR, so that the next run only draws.
     """
     from tehl.reproduce import reproduce as make
-    from tehl.study.monitor import QUIET
+    from tehl.studies.monitor import QUIET
 
     names = [] if only is None else only.split(",")
     monitor = QUIET if quiet else _Progress()

@@ -12,9 +12,9 @@ import typer
 if TYPE_CHECKING:
     import pandas as pd
 
-    from tehl.study import Outcome, Store
-    from tehl.study.pictures import Picture
-    from tehl.study.plan import Plan, Study
+    from tehl.studies import Outcome, Store
+    from tehl.studies.pictures import Picture
+    from tehl.studies.plan import Plan, Study
 
 
 def study(  # noqa: PLR0913, PLR0917 (the options of the command)
@@ -74,8 +74,8 @@ def study(  # noqa: PLR0913, PLR0917 (the options of the command)
     1: some have no answer and are named; 2: bad input, nothing is solved; 3: the environment
     failed, what is finished is kept.
     """
-    from tehl.study.folder import check_same
-    from tehl.study.pictures import picture_of
+    from tehl.studies.folder import check_same
+    from tehl.studies.pictures import picture_of
 
     workers, pictures = _workers(jobs), tuple(picture_of(words) for words in plots)
     plan, folder = _plan(source, output, changes, yes=yes)
@@ -109,8 +109,8 @@ def _plan(
 ) -> tuple["Plan", Path]:
     """Return the plan and the folder of the study."""
     from tehl.errors import InputError
-    from tehl.study.file import read_study
-    from tehl.study.folder import load_plan
+    from tehl.studies.file import read_study
+    from tehl.studies.folder import load_plan
 
     if not source.is_dir():
         folder = Path(source.stem) if output is None else output
@@ -127,7 +127,7 @@ def _study(plan: "Plan", source: Path) -> "Study":
     """Return all cases, checked."""
     from tehl.errors import InputError
     from tehl.io.atomic import shortened
-    from tehl.study.plan import study_of
+    from tehl.studies.plan import study_of
 
     try:
         return study_of(plan)
@@ -186,8 +186,8 @@ class _Wishes:
 @contextmanager
 def _alone(folder: Path) -> Iterator[None]:
     """Make the folder and keep other runs out of it; without an outcome it goes away again."""
-    from tehl.study.folder import check_can_write
-    from tehl.study.lock import LOCK, only_run_in
+    from tehl.studies.folder import check_can_write
+    from tehl.studies.lock import LOCK, only_run_in
 
     check_can_write(folder)
     missing = [place for place in (folder, *folder.parents) if not place.exists()]
@@ -211,9 +211,9 @@ def _run(chosen: "Study", folder: Path, wishes: _Wishes) -> tuple["Outcome", "St
     import logging
 
     from tehl.cli.study_progress import study_progress
-    from tehl.study import run
-    from tehl.study.folder import PLAN, check_same, forget_outcome, save_plan, store_of
-    from tehl.study.forecast import check_memory_of, forecast
+    from tehl.studies import run
+    from tehl.studies.folder import PLAN, check_same, forget_outcome, save_plan, store_of
+    from tehl.studies.forecast import check_memory_of, forecast
 
     store = store_of(chosen.plan, folder)
     if wishes.scheduler is None:
@@ -262,8 +262,8 @@ def _write(
 def _write_frame(
     frame: "pd.DataFrame", folder: Path, pictures: tuple["Picture", ...]
 ) -> dict[str, Any]:
-    from tehl.study.draw import save_pictures
-    from tehl.study.folder import write_table
+    from tehl.studies.draw import save_pictures
+    from tehl.studies.folder import write_table
 
     written: dict[str, Any] = {"table": write_table(frame, folder)}
     written["pictures"], complaints = save_pictures(pictures, frame, folder)
@@ -273,7 +273,7 @@ def _write_frame(
 
 
 def _table(chosen: "Study", store: "Store") -> "pd.DataFrame":
-    from tehl.study import table
+    from tehl.studies import table
 
     return table(chosen.cases, store, chosen.units)
 
@@ -285,8 +285,8 @@ def _show(
     import json
 
     from tehl.errors import InputError
-    from tehl.study.draw import save
-    from tehl.study.folder import check_can_write, store_of
+    from tehl.studies.draw import save
+    from tehl.studies.folder import check_can_write, store_of
 
     store = store_of(chosen.plan, folder)
     frame = _table(chosen, store)
@@ -316,8 +316,8 @@ def _tell_forecast(chosen: "Study", folder: Path, jobs: int, *, as_json: bool) -
     from dataclasses import asdict
 
     from tehl.cli.study_progress import duration
-    from tehl.study.folder import store_of
-    from tehl.study.forecast import forecast
+    from tehl.studies.folder import store_of
+    from tehl.studies.forecast import forecast
 
     store = store_of(chosen.plan, folder)
     finished = store.finished(chosen.cases)

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.progress import Progress
 
-    from tehl.study import Case, Row, StudyMonitor
+    from tehl.studies import Case, Row, StudyMonitor
 
 EVERY = 10.0
 """Seconds between two plain lines."""
@@ -24,7 +24,7 @@ def study_progress(*, quiet: bool) -> Iterator["StudyMonitor"]:
     """Yield the monitor for a study: a live view on a terminal, else lines."""
     import sys
 
-    from tehl.study.monitor import QUIET
+    from tehl.studies.monitor import QUIET
 
     if quiet:
         yield QUIET

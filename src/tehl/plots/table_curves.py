@@ -44,8 +44,8 @@ def curves(
     Parameters
     ----------
     table : pandas.DataFrame
-        As :func:`tehl.study.table` gives it. Cases that did not converge are left out, and counted
-        below. Of certified cases the certified value is drawn, with its error bar.
+        As :func:`tehl.studies.table` gives it. Cases that did not converge are left out, and
+        counted below. Of certified cases the certified value is drawn, with its error bar.
     x, y : str
         Columns of numbers; the last part of a dotted name will do, and a minus turns the sign.
     hue, style : str or None

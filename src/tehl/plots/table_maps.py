@@ -42,7 +42,7 @@ def contour_map(table: "pd.DataFrame", x: str, y: str, z: str, log: str = "") ->
     Parameters
     ----------
     table : pandas.DataFrame
-        As :func:`tehl.study.table` gives it; cases that did not converge are left out.
+        As :func:`tehl.studies.table` gives it; cases that did not converge are left out.
     x, y, z : str
         Columns of numbers.
     log : {"", "x", "y", "xy"}
@@ -73,7 +73,7 @@ def moes_map(table: "pd.DataFrame") -> Figure:
     Parameters
     ----------
     table : pandas.DataFrame
-        As :func:`tehl.study.table` gives it, of contacts with many M and L.
+        As :func:`tehl.studies.table` gives it, of contacts with many M and L.
 
     Returns
     -------
@@ -109,7 +109,7 @@ def film_deviations(table: "pd.DataFrame") -> dict[str, Array]:
     Parameters
     ----------
     table : pandas.DataFrame
-        As :func:`tehl.study.table` gives it.
+        As :func:`tehl.studies.table` gives it.
 
     Returns
     -------

@@ -10,7 +10,7 @@ from tehl.io.atomic import replacing
 from tehl.reproduce.measures import Measures, measure
 from tehl.reproduce.series import Heat, Run, Series, Treatment
 from tehl.result import Result
-from tehl.study import Row, Store
+from tehl.studies import Row, Store
 
 _KEPT_OPEN = 16
 """Results in memory at a time."""

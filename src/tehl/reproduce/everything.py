@@ -18,9 +18,9 @@ from tehl.reproduce.figures import FigureSpec, figures
 from tehl.reproduce.findings import Findings, findings
 from tehl.reproduce.series import all_series, runs_of
 from tehl.reproduce.wishes import wishes
-from tehl.study import Store, StudyMonitor, run, table
-from tehl.study.engines import begin_worker
-from tehl.study.monitor import QUIET
+from tehl.studies import Store, StudyMonitor, run, table
+from tehl.studies.engines import begin_worker
+from tehl.studies.monitor import QUIET
 
 CASES, MEASURES, FIGURES = "cases", "measures", "figures"
 """Folders of the results, of what was measured in them, and of the figures."""

@@ -9,7 +9,7 @@ from typing import Any, Literal
 from tehl.io.case import case_from_tables
 from tehl.options import Options, coarsenings
 from tehl.problem import ContactProblem
-from tehl.study import Case
+from tehl.studies import Case
 
 Treatment = Literal["paper", "converged", "mean", "coarser"]
 Heat = Literal["isothermal", "thermal"]

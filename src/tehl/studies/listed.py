@@ -7,7 +7,7 @@ from pathlib import Path
 from tehl.errors import InputError
 from tehl.io.atomic import shortened
 from tehl.io.case import plain_value
-from tehl.study.axes import Block, Setting
+from tehl.studies.axes import Block, Setting
 
 _NAME = "name"
 _UNIT = re.compile(r"(.*?)\s*\[(.*)\]\s*")

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from tehl.errors import InputError
 from tehl.io.atomic import replacing
-from tehl.study.pictures import Picture
+from tehl.studies.pictures import Picture
 
 if TYPE_CHECKING:
     import pandas as pd

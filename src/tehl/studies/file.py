@@ -11,12 +11,12 @@ from pydantic import BaseModel, ConfigDict, Field, StrictBool, ValidationError
 from tehl.errors import InputError
 from tehl.io.atomic import shortened
 from tehl.io.case import change, toml_tables
-from tehl.study.axes import Axis, Sample, block_of, count_of, groups_of
-from tehl.study.checks import check_axes, checked_pictures
-from tehl.study.listed import block_of_file
-from tehl.study.pictures import Picture
-from tehl.study.plan import Plan
-from tehl.study.store import Keep
+from tehl.studies.axes import Axis, Sample, block_of, count_of, groups_of
+from tehl.studies.checks import check_axes, checked_pictures
+from tehl.studies.listed import block_of_file
+from tehl.studies.pictures import Picture
+from tehl.studies.plan import Plan
+from tehl.studies.store import Keep
 
 LARGEST = 10_000
 """Cases of a study that does not say that it wants more."""

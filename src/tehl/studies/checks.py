@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from itertools import permutations
 
 from tehl.errors import InputError
-from tehl.study.axes import Block
-from tehl.study.columns import is_taken, missing_column
-from tehl.study.pictures import Picture
+from tehl.studies.axes import Block
+from tehl.studies.columns import is_taken, missing_column
+from tehl.studies.pictures import Picture
 
 
 def check_axes(blocks: Sequence[Block]) -> None:

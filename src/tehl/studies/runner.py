@@ -17,13 +17,13 @@ from pathlib import Path
 
 from tehl.errors import InputError
 from tehl.kernels.cache import is_cold
-from tehl.study.case import Case
-from tehl.study.engines import Engine, engine_of
-from tehl.study.monitor import QUIET, StudyMonitor
-from tehl.study.neighbours import Neighbours
-from tehl.study.row import Row
-from tehl.study.store import Store
-from tehl.study.work import Task, in_turn, work
+from tehl.studies.case import Case
+from tehl.studies.engines import Engine, engine_of
+from tehl.studies.monitor import QUIET, StudyMonitor
+from tehl.studies.neighbours import Neighbours
+from tehl.studies.row import Row
+from tehl.studies.store import Store
+from tehl.studies.work import Task, in_turn, work
 
 _KILLED = "KilledWorker"
 """What a cluster calls the error of a task whose workers died again and again."""

@@ -2,8 +2,8 @@
 
 from typing import Protocol
 
-from tehl.study.case import Case
-from tehl.study.row import Row
+from tehl.studies.case import Case
+from tehl.studies.row import Row
 
 
 class StudyMonitor(Protocol):

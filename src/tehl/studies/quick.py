@@ -10,12 +10,12 @@ from pydantic import ValidationError
 from tehl.errors import InputError
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.study.axes import Axis, Sample
-from tehl.study.file import StudyFile, plan_of, told
-from tehl.study.plan import Study, study_of
-from tehl.study.runner import run
-from tehl.study.store import Store
-from tehl.study.tables import table
+from tehl.studies.axes import Axis, Sample
+from tehl.studies.file import StudyFile, plan_of, told
+from tehl.studies.plan import Study, study_of
+from tehl.studies.runner import run
+from tehl.studies.store import Store
+from tehl.studies.tables import table
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -66,7 +66,7 @@ def cases_of(
         raise InputError(str(error)) from None
 
 
-def run_study(
+def study(
     problem: ContactProblem,
     axes: Axes,
     options: Options | None = None,

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable
 
-from tehl.study.case import Case, Label
+from tehl.studies.case import Case, Label
 
 Kind = tuple[tuple[str, ...], tuple[str, ...], tuple[int, int]]
 

@@ -17,8 +17,8 @@ from typing import Literal, get_args
 from tehl.errors import FileFormatError, InputError
 from tehl.io.atomic import check_place
 from tehl.result import Cost, Result
-from tehl.study.case import Case
-from tehl.study.row import Row
+from tehl.studies.case import Case
+from tehl.studies.row import Row
 
 Keep = Literal["summary", "fields"]
 

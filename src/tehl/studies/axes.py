@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from tehl.study.numbers import End, between, evenly
+from tehl.studies.numbers import End, between, evenly
 from tehl.typing import Array
 
 KINDS = ("values", "linspace", "geomspace", "uniform", "loguniform")

@@ -3,10 +3,10 @@
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
-from tehl.study.case import Case
-from tehl.study.columns import OUTCOME
-from tehl.study.row import Scalar, unit_of
-from tehl.study.store import Store
+from tehl.studies.case import Case
+from tehl.studies.columns import OUTCOME
+from tehl.studies.row import Scalar, unit_of
+from tehl.studies.store import Store
 
 if TYPE_CHECKING:
     import pandas as pd

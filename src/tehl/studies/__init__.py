@@ -12,15 +12,15 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from tehl.study.axes import Axis, Sample
-    from tehl.study.case import SOLVER_VERSION, Case
-    from tehl.study.monitor import StudyMonitor
-    from tehl.study.plan import Study
-    from tehl.study.quick import cases_of, run_study
-    from tehl.study.row import Row
-    from tehl.study.runner import Outcome, run
-    from tehl.study.store import Store
-    from tehl.study.tables import table
+    from tehl.studies.axes import Axis, Sample
+    from tehl.studies.case import SOLVER_VERSION, Case
+    from tehl.studies.monitor import StudyMonitor
+    from tehl.studies.plan import Study
+    from tehl.studies.quick import cases_of, study
+    from tehl.studies.row import Row
+    from tehl.studies.runner import Outcome, run
+    from tehl.studies.store import Store
+    from tehl.studies.tables import table
 
 _HOMES = {
     "SOLVER_VERSION": "case",
@@ -34,7 +34,7 @@ _HOMES = {
     "StudyMonitor": "monitor",
     "cases_of": "quick",
     "run": "runner",
-    "run_study": "quick",
+    "study": "quick",
     "table": "tables",
 }
 
@@ -50,7 +50,7 @@ __all__ = [
     "StudyMonitor",
     "cases_of",
     "run",
-    "run_study",
+    "study",
     "table",
 ]
 

@@ -8,7 +8,7 @@ from pydantic import BaseModel
 
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.study.case import Label
+from tehl.studies.case import Label
 from tehl.units import Quantity
 
 NUMERICS = "numerics"

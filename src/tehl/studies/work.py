@@ -6,9 +6,8 @@ from pathlib import Path
 
 from tehl.errors import ConvergenceError, InputError, TehlError
 from tehl.result import Cost, Result
-from tehl.study.case import Case
-from tehl.study.row import Row, row_of
-
+from tehl.studies.case import Case
+from tehl.studies.row import Row, row_of
 
 Task = tuple[Case, Path | None, Path | None]
 """A case, a file for its fields and one to start from."""

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from tehl.errors import InputError
 from tehl.memory import available_memory, needed_memory
 from tehl.report.explain import SECONDS_COUPLED, SECONDS_PER_NODE
-from tehl.study.case import Case
-from tehl.study.row import Row
+from tehl.studies.case import Case
+from tehl.studies.row import Row
 
 CERTIFIED = 3.5
 """Work of a certified solve over that of its finest grid, to tight tolerances."""

@@ -8,8 +8,8 @@ from pydantic import TypeAdapter
 
 from tehl.errors import FileFormatError, InputError
 from tehl.io.atomic import check_folder, check_place, replacing
-from tehl.study.plan import Plan
-from tehl.study.store import Store
+from tehl.studies.plan import Plan
+from tehl.studies.store import Store
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -145,7 +145,7 @@ def write_table(frame: "pd.DataFrame", folder: Path) -> list[Path]:
     Parameters
     ----------
     frame : pandas.DataFrame
-        As :func:`tehl.study.table` gives it.
+        As :func:`tehl.studies.table` gives it.
     folder : Path
         Where.
 

@@ -11,11 +11,11 @@ from tehl.errors import InputError
 from tehl.io.case import case_from_tables
 from tehl.options import Options, check_certifiable
 from tehl.problem import ContactProblem
-from tehl.study.axes import Block, Setting
-from tehl.study.case import Case, Label
-from tehl.study.change import changed, found_at, label_of
-from tehl.study.pictures import Picture
-from tehl.study.store import Keep
+from tehl.studies.axes import Block, Setting
+from tehl.studies.case import Case, Label
+from tehl.studies.change import changed, found_at, label_of
+from tehl.studies.pictures import Picture
+from tehl.studies.store import Keep
 
 SHOWN = 5
 """Labels in the name of a case."""
