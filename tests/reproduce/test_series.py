@@ -3,6 +3,7 @@
 import pytest
 
 from tehl.operators.heights import heights_of
+from tehl.reproduce.open_runs import nodes_needed
 from tehl.reproduce.printed import printed
 from tehl.reproduce.series import NAMES, all_series, parameter_set, runs_of, series
 from tehl.scaling import groups, scales
@@ -114,3 +115,26 @@ def test_table_3_is_printed_so():
     assert table.column("T3", "thermal_minimum") == [0.0818, 0.1498, 0.1684, 0.1530, 0.1117]
     assert table.films("D", "isothermal")[-1.0] == (0.1683, 0.2433)
     assert [printed().conclusion(k)[:12] for k in (1, 5)] == ["The pressure", "Minimum film"]
+
+
+def test_an_oil_that_thins_is_that_of_set_a_but_for_its_stress():
+    thins, usual = parameter_set("E"), parameter_set("A")
+    assert thins["lubricant"] == usual["lubricant"] | {
+        "shear": {"law": "eyring", "stress": "5 MPa"}
+    }
+    assert thins["contact"] == usual["contact"]
+    assert series("C-eyring").surfaces == series("C").surfaces
+    assert series("C-eyring").values == series("C").values
+
+
+def test_heat_is_compared_on_the_domain_of_the_paper():
+    kinds = {kind.heat: kind for kind in series("A").runs if kind.treatment == "domain"}
+    assert set(kinds) == {"isothermal", "thermal"}
+    assert kinds["thermal"].thermal == {"reynolds": "generalised"}
+    paper = next(kind for kind in series("A").runs if kind.treatment == "paper")
+    assert all(kind.numerics["domain"] == paper.numerics["domain"] for kind in kinds.values())
+
+
+@pytest.mark.parametrize(("nodes", "error", "needed"), [(129, 0.05, 129), (129, 0.71, 513)])
+def test_the_grid_that_a_film_needs_follows_from_second_order(nodes, error, needed):
+    assert nodes_needed(nodes, error) == needed

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tehl.reproduce.book import Book
+from tehl.reproduce.open_runs import THINNING
 from tehl.reproduce.series import Heat, Run
 
 _FILE = Path(__file__).with_name("figures.toml")
@@ -46,11 +47,17 @@ class FigureSpec:
         return f"{kind} {self.name[1:]}"
 
     @property
+    def is_hard(self) -> bool:
+        """Whether Newtonian oil may have no answer where one that thins has."""
+        return self.series in THINNING and "thermal" in self.heat
+
+    @property
     def needs(self) -> tuple[str, ...]:
         """Return the series that it is drawn and judged from."""
         others = ("hot", "D-prime") if "temperatures-known" in self.claims else ()
         cold = ("D-prime",) if self.series.startswith("glass") else ()
-        return tuple(dict.fromkeys((self.series, *others, *cold)))
+        thinning = (THINNING[self.series],) if self.is_hard else ()
+        return tuple(dict.fromkeys((self.series, *others, *cold, *thinning)))
 
     def panels(self, book: Book) -> list[Run]:
         """Return the runs of its panels, (a) first."""

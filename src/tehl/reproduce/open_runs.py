@@ -1,10 +1,15 @@
-"""Which runs are no answer."""
+"""Which runs are no answer, and what it would take."""
 
+import math
 from collections.abc import Iterable
 
 from tehl.reproduce.book import Book
 from tehl.reproduce.series import Heat
 
+THINNING = {"C": "C-eyring"}
+"""Series, and the same with an oil that thins in shear."""
+KNOWN = 0.05
+"""Error bar of a film that is well known, over the film."""
 _HEATS: tuple[Heat, Heat] = ("isothermal", "thermal")
 
 
@@ -44,7 +49,32 @@ def _coarser(book: Book, name: str, heat: Heat, values: tuple[float, ...]) -> st
     nodes = found[0].quality.points[0]
     which = ", ".join(f"{run.value:g}" for run in taken)
     errors = [m.film.minimum_error / m.film.minimum for m in found if m.film.minimum > 0]
+    needed = nodes_needed(nodes, max(errors, default=0.0))
     return (
         f"with heat it converges on {nodes} × {nodes} nodes only at {one.symbol} = {which} (series "
-        f"{name}), where H_min is known to {100 * min(errors):.0f} to {100 * max(errors):.0f} %"
+        f"{name}), where H_min is known to {100 * min(errors):.0f} to {100 * max(errors):.0f} %: "
+        f"{100 * KNOWN:.0f} % would take {needed} × {needed}, where Newtonian oil does not settle "
+        f"between these waves{_thinning(book, name)}"
+    )
+
+
+def nodes_needed(nodes: int, error: float) -> int:
+    """Return the nodes of the grid that makes ``error`` on ``nodes`` small, at second order."""
+    finer = math.sqrt(max(error / KNOWN, 1.0))
+    return (nodes - 1) * 2 ** math.ceil(math.log2(finer)) + 1
+
+
+def _thinning(book: Book, name: str) -> str:
+    """Say how an oil that thins does between the same waves; nothing if it was not tried."""
+    other = THINNING.get(name, "")
+    line = book.line(other, "converged", "thermal") if other in book.series else {}
+    if not line:
+        return ""
+    found = list(line.values())
+    nodes, answers = found[0].quality.points[0], [m for m in found if m.quality.converged]
+    errors = [100 * m.film.minimum_error / m.film.minimum for m in answers]
+    known = f", H_min known to {min(errors):.0f} to {max(errors):.0f} %" if errors else ""
+    return (
+        f"; an oil that thins (Eyring, 5 MPa) has an answer on {nodes} × {nodes} nodes at "
+        f"{len(answers)} of {len(found)} loads{known}"
     )

@@ -11,11 +11,23 @@ from tehl.options import Options, coarsenings
 from tehl.problem import ContactProblem
 from tehl.studies import Case
 
-Treatment = Literal["paper", "converged", "mean", "coarser"]
+Treatment = Literal["paper", "converged", "domain", "mean", "coarser"]
 Heat = Literal["isothermal", "thermal"]
 Tables = Mapping[str, Any]
 
-NAMES = ("A", "B", "C", "D", "D-smooth", "D-prime", "D-prime-wavy", "glass-1", "glass-2", "hot")
+NAMES = (
+    "A",
+    "B",
+    "C",
+    "D",
+    "D-smooth",
+    "D-prime",
+    "D-prime-wavy",
+    "C-eyring",
+    "glass-1",
+    "glass-2",
+    "hot",
+)
 """Series, those of the paper first."""
 LEAST_CERTIFIED = 3
 """Coarsenings that a certified grid needs."""
@@ -28,9 +40,9 @@ class RunKind:
 
     Attributes
     ----------
-    treatment : {"paper", "converged", "mean", "coarser"}
-        As the paper did; as well as can be; that with the equation of the paper; or on a coarser
-        grid, where the fine one may not settle.
+    treatment : {"paper", "converged", "domain", "mean", "coarser"}
+        As the paper did; as well as can be; that on the domain of the paper; that with the
+        equation of the paper; or on a coarser grid, where the fine one may not settle.
     heat : {"isothermal", "thermal"}
         Whether heat is computed.
     numerics, thermal : mapping
@@ -136,7 +148,8 @@ def parameter_set(name: str) -> dict[str, Any]:
     sets = parameters()
     found = sets[name]
     like = sets[found["like"]] if "like" in found else {}
-    return {**like, **found, "contact": {**like.get("contact", {}), **found["contact"]}}
+    merged = ("contact", "lubricant")
+    return {**like, **found} | {key: like.get(key, {}) | found.get(key, {}) for key in merged}
 
 
 def parameters() -> dict[str, Any]:
@@ -180,7 +193,7 @@ def runs_of(one: Series, points: int | None = None) -> list[Run]:
 
 def _run(one: Series, kind: RunKind, value: float, points: int | None) -> Run:
     numerics = dict(kind.numerics)
-    if points is not None and kind.treatment in ("converged", "mean"):
+    if points is not None and kind.treatment in ("converged", "domain", "mean"):
         numerics["points"] = points
     options = Options.model_validate(numerics)
     certify = kind.certify and min(map(coarsenings, options.shape)) >= LEAST_CERTIFIED

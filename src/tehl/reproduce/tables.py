@@ -114,6 +114,7 @@ def table_2(book: Book) -> Table:
             "and with two digits exchanged its ratios to the numbers beside it are those of the "
             "other rows.",
             *_formula_notes(book, loads),
+            *_ratio_notes(book, loads),
             "The paper's column is 64 × 64 intervals of second order and carries their error: "
             "compare it with ours on that grid. The right answer is the converged one.",
         ),
@@ -291,9 +292,18 @@ def _ratios(book: Book, series: str, heat: Heat, values: list[float], film: str)
 
 
 def _ratio_check(book: Book, loads: list[float], film: str) -> Check:
+    """Hold the ratio of thermal and isothermal films against ours, on the domain of the paper.
+
+    A film of fine grids on a wide domain is another contact: the ratio there is told beside it.
+    """
     name = dict(_FILMS)[film]
-    findings = [_ratio_finding(book, loads, film, way) for way in WAYS]
-    return Check(f"the effect of heat on {name}", *findings)
+    on_grid, fine, wide = (
+        _ratio_finding(book, loads, film, way) for way in ("paper", "domain", "converged")
+    )
+    if fine is not None and wide is not None:
+        numbers = f"on the paper's domain {fine.numbers}; on a wide one {wide.numbers}"
+        fine = Finding(fine.holds, numbers)
+    return Check(f"the effect of heat on {name}", on_grid, fine)
 
 
 def _ratio_finding(book: Book, loads: list[float], film: str, way: Treatment) -> Finding | None:
@@ -353,6 +363,11 @@ def _formula_notes(book: Book, loads: list[float]) -> tuple[str, ...]:
             f"({found.numbers}): an error of conversion, the same in all rows.",
         )
     )
+
+
+def _ratio_notes(book: Book, loads: list[float]) -> tuple[str, ...]:
+    found = _ratio_check(book, loads, "minimum").converged
+    return () if found is None else (f"Effect of heat on H_min: {found.numbers}.",)
 
 
 def spread(values: list[float]) -> float:

@@ -68,5 +68,5 @@ def _unknown(name: str, known: tuple[str, ...]) -> str:
     guess = f"did you mean {near[0]}? " if near else ""
     return (
         f"{name or '(nothing)'} is no table, figure or statement: {guess}known are T1 to T3, F1 to "
-        "F24, X1 to X3 (added figures), C1 to C5 (conclusions), P0 to P3 (added statements)"
+        "F24, X1 to X4 (added figures), C1 to C5 (conclusions), P0 to P3 (added statements)"
     )
