@@ -22,7 +22,7 @@ import sys
 from pathlib import Path
 
 import tehl
-from tehl import plots, study
+from tehl import plots, studies
 
 LOADS, SPEEDS = (5, 10, 20, 50, 100, 200, 500, 1000, 2000), (1, 2, 3.5, 5, 7, 10, 14, 20)
 NODES = {100: 513, 200: 513, 500: 513, 1000: 1025, 2000: 1025}
@@ -42,9 +42,9 @@ def films(loads: tuple[float, ...], speeds: tuple[float, ...], jobs: int = 1):
     """Return the table of the contacts with these M and L."""
     nodes = [NODES.get(load, 257) for load in loads]
     axes = [
-        study.Axis(path="contact.moes_load", name="M", values=list(loads), zip="load"),
-        study.Axis(path="numerics.points", values=nodes, zip="load"),
-        study.Axis(path="contact.moes_speed", name="L", values=list(speeds)),
+        studies.Axis(path="contact.moes_load", name="M", values=list(loads), zip="load"),
+        studies.Axis(path="numerics.points", values=nodes, zip="load"),
+        studies.Axis(path="contact.moes_speed", name="L", values=list(speeds)),
     ]
     return tehl.study(PROBLEM, axes, jobs=jobs)
 

@@ -7,9 +7,10 @@ import pytest
 
 from tehl import solver
 from tehl.errors import InputError
-from tehl.studies import Store, run, table
+from tehl.studies import Case, Row, Store, run, table
 from tehl.studies.columns import is_number
 from tehl.studies.row import flat, row_of, unit_of
+from tehl.studies.work import in_turn
 from tests.study.contacts import Notes, assert_same_numbers, cases, failing
 
 
@@ -174,3 +175,19 @@ def test_each_number_of_a_summary_is_a_column_that_is_known_before(finished):
 def test_numbers_of_heat_and_roughness_are_columns_that_are_known_before(kind, request):
     names = row_of("key", request.getfixturevalue(kind)).summary
     assert [name for name in names if not is_number(name)] == []
+
+
+def test_a_task_keeps_what_is_done_before_its_time_is_over_or_a_file_fails() -> None:
+    """The first case is always solved, or told; the others come back undone."""
+    tasks = [(case, None, None) for case in cases(3)]
+    full = OSError(28, "No space left on device")
+
+    def solve(case: Case, _: object, __: object) -> Row:
+        if case is tasks[1][0]:
+            raise full
+        return Row(key=case.key, status="converged")
+
+    assert [row.key for row in in_turn(solve, tasks, 60.0)] == [tasks[0][0].key]
+    assert [row.key for row in in_turn(solve, tasks[2:] + tasks[:1], 0.0)] == [tasks[2][0].key]
+    with pytest.raises(OSError, match="No space"):
+        in_turn(solve, tasks[1:], 60.0)

@@ -40,12 +40,13 @@ class Fingerprint:
 
 def fingerprint(problem: ContactProblem, options: Options) -> Fingerprint:
     """Return the fingerprint of a question, the same however its case file is written."""
-    from tehl import __version__  # noqa: PLC0415 (the package is being imported before)
+    from tehl import SOLVER_VERSION, __version__  # noqa: PLC0415 (the package is being imported before)
 
     maps = [one.fingerprint for one in _maps(problem)]
     content = [problem.model_dump(mode="json"), options.model_dump(mode="json"), maps]
     text = json.dumps(content, sort_keys=True)
-    return Fingerprint(__version__, hashlib.sha256(text.encode()).hexdigest())
+    version = f"{__version__} (solver {SOLVER_VERSION})"
+    return Fingerprint(version, hashlib.sha256(text.encode()).hexdigest())
 
 
 def _maps(problem: ContactProblem) -> Iterator[Map]:

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterable
 
 from tehl.reproduce.book import Book
-from tehl.reproduce.series import Heat
+from tehl.reproduce.series import Heat, Treatment
 
 THINNING = {"C": "C-eyring"}
 """Series, and the same with an oil that thins in shear."""
@@ -18,13 +18,14 @@ def open_runs(
     series: Iterable[str],
     heats: tuple[Heat, ...] = _HEATS,
     values: tuple[float, ...] = (),
+    way: Treatment = "converged",
 ) -> str:
     """Return which of the fine runs are no converged answer, in words; empty if all are."""
     words = []
     for name in series:
         symbol = book.series[name].symbol
         for heat in heats:
-            line = book.line(name, "converged", heat)
+            line = book.line(name, way, heat)
             failed = [v for v, m in line.items() if not m.quality.converged]
             failed = [v for v in failed if not values or v in values]
             if failed:
@@ -49,13 +50,11 @@ def _coarser(book: Book, name: str, heat: Heat, values: tuple[float, ...]) -> st
     nodes = found[0].quality.points[0]
     which = ", ".join(f"{run.value:g}" for run in taken)
     errors = [m.film.minimum_error / m.film.minimum for m in found if m.film.minimum > 0]
+    where = f"with heat it converges on {nodes} × {nodes} nodes only at {one.symbol} = {which}"
+    known = f"{100 * min(errors):.0f} to {100 * max(errors):.0f} %" if errors else "no digit"
     needed = nodes_needed(nodes, max(errors, default=0.0))
-    return (
-        f"with heat it converges on {nodes} × {nodes} nodes only at {one.symbol} = {which} (series "
-        f"{name}), where H_min is known to {100 * min(errors):.0f} to {100 * max(errors):.0f} %: "
-        f"{100 * KNOWN:.0f} % would take {needed} × {needed}, where Newtonian oil does not settle "
-        f"between these waves{_thinning(book, name)}"
-    )
+    more = f": {100 * KNOWN:.0f} % would take {needed} × {needed}" if needed > nodes else ""
+    return f"{where} (series {name}), where H_min is known to {known}{more}{_thinning(book, name)}"
 
 
 def nodes_needed(nodes: int, error: float) -> int:
@@ -76,5 +75,5 @@ def _thinning(book: Book, name: str) -> str:
     known = f", H_min known to {min(errors):.0f} to {max(errors):.0f} %" if errors else ""
     return (
         f"; an oil that thins (Eyring, 5 MPa) has an answer on {nodes} × {nodes} nodes at "
-        f"{len(answers)} of {len(found)} loads{known}"
+        f"{len(answers)} of {len(book.series[other].values)} loads{known}"
     )

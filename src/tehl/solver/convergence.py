@@ -74,9 +74,11 @@ class GridTrace:
     reports: list[CycleReport] = field(default_factory=list)
     largest_change: float = LARGEST_CHANGE
     least_cycles: int = LEAST_CYCLES
+    follow: float = 1.0
 
     def damp(self, follow: float) -> None:
         """Take into account that heat and thinning act on the flow by a part per cycle only."""
+        self.follow = follow
         self.least_cycles = max(LEAST_CYCLES, math.ceil(1.0 / follow))
         for trace in (self.central, self.minimum, self.rise):
             trace.least_rate = max(LEAST_RATE, 1.0 - follow)
@@ -92,7 +94,9 @@ def ended(now: GridTrace, coarser: GridTrace | None, options: Options) -> bool:
     if options.accuracy != "change":
         return converged(now, coarser, options)
     last = now.reports[-1]
-    return last.mean_change <= MEAN_CHANGE and last.temperature_change <= KELVIN_CHANGE
+    if len(now.reports) < now.least_cycles and now.follow < 1.0:
+        return False
+    return last.mean_change <= now.follow * MEAN_CHANGE and last.temperature_change <= KELVIN_CHANGE
 
 
 def converged(now: GridTrace, coarser: GridTrace | None, options: Options) -> bool:
@@ -101,7 +105,8 @@ def converged(now: GridTrace, coarser: GridTrace | None, options: Options) -> bo
         return False
     if options.accuracy == "tight":
         last = now.reports[-1]
-        settled = max(last.residual, last.change, abs(last.load_error)) <= options.tolerance
+        change = max(last.residual, last.change, abs(last.load_error)) / now.follow
+        settled = change <= options.tolerance
         kelvin = max(last.temperature_rise, 1.0) * TIGHTER * options.tolerance
         return settled and last.temperature_change <= kelvin
     return iterated_enough(now, coarser) and heated_enough(now, coarser)
@@ -123,7 +128,7 @@ def iterated_enough(now: GridTrace, coarser: GridTrace | None) -> bool:
     if len(now.reports) < now.least_cycles:
         return False
     if coarser is None:
-        return now.reports[-1].change < 1e-3
+        return now.reports[-1].change < now.follow * 1e-3
     pairs = ((now.central, coarser.central), (now.minimum, coarser.minimum))
     last = now.reports[-1]
     if last.residual > now.reports[-2].residual:

@@ -63,6 +63,7 @@ class Stepper:
         self.pressure_before = level.film.p.copy()
         for one in run.levels:
             one.mesh = step_stencil(one.mesh, self.time_step)
+        run.coupling.follow = 1.0  # steps are small enough to follow at once
         run.coupling.begin_time(run.levels, self.time_step)
         self.setting = 0
         self.choose(0)

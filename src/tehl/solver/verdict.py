@@ -189,8 +189,10 @@ def _touching(run: Multigrid, errors: ErrorEstimate | None) -> Status:
     """Judge a film that is not positive between asperities: they touch, or the grid cannot tell."""
     if errors is not None and errors.discretisation_minimum > LARGEST_ROUGH_BAR:
         status = _too_coarse(run.finest.grid, run.groups, errors.discretisation_minimum)
-        place = "smallest H = {:.3g} at X = {:.3g}, Y = {:.3g}".format(*_thinnest(run.finest))
-        return replace(status, message=f"{status.message} It is not positive on it: {place}.")
+        smallest, x, y = _thinnest(run.finest)
+        place = f"smallest H = {smallest:.3g} at X = {x:.3g}, Y = {y:.3g} (half-widths)"
+        message = f"{status.message} The film found is not positive: {place}."
+        return replace(status, message=message)
     return _asperity_contact(run.finest)
 
 

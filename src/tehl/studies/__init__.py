@@ -11,9 +11,11 @@
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from tehl import SOLVER_VERSION
+
 if TYPE_CHECKING:
     from tehl.studies.axes import Axis, Sample
-    from tehl.studies.case import SOLVER_VERSION, Case
+    from tehl.studies.case import Case
     from tehl.studies.monitor import StudyMonitor
     from tehl.studies.plan import Study
     from tehl.studies.quick import cases_of, study
@@ -23,7 +25,6 @@ if TYPE_CHECKING:
     from tehl.studies.tables import table
 
 _HOMES = {
-    "SOLVER_VERSION": "case",
     "Axis": "axes",
     "Case": "case",
     "Outcome": "runner",

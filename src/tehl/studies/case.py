@@ -8,12 +8,9 @@ from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
-from tehl import __version__
+from tehl import SOLVER_VERSION, __version__
 from tehl.options import Options
 from tehl.problem import ContactProblem
-
-SOLVER_VERSION = 2
-"""To be raised with each change of the solver after which answers kept before would mislead."""
 
 Label = float | str
 

@@ -210,21 +210,23 @@ class _Run:
         if self.alone:
             self._submit(executor, [self.suspects.popleft()])
             return
-        while self.waiting and len(self.running) < self.engine.window():
-            count = min(self._together(), len(self.waiting))
+        window = self.engine.window()
+        while self.waiting and len(self.running) < window:
+            count = min(self._together(window), len(self.waiting))
             self._submit(executor, [self.waiting.popleft() for _ in range(count)])
 
-    def _together(self) -> int:
-        """Return how many of the next cases make a task: none waits long for the others."""
+    def _together(self, window: int) -> int:
+        """Return how many of the next cases make a task; what takes too long comes back undone."""
         if not (self.engine.task_seconds and self.rows):
             return 1
         quick = int(self.engine.task_seconds * len(self.rows) / max(self.seconds, 1e-9))
-        share = len(self.waiting) // (2 * self.engine.window())
+        share = len(self.waiting) // (2 * window)
         return max(1, min(quick, share))
 
     def _submit(self, executor: Executor, cases: list[Case]) -> None:
         try:
-            future = executor.submit(in_turn, work, [self._task(case) for case in cases])
+            tasks = [self._task(case) for case in cases]
+            future = executor.submit(in_turn, work, tasks, self.engine.task_seconds)
         except BrokenExecutor as error:  # a worker died since
             future = Future()
             future.set_exception(error)
@@ -247,12 +249,13 @@ class _Run:
             done, _ = wait(self.running)  # all of a broken pool are done at once
         dead = []
         for future in [future for future in self.running if future in done]:
-            cases = self.running.pop(future)
             if _is_death(_error(future)):
-                dead.extend(cases)
-            else:
-                for case, row in zip(cases, _rows(future), strict=True):
-                    self._keep(case, row)
+                dead.extend(self.running.pop(future))
+                continue
+            rows = _rows(future)
+            for case, row in zip(self.running[future], rows, strict=False):
+                self._keep(case, row)
+            self.waiting.extendleft(reversed(self.running.pop(future)[len(rows) :]))
         if self.alone:
             for case in dead:
                 self._keep(case, _died(case))
@@ -282,7 +285,9 @@ class _Run:
         """Keep what was finished when the run was stopped, as far as it can be kept."""
         for future, cases in self.running.items():
             if future.done() and _error(future) is None:
-                for case, row in zip(cases, future.result(), strict=True):
+                for case, row in zip(cases, future.result(), strict=False):
+                    if case.key in self.rows:
+                        continue
                     with suppress(OSError):
                         self.store.put(row)
                         self.monitor.finished(case, row)

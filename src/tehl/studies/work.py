@@ -13,9 +13,24 @@ Task = tuple[Case, Path | None, Path | None]
 """A case, a file for its fields and one to start from."""
 
 
-def in_turn(solve: Callable[[Case, Path | None, Path | None], Row], tasks: list[Task]) -> list[Row]:
-    """Return the rows of some cases, one after the other."""
-    return [solve(*task) for task in tasks]
+def in_turn(
+    solve: Callable[[Case, Path | None, Path | None], Row], tasks: list[Task], seconds: float
+) -> list[Row]:
+    """Return the rows of some cases, one after the other, of the first one at least.
+
+    After so many seconds, or where the fields of a case cannot be written, the others are left.
+    """
+    start, rows = time.perf_counter(), list[Row]()
+    for task in tasks:
+        if rows and time.perf_counter() - start > seconds:
+            break
+        try:
+            rows.append(solve(*task))
+        except OSError:
+            if not rows:
+                raise
+            break  # it is told when that case is the first of a task
+    return rows
 
 
 def work(case: Case, fields: Path | None, guess: Path | None = None) -> Row:
