@@ -48,6 +48,7 @@ PRESSURISED = 0.02  # from this pressure on changes of the temperature count
 CONDUCTION = 8.0  # a little less than pi^2, the slowest decay across the film
 HELD_BY_WALLS = 1.0  # over the squared distance to both walls: a little more than conduction
 SETTLED = 1e-5  # step of the stress over its scale after which what is left is its square
+STRAIGHT = 0.03  # excess of the tangent along y that changes no iteration
 BLOCK = LANES  # rows that are treated together
 ETA_TERMS, RHO_TERMS = 16, 8  # of the polynomials in temperature
 TERMS = ETA_TERMS + RHO_TERMS
@@ -232,8 +233,8 @@ class Place(NamedTuple):
 
 
 # cells of a block: values without layers
-P, H, PX, PY, CAPACITY, CONDUCTIVITY, STRESS, TAU_X, TAU_Y, PER, PULL, THINS, PT, ETA = (
-    LANES * field for field in range(14)
+P, H, PX, PY, CAPACITY, CONDUCTIVITY, STRESS, TAU_X, TAU_Y, PER, PULL, THINS, ASKEW, PT, ETA = (
+    LANES * field for field in range(15)
 )
 DENSITY = ETA + LANES * ETA_TERMS
 LINE = DENSITY + LANES * RHO_TERMS
@@ -554,9 +555,11 @@ def thin(model: Model, work: Work, place: Place, steps: int) -> None:
     """Find the mid-film stress in some Newton steps, and multiply the fluidity by F there.
 
     ``YIELD`` is how fast the rate grows with the stress, both as logarithms; ``TANGENT_X`` and
-    ``TANGENT_Y`` the fluidity of a small change of the stress along x or y.
+    ``TANGENT_Y`` the fluidity of a small change of the stress along x or y, ``ASKEW`` by how much
+    the latter exceeds the fluidity, relatively, at most.
     """
     cells, along = work.cells, 0.0 if model.laws.uniform else 1.0
+    askew = 0.0 * load(cells, place.base + P)
     for _ in range(steps):
         if newton_step(model, work, place) < SETTLED:
             break
@@ -570,6 +573,8 @@ def thin(model: Model, work: Work, place: Place, steps: int) -> None:
         store(cells, here + YIELD, 1.0 + bend)
         store(cells, here + TANGENT_X, fluid * (1.0 + more * x * x))
         store(cells, here + TANGENT_Y, fluid * (1.0 + more * y * y))
+        askew = upper(askew, more * y * y)
+    put(cells, place.base + ASKEW, largest(askew))
 
 
 @njit(cache=True)
@@ -960,14 +965,14 @@ def reynolds_fields(model: Model, fields: Fields, work: Work, place: Place) -> N
     store(fields.steep, at, 1.0 / load(cells, middle + YIELD))
     newtonian = exponential(-1.0 * load(cells, middle + LN_ETA))
     store(fields.effective, at, newtonian / load(cells, middle + FLUIDITY))
+    store(fields.stretch_x, at, 1.0)
+    store(fields.stretch_y, at, 1.0)
     if thins(work, place):
         moments(model.across, TANGENT_X, work, place)
         store(fields.stretch_x, at, mobility(model.across, work, place) / whole_mobility)
+    if thins(work, place) and number(cells, place.base + ASKEW) > STRAIGHT:
         moments(model.across, TANGENT_Y, work, place)
         store(fields.stretch_y, at, mobility(model.across, work, place) / whole_mobility)
-    else:
-        store(fields.stretch_x, at, 1.0)
-        store(fields.stretch_y, at, 1.0)
 
 
 @njit(cache=True)
