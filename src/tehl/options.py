@@ -70,8 +70,8 @@ class Options(BaseModel):
     domain : Domain or "auto"
         ``"auto"`` takes the domain from the Moes load so that its part of the error of the film
         stays below 0.3 %.
-    deformation : {"auto", "mlmi", "fft", "direct"}
-        How the elastic deflection is summed; ``"auto"`` takes the cheaper at equal accuracy.
+    deformation : {"auto", "mlmi", "fft", "lines", "direct"}
+        How the elastic deflection is summed; ``"auto"`` takes the cheapest at equal accuracy.
     cycle : {"V", "W", "F"}
         Multigrid cycle.
     pre_sweeps, post_sweeps : int
@@ -99,7 +99,7 @@ class Options(BaseModel):
 
     points: Nodes | tuple[Nodes, Nodes] = 257
     domain: Domain | Literal["auto"] = "auto"
-    deformation: Literal["auto", "mlmi", "fft", "direct"] = "auto"
+    deformation: Literal["auto", "mlmi", "fft", "lines", "direct"] = "auto"
     cycle: Literal["V", "W", "F"] = "V"
     pre_sweeps: Annotated[Count, Field(ge=0, le=10)] = 2
     post_sweeps: Annotated[Count, Field(ge=0, le=10)] = 2

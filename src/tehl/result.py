@@ -34,7 +34,8 @@ class Status:
         Name of the cause when not converged, for programs: ``"grid_too_coarse"``.
     message, hint : str or None
         The cause and what to try, for people. A certified result that converged tells in
-        ``message`` how its grids ended.
+        ``message`` how its grids ended; one between rough surfaces that its minimum film is hardly
+        known, if it is, and the grid that it needs in ``hint``.
     """
 
     kind: StatusKind

@@ -142,6 +142,30 @@ def test_properties_reproduce_cubics_and_hold_the_film_at_its_floor():
     np.testing.assert_allclose(film.drho, 0.2, rtol=1e-13)
 
 
+def test_the_factors_of_a_heated_film_give_its_mobility_and_density_back():
+    """At the pressure they are taken at, whatever part of the mobility follows the pressure."""
+    step, generator = 0.5, np.random.default_rng(5)
+    rows = np.arange(9) * step
+    table = np.column_stack(
+        [np.exp(-rows), -step * np.exp(-rows), 1.0 + 0.2 * rows, np.full(9, 0.2 * step)]
+    )
+    p, h, *others = 3.0 * generator.random((9, 4, 6))
+    heated = reynolds.Heated(*(0.2 + field for field in others[:5]))
+    heated.steep[:] /= 4.0
+    film = reynolds.Film(p, h, *np.empty((5, 4, 6)))
+    factors = reynolds.Factors(*np.empty((5, 4, 6)))
+    reynolds.factors_of(heated, film._replace(h=np.ones_like(h)), table, step, factors)
+    reynolds.heated_properties(film, factors, table, step, 0.5)
+    cube = np.maximum(h, 0.5) ** 3
+    np.testing.assert_allclose(film.eps, heated.mobility * cube, rtol=1e-12)
+    np.testing.assert_allclose(film.eps_x, heated.mobility * cube * heated.stretch_x, rtol=1e-12)
+    np.testing.assert_allclose(film.eps_y, heated.mobility * cube * heated.stretch_y, rtol=1e-12)
+    np.testing.assert_allclose(film.rho, heated.density, rtol=1e-12)
+    cold = isotropic(p, h, *np.empty((3, 4, 6)))
+    reynolds.properties(cold, table, step, 0.5)
+    np.testing.assert_allclose(film.drho, cold.drho * heated.density / cold.rho, rtol=1e-12)
+
+
 def test_nodes_of_small_conductance_far_from_cavities_relax_as_dipoles():
     shape = (7, 9)
     film, mesh = random_film(shape), mesh_of(mirror=0)

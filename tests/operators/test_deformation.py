@@ -6,7 +6,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tehl.grid import Grid
-from tehl.operators.deformation import DirectDeformation, FftDeformation, choose
+from tehl.operators.deformation import (
+    DirectDeformation,
+    FftDeformation,
+    LineDeformation,
+    choose,
+)
 from tehl.operators.film import gap, hertz_pressure
 from tehl.operators.influence import influence_of
 from tehl.operators.multilevel import MultilevelDeformation
@@ -27,7 +32,8 @@ def deflection(name: str, grid: Grid, pressure: Array, ratio: float = 1.0) -> Ar
     if name == "mlmi":
         method = MultilevelDeformation(grid, influence_of(grid, numbers))
     else:
-        method = {"fft": FftDeformation, "direct": DirectDeformation}[name](grid, numbers)
+        methods = {"fft": FftDeformation, "lines": LineDeformation, "direct": DirectDeformation}
+        method = methods[name](grid, numbers)
     out = np.full(grid.shape, np.nan)
     method.deflect(pressure, out)
     return out
@@ -40,15 +46,16 @@ def zero_on_edges(field: Array, *, mirror: bool) -> Array:
     return field
 
 
+@pytest.mark.parametrize("name", ["fft", "lines"])
 @pytest.mark.parametrize("ratio", [1.0, 3.0])
 @pytest.mark.parametrize("mirror", [True, False])
 @pytest.mark.parametrize(("nx", "ny"), SHAPES)
-def test_the_fft_is_the_sum_by_definition(nx, ny, mirror, ratio):
+def test_a_transform_is_the_sum_by_definition(nx, ny, mirror, ratio, name):
     grid = grid_of(nx, ny, mirror=mirror)
     pressure = zero_on_edges(np.random.default_rng(nx + ny).random(grid.shape), mirror=mirror)
     exact = deflection("direct", grid, pressure, ratio)
-    by_fft = deflection("fft", grid, pressure, ratio)
-    np.testing.assert_allclose(by_fft, exact, rtol=0, atol=1e-13 * exact.max())
+    transformed = deflection(name, grid, pressure, ratio)
+    np.testing.assert_allclose(transformed, exact, rtol=0, atol=1e-13 * exact.max())
 
 
 @pytest.mark.parametrize("ratio", [0.1, 0.5, 1.0, 3.0, 100.0])
@@ -83,7 +90,7 @@ def test_the_multilevel_sum_stays_as_good_on_a_fine_grid():
     assert np.abs(error).max() < 5e-5
 
 
-@pytest.mark.parametrize("name", ["mlmi", "fft", "direct"])
+@pytest.mark.parametrize("name", ["mlmi", "fft", "lines", "direct"])
 def test_deflection_is_linear(name):
     grid = grid_of(33, 33, mirror=True)
     rng = np.random.default_rng(3)
@@ -128,8 +135,20 @@ def test_the_dry_gap_vanishes_in_a_contact_of_any_ellipticity(ratio):
     assert film[0, -1] > 1.0
 
 
-def test_auto_takes_the_fft_on_the_smallest_grids_only():
-    numbers = contact_groups()
-    small, large = (choose("auto", grid_of(n, n, mirror=True), numbers) for n in (17, 129))
-    assert isinstance(small, FftDeformation)
-    assert isinstance(large, MultilevelDeformation)
+@pytest.mark.parametrize(
+    ("across", "mirror", "method"),
+    [
+        (17, True, LineDeformation),
+        (129, True, LineDeformation),
+        (129, False, LineDeformation),
+        (257, True, MultilevelDeformation),
+        (257, False, MultilevelDeformation),
+    ],
+)
+def test_auto_sums_by_lines_where_there_are_few_of_them(across, mirror, method):
+    assert isinstance(choose("auto", grid_of(257, across, mirror=mirror), contact_groups()), method)
+
+
+def test_auto_does_not_trust_the_multilevel_sum_on_long_cells():
+    cells = grid_of(33, 257, mirror=True)
+    assert isinstance(choose("auto", cells, contact_groups()), FftDeformation)

@@ -69,3 +69,21 @@ def test_the_dense_matrix_of_half_a_domain_acts_like_the_full_one():
     np.testing.assert_allclose(
         by_half.reshape(half.shape), by_full.reshape(full.shape)[4:], rtol=ROUNDING
     )
+
+
+@given(SIDES, SIDES)
+def test_a_table_is_what_the_calls_say(dx, dy):
+    influence = Influence(dx, dy, 1.3)
+    called = influence(np.arange(7)[:, None], np.arange(9)[None, :])
+    np.testing.assert_allclose(influence.table(7, 9), called, rtol=0, atol=ROUNDING * called.max())
+
+
+@pytest.mark.parametrize("mirror", [True, False])
+def test_the_dense_matrix_has_the_influence_of_each_node_on_each(mirror):
+    influence = Influence(0.2, 0.15, 1.0)
+    matrix = dense_matrix((3, 4), mirror, influence, (2, 3))
+    for m, (j, i) in enumerate(np.ndindex(3, 4)):
+        for n, (b, a) in enumerate(np.ndindex(3, 4)):
+            expected = float(influence(2 * (j - b), 3 * (i - a)))
+            expected += float(influence(2 * (j + b), 3 * (i - a))) if mirror and b else 0.0
+            assert matrix[m, n] == pytest.approx(expected, rel=1e-9)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tehl.kernels.reynolds import Factors
-from tehl.solver.convergence import GridTrace
+from tehl.solver.convergence import GridTrace, error_estimate
 from tehl.solver.thermal import between
 
 
@@ -24,6 +24,19 @@ def test_cycles_that_follow_at_once_are_judged_as_ever() -> None:
     trace, same = GridTrace(), GridTrace()
     trace.damp(1.0)
     assert trace == same
+
+
+@pytest.mark.parametrize(("coarse", "bar"), [(0.010, 0.30), (0.0, 0.60), (-0.020, 2.0)])
+def test_a_rough_minimum_far_from_its_limit_is_uncertain_by_its_whole_change(
+    coarse: float, bar: float
+) -> None:
+    """Near it by six tenths of the change between two grids that have the heights."""
+    traces = [GridTrace(), GridTrace()]
+    for trace, minimum in zip(traces, (coarse, 0.020), strict=True):
+        trace.note(0.1, minimum)
+    estimate = error_estimate(traces, 2, rough=True)
+    assert estimate.discretisation_minimum == pytest.approx(bar)
+    assert estimate.discretisation_central == 0.0
 
 
 def test_factors_go_a_part_of_the_way_and_arrive() -> None:

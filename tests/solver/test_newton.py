@@ -155,6 +155,46 @@ def test_finds_the_film_of_the_cycles_between_waves(
     assert run.film_scaled.minimum == pytest.approx(0.0106, abs=2e-4)
 
 
+def test_heights_are_raised_on_the_finest_grid_where_the_coarser_film_is_no_start(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The film is the same whether they are raised on 65 nodes or before."""
+    monkeypatch.setattr(steady, "_settings", lambda *_, **__: [(NEWTON, False)])
+    problem, options = wavy((57.21, 10.52), (0.3, 1.0, 0.0)), Options(points=65, domain=DOMAIN)
+    raised: list[tuple[int, bool]] = []
+    raise_heights, walk = Newton.raise_heights, Newton.walk
+
+    def noted(self: Newton, once: Any, *, last: bool) -> None:
+        raised.append((self.level.grid.nx, last))
+        raise_heights(self, once, last=last)
+
+    def stumbling(self: Newton, change: Any) -> float:
+        if self.level.grid.nx == 65 and raised[-1][0] < 65:
+            raise DivergedError
+        return walk(self, change)
+
+    monkeypatch.setattr(Newton, "raise_heights", noted)
+    plain = finished(problem, options)
+    assert raised == [(33, False)]
+    monkeypatch.setattr(Newton, "walk", stumbling)
+    again = finished(problem, options)
+    assert raised == [(33, False), (33, False), (65, True)]
+    assert plain.history[-1].residual < RAISED
+    assert again.film_scaled.minimum == pytest.approx(plain.film_scaled.minimum, rel=1e-3)
+    assert again.film_scaled.central == pytest.approx(plain.film_scaled.central, rel=1e-4)
+
+
+def test_a_coarser_grid_raises_all_heights_even_where_its_film_fails(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The finest one has the last word."""
+    monkeypatch.setattr(steady, "_settings", lambda *_, **__: [(NEWTON, False)])
+    run = finished(wavy((20.0, 10.0), (3.0, 2.0, 0.0)), Options(points=65, domain=DOMAIN))
+    assert {report.points[0] for report in run.history} == {33, 65}
+    assert not run.status.converged
+    assert run.film_scaled.minimum <= 0.0
+
+
 @pytest.mark.slow
 def test_newton_finishes_what_no_cycle_does() -> None:
     """Waves of six smooth films: all cycles stall, Newton's method ends where the film does."""

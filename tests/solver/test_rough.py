@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from tehl.cli.words import as_text
 from tehl.errors import ConvergenceError
 from tehl.operators.heights import full_weighting
 from tehl.options import Options
@@ -93,6 +94,34 @@ def test_asperities_that_would_touch_are_named_with_their_place():
     status = caught.value.result.status
     assert status.cause in ("asperity_contact", "grid_too_coarse")
     assert caught.value.result.scaled.pressure.shape == (65, 65)
+
+
+def test_a_minimum_that_is_not_known_to_within_itself_is_told_and_holds():
+    """Ridges of nearly twice the smooth film: one spot is thin, the rest of the film is known."""
+    contact, shape = (57.21, 10.52), (0.2, 1.0, 90.0)
+    coarse, fine = (rough_film(contact, options(points), shape) for points in (65, 129))
+    assert coarse.status.converged
+    assert coarse.status.cause is None
+    assert "times itself" in (coarse.status.message or "")
+    assert "Take numerics.points = 1" in (coarse.status.hint or "")
+    assert coarse.errors is not None
+    assert coarse.errors.discretisation_minimum > 1.0
+    most = (1.0 + coarse.errors.discretisation_minimum) * coarse.film_scaled.minimum_node
+    assert 0.0 < fine.film_scaled.minimum < most
+    off = abs(coarse.film_scaled.central / fine.film_scaled.central - 1.0)
+    assert off < coarse.errors.discretisation_central
+    assert fine.status.message is None
+    text = as_text(coarse)
+    assert "uncertain        The minimum film" in text
+    assert "hint             Take numerics.points = 1" in text
+
+
+def test_a_film_that_is_not_positive_is_refused_with_its_place():
+    with pytest.raises(ConvergenceError) as caught:
+        rough_film((126.0, 12.34), options(65), (0.2, 1.0, 90.0))
+    status = caught.value.result.status
+    assert status.cause == "grid_too_coarse"
+    assert "not positive: smallest H = -0.02" in (status.message or "")
 
 
 def test_anderson_solves_a_linear_iteration_that_diverges():

@@ -45,8 +45,11 @@ def as_text(result: "Result", *, rough: "RoughFilm | None" = None) -> str:
         ("grid", f"{nx} x {ny} on [{x[0]:g}, {x[-1]:g}] x [{y[0]:g}, {y[-1]:g}] half-widths"),
         ("effort", _effort(result)),
     ]
-    if result.status.converged and result.status.message:
-        rows.append(("certified", result.status.message))
+    status = result.status
+    if status.converged and status.message:
+        rows.append(("uncertain" if status.hint else "certified", status.message))
+    if status.converged and status.hint:
+        rows.append(("hint", status.hint))
     return "\n".join([headline(result), *(f"  {name:<17}{value}" for name, value in rows)])
 
 

@@ -912,20 +912,20 @@ def carry_aside(work: Work, start: Place) -> None:
     by one row per sweep. Changes follow the flow outwards, then inwards, with the part that the
     inflow has in the balance of a column; that does not change the solution.
     """
-    cells = work.cells
-    for k in range(1, start.n - 1):
-        for step in (1, -1):
-            change, row = 0.0, 0 if step > 0 else start.ny - 1
-            for _ in range(start.ny):
-                block, lane = row // BLOCK, row % BLOCK
-                at = block * (LINE + start.n * LAYER) + LINE + k * LAYER + lane
-                part = step * number(cells, at + ASIDE)
-                new = number(cells, at + A)
-                if part > 0.0:
-                    new += part * change
-                    put(cells, at + A, new)
-                change = new - number(cells, at + T)
-                row += step
+    cells, changes = work.cells, work.terms  # of the row before, one per layer
+    for step in (1, -1):
+        row = 0 if step > 0 else start.ny - 1
+        for k in range(1, start.n - 1):
+            put(changes, k, 0.0)
+        for _ in range(start.ny):
+            first = row // BLOCK * (LINE + start.n * LAYER) + LINE + row % BLOCK
+            for k in range(1, start.n - 1):
+                at = first + k * LAYER
+                part = max(step * number(cells, at + ASIDE), 0.0)
+                new = number(cells, at + A) + part * number(changes, k)
+                put(cells, at + A, new)
+                put(changes, k, new - number(cells, at + T))
+            row += step
 
 
 @njit(cache=True)

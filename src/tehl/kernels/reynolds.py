@@ -76,37 +76,40 @@ class Relaxation(NamedTuple):
 
 
 @njit(cache=True, fastmath={"contract"})
+def line_properties(film: Film, table: Array, step: float, floor: float, j: int) -> None:
+    """Fill ``eps, rho, drho`` of line ``j``; see `properties`."""
+    p, h, eps, rho, drho = film.p[j], film.h[j], film.eps[j], film.rho[j], film.drho[j]
+    flat, last, per_step = table.ravel(), table.shape[0] - 2, 1.0 / step
+    for i in range(p.shape[0]):
+        x = p[i] * per_step
+        x = 0.0 if x <= 0.0 else x
+        k = int(min(x, last))
+        t = min(x - k, 1.0)
+        s = 1.0 - t
+        near = flat[4 * k : 4 * k + 8]
+        low, high = (
+            near[0] + t * (near[1] + 2.0 * near[0]),
+            near[4] + s * (2.0 * near[4] - near[5]),
+        )
+        thick = max(h[i], floor)
+        eps[i] = (s * s * low + t * t * high) * (thick * thick * thick)
+        low, high = (
+            near[2] + t * (near[3] + 2.0 * near[2]),
+            near[6] + s * (2.0 * near[6] - near[7]),
+        )
+        rho[i] = s * s * low + t * t * high
+        drho[i] = (s * near[3] + t * near[7]) * per_step
+
+
+@njit(cache=True)
 def properties(film: Film, table: Array, step: float, floor: float) -> None:
     """Fill ``eps, rho, drho`` from ``p, h`` by cubic Hermite interpolation in ``table``.
 
     Columns of ``table``: rho/(eta lambda), its slope times ``step``, rho, its slope times
     ``step``. The film enters with no less than ``floor``.
     """
-    ny, nx = film.p.shape
-    flat = table.ravel()
-    last = table.shape[0] - 2
-    per_step = 1.0 / step
-    for j in range(ny):
-        p, h, eps, rho, drho = film.p[j], film.h[j], film.eps[j], film.rho[j], film.drho[j]
-        for i in range(nx):
-            x = p[i] * per_step
-            x = 0.0 if x <= 0.0 else x
-            k = int(min(x, last))
-            t = min(x - k, 1.0)
-            s = 1.0 - t
-            near = flat[4 * k : 4 * k + 8]
-            low, high = (
-                near[0] + t * (near[1] + 2.0 * near[0]),
-                near[4] + s * (2.0 * near[4] - near[5]),
-            )
-            thick = max(h[i], floor)
-            eps[i] = (s * s * low + t * t * high) * (thick * thick * thick)
-            low, high = (
-                near[2] + t * (near[3] + 2.0 * near[2]),
-                near[6] + s * (2.0 * near[6] - near[7]),
-            )
-            rho[i] = s * s * low + t * t * high
-            drho[i] = (s * near[3] + t * near[7]) * per_step
+    for j in range(film.p.shape[0]):
+        line_properties(film, table, step, floor, j)
 
 
 class Factors(NamedTuple):
@@ -124,22 +127,60 @@ class Factors(NamedTuple):
     stretch_y: Array
 
 
-@njit(cache=True, fastmath={"contract"})
-def scale_properties(film: Film, factors: Factors, floor: float) -> None:
-    """Turn isothermal Newtonian ``eps, rho, drho`` into those of the heated, sheared film."""
+class Heated(NamedTuple):
+    """What the energy equation says of the flow, each (ny, nx).
+
+    ``mobility, density`` of the heated, sheared film, in units of the isothermal Newtonian ones;
+    ``steep`` the part of the mobility that follows the isothermal one; ``stretch_x, stretch_y`` as
+    in `Factors`.
+    """
+
+    mobility: Array
+    density: Array
+    steep: Array
+    stretch_x: Array
+    stretch_y: Array
+
+
+@njit(cache=True)
+def factors_of(heated: Heated, film: Film, table: Array, step: float, factors: Factors) -> None:
+    """Fill ``factors`` at the pressures ``film.p``; ``eps, rho, drho`` are lost."""
     for j in range(film.p.shape[0]):
-        h, eps, rho, drho = film.h[j], film.eps[j], film.rho[j], film.drho[j]
-        rest, mobility, density = factors.rest[j], factors.mobility[j], factors.density[j]
+        line_properties(film, table, step, 0.0, j)
         for i in range(film.p.shape[1]):
-            thick = max(h[i], floor)
-            eps[i] = mobility[i] * eps[i] + rest[i] * (thick * thick * thick)
-            rho[i] *= density[i]
-            drho[i] *= density[i]
-        eps_x, eps_y = film.eps_x[j], film.eps_y[j]
-        stretch_x, stretch_y = factors.stretch_x[j], factors.stretch_y[j]
-        for i in range(film.p.shape[1]):
-            eps_x[i] = stretch_x[i] * eps[i]
-            eps_y[i] = stretch_y[i] * eps[i]
+            mobility, steep = heated.mobility[j, i], heated.steep[j, i]
+            factors.rest[j, i] = mobility * (1.0 - steep)
+            factors.mobility[j, i] = mobility * steep / film.eps[j, i]
+            factors.density[j, i] = heated.density[j, i] / film.rho[j, i]
+            factors.stretch_x[j, i] = heated.stretch_x[j, i]
+            factors.stretch_y[j, i] = heated.stretch_y[j, i]
+
+
+@njit(cache=True)
+def heated_properties(
+    film: Film, factors: Factors, table: Array, step: float, floor: float
+) -> None:
+    """Fill ``eps, rho, drho, eps_x, eps_y`` of the heated, sheared film; see `properties`."""
+    for j in range(film.p.shape[0]):
+        line_properties(film, table, step, floor, j)
+        scale_line(film, factors, floor, j)
+
+
+@njit(cache=True, fastmath={"contract"})
+def scale_line(film: Film, factors: Factors, floor: float, j: int) -> None:
+    """Turn isothermal Newtonian properties of line ``j`` into those of the heated film."""
+    h, eps, rho, drho = film.h[j], film.eps[j], film.rho[j], film.drho[j]
+    rest, mobility, density = factors.rest[j], factors.mobility[j], factors.density[j]
+    for i in range(h.shape[0]):
+        thick = max(h[i], floor)
+        eps[i] = mobility[i] * eps[i] + rest[i] * (thick * thick * thick)
+        rho[i] *= density[i]
+        drho[i] *= density[i]
+    eps_x, eps_y = film.eps_x[j], film.eps_y[j]
+    stretch_x, stretch_y = factors.stretch_x[j], factors.stretch_y[j]
+    for i in range(h.shape[0]):
+        eps_x[i] = stretch_x[i] * eps[i]
+        eps_y[i] = stretch_y[i] * eps[i]
 
 
 @njit(cache=True)

@@ -1,18 +1,20 @@
-"""Elastic deflection of two half-spaces: direct sum, FFT and multilevel sum, one interface."""
+"""Elastic deflection of two half-spaces: direct sum, two with FFT, multilevel; one interface."""
 
 from typing import Protocol
 
 import numpy as np
 
 from tehl.grid import Grid
+from tehl.kernels.lanes import LANES, addresses
+from tehl.kernels.lines import sum_across
 from tehl.operators.influence import dense_matrix, influence_of
 from tehl.operators.multilevel import MultilevelDeformation
 from tehl.scaling import Groups
 from tehl.typing import Array
 
-MULTILEVEL_FROM = {True: 128, False: 256}
-"""Intervals from which the multilevel sum is the cheaper, on half (True) and on the full domain, at
-an error that does not count."""
+LINES_UP_TO = {True: 200, False: 160}
+"""Intervals across up to which the sum by lines is the cheapest, on half (True) and on the full
+domain; beyond it is the multilevel sum, at an error that does not count."""
 LARGEST_ASPECT = 4.0
 """Ratio of the cell sides beyond which the patches of the multilevel sum are no longer enough."""
 
@@ -46,8 +48,7 @@ class FftDeformation:
         self.mirror = grid.mirror
         self.period = (2 * (grid.ny - 1), 2 * (grid.nx - 1))
         rows, columns = (np.minimum(np.arange(n), n - np.arange(n)) for n in self.period)
-        influence = influence_of(grid, groups)
-        table = influence(np.arange(grid.ny)[:, None], np.arange(grid.nx)[None, :])
+        table = influence_of(grid, groups).table(grid.ny, grid.nx)
         self.spectrum = np.fft.rfft2(table[np.ix_(rows, columns)]).real.copy()
         self.padded, self.convolved = np.zeros(self.period), np.zeros(self.period)
         self.transform = np.zeros(self.spectrum.shape, complex)
@@ -65,12 +66,38 @@ class FftDeformation:
         out[:] = self.convolved[:ny, :nx]
 
 
+class LineDeformation:
+    """Exact convolution by FFT along x and a sum across the lines: the quickest on few of them."""
+
+    def __init__(self, grid: Grid, groups: Groups) -> None:
+        ny, nx = grid.shape
+        self.period = 2 * (nx - 1)
+        columns = np.arange(self.period)
+        table = influence_of(grid, groups).table(2 * ny - 1 if grid.mirror else ny, nx)
+        spectrum = np.fft.rfft(table[:, np.minimum(columns, self.period - columns)]).real
+        kernel = np.concatenate([spectrum[ny - 1 : 0 : -1], spectrum]).T
+        self.kernel = np.zeros((nx, kernel.shape[1] + LANES))
+        self.kernel[:, : kernel.shape[1]] = kernel
+        self.transform, self.product = np.zeros((2, ny, nx), complex)
+        self.convolved, self.scratch = np.zeros((ny, self.period)), np.zeros(2 * (ny + LANES))
+        self.sizes = (ny, nx, self.kernel.shape[1], int(grid.mirror))
+        parts = (self.transform.view(float), self.kernel, self.scratch, self.product.view(float))
+        self.known = addresses(parts)
+
+    def deflect(self, pressure: Array, out: Array) -> None:
+        """Write the deflection under ``pressure`` to ``out``."""
+        np.fft.rfft(pressure, self.period, out=self.transform)
+        sum_across(*self.known, self.sizes)
+        np.fft.irfft(self.product, self.period, out=self.convolved)
+        out[:] = self.convolved[:, : pressure.shape[1]]
+
+
 def choose(name: str, grid: Grid, groups: Groups) -> Deformation:
-    """Return the deformation called ``name``; ``"auto"`` is the cheaper at equal accuracy.
+    """Return the deformation called ``name``; ``"auto"`` is the cheapest at equal accuracy.
 
     Parameters
     ----------
-    name : {"auto", "mlmi", "fft", "direct"}
+    name : {"auto", "mlmi", "fft", "lines", "direct"}
         As in `tehl.options.Options`.
     grid : Grid
         Where the pressure lives.
@@ -80,10 +107,10 @@ def choose(name: str, grid: Grid, groups: Groups) -> Deformation:
     if name == "auto":
         aspect = groups.ellipticity * grid.dy / grid.dx
         compact = 1.0 / LARGEST_ASPECT <= aspect <= LARGEST_ASPECT
-        large = min(grid.nx, grid.ny) - 1 >= MULTILEVEL_FROM[grid.mirror]
-        name = "mlmi" if compact and large else "fft"
+        few = grid.ny - 1 <= LINES_UP_TO[grid.mirror]
+        name = "lines" if few else "mlmi" if compact else "fft"
     if name == "mlmi":
         return MultilevelDeformation(grid, influence_of(grid, groups))
-    if name == "fft":
-        return FftDeformation(grid, groups)
-    return DirectDeformation(grid, groups)
+    if name == "lines":
+        return LineDeformation(grid, groups)
+    return FftDeformation(grid, groups) if name == "fft" else DirectDeformation(grid, groups)

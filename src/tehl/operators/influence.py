@@ -40,6 +40,16 @@ class Influence:
         cell += _corner(west, south) - _corner(east, south)
         return self.factor * cell
 
+    def table(self, rows: int, columns: int) -> Array:
+        """Return the influence at offsets 0 to ``rows`` - 1 and 0 to ``columns`` - 1.
+
+        The same as a call, from one value per corner of the cells.
+        """
+        u = self.dx * (np.arange(columns + 1.0) - 0.5)
+        v = self.dy * (np.arange(rows + 1.0) - 0.5)[:, None]
+        cells: Array = np.diff(np.diff(_corner(u, v), axis=0), axis=1)
+        return self.factor * cells
+
 
 def _offsets(nodes: "ArrayLike | slice") -> Array:
     if isinstance(nodes, slice):
@@ -76,10 +86,9 @@ def dense_matrix(
     ny, nx = shape
     rows, columns = np.arange(2 * ny - 1)[:, None], np.arange(nx)[None, :]
     table = influence(stride[0] * rows, stride[1] * columns)
-    j, i = np.divmod(np.arange(ny * nx), nx)
-    across = np.abs(i[:, None] - i[None, :])
-    matrix = table[np.abs(j[:, None] - j[None, :]), across]
+    i, j = np.arange(nx), np.arange(ny)
+    lines = table[:, np.abs(i[:, None] - i)]  # of a line on one so many rows away
+    matrix = lines[np.abs(j[:, None] - j)]
     if mirror:
-        image = table[j[:, None] + j[None, :], across]
-        matrix = matrix + np.where(j[None, :] > 0, image, 0.0)
-    return np.ascontiguousarray(matrix)
+        matrix[:, 1:] += lines[j[:, None] + j[1:]]
+    return np.ascontiguousarray(matrix.swapaxes(1, 2)).reshape(ny * nx, ny * nx)

@@ -113,7 +113,7 @@ def _certified(grids: list[_Grid], wide: _Grid) -> Result:
     }
     highest = uncertainty["pressure_max"]
     uncertainty["pressure_max"] = with_growing_spike(highest, _spike(middle), _spike(finest))
-    status = replace(finest.status, message=_endings(grids, wide))
+    status = replace(finest.status, message=_endings(grids, wide), hint=None)
     result = replace(finest, uncertainty=uncertainty, status=status)
     worst = max(abs(uncertainty[name].uncertainty / uncertainty[name].value) for name in JUDGED)
     if worst > LARGEST_BAR:

@@ -164,6 +164,8 @@ def error_estimate(traces: list[GridTrace], order: int, *, rough: bool = False) 
             else first_order_bar(values)
         )
         changes.append(abs(values[-1] - values[-2]))
+        if rough and bar > value:  # not near the limit yet
+            bar = max(bar, changes[-1])
         bar = max(bar, SHARED * changes[0])
         parts.append((bar / value, sequence[-1].iteration_error() / value))
     return ErrorEstimate(

@@ -14,6 +14,8 @@ level above it, cures that and costs next to nothing."""
 THICK = 0.25
 """Expected central film from which that is so: of a thinner one such a grid has no sound discrete
 solution, and going there more often does harm (M = 200 and more on wide domains)."""
+ENOUGH = 4
+"""Most cycles on a grid that only gives the start for the next finer one."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -71,6 +73,8 @@ class Cycles:
         Cycles over which heights are raised.
     """
 
+    enough = ENOUGH
+
     def __init__(
         self, levels: Sequence[Level], solve_coarsest: Callable[[], None], shape: Cycle, ramp: int
     ) -> None:
@@ -81,8 +85,9 @@ class Cycles:
         """Run one cycle."""
         cycle(self.levels, self.solve_coarsest, self.shape)
 
-    def raise_heights(self, once: Callable[[], float]) -> None:
+    def raise_heights(self, once: Callable[[], float], *, last: bool) -> None:
         """Raise the heights in equal parts, one per cycle, up to the last part."""
+        del last
         for number in range(1, self.ramp):
             self.levels[-1].roughen(number / self.ramp)
             once()

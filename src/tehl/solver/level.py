@@ -134,18 +134,22 @@ class Level:
 
     def update_properties(self) -> None:
         """Evaluate conductance and density for the present pressure and film."""
-        reynolds.properties(self.film, self.flow.table, self.flow.step, self.floor)
-        if self.factors is not None:
-            reynolds.scale_properties(self.film, self.factors, self.floor)
+        self._evaluate(self.film)
+
+    def _evaluate(self, film: reynolds.Film) -> None:
+        """Fill the properties of ``film`` by its pressure and thickness."""
+        table, step = self.flow.table, self.flow.step
+        if self.factors is None:
+            reynolds.properties(film, table, step, self.floor)
+        else:
+            reynolds.heated_properties(film, self.factors, table, step, self.floor)
 
     def conductance_slopes(self) -> "tuple[Array, Array]":
         """Return the derivatives of the conductance by pressure and by film; it is up to date."""
         film = self.film
         scratch = (np.empty_like(film.p) for _ in range(5))
         shifted = reynolds.Film(film.p + PRESSURE_STEP, film.h, *scratch)
-        reynolds.properties(shifted, self.flow.table, self.flow.step, self.floor)
-        if self.factors is not None:
-            reynolds.scale_properties(shifted, self.factors, self.floor)
+        self._evaluate(shifted)
         by_pressure = (shifted.eps - film.eps) / PRESSURE_STEP
         thick = film.h > self.floor
         by_film = np.where(thick, 3.0 * film.eps / np.maximum(film.h, self.floor), 0.0)

@@ -29,7 +29,7 @@ from tehl.solver.convergence import (
     single_grid_estimate,
     stalled,
 )
-from tehl.solver.fas import Cycle, Cycles
+from tehl.solver.fas import ENOUGH, Cycle, Cycles
 from tehl.solver.film_numbers import central_value
 from tehl.solver.guess import start_from
 from tehl.solver.level import Level
@@ -46,8 +46,6 @@ FIRST_STEPS = 6
 """Newton steps on the coarsest grid at the start; they may cycle there, which does no harm."""
 DRY_CYCLES = 2
 """Cycles after which a grid that began with the dry pressure has a film."""
-COARSE_CYCLES = 4
-"""Most cycles on a grid that only gives the start for the next finer one."""
 RUNAWAY = 100.0
 """Load error and central film that no iteration comes back from (H of a contact is below 2)."""
 WILD = 10.0
@@ -67,16 +65,22 @@ FLOOR = 0.02
 
 
 class Method(Protocol):
-    """What brings a level nearer to its solution."""
+    """What brings a level nearer to its solution.
+
+    ``enough`` is the most steps on a grid that only gives the start for the next finer one.
+    """
+
+    enough: int
 
     def step(self) -> object:
         """Do so once."""
         ...
 
-    def raise_heights(self, once: Callable[[], float]) -> None:
+    def raise_heights(self, once: Callable[[], float], *, last: bool) -> None:
         """Raise the heights of the level from nearly none to nearly all.
 
-        ``once`` takes a step, tells of it and returns the residual.
+        ``once`` takes a step, tells of it and returns the residual; ``last``: the level is that of
+        the answer.
         """
         ...
 
@@ -205,12 +209,24 @@ class Multigrid:
                 if not (orderly or patient):
                     raise DivergedError
                 start_from(fine, self.guess)
-                self._cycle_on(self.levels[:held], monitor)
+                self._answer(monitor)
             else:
                 orderly = self._prepare_on(self.levels[:held], monitor)
                 if not orderly:
                     self._forget(self.levels[:held])
         return converged(self.traces[-1], self._coarser_trace(), self.options)
+
+    def _answer(self, monitor: Monitor) -> None:
+        """Cycle on the finest grid; where Newton's method fails there, raise the heights on it."""
+        last = len(self.levels) - 1
+        try:
+            self._cycle_on(self.levels, monitor)
+        except DivergedError:
+            if not self.setting.rough.newton or self.first_rough == last:
+                raise
+            self.traces.pop()
+            self._start_smooth(last)
+            self._cycle_on(self.levels, monitor)
 
     def _forget(self, levels: list[Level]) -> None:
         """Leave nothing of a grid in disorder to the next one."""
@@ -268,7 +284,7 @@ class Multigrid:
         except DivergedError:
             return False
         first, last = self.traces[-1].reports[0], self.traces[-1].reports[-1]
-        falling = last.cycle < COARSE_CYCLES or last.residual < 0.5 * first.residual
+        falling = last.cycle < ENOUGH or last.residual < 0.5 * first.residual
         return falling and last.change < LARGEST_CHANGE and abs(last.load_error) < LARGEST_CHANGE
 
     def _cycle_on(self, levels: list[Level], monitor: Monitor) -> None:
@@ -293,7 +309,7 @@ class Multigrid:
         trace.note(*film_numbers(fine))
         anderson = self._anderson(levels)
         patience = self.setting.rough.patience
-        most = patience * self.options.max_cycles if last else COARSE_CYCLES
+        most = patience * self.options.max_cycles if last else method.enough
         for number in range(1, most + 1):
             if number > DRY_CYCLES and fine.started_dry and not last:
                 fine.started_dry = False  # now there is a film to heat
@@ -354,7 +370,7 @@ class Multigrid:
         for _ in range(SMOOTH_CYCLES):
             once(self._cycles(levels))
         self.smooth = (len(levels) - 1, fine.film.p.copy(), fine.rigid_approach)
-        method.raise_heights(partial(once, method))
+        method.raise_heights(partial(once, method), last=fine is self.finest)
         fine.roughen(1.0)
         fine.update()
         return next(numbers) - 1

@@ -51,8 +51,8 @@ FIRST_PART, LEAST_PART = 0.25, 0.02
 RAISED = 1e-4
 """Residual at which the next part is raised."""
 MOST_STEPS, QUICK, SLUGGISH, SMALLER = 12, 6, 9, 0.25
-"""Steps for one part; those after which the next part is larger, and smaller; and what is left of
-a part that could not be raised."""
+"""Steps for one part, and on a grid that gives the start for the next; those after which the next
+part is larger, and smaller; and what is left of a part that could not be raised."""
 
 
 class Newton:
@@ -65,6 +65,8 @@ class Newton:
     coarse : Grid
         A coarser grid, of some hundred nodes.
     """
+
+    enough = MOST_STEPS
 
     def __init__(self, level: Level, coarse: Grid) -> None:
         self.level = level
@@ -117,7 +119,7 @@ class Newton:
             return 1.0
         raise DivergedError
 
-    def raise_heights(self, once: Callable[[], float]) -> None:
+    def raise_heights(self, once: Callable[[], float], *, last: bool) -> None:
         """Raise the heights of the level from none to all, part by part.
 
         Each part starts on the line through the films of the last two.
@@ -126,11 +128,14 @@ class Newton:
         ----------
         once : callable
             Takes a step, reports it, and returns the residual.
+        last : bool
+            Whether the level is that of the answer. A film that is not positive on a coarser one
+            is a start for the next, where it may be.
 
         Raises
         ------
         TouchingError
-            When the film is not positive with a part of them.
+            When the film of the last level is not positive with a part of them.
         DivergedError
             When a small part more cannot be solved.
         """
@@ -146,7 +151,7 @@ class Newton:
             else:
                 before, known = known, (part, state_of(level))
                 size *= 1.5 if steps <= QUICK else 0.7 if steps > SLUGGISH else 1.0
-                if part < 1.0 and not level.film.h.min() > 0.0:
+                if last and part < 1.0 and not level.film.h.min() > 0.0:
                     raise TouchingError(part)
             if size < LEAST_PART:
                 raise DivergedError

@@ -282,18 +282,13 @@ class FilmCoupling:
 
     def _couple(self, state: FilmState, levels: Sequence[Level]) -> None:
         """Hand what heat and thinning make of the flow to all of ``levels``."""
-        fine, view = levels[-1], state.view
-        p, scratch = fine.film.p, (np.empty(fine.grid.shape) for _ in range(5))
-        isothermal = reynolds.Film(p, np.ones(p.shape), *scratch)
-        reynolds.properties(isothermal, fine.flow.table, fine.flow.step, 0.0)
-        mobility, steep = view("mobility").T / self.film.groups.lambda_bar, view("steep").T
-        factors = reynolds.Factors(
-            rest=mobility * (1.0 - steep),
-            mobility=mobility * steep / isothermal.eps,
-            density=view("density").T / isothermal.rho,
-            stretch_x=np.ascontiguousarray(view("stretch_x").T),
-            stretch_y=np.ascontiguousarray(view("stretch_y").T),
-        )
+        fine, names = levels[-1], reynolds.Heated._fields
+        shape = fine.grid.shape
+        heated = reynolds.Heated(*(np.ascontiguousarray(state.view(name).T) for name in names))
+        heated.mobility[:] /= self.film.groups.lambda_bar
+        factors = reynolds.Factors(*np.empty((5, *shape)))
+        isothermal = reynolds.Film(fine.film.p, np.ones(shape), *np.empty((5, *shape)))
+        reynolds.factors_of(heated, isothermal, fine.flow.table, fine.flow.step, factors)
         if fine.factors is not None and self.follow < 1.0:
             factors = between(fine.factors, factors, self.follow)
         self._hand_down(levels, factors)

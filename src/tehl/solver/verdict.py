@@ -10,6 +10,7 @@ from tehl.operators.energy import FilmState
 from tehl.options import Domain
 from tehl.result import ErrorEstimate, Result, Status
 from tehl.scaling import Groups
+from tehl.solver.film_numbers import film_summary
 from tehl.solver.level import Level
 from tehl.solver.multigrid import Multigrid
 from tehl.solver.outputs import heat_balance
@@ -18,9 +19,10 @@ from tehl.solver.thermal import FilmCoupling
 
 LARGEST_BAR = 0.5
 """Relative discretisation error of the film beyond which a grid is called too coarse."""
-LARGEST_ROUGH_BAR = 1.0
-"""The same of the minimum between rough surfaces: one spot beside an asperity, whose bar is stated.
-Beyond that nobody knows whether there is a film."""
+CONVERGED = Status(kind="converged")
+VAGUE = 1.0
+"""Relative error of the minimum between rough surfaces, one spot beside an asperity, beyond which
+no more is known of it than that it is thin: that is told, and the rest of the film may be good."""
 LARGEST_DOMAIN_ERROR = 0.1
 """Estimated part of the central film beyond which a domain is called too small."""
 LARGEST_COOLING = 5.0
@@ -51,30 +53,57 @@ def verdict(run: Multigrid, cycled_out: bool, errors: ErrorEstimate | None) -> S
         return diverged(run)
     if cycled_out and run.is_rough:  # another setting may still get there, on this very grid
         return _not_reached(run)
-    if not film.h.min() > level.floor:
-        return _touching(run, errors) if run.is_rough else _film_not_positive(level, groups)
+    if not run.is_rough and not film.h.min() > level.floor:
+        return _film_not_positive(level, groups)
+    if run.is_rough and not _is_film(level, errors):
+        return _touching(run, errors)
     resolved = _resolution_status(run, errors)
-    if not resolved.converged:
-        return resolved
-    if cycled_out:
+    if resolved.converged and cycled_out:
         return _not_reached(run)
-    heated = _heat_status(run)
-    return _domain_status(run) if heated.converged else heated
+    found = (resolved, _heat_status(run), _domain_status(run))
+    return next((status for status in found if not status.converged), resolved)
+
+
+def _is_film(level: Level, errors: ErrorEstimate | None) -> bool:
+    """Whether there is a film between rough surfaces, between the nodes too.
+
+    One below the floor of the conductance is known if that floor is within its error.
+    """
+    h, bar = level.film.h, 0.0 if errors is None else errors.discretisation_minimum
+    smallest = float(h.min())
+    known = smallest > 0.0 and (1.0 + bar) * smallest > level.floor
+    return known and film_summary(level.grid, h).minimum > 0.0
 
 
 def _resolution_status(run: Multigrid, errors: ErrorEstimate | None) -> Status:
-    """Judge whether the grid resolves the film."""
+    """Judge whether the grid resolves the film.
+
+    Between rough surfaces the error of the minimum counts as a part of the film that smooth ones
+    would have.
+    """
     level, groups = run.finest, run.groups
     if errors is None:
-        return Status(kind="converged")
-    largest = LARGEST_ROUGH_BAR if run.is_rough else LARGEST_BAR
-    for error, limit in (
-        (errors.discretisation_minimum, largest),
-        (errors.discretisation_central, LARGEST_BAR),
-    ):
-        if error > limit:
-            return _too_coarse(level.grid, groups, error)
-    return Status(kind="converged")
+        return CONVERGED
+    error, part = errors.discretisation_minimum, 1.0
+    if run.is_rough:
+        part = float(level.film.h.min()) / run.expected_film
+    if max(part * error, errors.discretisation_central) > LARGEST_BAR:
+        return _too_coarse(level.grid, groups, max(error, errors.discretisation_central))
+    return _vague(level, groups, error) if run.is_rough and error > VAGUE else CONVERGED
+
+
+def _vague(level: Level, groups: Groups, error: float) -> Status:
+    """Return the status of a film whose minimum is not known to within itself."""
+    grid, (smallest, x, y) = level.grid, _thinnest(level)
+    return Status(
+        kind="converged",
+        message=(
+            f"The minimum film, at X = {x:.3g}, Y = {y:.3g} (half-widths), is uncertain by "
+            f"{error:.1f} times itself on {grid.nx} x {grid.ny} nodes: no more is known of it than "
+            f"that it is thin, H = {(1.0 + error) * smallest:.2g} at most."
+        ),
+        hint=f"Take {grid_hint(grid, groups)} if the minimum matters.",
+    )
 
 
 def _domain_status(run: Multigrid) -> Status:
@@ -91,7 +120,7 @@ def _domain_status(run: Multigrid) -> Status:
 def _heat_status(run: Multigrid) -> Status:
     """Judge the temperatures: finite, nowhere far below what enters, and their heat in balance."""
     if not isinstance(run.coupling, FilmCoupling) or run.coupling.state is None:
-        return Status(kind="converged")
+        return CONVERGED
     state = run.coupling.state
     temperature = state.temperature
     entering = min(state.scales.temperature, *(side.bulk for side in state.sides))
@@ -106,7 +135,7 @@ def _heat_status(run: Multigrid) -> Status:
     elif abs(missing) > LARGEST_MISSING_HEAT:
         message = f"The heat of the film does not balance: {100 * missing:.3g} % of it is missing."
     else:
-        return Status(kind="converged")
+        return CONVERGED
     return Status(
         kind="not_converged",
         cause="heat_not_balanced",
@@ -187,7 +216,7 @@ def touching(run: Multigrid, part: float) -> Status:
 
 def _touching(run: Multigrid, errors: ErrorEstimate | None) -> Status:
     """Judge a film that is not positive between asperities: they touch, or the grid cannot tell."""
-    if errors is not None and errors.discretisation_minimum > LARGEST_ROUGH_BAR:
+    if errors is not None and errors.discretisation_minimum > VAGUE:
         status = _too_coarse(run.finest.grid, run.groups, errors.discretisation_minimum)
         smallest, x, y = _thinnest(run.finest)
         place = f"smallest H = {smallest:.3g} at X = {x:.3g}, Y = {y:.3g} (half-widths)"
@@ -329,4 +358,4 @@ def edge_status(grid: Grid, groups: Groups, central: float) -> Status:
                 ),
                 hint="Leave numerics.domain out: the default is wide enough.",
             )
-    return Status(kind="converged")
+    return CONVERGED

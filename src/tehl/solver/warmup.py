@@ -62,7 +62,10 @@ def _one_sweep() -> None:
     energy.sweep_back(state.known)
     Trail(np.ones((5, energy.BLOCK)), 0.1, 1.0)
     film = reynolds.Film(*(np.ones(grid.shape) for _ in range(7)))
-    reynolds.scale_properties(film, reynolds.Factors(*film[:5]), 0.0)
+    flow = flow_table(problem, scales(problem), groups(problem))
+    factors, heated = reynolds.Factors(*film[:5]), reynolds.Heated(*film[:5])
+    reynolds.factors_of(heated, film, flow.table, flow.step, factors)
+    reynolds.heated_properties(film, factors, flow.table, flow.step, 0.0)
     reynolds.tangent_source(film, stencil(grid, groups(problem), 2), np.empty(grid.shape))
 
 
