@@ -1,5 +1,7 @@
 """Verdicts follow from findings."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -7,6 +9,7 @@ from tehl.errors import InputError
 from tehl.reproduce.claims import CLAIMS, falls, rises
 from tehl.reproduce.figures import figures
 from tehl.reproduce.judge import Check, Finding, judged
+from tehl.reproduce.open_runs import open_runs
 from tehl.reproduce.peaks import peaks
 from tehl.reproduce.wishes import wishes
 
@@ -37,6 +40,39 @@ def test_what_is_not_so_is_named():
 def test_a_run_that_is_no_answer_reproduces_nothing():
     verdict = judged([Check("a", YES, YES)], "no answer at M = 500")
     assert (verdict.word, verdict.why) == ("trend only", "No answer at M = 500.")
+
+
+def quality(outcome):
+    """Return what is measured in a run that ended so."""
+    told = SimpleNamespace(
+        converged=outcome == "converged",
+        outcome=outcome,
+        points=(513, 513),
+        domain=(-4.0, 1.5, -2.0, 2.0),
+    )
+    return SimpleNamespace(quality=told)
+
+
+def test_runs_without_an_answer_are_named_with_cause_grid_and_domain():
+    line = {
+        20.0: quality("not converged: sides too close"),
+        40.0: quality("not converged: sides too close"),
+        60.0: quality("converged"),
+        100.0: quality("diverged"),
+    }
+    book = SimpleNamespace(
+        series={"A": SimpleNamespace(symbol="M", values=tuple(line))},
+        line=lambda *_: line,
+        run=lambda *_: None,
+    )
+    where = "on 513 × 513 nodes of [-4, 1.5] × [-2, 2]"
+    assert open_runs(book, ["A"], ("thermal",)) == (
+        f"no converged thermal answer at M = 20, 40 (series A): sides too close {where}; "
+        f"no converged thermal answer at M = 100 (series A): diverged {where}"
+    )
+    asked = open_runs(book, ["A"], ("thermal",), (40.0, 60.0), "domain")
+    assert asked == f"no converged thermal answer at M = 40 (series A): sides too close {where}"
+    assert not open_runs(book, ["A"], ("thermal",), (60.0,))
 
 
 def test_what_is_no_number_neither_falls_nor_rises():

@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterable
 
 from tehl.reproduce.book import Book
+from tehl.reproduce.measures import Measures
 from tehl.reproduce.series import Heat, Treatment
 
 THINNING = {"C": "C-eyring"}
@@ -23,20 +24,39 @@ def open_runs(
     """Return which of the fine runs are no converged answer, in words; empty if all are."""
     words = []
     for name in series:
-        symbol = book.series[name].symbol
         for heat in heats:
             line = book.line(name, way, heat)
-            failed = [v for v, m in line.items() if not m.quality.converged]
-            failed = [v for v in failed if not values or v in values]
-            if failed:
-                nodes = line[failed[0]].quality.points[0]
-                which = ", ".join(f"{v:g}" for v in failed)
-                words.append(
-                    f"no converged {heat} answer on {nodes} × {nodes} nodes at {symbol} = {which} "
-                    f"(series {name})"
-                )
+            words += _refused(
+                book, name, heat, {v: m for v, m in line.items() if _asked(v, values)}
+            )
             words += [told] if (told := _coarser(book, name, heat, values)) else []
     return "; ".join(words)
+
+
+def _asked(value: float, values: tuple[float, ...]) -> bool:
+    return not values or value in values
+
+
+def _refused(book: Book, name: str, heat: Heat, line: dict[float, Measures]) -> list[str]:
+    """Say of each way to fail which runs of a line did, on which grid and domain."""
+    failed: dict[str, list[float]] = {}
+    for value, found in line.items():
+        if not found.quality.converged:
+            failed.setdefault(_failure(found), []).append(value)
+    symbol = book.series[name].symbol
+    return [
+        f"no converged {heat} answer at {symbol} = {', '.join(f'{v:g}' for v in values)} "
+        f"(series {name}): {how}"
+        for how, values in failed.items()
+    ]
+
+
+def _failure(found: Measures) -> str:
+    """Return how a run ended, with its grid and domain."""
+    nodes, edges = found.quality.points[0], found.quality.domain
+    x, y = (f"[{first:g}, {last:g}]" for first, last in (edges[:2], edges[2:]))
+    how = found.quality.outcome.replace("not converged: ", "")
+    return f"{how} on {nodes} × {nodes} nodes of {x} × {y}"
 
 
 def _coarser(book: Book, name: str, heat: Heat, values: tuple[float, ...]) -> str:
