@@ -1,4 +1,4 @@
-"""Elastic deflection: multilevel sum against FFT and the sum by definition."""
+"""Elastic deflection: multilevel sum and sum by lines against FFT and the sum by definition."""
 
 import numpy as np
 from tests.reference import DOMAIN, moes_contact
@@ -7,14 +7,19 @@ from benchmarks.measure import cpu_seconds
 from benchmarks.robustness import attempt
 from benchmarks.table import Cell, Table
 from tehl.grid import Grid
-from tehl.operators.deformation import Deformation, DirectDeformation, FftDeformation
+from tehl.operators.deformation import (
+    Deformation,
+    DirectDeformation,
+    FftDeformation,
+    LineDeformation,
+)
 from tehl.operators.influence import influence_of
 from tehl.operators.multilevel import MultilevelDeformation
 from tehl.options import Options
 from tehl.scaling import groups
 from tehl.typing import Array
 
-SIZES = (65, 129, 257, 513, 1025)
+SIZES = (33, 65, 129, 257, 513, 1025)
 LARGEST_DIRECT = 65
 """Nodes per direction up to which the sum by definition fits into memory."""
 REPEATS = 15
@@ -32,6 +37,7 @@ def row(points: int, *, mirror: bool) -> tuple[Cell, ...]:
     multilevel = MultilevelDeformation(grid, influence)
     fft_ms, deflection = timed(exact, pressure)
     multilevel_ms, approximate = timed(multilevel, pressure)
+    lines_ms, by_lines = timed(LineDeformation(grid, numbers), pressure)
     direct_ms, direct_error = None, None
     if points <= LARGEST_DIRECT:
         direct_ms, direct = timed(DirectDeformation(grid, numbers), pressure)
@@ -43,6 +49,7 @@ def row(points: int, *, mirror: bool) -> tuple[Cell, ...]:
     discretisation = result.errors.discretisation_central * film if result.errors else float("nan")
     return (
         points, "half" if mirror else "full", fft_ms, multilevel_ms, fft_ms / multilevel_ms,
+        lines_ms, fft_ms / lines_ms, float(np.abs(by_lines - deflection).max()),
         direct_ms, direct_error, rms, float(np.abs(error).max()), rms / discretisation,
     )  # fmt: skip
 
@@ -57,12 +64,13 @@ def timed(deformation: Deformation, pressure: Array) -> tuple[float, Array]:
 def table(*, quick: bool = False) -> Table:
     """Return times and errors by grid, half and full domain."""
     made = Table(
-        title="Deflection: multilevel sum (MLMI) against FFT; pressure of M = 200, L = 10",
+        title="Deflection: multilevel sum (MLMI), sum by lines, FFT; pressure of M = 200, L = 10",
         columns=(
-            "points", "domain", "FFT ms", "MLMI ms", "FFT/MLMI", "direct ms", "FFT-direct max",
+            "points", "domain", "FFT ms", "MLMI ms", "FFT/MLMI", "lines ms",
+            "FFT/lines", "lines-FFT max", "direct ms", "FFT-direct max",
             "MLMI rms r<1", "MLMI max", "rms / discretisation error of H_central",
         ),
     )  # fmt: skip
-    for points in (65, 129) if quick else SIZES:
+    for points in (33, 65, 129) if quick else SIZES:
         made.rows.extend(row(points, mirror=mirror) for mirror in (True, False))
     return made

@@ -34,8 +34,8 @@ class Status:
         Name of the cause when not converged, for programs: ``"grid_too_coarse"``.
     message, hint : str or None
         The cause and what to try, for people. A certified result that converged tells in
-        ``message`` how its grids ended; one between rough surfaces that its minimum film is hardly
-        known, if it is, and the grid that it needs in ``hint``.
+        ``message`` how its grids ended; one between rough surfaces whose minimum is open says so,
+        and in ``hint`` which grid to try.
     """
 
     kind: StatusKind
@@ -49,8 +49,15 @@ class Status:
         return self.kind == "converged"
 
     @property
+    def is_vague(self) -> bool:
+        """Whether the film converged but its minimum, one spot between asperities, is not known."""
+        return self.converged and self.hint is not None
+
+    @property
     def outcome(self) -> str:
         """The outcome in words, with the cause where it says more: "stalled"."""
+        if self.is_vague:
+            return "converged, minimum film open"
         kind = self.kind.replace("_", " ")
         if self.cause in (None, self.kind):
             return kind

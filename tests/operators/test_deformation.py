@@ -150,5 +150,6 @@ def test_auto_sums_by_lines_where_there_are_few_of_them(across, mirror, method):
 
 
 def test_auto_does_not_trust_the_multilevel_sum_on_long_cells():
-    cells = grid_of(33, 257, mirror=True)
-    assert isinstance(choose("auto", cells, contact_groups()), FftDeformation)
+    wide = contact_groups(100.0)
+    assert isinstance(choose("auto", grid_of(257, 257, mirror=True), wide), FftDeformation)
+    assert isinstance(choose("auto", grid_of(65, 257, mirror=True), wide), LineDeformation)

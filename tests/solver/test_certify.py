@@ -78,6 +78,19 @@ def test_an_order_seen_while_the_value_still_changes_by_half_is_not_believed():
     assert discretisation_bar(values) == pytest.approx(0.4)
 
 
+@pytest.mark.parametrize(
+    ("values", "bar"),
+    [
+        ([0.0617, 0.0555, 0.0554], 0.00155),  # a heated film whose error was 0.0008
+        ([0.0617, 0.0555, 0.0555], 0.00155),
+        ([0.0555, 0.0554, 0.0617], 0.0063),
+        ([0.2, 0.0555, 0.0554], 0.0001),  # the first grid says nothing
+    ],
+)
+def test_two_grids_that_agree_by_chance_do_not_make_a_narrow_bar(values, bar):
+    assert discretisation_bar(values) == pytest.approx(bar)
+
+
 @given(st.lists(st.floats(-1.0, 1.0), min_size=2, max_size=3))
 def test_the_bar_is_never_less_than_a_third_of_the_last_change(values):
     assert discretisation_bar(values) >= abs(values[-1] - values[-2]) / 3.0

@@ -1,4 +1,7 @@
-"""The cost of a result in units of one FFT deformation."""
+"""The cost of a result in units of one FFT deformation, and what is loaded before it is taken."""
+
+import subprocess
+import sys
 
 import pytest
 
@@ -19,3 +22,24 @@ def test_work_is_cost_in_units_of_the_same_grid():
     # the unit is measured anew: equal up to the noise of a shared machine
     again = result.cost.cpu_seconds / fft_seconds(129, 129)
     assert result.cost.work == pytest.approx(again, rel=0.9)
+
+
+WARMED = """
+import importlib
+from tehl.solver.warmup import warm_up
+warm_up(coupled=True)
+for name in ("energy", "lines", "newton", "reynolds", "summation", "trail", "transfer"):
+    module = importlib.import_module(f"tehl.kernels.{name}")
+    if any(getattr(value, "signatures", None) for value in vars(module).values()):
+        print(name)
+"""
+
+
+def test_the_warm_up_loads_the_kernels_of_all_grids():
+    """The multilevel sum too, which only finer grids than those of the warm-up take."""
+    done = subprocess.run(
+        [sys.executable, "-c", WARMED], capture_output=True, text=True, timeout=300, check=True
+    )
+    assert done.stdout.split() == [
+        "energy", "lines", "newton", "reynolds", "summation", "trail", "transfer"
+    ]  # fmt: skip

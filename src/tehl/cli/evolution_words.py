@@ -67,6 +67,9 @@ def _rows(run: "Evolution") -> Iterator[tuple[str, str]]:
         f"{len(run.frames.step)} fields kept",
     )
     yield "effort", _effort(run)
+    if run.status.is_vague:
+        yield "uncertain", str(run.status.message)
+        yield "hint", str(run.status.hint)
 
 
 def _between(values: "Array", word: Callable[[float], str]) -> str:

@@ -366,6 +366,11 @@ def _tell(outcome: "Outcome", written: dict[str, Any], *, as_json: bool) -> None
         f"{outcome.converged} of {outcome.total} cases converged, {outcome.reused} were finished "
         f"before; {duration(outcome.wall_seconds)}"
     )
+    if outcome.uncertain:
+        typer.echo(
+            f"  {outcome.uncertain} of them with a minimum film that is hardly known: see the "
+            "messages in the table"
+        )
     for case, row in outcome.failed[:SHOWN]:
         typer.echo(f"  no answer: {case.name}: {row.message or row.cause}")
     if len(outcome.failed) > SHOWN:

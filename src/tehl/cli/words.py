@@ -47,9 +47,9 @@ def as_text(result: "Result", *, rough: "RoughFilm | None" = None) -> str:
     ]
     status = result.status
     if status.converged and status.message:
-        rows.append(("uncertain" if status.hint else "certified", status.message))
-    if status.converged and status.hint:
-        rows.append(("hint", status.hint))
+        rows.append(("uncertain" if status.is_vague else "certified", status.message))
+    if status.is_vague:
+        rows.append(("hint", str(status.hint)))
     return "\n".join([headline(result), *(f"  {name:<17}{value}" for name, value in rows)])
 
 

@@ -921,9 +921,11 @@ def carry_aside(work: Work, start: Place) -> None:
             first = row // BLOCK * (LINE + start.n * LAYER) + LINE + row % BLOCK
             for k in range(1, start.n - 1):
                 at = first + k * LAYER
-                part = max(step * number(cells, at + ASIDE), 0.0)
-                new = number(cells, at + A) + part * number(changes, k)
-                put(cells, at + A, new)
+                part = step * number(cells, at + ASIDE)
+                new = number(cells, at + A)
+                if part > 0.0:
+                    new += part * number(changes, k)
+                    put(cells, at + A, new)
                 put(changes, k, new - number(cells, at + T))
             row += step
 

@@ -13,8 +13,9 @@ from tehl.scaling import Groups
 from tehl.typing import Array
 
 LINES_UP_TO = {True: 200, False: 160}
-"""Intervals across up to which the sum by lines is the cheapest, on half (True) and on the full
-domain; beyond it is the multilevel sum, at an error that does not count."""
+"""Intervals of the full domain, in the direction that has fewer, up to which the sum by lines is
+the cheapest: where half of it (True) or all of it is computed. Beyond it is the multilevel sum, at
+an error that does not count."""
 LARGEST_ASPECT = 4.0
 """Ratio of the cell sides beyond which the patches of the multilevel sum are no longer enough."""
 
@@ -107,7 +108,7 @@ def choose(name: str, grid: Grid, groups: Groups) -> Deformation:
     if name == "auto":
         aspect = groups.ellipticity * grid.dy / grid.dx
         compact = 1.0 / LARGEST_ASPECT <= aspect <= LARGEST_ASPECT
-        few = grid.ny - 1 <= LINES_UP_TO[grid.mirror]
+        few = min(grid.nx, grid.ny) - 1 <= LINES_UP_TO[grid.mirror]
         name = "lines" if few else "mlmi" if compact else "fft"
     if name == "mlmi":
         return MultilevelDeformation(grid, influence_of(grid, groups))

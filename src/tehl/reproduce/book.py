@@ -53,9 +53,9 @@ class Book:
         return coarser if self.answers(coarser) else run
 
     def answers(self, run: Run) -> bool:
-        """Whether a run has converged."""
+        """Whether a run has converged, with a minimum film that is known."""
         row = self.row(run)
-        return row is not None and row.converged
+        return row is not None and row.converged and row.hint is None
 
     def line(self, series: str, treatment: Treatment, heat: Heat) -> dict[float, Measures]:
         """Return the measures of a series computed one way, by what varies."""

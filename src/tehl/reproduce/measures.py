@@ -35,9 +35,10 @@ class Quality:
     outcome : str
         How the solve ended, in words.
     converged, certified : bool
-        Whether it passed the verdict, and whether it has error bars.
+        Whether it passed the verdict with a minimum film that is known, and whether it has
+        error bars.
     message : str or None
-        Why it is no answer.
+        Why it is no answer, or why its minimum film is not known.
     points : (int, int)
         Nodes of the grid.
     domain : (float, float, float, float)
@@ -225,7 +226,7 @@ def _quality(result: Result) -> Quality:
     edges = (scaled.x[0], scaled.x[-1], scaled.y[0], scaled.y[-1])
     return Quality(
         outcome=status.outcome,
-        converged=status.converged,
+        converged=status.converged and not status.is_vague,
         certified=bool(result.uncertainty),
         message=status.message,
         points=(scaled.x.size, scaled.y.size),

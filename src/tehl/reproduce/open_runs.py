@@ -53,10 +53,10 @@ def _refused(book: Book, name: str, heat: Heat, line: dict[float, Measures]) -> 
 
 def _failure(found: Measures) -> str:
     """Return how a run ended, with its grid and domain."""
-    nodes, edges = found.quality.points[0], found.quality.domain
+    (nx, ny), edges = found.quality.points, found.quality.domain
     x, y = (f"[{first:g}, {last:g}]" for first, last in (edges[:2], edges[2:]))
     how = found.quality.outcome.replace("not converged: ", "")
-    return f"{how} on {nodes} × {nodes} nodes of {x} × {y}"
+    return f"{how} on {nx} × {ny} nodes of {x} × {y}"
 
 
 def _coarser(book: Book, name: str, heat: Heat, values: tuple[float, ...]) -> str:

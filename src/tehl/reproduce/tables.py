@@ -123,7 +123,7 @@ def table_2(book: Book) -> Table:
 
 
 def _open_runs_2(book: Book, loads: tuple[float, ...]) -> str:
-    """Say which of the runs that decide are no answer: wide ones, and those for the heat."""
+    """Say which of the wide runs are no answer, or else which of those on the paper's domain."""
     wide = open_runs(book, ["A"], values=loads)
     return wide or open_runs(book, ["A"], values=loads, way="domain")
 

@@ -81,7 +81,7 @@ class _Grid:
     def ending(self) -> str:
         """Return its nodes and how it ended."""
         status = self.result.status
-        coarse = status.cause in ("grid_too_coarse", "film_not_positive")
+        coarse = status.is_vague or status.cause in ("grid_too_coarse", "film_not_positive")
         return f"{self.name} {'too coarse for the film' if coarse else status.outcome}"
 
 
@@ -136,7 +136,7 @@ def _endings(grids: list[_Grid], wide: _Grid) -> str:
     told = f"Grids of the error bars: {endings}; larger domain: {wide.ending}."
     if not grids[0].used:
         return f"{told} The first is left out: each bar is the whole change between the other two."
-    if not grids[0].result.status.converged:
+    if grids[0].result.status.is_vague or not grids[0].result.status.converged:
         return (
             f"{told} Where the first hides the order of the scheme, a bar is the whole change "
             "between the other two."

@@ -164,8 +164,8 @@ def error_estimate(traces: list[GridTrace], order: int, *, rough: bool = False) 
             else first_order_bar(values)
         )
         changes.append(abs(values[-1] - values[-2]))
-        if rough and bar > value:  # not near the limit yet
-            bar = max(bar, changes[-1])
+        if rough and changes[-1] > value:  # not near the limit yet
+            bar = changes[-1]
         bar = max(bar, SHARED * changes[0])
         parts.append((bar / value, sequence[-1].iteration_error() / value))
     return ErrorEstimate(
@@ -212,12 +212,16 @@ def discretisation_bar(values: list[float], otherwise: float = 1.0) -> float:
     """Return the error bar of the last of two or three values on grids halved each time.
 
     A third of the last change, with a safety factor, where the three values show second order;
-    ``otherwise`` times the change where they do not: coarse grids may be far from their limit.
+    ``otherwise`` times the change where they do not: coarse grids may be far from their limit. If
+    it is less than a quarter of the change before, which second order would leave, two grids
+    agree by chance, and that quarter counts.
     """
     change = abs(values[-1] - values[-2])
-    if len(values) == 3 and change > 0:
-        ratio = (values[1] - values[0]) / (values[2] - values[1])
-        near = min(values) > 0.3 * values[-1] > 0 and change < 0.3 * values[-1]
-        if near and 3.0 <= ratio <= 5.6:
+    if len(values) == 3 and min(values) > 0.3 * values[-1] > 0:
+        before = abs(values[1] - values[0])
+        ratio = (values[1] - values[0]) / (values[2] - values[1]) if change > 0 else math.inf
+        if change < 0.3 * values[-1] and 3.0 <= ratio <= 5.6:
             return SAFETY * change / 3.0
+        if before < 0.3 * values[-1]:
+            return otherwise * max(change, before / 4.0)
     return otherwise * change

@@ -224,8 +224,11 @@ class Multigrid:
         except DivergedError:
             if not self.setting.rough.newton or self.first_rough == last:
                 raise
+            monitor.message("raising the heights on the finest grid")
             self.traces.pop()
+            alike = self.first_alike
             self._start_smooth(last)
+            self.first_alike = alike  # the film of the coarser grid is a sound one
             self._cycle_on(self.levels, monitor)
 
     def _forget(self, levels: list[Level]) -> None:
@@ -284,7 +287,8 @@ class Multigrid:
         except DivergedError:
             return False
         first, last = self.traces[-1].reports[0], self.traces[-1].reports[-1]
-        falling = last.cycle < ENOUGH or last.residual < 0.5 * first.residual
+        settled = last.cycle < ENOUGH or last.residual < self.options.tolerance
+        falling = settled or last.residual < 0.5 * first.residual
         return falling and last.change < LARGEST_CHANGE and abs(last.load_error) < LARGEST_CHANGE
 
     def _cycle_on(self, levels: list[Level], monitor: Monitor) -> None:

@@ -254,6 +254,9 @@ class Run:
 
     def evolution(self, status: Status, cost: Cost) -> Evolution:
         """Return the answer."""
+        begun = self.start.status
+        if status.converged and begun.is_vague:
+            status = replace(status, message=f"At time zero: {begun.message}", hint=begun.hint)
         full = (self.level.grid.ny, self.level.grid.nx)
         return Evolution(
             start=self.start,

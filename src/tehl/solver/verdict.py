@@ -1,5 +1,6 @@
 """The truth about a run: whether its result may be believed, and if not, why and what to try."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -23,6 +24,9 @@ CONVERGED = Status(kind="converged")
 VAGUE = 1.0
 """Relative error of the minimum between rough surfaces, one spot beside an asperity, beyond which
 no more is known of it than that it is thin: that is told, and the rest of the film may be good."""
+BELOW_FLOOR = 0.5
+"""Least film between rough surfaces over the floor of the conductance: an oil that flows as if it
+were thicker is another one."""
 LARGEST_DOMAIN_ERROR = 0.1
 """Estimated part of the central film beyond which a domain is called too small."""
 LARGEST_COOLING = 5.0
@@ -47,32 +51,43 @@ def verdict(run: Multigrid, cycled_out: bool, errors: ErrorEstimate | None) -> S
     errors : ErrorEstimate or None
         Estimated errors of the film.
     """
-    level, groups = run.finest, run.groups
-    film = level.film
+    film = run.finest.film
     if not (np.isfinite(film.p).all() and np.isfinite(film.h).all() and film.p.min() >= 0):
         return diverged(run)
     if cycled_out and run.is_rough:  # another setting may still get there, on this very grid
         return _not_reached(run)
-    if not run.is_rough and not film.h.min() > level.floor:
-        return _film_not_positive(level, groups)
+    found = _film_status(run, errors)
+    if not found.converged:
+        return found
+    if cycled_out:
+        return _not_reached(run)
+    rest = _heat_status(run)
+    rest = _domain_status(run) if rest.converged else rest
+    return found if rest.converged else rest
+
+
+def _film_status(run: Multigrid, errors: ErrorEstimate | None) -> Status:
+    """Judge whether there is a film, and whether the grid resolves it."""
+    level, groups = run.finest, run.groups
     if run.is_rough and not _is_film(level, errors):
         return _touching(run, errors)
-    resolved = _resolution_status(run, errors)
-    if resolved.converged and cycled_out:
-        return _not_reached(run)
-    found = (resolved, _heat_status(run), _domain_status(run))
-    return next((status for status in found if not status.converged), resolved)
+    if not run.is_rough and not level.film.h.min() > level.floor:
+        return _film_not_positive(level, groups)
+    return _resolution_status(run, errors)
 
 
 def _is_film(level: Level, errors: ErrorEstimate | None) -> bool:
-    """Whether there is a film between rough surfaces, between the nodes too.
+    """Whether there is a film between rough surfaces, around the smallest node too.
 
-    One below the floor of the conductance is known if that floor is within its error.
+    One a little below the floor of the conductance is one if that floor is within its error; one
+    that further cycles might take away is none.
     """
-    h, bar = level.film.h, 0.0 if errors is None else errors.discretisation_minimum
-    smallest = float(h.min())
-    known = smallest > 0.0 and (1.0 + bar) * smallest > level.floor
-    return known and film_summary(level.grid, h).minimum > 0.0
+    smallest, bar, left = float(level.film.h.min()), 0.0, 0.0
+    if errors is not None:
+        bar, left = errors.discretisation_minimum, errors.iteration_minimum
+    thick = (1.0 - left) * smallest > BELOW_FLOOR * level.floor
+    within = (1.0 + bar) * smallest > level.floor
+    return thick and within and film_summary(level.grid, level.film.h).minimum > 0.0
 
 
 def _resolution_status(run: Multigrid, errors: ErrorEstimate | None) -> Status:
@@ -87,22 +102,26 @@ def _resolution_status(run: Multigrid, errors: ErrorEstimate | None) -> Status:
     error, part = errors.discretisation_minimum, 1.0
     if run.is_rough:
         part = float(level.film.h.min()) / run.expected_film
-    if max(part * error, errors.discretisation_central) > LARGEST_BAR:
+    if not max(part * error, errors.discretisation_central) <= LARGEST_BAR:
         return _too_coarse(level.grid, groups, max(error, errors.discretisation_central))
-    return _vague(level, groups, error) if run.is_rough and error > VAGUE else CONVERGED
+    return _vague(level, error) if run.is_rough and error > VAGUE else CONVERGED
 
 
-def _vague(level: Level, groups: Groups, error: float) -> Status:
+def _vague(level: Level, error: float) -> Status:
     """Return the status of a film whose minimum is not known to within itself."""
     grid, (smallest, x, y) = level.grid, _thinnest(level)
+    times = 2 ** math.ceil(0.5 * math.log2(error / LARGEST_BAR))  # of second order
     return Status(
         kind="converged",
         message=(
             f"The minimum film, at X = {x:.3g}, Y = {y:.3g} (half-widths), is uncertain by "
-            f"{error:.1f} times itself on {grid.nx} x {grid.ny} nodes: no more is known of it than "
-            f"that it is thin, H = {(1.0 + error) * smallest:.2g} at most."
+            f"about {error:.1f} times itself on {grid.nx} x {grid.ny} nodes: no more is known of "
+            f"it than that it is thin, about H = {(1.0 + error) * smallest:.2g} at most."
         ),
-        hint=f"Take {grid_hint(grid, groups)} if the minimum matters.",
+        hint=(
+            "Take a finer grid if the minimum matters: at second order numerics.points = "
+            f"{times * (max(grid.nx, grid.ny) - 1) + 1} would leave half of it."
+        ),
     )
 
 
@@ -215,35 +234,40 @@ def touching(run: Multigrid, part: float) -> Status:
 
 
 def _touching(run: Multigrid, errors: ErrorEstimate | None) -> Status:
-    """Judge a film that is not positive between asperities: they touch, or the grid cannot tell."""
+    """Judge what is no film between asperities: they touch, or the grid cannot tell."""
     if errors is not None and errors.discretisation_minimum > VAGUE:
         status = _too_coarse(run.finest.grid, run.groups, errors.discretisation_minimum)
-        smallest, x, y = _thinnest(run.finest)
-        place = f"smallest H = {smallest:.3g} at X = {x:.3g}, Y = {y:.3g} (half-widths)"
-        message = f"{status.message} The film found is not positive: {place}."
-        return replace(status, message=message)
+        return replace(status, message=f"{status.message} {_no_film(run.finest)}.")
     return _asperity_contact(run.finest)
 
 
 def _thinnest(level: Level) -> tuple[float, float, float]:
-    """Return the smallest film of a level, and X and Y of it."""
-    grid, h = level.grid, level.film.h
-    row, column = np.unravel_index(int(np.argmin(h)), h.shape)
-    return float(h.min()), float(grid.x[column]), float(grid.y[row])
+    """Return the smallest film of a level, between its nodes too, and X and Y of it."""
+    found = film_summary(level.grid, level.film.h)
+    node = float(level.film.h.min())
+    return (min(found.minimum, node), *found.minimum_at)
+
+
+def _no_film(level: Level) -> str:
+    """Say what is wrong with the smallest film, and where."""
+    smallest, x, y = _thinnest(level)
+    how = "not positive"
+    if smallest > 0.0:
+        how = f"thinner than H = {level.floor:.2g}, the least that this grid lets flow"
+    where = f"X = {x:.3g}, Y = {y:.3g} (half-widths)"
+    return f"The film found is {how}: smallest H = {smallest:.3g} at {where}"
 
 
 def _asperity_contact(level: Level) -> Status:
     """Name the place where the film of rough surfaces fails."""
-    grid, h = level.grid, level.film.h
-    smallest, x, y = _thinnest(level)
+    grid, thin = level.grid, int(np.count_nonzero(level.film.h <= level.floor))
     return Status(
         kind="not_converged",
         cause="asperity_contact",
         message=(
-            f"The film is not positive on {grid.nx} x {grid.ny} nodes: smallest H = "
-            f"{smallest:.3g} at X = {x:.3g}, Y = {y:.3g} (half-widths), and "
-            f"{np.count_nonzero(h <= level.floor)} nodes are as thin as that. Asperities would "
-            "touch there, which a film that carries all of the load cannot describe."
+            f"{_no_film(level)}, on {grid.nx} x {grid.ny} nodes of which {thin} are below "
+            f"H = {level.floor:.2g}. Asperities would touch there, which a film that carries all "
+            "of the load cannot describe."
         ),
         hint=LESS_ROUGH,
     )

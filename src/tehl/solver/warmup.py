@@ -10,6 +10,8 @@ from tehl.kernels import energy, reynolds
 from tehl.operators.energy import FilmState, HeatedFilm
 from tehl.operators.film import hertz_pressure
 from tehl.operators.flow import flow_table
+from tehl.operators.influence import influence_of
+from tehl.operators.multilevel import MultilevelDeformation
 from tehl.operators.reynolds import stencil
 from tehl.operators.trail import Trail
 from tehl.options import Domain, Options
@@ -81,3 +83,5 @@ def _one_cycle() -> None:
     cycle(run.levels, run.coarsest.step, Cycle(kind="V", pre_sweeps=1, post_sweeps=0), extra=0)
     run.finest.update()
     run.finest.evaluate_residual()
+    far = MultilevelDeformation(grid, influence_of(grid, case_groups))  # of finer grids
+    far.deflect(run.finest.film.p, run.finest.deflection)

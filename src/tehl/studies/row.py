@@ -39,7 +39,8 @@ class Row:
         As of a result, or ``"bad_input"`` where the solver refused it, or ``"failed"`` where there
         is no result at all.
     cause, message, hint : str or None
-        Why it is no answer, as a word and in sentences.
+        Why it is no answer, as a word and in sentences; message and hint also of an answer whose
+        minimum film is hardly known.
     summary : mapping of str to scalar
         Every number and word of the summary, by dotted names: ``"film.h_min_m"``.
     cost : Cost

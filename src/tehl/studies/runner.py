@@ -49,6 +49,8 @@ class Outcome:
         Cases that were finished before.
     converged : int
         Cases with an answer, those of before included.
+    uncertain : int
+        Those of them whose minimum film is hardly known; their rows say so.
     failed : tuple of (Case, Row)
         Cases without an answer, those of before included, in the order of the study; their rows
         are without numbers.
@@ -61,6 +63,7 @@ class Outcome:
     total: int
     reused: int
     converged: int
+    uncertain: int
     failed: tuple[tuple[Case, Row], ...]
     cpu_seconds: float
     wall_seconds: float
@@ -121,6 +124,7 @@ def run(  # noqa: PLR0913 (keywords with defaults)
         total=len(every),
         reused=len(done),
         converged=sum(row.converged for row in rows.values()),
+        uncertain=sum(row.converged and row.hint is not None for row in rows.values()),
         failed=tuple((every[key], rows[key]) for key in every if not rows[key].converged),
         cpu_seconds=sum(row.cost.cpu_seconds for row in solved.values()),
         wall_seconds=time.perf_counter() - start,

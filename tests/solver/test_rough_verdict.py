@@ -1,0 +1,89 @@
+"""What counts as a film between rough surfaces, and how a minimum that is open is passed on."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import pytest
+
+from tehl.cli.words import as_text
+from tehl.grid import Grid
+from tehl.io.summary import summary
+from tehl.report.html import _status
+from tehl.result import ErrorEstimate, Result, Status
+from tehl.solver.certify import _Grid
+from tehl.solver.verdict import _is_film, _no_film
+from tests.reference import DOMAIN
+
+FLOOR = 0.01
+VAGUE = Status(kind="converged", message="The minimum film is uncertain.", hint="Take more.")
+
+
+def level(smallest: float, *, valley: bool = False) -> SimpleNamespace:
+    """Return a level with one thin spot; ``valley``: between two nodes that are as thin."""
+    grid = Grid(nx=33, ny=33, domain=DOMAIN, mirror=False)
+    centre = 0.5 * grid.dx if valley else 0.0
+    there = (grid.x[None, :] + 1.5 - centre) ** 2 + grid.y[:, None] ** 2
+    h = smallest + 3.0 * (there - centre**2)
+    return SimpleNamespace(grid=grid, film=SimpleNamespace(h=h), floor=FLOOR)
+
+
+def errors(grid: float, iteration: float = 0.0) -> ErrorEstimate:
+    """Return errors of the minimum film."""
+    return ErrorEstimate(
+        discretisation_central=0.01,
+        discretisation_minimum=grid,
+        iteration_central=0.0,
+        iteration_minimum=iteration,
+    )
+
+
+@pytest.mark.parametrize(
+    ("smallest", "estimate", "held"),
+    [
+        (0.02, None, True),
+        (0.02, errors(5.0), True),
+        (-0.02, errors(5.0), False),
+        (float("nan"), errors(5.0), False),
+        (0.008, None, False),
+        (0.008, errors(0.1), False),  # the floor is beyond its error
+        (0.008, errors(0.5), True),
+        (0.004, errors(1e4), False),  # the oil there would flow as another film
+        (0.02, errors(5.0, 0.9), False),  # further cycles may take it away
+    ],
+)
+def test_a_film_is_positive_and_flows_as_it_is_thick(smallest, estimate, held):
+    assert _is_film(level(smallest), estimate) is held
+
+
+def test_a_film_that_is_negative_between_two_nodes_is_none():
+    between = level(0.011, valley=True)
+    assert between.film.h.min() > FLOOR
+    assert not _is_film(between, errors(0.1))
+    told = _no_film(between)
+    assert "not positive: smallest H = -0." in told
+
+
+def test_a_film_below_the_floor_is_told_as_what_it_is():
+    assert "thinner than H = 0.01, the least that this grid lets flow" in _no_film(level(0.004))
+
+
+def test_an_open_minimum_is_told_wherever_the_result_is(result: Result):
+    vague = replace(result, status=VAGUE)
+    assert vague.status.is_vague
+    assert vague.status.outcome == "converged, minimum film open"
+    assert "uncertain        The minimum film is uncertain." in as_text(vague)
+    assert "<p>The minimum film is uncertain.</p><p>Take more.</p>" in _status(vague)
+    told = summary(vague)
+    assert (told["status"], told["message"], told["hint"]) == (
+        "converged",
+        VAGUE.message,
+        VAGUE.hint,
+    )
+    assert "too coarse for the film" in _Grid(result=vague).ending
+    assert "too coarse for the film" not in _Grid(result=result).ending
+
+
+def test_a_certified_result_is_not_vague():
+    certified = Status(kind="converged", message="Grids of the error bars: ...")
+    assert not certified.is_vague
+    assert not Status(kind="stalled", hint="More.").is_vague
