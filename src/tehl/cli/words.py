@@ -187,7 +187,15 @@ def _bar(result: "Result", name: str, unit: float, word: str) -> str:
         parts = f"grid {grid:.2g}, domain {domain:.2g}"
         return f"   certified {value:.5g} +- {width:.2g} {word} ({parts})"
     error = getattr(result.errors, f"discretisation_{name.removeprefix('film_')}", None)
-    return "" if error is None else f"   grid error about {100 * abs(error):.2g} %"
+    if error is None:
+        return ""
+    percent = 100.0 * abs(error)
+    return f"   grid error about {percent:.2g} %" if percent < 99.5 else f"   {_times(abs(error))}"
+
+
+def _times(error: float) -> str:
+    """Return a relative error of all of the value or more in words."""
+    return f"grid error about {error:.2g} times itself"
 
 
 def _effort(result: "Result") -> str:

@@ -71,6 +71,8 @@ def _film_status(run: Multigrid, errors: ErrorEstimate | None) -> Status:
     level, groups = run.finest, run.groups
     if run.is_rough and not _is_film(level, errors):
         return _touching(run, errors)
+    if run.is_rough and errors is not None and errors.iteration_minimum >= 1.0:
+        return _not_reached(run)  # further cycles might take it away
     if not run.is_rough and not level.film.h.min() > level.floor:
         return _film_not_positive(level, groups)
     return _resolution_status(run, errors)
@@ -79,14 +81,13 @@ def _film_status(run: Multigrid, errors: ErrorEstimate | None) -> Status:
 def _is_film(level: Level, errors: ErrorEstimate | None) -> bool:
     """Whether there is a film between rough surfaces, around the smallest node too.
 
-    One a little below the floor of the conductance is one if that floor is within its error; one
-    that further cycles might take away is none.
+    One a little below the floor of the conductance is one if that floor is within its error.
     """
-    smallest, bar, left = float(level.film.h.min()), 0.0, 0.0
+    smallest, bar = float(level.film.h.min()), 0.0
     if errors is not None:
-        bar, left = errors.discretisation_minimum, errors.iteration_minimum
-    thick = (1.0 - left) * smallest > BELOW_FLOOR * level.floor
+        bar = errors.discretisation_minimum
     within = (1.0 + bar) * smallest > level.floor
+    thick = smallest > BELOW_FLOOR * level.floor
     return thick and within and film_summary(level.grid, level.film.h).minimum > 0.0
 
 
@@ -120,7 +121,7 @@ def _vague(level: Level, error: float) -> Status:
         ),
         hint=(
             "Take a finer grid if the minimum matters: at second order numerics.points = "
-            f"{times * (max(grid.nx, grid.ny) - 1) + 1} would leave half of it."
+            f"{times * (max(grid.nx, grid.ny) - 1) + 1} would give it to within half of itself."
         ),
     )
 
