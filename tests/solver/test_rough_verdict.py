@@ -11,7 +11,7 @@ from tehl.io.summary import summary
 from tehl.report.html import _status
 from tehl.result import ErrorEstimate, Result, Status
 from tehl.solver.certify import _Grid
-from tehl.solver.verdict import _is_film, _no_film
+from tehl.solver.rough_verdict import is_film, no_film
 from tests.reference import DOMAIN
 
 FLOOR = 0.01
@@ -51,19 +51,19 @@ def errors(grid: float) -> ErrorEstimate:
     ],
 )
 def test_a_film_is_positive_and_flows_as_it_is_thick(smallest, estimate, held):
-    assert _is_film(level(smallest), estimate) is held
+    assert is_film(level(smallest), estimate) is held
 
 
 def test_a_film_that_is_negative_between_two_nodes_is_none():
     between = level(0.011, valley=True)
     assert between.film.h.min() > FLOOR
-    assert not _is_film(between, errors(0.1))
-    told = _no_film(between)
+    assert not is_film(between, errors(0.1))
+    told = no_film(between)
     assert "not positive: smallest H = -0." in told
 
 
 def test_a_film_below_the_floor_is_told_as_what_it_is():
-    assert "thinner than H = 0.01, the least that this grid lets flow" in _no_film(level(0.004))
+    assert "thinner than H = 0.01, the least that this grid lets flow" in no_film(level(0.004))
 
 
 def test_an_open_minimum_is_told_wherever_the_result_is(result: Result):

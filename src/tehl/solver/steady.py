@@ -34,6 +34,7 @@ from tehl.solver.film_numbers import film_summary
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.multigrid import Multigrid
 from tehl.solver.outputs import film_heat, film_shear, newtonian_shear
+from tehl.solver.rough_verdict import touching
 from tehl.solver.smoother import (
     BROAD,
     CAREFUL,
@@ -47,7 +48,7 @@ from tehl.solver.smoother import (
 )
 from tehl.solver.state import TouchingError
 from tehl.solver.thermal import Coupling, FilmCoupling, Uncoupled
-from tehl.solver.verdict import diverged, touching, verdict
+from tehl.solver.verdict import diverged, verdict
 from tehl.solver.warmup import warm_up
 
 GRID_CAUSES = ("grid_too_coarse", "domain_too_small", "inlet_too_short", "sides_too_close")

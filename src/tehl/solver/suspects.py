@@ -8,6 +8,7 @@ from tehl.film_formulas import expected_central_film
 from tehl.grid import Grid
 from tehl.heat import FAR_BODY, FilmEnergy
 from tehl.problem import ContactProblem
+from tehl.result import Status
 from tehl.scaling import Groups, Scales
 
 LARGEST_TRACTION = 0.1
@@ -136,3 +137,21 @@ def grid_hint(grid: Grid, groups: Groups) -> str:
     """Name the grid that is needed: the proposed one, at least twice as fine as this one."""
     nodes = max(needed_points(groups), 2 * max(grid.nx, grid.ny) - 1)
     return f"numerics.points = {nodes}"
+
+
+def coarse_status(grid: Grid, groups: Groups, error: float) -> Status:
+    """Return the status of a film whose relative ``error`` is too large on ``grid``."""
+    return Status(
+        kind="not_converged",
+        cause="grid_too_coarse",
+        message=(
+            f"The grid of {grid.nx} x {grid.ny} nodes is too coarse for the film, which "
+            f"may be wrong by {_share(error)}."
+        ),
+        hint=f"Take {grid_hint(grid, groups)}.",
+    )
+
+
+def _share(error: float) -> str:
+    """Return a relative error in words: beyond all of it no number means anything."""
+    return "more than all of it" if error > 1.0 else f"{100 * error:.0f} %"

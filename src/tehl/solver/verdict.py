@@ -1,8 +1,5 @@
 """The truth about a run: whether its result may be believed, and if not, why and what to try."""
 
-import math
-from dataclasses import replace
-
 import numpy as np
 
 from tehl.domain import domain_error
@@ -11,22 +8,22 @@ from tehl.operators.energy import FilmState
 from tehl.options import Domain
 from tehl.result import ErrorEstimate, Result, Status
 from tehl.scaling import Groups
-from tehl.solver.film_numbers import film_summary
 from tehl.solver.level import Level
 from tehl.solver.multigrid import Multigrid
 from tehl.solver.outputs import heat_balance
-from tehl.solver.suspects import Suspect, grid_hint, suspect
+from tehl.solver.rough_verdict import (
+    LESS_ROUGH,
+    VAGUE,
+    is_film,
+    no_film_status,
+    vague_status,
+)
+from tehl.solver.suspects import Suspect, coarse_status, grid_hint, suspect
 from tehl.solver.thermal import FilmCoupling
 
 LARGEST_BAR = 0.5
 """Relative discretisation error of the film beyond which a grid is called too coarse."""
 CONVERGED = Status(kind="converged")
-VAGUE = 1.0
-"""Relative error of the minimum between rough surfaces, one spot beside an asperity, beyond which
-no more is known of it than that it is thin: that is told, and the rest of the film may be good."""
-BELOW_FLOOR = 0.5
-"""Least film between rough surfaces over the floor of the conductance: an oil that flows as if it
-were thicker is another one."""
 LARGEST_DOMAIN_ERROR = 0.1
 """Estimated part of the central film beyond which a domain is called too small."""
 LARGEST_COOLING = 5.0
@@ -34,7 +31,6 @@ LARGEST_COOLING = 5.0
 LARGEST_MISSING_HEAT = 0.3
 """Part of the heat that may be missing: in pure rolling, where there is little of it, the backflow
 in the inlet keeps some for long."""
-LESS_ROUGH = "Take lower or longer asperities, more speed, or more nodes (numerics.points)."
 STARVED = 0.9
 """Film over fully flooded film below which an edge is called too close."""
 
@@ -69,26 +65,13 @@ def verdict(run: Multigrid, cycled_out: bool, errors: ErrorEstimate | None) -> S
 def _film_status(run: Multigrid, errors: ErrorEstimate | None) -> Status:
     """Judge whether there is a film, and whether the grid resolves it."""
     level, groups = run.finest, run.groups
-    if run.is_rough and not _is_film(level, errors):
-        return _touching(run, errors)
+    if run.is_rough and not is_film(level, errors):
+        return no_film_status(run, errors)
     if run.is_rough and errors is not None and errors.iteration_minimum >= 1.0:
         return _not_reached(run)  # further cycles might take it away
     if not run.is_rough and not level.film.h.min() > level.floor:
         return _film_not_positive(level, groups)
     return _resolution_status(run, errors)
-
-
-def _is_film(level: Level, errors: ErrorEstimate | None) -> bool:
-    """Whether there is a film between rough surfaces, around the smallest node too.
-
-    One a little below the floor of the conductance is one if that floor is within its error.
-    """
-    smallest, bar = float(level.film.h.min()), 0.0
-    if errors is not None:
-        bar = errors.discretisation_minimum
-    within = (1.0 + bar) * smallest > level.floor
-    thick = smallest > BELOW_FLOOR * level.floor
-    return thick and within and film_summary(level.grid, level.film.h).minimum > 0.0
 
 
 def _resolution_status(run: Multigrid, errors: ErrorEstimate | None) -> Status:
@@ -104,26 +87,8 @@ def _resolution_status(run: Multigrid, errors: ErrorEstimate | None) -> Status:
     if run.is_rough:
         part = float(level.film.h.min()) / run.expected_film
     if not max(part * error, errors.discretisation_central) <= LARGEST_BAR:
-        return _too_coarse(level.grid, groups, max(error, errors.discretisation_central))
-    return _vague(level, error) if run.is_rough and error > VAGUE else CONVERGED
-
-
-def _vague(level: Level, error: float) -> Status:
-    """Return the status of a film whose minimum is not known to within itself."""
-    grid, (smallest, x, y) = level.grid, _thinnest(level)
-    times = 2 ** math.ceil(0.5 * math.log2(error / LARGEST_BAR))  # of second order
-    return Status(
-        kind="converged",
-        message=(
-            f"The minimum film, at X = {x:.3g}, Y = {y:.3g} (half-widths), is uncertain by "
-            f"about {error:.1f} times itself on {grid.nx} x {grid.ny} nodes: no more is known of "
-            f"it than that it is thin, about H = {(1.0 + error) * smallest:.2g} at most."
-        ),
-        hint=(
-            "Take a finer grid if the minimum matters: at second order numerics.points = "
-            f"{times * (max(grid.nx, grid.ny) - 1) + 1} would give it to within half of itself."
-        ),
-    )
+        return coarse_status(level.grid, groups, max(error, errors.discretisation_central))
+    return vague_status(level, error) if run.is_rough and error > VAGUE else CONVERGED
 
 
 def _domain_status(run: Multigrid) -> Status:
@@ -227,75 +192,11 @@ def _film_not_positive(level: Level, groups: Groups) -> Status:
     )
 
 
-def touching(run: Multigrid, part: float) -> Status:
-    """Return the status of a film that fails with ``part`` of the heights already."""
-    status = _touching(run, run.errors())
-    message = f"{status.message} The film shown has {100 * part:.0f} % of the heights."
-    return replace(status, message=message)
-
-
-def _touching(run: Multigrid, errors: ErrorEstimate | None) -> Status:
-    """Judge what is no film between asperities: they touch, or the grid cannot tell."""
-    if errors is not None and errors.discretisation_minimum > VAGUE:
-        status = _too_coarse(run.finest.grid, run.groups, errors.discretisation_minimum)
-        return replace(status, message=f"{status.message} {_no_film(run.finest)}.")
-    return _asperity_contact(run.finest)
-
-
-def _thinnest(level: Level) -> tuple[float, float, float]:
-    """Return the smallest film of a level, between its nodes too, and X and Y of it."""
-    found = film_summary(level.grid, level.film.h)
-    node = float(level.film.h.min())
-    return (min(found.minimum, node), *found.minimum_at)
-
-
-def _no_film(level: Level) -> str:
-    """Say what is wrong with the smallest film, and where."""
-    smallest, x, y = _thinnest(level)
-    how = "not positive"
-    if smallest > 0.0:
-        how = f"thinner than H = {level.floor:.2g}, the least that this grid lets flow"
-    where = f"X = {x:.3g}, Y = {y:.3g} (half-widths)"
-    return f"The film found is {how}: smallest H = {smallest:.3g} at {where}"
-
-
-def _asperity_contact(level: Level) -> Status:
-    """Name the place where the film of rough surfaces fails."""
-    grid, thin = level.grid, int(np.count_nonzero(level.film.h <= level.floor))
-    return Status(
-        kind="not_converged",
-        cause="asperity_contact",
-        message=(
-            f"{_no_film(level)}, on {grid.nx} x {grid.ny} nodes of which {thin} are below "
-            f"H = {level.floor:.2g}. Asperities would touch there, which a film that carries all "
-            "of the load cannot describe."
-        ),
-        hint=LESS_ROUGH,
-    )
-
-
-def _too_coarse(grid: Grid, groups: Groups, error: float) -> Status:
-    return Status(
-        kind="not_converged",
-        cause="grid_too_coarse",
-        message=(
-            f"The grid of {grid.nx} x {grid.ny} nodes is too coarse for the film, which "
-            f"may be wrong by {_share(error)}."
-        ),
-        hint=f"Take {grid_hint(grid, groups)}.",
-    )
-
-
-def _share(error: float) -> str:
-    """Return a relative error in words: beyond all of it no number means anything."""
-    return "more than all of it" if error > 1.0 else f"{100 * error:.0f} %"
-
-
 def too_coarse(result: Result, error: float) -> Status:
     """Return the status of a certified result whose error bars are too wide to be of use."""
     x, y = result.scaled.x, result.scaled.y
     domain = Domain(x=(float(x[0]), float(x[-1])), y=(float(y[0]), float(y[-1])))
-    return _too_coarse(
+    return coarse_status(
         Grid(nx=x.size, ny=y.size, domain=domain, mirror=False), result.groups, error
     )
 
