@@ -130,9 +130,9 @@ class Factors(NamedTuple):
 class Heated(NamedTuple):
     """What the energy equation says of the flow, each (ny, nx).
 
-    ``mobility, density`` of the heated, sheared film, in units of the isothermal Newtonian ones;
-    ``steep`` the part of the mobility that follows the isothermal one; ``stretch_x, stretch_y`` as
-    in `Factors`.
+    ``mobility``, rho/(eta lambda), and ``density`` of the heated, sheared film, scaled as those of
+    the table of `properties`; ``steep`` the part of the mobility that follows the isothermal one;
+    ``stretch_x, stretch_y`` as in `Factors`.
     """
 
     mobility: Array
