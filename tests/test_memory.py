@@ -34,7 +34,12 @@ def test_a_grid_that_cannot_fit_is_refused_with_one_that_does(monkeypatch):
 def test_without_any_memory_no_grid_is_proposed(monkeypatch):
     monkeypatch.setattr("tehl.memory.available_memory", lambda: 1e4)
     with pytest.raises(InputError, match=r"are available$"):
-        check_memory(Options(points=257))
+        check_memory(Options(points=513))
+
+
+def test_small_grids_do_not_ask(monkeypatch):
+    monkeypatch.setattr("tehl.memory.available_memory", lambda: pytest.fail("asked"))
+    check_memory(Options(points=257))
 
 
 def test_limits_of_a_container_count(monkeypatch, tmp_path):

@@ -17,6 +17,8 @@ _LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_b
 BYTES_PER_LAYER, BYTES_COUPLED = 10, 270
 """More of them in a heated or shear-thinning film: per node and layer, and per node."""
 USUAL_LAYERS = 9
+ANYWHERE = 16e6
+"""What a machine that runs Python at all has to spare [byte]; no need to ask it."""
 
 
 def needed_memory(options: Options, problem: ContactProblem | None = None) -> float:
@@ -53,7 +55,8 @@ def check_memory(options: Options, problem: ContactProblem | None = None) -> Non
     InputError
         If the estimate exceeds the memory that there is; the message names a grid that fits.
     """
-    needed, available = needed_memory(options, problem), available_memory()
+    needed = needed_memory(options, problem)
+    available = available_memory() if needed > ANYWHERE else None
     if available is None or needed <= available:
         return
     largest = int((available / _bytes_per_node(problem)) ** 0.5)

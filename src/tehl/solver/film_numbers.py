@@ -1,5 +1,7 @@
 """Central and minimum film from the nodes of a grid."""
 
+from functools import cache
+
 import numpy as np
 
 from tehl.grid import Grid
@@ -85,6 +87,7 @@ def subgrid_minimum(patch: Array) -> tuple[float, tuple[float, float]]:
     return float(samples[j, i]), (float(places[0][j]), float(places[1][i]))
 
 
+@cache
 def _sampling(nodes: int) -> Array:
     """Weights of a not-a-knot cubic spline through ``nodes`` unit-spaced values, at the samples."""
     if nodes < 5:

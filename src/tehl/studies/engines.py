@@ -25,13 +25,14 @@ ONE_THREAD = (
 )
 """What keeps a worker on its one core; read when the libraries are loaded."""
 _WAITING = 2
-"""Cases that a pool holds for each worker: one in work and one at hand."""
+"""Tasks that a pool holds for each worker: one in work and one at hand."""
 _GRACE = 10.0
 """Seconds that a worker has to end."""
 _LEAST_ON_CLUSTER, _CONNECT = 64, 30.0
 """Tasks that a cluster is given at least, so that it can grow; seconds to find its scheduler."""
-_TASK = 1.0
-"""Seconds of solving that are worth a message through the scheduler of a cluster."""
+_TASK, _TASK_HERE = 1.0, 0.2
+"""Seconds of solving that are worth a message through the scheduler of a cluster, or to a process
+of this machine."""
 
 
 class Engine(Protocol):
@@ -128,7 +129,7 @@ class _Here(Executor):
 class Pool:
     """Fresh processes of this machine, one thread each."""
 
-    local, task_seconds = True, 0.0
+    local, task_seconds = True, _TASK_HERE
 
     def __init__(self, jobs: int) -> None:
         self.jobs = jobs
@@ -139,7 +140,7 @@ class Pool:
         return ProcessPoolExecutor(self.jobs, mp_context=context, initializer=begin_worker)
 
     def window(self) -> int:
-        """Return two cases per worker."""
+        """Return two tasks per worker."""
         return _WAITING * self.jobs
 
     def leave(self, executor: Executor, *, at_once: bool) -> None:

@@ -257,23 +257,24 @@ class _Run:
                 dead.extend(self.running.pop(future))
                 continue
             rows = _rows(future)
-            for case, row in zip(self.running[future], rows, strict=False):
-                self._keep(case, row)
+            self._keep(self.running[future], rows)
             self.waiting.extendleft(reversed(self.running.pop(future)[len(rows) :]))
         if self.alone:
-            for case in dead:
-                self._keep(case, _died(case))
+            self._keep(dead, [_died(case) for case in dead])
         else:
             self.suspects.extend(dead)
         return not broken
 
-    def _keep(self, case: Case, row: Row) -> None:
-        self.store.put(row)
-        self.seconds += row.cost.wall_seconds
-        self.rows[case.key] = replace(row, summary={})  # thousands of them need their room
-        if self.known is not None and row.converged:
-            self.known.add(case)
-        self.monitor.finished(case, row)
+    def _keep(self, cases: list[Case], rows: list[Row]) -> None:
+        """Keep the rows of the first of some cases."""
+        if rows:
+            self.store.put(*rows)
+        for case, row in zip(cases, rows, strict=False):
+            self.seconds += row.cost.wall_seconds
+            self.rows[case.key] = replace(row, summary={})  # thousands of them need their room
+            if self.known is not None and row.converged:
+                self.known.add(case)
+            self.monitor.finished(case, row)
 
     def _renewed(self) -> Executor:
         """Return a fresh executor; make sure that its workers begin if none has worked yet."""

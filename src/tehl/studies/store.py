@@ -146,26 +146,21 @@ class Store:
         path = self.fields_path(case)
         return load(path) if path.is_file() else None
 
-    def put(self, row: Row) -> None:
-        """Keep a row, in the place of an older one of the same key.
+    def put(self, *rows: Row) -> None:
+        """Keep rows, all or none, in the place of older ones of the same keys.
 
         Raises
         ------
         OSError
-            If it cannot be written: a full disk, a quota.
+            If they cannot be written: a full disk, a quota.
         """
-        values = (
-            row.key,
-            row.status,
-            *map(_text, (row.cause, row.message, row.hint)),
-            json.dumps(dict(row.summary), allow_nan=False),
-            row.cost.cpu_seconds,
-            row.cost.wall_seconds,
-        )
+        lines = [_line(row) for row in rows]
         self.prepare()
         with self._telling() as connection, connection:
-            marks = ", ".join("?" * len(values))
-            connection.execute(f"INSERT OR REPLACE INTO rows ({_COLUMNS}) VALUES ({marks})", values)
+            marks = ", ".join("?" * len(_COLUMNS.split(",")))
+            connection.executemany(
+                f"INSERT OR REPLACE INTO rows ({_COLUMNS}) VALUES ({marks})", lines
+            )
 
     def prepare(self) -> None:
         """Make the folder and its files, if they are missing."""
@@ -245,6 +240,18 @@ class Store:
 def _text(words: str | None) -> str | None:
     """Return words that a file can hold: names of files may have half letters."""
     return None if words is None else words.encode("utf-8", "replace").decode("utf-8")
+
+
+def _line(row: Row) -> tuple[str | float | None, ...]:
+    """Return a row as the columns have it."""
+    return (
+        row.key,
+        row.status,
+        *map(_text, (row.cause, row.message, row.hint)),
+        json.dumps(dict(row.summary), allow_nan=False),
+        row.cost.cpu_seconds,
+        row.cost.wall_seconds,
+    )
 
 
 def _row(line: tuple[str, ...]) -> Row | None:
