@@ -278,13 +278,14 @@ def diagonal(film: Film, mesh: Mesh, self_film: float, out: Array) -> None:
 def line_norm(p: Array, rhs: Array, diagonal: Array, out: Array) -> tuple[float, int]:
     """Turn L(p) in ``out`` to ``rhs - L(p)``, zero where cavitated; return sum and count.
 
-    The sum is of ``|r|`` over the local diagonal, over nodes that are wet or ought to be.
+    The sum is of ``|r|`` over the size of the local diagonal, over nodes that are wet or ought to
+    be; the diagonal may be negative where the film is, on the way to one.
     """
     total, count = 0.0, 0
     for i in range(1, p.shape[0] - 1):
         r = rhs[i] - out[i]
         counts = p[i] > 0.0 or r < 0.0
-        total += abs(r) / diagonal[i] if counts else 0.0
+        total += abs(r / diagonal[i]) if counts else 0.0
         count += 1 if counts else 0
         out[i] = r if p[i] > 0.0 else 0.0
     return total, count

@@ -15,7 +15,6 @@ from scipy.sparse import csr_matrix, diags, kron
 
 from tehl.grid import Grid
 from tehl.kernels.reynolds import Film, Mesh
-from tehl.operators.influence import Influence
 from tehl.typing import Array, BoolArray
 
 
@@ -71,18 +70,6 @@ def stencil_of(grid: Grid, mesh: Mesh) -> Stencil:
         south=neighbour(grid, inner, -1, 0),
         upstream=upstream,
     )
-
-
-def near(grid: Grid, influence: Influence, reach: int) -> csr_matrix:
-    """Return the film by unit pressures up to ``reach`` nodes away, in either direction."""
-    everywhere = np.ones(grid.shape, bool)
-    offsets = range(-reach, reach + 1)
-    parts = (
-        neighbour(grid, everywhere, rows, columns, float(influence(abs(rows), abs(columns))))
-        for rows in offsets
-        for columns in offsets
-    )
-    return sum(parts, csr_matrix((everywhere.size, everywhere.size)))
 
 
 def jacobian(

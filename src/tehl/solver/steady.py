@@ -146,9 +146,10 @@ def solve_attempt(
         if attempt.is_final:
             break
     best = min(attempts, key=_rank)
+    result = _result(problem, options, best, tuple(history.reports))
+    surfaces = _surfaces(grid, heights, result.scales)
     cost = Cost(cpu_seconds=time.process_time() - cpu, wall_seconds=time.perf_counter() - wall)
-    result = _result(problem, options, best, tuple(history.reports), cost)
-    return best, replace(result, heights=_surfaces(grid, heights, result.scales))
+    return best, replace(result, heights=surfaces, cost=cost)
 
 
 class _History:
@@ -267,16 +268,16 @@ def _result(
     options: Options,
     attempt: Attempt,
     history: tuple[CycleReport, ...],
-    cost: Cost,
 ) -> Result:
-    run = attempt.run
+    """Return what was found; its cost is not known yet."""
+    run, units = attempt.run, scales(problem)
     level, grid = run.finest, run.finest.grid
     full = Grid(nx=grid.nx, ny=grid.ny, domain=grid.domain, mirror=False)
-    shear, heat = _stress_and_heat(problem, attempt)
+    shear, heat = _stress_and_heat(problem, attempt, units)
     return Result(
         problem=problem,
         options=options,
-        scales=scales(problem),
+        scales=units,
         groups=run.groups,
         scaled=Fields(
             x=full.x,
@@ -289,7 +290,7 @@ def _result(
         status=attempt.status,
         history=history,
         errors=run.errors(),
-        cost=cost,
+        cost=Cost(cpu_seconds=0.0, wall_seconds=0.0),
         provenance=provenance(),
         shear=shear,
         heat=heat,
@@ -297,7 +298,7 @@ def _result(
 
 
 def _stress_and_heat(
-    problem: ContactProblem, attempt: Attempt
+    problem: ContactProblem, attempt: Attempt, units: Scales
 ) -> tuple[FilmShear | None, FilmHeat | None]:
     """Return stresses and temperatures; nothing where there is no credible film."""
     run = attempt.run
@@ -308,7 +309,7 @@ def _stress_and_heat(
         if state is None or state.grid != run.finest.grid:
             return None, None
         return film_shear(state), film_heat(state)
-    return newtonian_shear(run.finest, problem, scales(problem), run.groups), None
+    return newtonian_shear(run.finest, problem, units, run.groups), None
 
 
 def provenance() -> Provenance:
