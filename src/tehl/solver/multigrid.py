@@ -171,6 +171,12 @@ class Multigrid:
         return self.first_rough < len(self.levels)
 
     @property
+    def has_no_film_before(self) -> bool:
+        """Whether Newton's method found all heights of the grid before to have no positive film."""
+        raised_before = self.setting.rough.newton and self.first_rough < len(self.levels) - 1
+        return raised_before and float(self.levels[-2].film.h.min()) <= 0.0
+
+    @property
     def finest(self) -> Level:
         """The level of the answer."""
         return self.levels[-1]
@@ -217,12 +223,17 @@ class Multigrid:
         return converged(self.traces[-1], self._coarser_trace(), self.options)
 
     def _answer(self, monitor: Monitor) -> None:
-        """Cycle on the finest grid; where Newton's method fails there, raise the heights on it."""
+        """Cycle on the finest grid; where Newton's method fails there, raise the heights on it.
+
+        Not if all heights of the grid before have no positive film: those of this grid take ten
+        times as long as all before to say the same.
+        """
         last = len(self.levels) - 1
         try:
             self._cycle_on(self.levels, monitor)
         except DivergedError:
-            if not self.setting.rough.newton or self.first_rough == last:
+            raised_before = self.setting.rough.newton and self.first_rough < last
+            if not raised_before or self.has_no_film_before:
                 raise
             monitor.message("raising the heights on the finest grid")
             self.traces.pop()
@@ -288,6 +299,8 @@ class Multigrid:
             return False
         first, last = self.traces[-1].reports[0], self.traces[-1].reports[-1]
         settled = last.cycle < ENOUGH or last.residual < self.options.tolerance
+        if self.setting.rough.newton:  # the heights were raised before, so it begins near its end
+            settled = settled or iterated_enough(self.traces[-1], self._coarser_trace())
         falling = settled or last.residual < 0.5 * first.residual
         return falling and last.change < LARGEST_CHANGE and abs(last.load_error) < LARGEST_CHANGE
 

@@ -9,7 +9,7 @@ from tehl.result import ErrorEstimate, Status
 from tehl.solver.film_numbers import film_summary
 from tehl.solver.level import Level
 from tehl.solver.multigrid import Multigrid
-from tehl.solver.suspects import coarse_status
+from tehl.solver.suspects import Suspect, coarse_status
 
 KNOWN = 0.5
 """Relative error of the minimum that the hint to a finer grid aims at."""
@@ -66,6 +66,23 @@ def no_film_status(run: Multigrid, errors: ErrorEstimate | None) -> Status:
         status = coarse_status(run.finest.grid, run.groups, errors.discretisation_minimum)
         return replace(status, message=f"{status.message} {no_film(run.finest)}.")
     return asperity_contact(run.finest)
+
+
+def no_film_before(run: Multigrid) -> Suspect | None:
+    """Blame the film of the grid before the finest, if it has all heights and is not positive."""
+    if not run.has_no_film_before:
+        return None
+    level = run.levels[-2]
+    smallest, x, y = thinnest(level)
+    return Suspect(
+        cause="grid_too_coarse",
+        message=(
+            f"the film of the grid before, of {level.grid.nx} x {level.grid.ny} nodes, is not "
+            f"positive (smallest H = {smallest:.3g} at X = {x:.3g}, Y = {y:.3g} half-widths) and "
+            "no start for this one."
+        ),
+        hint=LESS_ROUGH,
+    )
 
 
 def thinnest(level: Level) -> tuple[float, float, float]:

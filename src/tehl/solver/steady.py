@@ -181,9 +181,8 @@ def _surfaces(grid: Grid, heights: Heights | None, case_scales: Scales) -> Surfa
 
 
 def _rank(attempt: Attempt) -> tuple[bool, bool, bool]:
-    """Return what puts the best attempt first: converged, got there, or at least finite."""
-    status = attempt.status
-    return not status.converged, not attempt.reached, status.kind == "diverged"
+    """Return what puts the best attempt first: final, got there, or at least finite."""
+    return not attempt.is_final, not attempt.reached, attempt.status.kind == "diverged"
 
 
 def _attempts(

@@ -15,6 +15,7 @@ from tehl.solver.rough_verdict import (
     LESS_ROUGH,
     VAGUE,
     is_film,
+    no_film_before,
     no_film_status,
     vague_status,
 )
@@ -163,6 +164,9 @@ def diverged(run: Multigrid) -> Status:
 
 def _suspect(run: Multigrid) -> Suspect | None:
     """Return what is conspicuous about a run that fails."""
+    coarser = no_film_before(run)
+    if coarser is not None:
+        return coarser
     film = run.coupling.film if isinstance(run.coupling, FilmCoupling) else None
     contact = None if film is None else (film.problem, film.scales)
     return suspect(run.finest.grid, run.groups, contact)
