@@ -53,7 +53,8 @@ def check_memory(options: Options, problem: ContactProblem | None = None) -> Non
     Raises
     ------
     InputError
-        If the estimate exceeds the memory that there is; the message names a grid that fits.
+        If the estimate exceeds what any machine has and the memory that there is; the message names
+        a grid that fits.
     """
     needed = needed_memory(options, problem)
     available = available_memory() if needed > ANYWHERE else None

@@ -133,12 +133,14 @@ def test_single_nodes_do_not_hold_a_step_back() -> None:
     """Few that would go far are held back alone; many shorten the step of all."""
     change = np.append(np.full(4000, 0.5), 2.0)
     change[7] = -300.0
-    step = limited(change)
-    assert step[7] == -5.0
+    step, share = limited(change)
+    assert (step[7], share) == (-5.0, 1.0)
     np.testing.assert_array_equal(np.delete(step, 7), np.delete(change, 7))
     change[:40] = 50.0
-    np.testing.assert_allclose(limited(change), 0.1 * change, rtol=1e-15)
-    np.testing.assert_array_equal(limited(0.01 * change), 0.01 * change)
+    step, share = limited(change)
+    assert share == pytest.approx(0.1)
+    np.testing.assert_allclose(step, 0.1 * change, rtol=1e-15)
+    np.testing.assert_array_equal(limited(0.01 * change)[0], 0.01 * change)
 
 
 def test_no_residual_is_negative() -> None:
@@ -235,6 +237,7 @@ def test_newton_finishes_what_no_cycle_does() -> None:
     assert run.history[-1].smoother == "newton"
     assert run.status.cause == "grid_too_coarse"
     assert "not positive" in (run.status.message or "")
+    assert run.film_scaled.minimum <= 0.0
 
 
 @pytest.mark.slow

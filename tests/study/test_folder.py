@@ -81,6 +81,16 @@ def test_a_row_comes_back_from_its_store(tmp_path_factory, summary, words, secon
     assert Store(store.directory).row(case) == row
 
 
+def test_rows_of_a_task_are_kept_all_or_none(tmp_path):
+    store, (first, second) = Store(tmp_path), cases(2)
+    good = [Row(key=case.key, status="failed") for case in (first, second)]
+    with pytest.raises(FileFormatError):
+        store.put(good[0], replace(good[1], status=None))
+    assert store.rows([first, second]) == {}
+    store.put(*good)
+    assert len(store.rows([first, second])) == 2
+
+
 def test_half_a_letter_in_a_message_is_replaced(tmp_path):
     store, case = Store(tmp_path), cases(1)[0]
     store.put(Row(key=case.key, status="failed", message="no file \udcff.csv"))

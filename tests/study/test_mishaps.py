@@ -16,7 +16,7 @@ from tehl.studies import Store, run, runner, table
 from tests.study import mishaps
 from tests.study.contacts import Notes, cases
 
-COUNT = 8
+COUNT = 24
 
 
 @pytest.fixture(scope="module")

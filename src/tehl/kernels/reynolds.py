@@ -279,7 +279,7 @@ def line_norm(p: Array, rhs: Array, diagonal: Array, out: Array) -> tuple[float,
     """Turn L(p) in ``out`` to ``rhs - L(p)``, zero where cavitated; return sum and count.
 
     The sum is of ``|r|`` over the size of the local diagonal, over nodes that are wet or ought to
-    be; the diagonal may be negative where the film is, on the way to one.
+    be; where the film is negative, on the way to a solution, the diagonal may be too.
     """
     total, count = 0.0, 0
     for i in range(1, p.shape[0] - 1):

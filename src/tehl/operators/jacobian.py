@@ -5,7 +5,7 @@ c of the rigid approach, and so the operator L of `tehl.kernels.reynolds` by
 
     by_pressure v + by_film (D v + c).
 
-D couples all nodes and is applied, never written down; `near` is its part between close nodes.
+D couples all nodes and is applied, never written down.
 """
 
 from typing import NamedTuple

@@ -146,7 +146,7 @@ def _endings(grids: list[_Grid], wide: _Grid) -> str:
 
 def _iterated(result: Result) -> bool:
     """Whether only the grid stands between this result and an answer."""
-    if result.status.cause != "grid_too_coarse":
+    if result.status.cause != "grid_too_coarse" or result.status.kind == "diverged":
         return False
     last = result.history[-1]
     worst = max(last.residual, last.change, abs(last.load_error))

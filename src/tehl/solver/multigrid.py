@@ -34,7 +34,7 @@ from tehl.solver.film_numbers import central_value
 from tehl.solver.guess import start_from
 from tehl.solver.level import Level
 from tehl.solver.monitor import Monitor
-from tehl.solver.newton import Newton
+from tehl.solver.newton import RAISED, Newton
 from tehl.solver.smoother import BROAD, FAST, Setting
 from tehl.solver.state import DivergedError, TouchingError, keep_cavities, state_of, take_state
 from tehl.solver.thermal import Coupling, Uncoupled
@@ -174,7 +174,11 @@ class Multigrid:
     def has_no_film_before(self) -> bool:
         """Whether Newton's method found all heights of the grid before to have no positive film."""
         raised_before = self.setting.rough.newton and self.first_rough < len(self.levels) - 1
-        return raised_before and float(self.levels[-2].film.h.min()) <= 0.0
+        if not raised_before or len(self.traces) < len(self.levels) - 2:
+            return False
+        level, reports = self.levels[-2], self.traces[len(self.levels) - 3].reports
+        solved = bool(reports) and reports[-1].residual < RAISED
+        return solved and float(level.film.h.min()) < -level.floor
 
     @property
     def finest(self) -> Level:

@@ -28,7 +28,7 @@ from tehl.solver.state import APPROACH, DivergedError, TouchingError, state_of, 
 from tehl.typing import Array, BoolArray
 
 ACCURACY, EXACT = 0.03, 0.001
-"""Residual of the linear equations, over its first value, and where the step of that is none."""
+"""Residual of the linear equations, over its first value, and where that step leads nowhere."""
 VECTORS, ROUNDS = 40, 2
 """Directions of the Krylov method before it starts again, and how often."""
 SLOW = 24
@@ -84,11 +84,12 @@ class Newton:
             When even a short step does not bring the film nearer to a solution.
         """
         self.level.update()
-        system = System(self)
+        system, old = System(self), self.preconditioner
         try:
             part = self.solve_and_walk(system, ACCURACY)
         except DivergedError:
-            self.preconditioner = None
+            if self.preconditioner is old:
+                self.preconditioner = None
             part = self.solve_and_walk(system, EXACT)
         if system.products > SLOW or part < 1.0:
             self.preconditioner = None
@@ -96,20 +97,24 @@ class Newton:
 
     def solve_and_walk(self, system: "System", accuracy: float) -> float:
         """Take the step of some equations, solved to a residual; return the part of it."""
-        if self.preconditioner is None:
-            self.preconditioner = Preconditioner(system)
-        return self.walk(system.solve(self.preconditioner, accuracy))
+        try:
+            if self.preconditioner is None:
+                self.preconditioner = Preconditioner(system)
+            change = system.solve(self.preconditioner, accuracy)
+        except (RuntimeError, ValueError) as error:  # equations that are singular or not finite
+            raise DivergedError from error
+        return self.walk(change)
 
     def walk(self, change: Array) -> float:
         """Go as far along ``change`` as the residual falls; return the part."""
         level, start = self.level, state_of(self.level)
         residual = level.evaluate_residual()
-        step, part = limited(change), 1.0 if np.isfinite(change).all() else 0.0
+        (step, share), part = limited(change), 1.0 if np.isfinite(change).all() else 0.0
         while part > SHORTEST:
             take_state(level, start + part * step)
             level.update()
-            if level.evaluate_residual() < (1.0 - DESCENT * part) * residual:
-                return part
+            if level.evaluate_residual() < (1.0 - DESCENT * part * share) * residual:
+                return part * share
             part *= 0.5
         take_state(level, start)
         level.update()
@@ -250,14 +255,18 @@ class Preconditioner:
         return change
 
 
-def limited(change: Array) -> Array:
-    """Return the first part of a step, with no pressure changing by more than it may."""
+def limited(change: Array) -> tuple[Array, float]:
+    """Return a step that changes no pressure by more than it may, and the part of it that this is.
+
+    The few nodes that are held back alone do not count in that part.
+    """
     sizes = np.abs(change[:-1])
     last = sizes.size - 1 - int(OUTLIERS * sizes.size)
     most = np.partition(sizes, last)[last]
-    step = change * (LARGEST_CHANGE / max(float(most), LARGEST_CHANGE))
+    share = LARGEST_CHANGE / max(float(most), LARGEST_CHANGE)
+    step = share * change
     step[:-1] = np.clip(step[:-1], -LARGEST_CHANGE, LARGEST_CHANGE)
-    return step
+    return step, share
 
 
 def steps_to(residual: float, once: Callable[[], float]) -> int | None:

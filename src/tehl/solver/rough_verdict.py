@@ -77,9 +77,9 @@ def no_film_before(run: Multigrid) -> Suspect | None:
     return Suspect(
         cause="grid_too_coarse",
         message=(
-            f"the film of the grid before, of {level.grid.nx} x {level.grid.ny} nodes, is not "
-            f"positive (smallest H = {smallest:.3g} at X = {x:.3g}, Y = {y:.3g} half-widths) and "
-            "no start for this one."
+            f"The film of the grid before, of {level.grid.nx} x {level.grid.ny} nodes, is not "
+            f"positive (smallest H = {smallest:.3g} at X = {x:.3g}, Y = {y:.3g} half-widths), and "
+            "is no start for this one."
         ),
         hint=LESS_ROUGH,
     )

@@ -1,7 +1,7 @@
 """Finished cases on disk: rows in one SQLite file, fields in one NetCDF file per case.
 
-Only the process that runs a study writes rows, one transaction each; workers write fields, each
-file whole or not at all. So a kill at any time costs the cases in work and no finished one.
+Only the process that runs a study writes rows, a transaction for those of a task; workers write
+fields, each file whole or not at all. So a kill at any time costs the tasks in work and no row.
 """
 
 import errno

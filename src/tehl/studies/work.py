@@ -26,7 +26,7 @@ def in_turn(
             break
         try:
             rows.append(solve(*task))
-        except OSError:
+        except (OSError, InputError):
             if not rows:
                 raise
             break  # it is told when that case is the first of a task
