@@ -40,6 +40,24 @@ def once(case: Case, fields: Path | None, guess: Path | None = None) -> Row:
     return quick(case, fields, guess)
 
 
+def orphaned(case: Case, fields: Path | None, guess: Path | None = None) -> Row:
+    """Kill the server of the workers at M = 5.5, the first time."""
+    assert fields is not None
+    mark = fields.with_name("killed")
+    if case.labels["M"] == 5.5 and not mark.exists():
+        mark.touch()
+        assert "forkserver" in Path(f"/proc/{os.getppid()}/cmdline").read_text()
+        os.kill(os.getppid(), signal.SIGKILL)
+    return quick(case, fields, guess)
+
+
+def readiness() -> tuple[bool, int]:
+    """Return whether a worker has begun with the solver, and the threads of what it came from."""
+    status = Path(f"/proc/{os.getppid()}/status").read_text()
+    (threads,) = (line.split()[1] for line in status.splitlines() if line.startswith("Threads"))
+    return "tehl.solver" in sys.modules, int(threads)
+
+
 def lazy(case: Case, fields: Path | None, guess: Path | None = None) -> Row:
     """Leave the number of the process behind, and take a while."""
     assert fields is not None

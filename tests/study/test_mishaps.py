@@ -13,10 +13,12 @@ import pytest
 
 from tehl.errors import FileFormatError
 from tehl.studies import Store, run, runner, table
+from tehl.studies.engines import engine_of
 from tests.study import mishaps
 from tests.study.contacts import Notes, cases
 
 COUNT = 24
+ON_LINUX = pytest.mark.skipif(sys.platform != "linux", reason="each worker loads for itself")
 
 
 @pytest.fixture(scope="module")
@@ -54,6 +56,23 @@ def test_a_worker_that_is_killed_from_outside_costs_nothing(tmp_path, monkeypatc
     assert outcome.failed == ()
     assert len(notes.names) == COUNT
     assert is_like(table(cases(COUNT), store), undisturbed)
+
+
+@ON_LINUX
+def test_a_killed_server_of_workers_costs_nothing(tmp_path, monkeypatch, undisturbed):
+    monkeypatch.setattr(runner, "work", mishaps.orphaned)
+    store, notes = Store(tmp_path, keep="fields"), Notes()
+    assert run(cases(COUNT), store, jobs=2, monitor=notes).failed == ()
+    assert len(notes.names) == COUNT
+    assert is_like(table(cases(COUNT), store), undisturbed)
+
+
+@ON_LINUX
+def test_workers_begin_with_the_solver_from_a_server_of_one_thread():
+    with engine_of(2, 2, None) as engine:
+        executor = engine.executor()
+        assert executor.submit(mishaps.readiness).result() == (True, 1)
+        engine.leave(executor, at_once=False)
 
 
 def program(*words: str, **options) -> subprocess.Popen:

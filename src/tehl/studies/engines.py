@@ -7,11 +7,13 @@ have in it, and how to leave it.
 import multiprocessing
 import os
 import signal
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing.connection import wait
+from multiprocessing.context import BaseContext
 from typing import Any, Protocol
 
 from tehl import __version__
@@ -24,6 +26,8 @@ ONE_THREAD = (
     "MKL_NUM_THREADS",
 )
 """What keeps a worker on its one core; read when the libraries are loaded."""
+READY = "tehl.studies.ready"
+"""Loaded once by the server from which the workers of this machine are forked."""
 _WAITING = 2
 """Tasks that a pool holds for each worker: one in work and one at hand."""
 _GRACE = 10.0
@@ -127,7 +131,11 @@ class _Here(Executor):
 
 
 class Pool:
-    """Fresh processes of this machine, one thread each."""
+    """Processes of this machine, one thread each.
+
+    On Linux they are forked from a server, itself a fresh process of one thread, that has loaded
+    the solver and its kernels for all of them; elsewhere each is fresh and loads them itself.
+    """
 
     local, task_seconds = True, _TASK_HERE
 
@@ -136,8 +144,7 @@ class Pool:
 
     def executor(self) -> Executor:
         """Return a pool; its processes begin when they are needed."""
-        context = multiprocessing.get_context("spawn")
-        return ProcessPoolExecutor(self.jobs, mp_context=context, initializer=begin_worker)
+        return ProcessPoolExecutor(self.jobs, mp_context=_fresh(), initializer=begin_worker)
 
     def window(self) -> int:
         """Return two tasks per worker."""
@@ -152,6 +159,15 @@ class Pool:
                 process.terminate()
             for process in processes:
                 process.join(_GRACE)
+
+
+def _fresh() -> BaseContext:
+    """Return the way to begin processes that share no threads and no locks with this one."""
+    if sys.platform != "linux":  # a server that forks is safe with the libraries of Linux only
+        return multiprocessing.get_context("spawn")
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload([READY])
+    return context
 
 
 def begin_worker() -> None:
