@@ -56,8 +56,12 @@ class Engine(Protocol):
         """Return a fresh executor."""
         ...
 
-    def window(self) -> int:
-        """Return how many tasks to have in the executor at a time."""
+    def workers(self) -> int:
+        """Return how many cases are solved at a time, now; zero before a cluster has grown."""
+        ...
+
+    def window(self, workers: int) -> int:
+        """Return how many tasks to have in the executor at a time, for so many workers."""
         ...
 
     def leave(self, executor: Executor, *, at_once: bool) -> None:
@@ -109,9 +113,13 @@ class Serial:
         """Return an executor that works when it is asked to."""
         return _Here()
 
-    def window(self) -> int:
+    def workers(self) -> int:
         """Return one."""
         return 1
+
+    def window(self, workers: int) -> int:
+        """Return one task."""
+        return workers
 
     def leave(self, executor: Executor, *, at_once: bool) -> None:
         """Do nothing: there is nothing left over."""
@@ -146,9 +154,13 @@ class Pool:
         """Return a pool; its processes begin when they are needed."""
         return ProcessPoolExecutor(self.jobs, mp_context=_fresh(), initializer=begin_worker)
 
-    def window(self) -> int:
+    def workers(self) -> int:
+        """Return the number of processes."""
+        return self.jobs
+
+    def window(self, workers: int) -> int:
         """Return two tasks per worker."""
-        return _WAITING * self.jobs
+        return _WAITING * workers
 
     def leave(self, executor: Executor, *, at_once: bool) -> None:
         """End the processes, by force if it has to be at once."""
@@ -196,9 +208,13 @@ class Cluster:
         executor: Executor = self.client.get_executor(pure=False)
         return executor
 
-    def window(self) -> int:
-        """Return three tasks per thread that the cluster has now."""
-        return max(3 * sum(self.client.nthreads().values()), _LEAST_ON_CLUSTER)
+    def workers(self) -> int:
+        """Return the threads that the cluster has now."""
+        return sum(self.client.nthreads().values())
+
+    def window(self, workers: int) -> int:
+        """Return three tasks per thread, and enough to make a cluster grow."""
+        return max(3 * workers, _LEAST_ON_CLUSTER)
 
     def leave(self, executor: Executor, *, at_once: bool) -> None:
         """Withdraw what is not done; the cluster goes on."""

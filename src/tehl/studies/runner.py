@@ -27,6 +27,8 @@ from tehl.studies.work import Task, in_turn, work
 
 _MOST_TOGETHER = 32
 """Cases in a task: all of them are solved one by one if its worker dies."""
+_SHARES = 4
+"""Tasks that are left for each worker at least, so that all are done at about the same time."""
 _KILLED = "KilledWorker"
 """What a cluster calls the error of a task whose workers died again and again."""
 _DIED = (
@@ -218,18 +220,19 @@ class _Run:
         if self.alone:
             self._submit(executor, [self.suspects.popleft()])
             return
-        window = self.engine.window()
+        workers = self.engine.workers()
+        window = self.engine.window(workers)
         while self.waiting and len(self.running) < window:
-            count = min(self._together(window), len(self.waiting))
+            count = min(self._together(workers), len(self.waiting))
             self._submit(executor, [self.waiting.popleft() for _ in range(count)])
 
-    def _together(self, window: int) -> int:
+    def _together(self, workers: int) -> int:
         """Return how many of the next cases make a task; what takes too long comes back undone."""
         in_order = self.known is not None and self.engine.local  # each starts from the one before
         if in_order or not (self.engine.task_seconds and self.solved):
             return 1
         quick = int(self.engine.task_seconds * self.solved / max(self.seconds, 1e-9))
-        share = len(self.waiting) // (2 * window)
+        share = len(self.waiting) // (_SHARES * max(workers, 1))
         return max(1, min(quick, share, _MOST_TOGETHER))
 
     def _submit(self, executor: Executor, cases: list[Case]) -> None:
