@@ -18,6 +18,7 @@ from typing import Any, Protocol
 
 from tehl import __version__
 from tehl.errors import InputError
+from tehl.kernels.cache import is_cold
 
 ONE_THREAD = (
     "NUMBA_NUM_THREADS",
@@ -180,6 +181,20 @@ def _fresh() -> BaseContext:
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload([READY])
     return context
+
+
+def begin_server() -> None:
+    """Begin the server of workers now, while the caller has other things to do before it solves.
+
+    Nothing where workers are not forked, or where kernels have to be compiled first.
+    """
+    if sys.platform != "linux" or is_cold(coupled=False):
+        return
+    from multiprocessing import forkserver  # noqa: PLC0415 (not on every system)
+
+    _fresh()
+    with _environment(dict.fromkeys(ONE_THREAD, "1")):
+        forkserver.ensure_running()
 
 
 def begin_worker() -> None:
