@@ -9,6 +9,7 @@ from tehl.operators.reynolds import step_stencil, upstream
 from tehl.solver.convergence import LEAST_KELVIN
 from tehl.solver.fas import Cycle, cycle
 from tehl.solver.multigrid import RUNAWAY, Multigrid
+from tehl.solver.predictor import Predictor
 from tehl.solver.smoother import Setting
 from tehl.transient import Transient
 from tehl.typing import Array
@@ -60,7 +61,7 @@ class Stepper:
         self.steady = level.film.rho * level.film.h
         self.wedge = steady_wedge(self.steady, level.grid.dx, run.options.wedge_order)
         self.now, self.before = self.steady.copy(), self.steady.copy()
-        self.pressure_before = level.film.p.copy()
+        self.predictor = Predictor(level.film.p, transient.stride)
         for one in run.levels:
             one.mesh = step_stencil(one.mesh, self.time_step)
         run.coupling.follow = 1.0  # steps are small enough to follow at once
@@ -94,7 +95,8 @@ class Stepper:
                 level.update()
                 self.run.coupling.go_back(self.run.levels)
             else:
-                self._extrapolate()
+                level.film.p[:] = self.predictor.onward()
+                level.stale = True
             level.pose_step(history, heights, load)
             try:
                 settled = self._settle(self.settings[number].name)
@@ -103,17 +105,10 @@ class Stepper:
                     raise
                 continue
             self.before, self.now = self.now, level.film.rho * level.film.h
-            self.pressure_before = start[0]
+            self.predictor.note(level.film.p)
             self.run.coupling.advance(self.run.levels)
             return settled
         raise StepError("stalled", np.inf)
-
-    def _extrapolate(self) -> None:
-        """Start from where the pressure goes; cavities stay."""
-        level = self.run.finest
-        onward = np.maximum(2.0 * level.film.p - self.pressure_before, 0.0)
-        level.film.p[:] = np.where(level.film.p > 0.0, onward, 0.0)
-        level.stale = True
 
     def _history(self) -> Array:
         """Return what is known of wedge and squeeze, (ny, nx).

@@ -227,7 +227,7 @@ class Run:
                 "pressure": self.level.film.p,
                 "mass": self.stepper.now,
                 "mass_before": self.stepper.before,
-                "pressure_before": self.stepper.pressure_before,
+                "pressure_changes": self.stepper.predictor.past,
                 **self.stepper.run.coupling.memory(self.stepper.run.levels),
             },
             record=self.record,
@@ -246,7 +246,7 @@ class Run:
             raise InputError("the snapshot is of another grid than the case")
         level.film.p[:] = fields.pop("pressure")
         self.stepper.now, self.stepper.before = fields.pop("mass"), fields.pop("mass_before")
-        self.stepper.pressure_before = fields.pop("pressure_before")
+        self.stepper.predictor.past = fields.pop("pressure_changes")
         level.rigid_approach, level.stale = snapshot.rigid_approach, True
         self.stepper.choose(snapshot.setting)
         self.stepper.run.coupling.recall(self.stepper.run.levels, fields)
