@@ -128,6 +128,29 @@ def test_mass_travels_through_the_contact_at_the_mean_speed():
     assert np.abs(difference).max() < 0.05 * np.ptp(arriving)
 
 
+class Smoothers:
+    """Notes what each step was relaxed with."""
+
+    def __init__(self) -> None:
+        self.names: list[str] = []
+
+    def __getattr__(self, name):
+        return getattr(SILENT, name)
+
+    def step(self, report):
+        self.names.append(report.smoother)
+
+
+def test_a_load_that_begins_to_rise_on_the_way_asks_for_no_other_setting():
+    end = in_time(1.5).transient.duration
+    load = [[0.0, 1.0], [0.4 * end, 1.0], [end, 1.3]]
+    monitor = Smoothers()
+    run = march(in_time(1.5, transient={"load": load}), OPTIONS, monitor=monitor)
+    assert run.status.converged
+    assert set(monitor.names) == {"fast"}
+    assert run.history.cycles.max() <= 5
+
+
 def test_the_load_follows_its_table():
     units = scales(moes_contact(M, L))
     end = 2.0 * units.half_width_x / units.speed

@@ -1,6 +1,7 @@
 """Work that goes wrong on purpose, in the place of that of the solver; and a program that runs it.
 
-``python -m tests.study.mishaps DIR JOBS COUNT`` is a study of quick rows.
+``python tests/study/mishaps.py DIR JOBS COUNT [forked]`` is a study of quick rows; it asks for this
+project in PYTHONPATH.
 """
 
 import os
@@ -51,11 +52,16 @@ def orphaned(case: Case, fields: Path | None, guess: Path | None = None) -> Row:
     return quick(case, fields, guess)
 
 
-def readiness() -> tuple[bool, int]:
-    """Return whether a worker has begun with the solver, and the threads of what it came from."""
+def has_solver() -> bool:
+    """Return whether this process has loaded the solver."""
+    return "tehl.solver" in sys.modules
+
+
+def threads_of_server() -> int:
+    """Return the threads of the process that this one comes from."""
     status = Path(f"/proc/{os.getppid()}/status").read_text()
     (threads,) = (line.split()[1] for line in status.splitlines() if line.startswith("Threads"))
-    return "tehl.solver" in sys.modules, int(threads)
+    return int(threads)
 
 
 def lazy(case: Case, fields: Path | None, guess: Path | None = None) -> Row:
@@ -73,10 +79,10 @@ def full(case: Case, fields: Path | None, guess: Path | None = None) -> Row:
     return quick(case, fields, guess)
 
 
-def main(folder: str, jobs: str, count: str) -> None:
+def main(folder: str, jobs: str, count: str, forked: str = "") -> None:
     keep = "fields" if jobs != "1" else "summary"
     runner.work = lazy if keep == "fields" else quick
-    run(cases(int(count)), Store(folder, keep=keep), jobs=int(jobs))
+    run(cases(int(count)), Store(folder, keep=keep), jobs=int(jobs), forked=bool(forked))
 
 
 if __name__ == "__main__":

@@ -6,7 +6,9 @@ import signal
 import sqlite3
 import subprocess
 import sys
+import threading
 import time
+from multiprocessing import forkserver
 from pathlib import Path
 
 import pytest
@@ -62,22 +64,46 @@ def test_a_worker_that_is_killed_from_outside_costs_nothing(tmp_path, monkeypatc
 def test_a_killed_server_of_workers_costs_nothing(tmp_path, monkeypatch, undisturbed):
     monkeypatch.setattr(runner, "work", mishaps.orphaned)
     store, notes = Store(tmp_path, keep="fields"), Notes()
-    assert run(cases(COUNT), store, jobs=2, monitor=notes).failed == ()
+    assert run(cases(COUNT), store, jobs=2, forked=True, monitor=notes).failed == ()
     assert len(notes.names) == COUNT
     assert is_like(table(cases(COUNT), store), undisturbed)
 
 
 @ON_LINUX
-def test_workers_begin_with_the_solver_from_a_server_of_one_thread():
-    with engine_of(2, 2, None) as engine:
+@pytest.mark.parametrize("server", ["begins", "has loaded the solver"])
+def test_a_server_that_is_killed_before_it_has_workers_costs_nothing(
+    tmp_path, monkeypatch, undisturbed, server
+):
+    monkeypatch.setattr(runner, "work", mishaps.quick)
+    forkserver._forkserver._stop()  # one of the tests before, if any
+    with engine_of(2, 2, forked=True) as engine:
+        engine.executor()
+        forkserver.ensure_running()
+    pid = forkserver._forkserver._forkserver_pid
+    if server != "begins":
+        time.sleep(3.0)
+    threading.Timer(0.3, os.kill, (pid, signal.SIGKILL)).start()
+    store = Store(tmp_path)
+    assert run(cases(COUNT), store, jobs=2, forked=True).failed == ()
+    assert is_like(table(cases(COUNT), store), undisturbed)
+
+
+@ON_LINUX
+@pytest.mark.parametrize("forked", [True, False])
+def test_workers_have_one_thread_and_forked_ones_begin_with_the_solver(forked):
+    with engine_of(2, 2, forked=forked) as engine:
         executor = engine.executor()
-        assert executor.submit(mishaps.readiness).result() == (True, 1)
+        assert executor.submit(mishaps.has_solver).result() == forked
+        assert executor.submit(os.getenv, "OMP_NUM_THREADS").result() == "1"
+        if forked:
+            assert executor.submit(mishaps.threads_of_server).result() == 1
         engine.leave(executor, at_once=False)
 
 
 def program(*words: str, **options) -> subprocess.Popen:
-    command = [sys.executable, "-m", "tests.study.mishaps", *words]
-    return subprocess.Popen(command, cwd=Path(__file__).parents[2], **options)
+    command = [sys.executable, mishaps.__file__, *words]
+    environment = os.environ | {"PYTHONPATH": str(Path(__file__).parents[2])}
+    return subprocess.Popen(command, env=environment, **options)
 
 
 def wait_for(condition, seconds: float = 60.0) -> None:
@@ -185,6 +211,15 @@ def test_a_script_without_a_guard_is_told_so(tmp_path):
     assert done.returncode == 1
     *_, told = (line for line in done.stderr.splitlines() if "Error: " in line)  # workers may
     assert 'if __name__ == "__main__":' in told  # complain after it of what they leave behind
+
+
+@ON_LINUX
+def test_a_file_of_the_current_folder_is_not_taken_for_a_library(tmp_path):
+    for name in ("secrets", "calendar", "random"):
+        (tmp_path / f"{name}.py").write_text("raise RuntimeError('not a library')")
+    done = program(str(tmp_path / "store"), "2", "6", "forked", cwd=tmp_path)
+    assert done.wait(100) == 0
+    assert finished(tmp_path / "store") == 6
 
 
 @pytest.mark.parametrize("content", [b"", b"no store at all, but more than a hundred bytes " * 5])

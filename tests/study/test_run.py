@@ -1,5 +1,6 @@
 """Runs of studies in this process and in others, the store, and the table."""
 
+from contextlib import nullcontext
 from dataclasses import replace
 
 import numpy as np
@@ -7,7 +8,8 @@ import pytest
 
 from tehl import solver
 from tehl.errors import InputError
-from tehl.studies import Case, Row, Store, run, table
+from tehl.result import Cost
+from tehl.studies import Case, Row, Store, engines, run, runner, table
 from tehl.studies.columns import is_number
 from tehl.studies.row import flat, row_of, unit_of
 from tehl.studies.work import in_turn
@@ -47,6 +49,37 @@ def test_a_study_that_is_finished_solves_nothing(finished):
     again = run(cases(), Store(store.directory, keep="fields"), jobs=2, monitor=notes)
     assert (again.total, again.reused, again.cpu_seconds) == (4, 4, 0.0)
     assert (notes.begun, notes.names) == ([(4, 4)], [])
+
+
+class Cluster(engines.Serial):
+    """Solves here, with the tasks of a cluster of two workers."""
+
+    local, task_seconds = False, 1.0
+
+    def workers(self):
+        return 2
+
+    def window(self, workers):
+        return 32 * workers
+
+
+def test_quick_cases_are_bundled_and_the_last_ones_shared_out(tmp_path, monkeypatch):
+    sizes = []
+
+    def in_no_time(_, tasks, seconds):
+        sizes.append(len(tasks))
+        assert seconds == 1.0
+        cost = Cost(cpu_seconds=0.065, wall_seconds=0.065)
+        return [Row(key=case.key, status="converged", cost=cost) for case, _, _ in tasks]
+
+    monkeypatch.setattr(runner, "in_turn", in_no_time)
+    monkeypatch.setattr(runner, "engine_of", lambda *_, **__: nullcontext(Cluster()))
+    assert run(cases(400), Store(tmp_path)).converged == 400
+    assert sizes[:64] == [1] * 64  # nothing is known yet
+    assert sizes[64] == 15
+    assert sizes[64:] == sorted(sizes[64:], reverse=True)
+    assert sizes[-1] == 1
+    assert len(sizes) < 120
 
 
 def test_cases_added_later_are_the_only_work(tmp_path):

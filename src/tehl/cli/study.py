@@ -74,16 +74,12 @@ def study(  # noqa: PLR0913, PLR0917 (the options of the command)
     1: some have no answer and are named; 2: bad input, nothing is solved; 3: the environment
     failed, what is finished is kept.
     """
-    from tehl.studies.engines import begin_server
     from tehl.studies.folder import check_same
     from tehl.studies.pictures import picture_of
 
     workers, pictures = _workers(jobs), tuple(picture_of(words) for words in plots)
     plan, folder = _plan(source, output, changes, yes=yes)
     _check_folder(folder, source)
-    solves = not (dry_run or table_only or pictures)
-    if solves and workers > 1 and scheduler is None and not folder.exists():
-        begin_server()  # it loads the solver while the cases are made
     chosen = _study(plan, source)
     if not replace or table_only or pictures:
         check_same(plan, folder)
@@ -240,6 +236,7 @@ def _run(chosen: "Study", folder: Path, wishes: _Wishes) -> tuple["Outcome", "St
                 scheduler=wishes.scheduler,
                 retry_failed=wishes.retry_failed,
                 warm_start=chosen.plan.warm_start,
+                forked=True,
                 monitor=monitor,
             )
     except (KeyboardInterrupt, SystemExit, OSError):

@@ -19,7 +19,8 @@ from tehl.roughness import Map, Sum
 
 Arrays = dict[str, NDArray[Any]]
 
-_LABEL = "tehl_checkpoint"
+_LABEL, _LAYOUT = "tehl_checkpoint", 2
+"""What such a file calls itself; to be raised when a state of a run has other arrays."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +46,7 @@ def fingerprint(problem: ContactProblem, options: Options) -> Fingerprint:
     maps = [one.fingerprint for one in _maps(problem)]
     content = [problem.model_dump(mode="json"), options.model_dump(mode="json"), maps]
     text = json.dumps(content, sort_keys=True)
-    version = f"{__version__} (solver {SOLVER_VERSION})"
+    version = f"{__version__} (solver {SOLVER_VERSION}, state {_LAYOUT})"
     return Fingerprint(version, hashlib.sha256(text.encode()).hexdigest())
 
 

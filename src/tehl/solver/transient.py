@@ -51,7 +51,8 @@ class Snapshot:
     rigid_approach : float
         H00 [-].
     fields : dict of str to array
-        Pressure, mass of the last two films, and what the coupling remembers.
+        Pressure, mass of the last two films, what the pressure of the last four steps differed by
+        from that of the beginning, and what the coupling remembers.
     record : Record
         What has been noted so far.
     """

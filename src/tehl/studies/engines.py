@@ -13,12 +13,10 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing.connection import wait
-from multiprocessing.context import BaseContext
 from typing import Any, Protocol
 
 from tehl import __version__
 from tehl.errors import InputError
-from tehl.kernels.cache import is_cold
 
 ONE_THREAD = (
     "NUMBA_NUM_THREADS",
@@ -27,8 +25,10 @@ ONE_THREAD = (
     "MKL_NUM_THREADS",
 )
 """What keeps a worker on its one core; read when the libraries are loaded."""
-READY = "tehl.studies.ready"
-"""Loaded once by the server from which the workers of this machine are forked."""
+_READY = "tehl.studies.ready"
+"""Loaded once by the server that workers are forked from."""
+_OF_WORKERS = dict.fromkeys((*ONE_THREAD, "PYTHONSAFEPATH"), "1")
+"""Their environment; the last keeps a random.py in the current folder from being the library's."""
 _WAITING = 2
 """Tasks that a pool holds for each worker: one in work and one at hand."""
 _GRACE = 10.0
@@ -71,7 +71,9 @@ class Engine(Protocol):
 
 
 @contextmanager
-def engine_of(jobs: int, cases: int, scheduler: str | None) -> Iterator[Engine]:
+def engine_of(
+    jobs: int, cases: int, scheduler: str | None = None, *, forked: bool = False
+) -> Iterator[Engine]:
     """Yield the engine for a number of workers, or of a running dask cluster.
 
     Parameters
@@ -82,6 +84,8 @@ def engine_of(jobs: int, cases: int, scheduler: str | None) -> Iterator[Engine]:
         No more workers than these are begun.
     scheduler : str or None
         Address of a dask scheduler, ``"tcp://host:8786"``; ``jobs`` does not count then.
+    forked : bool
+        As in :func:`tehl.studies.run`.
 
     Raises
     ------
@@ -101,8 +105,8 @@ def engine_of(jobs: int, cases: int, scheduler: str | None) -> Iterator[Engine]:
     if jobs == 1:
         yield Serial()
         return
-    with _environment(dict.fromkeys(ONE_THREAD, "1")):
-        yield Pool(min(jobs, cases))
+    with _environment(_OF_WORKERS):
+        yield Pool(min(jobs, cases), forked=forked)
 
 
 class Serial:
@@ -119,7 +123,7 @@ class Serial:
         return 1
 
     def window(self, workers: int) -> int:
-        """Return one task."""
+        """Return as many tasks as workers."""
         return workers
 
     def leave(self, executor: Executor, *, at_once: bool) -> None:
@@ -140,20 +144,24 @@ class _Here(Executor):
 
 
 class Pool:
-    """Processes of this machine, one thread each.
+    """Fresh processes of this machine, one thread each.
 
-    On Linux they are forked from a server, itself a fresh process of one thread, that has loaded
-    the solver and its kernels for all of them; elsewhere each is fresh and loads them itself.
+    Each loads the solver itself; ``forked``, on Linux, from a server, a fresh process of one thread
+    that has loaded it with the kernels of Newtonian films. Python has one such server per program.
     """
 
     local, task_seconds = True, _TASK_HERE
 
-    def __init__(self, jobs: int) -> None:
+    def __init__(self, jobs: int, *, forked: bool = False) -> None:
         self.jobs = jobs
+        self.forked = forked and sys.platform == "linux"  # elsewhere libraries do not bear it
 
     def executor(self) -> Executor:
         """Return a pool; its processes begin when they are needed."""
-        return ProcessPoolExecutor(self.jobs, mp_context=_fresh(), initializer=begin_worker)
+        context = multiprocessing.get_context("forkserver" if self.forked else "spawn")
+        if self.forked:
+            context.set_forkserver_preload([_READY])
+        return ProcessPoolExecutor(self.jobs, mp_context=context, initializer=begin_worker)
 
     def workers(self) -> int:
         """Return the number of processes."""
@@ -172,29 +180,6 @@ class Pool:
                 process.terminate()
             for process in processes:
                 process.join(_GRACE)
-
-
-def _fresh() -> BaseContext:
-    """Return the way to begin processes that share no threads and no locks with this one."""
-    if sys.platform != "linux":  # a server that forks is safe with the libraries of Linux only
-        return multiprocessing.get_context("spawn")
-    context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload([READY])
-    return context
-
-
-def begin_server() -> None:
-    """Begin the server of workers now, while the caller has other things to do before it solves.
-
-    Nothing where workers are not forked, or where kernels have to be compiled first.
-    """
-    if sys.platform != "linux" or is_cold(coupled=False):
-        return
-    from multiprocessing import forkserver  # noqa: PLC0415 (not on every system)
-
-    _fresh()
-    with _environment(dict.fromkeys(ONE_THREAD, "1")):
-        forkserver.ensure_running()
 
 
 def begin_worker() -> None:
