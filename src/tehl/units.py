@@ -8,6 +8,7 @@ JSON schema.
 import math
 import re
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Annotated, Literal
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
@@ -139,6 +140,12 @@ def _combine(first: Dimension, second: Dimension, power: int) -> Dimension:
     return (a, b, c, d)
 
 
+@lru_cache(maxsize=256)
+def _read_unit(text: str) -> tuple[float, Dimension]:
+    """Return factor to SI and dimension of a unit; a study reads the same few a thousand times."""
+    return _UnitReader(text).read()
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Quantity:
     """What kind of number is expected: dimension, sign and an example for messages.
@@ -168,7 +175,7 @@ class Quantity:
     @property
     def dimension(self) -> Dimension:
         """Exponents of metre, kilogram, second, kelvin."""
-        return _UnitReader(self.unit).read()[1]
+        return _read_unit(self.unit)[1]
 
     def parse(self, value: object) -> float:
         """Return ``value`` in SI.
@@ -217,7 +224,7 @@ class Quantity:
         if re.match(r",\d", unit):
             raise ValueError(f"has a comma in its number, write a point: {self._wanted}")
         try:
-            factor, dimension = _UnitReader(unit).read()
+            factor, dimension = _read_unit(unit)
         except ValueError as error:
             raise ValueError(f"{error}: {self._wanted}") from None
         if self.unit == "-" and unit in _ANGLE_UNITS:

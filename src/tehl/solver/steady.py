@@ -135,10 +135,10 @@ def solve_attempt(
     rough : bool
         With the roughness of the surfaces, as they stand; without it they are smooth.
     """
-    grid = finest_grid(problem, options)
-    heights = heights_of(problem, scales(problem), grid) if rough else None
     warm_up(coupled=problem.is_coupled)
     wall, cpu = time.perf_counter(), time.process_time()
+    grid = finest_grid(problem, options)
+    heights = heights_of(problem, scales(problem), grid) if rough else None
     history = _History(monitor)
     attempts = []
     for attempt in _attempts(problem, options, history, grid, heights, guess):
