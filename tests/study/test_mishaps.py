@@ -125,9 +125,10 @@ def finished(folder: Path) -> int:
     return len(Store(folder).rows(cases(60)))
 
 
+@pytest.mark.parametrize("forked", ["", "forked"])
 @pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
-def test_a_program_that_is_killed_goes_on_where_it_stopped(tmp_path, undisturbed, how):
-    process = program(str(tmp_path), "2", "60", stderr=subprocess.DEVNULL)
+def test_a_program_that_is_killed_goes_on_where_it_stopped(tmp_path, undisturbed, how, forked):
+    process = program(str(tmp_path), "2", "60", forked, stderr=subprocess.DEVNULL)
     wait_for(lambda: (tmp_path / "rows.sqlite").exists() and finished(tmp_path) >= 4)
     process.send_signal(how)
     process.wait(30)

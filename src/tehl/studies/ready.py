@@ -1,4 +1,7 @@
-"""Imported by the server of workers: what each of them needs is loaded before they are forked."""
+"""Imported by the server of workers and by nobody else.
+
+What each worker needs is loaded here, before they are forked.
+"""
 
 import signal
 from contextlib import suppress
