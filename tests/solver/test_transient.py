@@ -254,3 +254,18 @@ def test_a_setting_that_runs_away_leaves_nothing_to_the_next_one():
     film = run.record.lines(run.scales).film
     # both within the tolerance of a step, 1e-3 of the pressure
     np.testing.assert_allclose(film, sound.profiles.film, rtol=2e-3)
+
+
+@pytest.mark.parametrize("harm", ["lost", "cut", "more"])
+def test_a_snapshot_that_is_not_whole_is_refused(harm):
+    case, kept = in_time(0.2), []
+    march(case, OPTIONS, keep=lambda snapshot: kept.append(snapshot.copy()))
+    fields = kept[0].fields
+    if harm == "lost":
+        del fields["pressure_changes"]
+    elif harm == "cut":
+        fields["pressure_changes"] = fields["pressure_changes"][:2]
+    else:
+        fields["temperature"] = fields["mass"]
+    with pytest.raises(InputError, match="or not whole"):
+        march(case, OPTIONS, resume=kept[0])

@@ -146,6 +146,34 @@ def test_a_program_that_is_killed_goes_on_where_it_stopped(tmp_path, undisturbed
     assert table(cases(60), store).equals(undisturbed)
 
 
+STUDY = """
+case.contact = { radius = "20 mm", load = "20 N", entrainment_speed = 1.0 }
+case.surface_1 = { material = "steel" }
+case.surface_2 = { material = "steel" }
+case.lubricant.viscosity = { law = "roelands", eta_0 = 0.04, alpha = 2.2e-8 }
+case.lubricant.density = { law = "dowson-higginson", rho_0 = 890 }
+case.numerics = { points = 65 }
+axes = [{ path = "contact.load", linspace = [20, 40, 40] }]
+"""
+
+
+@pytest.mark.parametrize("wait", [0.0, 0.3, 1.0])
+def test_ctrl_c_while_workers_begin_is_told_in_one_line(tmp_path, wait):
+    (tmp_path / "s.toml").write_text(STUDY)
+    command = [sys.executable, "-m", "tehl", "study", "s.toml", "-o", "out", "--jobs", "2"]
+    with subprocess.Popen(
+        command, cwd=tmp_path, stderr=subprocess.PIPE, text=True, start_new_session=True
+    ) as process:
+        first = process.stderr.readline()
+        time.sleep(wait)
+        os.killpg(process.pid, signal.SIGINT)
+        told = process.stderr.read()  # until the last of its processes is gone
+    assert "40 cases" in first
+    assert process.returncode == 130
+    assert told.splitlines()[-1] == "tehl: interrupted"
+    assert "Traceback" not in told
+
+
 def test_a_full_disk_under_the_rows_ends_the_study_and_keeps_what_is_finished(
     tmp_path, undisturbed
 ):

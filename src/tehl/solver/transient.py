@@ -240,11 +240,11 @@ class Run:
         Raises
         ------
         InputError
-            If it is of another grid.
+            If it is of another grid, or lacks a field.
         """
         level, fields = self.level, dict(snapshot.fields)
-        if fields["pressure"].shape != level.grid.shape:
-            raise InputError("the snapshot is of another grid than the case")
+        if _shapes(fields) != _shapes(self.snapshot().fields):
+            raise InputError("the snapshot is of another grid than the case, or not whole")
         level.film.p[:] = fields.pop("pressure")
         self.stepper.now, self.stepper.before = fields.pop("mass"), fields.pop("mass_before")
         self.stepper.predictor.past = fields.pop("pressure_changes")
@@ -269,6 +269,10 @@ class Run:
             cost=cost,
             provenance=self.start.provenance,
         )
+
+
+def _shapes(fields: dict[str, Array]) -> dict[str, tuple[int, ...]]:
+    return {name: field.shape for name, field in fields.items()}
 
 
 def begin(

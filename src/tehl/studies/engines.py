@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing.connection import wait
+from multiprocessing.context import BaseContext
 from typing import Any, Protocol
 
 from tehl import __version__
@@ -160,7 +161,7 @@ class Pool:
         """Return a pool; its processes begin when they are needed."""
         context = multiprocessing.get_context("forkserver" if self.forked else "spawn")
         if self.forked:
-            context.set_forkserver_preload([_READY])
+            _begin_server(context)
         return ProcessPoolExecutor(self.jobs, mp_context=context, initializer=begin_worker)
 
     def workers(self) -> int:
@@ -180,6 +181,19 @@ class Pool:
                 process.terminate()
             for process in processes:
                 process.join(_GRACE)
+
+
+def _begin_server(context: BaseContext) -> None:
+    """Begin the server of workers, if it does not run; Ctrl-C is not for it."""
+    from multiprocessing import forkserver, resource_tracker  # noqa: PLC0415 (not on every system)
+
+    context.set_forkserver_preload([_READY])
+    resource_tracker.ensure_running()  # it lets signals through again when it begins
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+    try:
+        forkserver.ensure_running()
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def begin_worker() -> None:

@@ -3,12 +3,22 @@
 What each worker needs is loaded here, before they are forked.
 """
 
-import signal
+import atexit
+import os
+import sys
 from contextlib import suppress
+from types import TracebackType
 
-signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the program that began the server
+from tehl.solver.warmup import warm_up
 
-from tehl.solver.warmup import warm_up  # noqa: E402 (it takes a second)
+
+def tell(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+    """Tell nothing: the program says so if a worker that it waits for does not begin."""
+    del kind, error, trace
+
+
+sys.excepthook = tell
+atexit.register(os._exit, 0)  # nothing of it is to be kept, and whoever reads its output waits
 
 with suppress(Exception):  # whoever solves meets it again, and tells it with the case
     warm_up(coupled=False)

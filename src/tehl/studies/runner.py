@@ -40,7 +40,8 @@ _DIED = (
     "system may have ended it for lack of memory"
 )
 _NO_WORKER = (
-    "no worker process begins; a script that solves with jobs > 1 must do its work below "
+    "no worker process begins, or each ends at once: there may be too little memory for so many "
+    "jobs; and a script that solves with jobs > 1 must do its work below "
     'if __name__ == "__main__":'
 )
 

@@ -1,0 +1,52 @@
+"""Checkpoints: whole, or told to be none."""
+
+from contextlib import suppress
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tehl.errors import FileFormatError
+from tehl.io.checkpoint import Fingerprint, read_checkpoint, write_checkpoint
+
+OWNER = Fingerprint("0.1.0", "abc")
+
+
+def test_a_checkpoint_comes_back_as_it_was_written(tmp_path):
+    state = {"pressure": np.arange(6.0).reshape(2, 3), "setting": np.array(1)}
+    write_checkpoint(tmp_path / "run.checkpoint", OWNER, state)
+    owner, found = read_checkpoint(tmp_path / "run.checkpoint")
+    assert owner == OWNER
+    assert set(found) == set(state)
+    assert (found["pressure"] == state["pressure"]).all()
+
+
+@pytest.mark.parametrize(
+    ("found", "place", "harm"),
+    [
+        (b"PK\x01\x02", 6, b"\x6d"),  # a zip of version 10.9
+        (b"PK\x01\x02", 8, b"\x01"),  # encrypted
+        (b"{'descr'", 0, b"(((((((("),  # the header of an array ends nowhere
+    ],
+)
+def test_a_damaged_header_is_told(tmp_path, found, place, harm):
+    path = tmp_path / "run.checkpoint"
+    write_checkpoint(path, OWNER, {"pressure": np.ones(3)})
+    content = path.read_bytes()
+    start = content.rindex(found) + place
+    path.write_bytes(content[:start] + harm + content[start + len(harm) :])
+    with pytest.raises(FileFormatError, match="is no whole checkpoint"):
+        read_checkpoint(path)
+
+
+@given(data=st.data())
+def test_a_flipped_bit_anywhere_is_told_or_does_no_harm(data, tmp_path_factory):
+    path = tmp_path_factory.mktemp("damaged") / "run.checkpoint"
+    write_checkpoint(path, OWNER, {"pressure": np.ones(3)})
+    content = bytearray(path.read_bytes())
+    place = data.draw(st.integers(0, len(content) - 1))
+    content[place] ^= 1 << data.draw(st.integers(0, 7))
+    path.write_bytes(content)
+    with suppress(FileFormatError):
+        read_checkpoint(path)
