@@ -124,6 +124,20 @@ def test_a_film_that_is_not_positive_is_refused_with_its_place():
     assert "not positive: smallest H = -0.03" in (status.message or "")
 
 
+def test_anderson_takes_the_combination_that_changes_least():
+    """By least squares of another kind, also where one change is nearly another."""
+    generator = np.random.default_rng(2)
+    befores, afters = generator.standard_normal((2, 4, 50))
+    afters[2] = befores[2] + (afters[1] - befores[1]) * (1.0 + 1e-5 * befores[0])
+    anderson = Anderson(3)
+    for before, after in zip(befores, afters, strict=True):
+        combined = anderson.combine(before, after)
+    changes = afters - befores
+    by_state, by_change = (befores[3] - befores[:3]).T, (changes[3] - changes[:3]).T
+    weights = np.linalg.lstsq(by_change, changes[3], rcond=None)[0]
+    assert combined == pytest.approx(afters[3] - (by_state + by_change) @ weights, rel=1e-9)
+
+
 def test_anderson_solves_a_linear_iteration_that_diverges():
     generator = np.random.default_rng(1)
     rates = np.concatenate([[-1.6, 1.3], np.linspace(-0.5, 0.5, 30)])

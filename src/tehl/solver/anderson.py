@@ -1,5 +1,7 @@
 """Anderson acceleration of the multigrid cycle: a step combined of what earlier cycles did."""
 
+import math
+
 import numpy as np
 
 from tehl.typing import Array
@@ -36,15 +38,43 @@ class Anderson:
             The state that the last cycle began with and the one it ended with.
         """
         change = after - before
-        size = np.linalg.norm(change)
-        if self.changes and not size <= WORSE * min(map(np.linalg.norm, self.changes)):
+        if self.changes and not _size(change) <= WORSE * min(map(_size, self.changes)):
             self.states, self.changes = [], []
         self.states = [*self.states, before][-self.memory - 1 :]
         self.changes = [*self.changes, change][-self.memory - 1 :]
         if len(self.changes) == 1:
             return after
-        by_state = np.stack([before - earlier for earlier in self.states[:-1]], axis=1)
-        by_change = np.stack([change - earlier for earlier in self.changes[:-1]], axis=1)
-        weights = np.linalg.lstsq(by_change, change, rcond=INDEPENDENT)[0]
-        combined: Array = after - (by_state + by_change) @ weights
+        by_change = np.stack([change - earlier for earlier in self.changes[:-1]])
+        combined = after.copy()
+        for weight, state, moved in zip(
+            _weights(by_change, change), self.states, by_change, strict=False
+        ):
+            combined -= weight * (before - state + moved)
         return combined
+
+
+def _size(vector: Array) -> float:
+    return math.sqrt(_product(vector, vector))
+
+
+def _product(one: Array, other: Array) -> float:
+    """Return the scalar product, without BLAS, whose threads cost more than they save here."""
+    return float(np.einsum("i,i->", one, other))
+
+
+def _weights(rows: Array, target: Array) -> Array:
+    """Return the combination of ``rows`` (k, n) nearest to ``target`` (n,): QR by Gram and Schmidt.
+
+    Modified, and with the target orthogonalised like the rows, it is backward stable (Björck 1967).
+    """
+    basis, rest = rows.copy(), target.copy()
+    triangle, moments = np.zeros((len(rows), len(rows))), np.zeros(len(rows))
+    for i in range(len(rows)):
+        triangle[i, i] = _size(basis[i])
+        basis[i] /= triangle[i, i] or 1.0
+        for j in range(i + 1, len(rows)):
+            triangle[i, j] = _product(basis[i], basis[j])
+            basis[j] -= triangle[i, j] * basis[i]
+        moments[i] = _product(basis[i], rest)
+        rest -= moments[i] * basis[i]
+    return np.asarray(np.linalg.lstsq(triangle, moments, rcond=INDEPENDENT)[0])
