@@ -31,8 +31,8 @@ class Transient(BaseModel):
     load : tuple of (float, float)
         Times [s] and loads over that of the contact, linear between and constant before and
         after.
-    frames : int
-        How many fields are kept, at even distances in time.
+    frames : int or tuple of float
+        How many fields are kept, at even distances in time, or the instants of which they are [s].
     tolerance : float
         Largest change of pressure in the last cycle of a step [p_h].
     max_cycles : int
@@ -46,7 +46,10 @@ class Transient(BaseModel):
     start: Literal["smooth", "standing"] = "smooth"
     entrance: PositiveNumber = 2.5
     load: tuple[tuple[Instant, PositiveNumber], ...] = ()
-    frames: Annotated[int, Field(ge=0, le=10000)] = 25
+    frames: (
+        Annotated[int, Field(ge=0, le=10000)]
+        | Annotated[tuple[Instant, ...], Field(max_length=10000)]
+    ) = 25
     tolerance: Annotated[float, Field(gt=0, lt=0.1)] = 1e-3
     max_cycles: Annotated[int, Field(ge=1, le=1000)] = 20
 

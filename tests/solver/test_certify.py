@@ -9,7 +9,9 @@ from hypothesis import strategies as st
 
 from tehl.errors import ConvergenceError, InputError
 from tehl.options import Options
+from tehl.problem import ContactProblem
 from tehl.result import Status
+from tehl.scaling import scales
 from tehl.solver import solve
 from tehl.solver.certify import certify, estimate
 from tehl.solver.convergence import SAFETY, discretisation_bar
@@ -126,6 +128,28 @@ def test_a_coarsest_grid_without_a_film_is_left_out_and_told():
     assert "65 x 65 too coarse for the film" in result.status.message
     assert "left out" in result.status.message
     assert all(value > 0 for bar in result.uncertainty.values() for value in bar.values)
+
+
+def test_a_grid_with_too_few_nodes_for_the_waves_is_left_out_and_told():
+    """A wave of eight nodes on 129 x 129, which would be a flat surface on 33 x 33."""
+    case = wavy(8.0 * 6.0 / 128.0)
+    result = certify(case, Options(points=129, domain=DOMAIN))
+    assert "33 x 33 too coarse for the surfaces" in result.status.message
+    assert all(len(bar.values) == 2 for bar in result.uncertainty.values())
+    with pytest.raises(ConvergenceError, match="65 x 65 too coarse for the surfaces"):
+        certify(wavy(4.5 * 6.0 / 128.0), Options(points=129, domain=DOMAIN))
+
+
+def wavy(wavelength: float) -> ContactProblem:
+    """M = 20, L = 10 with a low transverse wave of a length in half-widths."""
+    case = moes_contact(20.0, 10.0)
+    units, given = scales(case), case.model_dump(exclude_none=True)
+    given["surface_1"]["roughness"] = {
+        "type": "wave",
+        "amplitude": 0.003 * units.film_thickness,
+        "wavelength": wavelength * units.half_width_x,
+    }
+    return ContactProblem.model_validate(given)
 
 
 def test_without_the_grid_before_it_the_finest_is_returned_without_a_bar(monkeypatch):

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from tehl.cli.words import as_text
-from tehl.errors import ConvergenceError
+from tehl.errors import ConvergenceError, InputError
 from tehl.operators.heights import full_weighting
 from tehl.options import Options
+from tehl.problem import ContactProblem
 from tehl.solver.anderson import Anderson
 from tehl.solver.steady import finest_grid, solve
 from tests.reference import DOMAIN, moes_contact
@@ -148,3 +149,17 @@ def test_anderson_solves_a_linear_iteration_that_diverges():
         after = goal + matrix @ (state - goal)
         state = anderson.combine(state, after)
     assert np.abs(state - goal).max() < 1e-6
+
+
+@pytest.mark.parametrize("wavelength", [0.01, 0.09375, 0.3], ids=["short", "mesh", "few"])
+def test_waves_that_the_grid_takes_for_others_are_refused(wavelength):
+    """The mesh is 0.09375 wide; a wave of that length would be a flat surface."""
+    with pytest.raises(InputError, match=r"the shortest wave of the surfaces has .* nodes"):
+        rough_film((57.21, 10.52), options(65), (0.01, wavelength, 0.0))
+
+
+def test_a_dent_between_the_nodes_is_refused():
+    case = moes_contact(57.21, 10.52).model_dump(exclude_none=True)
+    case["surface_1"]["roughness"] = {"type": "bump", "amplitude": -1e-8, "radius": 1e-6}
+    with pytest.raises(InputError, match=r"numerics\.points must be"):
+        solve(ContactProblem.model_validate(case), options(65))

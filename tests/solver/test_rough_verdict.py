@@ -78,8 +78,8 @@ def test_an_open_minimum_is_told_wherever_the_result_is(result: Result):
         VAGUE.message,
         VAGUE.hint,
     )
-    assert "too coarse for the film" in _Grid(result=vague).ending
-    assert "too coarse for the film" not in _Grid(result=result).ending
+    assert "too coarse for the film" in _Grid(name="9 x 9", result=vague).ending
+    assert "too coarse for the film" not in _Grid(name="9 x 9", result=result).ending
 
 
 def test_a_certified_result_is_not_vague():

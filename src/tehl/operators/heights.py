@@ -7,8 +7,10 @@ import numpy as np
 
 from tehl.errors import InputError
 from tehl.grid import Grid
+from tehl.passage import components
 from tehl.problem import ContactProblem
-from tehl.roughness import Roughness
+from tehl.roughness import Roughness, Sum
+from tehl.roughness.surface import OneRoughness
 from tehl.scaling import Scales
 from tehl.typing import Array
 
@@ -66,7 +68,7 @@ def heights_of(problem: ContactProblem, scales: Scales, grid: Grid) -> Heights |
     Raises
     ------
     InputError
-        If a measured surface cannot be read.
+        If a measured surface cannot be read, or the grid has too few nodes for a wave.
     """
     if not problem.is_rough:
         return None
@@ -75,13 +77,39 @@ def heights_of(problem: ContactProblem, scales: Scales, grid: Grid) -> Heights |
     values, waves = [], []
     for surface in (problem.surface_1, problem.surface_2):
         resolved = surface.roughness.resolved_on(grid.dx * width, grid.dy * length)
-        heights = np.broadcast_to(resolved.height(x, y), grid.shape)
-        values.append(np.ascontiguousarray(heights / scales.film_thickness))
+        field = np.broadcast_to(resolved.height(x, y), grid.shape)
+        values.append(np.ascontiguousarray(field / scales.film_thickness))
         waves.append(resolved.shortest_wavelengths)
     along, across = (min(pair) for pair in zip(*waves, strict=True))
-    return Heights(
+    heights = Heights(
         surface_1=values[0], surface_2=values[1], wavelengths=(along / width, across / length)
     )
+    check_nodes(heights.points_per_wave(grid))
+    return heights
+
+
+LEAST_NODES = 4.0
+"""Nodes on a wave below which a grid takes it for another one."""
+
+
+class UnresolvedError(InputError):
+    """The grid has too few nodes for the surfaces."""
+
+
+def check_nodes(nodes: float) -> None:
+    """Refuse ``nodes`` on the shortest wave if they are too few.
+
+    Raises
+    ------
+    UnresolvedError
+        If the grid would take it for another one.
+    """
+    if nodes < LEAST_NODES * (1.0 - 1e-9):
+        raise UnresolvedError(
+            f"the shortest wave of the surfaces has {nodes:.2g} nodes of the grid, which would "
+            f"take it for another one: numerics.points must be {LEAST_NODES / nodes:.2g} times as "
+            "many at least, and four times that for a good answer"
+        )
 
 
 class MovingHeights:
@@ -96,13 +124,14 @@ class MovingHeights:
     grid : Grid
         The nodes.
     entrance : float or None
-        Surfaces that are rough all over begin so far upstream at time zero, and come in [a_x]; None
-        has them rough everywhere from the beginning.
+        What is rough without end along x begins so far upstream at time zero, and comes in [a_x];
+        None has it rough everywhere from the beginning. Features and maps with flat surroundings
+        are where they are stated.
 
     Raises
     ------
     InputError
-        If a measured surface cannot be read, or one that stands still is to come in.
+        If a measured surface cannot be read.
     """
 
     def __init__(
@@ -112,49 +141,81 @@ class MovingHeights:
         self.x, self.y = grid.x[None, :] * width, grid.y[:, None] * length
         self.widths = (width, length)
         self.shape, self.unit = grid.shape, scales.film_thickness
-        motion, self.entrance = problem.motion, entrance
         self.front = None if entrance is None else entrance * width
-        self.parts = []
-        for name, speed in (("surface_1", motion.speed_1), ("surface_2", motion.speed_2)):
-            roughness = getattr(problem, name).roughness
-            if self.front is not None and roughness.rms > 0 and speed == 0:
-                raise InputError(
-                    f"{name} stands still, so its roughness never comes in: let transient.start be "
-                    '"standing"'
-                )
-            resolved = roughness.resolved_on(grid.dx * width, grid.dy * length)
-            self.parts.append((resolved, speed, self._fade(resolved, grid.dx * width)))
+        self.speed = scales.speed
+        motion = problem.motion
+        self.surfaces = (
+            _Moving(motion.speed_1, self._parts(problem.surface_1.roughness, grid)),
+            _Moving(motion.speed_2, self._parts(problem.surface_2.roughness, grid)),
+        )
 
-    @property
-    def is_rough(self) -> bool:
-        """Whether either surface has heights."""
-        return any(not surface.is_smooth for surface, _, _ in self.parts)
+    def _parts(
+        self, roughness: OneRoughness | Sum, grid: Grid
+    ) -> tuple[tuple[Roughness, float], ...]:
+        """Return what the grid resolves of each part of a surface, and over what length it begins.
+
+        That is none for a part that does not come in.
+        """
+        width, length = self.widths
+        resolved = []
+        for part in components(roughness):
+            shown = part.resolved_on(grid.dx * width, grid.dy * length)
+            comes_in = self.front is not None and math.isinf(part.extent(length)[0][0])
+            resolved.append((shown, self._fade(shown, grid.dx * width) if comes_in else 0.0))
+        return tuple(resolved)
+
+    def _fade(self, surface: Roughness, dx: float) -> float:
+        """Return over what length a surface that comes in begins [m]."""
+        along = surface.shortest_wavelengths[0]
+        return min(max(along, 8.0 * dx), 0.5 * (self.front or math.inf))
 
     @property
     def wavelengths(self) -> tuple[float, float]:
         """Return the shortest wavelengths along x [a_x] and y [a_y]."""
-        pairs = [surface.shortest_wavelengths for surface, _, _ in self.parts]
+        pairs = [one.wavelengths for one in self.surfaces]
         along, across = (min(pair) for pair in zip(*pairs, strict=True))
         return along / self.widths[0], across / self.widths[1]
 
-    def _fade(self, surface: Roughness, dx: float) -> float:
-        """Return over what length a surface that comes in begins [m], 0 if it does not."""
-        if self.front is None or not surface.rms > 0:
-            return 0.0
-        along = surface.shortest_wavelengths[0]
-        return min(max(along, 8.0 * dx), 0.5 * self.front)
+    @property
+    def waves_per_step(self) -> tuple[float, float]:
+        """Return what part of its shortest wave each surface passes while the mean moves on by a_x.
+
+        Zero for a surface without waves along x.
+        """
+        first, second = (
+            abs(one.speed) / self.speed * self.widths[0] / one.wavelengths[0]
+            for one in self.surfaces
+        )
+        return first, second
 
     def at(self, time: float) -> tuple[Array, Array]:
         """Return the heights of both surfaces at ``time`` [s], (ny, nx) each [-]."""
-        first, second = (self._one(*part, time) for part in self.parts)
+        first, second = (self._one(surface, time) for surface in self.surfaces)
         return first, second
 
-    def _one(self, surface: Roughness, speed: float, fade: float, time: float) -> Array:
-        if surface.is_smooth:
-            return np.zeros(self.shape)
-        height = surface.height(self.x, self.y, time, speed) / self.unit
-        if fade > 0.0 and self.front is not None:
-            body = math.copysign(1.0, speed) * (self.x - speed * time)
-            inside = np.clip((-self.front - body) / fade, 0.0, 1.0)
-            height = height * (0.5 - 0.5 * np.cos(math.pi * inside))
-        return np.ascontiguousarray(np.broadcast_to(height, self.shape))
+    def _one(self, surface: "_Moving", time: float) -> Array:
+        """Return the heights of one surface."""
+        total = np.zeros(self.shape)
+        for part, fade in surface.parts:
+            height = part.height(self.x, self.y, time, surface.speed) / self.unit
+            if fade > 0.0 and self.front is not None:
+                body = math.copysign(1.0, surface.speed) * (self.x - surface.speed * time)
+                inside = np.clip((-self.front - body) / fade, 0.0, 1.0)
+                height = height * (0.5 - 0.5 * np.cos(math.pi * inside))
+            total += height
+        return total
+
+
+@dataclass(frozen=True, slots=True)
+class _Moving:
+    """A surface's speed [m/s], and its parts with the lengths over which they begin [m]."""
+
+    speed: float
+    parts: tuple[tuple[Roughness, float], ...]
+
+    @property
+    def wavelengths(self) -> tuple[float, float]:
+        """Return the shortest wavelengths along x and y [m]."""
+        pairs = [part.shortest_wavelengths for part, _ in self.parts]
+        along, across = zip(*pairs, strict=True) if pairs else ((), ())
+        return min(along, default=math.inf), min(across, default=math.inf)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from tehl.domain import recommended_domain
 from tehl.duration import duration_of
 from tehl.options import Domain, Options
+from tehl.passage import misplaced
 from tehl.problem import ContactProblem, Surface
 from tehl.scaling import groups, scales
 
@@ -102,6 +103,10 @@ def _points_per_wave(waves: tuple[float, float], dx: float, dy: float) -> float:
 def _questions(problem: ContactProblem, points: list[float], shifts: list[float]) -> Iterator[str]:
     """Yield what a careful reader would ask, a sentence each."""
     stride = problem.transient.stride if problem.transient else 1
+    units = scales(problem)
+    sentence = misplaced(problem, units, duration_of(problem, units))
+    if sentence is not None:
+        yield sentence
     for name, one, shift in zip(("surface_1", "surface_2"), points, shifts, strict=True):
         if one < FEWEST_POINTS:
             yield (

@@ -5,7 +5,14 @@ from typing import TYPE_CHECKING, Literal, Self
 
 from pydantic import model_validator
 
-from tehl.roughness.protocol import RoughnessModel, along_axes, check_gentle, direction
+from tehl.roughness.protocol import (
+    ENDLESS,
+    Extent,
+    RoughnessModel,
+    along_axes,
+    check_gentle,
+    direction,
+)
 from tehl.roughness.quantities import Position, SignedHeight, Wavelength
 from tehl.units import Angle
 
@@ -62,6 +69,19 @@ class RoundModel(FeatureModel):
         """Return the wavelength that a mesh must carry to see the feature [m]."""
         raise NotImplementedError
 
+    @property
+    def reach(self) -> float:
+        """Return how far from its middle the feature has two per cent of its height [m]."""
+        raise NotImplementedError
+
+    def extent(self, length: float) -> Extent:
+        """Return where the feature stands at time zero along x and along y [m]."""
+        del length
+        return (
+            (self.x - self.reach, self.x + self.reach),
+            (self.y - self.reach, self.y + self.reach),
+        )
+
 
 class Bump(RoundModel):
     r"""A Gaussian bump, or with a negative amplitude a dent.
@@ -90,6 +110,11 @@ class Bump(RoundModel):
     def shortest_wavelength(self) -> float:
         """Return four radii [m]; the spectrum has fallen to half of its height there."""
         return math.inf if self.is_smooth else 4.0 * self.radius
+
+    @property
+    def reach(self) -> float:
+        """Return two radii [m]."""
+        return 2.0 * self.radius
 
     def _at_rest(self, x: "Array", y: "Array") -> "Array":
         import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
@@ -133,6 +158,11 @@ class Dimple(RoundModel):
     def shortest_wavelength(self) -> float:
         """Return half of the width [m]; the spectrum has fallen to half of its height there."""
         return math.inf if self.is_smooth else 0.5 * self.width
+
+    @property
+    def reach(self) -> float:
+        """Return half of the width [m]."""
+        return 0.5 * self.width
 
     def _at_rest(self, x: "Array", y: "Array") -> "Array":
         return self.amplitude * _damped_cosine(self._squared_distance(x, y) / self.width**2)
@@ -194,6 +224,15 @@ class Ridge(FeatureModel):
         if self.is_smooth:
             return math.inf
         return {"gaussian": 2.0, "cosine": 1.0, "damped": 0.5}[self.profile] * self.width
+
+    def extent(self, length: float) -> Extent:
+        """Return where the ridge runs at time zero between y = -``length`` and ``length`` [m]."""
+        cosine, sine = direction(self.angle)
+        if not cosine:
+            return ENDLESS
+        reach = (1.0 if self.profile == "gaussian" else 0.5) * self.width / abs(cosine)
+        ends = [self.x + sine / cosine * (y - self.y) for y in (-length, length)]
+        return (min(ends) - reach, max(ends) + reach), ENDLESS[1]
 
     def _at_rest(self, x: "Array", y: "Array") -> "Array":
         import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)

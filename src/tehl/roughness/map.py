@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, ValidationInfo, field_validator, model_validator
 
-from tehl.roughness.protocol import Roughness, RoughnessModel
+from tehl.roughness.protocol import ENDLESS, Extent, Roughness, RoughnessModel, direction
 from tehl.roughness.quantities import Lengths, LengthUnit, Position, Span, Wavelength
 from tehl.roughness.sampled import Sampled
 from tehl.roughness.tile import Edge, Tile
@@ -184,6 +184,17 @@ class Map(RoughnessModel):
         from tehl.roughness.loading import found_file, stamp  # noqa: PLC0415
 
         return _loaded(self, stamp(found_file(self)))
+
+    def extent(self, length: float) -> Extent:
+        """Return where the map lies at time zero, if it ends there [m]."""
+        del length
+        if self.outside != "flat":
+            return ENDLESS
+        along, across = self.load().size
+        cosine, sine = (abs(part) for part in direction(self.rotate))
+        half_x = 0.5 * (along * cosine + across * sine)
+        half_y = 0.5 * (along * sine + across * cosine)
+        return (self.x - half_x, self.x + half_x), (self.y - half_y, self.y + half_y)
 
     def _at_rest(self, x: "Array", y: "Array") -> "Array":
         return self._sampled.height(x, y)

@@ -16,6 +16,11 @@ _ROUNDING = 1e-12
 _STEEPEST = 0.25
 
 
+Extent = tuple[tuple[float, float], tuple[float, float]]
+"""From where to where a surface is rough along x and along y [m], perhaps without end."""
+ENDLESS: Extent = ((-math.inf, math.inf), (-math.inf, math.inf))
+
+
 class Roughness(Protocol):
     """Heights of one surface."""
 
@@ -57,6 +62,14 @@ class RoughnessModel(BaseModel):
     """Base of the surfaces that a formula gives: it moves them, and no mesh filters them."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
+    def extent(self, length: float) -> Extent:
+        """Return where the surface is rough at time zero, between y = -``length`` and ``length``.
+
+        Of features, where more than two per cent of their height are left.
+        """
+        del length
+        return ENDLESS
 
     def height(self, x: "Array", y: "Array", time: float = 0.0, speed: float = 0.0) -> "Array":
         """Return the heights at a time.

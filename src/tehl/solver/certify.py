@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass, replace
 
 from tehl.errors import ConvergenceError
+from tehl.operators.heights import UnresolvedError
 from tehl.options import Domain, Options, check_certifiable
 from tehl.problem import ContactProblem
 from tehl.result import Cost, Estimate, Result
@@ -58,62 +59,67 @@ def certify(
         monitor.message(f"certify: grid {number} of 3")
         grids.append(_coarser(problem, _halved(options, times), monitor))
     monitor.message("certify: grid 3 of 3")
-    finest = _Grid(result=solve(problem, options, monitor=monitor))
+    finest = solve(problem, options, monitor=monitor)
     monitor.message("certify: larger domain")
-    wide = _coarser(problem, _widened(options, finest.result), monitor)
-    grids.append(finest)
-    return _certified(grids, wide)
+    wide = _coarser(problem, _widened(options, finest), monitor)
+    return _certified(grids, finest, wide)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class _Grid:
-    """A run of the certification; ``used`` is false when nothing follows from it."""
+    """A run of the certification; ``used`` is false when nothing follows from it.
 
-    result: Result
+    There is no result on a grid that does not carry the waves of the surfaces.
+    """
+
+    name: str
+    result: Result | None
     used: bool = True
-
-    @property
-    def name(self) -> str:
-        """Return its nodes in words."""
-        return f"{self.result.scaled.x.size} x {self.result.scaled.y.size}"
 
     @property
     def ending(self) -> str:
         """Return its nodes and how it ended."""
+        if self.result is None:
+            return f"{self.name} too coarse for the surfaces"
         status = self.result.status
         coarse = status.is_vague or status.cause in ("grid_too_coarse", "film_not_positive")
         return f"{self.name} {'too coarse for the film' if coarse else status.outcome}"
 
 
+def _nodes(options: Options) -> str:
+    ny, nx = options.shape
+    return f"{nx} x {ny}"
+
+
 def _coarser(problem: ContactProblem, options: Options, monitor: Monitor) -> _Grid:
     """Solve; a coarser grid need not resolve the film, it only has to be iterated to the end."""
+    name = _nodes(options)
     try:
-        return _Grid(result=solve(problem, options, monitor=monitor))
+        return _Grid(name=name, result=solve(problem, options, monitor=monitor))
+    except UnresolvedError as error:
+        monitor.message(f"certify: {error}")
+        return _Grid(name=name, result=None, used=False)
     except ConvergenceError as error:
         monitor.message(f"certify: {error.result.status.message}")
         film = error.result.film_scaled.minimum
-        return _Grid(result=error.result, used=film > 0 and _iterated(error.result))
+        return _Grid(name=name, result=error.result, used=film > 0 and _iterated(error.result))
 
 
-def _certified(grids: list[_Grid], wide: _Grid) -> Result:
+def _certified(coarser: list[_Grid], finest: Result, wide: _Grid) -> Result:
     """Return the result of the last grid with error bars; raise when there are none of use."""
-    coarse, middle, finest = (grid.result for grid in grids)
-    everything = (*(grid.result for grid in grids), wide.result)
-    cost = Cost(
-        cpu_seconds=sum(run.cost.cpu_seconds for run in everything),
-        wall_seconds=sum(run.cost.wall_seconds for run in everything),
-    )
-    finest = replace(finest, cost=cost)
-    _check_used(finest, grids[1], wide)
-    runs = [_quantities(run) for run in (coarse, middle, finest)][0 if grids[0].used else 1 :]
-    wider = _quantities(wide.result)
+    finest = replace(finest, cost=_cost(finest, [*coarser, wide]))
+    first, middle = coarser
+    before, larger = _check_used(finest, middle, wide)
+    last = _Grid(name=_nodes(finest.options), result=finest)
+    used = [grid.result for grid in (first, middle, last) if grid.used and grid.result is not None]
+    runs, wider = [_quantities(run) for run in used], _quantities(larger)
     uncertainty = {
         name: estimate(tuple(run[name] for run in runs), domain=abs(wider[name] - runs[-2][name]))
         for name in wider
     }
     highest = uncertainty["pressure_max"]
-    uncertainty["pressure_max"] = with_growing_spike(highest, _spike(middle), _spike(finest))
-    status = replace(finest.status, message=_endings(grids, wide), hint=None)
+    uncertainty["pressure_max"] = with_growing_spike(highest, _spike(before), _spike(finest))
+    status = replace(finest.status, message=_endings([first, middle, last], wide), hint=None)
     result = replace(finest, uncertainty=uncertainty, status=status)
     worst = max(abs(uncertainty[name].uncertainty / uncertainty[name].value) for name in JUDGED)
     if worst > LARGEST_BAR:
@@ -122,12 +128,24 @@ def _certified(grids: list[_Grid], wide: _Grid) -> Result:
     return result
 
 
-def _check_used(finest: Result, middle: _Grid, wide: _Grid) -> None:
+def _cost(finest: Result, others: list[_Grid]) -> Cost:
+    """Return what all runs have cost together."""
+    costs = [finest.cost, *(grid.result.cost for grid in others if grid.result is not None)]
+    return Cost(
+        cpu_seconds=sum(cost.cpu_seconds for cost in costs),
+        wall_seconds=sum(cost.wall_seconds for cost in costs),
+    )
+
+
+def _check_used(finest: Result, middle: _Grid, wide: _Grid) -> tuple[Result, Result]:
     """Refuse to certify from runs that failed: the finest grid stays, without error bars."""
+    found = []
     for grid, what in ((middle, "the grid before the finest"), (wide, "the larger domain")):
-        if not grid.used:
+        if grid.result is None or not grid.used:
             status = not_certified(finest, f"{what} failed ({grid.ending}).")
             raise ConvergenceError(str(status.message), replace(finest, status=status))
+        found.append(grid.result)
+    return found[0], found[1]
 
 
 def _endings(grids: list[_Grid], wide: _Grid) -> str:
@@ -136,7 +154,8 @@ def _endings(grids: list[_Grid], wide: _Grid) -> str:
     told = f"Grids of the error bars: {endings}; larger domain: {wide.ending}."
     if not grids[0].used:
         return f"{told} The first is left out: each bar is the whole change between the other two."
-    if grids[0].result.status.is_vague or not grids[0].result.status.converged:
+    first = grids[0].result
+    if first is not None and (first.status.is_vague or not first.status.converged):
         return (
             f"{told} Where the first hides the order of the scheme, a bar is the whole change "
             "between the other two."

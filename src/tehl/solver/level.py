@@ -68,7 +68,7 @@ class Level:
             np.zeros(grid.shape) for _ in range(5)
         )
         self.rigid_approach, self.rigid_approach_before = 0.0, 0.0
-        self.load_target = TARGET
+        self.load_part, self.load_target = 1.0, TARGET
         self.stale, self.started_dry = True, False
         self.factors: reynolds.Factors | None = None
 
@@ -76,7 +76,7 @@ class Level:
         """Make this the finest level: the right-hand sides of the problem itself."""
         self.rhs[:] = 0.0
         self.roughen(1.0)
-        self.load_target = TARGET
+        self.load_target = self.load_part * TARGET
         self.smoother.frozen[:] = 0
         self.stale = True
 

@@ -130,6 +130,11 @@ class Multigrid:
         self.traces: list[GridTrace] = []
         self.guess: Result | None = None
 
+    def carry(self, load: float) -> None:
+        """Let the film carry ``load`` times the load of the contact."""
+        for level in self.levels:
+            level.load_part = load
+
     def roughen(self, heights: Heights) -> None:
         """Make the surfaces rough: give heights on the finest grid to the levels that resolve them.
 

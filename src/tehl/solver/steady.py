@@ -125,6 +125,7 @@ def solve_attempt(
     monitor: Monitor,
     rough: bool,
     guess: Result | None = None,
+    load: float = 1.0,
 ) -> tuple[Attempt, Result]:
     """Return the best attempt at the steady film, and its result, converged or not.
 
@@ -134,6 +135,8 @@ def solve_attempt(
         As in `solve`.
     rough : bool
         With the roughness of the surfaces, as they stand; without it they are smooth.
+    load : float
+        What the film carries, over the load of the contact [-].
     """
     warm_up(coupled=problem.is_coupled)
     wall, cpu = time.perf_counter(), time.process_time()
@@ -141,7 +144,7 @@ def solve_attempt(
     heights = heights_of(problem, scales(problem), grid) if rough else None
     history = _History(monitor)
     attempts = []
-    for attempt in _attempts(problem, options, history, grid, heights, guess):
+    for attempt in _attempts(problem, options, history, grid, heights, _Given(guess, load)):
         attempts.append(attempt)
         if attempt.is_final:
             break
@@ -150,6 +153,14 @@ def solve_attempt(
     surfaces = _surfaces(grid, heights, result.scales)
     cost = Cost(cpu_seconds=time.process_time() - cpu, wall_seconds=time.perf_counter() - wall)
     return best, replace(result, heights=surfaces, cost=cost)
+
+
+@dataclass(frozen=True, slots=True)
+class _Given:
+    """The film of a similar contact, if there is one, and the load over that of the contact."""
+
+    guess: Result | None
+    load: float
 
 
 class _History:
@@ -191,7 +202,7 @@ def _attempts(
     monitor: Monitor,
     grid: Grid,
     heights: Heights | None,
-    guess: Result | None,
+    given: "_Given",
 ) -> Iterator[Attempt]:
     """Yield the outcome of each setting worth trying, the most promising first."""
     case_scales, case_groups = scales(problem), groups(problem)
@@ -206,9 +217,10 @@ def _attempts(
         follow = setting.rough.follow if heights is not None else 1.0
         coupling = coupling_of(problem, options, ramped=ramped, follow=follow)
         run = Multigrid(grid, case_groups, flow, options, setting, coupling)
+        run.carry(given.load)
         if heights is not None:
             run.roughen(heights)
-        run.guess = guess if options.accuracy == "tight" else None
+        run.guess = given.guess if options.accuracy == "tight" else None
         relaxing = [one for one, _ in attempts[number + 1 :] if not one.rough.newton]
         yield _run(run, monitor, patient=not relaxing)
 

@@ -4,17 +4,20 @@ import numpy as np
 
 from tehl.errors import InputError
 from tehl.grid import Grid
-from tehl.operators.heights import MovingHeights
+from tehl.operators.heights import MovingHeights, check_nodes
+from tehl.passage import misplaced
+from tehl.problem import ContactProblem
 from tehl.result import Status
+from tehl.scaling import Scales
 from tehl.solver.level import Level
 from tehl.solver.stepper import StepError
 from tehl.transient import Transient
 
-LEAST_NODES = 4.0
-"""Nodes on a wave below which a grid takes it for another one."""
-LOOKS, UNSEEN = 41, 1e-9
-"""Instants at which it is looked whether there is roughness in the contact, and heights that are
-none [a_x^2/R_x]."""
+LEAST_STEPS = 4.0
+"""Steps of time in which a wave passes, below which they take it for another one."""
+ROUNDING = 1e-9
+SEEN = 0.75
+"""Part of a peak of the load that the step nearest to it has to have."""
 
 
 def check_stride(transient: Transient, grid: Grid) -> None:
@@ -33,42 +36,61 @@ def check_stride(transient: Transient, grid: Grid) -> None:
         )
 
 
-def check_waves(heights: MovingHeights, grid: Grid) -> None:
-    """Refuse waves that the grid would take for others.
+def check_waves(heights: MovingHeights, grid: Grid, stride: int) -> None:
+    """Refuse waves that the grid, or the steps of time, would take for others.
 
     Raises
     ------
     InputError
-        If fewer than `LEAST_NODES` fall on the shortest.
+        If fewer than `LEAST_NODES` fall on the shortest, or fewer than `LEAST_STEPS` on the time in
+        which it passes.
     """
     along, across = heights.wavelengths
-    nodes = min(along / grid.dx, across / grid.dy)
-    if nodes < LEAST_NODES:
-        raise InputError(
-            f"the shortest wave of the surfaces has {nodes:.2g} nodes of the grid, which would "
-            f"take it for another one: numerics.points must be {LEAST_NODES / nodes:.2g} times as "
-            "many at least, and four times that for a good answer"
-        )
+    check_nodes(min(along / grid.dx, across / grid.dy))
+    for name, waves in zip(("surface_1", "surface_2"), heights.waves_per_step, strict=True):
+        part = waves * stride * grid.dx
+        if part * LEAST_STEPS > 1.0 + ROUNDING:
+            raise InputError(
+                f"{name} moves by {part:.3g} of its shortest wave in a step of time, which would "
+                f"take it for another one: numerics.points must be {part * LEAST_STEPS:.2g} times "
+                f"as many at least, or transient.stride (now {stride}) so many times smaller"
+            )
 
 
-def check_arrival(heights: MovingHeights, grid: Grid, duration: float) -> None:
-    """Refuse roughness that never comes into the contact.
+def check_places(problem: ContactProblem, units: Scales, seconds: float) -> None:
+    """Refuse roughness that never comes into the contact, or that is there at once.
 
     Raises
     ------
     InputError
-        If it is rough nowhere in the contact at any of many instants.
+        If it does not, within ``seconds``, or stands in the contact where the film is smooth.
     """
-    if not heights.is_rough:
-        return
-    inside = np.hypot(grid.x[None, :], grid.y[:, None]) < 1.0
-    for seconds in np.linspace(0.0, duration, LOOKS):
-        if max(np.abs(one[inside]).max() for one in heights.at(float(seconds))) > UNSEEN:
-            return
-    raise InputError(
-        f"the roughness of the surfaces does not come into the contact within {duration:.3g} s: "
-        "look at its place (x) and at transient.duration"
-    )
+    sentence = misplaced(problem, units, seconds)
+    if sentence is not None:
+        raise InputError(sentence)
+
+
+def check_load(transient: Transient, seconds: float) -> None:
+    """Refuse a load that rises and falls again between two steps of ``seconds``.
+
+    Raises
+    ------
+    InputError
+        If the steps see less than `SEEN` of it.
+    """
+    for before, (time, peak), after in zip(
+        transient.load, transient.load[1:], transient.load[2:], strict=False
+    ):
+        rise, fall = peak - before[1], peak - after[1]
+        if rise * fall <= 0:
+            continue
+        missed = abs(peak - transient.load_at(round(time / seconds) * seconds))
+        if missed > (1.0 - SEEN) * min(abs(rise), abs(fall)):
+            raise InputError(
+                f"transient.load = {peak:g} at {time:g} s comes and goes between two steps of "
+                f"{seconds:.3g} s, which do not see it: take more numerics.points, or let it last "
+                "longer"
+            )
 
 
 def failed(error: StepError, seconds: float, level: Level) -> Status:

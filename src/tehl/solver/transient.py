@@ -26,7 +26,14 @@ from tehl.solver.smoother import BROAD, CAREFUL, FAST, ROBUST, ROUGH
 from tehl.solver.steady import Attempt, finest_grid, solve_attempt
 from tehl.solver.stepper import Settled, StepError, Stepper
 from tehl.solver.thermal import FilmCoupling
-from tehl.solver.time_verdict import check_arrival, check_stride, check_waves, failed, touching
+from tehl.solver.time_verdict import (
+    check_load,
+    check_places,
+    check_stride,
+    check_waves,
+    failed,
+    touching,
+)
 from tehl.solver.warmup import warm_up
 from tehl.transient import Transient
 from tehl.typing import Array
@@ -138,10 +145,10 @@ class Run:
         self.seconds = transient.stride * grid.dx * self.scales.half_width_x / self.scales.speed
         self.steps = number_of_steps(problem, self.scales, self.seconds)
         check_stride(transient, grid)
-        check_waves(self.heights, grid)
-        check_arrival(self.heights, grid, self.steps * self.seconds)
-        every = self.steps / max(transient.frames - 1, 1)
-        self.kept = {round(n * every) for n in range(transient.frames)}
+        check_waves(self.heights, grid, transient.stride)
+        check_places(problem, self.scales, self.steps * self.seconds)
+        check_load(transient, self.seconds)
+        self.kept = kept_steps(transient, self.steps, self.seconds)
         attempt, self.start = begin(problem, options, rough=not smooth, monitor=monitor)
         settings = COUPLED_SETTINGS if problem.is_coupled else SETTINGS
         self.stepper = Stepper(attempt.run, transient, settings)
@@ -278,7 +285,9 @@ def _shapes(fields: dict[str, Array]) -> dict[str, tuple[int, ...]]:
 def begin(
     problem: ContactProblem, options: Options, *, rough: bool, monitor: StepMonitor
 ) -> tuple[Attempt, Result]:
-    """Solve for the steady film of the beginning: of smooth surfaces, or as they stand at zero.
+    """Solve for the steady film of the beginning, at the load of that time.
+
+    Its surfaces are smooth, or as they stand then.
 
     Raises
     ------
@@ -288,12 +297,32 @@ def begin(
     tight = options.model_copy(
         update={"accuracy": "tight", "tolerance": min(options.tolerance, START_TOLERANCE)}
     )
-    attempt, result = solve_attempt(problem, tight, monitor=monitor, rough=rough)
+    load = problem.transient.load_at(0.0) if problem.transient else 1.0
+    attempt, result = solve_attempt(problem, tight, monitor=monitor, rough=rough, load=load)
     if not result.status.converged:
         raise ConvergenceError(
             f"the steady film at time zero was not reached: {result.status.message}", result
         )
     return attempt, replace(result, options=options)
+
+
+def kept_steps(transient: Transient, steps: int, seconds: float) -> set[int]:
+    """Return the steps whose fields are kept: at even distances, or nearest to chosen instants.
+
+    Raises
+    ------
+    InputError
+        If an instant is after the end.
+    """
+    if isinstance(transient.frames, int):
+        every = steps / max(transient.frames - 1, 1)
+        return {round(n * every) for n in range(transient.frames)}
+    late = [time for time in transient.frames if time > (steps + 0.5) * seconds]
+    if late:
+        raise InputError(
+            f"transient.frames = {late[0]:g} s is after the end of the run, {steps * seconds:.4g} s"
+        )
+    return {min(round(time / seconds), steps) for time in transient.frames}
 
 
 def number_of_steps(problem: ContactProblem, units: Scales, seconds: float) -> int:
@@ -308,7 +337,7 @@ def number_of_steps(problem: ContactProblem, units: Scales, seconds: float) -> i
     steps = math.ceil(duration / seconds * (1.0 - 1e-9))
     if steps > MOST_STEPS:
         raise InputError(
-            f"transient.duration = {duration:g} s takes {steps} steps of {seconds:.3g} s, more "
+            f"transient.duration = {duration:g} s takes {steps:.6g} steps of {seconds:.3g} s, more "
             f"than {MOST_STEPS}: give a shorter one, or a larger transient.stride"
         )
     return steps

@@ -1,0 +1,132 @@
+"""What comes into a contact in time: where it begins, when it has passed, what is refused."""
+
+import numpy as np
+import pytest
+
+from tehl import InputError, march
+from tehl.duration import duration_of
+from tehl.grid import Grid
+from tehl.operators.heights import MovingHeights
+from tehl.passage import misplaced
+from tehl.problem import ContactProblem
+from tehl.scaling import scales
+from tehl.solver.transient import kept_steps
+from tehl.transient import Transient
+from tests.reference import DOMAIN, moes_contact
+from tests.solver.test_transient import OPTIONS, in_time, wave
+
+UNITS = scales(moes_contact(50.0, 10.0))
+WIDTH, FILM = UNITS.half_width_x, UNITS.film_thickness
+GRID = Grid(nx=65, ny=65, domain=DOMAIN, mirror=False)
+
+
+def dent(x: float, **more: float) -> dict:
+    """A dent 0.1 a^2/R deep, 0.4 a in radius, at ``x`` half-widths."""
+    return {"type": "bump", "amplitude": -0.1 * FILM, "radius": 0.4 * WIDTH, "x": x * WIDTH} | more
+
+
+def deepest(case: ContactProblem, seconds: float) -> float:
+    """The deepest place of surface 1 at a time, over a_x^2/R_x."""
+    return float(MovingHeights(case, UNITS, GRID, 2.5).at(seconds)[0].min())
+
+
+@pytest.fixture
+def dent_map(tmp_path) -> dict:
+    """A map two half-widths wide with the same dent in its middle, as a table."""
+    place = np.linspace(-1.0, 1.0, 129)
+    values = -0.1 * FILM * np.exp(-(place[None, :] ** 2 + place[:, None] ** 2) / 0.4**2)
+    np.save(tmp_path / "dent.npy", values)
+    return {"type": "map", "file": str(tmp_path / "dent.npy"), "unit": "m", "level": "none",
+            "pixel": WIDTH / 64.0}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        wave(amplitude=1e-3)["roughness"],
+        {"type": "random", "rms": 1e-12, "correlation_length": 0.3 * WIDTH, "seed": 1},
+    ],
+    ids=["wave", "random"],
+)
+def test_what_comes_in_leaves_the_features_beside_it_alone(other):
+    """The dent is downstream of the entrance, where waves and random heights are not yet."""
+    case = in_time(4.0, surface_1={"roughness": [dent(-1.9), other]})
+    assert deepest(case, 1.9 * WIDTH / UNITS.speed) == pytest.approx(-0.1, rel=0.02)
+
+
+def test_a_map_with_flat_surroundings_is_a_feature(dent_map):
+    case = in_time(4.0, surface_1={"roughness": dent_map | {"x": -2.1 * WIDTH}})
+    assert deepest(case, 2.1 * WIDTH / UNITS.speed) == pytest.approx(-0.1, rel=0.02)
+    with pytest.raises(InputError, match="the map of surface_1 is in the contact at time zero"):
+        march(in_time(4.0, surface_1={"roughness": dent_map}), OPTIONS)
+
+
+def test_a_map_that_goes_on_comes_in(dent_map):
+    case = in_time(4.0, surface_1={"roughness": dent_map | {"outside": "periodic"}})
+    assert deepest(case, 0.0) == pytest.approx(-0.1, rel=0.05)  # far upstream
+    start = MovingHeights(case, UNITS, GRID, 2.5).at(0.0)[0]
+    assert not start[:, GRID.x > -2.5].any()
+
+
+@pytest.mark.parametrize(("slide", "x", "where"), [(0.0, 0.0, -1), (0.5, -1.5, -1), (-2.5, 0.0, 1)])
+def test_a_feature_in_the_contact_at_time_zero_is_refused_with_a_place(slide, x, where):
+    """The place that is proposed is one that goes, on the side that the surface comes from."""
+    with pytest.raises(InputError, match=r"the bump of surface_1 .* or put it upstream") as told:
+        march(in_time(4.0, slide=slide, surface_1={"roughness": dent(x)}), OPTIONS)
+    place = float(str(told.value).split("x = ")[1].split(" um")[0]) * 1e-6
+    assert where * place == pytest.approx(1.8 * WIDTH, rel=0.01)
+    better = in_time(30.0, slide=slide, surface_1={"roughness": dent(place / WIDTH)})
+    speed = abs(1.0 + 0.5 * slide) * UNITS.speed
+    assert deepest(better, 1.8 * WIDTH / speed) == pytest.approx(-0.1, rel=0.02)
+
+
+@pytest.mark.parametrize(("slide", "x", "expected"), [
+    (0.0, -2.0, 4.0), (0.0, -9.0, 10.8), (1.0, -9.0, 10.8), (-1.0, -9.0, 21.6), (0.0, None, 4.0),
+])  # fmt: skip
+def test_a_run_lasts_until_all_has_passed(slide, x, expected):
+    """In a_x / u_m: the feature with its flank, or what comes in from the entrance."""
+    rough = wave()["roughness"] if x is None else dent(x)
+    case = in_time(1.0, slide=slide, surface_1={"roughness": rough})
+    tables = case.model_dump(exclude_none=True)
+    del tables["transient"]["duration"]
+    found = duration_of(ContactProblem.model_validate(tables), UNITS)
+    assert found * UNITS.speed / WIDTH == pytest.approx(expected)
+
+
+def test_a_dent_that_passes_at_once_is_not_overlooked():
+    """In a run so long that it is in the contact for a moment only."""
+    far = dent(-250.0) | {"radius": 0.6 * WIDTH}
+    case = in_time(300.0, surface_1={"roughness": far}, transient={"stride": 4})
+    assert misplaced(case, UNITS, 300.0 * WIDTH / UNITS.speed) is None
+    beside = far | {"y": 3.0 * WIDTH}
+    told = misplaced(in_time(300.0, surface_1={"roughness": beside}), UNITS, 1.0)
+    assert "does not come into the contact" in str(told)
+
+
+def test_a_wave_that_the_steps_take_for_another_one_is_refused():
+    """Sixteen nodes long, on a surface that moves by sixteen in a step."""
+    long = wave(wavelength=1.5)
+    case = in_time(4.0, slide=2.0, surface_1=long, transient={"stride": 4})
+    with pytest.raises(InputError, match=r"surface_1 moves by 0.5 of its shortest wave in a step"):
+        march(case, OPTIONS)
+
+
+def test_a_run_begins_with_the_film_of_its_first_load():
+    case = in_time(1.0, transient={"load": [(0.0, 1.3), (1.0, 1.3)]})
+    history = march(case, OPTIONS).history
+    assert history.pressure_max[0] / UNITS.hertz_pressure == pytest.approx(1.3 ** (1 / 3), rel=0.03)
+    np.testing.assert_allclose(history.film_central, history.film_central[0], rtol=1e-5)
+
+
+def test_a_load_that_comes_and_goes_between_two_steps_is_refused():
+    step = GRID.dx * WIDTH / UNITS.speed
+    pulse = [(0.0, 1.0), (3.3 * step, 1.0), (3.5 * step, 3.0), (3.7 * step, 1.0)]
+    with pytest.raises(InputError, match=r"transient\.load = 3 at .* which do not see it"):
+        march(in_time(1.0, transient={"load": pulse}), OPTIONS)
+
+
+def test_fields_are_kept_at_chosen_instants():
+    chosen = Transient(frames=(0.0, 0.31, 0.5))
+    assert kept_steps(chosen, 10, 0.1) == {0, 3, 5}
+    with pytest.raises(InputError, match="2 s is after the end of the run, 1 s"):
+        kept_steps(Transient(frames=(2.0,)), 10, 0.1)
