@@ -9,6 +9,8 @@ from tehl.operators.energy import FilmState, HeatedFilm
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.scaling import groups, scales
+from tehl.solver.monitor import SILENT
+from tehl.solver.transient import Run
 from tests.reference import DOMAIN, heated_contact
 
 OPTIONS = Options(points=65, domain=DOMAIN)
@@ -39,6 +41,46 @@ def test_a_heated_film_without_roughness_stays_the_steady_one():
     np.testing.assert_allclose(film, film[0], rtol=1e-6)
     assert rise[0] > 10.0
     np.testing.assert_allclose(rise, rise[0], rtol=0, atol=1e-4)
+
+
+def breathing(slide: float) -> ContactProblem:
+    """Glass on steel, whose film is stiff on one side, under a load that goes up and down."""
+    unit = scales(heated_contact(slide))
+    period = unit.half_width_x / unit.speed
+    load = [(0.0625 * n * period, 1.0 + 0.05 * np.sin(0.125 * np.pi * n)) for n in range(48)]
+    transient = {"load": load, "tolerance": 1e-5, "max_cycles": 60}
+    return hot(2.5, slide, surface_1={"material": "glass"}, transient=transient)
+
+
+@pytest.mark.parametrize("slide", [0.5, -0.5], ids=["slower", "faster"])
+def test_what_flows_in_is_what_the_heated_film_holds(slide):
+    """On the line y = 0 in the contact, by central differences, which the solver does not use.
+
+    The film holds rho_e H and carries rho* H; taken for each other, they would miss an eighth.
+    """
+    problem = breathing(slide)
+    run = Run(problem, Options(points=129, domain=DOMAIN), problem.transient, SILENT)
+    carried, held, pressed = [], [], []
+
+    def note(_):
+        film, excess = run.level.film, run.stepper.run.coupling.excess()
+        mass = film.rho[0] * film.h[0]
+        carried.append(mass)
+        held.append((1.0 - excess[0]) * mass)
+        pressed.append(film.eps_x[0] * np.gradient(film.p[0], run.level.grid.dx))
+
+    assert run.go(SILENT, note).converged
+    moving, there, flow = (np.array(one) for one in (carried, held, pressed))
+    along = np.gradient(moving - flow, run.level.grid.dx, axis=1)[1:-1]
+    opening, wrong = (
+        (mass[2:] - mass[:-2]) / (2.0 * run.stepper.time_step) for mass in (there, moving)
+    )
+    inside = (slice(24, None), np.abs(run.level.grid.x) < 0.5)
+    missed, mistaken, scale = (
+        np.sqrt(np.mean(one[inside] ** 2)) for one in (opening + along, wrong + along, opening)
+    )
+    assert missed < 0.03 * scale
+    assert mistaken > 0.1 * scale
 
 
 def test_a_film_at_rest_cools_by_conduction_as_it_must():

@@ -165,8 +165,8 @@ class Fields(NamedTuple):
     ``stress`` one over the scale of the shear law. In and out: ``temperature``
     (nx + 4, n, ny + 4), ``tau_x, tau_y`` mid-film stress (nx, ny). In, where time passes:
     ``past`` (nx, n, ny) what former temperatures bring to their derivative, ``pressing`` (nx, ny)
-    the derivative of the pressure. Out: ``mobility, density`` of
-    the Reynolds equation, ``enthalpy_x, enthalpy_y`` fluxes, ``shear, work`` powers,
+    the derivative of the pressure. Out: ``mobility, density`` of the Reynolds equation, ``held``
+    the mean density across the film, ``enthalpy_x, enthalpy_y`` fluxes, ``shear, work`` powers,
     ``effective`` viscosity ratio, ``steep``: how the mobility follows the Newtonian one, both as
     logarithms, ``stretch_x, stretch_y``: mobility of a small change along x or y over ``mobility``.
     """
@@ -183,6 +183,7 @@ class Fields(NamedTuple):
     tau_y: Array
     mobility: Array
     density: Array
+    held: Array
     enthalpy_x: Array
     enthalpy_y: Array
     shear: Array
@@ -958,12 +959,14 @@ def reynolds_fields(model: Model, fields: Fields, work: Work, place: Place) -> N
     whole_mobility = mobility(model.across, work, place)
     store(fields.mobility, at, whole_mobility)
     per_i0 = terms.slide / load(cells, layer(place, place.n - 1) + I0)
-    density = 0.0 * per_i0
+    density, held = 0.0 * per_i0, 0.0 * per_i0
     for k in range(place.n):
         here, weight = layer(place, k), number(model.across.weights, k)
-        speed = terms.speed + per_i0 * load(cells, here + I0)
-        density += weight * load(cells, here + RHO) * speed
+        speed, rho = terms.speed + per_i0 * load(cells, here + I0), load(cells, here + RHO)
+        density += weight * rho * speed
+        held += weight * rho
     store(fields.density, at, density)
+    store(fields.held, at, held)
     store(fields.steep, at, 1.0 / load(cells, middle + YIELD))
     newtonian = exponential(-1.0 * load(cells, middle + LN_ETA))
     store(fields.effective, at, newtonian / load(cells, middle + FLUIDITY))
@@ -989,6 +992,7 @@ def mean_fields(model: Model, fields: Fields, work: Work, place: Place) -> None:
     fluid = exponential(-1.0 * load(work.cells, first + LN_ETA))
     store(fields.mobility, at, rho * fluid / load(fields.effective, at))
     store(fields.density, at, rho)
+    store(fields.held, at, rho)
 
 
 @njit(cache=True)

@@ -63,6 +63,13 @@ def upstream(field: Array, nodes: int) -> Array:
     return shifted
 
 
+def steady_wedge(mass: Array, spacing: float, order: int) -> Array:
+    """Return the upstream difference of a mass rho h along x, of the order of the steady film."""
+    if order == 1:
+        return (mass - upstream(mass, 1)) / spacing
+    return (1.5 * mass - 2.0 * upstream(mass, 1) + 0.5 * upstream(mass, 2)) / spacing
+
+
 def line_influence(influence: Influence) -> tuple[Array, Array]:
     """Return the film along a line per unit change of one node, and of a dipole.
 

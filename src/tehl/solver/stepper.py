@@ -5,12 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl.operators.reynolds import step_stencil, upstream
+from tehl.operators.reynolds import steady_wedge, step_stencil, upstream
 from tehl.solver.convergence import LEAST_KELVIN
 from tehl.solver.fas import Cycle, cycle
 from tehl.solver.multigrid import RUNAWAY, Multigrid
 from tehl.solver.predictor import Predictor
 from tehl.solver.smoother import Setting
+from tehl.solver.squeeze import Squeeze
 from tehl.transient import Transient
 from tehl.typing import Array
 
@@ -67,6 +68,9 @@ class Stepper:
             one.mesh = step_stencil(one.mesh, self.time_step)
         run.coupling.follow = 1.0  # steps are small enough to follow at once
         run.coupling.begin_time(run.levels, self.time_step)
+        step = (self.time_step, level.grid.dx, transient.stride)
+        excess = run.coupling.excess()
+        self.squeeze = Squeeze(self.steady, excess, step, run.options.wedge_order)
         self.setting = 0
         self.choose(0)
 
@@ -98,7 +102,7 @@ class Stepper:
             else:
                 level.film.p[:] = self.predictor.onward()
                 level.stale = True
-            level.pose_step(history, heights, load)
+            level.pose_step(history + self.squeeze.onward(), heights, load)
             try:
                 settled = self._settle(self.settings[number].name)
             except StepError:
@@ -107,6 +111,7 @@ class Stepper:
                 continue
             self.before, self.now = self.now, level.film.rho * level.film.h
             self.predictor.note(level.film.p)
+            self.squeeze.advance()
             self.run.coupling.advance(self.run.levels)
             return settled
         raise StepError("stalled", np.inf)
@@ -137,6 +142,7 @@ class Stepper:
             cycle(self.run.levels, self.run.coarsest.step, SHAPE)
             level.update()
             warmer, rise = self.run.coupling.update(self.run.levels)
+            self._follow_density()
             np.subtract(level.film.p, before, out=before)
             change = float(max(before.max(), -before.min()))
             error = level.load_error()
@@ -148,9 +154,11 @@ class Stepper:
                 return Settled(cycles=number, change=change, load_error=error, smoother=name)
         raise StepError("stalled", change)
 
-
-def steady_wedge(mass: Array, spacing: float, order: int) -> Array:
-    """Return the upstream difference of a mass rho h along x, of the order of the steady film."""
-    if order == 1:
-        return (mass - upstream(mass, 1)) / spacing
-    return (1.5 * mass - 2.0 * upstream(mass, 1) + 0.5 * upstream(mass, 2)) / spacing
+    def _follow_density(self) -> None:
+        """Let the squeeze follow what the last temperatures make of the density."""
+        level, excess = self.run.finest, self.run.coupling.excess()
+        if excess is None or level.history is None:
+            return
+        more = self.squeeze.follow(excess * level.film.rho * level.film.h)
+        level.history += more
+        level.rhs -= more

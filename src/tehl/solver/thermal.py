@@ -74,6 +74,10 @@ class Coupling(Protocol):
         """Let time pass from the present state on, in steps of ``time_step`` [a_x / u_m]."""
         ...
 
+    def excess(self) -> Array | None:
+        """Return the part of the mass in motion that the film does not hold, (ny, nx); or None."""
+        ...
+
     def advance(self, levels: Sequence[Level]) -> None:
         """Take the present state for the past of the next step."""
         ...
@@ -114,6 +118,10 @@ class Uncoupled:
     def begin_time(self, levels: Sequence[Level], time_step: float) -> None:
         """Do nothing."""
         del levels, time_step
+
+    def excess(self) -> Array | None:
+        """Return None: what moves is what is there."""
+        return None
 
     def advance(self, levels: Sequence[Level]) -> None:
         """Do nothing."""
@@ -255,6 +263,17 @@ class FilmCoupling:
         self.factors = levels[-1].factors
         if self.state is not None and self.state.model.terms.heat:
             self.state.begin_time(time_step)
+
+    def excess(self) -> Array | None:
+        """Return 1 - rho_e/rho*, by the temperatures of the last sweep, (ny, nx).
+
+        Oil that is stiffer on the fast side of the film carries more mass along than the mean speed
+        says: the wedge has the density rho* of that flux, but the squeeze the mean density rho_e.
+        """
+        if self.state is None:
+            return None
+        held = self.state.view("held") / self.state.view("density")
+        return np.ascontiguousarray(1.0 - held.T)
 
     def advance(self, levels: Sequence[Level]) -> None:
         """Keep temperatures, stresses and factors."""

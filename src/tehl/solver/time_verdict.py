@@ -16,8 +16,8 @@ from tehl.transient import Transient
 LEAST_STEPS = 4.0
 """Steps of time in which a wave passes, below which they take it for another one."""
 ROUNDING = 1e-9
-SEEN = 0.75
-"""Part of a peak of the load that the step nearest to it has to have."""
+MISSED = 0.25
+"""Part of all of its change by which the load of the nearest step may be off that of a peak."""
 
 
 def check_stride(transient: Transient, grid: Grid) -> None:
@@ -76,16 +76,18 @@ def check_load(transient: Transient, seconds: float) -> None:
     Raises
     ------
     InputError
-        If the steps see less than `SEEN` of it.
+        If the step nearest to one of its times is off by more than `MISSED` of the whole change.
     """
+    loads = [load for _, load in transient.load]
+    if not loads:
+        return
+    change = max(loads) - min(loads)
     for before, (time, peak), after in zip(
         transient.load, transient.load[1:], transient.load[2:], strict=False
     ):
-        rise, fall = peak - before[1], peak - after[1]
-        if rise * fall <= 0:
-            continue
+        turns = (peak - before[1]) * (peak - after[1]) > 0
         missed = abs(peak - transient.load_at(round(time / seconds) * seconds))
-        if missed > (1.0 - SEEN) * min(abs(rise), abs(fall)):
+        if turns and missed > MISSED * change:
             raise InputError(
                 f"transient.load = {peak:g} at {time:g} s comes and goes between two steps of "
                 f"{seconds:.3g} s, which do not see it: take more numerics.points, or let it last "

@@ -58,8 +58,9 @@ class Snapshot:
     rigid_approach : float
         H00 [-].
     fields : dict of str to array
-        Pressure, mass of the last two films, what the pressure of the last four steps differed by
-        from that of the beginning, and what the coupling remembers.
+        Pressure, mass of the last two films and what of it moves without being there, what the
+        pressure of the last four steps differed by from that of the beginning, and what the
+        coupling remembers.
     record : Record
         What has been noted so far.
     """
@@ -236,6 +237,7 @@ class Run:
                 "mass": self.stepper.now,
                 "mass_before": self.stepper.before,
                 "pressure_changes": self.stepper.predictor.past,
+                "excess": self.stepper.squeeze.past,
                 **self.stepper.run.coupling.memory(self.stepper.run.levels),
             },
             record=self.record,
@@ -255,6 +257,7 @@ class Run:
         level.film.p[:] = fields.pop("pressure")
         self.stepper.now, self.stepper.before = fields.pop("mass"), fields.pop("mass_before")
         self.stepper.predictor.past = fields.pop("pressure_changes")
+        self.stepper.squeeze.past = fields.pop("excess")
         level.rigid_approach, level.stale = snapshot.rigid_approach, True
         self.stepper.choose(snapshot.setting)
         self.stepper.run.coupling.recall(self.stepper.run.levels, fields)
