@@ -6,7 +6,7 @@ import zipfile
 import numpy as np
 from scipy import ndimage
 
-X3P = """<?xml version="1.0" encoding="UTF-8"?>
+X3P = """<?xml version="1.0" encoding="{encoding}"?>
 {doctype}<p:ISO5436_2 xmlns:p="http://www.opengps.eu/2008/ISO5436_2">
 <Record1><Revision>ISO5436 - 2000</Revision><FeatureType>{feature}</FeatureType><Axes>
 <CX><AxisType>I</AxisType><DataType>D</DataType><Increment>{dx}</Increment><Offset>0</Offset></CX>
@@ -36,6 +36,7 @@ def write_x3p(path, heights, letter="D", scale=1.0, **changes):
     content = data.astype(TYPES[letter]).tobytes()
     keys = {"nx": nx, "ny": ny, "dx": 2e-6, "dy": 3e-6, "letter": letter, "feature": "SUR"}
     keys |= {"md5": hashlib.md5(content).hexdigest(), "valid": "", "doctype": "", "increment": ""}
+    keys["encoding"] = "UTF-8"
     if scale != 1.0:
         keys["increment"] = f"<Increment>{scale}</Increment>"
     missing = ~np.isfinite(heights)
@@ -43,8 +44,9 @@ def write_x3p(path, heights, letter="D", scale=1.0, **changes):
         keys["valid"] = "<ValidPointsLink>bindata/valid.bin</ValidPointsLink>"
     cut = changes.pop("cut", 0)
     checksum = changes.pop("checksum", None)
+    method = changes.pop("method", zipfile.ZIP_DEFLATED)
     header = X3P.format(**(keys | changes)).encode()
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+    with zipfile.ZipFile(path, "w", method) as archive:
         archive.writestr("main.xml", header)
         archive.writestr("bindata/data.bin", content[: len(content) - cut])
         archive.writestr(

@@ -1,10 +1,14 @@
 """Files of heights: right ones are read, wrong ones are told in a sentence."""
 
+import gc
 import hashlib
 import io
 import struct
+import zipfile
+from contextlib import suppress
 from importlib.util import find_spec
 
+import h5py
 import numpy as np
 import pytest
 import xarray as xr
@@ -152,6 +156,11 @@ WRONG = {
     "truncated npy": ("a.npy", npy((100, 100), content=b"0" * 9000), "truncated.* 80000 bytes"),
     "half a header": ("a.npy", saved(HEIGHTS)[:40], "header cannot be read"),
     "garbage npy": ("a.npy", b"\x00\xff" * 400, "no file of numpy"),
+    "negative sides": ("a.npy", npy((-5, -5), content=b"0" * 400), r"claims .* shape \(-5, -5\)"),
+    "one negative side": ("a.npy", npy((-5, 5), content=b"0" * 400), r"shape \(-5, 5\)"),
+    "truth as a side": ("a.npy", npy((20, True), content=b"0" * 400), r"shape \(20, True\)"),
+    "nothing times much": ("a.npy", npy((0, 10**30)), "claims 0 x 1000"),
+    "endless header": ("a.npy", npy((4,) * 2000), "shape 4 x 4 x .* x [.]{3}, but"),
     "pickle": ("a.npy", saved(np.array([[object()]])), "holds objects"),
     "complex": ("a.npy", saved(HEIGHTS * 1j), "holds complex numbers"),
     "words": ("a.npy", saved(np.array([["a", "b"]])), "holds text"),
@@ -216,6 +225,47 @@ def test_wrong_x3p_are_told(tmp_path, changes, words):
     path = write_x3p(tmp_path / "map.x3p", HEIGHTS, **changes)
     with pytest.raises(InputError, match=words):
         read(path)
+
+
+@pytest.mark.parametrize("method", [zipfile.ZIP_LZMA, zipfile.ZIP_BZIP2, zipfile.ZIP_DEFLATED])
+def test_a_flipped_byte_of_packed_heights_is_told_or_changes_nothing(tmp_path, method):
+    path = write_x3p(tmp_path / "map.x3p", HEIGHTS, method=method)
+    whole = path.read_bytes()
+    start = whole.index(b"bindata/data.bin") + 16
+    for place in range(start, start + 200, 7):
+        path.write_bytes(whole[:place] + bytes([whole[place] ^ 0xFF]) + whole[place + 1 :])
+        try:
+            np.testing.assert_array_equal(read(path).heights, HEIGHTS)
+        except InputError as told:
+            assert "no whole x3p" in str(told)  # noqa: PT017 (a byte may say nothing)
+
+
+@pytest.mark.parametrize("encoding", ["foo", "rot13", "hex", "utf-7"])
+def test_a_header_in_a_foreign_encoding_is_told(tmp_path, encoding):
+    path = write_x3p(tmp_path / "map.x3p", HEIGHTS, encoding=encoding)
+    with pytest.raises(InputError, match=r"encoding that cannot be read, .*: it must be UTF-8"):
+        read(path)
+
+
+def test_damaged_netcdf_is_told_without_noise(tmp_path, monkeypatch):
+    noise = []
+    monkeypatch.setattr("sys.unraisablehook", noise.append)
+    path = tmp_path / "a.nc"
+    xr.Dataset({"z": (("y", "x"), HEIGHTS)}, attrs={"a": "b"}).to_netcdf(path, engine="h5netcdf")
+    whole = path.read_bytes()
+    for place in range(48, 400):  # the header of the root and its attributes
+        path.write_bytes(whole[:place] + bytes([whole[place] ^ 0xFF]) + whole[place + 1 :])
+        with suppress(InputError):
+            read(path)
+    gc.collect()
+    assert noise == []
+
+
+def test_hdf5_without_names_of_dimensions_is_read_without_warnings(tmp_path, recwarn):
+    with h5py.File(tmp_path / "a.nc", "w") as file:
+        file["z"] = HEIGHTS
+    np.testing.assert_array_equal(read(tmp_path / "a.nc").heights, HEIGHTS)
+    assert not recwarn.list
 
 
 def test_no_code_of_a_pickle_runs(tmp_path):

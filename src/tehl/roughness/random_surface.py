@@ -20,6 +20,7 @@ _PER_CUT_OFF = 4
 _POINTS = 1024
 _WIDE, _WIDEST = 16.0, 64.0
 _LENGTHS = ("correlation_length", "roll_off")
+_SHORTEST, _LONGEST = 1e-12, 1e6
 _LAST_SEED = 2**53
 _LARGEST_KURTOSIS = 20.0
 
@@ -101,12 +102,19 @@ class Random(RoughnessModel):
                 )
         if getattr(self, needed) is None:
             raise ValueError(f'{needed} is missing: give a length such as "20 um"')
+        self._check_lengths(needed)
         check_gentle(self.rms, **dict(zip((needed, f"{needed}_y"), self._lengths, strict=True)))
         self._check_self_affine()
         return self
 
     @model_validator(mode="after")
     def _moments_must_be_possible(self) -> Self:
+        most = math.sqrt((_LARGEST_KURTOSIS - 2.1) / 1.5)
+        if not abs(self.skewness) <= most:
+            raise ValueError(
+                f"skewness = {self.skewness:g} cannot be made: it must lie between -{most:.3g} and "
+                f"{most:.3g}"
+            )
         least = 2.1 + 1.5 * self.skewness**2
         if not least <= self.kurtosis <= _LARGEST_KURTOSIS:
             raise ValueError(
@@ -114,6 +122,13 @@ class Random(RoughnessModel):
                 f"it must lie between {least:.3g} and {_LARGEST_KURTOSIS:g}"
             )
         return self
+
+    def _check_lengths(self, needed: str) -> None:
+        for key, length in zip((needed, f"{needed}_y"), self._lengths, strict=True):
+            if not _SHORTEST <= length <= _LONGEST:
+                raise ValueError(
+                    f"{key} = {length:g} m must lie between {_SHORTEST:g} m and {_LONGEST:g} m"
+                )
 
     def _check_self_affine(self) -> None:
         if not self.hurst <= 1.0:

@@ -1,5 +1,6 @@
 """Heights in NetCDF, as topography programs and xarray write them."""
 
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +28,6 @@ def read_netcdf(path: Path, variable: str | None) -> RawMap:
     InputError
         If it cannot be read, or it is not clear what the heights are.
     """
-    import h5py  # noqa: PLC0415
     import xarray as xr  # noqa: PLC0415 (a second, for this format only)
 
     with path.open("rb") as file:
@@ -36,8 +36,11 @@ def read_netcdf(path: Path, variable: str | None) -> RawMap:
         raise InputError("is no NetCDF file")
     try:
         if engine == "h5netcdf":
-            h5py.File(path, "r").close()  # h5netcdf complains aloud of what it cannot open
-        with xr.open_dataset(path, engine=engine, decode_times=False, cache=False) as data:
+            _check_hdf5(path)
+        with (
+            warnings.catch_warnings(action="ignore"),  # of HDF5 without names of dimensions
+            xr.open_dataset(path, engine=engine, decode_times=False, cache=False) as data,
+        ):
             return _map_of(data, variable)
     except InputError:
         raise
@@ -46,6 +49,14 @@ def read_netcdf(path: Path, variable: str | None) -> RawMap:
         raise InputError(
             f"cannot be read as NetCDF, it is truncated or damaged: {reason}"
         ) from None
+
+
+def _check_hdf5(path: Path) -> None:
+    """Raise whatever h5py does of a file that h5netcdf would complain of aloud."""
+    import h5py  # noqa: PLC0415
+
+    with h5py.File(path, "r") as file:
+        list(file.attrs.items())
 
 
 def _map_of(data: Any, name: str | None) -> RawMap:

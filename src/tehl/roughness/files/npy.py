@@ -1,5 +1,6 @@
 """Arrays as numpy writes them. Objects are never unpickled."""
 
+import math
 from pathlib import Path
 
 import numpy as np
@@ -25,14 +26,18 @@ def read_npy(path: Path) -> RawMap:
         try:
             version = np.lib.format.read_magic(file)
             shape, _, dtype = _READERS[version](file)
+            told = str(shape)[:60]
         except Exception:  # its header is parsed as Python is, with all that may go wrong
             raise InputError("is no file of numpy: its header cannot be read") from None
         if dtype.kind not in "fiu":
             raise InputError(f"holds {_kind(dtype)}, but heights are real numbers")
+        if not all(type(side) is int and side >= 0 for side in shape):
+            raise InputError(f"is no file of numpy: its header claims a table of shape {told}")
         check_count(shape)
-        needed = int(np.prod(shape, dtype=np.int64)) * dtype.itemsize
+        needed = math.prod(shape) * dtype.itemsize
         check_bytes(path.stat().st_size - file.tell(), needed, shape)
-    heights = np.load(path, allow_pickle=False).astype(np.float64)
+    with np.errstate(over="ignore"):  # wider numbers than these become infinite: missing points
+        heights = np.load(path, allow_pickle=False).astype(np.float64)
     return RawMap(heights=heights, kind="numpy array")
 
 

@@ -48,7 +48,7 @@ def check_count(shape: tuple[int, ...]) -> None:
         raise InputError(
             f"holds an array of shape {_times(shape)}, but heights are a table of rows and columns"
         )
-    if math.prod(shape) > LARGEST_MAP:
+    if math.prod(max(side, 1) for side in shape) > LARGEST_MAP:
         raise InputError(
             f"claims {_times(shape)} points: a map may have {LARGEST_MAP // 10**6} million, "
             "crop it before"
@@ -89,4 +89,5 @@ def shown(path: str | Path) -> str:
 
 
 def _times(shape: tuple[int, ...]) -> str:
-    return " x ".join(str(count) for count in shape) or "no"
+    sides = [str(count)[:20] for count in shape[:8]]
+    return " x ".join(sides + ["..."] * (len(shape) > 8)) or "no"

@@ -4,6 +4,7 @@ The header is read without document types and entities; nothing of it is ever lo
 """
 
 import hashlib
+import lzma
 import zipfile
 import zlib
 from pathlib import Path
@@ -19,7 +20,15 @@ from tehl.typing import Array
 
 _MAIN, _CHECKSUM = "main.xml", "md5checksum.hex"
 _LARGEST_HEADER = 10**7
-_DAMAGE = (zipfile.BadZipFile, zlib.error, EOFError, OSError, ValueError, NotImplementedError)
+_DAMAGE = (
+    zipfile.BadZipFile,
+    zlib.error,
+    lzma.LZMAError,
+    EOFError,
+    OSError,
+    ValueError,
+    NotImplementedError,
+)
 _TYPES = {"I": "<i2", "L": "<i4", "F": "<f4", "D": "<f8"}
 
 
@@ -159,6 +168,11 @@ def _parsed(header: bytes) -> ElementTree.Element:
         return ElementTree.fromstring(header)
     except (expat.ExpatError, ElementTree.ParseError) as error:
         raise InputError(f"has a header that is no XML: {error}") from None
+    except (LookupError, ValueError) as error:  # what codecs say of a foreign name
+        reason = str(error).split(";", maxsplit=1)[0][:60]
+        raise InputError(
+            f"has a header in an encoding that cannot be read, {reason}: it must be UTF-8"
+        ) from None
 
 
 def _text(root: Any, path: str) -> str | None:
