@@ -2,6 +2,7 @@
 
 import hashlib
 import math
+import tracemalloc
 from pathlib import Path
 
 import numpy as np
@@ -126,6 +127,38 @@ def test_the_mesh_gets_what_it_can_carry(file):
         coarse = other.resolved_on(4 * PIXEL, 4 * PIXEL)
         assert 0.5 * other.rms < coarse.rms < other.rms
         assert coarse.shortest_wavelength > 1.2 * other.shortest_wavelength
+
+
+@pytest.mark.parametrize("angle", [0.0, 90.0, 17.0])
+def test_fine_maps_on_coarse_meshes_are_filtered_on_a_lattice_of_the_mesh(file, monkeypatch, angle):
+    surface = stated(file, rotate=f"{angle} deg")
+    mesh = (24 * PIXEL, 32 * PIXEL)
+    whole = surface.resolved_on(*mesh)
+    monkeypatch.setattr("tehl.roughness.tile.is_roomy", lambda *_: True)
+    coarse = surface.resolved_on(*mesh)
+    assert coarse.tile.heights.size < 0.7 * whole.tile.heights.size
+    assert coarse.tile.size == pytest.approx(whole.tile.size)
+    assert coarse.rms == pytest.approx(whole.rms, rel=1e-9)
+    # slopes are differences over one pixel, which is up to twice as long
+    assert coarse.shortest_wavelengths == pytest.approx(whole.shortest_wavelengths, rel=1e-3)
+    x, y = np.linspace(-1e-4, 1e-4, 41)[None, :], np.linspace(-8e-5, 8e-5, 37)[:, None]
+    expected = whole.height(x, y)
+    np.testing.assert_allclose(coarse.height(x, y), expected, atol=2e-6 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("pixel", ["10 nm", "0.1 nm"])
+def test_the_rim_of_a_fine_map_is_never_stored(tmp_path, pixel):
+    np.save(tmp_path / "afm.npy", relief(128, 160) * 1e6)
+    surface = Map(file=str(tmp_path / "afm.npy"), unit="nm", pixel=pixel, level="none")
+    tracemalloc.start()
+    coarse = surface.resolved_on(2e-5, 2e-5)  # with its rim, 576 million points and more
+    assert tracemalloc.get_traced_memory()[1] < 50e6
+    tracemalloc.stop()
+    (ny, nx), (width, height) = coarse.tile.heights.shape, coarse.tile.size
+    assert max(ny, nx) < 250
+    assert min(width, height) > 12 * 2e-5
+    middle = float(coarse.height(np.zeros(1), np.zeros(1))[0])
+    assert 0.0 < abs(middle) < 0.1 * surface.rms  # what a wave of two widths has of so small a map
 
 
 def test_a_map_is_stored_and_read_without_its_file(file, tmp_path):

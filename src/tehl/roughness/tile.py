@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
+from tehl.roughness.lowpass import KEPT, is_roomy, low_passed, low_passed_with_room, room
 from tehl.roughness.protocol import direction
 
 if TYPE_CHECKING:
@@ -16,9 +17,6 @@ if TYPE_CHECKING:
 
 Edge = Literal["periodic", "mirror", "flat"]
 """What lies beyond the edges: the tile again, its mirror image, or nothing."""
-
-_KEPT, _LOST = 0.25, 0.5
-_FADED = 6
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -37,8 +35,9 @@ class Tile:
         By which the rows are turned against x [rad], as the crests of a wave are.
     edge : {"periodic", "mirror", "flat"}
         What lies beyond the edges. Heights that are to be flat there must end at zero.
-    covered : int or None
-        Points that are no flat rim, over which Sq is taken; None is all.
+    covered : float or None
+        Points that are no flat rim, over which Sq is taken, no whole number where they were of
+        another lattice; None is all.
     """
 
     heights: "Array" = field(repr=False)
@@ -46,7 +45,7 @@ class Tile:
     centre: tuple[float, float] = (0.0, 0.0)
     angle: float = 0.0
     edge: Edge = "periodic"
-    covered: int | None = None
+    covered: float | None = None
 
     @property
     def size(self) -> tuple[float, float]:
@@ -92,18 +91,33 @@ class Tile:
         cosine, sine = direction(self.angle)
         turned = sine != 0 and cosine != 0
         mesh = (max(dx, dy),) * 2 if turned else (dx, dy) if sine == 0 else (dy, dx)
-        if all(0.5 * step / own <= _KEPT for step, own in zip(mesh, self.pixel, strict=True)):
+        if all(0.5 * step / own <= KEPT for step, own in zip(mesh, self.pixel, strict=True)):
             return self
+        if self.edge == "flat" and is_roomy(self.heights.shape, room(self.pixel, mesh)):
+            return self._coarsened(mesh, radial=turned)
         tile = self._with_room(mesh) if self.edge == "flat" else self
-        return replace(tile, heights=_low_passed(tile, mesh, radial=turned))
+        heights = low_passed(
+            tile.heights, tile.size, mesh, periodic=self.edge == "periodic", radial=turned
+        )
+        return replace(tile, heights=heights)
 
     def _with_room(self, mesh: tuple[float, float]) -> "Tile":
         """Return the tile with a flat rim, into which filtered heights fade."""
         import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
 
-        x, y = (math.ceil(_FADED * step / own) for step, own in zip(mesh, self.pixel, strict=True))
+        x, y = room(self.pixel, mesh)
         covered = self.covered or self.heights.size
         return replace(self, heights=np.pad(self.heights, ((y, y), (x, x))), covered=covered)
+
+    def _coarsened(self, mesh: tuple[float, float], *, radial: bool) -> "Tile":
+        """Return the filtered tile with its rim on a lattice of a part of the mesh.
+
+        A map whose points are nanometres apart has, on a mesh of micrometres, a rim of as many
+        points as no memory holds.
+        """
+        heights, pixel = low_passed_with_room(self.heights, self.pixel, mesh, radial=radial)
+        area = (self.covered or self.heights.size) * self.pixel[0] * self.pixel[1]
+        return replace(self, heights=heights, pixel=pixel, covered=area / (pixel[0] * pixel[1]))
 
     @cached_property
     def mean_square(self) -> float:
@@ -186,31 +200,3 @@ def _on_a_mesh(coefficients: "Array", rows: Support, columns: Support) -> "Array
     for column, weight in columns:
         total += weight * across[:, column[0]]
     return total
-
-
-def _low_passed(tile: Tile, mesh: tuple[float, float], *, radial: bool) -> "Array":
-    """Return the heights of a tile with its short waves taken away [m]."""
-    import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-    from scipy import fft  # noqa: PLC0415
-
-    (ny, nx), (width, height) = tile.heights.shape, tile.size
-    whole = tile.edge == "periodic"
-    if whole:
-        spectrum = fft.rfft2(tile.heights)
-        x, y = fft.rfftfreq(nx) * nx / width, np.abs(fft.fftfreq(ny)) * ny / height
-    else:
-        spectrum = fft.dctn(tile.heights, type=2)
-        x, y = np.arange(nx) / (2.0 * width), np.arange(ny) / (2.0 * height)
-    if radial:
-        spectrum *= _passed(np.hypot(x, y[:, None]) * mesh[0])
-    else:
-        spectrum *= _passed(x * mesh[0]) * _passed(y * mesh[1])[:, None]
-    return fft.irfft2(spectrum, (ny, nx)) if whole else fft.idctn(spectrum, type=2)
-
-
-def _passed(frequency: "Array") -> "Array":
-    """Return which part of a wave passes, by waves per mesh width."""
-    import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-
-    beyond = np.clip((frequency - _KEPT) / (_LOST - _KEPT), 0.0, 1.0)
-    return np.cos(0.5 * np.pi * beyond) ** 2
