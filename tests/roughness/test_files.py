@@ -56,7 +56,7 @@ def test_columns_in_any_order_are_a_map(tmp_path, ending):
     found = read(path)
     np.testing.assert_allclose(found.heights, HOLED * 1e6, rtol=1e-8)
     assert found.pixel == pytest.approx((2.0, 3.0))
-    assert found.pixel_unit is None
+    assert found.pixel_units == (None, None)
 
 
 def test_a_line_of_names_is_skipped(tmp_path):
@@ -84,7 +84,7 @@ def test_netcdf_is_read_with_units_and_axes(tmp_path):
         data.to_netcdf(path, engine=engine)
         found = read(path)
         np.testing.assert_allclose(found.heights, HOLED * 1e6)
-        assert (found.unit, found.pixel, found.pixel_unit) == ("um", (2.0, 3.0), "um")
+        assert (found.unit, found.pixel, found.pixel_units) == ("um", (2.0, 3.0), ("um", "um"))
 
 
 def test_of_several_variables_one_must_be_named(tmp_path):
@@ -103,7 +103,7 @@ def test_x3p_is_read(tmp_path, letter, scale):
     path = write_x3p(tmp_path / "map.x3p", HOLED, letter, scale)
     found = read(path)
     np.testing.assert_allclose(found.heights, HOLED, rtol=1e-6, atol=0.51 * (scale % 1.0))
-    assert (found.unit, found.pixel, found.pixel_unit) == ("m", (2e-6, 3e-6), "m")
+    assert (found.unit, found.pixel, found.pixel_units) == ("m", (2e-6, 3e-6), ("m", "m"))
 
 
 def test_x3p_with_the_checksum_of_a_widespread_writer_is_read(tmp_path):

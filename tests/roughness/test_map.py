@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
@@ -202,6 +203,43 @@ def test_units_come_from_the_file_or_are_asked_for(file, tmp_path):
     known = Map(file=str(xyz), unit="um", xy_unit="micron").load()
     assert known.pixel == pytest.approx((2e-6, 3e-6))
     assert Map(file=file, unit="um", size=("64 um", "24 um")).load().pixel == (1e-6, 5e-7)
+
+
+def write_netcdf(path, x_unit, y_unit):
+    """Write heights [um] with points 2 apart along x and 0.003 along y."""
+    units = [{} if unit is None else {"units": unit} for unit in (x_unit, y_unit)]
+    places = {"x": np.arange(NX) * 2.0, "y": np.arange(NY) * 0.003}
+    coords = {key: (key, places[key], attrs) for key, attrs in zip("xy", units, strict=True)}
+    heights = (("y", "x"), HEIGHTS * 1e6, {"units": "um"})
+    xr.Dataset({"z": heights}, coords=coords).to_netcdf(path, engine="h5netcdf")
+    return str(path)
+
+
+@pytest.mark.parametrize(("x_unit", "y_unit"), [("um", "mm"), ("micrometers", "millimetre")])
+def test_x_and_y_have_units_of_their_own(tmp_path, x_unit, y_unit):
+    found = Map(file=write_netcdf(tmp_path / "a.nc", x_unit, y_unit)).load()
+    assert found.pixel == pytest.approx((2e-6, 3e-6))
+    assert len(found.notes) == 1
+
+
+def test_a_stated_unit_of_x_and_y_that_the_file_contradicts_is_noted(tmp_path):
+    path = write_netcdf(tmp_path / "a.nc", "micron", "mm")
+    found = Map(file=path, xy_unit="um").load()
+    assert found.pixel == pytest.approx((2e-6, 3e-9))
+    assert found.notes[0] == "its y is taken in um, though the file says mm"
+    assert len(found.notes) == 2
+    stated_too = Map(file=path, xy_unit="um", pixel="2 um").load()
+    assert stated_too.notes[0].endswith("2 and 2 um apart, though the file says 2 and 3 um")
+
+
+def test_units_of_x_or_y_that_are_missing_or_foreign_are_asked_for(tmp_path):
+    half = write_netcdf(tmp_path / "half.nc", "um", None)
+    with pytest.raises(InputError, match=r"in which unit along y: which is it\? Give xy_unit"):
+        Map(file=half).load()
+    foreign = write_netcdf(tmp_path / "foreign.nc", "degrees_east", "degrees_east")
+    with pytest.raises(InputError, match=r"unit 'degrees_east' for its x, which is no length"):
+        Map(file=foreign).load()
+    assert Map(file=foreign, pixel="2 um").load().pixel == (2e-6, 2e-6)
 
 
 def test_what_is_stated_wins_over_the_file_and_is_noted(tmp_path):

@@ -135,17 +135,14 @@ def _metres(unit: str, what: str, key: str) -> float:
 def _pixel(surface: "Map", raw: RawMap, notes: list[str]) -> tuple[float, float]:
     """Return the distances of the points of the file [m]."""
     ny, nx = raw.heights.shape
-    unit = surface.xy_unit or raw.pixel_unit
-    own = None
-    if raw.pixel is not None and unit is not None:
-        factor = _metres(unit, "x and y", "xy_unit")
-        own = (raw.pixel[0] * factor, raw.pixel[1] * factor)
-    pixel = own if surface.pixel is None else surface.pixel
+    pixel = surface.pixel
     if surface.size is not None:
         pixel = (surface.size[0] / nx, surface.size[1] / ny)
     if pixel is None:
-        raise InputError(_question(raw))
-    if own is not None and not np.allclose(pixel, own, rtol=1e-3, atol=0.0):
+        pixel = _pixel_of_file(surface, raw, notes)
+    elif (own := _own_pixel(surface, raw)) is not None and not np.allclose(
+        pixel, own, rtol=1e-3, atol=0.0
+    ):
         notes.append(
             f"its points are taken {_pair(pixel)} um apart, though the file says {_pair(own)} um"
         )
@@ -158,11 +155,35 @@ def _pixel(surface: "Map", raw: RawMap, notes: list[str]) -> tuple[float, float]
     return pixel
 
 
+def _pixel_of_file(surface: "Map", raw: RawMap, notes: list[str]) -> tuple[float, float]:
+    """Return the distances that the file has, each in its own unit or both in the one stated."""
+    if raw.pixel is None or (surface.xy_unit is None and None in raw.pixel_units):
+        raise InputError(_question(raw))
+    x, y = (
+        _metres(surface.xy_unit or unit or "", axis, "xy_unit")
+        for unit, axis in zip(raw.pixel_units, "xy", strict=True)
+    )
+    for axis, unit, factor in zip("xy", raw.pixel_units, (x, y), strict=True):
+        if surface.xy_unit and unit and _known(unit) != factor:
+            notes.append(f"its {axis} is taken in {surface.xy_unit}, though the file says {unit}")
+    return raw.pixel[0] * x, raw.pixel[1] * y
+
+
+def _own_pixel(surface: "Map", raw: RawMap) -> tuple[float, float] | None:
+    """Return the distances that the file has [m], where it is known in which units."""
+    x, y = (_known(unit or surface.xy_unit or "") for unit in raw.pixel_units)
+    if raw.pixel is None or x is None or y is None:
+        return None
+    return raw.pixel[0] * x, raw.pixel[1] * y
+
+
 def _question(raw: RawMap) -> str:
     if raw.pixel is not None:
+        known = [unit for unit in raw.pixel_units if unit]
+        half = f" along {'xy'[raw.pixel_units.index(None)]}" if known else ""
         return (
             f"has points {raw.pixel[0]:g} and {raw.pixel[1]:g} apart along x and y, but does not "
-            'say in which unit: which is it? Give xy_unit = "um"'
+            f'say in which unit{half}: which is it? Give xy_unit = "um"'
         )
     return (
         'does not say how far its points are apart: give pixel = "2 um", or size = ["1 mm", "1 mm"]'

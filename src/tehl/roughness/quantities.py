@@ -18,7 +18,6 @@ Wavelength = Annotated[float, WAVELENGTH]
 
 _WORDS = {
     "micron": "um",
-    "microns": "um",
     "micrometer": "um",
     "micrometre": "um",
     "nanometer": "nm",
@@ -42,7 +41,8 @@ def metres(unit: str) -> float:
     text = unit.strip().removeprefix("Â")  # a micro sign of two bytes, read as two letters
     if text in _ANGSTROMS or text.lower() in _ANGSTROMS:
         return 1e-10
-    return LENGTH.parse(f"1 {_WORDS.get(text.lower(), text)}")
+    word = text.lower()
+    return LENGTH.parse(f"1 {_WORDS.get(word) or _WORDS.get(word.removesuffix('s'), text)}")
 
 
 def _is_length(unit: str) -> str:

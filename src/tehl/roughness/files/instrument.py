@@ -76,5 +76,5 @@ def read_instrument(path: Path) -> RawMap:
         kind=f"{path.suffix[1:].lower()}, read by SurfaceTopography",
         unit=found.unit,
         pixel=pixel,
-        pixel_unit=found.unit,
+        pixel_units=(found.unit, found.unit),
     )

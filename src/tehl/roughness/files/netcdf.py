@@ -65,15 +65,13 @@ def _map_of(data: Any, name: str | None) -> RawMap:
     if {"x", "y"} == set(found.dims):
         found = found.transpose("y", "x")
     steps = [_step(found, dim, axis) for dim, axis in zip(found.dims, "yx", strict=True)]
-    units = {unit for _, unit in steps}
-    pixel_unit = units.pop() if len(units) == 1 else None
-    (dy, _), (dx, _) = steps
+    (dy, unit_y), (dx, unit_x) = steps
     return RawMap(
         heights=np.asarray(found.values, dtype=np.float64),
         kind=f"NetCDF, variable {found.name}",
         unit=_unit(found),
         pixel=(dx, dy) if dx and dy else None,
-        pixel_unit=pixel_unit,
+        pixel_units=(unit_x, unit_y),
     )
 
 

@@ -29,8 +29,8 @@ class RawMap:
         Of the heights; None when the file does not say.
     pixel : (dx, dy) or None
         Distances of the points.
-    pixel_unit : str or None
-        Of the distances.
+    pixel_units : (str or None, str or None)
+        Of the distances along x and y.
     kind : str
         What the file is, for people.
     """
@@ -39,7 +39,7 @@ class RawMap:
     kind: str
     unit: str | None = None
     pixel: tuple[float, float] | None = None
-    pixel_unit: str | None = None
+    pixel_units: tuple[str | None, str | None] = (None, None)
 
 
 def check_count(shape: tuple[int, ...]) -> None:

@@ -65,7 +65,13 @@ def _map_of(archive: zipfile.ZipFile) -> RawMap:
     pixel = tuple(_number(root, f"Record1/Axes/{axis}/Increment", None) for axis in ("CX", "CY"))
     if not all(step > 0 and np.isfinite(step) for step in pixel):
         raise InputError("has increments along x and y that are not positive numbers")
-    return RawMap(heights=heights, kind="x3p", unit="m", pixel=(pixel[0], pixel[1]), pixel_unit="m")
+    return RawMap(
+        heights=heights,
+        kind="x3p",
+        unit="m",
+        pixel=(pixel[0], pixel[1]),
+        pixel_units=("m", "m"),
+    )
 
 
 def _heights(archive: zipfile.ZipFile, root: Any, shape: tuple[int, int]) -> Array:
