@@ -65,6 +65,43 @@ def test_a_line_of_names_is_skipped(tmp_path):
     np.testing.assert_array_equal(read(path).heights, [[1, 2], [3, 4]])
 
 
+NAN = np.nan
+
+
+@pytest.mark.parametrize("word", ["nan", "NaN", "na", "N/A", "bad", "-", "***", "inf"])
+@pytest.mark.parametrize("mark", [",", ";", "\t", " "])
+def test_a_first_row_without_heights_is_no_line_of_names(tmp_path, word, mark):
+    path = tmp_path / "map.csv"
+    path.write_text("\n".join(map(mark.join, [[word] * 4, list("1234"), list("5678")])))
+    found = read(path).heights
+    assert found.shape == (3, 4)
+    assert not np.isfinite(found[0]).any()
+    path.write_text(mark.join("abcd") + "\n" + path.read_text())
+    assert read(path).heights.shape == (3, 4)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("1,2,3\n4,5,\n6,7,8\n", [[1, 2, 3], [4, 5, NAN], [6, 7, 8]]),
+        ("1,2,\n4,5,\n6,7,8\n", [[1, 2, NAN], [4, 5, NAN], [6, 7, 8]]),
+        (",,\n4,5,6\n,,\n", [[NAN] * 3, [4, 5, 6], [NAN] * 3]),
+        ("1,2,3,\n4,5,6,\n", [[1, 2, 3], [4, 5, 6]]),
+        ("1,2,3,\n4,5,,\n", [[1, 2, 3], [4, 5, NAN]]),
+        ("1,2,3,\n4,5,6\n", [[1, 2, 3], [4, 5, 6]]),
+        ("1,2,3\n4,5,6,\n7,8,\n", [[1, 2, 3], [4, 5, 6], [7, 8, NAN]]),
+        ("a,b,c,\n4,5,6,\n", [[4, 5, 6]]),
+        ("1,2,3\n \n\t\n4,5,6\n", [[1, 2, 3], [4, 5, 6]]),
+        ("a,b,c\n4,5,6\n7,8,\n", [[4, 5, 6], [7, 8, NAN]]),
+    ],
+)
+def test_a_mark_at_the_end_is_a_gap_only_where_one_is(tmp_path, text, expected):
+    for mark in (",", ";", "\t"):
+        path = tmp_path / "map.csv"
+        path.write_text(text.replace(",", mark))
+        np.testing.assert_array_equal(read(path, layout="matrix").heights, expected)
+
+
 def test_a_table_of_three_columns_is_no_map_unless_it_is_said(tmp_path):
     path = tmp_path / "map.csv"
     np.savetxt(path, HEIGHTS[:, :3])
@@ -172,6 +209,9 @@ WRONG = {
     "prose": ("a.txt", b"It was a dark and stormy night; the rain fell.", "line 1 has|no numbers"),
     "binary text": ("a.txt", b"\x89PNG\xff\xfe\x00", "no text in UTF-8"),
     "ragged": ("a.csv", b"1,2,3,4\n1,2,3\n", "line 2 has 3 numbers, .* have 4"),
+    "ragged by two": ("a.csv", b"1,2,3,4\n1,2,\n", "line 2 has 2 numbers, .* have 4"),
+    "longer": ("a.csv", b"1,2,3,\n1,2,3,4,\n", "line 2 has 4 numbers, .* have 3"),
+    "underscores": ("a.csv", b"1,2,3,4\n1,2,3_0,4\n", "line 2 has '3_0', which is no number"),
     "only names": ("a.csv", b"x,y,z\n", "holds no numbers"),
     "nothing": ("a.csv", b"", "is empty"),
     "two heights": ("a.xyz", b"0 0 1\n1 0 1\n0 1 1\n1 1 1\n1 1 2\n", "several heights at one"),

@@ -1,6 +1,7 @@
 """Heights as text: a table of them, or columns x, y and z. One is never taken for the other."""
 
 import re
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
@@ -26,7 +27,8 @@ def read_text(path: Path, layout: Layout) -> RawMap:
     ----------
     path : Path
         Numbers parted by commas, semicolons, tabs or blanks; lines that begin with ``#``, ``%`` or
-        ``//`` and one line of names are skipped; nothing and ``nan`` are points without a height.
+        ``//`` and one line of names are skipped; nothing and ``nan`` are points without a height,
+        but a mark at the end of a row that is as long as the others without it is nothing more.
     layout : {"auto", "matrix", "xyz"}
         What the numbers are. "auto" takes three columns as x, y and z only if the first two make
         a lattice, and as a table never.
@@ -48,25 +50,55 @@ def read_text(path: Path, layout: Layout) -> RawMap:
 def _table(path: Path) -> Array:
     if path.stat().st_size > _LARGEST_TEXT:
         raise InputError(f"is a text of more than {_LARGEST_TEXT // 10**9} GB: store it as .npy")
-    rows: list[Array] = []
+    rows = _Rows()
     names_may_come = True
     with path.open(encoding="utf-8-sig", errors="strict") as file:
         try:
             for number, line in enumerate(file, start=1):
                 text = line.strip("\r\n \0")
-                if not text.strip() or text.lstrip().startswith(_COMMENT):
+                if _is_blank(text) or text.lstrip().startswith(_COMMENT):
                     continue
                 if names_may_come and _are_names(text):
                     names_may_come = False
                     continue
                 names_may_come = False
-                rows.append(_row(text, number))
-                _check_row(rows, number)
+                rows.add(_cells(text), number)
         except UnicodeDecodeError:
             raise InputError("is no text in UTF-8") from None
-    if not rows:
+    if not rows.found:
         raise InputError("holds no numbers")
-    return np.array(rows)
+    return np.array(rows.found)
+
+
+@dataclass(slots=True)
+class _Rows:
+    """Rows of one length, as they come.
+
+    What ends with a mark may lack its last height, or be ended by the mark: only the length of
+    the other rows tells. Where all rows end with one, it ends them.
+    """
+
+    found: list[Array] = field(default_factory=list)
+    all_end_with_a_mark: bool = True
+
+    def add(self, cells: list[str], number: int) -> None:
+        """Add the cells of a line.
+
+        Raises
+        ------
+        InputError
+            If one is no number, or they are more or fewer than those of the lines before.
+        """
+        ends_with_a_mark = not cells[-1] and len(cells) > 1
+        row = _row(cells[:-1] if ends_with_a_mark else cells, number)
+        lacking = row.size - self.found[0].size if self.found else 0
+        if lacking == 1 and self.all_end_with_a_mark and not ends_with_a_mark:
+            self.found = [np.append(one, np.nan) for one in self.found]
+        elif lacking == -1 and ends_with_a_mark and not self.all_end_with_a_mark:
+            row = np.append(row, np.nan)
+        self.found.append(row)
+        self.all_end_with_a_mark &= ends_with_a_mark
+        _check_row(self.found, number)
 
 
 def _check_row(rows: list[Array], number: int) -> None:
@@ -77,23 +109,27 @@ def _check_row(rows: list[Array], number: int) -> None:
         raise InputError(f"holds more than {LARGEST_MAP // 10**6} million heights: crop it before")
 
 
+def _is_blank(text: str) -> bool:
+    """Return whether a line is empty; several tabs are a row of missing points."""
+    return not text.strip() and text.count("\t") < 2
+
+
 def _cells(text: str) -> list[str]:
     """Return the cells of a line; the comma is decimal where something else parts the cells."""
     for mark in (";", "\t"):
         if mark in text:
-            cells = text.removesuffix(mark).split(mark)
-            return [cell.strip().replace(",", ".") for cell in cells]
+            return [cell.strip().replace(",", ".") for cell in text.split(mark)]
     if "," in text:
-        return [cell.strip() for cell in text.removesuffix(",").split(",")]
+        return [cell.strip() for cell in text.split(",")]
     return text.split()
 
 
-def _row(text: str, number: int) -> Array:
-    cells = _cells(text)
-    try:
-        return np.array(cells, dtype=np.float64)
-    except ValueError:
-        pass
+def _row(cells: list[str], number: int) -> Array:
+    if "_" not in "".join(cells):  # which Python takes for a part of a number
+        try:
+            return np.array(cells, dtype=np.float64)
+        except ValueError:
+            pass
     cells = [_MISSING.get(cell.lower(), cell) for cell in cells]
     for cell in cells:
         if not _is_number(cell):
@@ -106,13 +142,20 @@ def _is_number(cell: str) -> bool:
         float(cell)
     except ValueError:
         return False
-    return True
+    return "_" not in cell
 
 
 def _are_names(text: str) -> bool:
-    """Return whether a line is one of column names: short words, none of them a number."""
+    """Return whether a line is one of column names: short words, none a number or a gap."""
     cells = _cells(text)
-    return len(text) < 400 and all(re.fullmatch(r"[^\W\d][\w .()\[\]/µ]{0,30}", c) for c in cells)
+    cells = cells if cells[-1] else cells[:-1]
+    return len(text) < 400 and all(map(_is_name, cells))
+
+
+def _is_name(cell: str) -> bool:
+    if cell.lower() in _MISSING or _is_number(cell):  # nan and inf are numbers
+        return False
+    return re.fullmatch(r"[^\W\d][\w .()\[\]/µ]{0,30}", cell) is not None
 
 
 def _short(cell: str) -> str:
