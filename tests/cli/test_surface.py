@@ -1,6 +1,7 @@
 """``tehl surface`` as a user meets it."""
 
 import json
+import zipfile
 
 import numpy as np
 import pytest
@@ -130,3 +131,19 @@ def test_wrong_input_is_one_sentence(monkeypatch, capsys, file, arguments, words
     assert words in told.err
     assert told.err.count("\n") == 1
     assert told.out == ""
+
+
+def test_damaged_files_are_one_sentence(monkeypatch, capsys, tmp_path):
+    write_x3p(tmp_path / "a.x3p", relief(), method=zipfile.ZIP_LZMA)
+    whole = (tmp_path / "a.x3p").read_bytes()
+    place = whole.index(b"bindata/data.bin") + 16 + 40
+    (tmp_path / "a.x3p").write_bytes(whole[:place] + b"\0\0\0\0" + whole[place + 4 :])
+    write_x3p(tmp_path / "b.x3p", relief(), encoding="rot13")
+    with (tmp_path / "c.npy").open("wb") as file:
+        header = {"descr": "<f8", "fortran_order": False, "shape": (-5, -5)}
+        np.lib.format.write_array_header_1_0(file, header)
+    for name in ("a.x3p", "b.x3p", "c.npy"):
+        assert run(monkeypatch, "surface", str(tmp_path / name), *STATED) == 2
+        told = capsys.readouterr()
+        assert name in told.err
+        assert (told.out, told.err.count("\n")) == ("", 1)

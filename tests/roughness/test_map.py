@@ -270,6 +270,28 @@ def test_heights_that_cannot_be_meant_are_questioned(file, keys, words):
         stated(file, **keys).load()
 
 
+@pytest.mark.parametrize(("scale", "unit"), [(1.0, "nm"), (1e-3, "nm"), (1e-12, "um")])
+def test_heights_that_a_wrong_unit_makes_tiny_are_asked_for(tmp_path, scale, unit):
+    np.save(tmp_path / "a.npy", HEIGHTS * scale)  # of metres
+    surface = stated(str(tmp_path / "a.npy"), unit=unit)
+    with pytest.raises(
+        InputError, match=r"Sq = 1.*e-\d\d m .* less than 1e-12 m .*: is the unit right[?]"
+    ):
+        surface.load()
+    filtered = stated(str(tmp_path / "a.npy"), unit=unit, lambda_s="8 um")
+    with pytest.raises(InputError, match=r"right, and do lambda_c and lambda_s leave any\?"):
+        filtered.load()
+
+
+@pytest.mark.parametrize("unit", ["nm", "um", "mm"])
+@pytest.mark.parametrize("offset", [0.0, 0.1, 40.0])
+def test_planes_are_constant_in_every_unit(tmp_path, unit, offset):
+    x, y = np.linspace(-1, 1, 30)[None, :], np.linspace(0, 1, 20)[:, None]
+    np.save(tmp_path / "a.npy", offset + 0.3 * x + 0.7 * y)
+    with pytest.raises(InputError, match="is constant"):
+        stated(str(tmp_path / "a.npy"), unit=unit).load()
+
+
 @pytest.mark.parametrize(
     ("heights", "words"),
     [

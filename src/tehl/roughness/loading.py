@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from tehl.roughness.map import Map
 
 _LEAST = 4
-_HIGHEST = 10e-6
+_LOWEST, _HIGHEST = 1e-12, 10e-6
+_ROUNDING = 1e-12
 _WIDEST, _FINEST, _TALLEST = 1.0, 1e-10, 1.0
 _BEYOND = {
     "flat": "beyond its edges the surface is flat, heights fall to zero before",
@@ -73,13 +74,13 @@ def prepared(surface: "Map", raw: RawMap) -> Heights:
     notes: list[str] = []
     factor = _factor(surface, raw, notes)
     pixel = _pixel(surface, raw, notes)
-    _check_reach(raw.heights, factor)
+    highest = _highest(raw.heights, factor)
     heights = _oriented(surface, Heights(values=raw.heights * factor, pixel=pixel))
     heights = _cropped(surface, heights)
     values = _whole(surface, heights.values, notes)
     values = levelled(values, surface.level)
     values = _filtered(surface, values, heights, notes)
-    _check_heights(surface, values)
+    _check_heights(surface, values, highest, factor)
     notes.append(_BEYOND[surface.outside])
     return Heights(values=values, pixel=heights.pixel, notes=tuple(notes))
 
@@ -92,14 +93,15 @@ def _check_points(heights: Array) -> None:
         raise InputError("has no point with a height")
 
 
-def _check_reach(heights: Array, factor: float) -> None:
-    """Refuse heights that no file has on purpose, before they are squared."""
+def _highest(heights: Array, factor: float) -> float:
+    """Return the largest number of a file, no height that none has on purpose, before squares."""
     highest = float(np.abs(heights[np.isfinite(heights)]).max())
     if not highest <= _TALLEST / factor:
         raise InputError(
             f"has heights up to {highest:.3g} times {factor:g} m: it is damaged, marks missing "
             "points by a number, or has another unit"
         )
+    return highest
 
 
 # ---- units
@@ -259,13 +261,25 @@ def _filtered(surface: "Map", values: Array, heights: Heights, notes: list[str])
     return values
 
 
-def _check_heights(surface: "Map", values: Array) -> None:
-    off = float(np.std(values))
-    if not off > 1e-13:
+def _check_heights(surface: "Map", values: Array, highest: float, factor: float) -> None:
+    """Refuse heights that are none, and ask about those that no contact has."""
+    if not np.ptp(values) > _ROUNDING * highest * factor:
         raise InputError("is constant: there is no roughness in it")
+    off = float(np.std(values))
+    how = f'after level = "{surface.level}"'
+    if not off >= _LOWEST:
+        filters = ", and do lambda_c and lambda_s leave any" if _has_filters(surface) else ""
+        raise InputError(
+            f"has Sq = {off:.3g} m {how}, less than {_LOWEST:g} m and than is measured, where "
+            f"{highest:.3g} in the file stands for {highest * factor:.3g} m: is the unit right"
+            f"{filters}?"
+        )
     if not off <= _HIGHEST:
-        how = f'after level = "{surface.level}"'
         raise InputError(
             f"has Sq = {off * 1e6:.3g} um {how}, more than {_HIGHEST * 1e6:g} um and than a "
             "lubricated contact has: is the unit right, and is its form taken off?"
         )
+
+
+def _has_filters(surface: "Map") -> bool:
+    return surface.lambda_c is not None or surface.lambda_s is not None
