@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from tehl.options import Domain, Options
     from tehl.problem import Contact, ContactProblem, Surface
     from tehl.result import Result
-    from tehl.solver import certify, march, solve
+    from tehl.solver import certify, certify_march, march, solve
     from tehl.studies import study
 
 __all__ = [
@@ -41,6 +41,7 @@ __all__ = [
     "TehlError",
     "__version__",
     "certify",
+    "certify_march",
     "load",
     "march",
     "material",
@@ -72,6 +73,7 @@ _HOMES = {
     "Surface": "tehl.problem",
     "TehlError": "tehl.errors",
     "certify": "tehl.solver",
+    "certify_march": "tehl.solver",
     "load": "tehl.io.evolution_store",
     "march": "tehl.solver",
     "material": "tehl.materials",

@@ -1,10 +1,10 @@
 """The answer to a question with time: a film that changes while its surfaces move on."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tehl.result import Cost, Provenance, Result, Status
+from tehl.result import Cost, Estimate, Provenance, Result, Status
 from tehl.typing import Array, IntArray, SingleArray
 
 if TYPE_CHECKING:
@@ -120,6 +120,26 @@ class Frames:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class HistoryBars:
+    """Half widths of the error bars of a history, at the instants that its grids share; (nb,).
+
+    Attributes
+    ----------
+    time : array
+        [s]; steps of the history that they belong to.
+    film_central, film_minimum : array
+        Of the film at the centre and at the thinnest node [m].
+    pressure_max : array
+        Of the largest pressure [Pa].
+    """
+
+    time: Array
+    film_central: Array
+    film_minimum: Array
+    pressure_max: Array
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class Evolution:
     """A film in time.
 
@@ -138,7 +158,14 @@ class Evolution:
     status : Status
         How the run ended.
     cost, provenance : Cost, Provenance
-        Expense, that of the start included, and origin.
+        Expense, that of the start included, and origin; of a certified run that of all grids.
+    uncertainty : dict of str to Estimate
+        Of a certified run, extremes over time in SI with their error bars: ``"film_minimum"``,
+        ``"film_central_least"``, ``"film_central_largest"``, ``"pressure_max"``,
+        ``"film_rise_max"`` where the film is heated, and ``"traction_extreme"``, that of largest
+        magnitude, where it is heated or thins and slides.
+    bars : HistoryBars or None
+        Error bars along the history of a certified run.
     """
 
     start: Result
@@ -149,6 +176,8 @@ class Evolution:
     status: Status
     cost: Cost
     provenance: Provenance
+    uncertainty: dict[str, Estimate] = field(default_factory=dict)
+    bars: HistoryBars | None = None
 
     @property
     def x(self) -> Array:

@@ -164,6 +164,11 @@ def coarsenable(nodes: int) -> tuple[int, int]:
     return fewer + 1, fewer + step + 1
 
 
+def can_be_halved(options: Options, times: int) -> bool:
+    """Return whether a grid of half the intervals, so many times, can be coarsened once more."""
+    return min(coarsenings(nodes) for nodes in options.shape) > times
+
+
 def check_certifiable(options: Options) -> None:
     """Refuse options whose grid cannot be certified.
 
@@ -172,8 +177,23 @@ def check_certifiable(options: Options) -> None:
     InputError
         When the grid cannot be halved twice.
     """
-    if min(coarsenings(nodes) for nodes in options.shape) < HALVED_TO_CERTIFY + 1:
+    if not can_be_halved(options, HALVED_TO_CERTIFY):
         raise InputError(
             f"points = {options.points} is too few to certify: the grid is halved twice, "
             "which takes 129 nodes or more per direction"
+        )
+
+
+def check_certifiable_in_time(options: Options) -> None:
+    """Refuse options of a run in time whose grid cannot be certified, not even by two grids.
+
+    Raises
+    ------
+    InputError
+        When the grid cannot be halved.
+    """
+    if not can_be_halved(options, 1):
+        raise InputError(
+            f"points = {options.points} is too few to certify a run in time: the grid is halved, "
+            "which takes 65 nodes or more per direction"
         )

@@ -57,11 +57,11 @@ def certify(
     grids: list[_Grid] = []
     for number, times in enumerate((2, 1), start=1):
         monitor.message(f"certify: grid {number} of 3")
-        grids.append(_coarser(problem, _halved(options, times), monitor))
+        grids.append(_coarser(problem, halved(options, times), monitor))
     monitor.message("certify: grid 3 of 3")
     finest = solve(problem, options, monitor=monitor)
     monitor.message("certify: larger domain")
-    wide = _coarser(problem, _widened(options, finest), monitor)
+    wide = _coarser(problem, widened(options, finest), monitor)
     return _certified(grids, finest, wide)
 
 
@@ -86,14 +86,15 @@ class _Grid:
         return f"{self.name} {'too coarse for the film' if coarse else status.outcome}"
 
 
-def _nodes(options: Options) -> str:
+def nodes_of(options: Options) -> str:
+    """Return the nodes of the finest grid in words."""
     ny, nx = options.shape
     return f"{nx} x {ny}"
 
 
 def _coarser(problem: ContactProblem, options: Options, monitor: Monitor) -> _Grid:
     """Solve; a coarser grid need not resolve the film, it only has to be iterated to the end."""
-    name = _nodes(options)
+    name = nodes_of(options)
     try:
         return _Grid(name=name, result=solve(problem, options, monitor=monitor))
     except UnresolvedError as error:
@@ -110,7 +111,7 @@ def _certified(coarser: list[_Grid], finest: Result, wide: _Grid) -> Result:
     finest = replace(finest, cost=_cost(finest, [*coarser, wide]))
     first, middle = coarser
     before, larger = _check_used(finest, middle, wide)
-    last = _Grid(name=_nodes(finest.options), result=finest)
+    last = _Grid(name=nodes_of(finest.options), result=finest)
     used = [grid.result for grid in (first, middle, last) if grid.used and grid.result is not None]
     runs, wider = [_quantities(run) for run in used], _quantities(larger)
     uncertainty = {
@@ -118,7 +119,7 @@ def _certified(coarser: list[_Grid], finest: Result, wide: _Grid) -> Result:
         for name in wider
     }
     highest = uncertainty["pressure_max"]
-    uncertainty["pressure_max"] = with_growing_spike(highest, _spike(before), _spike(finest))
+    uncertainty["pressure_max"] = with_growing_spike(highest, spike(before), spike(finest))
     status = replace(finest.status, message=_endings([first, middle, last], wide), hint=None)
     result = replace(finest, uncertainty=uncertainty, status=status)
     worst = max(abs(uncertainty[name].uncertainty / uncertainty[name].value) for name in JUDGED)
@@ -172,13 +173,22 @@ def _iterated(result: Result) -> bool:
     return worst <= result.options.tolerance
 
 
-def _halved(options: Options, times: int) -> Options:
+def halved(options: Options, times: int) -> Options:
+    """Return options of a grid whose intervals are halved so many times."""
     ny, nx = ((n - 1) // 2**times + 1 for n in options.shape)
     return options.model_copy(update={"points": (nx, ny)})
 
 
-def _widened(options: Options, finest: Result) -> Options:
-    """Put the finest grid on the larger domain: the mesh width of the grid before it."""
+def widened(options: Options, finest: Result) -> Options:
+    """Return options of the finest grid on the larger domain: the mesh of the grid before it.
+
+    Parameters
+    ----------
+    options : Options
+        Of the finest grid.
+    finest : Result
+        On it, which says how large its domain is.
+    """
     x, y = finest.scaled.x, finest.scaled.y
     domain = Domain(
         x=(WIDER * float(x[0]), WIDER * float(x[-1])), y=(WIDER * float(y[0]), WIDER * float(y[-1]))
@@ -206,7 +216,7 @@ def _heat_quantities(result: Result) -> dict[str, float]:
     return quantities
 
 
-def _spike(result: Result) -> float:
+def spike(result: Result) -> float:
     """Return the largest pressure of the outlet half, beyond X = 0.5 [-]."""
     return float(result.scaled.pressure[:, result.scaled.x > OUTLET_HALF].max())
 
