@@ -5,9 +5,9 @@ from functools import cache
 
 import numpy as np
 
-from tehl.evolution import Evolution, Frames, History, Profiles
+from tehl.evolution import Evolution, Frames, History, HistoryBars, Profiles
 from tehl.problem import ContactProblem
-from tehl.result import Cost, Provenance, Status
+from tehl.result import Cost, Estimate, Provenance, Status
 from tests.fixtures_result import CASE, make_result
 
 STEPS = 60
@@ -21,6 +21,46 @@ def make_evolution(*, points: int = 33, slide: float = 0.5, frames: bool = True)
     surface = CASE["surface_1"] | {"roughness": DENT}
     case = CASE | {"contact": contact, "surface_1": surface, "transient": {}}
     return passing(case, points=points, frames=frames)
+
+
+def make_certified() -> Evolution:
+    """Return the run of :func:`make_evolution` with error bars at every fourth step."""
+    run = make_evolution()
+    told, every = run.history, slice(None, None, 4)
+    extremes = {
+        "film_minimum": told.film_minimum.min(),
+        "film_central_least": told.film_central.min(),
+        "film_central_largest": told.film_central.max(),
+        "pressure_max": told.pressure_max.max(),
+        "film_rise_max": 3.0,
+        "traction_extreme": told.traction.min(),
+    }
+    bars = HistoryBars(
+        time=told.time[every].copy(),
+        film_central=0.02 * told.film_central[every],
+        film_minimum=0.03 * told.film_minimum[every],
+        pressure_max=0.04 * told.pressure_max[every],
+    )
+    message = "Grids of the error bars: 9 x 9 converged, 17 x 17 converged, 33 x 33 converged."
+    return replace(
+        run,
+        status=Status(kind="converged", message=message),
+        uncertainty={name: _estimate(float(value)) for name, value in extremes.items()},
+        bars=bars,
+    )
+
+
+def _estimate(value: float) -> Estimate:
+    """Return a value with a bar of 5 % of it, 4 of the grid and 3 of the domain."""
+    grid, domain = abs(0.04 * value), abs(0.03 * value)
+    return Estimate(
+        value=value,
+        uncertainty=float(np.hypot(grid, domain)),
+        discretisation=grid,
+        domain=domain,
+        observed_order=2.1 if value > 0 else None,
+        values=(0.9 * value, 0.97 * value, 0.99 * value),
+    )
 
 
 def passing(

@@ -1,5 +1,6 @@
 """Runs in time on disk: there and back without loss, and what is told of other files."""
 
+import json
 from dataclasses import asdict, fields, replace
 
 import h5netcdf
@@ -12,7 +13,7 @@ from tehl.errors import FileFormatError
 from tehl.io import store
 from tehl.io.evolution_store import load_evolution
 from tehl.result import Status
-from tests.fixtures_evolution import make_evolution
+from tests.fixtures_evolution import make_certified, make_evolution
 
 
 @pytest.fixture
@@ -44,6 +45,51 @@ def test_a_run_without_fields_comes_back(tmp_path):
     run.save(tmp_path / "run.nc")
     again = tehl.load(tmp_path / "run.nc")
     assert again.frames.film.shape == (0, 33, 33)
+
+
+def test_error_bars_come_back_bit_by_bit(tmp_path):
+    run = make_certified()
+    run.save(tmp_path / "run.nc")
+    again = tehl.load(tmp_path / "run.nc")
+    assert again.uncertainty == run.uncertainty
+    assert again.status == run.status
+    same(run.bars, again.bars)
+
+
+def test_a_run_without_error_bars_and_one_of_an_older_version_come_back(stored):
+    with h5py.File(stored, "a") as file:
+        state = json.loads(file.attrs["evolution"])
+        assert state.pop("uncertainty") == {}
+        file.attrs["evolution"] = json.dumps(state)
+    again = tehl.load(stored)
+    assert again.uncertainty == {}
+    assert again.bars is None
+
+
+def test_error_bars_have_units_in_the_dataset_and_must_be_whole(tmp_path):
+    data = make_certified().to_xarray()
+    assert data.h_min_bar.dims == ("bar",)
+    assert data.p_max_bar.attrs["units"] == "Pa"
+    assert "bar_time" in data.coords
+    make_certified().save(tmp_path / "run.nc")
+    with h5py.File(tmp_path / "run.nc", "a") as file:
+        file.pop("h_min_bar")
+    with pytest.raises(FileFormatError, match="'h_min_bar' is missing"):
+        tehl.load(tmp_path / "run.nc")
+
+
+def test_the_summary_mirrors_certified_values():
+    run = make_certified()
+    found = run.summary()["uncertainty"]
+    film = found["film"]
+    assert film["h_min_m"]["value"]["value"] == run.uncertainty["film_minimum"].value
+    assert film["h_central_m"]["least"]["domain"] == run.uncertainty["film_central_least"].domain
+    assert set(film["h_central_m"]) == {"least", "largest"}
+    assert found["pressure"]["p_max_pa"]["value"]["values"][2] < run.history.pressure_max.max()
+    assert set(found) == {"film", "pressure", "temperature", "traction", "history"}
+    assert found["history"]["h_min_m"] == run.bars.film_minimum.max()
+    assert found["history"]["instants"] == 16
+    assert "uncertainty" not in make_evolution().summary()
 
 
 def test_a_failed_run_says_so_in_its_file(tmp_path):

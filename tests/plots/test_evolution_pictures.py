@@ -9,7 +9,7 @@ from tehl.errors import InputError
 from tehl.plots import evolution
 from tehl.plots.animation import Movie, animate
 from tehl.result import Status
-from tests.fixtures_evolution import make_evolution
+from tests.fixtures_evolution import make_certified, make_evolution
 
 
 def test_the_history_shows_the_numbers_of_each_step():
@@ -18,6 +18,16 @@ def test_the_history_shows_the_numbers_of_each_step():
     assert len(axes) == 3
     np.testing.assert_allclose(axes[0].lines[0].get_ydata(), run.history.film_central * 1e6)
     np.testing.assert_allclose(axes[1].lines[0].get_ydata(), run.history.pressure_max * 1e-9)
+
+
+def test_error_bars_are_bands_around_the_curves():
+    run = make_certified()
+    panels = evolution.history(run).axes
+    assert [len(axes.collections) for axes in panels] == [2, 1, 0]
+    corners = panels[1].collections[0].get_paths()[0].vertices[:, 1]
+    highest = ((run.history.pressure_max[::4] + run.bars.pressure_max) * 1e-9).max()
+    assert corners.max() == pytest.approx(highest)
+    assert not evolution.history(make_evolution()).axes[0].collections
 
 
 def test_a_load_that_changes_has_its_panel():

@@ -2,22 +2,22 @@
 
 import json
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import TypeAdapter
 
-from tehl.evolution import Evolution, Frames, History, Profiles
+from tehl.evolution import Evolution, Frames, History, HistoryBars, Profiles
 from tehl.io import content
 from tehl.io.content import Reader, Variable, json_text
 from tehl.io.evolution_summary import evolution_summary
-from tehl.result import Cost, Provenance, Status
+from tehl.result import Cost, Estimate, Provenance, Status
 
 KIND = "evolution"
 """Kind of a file that holds a film in time."""
-COORDINATES = ("x", "y", "X", "Y", "zeta", "cycle", "time", "frame_time")
+COORDINATES = ("x", "y", "X", "Y", "zeta", "cycle", "time", "frame_time", "bar_time")
 
 _HISTORY = (
     ("time", "time", "s", "time; the mean of both surfaces has moved on by u_m time"),
@@ -43,6 +43,12 @@ _FRAMES = (
     ("film", "film_frames", "m", "film thickness at chosen instants"),
     ("height", "height_frames", "m", "heights of both surfaces at chosen instants, outwards"),
 )
+_BARS = (
+    ("time", "bar_time", "s", "times of the error bars"),
+    ("film_central", "h_central_bar", "m", "half width of the error bar of h_central"),
+    ("film_minimum", "h_min_bar", "m", "half width of the error bar of h_min"),
+    ("pressure_max", "p_max_bar", "Pa", "half width of the error bar of p_max"),
+)
 """Fields of the evolution, names in the file, units and what they are."""
 
 
@@ -54,6 +60,7 @@ class RunState:
     status: Status
     cost: Cost
     provenance: Provenance
+    uncertainty: dict[str, Estimate] = field(default_factory=dict)
 
 
 _SCALARS = tuple(one.name for one in fields(RunState))
@@ -66,13 +73,14 @@ def variables(run: Evolution) -> Iterator[Variable]:
         if one.dims[-2:] == ("y", "x"):
             text += ", of the steady film at the beginning"
         yield Variable(name=one.name, dims=one.dims, data=one.data, units=one.units, long_name=text)
-    for field, name, units, text in _HISTORY:
-        data = getattr(run.history, field)
+    for column, name, units, text in _HISTORY:
+        data = getattr(run.history, column)
         yield Variable(name=name, dims=("time",), data=data, units=units, long_name=text)
-    for field, name, units, text in _PROFILES:
-        data = getattr(run.profiles, field)
+    for column, name, units, text in _PROFILES:
+        data = getattr(run.profiles, column)
         yield Variable(name=name, dims=("time", "x"), data=data, units=units, long_name=text)
     yield from _frame_variables(run)
+    yield from _bar_variables(run)
 
 
 def _frame_variables(run: Evolution) -> Iterator[Variable]:
@@ -86,9 +94,18 @@ def _frame_variables(run: Evolution) -> Iterator[Variable]:
         ("frame_time", times, "s", "time of the frame"),
     ):
         yield Variable(name=name, dims=("frame",), data=data, units=units, long_name=text)
-    for field, name, units, text in _FRAMES:
-        data = getattr(run.frames, field)
+    for column, name, units, text in _FRAMES:
+        data = getattr(run.frames, column)
         yield Variable(name=name, dims=("frame", "y", "x"), data=data, units=units, long_name=text)
+
+
+def _bar_variables(run: Evolution) -> Iterator[Variable]:
+    """Yield the error bars along the history, nothing where the run has none."""
+    if run.bars is None:
+        return
+    for column, name, units, text in _BARS:
+        data = getattr(run.bars, column)
+        yield Variable(name=name, dims=("bar",), data=data, units=units, long_name=text)
 
 
 def attributes(run: Evolution) -> dict[str, str | int]:
@@ -128,6 +145,7 @@ def rebuild(arrays: dict[str, NDArray[Any]], attrs: dict[str, Any]) -> Evolution
         history=_history(reader, count),
         profiles=Profiles(**{f: reader.field(name, (count, nx)) for f, name, *_ in _PROFILES}),
         frames=_frames(reader, (ny, nx), count),
+        bars=_bars(reader),
         **{name: getattr(state, name) for name in _SCALARS},
     )
 
@@ -150,3 +168,10 @@ def _frames(reader: Reader, shape: tuple[int, int], count: int) -> Frames:
         for field, name, *_ in _FRAMES
     }
     return Frames(step=steps, **found)
+
+
+def _bars(reader: Reader) -> HistoryBars | None:
+    if _BARS[0][1] not in reader.arrays:
+        return None
+    shape = (reader.axis("bar_time").size,)
+    return HistoryBars(**{column: reader.field(name, shape) for column, name, *_ in _BARS})

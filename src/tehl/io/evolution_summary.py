@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from tehl.evolution import Evolution
+from tehl.evolution import Evolution, HistoryBars
 from tehl.io.summary import plain, summary
 from tehl.typing import Array
 
@@ -15,7 +15,8 @@ def evolution_summary(run: Evolution) -> dict[str, Any]:
 
     Keys that end in a unit (``_m``, ``_pa``, ``_k``, ``_s``) are SI, the others dimensionless.
     ``start`` is the summary of the steady film at the beginning. Times belong to the value before
-    them; ``temperature`` is null for an isothermal run.
+    them; ``temperature`` is null for an isothermal run. A certified run has ``uncertainty``, which
+    mirrors the values, with the largest bars along the history in the block ``history``.
 
     Parameters
     ----------
@@ -43,6 +44,8 @@ def evolution_summary(run: Evolution) -> dict[str, Any]:
         "cost": asdict(run.cost),
         "start": summary(run.start),
     }
+    if run.uncertainty:
+        content["uncertainty"] = _uncertainty(run)
     plain_content: dict[str, Any] = plain(content)
     return plain_content
 
@@ -67,6 +70,40 @@ def _temperature(run: Evolution) -> dict[str, Any] | None:
     if run.start.heat is None:
         return None
     return {"film_rise_max_k": _extreme(rise, run.history.time, np.argmax)}
+
+
+_MIRRORED = (
+    ("film_minimum", "film", ("h_min_m", "value")),
+    ("film_central_least", "film", ("h_central_m", "least")),
+    ("film_central_largest", "film", ("h_central_m", "largest")),
+    ("pressure_max", "pressure", ("p_max_pa", "value")),
+    ("film_rise_max", "temperature", ("film_rise_max_k", "value")),
+    ("traction_extreme", "traction", ("extreme",)),
+)
+"""Names of estimates, and block and keys of the summary that they mirror."""
+
+
+def _uncertainty(run: Evolution) -> dict[str, Any]:
+    blocks: dict[str, Any] = {}
+    for name, block, keys in _MIRRORED:
+        if name not in run.uncertainty:
+            continue
+        place = blocks.setdefault(block, {})
+        for key in keys[:-1]:
+            place = place.setdefault(key, {})
+        place[keys[-1]] = asdict(run.uncertainty[name])
+    if run.bars is not None:
+        blocks["history"] = _history_bars(run.bars)
+    return blocks
+
+
+def _history_bars(bars: HistoryBars) -> dict[str, float]:
+    return {
+        "instants": len(bars.time),
+        "h_central_m": float(bars.film_central.max()),
+        "h_min_m": float(bars.film_minimum.max()),
+        "p_max_pa": float(bars.pressure_max.max()),
+    }
 
 
 def _range(values: Array) -> dict[str, float]:

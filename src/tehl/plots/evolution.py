@@ -64,6 +64,7 @@ def history(run: Evolution) -> Figure:
     -------
     matplotlib.figure.Figure
         Panels above each other; the upper axis tells how far the mean of both surfaces has moved.
+        Bands are the error bars of a certified run.
     """
     factor, unit = time_unit(run)
     told, time = run.history, run.history.time * factor
@@ -84,6 +85,7 @@ def history(run: Evolution) -> Figure:
     for axes, (label, values, colour) in zip(panels[1:], curves, strict=True):
         axes.plot(time, values, color=colour)
         axes.set_ylabel(label)
+    _bands(panels[:2], run, factor)
     panels[-1].set_xlabel(f"time [{unit}]")
     for axes in panels:
         axes.grid(lw=0.3)
@@ -91,6 +93,22 @@ def history(run: Evolution) -> Figure:
     _distance_axis(panels[0], run, factor)
     picture.align_ylabels(panels)
     return picture
+
+
+def _bands(panels: Sequence[Axes], run: Evolution, factor: float) -> None:
+    """Fill the error bars around film and largest pressure of a certified run."""
+    bars, told = run.bars, run.history
+    if bars is None:
+        return
+    for axes, name, unit, colour in (
+        (panels[0], "film_central", MICRO, FILM),
+        (panels[0], "film_minimum", MICRO, FILM),
+        (panels[1], "pressure_max", GIGA, PRESSURE),
+    ):
+        middle = np.interp(bars.time, told.time, getattr(told, name))
+        width, time = getattr(bars, name), bars.time * factor
+        low, high = (middle - width) * unit, (middle + width) * unit
+        axes.fill_between(time, low, high, color=colour, alpha=0.25, lw=0)
 
 
 def _distance_axis(axes: Axes, run: Evolution, factor: float) -> None:
