@@ -23,7 +23,7 @@ from tehl.errors import ConvergenceError
 from tehl.evolution import StepReport
 from tehl.io.checkpoint import Fingerprint, read_checkpoint
 from tehl.plots import animation
-from tests.fixtures_evolution import make_evolution
+from tests.fixtures_evolution import make_certified, make_evolution
 from tests.fixtures_result import make_result
 
 CASE = """
@@ -219,11 +219,74 @@ def test_a_beginning_that_is_not_reached_is_stored_and_exits_with_1(folder, run,
     assert isinstance(tehl.load("wave.nc"), tehl.Result)
 
 
-@pytest.mark.parametrize("option", ["--certify", "--with-smooth", "--with-isothermal"])
+@pytest.mark.parametrize("option", ["--with-smooth", "--with-isothermal"])
 def test_options_of_steady_cases_are_refused(folder, run, option):
     answer = run("solve", "wave.toml", option)
     assert answer.code == 2
     assert f"{option} is for steady cases" in answer.err
+
+
+@pytest.fixture
+def certified(monkeypatch):
+    """Let certified runs have their outcome at once."""
+
+    def give(outcome):
+        monkeypatch.setattr("tehl.solver.certify_march", lambda *_, **__: outcome)
+
+    return give
+
+
+def test_a_certified_run_prints_its_bars_and_keeps_no_checkpoint(folder, run, certified):
+    certified(make_certified())
+    answer = run("solve", "wave.toml", "--certify")
+    assert answer.code == 0
+    rows = {line[2:19].strip(): line[19:] for line in answer.out.splitlines()[1:]}
+    assert "certified 0.79148 +- 0.04 GPa (grid 0.032, domain 0.024)" in rows["largest pressure"]
+    assert " nm (grid " in rows["minimum film"]
+    assert "+- 0.0025 at the extreme" in rows["traction"]
+    assert "at 16 instants" in rows["over time"]
+    assert "33 x 33 converged" in rows["certified"]
+    assert sum("least   certified" in line for line in answer.out.splitlines()) == 1
+    assert names(folder) == ["wave.nc", "wave.toml"]
+
+
+def test_a_certified_run_has_its_bars_in_json(folder, run, certified):
+    certified(make_certified())
+    told = json.loads(run("solve", "wave.toml", "--certify", "--json").out)
+    assert told["uncertainty"]["film"]["h_min_m"]["value"]["uncertainty"] > 0
+
+
+def test_a_run_that_has_no_error_bar_exits_with_1_and_is_kept(folder, run, certified):
+    status = tehl.result.Status(
+        kind="not_converged", cause="not_certified", message="no bar follows", hint="more points"
+    )
+    certified(replace(make_evolution(), status=status))
+    answer = run("solve", "wave.toml", "--certify")
+    assert answer.code == 1
+    assert "no bar follows" in answer.err
+    assert "hint: more points" in answer.err
+    assert tehl.load("wave.nc").status.cause == "not_certified"
+
+
+def test_a_certified_run_cannot_be_resumed_nor_passes_over_a_checkpoint(folder, run, certified):
+    certified(make_certified())
+    answer = run("solve", "wave.toml", "--certify", "--resume")
+    assert answer.code == 2
+    assert "--certify makes several runs and keeps no checkpoint" in answer.err
+    (folder / "wave.nc.checkpoint").write_bytes(b"of another run")
+    answer = run("solve", "wave.toml", "--certify")
+    assert answer.code == 2
+    assert "holds an unfinished run" in answer.err
+    assert names(folder) == ["wave.nc.checkpoint", "wave.toml"]
+
+
+def test_a_certified_run_of_the_solver_shows_each_of_its_runs(folder, run):
+    answer = run("solve", "wave.toml", "--certify", "--set", "contact.moes_load=10")
+    assert answer.code == 0
+    assert "certify: 65 x 65 nodes, as asked" in answer.err
+    assert "certify: 33 x 33 nodes, half the intervals" in answer.err
+    assert "17 x 17 has too few nodes" in answer.out
+    assert " +- " in answer.out
 
 
 def test_a_steady_case_has_nothing_to_resume(folder, run):
@@ -267,6 +330,15 @@ def test_progress_is_about_twenty_plain_lines_on_a_pipe(capsys):
     told = capsys.readouterr().err
     assert 20 <= told.count("\n") <= 24
     assert "\x1b" not in told
+
+
+def test_progress_begins_anew_with_each_run_of_a_certification(capsys):
+    with step_progress(make_result(33).scales, quiet=False) as monitor:
+        for _ in range(2):
+            monitor.message("certify: a grid")
+            for step in range(1, 201):
+                monitor.step(report(step))
+    assert capsys.readouterr().err.count(" 1/200") == 2
 
 
 def test_progress_on_a_terminal_shows_the_last_steps(capsys):

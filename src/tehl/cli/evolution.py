@@ -22,13 +22,14 @@ CHECKPOINT_SECONDS = 30.0
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Wishes:
-    """What the command line asks of a run in time: where to, what to show, whether to go on."""
+    """What is asked of a run in time: where to, what to show, whether to go on or to certify."""
 
     target: Path
     plot: Path | None
     as_json: bool
     quiet: bool
     resume: bool
+    certify: bool = False
 
 
 def refuse(
@@ -104,17 +105,27 @@ def solve_in_time(problem: "ContactProblem", options: "Options", wishes: Wishes)
 
     Raises
     ------
+    InputError
+        When a certified run is to go on.
     typer.Exit
-        With code 1 when the run did not come to its end.
+        With code 1 when the run did not come to its end, or has no error bar that was asked for.
     """
-    from tehl.errors import ConvergenceError
+    from tehl.errors import ConvergenceError, InputError
     from tehl.io.atomic import remove_with_parts
     from tehl.io.checkpoint import checkpoint_of, fingerprint
 
+    if wishes.certify and wishes.resume:
+        raise InputError(
+            "--certify makes several runs and keeps no checkpoint, which belongs to a single one: "
+            "leave --resume out, or --certify"
+        )
     path, owner = checkpoint_of(wishes.target), fingerprint(problem, options)
     snapshot = _begin(path, owner, resume=wishes.resume)
     try:
-        run = _march(problem, options, Keeper(path, owner), snapshot, quiet=wishes.quiet)
+        if wishes.certify:
+            run = _certify(problem, options, quiet=wishes.quiet)
+        else:
+            run = _march(problem, options, Keeper(path, owner), snapshot, quiet=wishes.quiet)
     except ConvergenceError as error:
         error.result.save(wishes.target)
         typer.echo(f"written: {wishes.target}", err=True)
@@ -173,6 +184,16 @@ def _march(
         step_progress(scales(problem), quiet=quiet, coupled=problem.is_coupled) as monitor,
     ):
         return solver.march(problem, options, monitor=monitor, resume=snapshot, keep=keeper)
+
+
+def _certify(problem: "ContactProblem", options: "Options", *, quiet: bool) -> "Evolution":
+    """Return the run with error bars; nothing is kept on the way."""
+    from tehl import solver
+    from tehl.cli.step_progress import step_progress
+    from tehl.scaling import scales
+
+    with step_progress(scales(problem), quiet=quiet, coupled=problem.is_coupled) as monitor:
+        return solver.certify_march(problem, options, monitor=monitor)
 
 
 @contextmanager

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
-from tehl.cli.words import too_much_traction
+from tehl.cli.words import certified_in_words, too_much_traction
 from tehl.report.explain import UNTITLED, length_unit
 from tehl.report.time import seconds_in_words
 
@@ -34,15 +34,20 @@ def _rows(run: "Evolution") -> Iterator[tuple[str, str]]:
         "minimum film",
         f"{_length(history.film_minimum[thinnest])} at the least, at "
         f"{seconds_in_words(history.time[thinnest])}   (at the start "
-        f"{_length(history.film_minimum[0])})",
+        f"{_length(history.film_minimum[0])})" + _film_bar(run, "film_minimum"),
     )
     yield "central film", _between(run.history.film_central, _length)
+    yield from _central_bars(run)
     yield (
         "largest pressure",
         f"{_giga(history.pressure_max[highest])} at {seconds_in_words(history.time[highest])}   "
-        f"(at the start {_giga(history.pressure_max[0])})",
+        f"(at the start {_giga(history.pressure_max[0])})" + _bar(run, "pressure_max", 1e-9, "GPa"),
     )
-    yield "traction", f"{_between(history.traction, _clean)}   (at mid-film)"
+    yield (
+        "traction",
+        f"{_between(history.traction, _clean)}   (at mid-film)"
+        + _bar(run, "traction_extreme", 1.0, "at the extreme"),
+    )
     told = start.traction
     if told is not None and not told.credible:
         yield "", too_much_traction(start)
@@ -52,7 +57,7 @@ def _rows(run: "Evolution") -> Iterator[tuple[str, str]]:
             "film temperature",
             f"rise {history.temperature_rise[hottest]:.4g} K at most, at "
             f"{seconds_in_words(history.time[hottest])}   (at the start "
-            f"{history.temperature_rise[0]:.4g} K)",
+            f"{history.temperature_rise[0]:.4g} K)" + _bar(run, "film_rise_max", 1.0, "K"),
         )
     if history.load.min() < history.load.max():
         yield "load", _between(history.load * start.problem.load, _newton)
@@ -67,9 +72,42 @@ def _rows(run: "Evolution") -> Iterator[tuple[str, str]]:
         f"{len(run.frames.step)} fields kept",
     )
     yield "effort", _effort(run)
+    yield from _certified(run)
     if run.status.is_vague:
         yield "uncertain", str(run.status.message)
         yield "hint", str(run.status.hint)
+
+
+def _bar(run: "Evolution", name: str, unit: float, word: str) -> str:
+    """Return a certified extreme, nothing where the run is not certified."""
+    found = run.uncertainty.get(name)
+    return "" if found is None else f"   {certified_in_words(found, unit, word)}"
+
+
+def _film_bar(run: "Evolution", name: str) -> str:
+    found = run.uncertainty.get(name)
+    return "" if found is None else _bar(run, name, *length_unit(found.value))
+
+
+def _central_bars(run: "Evolution") -> Iterator[tuple[str, str]]:
+    for name, what in (("film_central_least", "least"), ("film_central_largest", "largest")):
+        if bar := _film_bar(run, name):
+            yield "", f"{what}{bar}"
+
+
+def _certified(run: "Evolution") -> Iterator[tuple[str, str]]:
+    """Yield what is known of the whole history, and from which grids."""
+    bars = run.bars
+    if bars is not None:
+        yield (
+            "over time",
+            f"+- {_length(bars.film_central.max())} of the central film at most, "
+            f"{_length(bars.film_minimum.max())} of the minimum film, "
+            f"{_giga(bars.pressure_max.max())} of the largest pressure, "
+            f"at {len(bars.time)} instants",
+        )
+    if run.uncertainty and run.status.converged:
+        yield "certified", str(run.status.message)
 
 
 def _between(values: "Array", word: Callable[[float], str]) -> str:

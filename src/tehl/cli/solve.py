@@ -66,14 +66,17 @@ def solve(  # noqa: PLR0913, PLR0917 (the options of the command)
     problem, options = read_case_and_options(case, changes)
     _check_output(target, case, plot)
     check_memory(options, problem)
-    steady_only = {
-        "--certify": certify,
-        "--with-isothermal": with_isothermal,
-        "--with-smooth": with_smooth,
-    }
+    steady_only = {"--with-isothermal": with_isothermal, "--with-smooth": with_smooth}
     refuse(problem, steady_only=steady_only, in_time_only={"--resume": resume})
     if problem.transient is not None:
-        wishes = Wishes(target=target, plot=plot, as_json=as_json, quiet=quiet, resume=resume)
+        wishes = Wishes(
+            target=target,
+            plot=plot,
+            as_json=as_json,
+            quiet=quiet,
+            resume=resume,
+            certify=certify,
+        )
         solve_in_time(problem, options, wishes)
         return
     twins = twins_of(problem, cold=with_isothermal, smooth=with_smooth)

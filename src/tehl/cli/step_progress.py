@@ -37,7 +37,7 @@ class Clock:
     def left(self, report: "StepReport") -> float | None:
         """Return the seconds that are left after a step, None at the first one."""
         now = time.monotonic()
-        if self._first is None:
+        if self._first is None or report.step <= self._first[0]:  # the first, or of another run
             self._first = (report.step, now)
             return None
         step, then = self._first

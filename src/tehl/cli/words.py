@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from tehl.post.roughness import RoughFilm
     from tehl.post.thermal_effect import ThermalEffect
     from tehl.post.waviness import WaveResponse
-    from tehl.result import Result
+    from tehl.result import Estimate, Result
 
 UNUSUAL_BALANCE = 0.05
 """Part of the heat that may be missing without a remark."""
@@ -175,22 +175,30 @@ def _bar(result: "Result", name: str, unit: float, word: str) -> str:
     """Return the error bar: that of a certified run, else the estimate of the discretisation."""
     estimate = result.uncertainty.get(name)
     if estimate is not None:
-        value, width, grid, domain = (
-            number * unit
-            for number in (
-                estimate.value,
-                estimate.uncertainty,
-                estimate.discretisation,
-                estimate.domain,
-            )
-        )
-        parts = f"grid {grid:.2g}, domain {domain:.2g}"
-        return f"   certified {value:.5g} +- {width:.2g} {word} ({parts})"
+        return f"   {certified_in_words(estimate, unit, word)}"
     error = getattr(result.errors, f"discretisation_{name.removeprefix('film_')}", None)
     if error is None:
         return ""
     percent = 100.0 * abs(error)
     return f"   grid error about {percent:.2g} %" if percent < 99.5 else f"   {_times(abs(error))}"
+
+
+def certified_in_words(estimate: "Estimate", unit: float, word: str) -> str:
+    """Return a certified value with its error bar and the parts of that.
+
+    Parameters
+    ----------
+    estimate : Estimate
+        The value.
+    unit : float
+        Factor to the unit in which it reads well.
+    word : str
+        That unit.
+    """
+    bar = (estimate.uncertainty, estimate.discretisation, estimate.domain)
+    width, grid, domain = (part * unit for part in bar)
+    parts = f"grid {grid:.2g}, domain {domain:.2g}"
+    return f"certified {estimate.value * unit:.5g} +- {width:.2g} {word} ({parts})"
 
 
 def _times(error: float) -> str:
