@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from tehl.cli.words import as_text, effect_as_text, headline, roughness_effect_as_text
 from tehl.film_formulas import InletFactor
+from tehl.heat import Thermal
 from tehl.post.micro_film import roughness_effect
 from tehl.post.roughness import rough_film
 from tehl.post.thermal_effect import ThermalEffect
@@ -78,6 +79,20 @@ def test_a_rough_run_tells_its_lambda_ratio_and_what_is_left_of_its_wave(rough, 
     assert " at 45 deg: " in lines["waves left"]
     assert "20 % in the film (theory" in as_text(rough, rough=rough_film(rough, smooth))
     assert "roughness" not in as_text(smooth)
+
+
+def test_a_heated_wave_has_no_theory_and_a_line_why(rough):
+    heated = replace(rough, problem=rough.problem.model_copy(update={"thermal": Thermal()}))
+    lines = as_text(heated).splitlines()
+    here = next(n for n, line in enumerate(lines) if "waves left" in line)
+    assert "(theory" not in lines[here]
+    assert "flattens it)" in lines[here]
+    assert lines[here + 1].strip().startswith("no theory: it is for isothermal Newtonian films")
+
+
+def test_a_wave_that_is_too_long_has_a_line(rough):
+    notes = replace(rough.roughness, waves=(), wave_notes=("1 mm is too long",))
+    assert "  waves left       1 mm is too long" in as_text(rough, rough=notes)
 
 
 def test_crests_along_the_entrainment_are_left_to_the_inlet():

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from tehl.errors import InputError
+from tehl.heat import Thermal
 from tehl.io.store import load_summary, save
 from tehl.io.summary import roughness_block
 from tehl.post.micro_film import (
@@ -130,4 +131,13 @@ def test_the_block_of_the_summary_has_si_and_ratios(rough, smooth):
     block = roughness_block(rough_film(rough, smooth))
     assert block["waves"][0]["film_ratio"] == pytest.approx(LEFT)
     assert rough.summary()["roughness"]["composite_sq_m"] == block["composite_sq_m"]
+    assert block["wave_notes"] == []
     assert smooth.summary()["roughness"] is None
+
+
+def test_theory_is_null_where_it_does_not_hold(rough):
+    heated = replace(rough, problem=rough.problem.model_copy(update={"thermal": Thermal()}))
+    block = heated.summary()["roughness"]
+    assert block["waves"][0]["theory_film_ratio"] is None
+    assert block["waves"][0]["theory_pressure_pa"] is None
+    assert block["wave_notes"][0].startswith("no theory")

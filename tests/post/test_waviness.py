@@ -2,13 +2,15 @@
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
-from tehl.post.waviness import bulk_modulus, wave_responses
+from tehl.heat import Thermal
+from tehl.post.waviness import bulk_modulus, wave_notes, wave_responses
 from tehl.problem import ContactProblem
-from tehl.result import SurfaceHeights
+from tehl.result import Result, SurfaceHeights
 from tehl.transient import Transient
 from tests.fixtures_result import CASE, make_result
 from tests.fixtures_rough import (
@@ -87,14 +89,83 @@ def test_the_bulk_modulus_is_that_of_the_law(result):
     )
 
 
-def test_the_strongest_waves_of_any_surface_are_found(rough):
-    bumpy = {"type": "random", "rms": 1e-9, "correlation_length": 1e-5}
-    surface = rough.problem.surface_2.model_validate({"material": "steel", "roughness": bumpy})
-    problem = rough.problem.model_copy(update={"surface_2": surface})
-    found = wave_responses(replace(rough, problem=problem))
-    assert 1 <= len(found) <= 3
-    # the lattice of the patch does not hold the wave itself, but one next to it
-    assert found[0].wavelength == pytest.approx(WAVELENGTH * rough.scales.half_width_x, rel=0.15)
+RANDOM = {"type": "random", "rms": 1e-9, "correlation_length": 1e-5}
+
+
+def with_surface(rough: Result, roughness: dict[str, Any]) -> Result:
+    """Return a result whose case states another surface than the one its heights are of."""
+    surface = rough.problem.surface_2.model_validate({"material": "steel", "roughness": roughness})
+    return replace(rough, problem=rough.problem.model_copy(update={"surface_2": surface}))
+
+
+def with_lubricant(rough: Result, **changes: Any) -> Result:
+    """Return a result whose case has another oil."""
+    oil = {**rough.problem.lubricant.model_dump(mode="json"), **changes}
+    case = rough.problem.model_dump(mode="json") | {"lubricant": oil}
+    return replace(rough, problem=ContactProblem.model_validate(case))
+
+
+@pytest.mark.parametrize("degrees", [0.0, 30.0, 45.0, -70.0])
+def test_a_wave_that_nobody_states_is_found_as_it_is(smooth, degrees):
+    rough = make_rough(angle=math.radians(degrees))
+    (stated,) = wave_responses(rough, smooth)
+    (found,) = wave_responses(with_surface(rough, RANDOM), smooth)
+    assert found.wavelength == pytest.approx(stated.wavelength, rel=1e-3)
+    assert math.degrees(found.angle) == pytest.approx(degrees, abs=0.05)
+    assert found.film_ratio == pytest.approx(stated.film_ratio, rel=0.01)
+    assert found.theory.film_ratio == pytest.approx(stated.theory.film_ratio, rel=0.01)
+
+
+def test_of_broad_band_heights_no_wave_is_told_but_that_none_stands_out(rough):
+    noise = np.random.default_rng(1).standard_normal(rough.film_thickness.shape)
+    heights = SurfaceHeights(surface_1=0.0 * noise, surface_2=1e-8 * noise)
+    random = with_surface(replace(rough, heights=heights), RANDOM)
+    assert wave_responses(random) == ()
+    (note,) = wave_notes(random)
+    assert "no wave stands out" in note
+    dent = {"type": "bump", "amplitude": -1e-7, "radius": 2e-5}
+    assert wave_notes(with_surface(rough, dent)) == ()
+
+
+@pytest.mark.parametrize("angle", [89.0, 91.0])
+def test_a_wave_that_hardly_turns_in_the_middle_is_left_to_the_inlet(smooth, angle):
+    (wave,) = wave_responses(make_rough(angle=math.radians(angle)), smooth)
+    assert wave.theory.left_to_inlet
+    assert wave.carried_amplitude == 0.0
+
+
+def test_streaks_too_wide_for_the_middle_are_part_of_the_background(smooth):
+    (wave,) = wave_responses(make_rough(angle=math.radians(2.0)), smooth)
+    assert wave.carried_amplitude == 0.0
+    assert wave.film_ratio == pytest.approx(LEFT, rel=0.01)
+
+
+def test_theory_is_left_out_where_oil_shears_thin_or_heats_and_it_is_said_why(rough, smooth):
+    eyring = with_lubricant(rough, shear={"law": "eyring", "stress": 5e6})
+    (wave,) = wave_responses(eyring, smooth)
+    assert wave.theory.film_ratio is wave.theory.pressure is None
+    assert wave.theory.elastic_pressure > 0
+    assert wave.film_ratio == pytest.approx(LEFT)
+    assert wave_notes(eyring)[0].endswith("shear-thinning (eyring)")
+    heated = replace(rough, problem=rough.problem.model_copy(update={"thermal": Thermal()}))
+    assert wave_responses(heated, smooth)[0].theory.film_ratio is None
+    assert wave_notes(heated)[0].endswith("heated")
+    assert wave_notes(rough) == ()
+
+
+def test_what_the_inlet_decides_needs_no_theory():
+    along = with_lubricant(make_rough(angle=0.5 * math.pi), shear={"law": "eyring", "stress": 5e6})
+    assert wave_responses(along)[0].theory.left_to_inlet
+    assert wave_notes(along) == ()
+
+
+def test_a_wave_that_is_too_long_is_named(rough):
+    long = {"type": "wave", "amplitude": 1e-8, "wavelength": 0.54 * rough.scales.half_width_x}
+    result = with_surface(rough, long)
+    assert wave_responses(result) == ()
+    (note,) = wave_notes(result)
+    assert "1.48 waves where |X|, |Y| < 0.4, and it takes 1.5" in note
+    assert result.roughness.wave_notes == (note,)
 
 
 def test_waves_too_long_for_the_middle_and_smooth_surfaces_have_no_response(rough, result):

@@ -61,6 +61,24 @@ def test_theory_flattens_a_transverse_wave_and_leaves_a_longitudinal_one_to_the_
     assert "% left in the film" in as_text(explained(WAVE))
 
 
+@pytest.mark.parametrize(
+    "tables",
+    [
+        {"thermal": {}, "lubricant": "mineral-oil"},
+        {"lubricant": ball_tables()["lubricant"] | {"shear": {"law": "eyring", "stress": "5 MPa"}}},
+    ],
+)
+def test_nothing_is_promised_of_waves_in_heated_or_shear_thinning_films(tables):
+    case = explained(WAVE, **tables)
+    shown = as_text(case)
+    assert "% left in the film" not in shown
+    assert "no theory of what is left: it is for isothermal Newtonian films" in shown
+    assert as_summary(case)["roughness"]["waves"][0]["film_ratio"] is None
+    steep = explained(WAVE | {"amplitude": "0.5 um"}, **tables)
+    assert any("Hertz pressures to be flattened" in question for question in steep.questions)
+    assert "the inlet decides" in as_text(explained(WAVE | {"angle": "90 deg"}, **tables))
+
+
 def test_it_is_told_whether_the_roughness_stands_or_moves():
     assert "quasi-steady" in as_text(explained(WAVE))
     assert "moves with its surfaces" in as_text(explained(WAVE, transient={}))

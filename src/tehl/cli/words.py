@@ -128,20 +128,25 @@ def _roughness(found: "RoughFilm | None") -> Iterator[tuple[str, str]]:
         f"Sq = {_length(found.composite)} of both, lambda = {found.lambda_ratio:.3g} (film over Sq)"
         f", {100 * found.below_composite:.2g} % of the contact below Sq",
     )
-    for number, wave in enumerate(found.waves):
-        yield "" if number else "waves left", wave_in_words(wave)
+    lines = [*map(wave_in_words, found.waves), *found.wave_notes]
+    for number, line in enumerate(lines):
+        yield "" if number else "waves left", line
 
 
 def wave_in_words(wave: "WaveResponse") -> str:
     """Return what is left of a wave in film and pressure, in a line."""
-    giga, along = 1e-9, wave.theory.pressure == 0
-    film = "as the inlet lets it" if along else f"theory {100 * wave.theory.film_ratio:.3g}"
-    pressure = "" if along else f"theory {wave.theory.pressure * giga:.3g}, "
+    giga, theory = 1e-9, wave.theory
+    film, pressure = "", ""
+    if theory.left_to_inlet:
+        film = " (as the inlet lets it)"
+    elif theory.film_ratio is not None and theory.pressure is not None:
+        film = f" (theory {100 * theory.film_ratio:.3g})"
+        pressure = f"theory {theory.pressure * giga:.3g}, "
     return (
         f"{_length(wave.wavelength)} at {math.degrees(wave.angle) + 0.0:.3g} deg: "
-        f"{100 * wave.film_ratio:.3g} % in the film ({film}), "
+        f"{100 * wave.film_ratio:.3g} % in the film{film}, "
         f"{wave.pressure_amplitude * giga:.3g} GPa "
-        f"({pressure}{wave.theory.elastic_pressure * giga:.3g} flattens it)"
+        f"({pressure}{theory.elastic_pressure * giga:.3g} flattens it)"
     )
 
 

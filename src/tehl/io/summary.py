@@ -204,6 +204,7 @@ def roughness_block(found: "RoughFilm") -> dict[str, Any]:
         "ripples_x": _ripples(found.ripples_x),
         "ripples_y": _ripples(found.ripples_y),
         "waves": [_wave(wave) for wave in found.waves],
+        "wave_notes": list(found.wave_notes),
     }
 
 
@@ -211,7 +212,7 @@ def _ripples(found: "Ripples") -> dict[str, float]:
     return {"count": found.count, "depth_m": found.depth}
 
 
-def _wave(wave: "WaveResponse") -> dict[str, float]:
+def _wave(wave: "WaveResponse") -> dict[str, float | None]:
     return {
         "wavelength_m": wave.wavelength,
         "angle_rad": wave.angle,

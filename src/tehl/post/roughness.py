@@ -8,7 +8,7 @@ import numpy as np
 
 from tehl.film_formulas import expected_central_film
 from tehl.post.film import no_film
-from tehl.post.waviness import REACH, WaveResponse, wave_responses
+from tehl.post.waviness import REACH, WaveResponse, wave_notes, wave_responses
 from tehl.result import Result
 from tehl.typing import Array, BoolArray
 
@@ -63,6 +63,8 @@ class RoughFilm:
         On the centre lines along and across entrainment.
     waves : tuple of WaveResponse
         The waves of the surfaces, one by one.
+    wave_notes : tuple of str
+        What is left out of them, and why.
     """
 
     sq: tuple[float, float]
@@ -77,6 +79,7 @@ class RoughFilm:
     ripples_x: Ripples
     ripples_y: Ripples
     waves: tuple[WaveResponse, ...]
+    wave_notes: tuple[str, ...]
 
 
 def rough_film(result: Result, smooth: Result | None = None) -> RoughFilm | None:
@@ -115,6 +118,7 @@ def rough_film(result: Result, smooth: Result | None = None) -> RoughFilm | None
         ripples_x=_ripples(result.scaled.x, result.film_thickness[row]),
         ripples_y=_ripples(result.scaled.y, result.film_thickness[:, column]),
         waves=wave_responses(result, smooth),
+        wave_notes=wave_notes(result),
     )
 
 

@@ -13,6 +13,10 @@ contact is so large that Q is as good as infinite unless crests lie along the en
 with the mean speed: ``C/(1 + C)`` of the wave is left in the film, and the pressure carries
 ``1/(1 + C)`` of what flattens the whole wave.
 
+All of that is for an isothermal film of Newtonian oil. An oil that thins under shear has another
+viscosity for ripples than for the mean flow, heat has one for each layer, and both let more or less
+of the wave through: beside such films there is no theory.
+
 References
 ----------
 .. [1] G. E. Morales-Espejel and V. Brizmer, Tribology Transactions 54 (2011), 625-643, after
@@ -28,9 +32,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl.lubricant.density import DensityLaw
+from tehl.post.wave_search import distinct_waves
 from tehl.problem import ContactProblem
 from tehl.result import Result
-from tehl.roughness import AnyRoughness, Sum, WaveVector
+from tehl.roughness import AnyRoughness, Map, Random, Sum, WaveVector
 from tehl.roughness.waves import HarmonicModel
 from tehl.typing import Array, BoolArray
 
@@ -38,8 +43,7 @@ REACH = 0.4
 """Half-widths on each side of the centre in which waves are fitted: the pressure is even there."""
 FEWEST = 1.5
 """Waves that must lie in that square to be told from the shape of the film."""
-STRONGEST = 3
-"""Components that are looked for in a surface without known waves."""
+_TURN = 0.25
 _STEP = 1e5
 
 
@@ -51,18 +55,23 @@ class LinearTheory:
     ----------
     compressibility : float
         C = h E' kappa / (4 B) [-].
-    film_ratio : float
-        Amplitude of the film over that of the wave [-].
-    pressure : float
-        Amplitude of the pressure [Pa].
+    film_ratio : float or None
+        Amplitude of the film over that of the wave [-]; None where the theory does not hold.
+    pressure : float or None
+        Amplitude of the pressure [Pa]; None where the theory does not hold.
     elastic_pressure : float
         Pressure that flattens the whole wave, pi E' A / (2 lambda) [Pa].
     """
 
     compressibility: float
-    film_ratio: float
-    pressure: float
+    film_ratio: float | None
+    pressure: float | None
     elastic_pressure: float
+
+    @property
+    def left_to_inlet(self) -> bool:
+        """Return whether the pressure leaves the wave alone, so that the inlet decides."""
+        return self.pressure == 0
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -86,9 +95,9 @@ class WaveResponse:
         ripple comes after, along the wave vector [rad].
     carried_amplitude : float
         Of the streaks along x that the film brings from the inlet [m]; zero where crests lie
-        across or along the entrainment.
+        across or along the entrainment, or nearly so.
     theory : LinearTheory
-        What linear theory expects.
+        What linear theory expects, where it holds (:func:`why_no_theory`).
     """
 
     wavelength: float
@@ -111,10 +120,10 @@ class WaveResponse:
 def wave_responses(result: Result, smooth: Result | None = None) -> tuple[WaveResponse, ...]:
     """Return how film and pressure respond to each wave of the surfaces.
 
-    Waves are those of ``wave`` and ``crossed`` surfaces, alone or in a sum; of other surfaces the
-    strongest ones in the middle of the contact. Ripples are fitted by least squares where
-    ``|X|, |Y| < 0.4``, together with a quadratic background and with the streaks that an oblique
-    wave makes in the inlet and the film carries along x.
+    Waves are those of ``wave`` and ``crossed`` surfaces, alone or in a sum; of measured and random
+    surfaces those that stand out of the heights in the contact, often none. Ripples are fitted by
+    least squares where ``|X|, |Y| < 0.4``, together with a quadratic background and with the
+    streaks that an oblique wave makes in the inlet and the film carries along x.
 
     Parameters
     ----------
@@ -126,16 +135,15 @@ def wave_responses(result: Result, smooth: Result | None = None) -> tuple[WaveRe
     Returns
     -------
     tuple of WaveResponse
-        Waves that are too long to be told from the shape of the film are left out.
+        Waves that are too long to be told from the shape of the film are left out;
+        :func:`wave_notes` names them.
     """
     if result.heights is None:
         return ()
     patch = _Patch.of(result)
     heights = patch.cut(result.heights.together)
-    known = list(drifting_waves(result.problem))
-    waves = [wave for wave, _ in known if patch.holds(wave)]
-    if not known:
-        waves = patch.strongest(heights)
+    known = dict(drifting_waves(result.problem))
+    waves = [wave for wave in known or _standing_out(result, patch) if patch.holds(wave)]
     if not waves:
         return ()
     fit = patch.fit(waves)
@@ -145,17 +153,56 @@ def wave_responses(result: Result, smooth: Result | None = None) -> tuple[WaveRe
     fields = (heights, patch.cut(film), patch.cut(pressure))
     ripples = [fit.ripples(field) for field in fields]
     level = _flat_film(result, patch)
-    drifts = dict(known) | dict.fromkeys(set(waves) - set(dict(known)), -result.scales.speed)
+    holds = why_no_theory(result.problem) is None
     return tuple(
         WaveResponse(
             **_place(wave, patch),
             **_ripple(*(pairs[n] for pairs in ripples)),
             carried_amplitude=fit.carried(fields[1], wave),
-            theory=level.theory(wave, abs(ripples[0][n]), drifts[wave]),
+            theory=level.theory(
+                patch.straight(wave),
+                abs(ripples[0][n]),
+                known.get(wave, -result.scales.speed),
+                holds=holds,
+            ),
         )
         for n, wave in enumerate(waves)
         if abs(ripples[0][n]) > 0
     )
+
+
+def wave_notes(result: Result) -> tuple[str, ...]:
+    """Return what :func:`wave_responses` leaves out and why, a sentence each.
+
+    Parameters
+    ----------
+    result : Result
+        Of a rough contact; of others there is nothing to say.
+    """
+    if result.heights is None:
+        return ()
+    patch = _Patch.of(result)
+    known = dict(drifting_waves(result.problem))
+    waves = list(known) or _standing_out(result, patch)
+    notes = [patch.too_long(wave) for wave in waves if not patch.holds(wave)]
+    if not waves and _is_searched(result.problem):
+        notes.append("no wave stands out of the heights in the contact: they are broad-band")
+    told = [patch.straight(wave) for wave in waves if patch.holds(wave)]
+    why = why_no_theory(result.problem)
+    if why and any(wave.along for wave in told):
+        notes.append(why)
+    return tuple(notes)
+
+
+def why_no_theory(problem: ContactProblem) -> str | None:
+    """Return why linear theory says nothing of the waves in a film; None where it does."""
+    law = problem.lubricant.shear.law
+    parts = [] if law == "newtonian" else [f"shear-thinning ({law})"]
+    if problem.thermal is not None:
+        parts.append("heated")
+    if not parts:
+        return None
+    return f"no theory: it is for isothermal Newtonian films, and this one is {' and '.join(parts)}"
 
 
 def drifting_waves(problem: ContactProblem) -> Iterator[tuple[WaveVector, float]]:
@@ -182,6 +229,36 @@ def waves_of(roughness: AnyRoughness) -> Iterator[WaveVector]:
             yield from waves_of(part)
 
 
+def _is_searched(problem: ContactProblem) -> bool:
+    """Return whether a surface may have waves that it does not state."""
+    parts = (problem.surface_1.roughness, problem.surface_2.roughness)
+    return any(map(_may_hold_waves, parts))
+
+
+def _may_hold_waves(roughness: AnyRoughness) -> bool:
+    if isinstance(roughness, Sum):
+        return any(map(_may_hold_waves, roughness.parts))
+    return isinstance(roughness, Map | Random)
+
+
+def _standing_out(result: Result, patch: "_Patch") -> list[WaveVector]:
+    """Return the waves of surfaces that state none, also those too long for the patch."""
+    if result.heights is None or not _is_searched(result.problem):
+        return []
+    width_x, width_y = patch.half_widths
+
+    def vector(along: float, across: float) -> WaveVector:
+        return WaveVector(1.0, along / width_x, across / width_y, 0.0)
+
+    found = distinct_waves(
+        result.scaled.x,
+        result.scaled.y,
+        result.heights.together,
+        lambda wave: patch.holds(vector(wave.along, wave.across)),
+    )
+    return [vector(wave.along, wave.across) for wave in found]
+
+
 @dataclass(frozen=True, slots=True)
 class _Patch:
     """The middle of the contact: coordinates in metres, and in half-widths."""
@@ -201,42 +278,47 @@ class _Patch:
     def cut(self, field: Array) -> Array:
         return field[np.ix_(self.rows, self.columns)]
 
+    def counts(self, wave: WaveVector) -> tuple[float, float]:
+        """Return how many waves lie in the patch along both axes."""
+        lengths = (2.0 * REACH * width for width in self.half_widths)
+        along, across = (
+            abs(number) * length / (2.0 * math.pi)
+            for number, length in zip((wave.along, wave.across), lengths, strict=True)
+        )
+        return along, across
+
     def holds(self, wave: WaveVector) -> bool:
         """Return whether enough of a wave lies in the patch."""
-        along, across = (2.0 * REACH * width for width in self.half_widths)
-        count = (abs(wave.along) * along + abs(wave.across) * across) / (2.0 * math.pi)
-        return count >= FEWEST
+        return sum(self.counts(wave)) >= FEWEST
+
+    def too_long(self, wave: WaveVector) -> str:
+        """Return why the ripples of a wave are not told."""
+        length, angle = 2e6 * math.pi / wave.number, math.degrees(angle_of(wave)) + 0.0
+        return (
+            f"{length:.4g} um at {angle:.3g} deg is too long to part from the shape of the film: "
+            f"{sum(self.counts(wave)):.3g} waves where |X|, |Y| < {REACH:g}, and it takes "
+            f"{FEWEST:g}"
+        )
+
+    def straight(self, wave: WaveVector) -> WaveVector:
+        """Return a wave that lies along the entrainment if the patch cannot tell it from one.
+
+        Where it turns by less than a quarter of its phase, what the inlet carries along x looks
+        like the wave itself.
+        """
+        return wave if self.counts(wave)[0] >= _TURN else wave._replace(along=0.0)
 
     def points_per_wave(self, wave: WaveVector) -> float:
         steps = (np.ptp(self.x) / (self.x.size - 1), np.ptp(self.y) / (self.y.size - 1))
         phase = max(abs(wave.along) * steps[0], abs(wave.across) * steps[1])
         return float(2.0 * math.pi / phase)
 
-    def strongest(self, heights: Array) -> list[WaveVector]:
-        """Return the strongest waves of heights, on the lattice of the patch and apart on it."""
-        ny, nx = heights.shape
-        window = np.hanning(ny + 2)[1:-1, None] * np.hanning(nx + 2)[1:-1]
-        spectrum = np.abs(np.fft.rfft2((heights - heights.mean()) * window))
-        numbers = (
-            2.0 * np.pi * np.fft.rfftfreq(nx, np.ptp(self.x) / (nx - 1)),
-            2.0 * np.pi * np.fft.fftfreq(ny, np.ptp(self.y) / (ny - 1)),
-        )
-        found: list[WaveVector] = []
-        taken: list[tuple[int, int]] = []
-        for place in np.argsort(spectrum, axis=None)[::-1]:
-            row, column = divmod(int(place), spectrum.shape[1])
-            wave = WaveVector(1.0, float(numbers[0][column]), float(numbers[1][row]), 0.0)
-            if len(found) == STRONGEST or not spectrum[row, column] > 0:
-                break
-            if self.holds(wave) and not _is_near((row, column), taken, ny):
-                found.append(wave)
-            taken.append((row, column))
-        return found
-
     def fit(self, waves: Sequence[WaveVector]) -> "_Fit":
         """Return a least-squares fit of ``waves``, their streaks and a quadratic background."""
         x, y = (axis.ravel() for axis in np.meshgrid(self.x, self.y))
-        streaks = _streaks(waves)
+        # Less than a quarter of a streak is part of the quadratic background.
+        wide = (wave for wave in waves if self.counts(wave)[1] >= _TURN or not wave.along)
+        streaks = _streaks([self.straight(wave) for wave in wide])
         vectors = [(wave.along, wave.across, wave.phase) for wave in waves]
         vectors += [(0.0, number, 0.0) for number in streaks]
         columns = [
@@ -247,14 +329,6 @@ class _Patch:
         unit_x, unit_y = x / self.half_widths[0], y / self.half_widths[1]
         columns += [unit_x**i * unit_y**j for i in range(3) for j in range(3 - i)]
         return _Fit(np.linalg.pinv(np.stack(columns, axis=1)), len(waves), streaks)
-
-
-def _is_near(place: tuple[int, int], taken: Sequence[tuple[int, int]], rows: int) -> bool:
-    """Return whether a place of a spectrum belongs to the peak of another one."""
-    return any(
-        abs(place[1] - column) <= 1 and min((place[0] - row) % rows, (row - place[0]) % rows) <= 1
-        for row, column in taken
-    )
 
 
 def _streaks(waves: Sequence[WaveVector]) -> list[float]:
@@ -318,7 +392,9 @@ class FlatFilm:
     viscosity: float
     reduced_modulus: float
 
-    def theory(self, wave: WaveVector, amplitude: float, drift: float) -> LinearTheory:
+    def theory(
+        self, wave: WaveVector, amplitude: float, drift: float, *, holds: bool = True
+    ) -> LinearTheory:
         """Return the ripples that a wave makes.
 
         Parameters
@@ -330,6 +406,9 @@ class FlatFilm:
         drift : float
             Speed of the wave less the mean speed of both surfaces [m/s]: minus the latter for one
             that stands.
+        holds : bool
+            Whether the film is isothermal and Newtonian; if not, only a wave that is left to the
+            inlet has ripples to expect.
         """
         number, stiffness = wave.number, 0.25 * wave.number * self.reduced_modulus
         compressed = self.film * stiffness / self.bulk_modulus
@@ -337,10 +416,11 @@ class FlatFilm:
         ratio /= self.reduced_modulus * (self.film * number) ** 3
         # iQ/(1 - iQ - iCQ), written so that an infinite Q does no harm.
         flattened = 0j if ratio == 0 else -1.0 / (1.0 + compressed + 1j / ratio)
+        told = holds or flattened == 0
         return LinearTheory(
             compressibility=compressed,
-            film_ratio=abs(1.0 + flattened),
-            pressure=abs(flattened) * stiffness * amplitude,
+            film_ratio=abs(1.0 + flattened) if told else None,
+            pressure=abs(flattened) * stiffness * amplitude if told else None,
             elastic_pressure=stiffness * amplitude,
         )
 

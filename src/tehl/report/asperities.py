@@ -28,17 +28,19 @@ class ExpectedWave:
     ----------
     wavelength, angle, amplitude : float
         [m], [rad], [m].
-    film_ratio : float
-        Part that is left in the film [-].
-    pressure, elastic_pressure : float
-        Amplitude of the pressure, and the one that flattens the whole wave [Pa].
+    film_ratio : float or None
+        Part that is left in the film [-]; None where the theory does not hold.
+    pressure : float or None
+        Amplitude of the pressure [Pa]; None where the theory does not hold.
+    elastic_pressure : float
+        The one that flattens the whole wave [Pa].
     """
 
     wavelength: float
     angle: float
     amplitude: float
-    film_ratio: float
-    pressure: float
+    film_ratio: float | None
+    pressure: float | None
     elastic_pressure: float
 
     @property
@@ -189,7 +191,13 @@ def _needed(options: Options, fewest: float, axis: int, wanted: int) -> int:
 
 def _expected_waves(problem: ContactProblem, film: float) -> Iterator[ExpectedWave]:
     """Yield the waves of both surfaces, under the pressure in the middle of the contact."""
-    from tehl.post.waviness import FlatFilm, angle_of, bulk_modulus, drifting_waves  # noqa: PLC0415
+    from tehl.post.waviness import (  # noqa: PLC0415
+        FlatFilm,
+        angle_of,
+        bulk_modulus,
+        drifting_waves,
+        why_no_theory,
+    )
 
     oil, pressure = problem.lubricant, problem.hertz.pressure
     temperature = problem.inlet_temperature
@@ -200,7 +208,7 @@ def _expected_waves(problem: ContactProblem, film: float) -> Iterator[ExpectedWa
         reduced_modulus=problem.reduced_modulus,
     )
     for wave, drift in drifting_waves(problem):
-        theory = flat.theory(wave, wave.amplitude, drift)
+        theory = flat.theory(wave, wave.amplitude, drift, holds=why_no_theory(problem) is None)
         yield ExpectedWave(
             wavelength=2.0 * math.pi / wave.number,
             angle=angle_of(wave),
@@ -253,7 +261,8 @@ def odd_asperities(
             f"the film is {film / found.composite:.2g} times Sq: asperities may touch, and the run "
             "will say where there is no film"
         )
-    largest = max((wave.pressure for wave in found.waves), default=0.0)
+    pressures = (w.elastic_pressure if w.pressure is None else w.pressure for w in found.waves)
+    largest = max(pressures, default=0.0)
     if largest > problem.hertz.pressure:
         yield (
             f"a wave takes {largest / problem.hertz.pressure:.2g} Hertz pressures to be flattened: "

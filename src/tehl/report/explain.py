@@ -329,6 +329,8 @@ def _about_wave(wave: ExpectedWave) -> Iterator[str]:
     giga = 1e-9
     if wave.left_to_inlet:
         yield "the inlet decides what is left of it"
+    elif wave.film_ratio is None or wave.pressure is None:
+        yield "no theory of what is left: it is for isothermal Newtonian films"
     else:
         yield f"{100 * wave.film_ratio:.3g} % left in the film"
         yield f"pressure +-{wave.pressure * giga:.2g} GPa"

@@ -14,8 +14,9 @@ WAVE_HEAD = (
 )  # fmt: skip
 WAVE_NOTE = (
     "Fitted where |X|, |Y| < 0.4. Theory is linear and that of a wave which stands in a film of "
-    "constant thickness; crests along the entrainment are left to the inlet, of which it knows "
-    "nothing."
+    "constant thickness and temperature, of Newtonian oil: other films have none beside them. "
+    "Crests along the entrainment are left to the inlet, of which it knows nothing. Waves of "
+    "measured and random surfaces are listed where they stand out of the heights."
 )
 _TOLD = (0.01, 0.5, 0.99)
 
@@ -43,16 +44,17 @@ def film_rows(found: RoughFilm) -> Iterator[tuple[str, str, str]]:
 def wave_rows(waves: Iterable[WaveResponse]) -> Iterator[tuple[str, ...]]:
     """Yield a row for each wave, as ``WAVE_HEAD`` has it."""
     for wave in waves:
-        theory, alone = wave.theory, wave.theory.pressure == 0
+        theory = wave.theory
+        told = not theory.left_to_inlet
         yield (
             _nm(wave.wavelength),
             f"{math.degrees(wave.angle) + 0.0:.3g}°",
             _nm(wave.amplitude),
             f"{wave.points_per_wave:.3g}",
             f"{_nm(wave.film_amplitude)} ({_percent(wave.film_ratio)})",
-            "" if alone else _percent(theory.film_ratio),
+            _percent(theory.film_ratio) if told and theory.film_ratio is not None else "",
             _mpa(wave.pressure_amplitude),
-            "" if alone else _mpa(theory.pressure),
+            _mpa(theory.pressure) if told and theory.pressure is not None else "",
             _mpa(theory.elastic_pressure),
             _nm(wave.carried_amplitude) if wave.carried_amplitude > 0 else "",
         )
