@@ -119,3 +119,10 @@ def test_a_file_that_is_no_result_is_bad_input(stored, run, command, damage):
     assert "ball.nc" in answer.err
     assert answer.err.count("\n") == 1
     assert len(list(stored.parent.iterdir())) == (damage in content)
+
+
+@pytest.mark.parametrize("command", ["export", "report"])
+def test_the_help_says_that_runs_in_time_are_for_others(command, run):
+    shown = " ".join(run(command, "--help").out.split())
+    assert "in time" in shown
+    assert "steady result" in shown

@@ -107,6 +107,24 @@ def test_the_maps_of_a_thermal_film_are_columns_and_point_arrays(thermal, tmp_pa
         assert np.array_equal(arrays[name].reshape(65, 65), field)
 
 
+def test_the_heights_of_rough_surfaces_are_columns_and_point_arrays(rough, tmp_path):
+    write_csv(rough, tmp_path / "lines.csv")
+    write_csv(rough, tmp_path / "fields.csv", what="fields")
+    write_vtk(rough, tmp_path / "out.vtr")
+    root = ET.parse(tmp_path / "out.vtr").getroot()
+    arrays = {e.attrib["Name"]: decoded(e) for e in root.iter("DataArray")}
+    row = int(np.argmin(np.abs(rough.scaled.y)))
+    along = [r for r in rows(tmp_path / "lines.csv") if r["line"] == "x"]
+    every = rows(tmp_path / "fields.csv")
+    for name, heights in (
+        ("height_1", rough.heights.surface_1),
+        ("height_2", rough.heights.surface_2),
+    ):
+        assert [float(r[f"{name}_m"]) for r in along] == heights[row].tolist()
+        assert [float(r[f"{name}_m"]) for r in every] == heights.ravel().tolist()
+        assert np.array_equal(arrays[name], heights.ravel())
+
+
 def test_an_isothermal_table_has_no_columns_of_heat(result, tmp_path):
     write_csv(result, tmp_path / "lines.csv")
     assert list(rows(tmp_path / "lines.csv")[0])[-1] == "H"

@@ -35,10 +35,10 @@ def export(
         What, typer.Option(help="csv only: both centre lines, or all nodes of the fields.")
     ] = What.lines,
 ) -> None:
-    """Write a stored result as CSV, VTK (ParaView), npz (numpy) or mat (MATLAB).
+    """Write a stored steady result as CSV, VTK (ParaView), npz (numpy) or mat (MATLAB).
 
     VTK: the ending .vtr gives the plane of the film, .vts the film as a volume with its
-    temperatures.
+    temperatures. Runs in time are not exported: tehl.load and xarray read them.
     """
     from tehl.io.atomic import check_writable
     from tehl.io.export import SUFFIXES, kind_of, write, write_csv

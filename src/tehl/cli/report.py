@@ -12,7 +12,10 @@ def report(
         Path | None, typer.Option("-o", "--output", help="HTML file; beside RESULT if left out.")
     ] = None,
 ) -> None:
-    """Write one self-contained HTML page: inputs, groups, pictures, formulas, convergence."""
+    """Write one self-contained HTML page: inputs, groups, pictures, formulas, convergence.
+
+    Of steady results; tehl plot and tehl animate show runs in time.
+    """
     from tehl.cli.twins import smooth_beside
     from tehl.io.atomic import check_writable
     from tehl.io.store import load, load_summary

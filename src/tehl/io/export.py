@@ -26,6 +26,7 @@ _SHEAR = (
     ("shear_stress_across", "pa"),
     ("shear_thinning", ""),
 )
+_HEIGHTS = (("height_1", "m"), ("height_2", "m"))
 _HEAT = (
     ("temperature_1", "k"),
     ("temperature_mid", "k"),
@@ -102,9 +103,9 @@ def write_csv(result: Result, path: str | Path, *, what: What = "lines") -> None
     ``"lines"`` gives the two grid lines nearest to the axes, told apart by a column more: first
     ``line = x`` (along entrainment, Y = 0), then ``line = y`` (across, X = 0). ``"fields"`` gives
     all nodes in long form, x running fastest. Columns carry their unit in their name; X, Y, P, H
-    and shear_thinning are dimensionless. Shear stresses and temperatures follow if there are any:
-    on surface 1, at mid-film, on surface 2. Numbers are written so that reading them gives back the
-    same bits.
+    and shear_thinning are dimensionless. Heights of rough surfaces, shear stresses and temperatures
+    follow if there are any: on surface 1, at mid-film, on surface 2. Numbers are written so that
+    reading them gives back the same bits.
 
     Parameters
     ----------
@@ -142,7 +143,11 @@ def _columns(result: Result) -> dict[str, Array]:
 
 
 def _more_maps(result: Result) -> Iterator[tuple[str, str, Array]]:
-    """Yield name, unit and map of what the film has of shear and heat."""
+    """Yield name, unit and map of what the film has of roughness, shear and heat."""
+    heights = result.heights
+    if heights is not None:
+        fields = (heights.surface_1, heights.surface_2)
+        yield from ((*named, field) for named, field in zip(_HEIGHTS, fields, strict=True))
     shear, heat, temperature = result.shear, result.heat, result.temperature
     if shear is not None:
         stresses = (shear.surface_1, shear.mid_film, shear.surface_2, shear.across, shear.thinning)
@@ -150,8 +155,8 @@ def _more_maps(result: Result) -> Iterator[tuple[str, str, Array]]:
     if heat is not None and temperature is not None:
         first, second = heat.temperature[0], heat.temperature[-1]
         layers = (first, temperature.mid_film, second, temperature.mean)
-        fields = (*layers, heat.flux_1, heat.flux_2)
-        yield from ((*named, field) for named, field in zip(_HEAT, fields, strict=True))
+        maps = (*layers, heat.flux_1, heat.flux_2)
+        yield from ((*named, field) for named, field in zip(_HEAT, maps, strict=True))
 
 
 def _line_rows(result: Result, columns: dict[str, Array]) -> Iterator[tuple[Any, ...]]:
@@ -210,8 +215,9 @@ def write_vtk(result: Result, path: str | Path) -> None:
     """Write the fields as a VTK grid, which ParaView opens: of the film or of its plane.
 
     The ending ``.vtr`` gives a rectilinear grid, the plane z = 0 with x and y in metres and point
-    arrays ``pressure`` [Pa], ``film_thickness`` [m], ``P`` and ``H`` [-], and shear stresses [Pa],
-    temperatures [K] and heat fluxes [W/m^2] if there are any: the maps of :func:`write_csv`.
+    arrays ``pressure`` [Pa], ``film_thickness`` [m], ``P`` and ``H`` [-], and heights [m], shear
+    stresses [Pa], temperatures [K] and heat fluxes [W/m^2] if there are any: the maps of
+    :func:`write_csv`.
     "Warp by scalar" raises a film to a surface.
 
     The ending ``.vts`` gives a structured grid that fills the film, with nodes at
