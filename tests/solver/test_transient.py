@@ -269,3 +269,22 @@ def test_a_snapshot_that_is_not_whole_is_refused(harm):
         fields["temperature"] = fields["mass"]
     with pytest.raises(InputError, match="or not whole"):
         march(case, OPTIONS, resume=kept[0])
+
+
+@pytest.mark.slow
+def test_a_dent_passes_on_a_fine_grid_as_on_a_coarse_one():
+    """On 513 nodes points with the threshold of steady films drift away, and seem settled at it."""
+    case = moes_contact(50.0, 5.0)
+    units, given = scales(case), case.model_dump(exclude_none=True)
+    width, height = units.half_width_x, units.film_thickness
+    dent = {"type": "bump", "amplitude": -0.05 * height, "radius": 0.5 * width, "x": -2.2 * width}
+    given["contact"]["slide_roll_ratio"] = 0.5
+    given["surface_1"]["roughness"] = dent
+    given["transient"] = {"duration": 2.2 * width / units.speed, "frames": 0}
+    problem = ContactProblem.model_validate(given)
+    coarse, fine = (march(problem, Options(points=n, domain=DOMAIN)) for n in (257, 513))
+    assert fine.status.converged
+    assert fine.history.cycles.max() <= 4
+    one, other = (run.history.film_central / run.history.film_central[0] for run in (coarse, fine))
+    there = np.interp(coarse.history.time, fine.history.time, other)
+    np.testing.assert_allclose(there, one, atol=0.01)
