@@ -15,7 +15,16 @@ from tehl.result import Status
 from tehl.scaling import groups, scales
 from tehl.solver import steady
 from tehl.solver.level import Level
-from tehl.solver.newton import ACCURACY, EXACT, MOST_STEPS, RAISED, Newton, System, limited
+from tehl.solver.newton import (
+    ACCURACY,
+    EXACT,
+    MOST_STEPS,
+    RAISED,
+    Newton,
+    Preconditioner,
+    System,
+    limited,
+)
 from tehl.solver.smoother import NEWTON, ROUGH, Setting
 from tehl.solver.state import DivergedError, state_of, take_state
 from tests.reference import DOMAIN, moes_contact
@@ -153,6 +162,23 @@ def test_no_residual_is_negative() -> None:
     reynolds.diagonal(fine.film, fine.mesh, fine.self_film, diagonal)
     assert diagonal[:, 1:-1].min() < 0.0
     assert fine.evaluate_residual() > 0.0
+
+
+@pytest.mark.filterwarnings("ignore:invalid value encountered:RuntimeWarning")
+def test_the_coarse_equations_are_not_singular_where_few_nodes_are_wet() -> None:
+    """A wet line between two coarse lines: either of them would move it alike."""
+    fine = level()
+    middle = fine.grid.nx // 2
+    wet = np.zeros(fine.grid.shape, bool)
+    wet[:, 1:middle] = fine.film.p[:, 1:middle] > 0.0
+    wet[:-1, middle + 9] = True
+    fine.film.p[:] = np.where(wet, np.maximum(fine.film.p, 0.1), 0.0)
+    fine.rhs[:] = np.where(wet, 0.0, 1e3)  # nowhere else ought to be wet
+    fine.stale = True
+    fine.update()
+    newton = Newton(fine, fine.grid.coarser())
+    matrix = Preconditioner(System(newton)).coarse_matrix(System(newton))
+    assert np.linalg.cond(matrix) < 1e6
 
 
 def test_state_goes_back_and_forth() -> None:

@@ -68,6 +68,7 @@ class Newton:
         self.to_coarse = csr_matrix(
             rows(1.0 / np.asarray(self.to_fine.sum(0)).ravel()) @ self.to_fine.T
         )
+        self.same = np.asarray(self.to_fine.argmax(axis=0)).ravel()  # the node at each coarse one
         coarse_influence = influence_of(coarse, level.groups)
         self.deflection = dense_matrix(coarse.shape, coarse.mirror, coarse_influence)
         weights = np.full(level.grid.shape, level.load.area * (2.0 if level.grid.mirror else 1.0))
@@ -227,19 +228,21 @@ class Preconditioner:
             diag_pivot_thresh=0.01,
             options={"SymmetricMode": True},
         )
-        self.to_fine = csr_matrix(system.kept @ newton.to_fine)
-        self.to_coarse = newton.to_coarse
+        # one whose own node is cavitated would share its nodes with others: singular equations
+        self.moving = system.free[newton.same].astype(float)
+        self.to_fine = csr_matrix(system.kept @ newton.to_fine @ rows(self.moving))
+        self.to_coarse = csr_matrix(rows(self.moving) @ newton.to_coarse)
         with warnings.catch_warnings(action="ignore", category=LinAlgWarning):
-            self.coarse = lu_factor(self._coarse_matrix(system))
+            self.coarse = lu_factor(self.coarse_matrix(system))
 
-    def _coarse_matrix(self, system: System) -> Array:
+    def coarse_matrix(self, system: System) -> Array:
         """Return the equations of the coarse grid: pressures, and the approach with the load."""
         newton = system.newton
         by_film = csr_matrix(self.to_coarse @ system.by_film)
         size = newton.deflection.shape[0]
         matrix = np.zeros((size + 1, size + 1))
         matrix[:-1, :-1] = (self.to_coarse @ system.by_pressure @ self.to_fine).toarray()
-        matrix[:-1, :-1] += (by_film @ newton.to_fine) @ newton.deflection
+        matrix[:-1, :-1] += ((by_film @ newton.to_fine) @ newton.deflection) * self.moving
         matrix[:-1, -1] = by_film @ np.ones(system.free.size)
         matrix[-1, :-1] = newton.load_weights @ self.to_fine
         empty = np.nonzero(~matrix[:-1, :-1].any(axis=1))[0]
