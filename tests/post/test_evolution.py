@@ -1,11 +1,13 @@
 """Reading a run in time: profiles that move along, envelopes, what is left of a passing wave."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from tehl.errors import InputError
+from tehl.evolution import Evolution
 from tehl.post.evolution import (
     amplitude_reduction,
     envelope,
@@ -43,6 +45,31 @@ def test_somebody_on_the_other_surface_sees_it_pass():
     assert seen.place[0] == -2e-4
     assert seen.place[-1] == pytest.approx(-2e-4 + 0.75 * 1.5 * run.history.time[-1])
     assert (seen.height[~np.isnan(seen.height)] == 0.0).all()
+
+
+def carrying(*features: dict) -> Evolution:
+    """Return a run whose surface 1 carries them."""
+    case = CASE | {"surface_1": CASE["surface_1"] | {"roughness": list(features)}}
+    run = make_evolution()
+    start = make_result(case=case | {"transient": {}})
+    return replace(run, start=replace(run.start, problem=start.problem))
+
+
+def test_of_several_features_the_one_is_to_be_said():
+    dent = {"type": "bump", "amplitude": -1e-7, "radius": 5e-5, "x": -6e-4}
+    wave = {"type": "wave", "amplitude": 1e-8, "wavelength": LENGTH}
+    assert moving_profiles(carrying(dent, wave), 1).place[0] == -6e-4
+    two = carrying(dent, dent | {"x": -9e-4})
+    with pytest.raises(InputError, match="surface_1 has 2 features: say around which place, start"):
+        moving_profiles(two, 1)
+    assert moving_profiles(two, 1, start=-9e-4).place[0] == -9e-4
+
+
+def test_a_feature_beside_the_line_of_the_profiles_is_refused():
+    dent = {"type": "bump", "amplitude": -1e-7, "radius": 5e-5, "x": -6e-4}
+    with pytest.raises(InputError, match=r"stands at y = 0\.0001 m, beside the line y = 0"):
+        moving_profiles(carrying(dent | {"y": 1e-4}), 1)
+    assert moving_profiles(carrying(dent | {"y": 2e-5}), 1).place[0] == -6e-4
 
 
 def test_what_lies_outside_the_domain_is_not_a_number():

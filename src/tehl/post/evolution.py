@@ -22,6 +22,7 @@ import numpy as np
 
 from tehl.errors import InputError
 from tehl.evolution import Evolution
+from tehl.passage import parts_of
 from tehl.post.waviness import waves_of
 from tehl.roughness import WaveVector
 from tehl.typing import Array
@@ -143,7 +144,8 @@ def moving_profiles(
     surface : {1, 2}
         Which surface.
     start : float
-        Where the place is at time zero [m]; if left out, where the feature of the surface stands.
+        Where the place is at time zero [m]; if left out, where the feature of the surface stands,
+        and 0 if it has none.
     reach : float
         How far from it profiles go on either side [m]; a half-width of the contact if left out.
 
@@ -151,11 +153,15 @@ def moving_profiles(
     -------
     MovingProfiles
         Interpolated linearly between the nodes.
+
+    Raises
+    ------
+    InputError
+        If the surface has several features, or one beside the line y = 0, and ``start`` is not
+        given.
     """
     speed, x = speed_of(run, surface), run.x
-    if start is None:
-        roughness = getattr(run.start.problem, f"surface_{surface}").roughness
-        start = float(getattr(roughness, "x", 0.0))
+    start = _place_of_feature(run, surface) if start is None else start
     reach = run.start.scales.half_width_x if reach is None else reach
     if not reach > 0:
         raise InputError(f"reach = {reach} m must be positive")
@@ -173,6 +179,31 @@ def moving_profiles(
         for lines_in_time in lines
     )
     return MovingProfiles(offset=offset, place=place, pressure=pressure, film=film, height=height)
+
+
+def _place_of_feature(run: Evolution, surface: int) -> float:
+    """Return where the feature of a surface stands at time zero [m].
+
+    Raises
+    ------
+    InputError
+        If it has several, or the line y = 0 does not see it.
+    """
+    problem, name = run.start.problem, f"surface_{surface}"
+    parts = [one for one in parts_of(problem, run.start.scales) if one.surface == name]
+    features = [one for one in parts if not one.is_endless]
+    if not features:
+        return 0.0
+    if len(features) > 1:
+        raise InputError(f"{name} has {len(features)} features: say around which place, start")
+    feature = features[0].roughness
+    y, (first, last) = float(getattr(feature, "y", 0.0)), features[0].extent[1]
+    if not abs(y) <= 0.25 * (last - first):
+        raise InputError(
+            f"the {feature.type} of {name} stands at y = {y:g} m, beside the line y = 0 whose "
+            "profiles are kept: read its fields (tehl.post.instant.film_at)"
+        )
+    return float(getattr(feature, "x", 0.0))
 
 
 def envelope(run: Evolution, *, since: float = 0.0, until: float = math.inf) -> Envelope:

@@ -1,0 +1,61 @@
+"""Instants of a run in time, read like steady films."""
+
+import numpy as np
+import pytest
+
+from tehl import InputError, march
+from tehl.options import Options
+from tehl.post.instant import film_at, smooth_start
+from tehl.post.micro_film import micro_film
+from tehl.post.roughness import area_below, rough_film
+from tests.reference import DOMAIN
+from tests.solver.test_transient import in_time, wave
+
+OPTIONS = Options(points=65, domain=DOMAIN)
+
+
+@pytest.fixture(scope="module")
+def run():
+    """A wave on each surface comes in, in pure rolling."""
+    return march(in_time(5.0, surface_1=wave(), surface_2=wave(0.005, phase=1.0)), OPTIONS)
+
+
+def test_an_instant_has_the_fields_and_heights_of_its_time(run):
+    last, film = film_at(run), run.frames.film[-1]
+    np.testing.assert_allclose(last.film_thickness, film, rtol=1e-6)
+    assert last.film_scaled.minimum == pytest.approx(float(film.min() / last.scales.film_thickness))
+    np.testing.assert_allclose(
+        last.heights.surface_1 + last.heights.surface_2, run.frames.height[-1], atol=1e-13
+    )
+    first, second = rough_film(last).sq
+    assert second == pytest.approx(0.5 * first, rel=0.1)
+    assert last.film_scaled.central == pytest.approx(
+        run.history.film_central[-1] / last.scales.film_thickness, rel=1e-5
+    )
+
+
+def test_the_film_of_the_beginning_is_the_smooth_twin_of_each_instant(run):
+    smooth = smooth_start(run)
+    none, some = (micro_film(film_at(run, k), smooth) for k in (0, -1))
+    middle = np.ix_(np.abs(run.start.scaled.y) < 0.4, np.abs(run.start.scaled.x) < 0.4)
+    assert np.abs(none.film[middle]).max() < 1e-6 * run.history.film_central[0]
+    assert 0.2 < np.abs(some.film[middle]).max() / np.abs(run.frames.height[-1]).max() < 1.1
+
+
+def test_the_numbers_of_rough_films_are_those_of_the_instant(run):
+    last = film_at(run)
+    told = rough_film(last, smooth_start(run))
+    assert told.lambda_ratio == pytest.approx(
+        run.history.film_central[-1] / told.composite, rel=0.2
+    )
+    assert area_below(last, 2.0 * told.lambda_ratio * told.composite) == pytest.approx(1.0)
+
+
+def test_an_instant_that_was_not_kept_is_refused(run):
+    with pytest.raises(InputError, match="frame = 3: the run keeps 3 fields"):
+        film_at(run, 3)
+
+
+def test_a_run_that_began_between_rough_surfaces_has_no_twin():
+    standing = in_time(0.2, surface_1=wave(), transient={"start": "standing"})
+    assert smooth_start(march(standing, OPTIONS)) is None
