@@ -124,6 +124,25 @@ def test_netcdf_is_read_with_units_and_axes(tmp_path):
         assert (found.unit, found.pixel, found.pixel_units) == ("um", (2.0, 3.0), ("um", "um"))
 
 
+@pytest.mark.parametrize("engine", ["scipy", "h5netcdf"])
+def test_netcdf_in_the_order_of_images_is_turned_round(tmp_path, engine):
+    """Rows from the top down, and columns from right to left."""
+    ny, nx = HEIGHTS.shape
+    places = {"y": np.arange(ny)[::-1] * 3.0, "x": -2.0 * np.arange(nx)}
+    data = xr.Dataset({"z": (("y", "x"), HEIGHTS[::-1, ::-1])}, coords=places)
+    data.to_netcdf(tmp_path / "a.nc", engine=engine)
+    found = read(tmp_path / "a.nc")
+    np.testing.assert_array_equal(found.heights, HEIGHTS)
+    assert found.pixel == (2.0, 3.0)
+
+
+def test_netcdf_with_uneven_falling_places_is_told(tmp_path):
+    places = {"y": -(np.arange(HEIGHTS.shape[0]) ** 2.0)}
+    xr.Dataset({"z": (("y", "x"), HEIGHTS)}, coords=places).to_netcdf(tmp_path / "a.nc")
+    with pytest.raises(InputError, match="along y that do not follow at equal"):
+        read(tmp_path / "a.nc")
+
+
 def test_of_several_variables_one_must_be_named(tmp_path):
     path = tmp_path / "two.nc"
     tables = dict.fromkeys(("before", "after"), (("y", "x"), HEIGHTS))
@@ -306,6 +325,27 @@ def test_hdf5_without_names_of_dimensions_is_read_without_warnings(tmp_path, rec
         file["z"] = HEIGHTS
     np.testing.assert_array_equal(read(tmp_path / "a.nc").heights, HEIGHTS)
     assert not recwarn.list
+
+
+@pytest.mark.parametrize("way", ["storage", "link", "link in a group", "virtual"])
+def test_hdf5_that_reads_another_file_is_refused(tmp_path, way):
+    HEIGHTS.tofile(tmp_path / "other.bin")
+    with h5py.File(tmp_path / "other.nc", "w") as file:
+        file["z"] = HEIGHTS
+    with h5py.File(tmp_path / "a.nc", "w") as file:
+        if way == "storage":
+            outside = [(str(tmp_path / "other.bin"), 0, HEIGHTS.nbytes)]
+            file.create_dataset("z", HEIGHTS.shape, HEIGHTS.dtype, external=outside)
+        elif way == "virtual":
+            layout = h5py.VirtualLayout(HEIGHTS.shape, HEIGHTS.dtype)
+            layout[:] = h5py.VirtualSource(tmp_path / "other.nc", "z", HEIGHTS.shape)
+            file.create_virtual_dataset("z", layout)
+        else:
+            group = file if way == "link" else file.create_group("inner")
+            group["z"] = h5py.ExternalLink(str(tmp_path / "other.nc"), "/z")
+            file["heights"] = HEIGHTS
+    with pytest.raises(InputError, match=r"has data in another file .*: copy all into one file"):
+        read(tmp_path / "a.nc")
 
 
 def test_no_code_of_a_pickle_runs(tmp_path):

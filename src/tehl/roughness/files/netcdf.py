@@ -8,6 +8,7 @@ import numpy as np
 
 from tehl.errors import InputError
 from tehl.roughness.files.raw import RawMap, check_count, step
+from tehl.typing import Array
 
 _ENGINES = {b"\x89HDF": "h5netcdf", b"CDF\x01": "scipy", b"CDF\x02": "scipy"}
 
@@ -20,6 +21,7 @@ def read_netcdf(path: Path, variable: str | None) -> RawMap:
     path : Path
         With one variable of two dimensions, or several of which ``variable`` names one. Its
         attribute ``units`` and coordinates count; the last dimension, or the one called x, is x.
+        Coordinates may fall, as y does in the order of images.
     variable : str or None
         Which one.
 
@@ -52,11 +54,32 @@ def read_netcdf(path: Path, variable: str | None) -> RawMap:
 
 
 def _check_hdf5(path: Path) -> None:
-    """Raise whatever h5py does of a file that h5netcdf would complain of aloud."""
+    """Refuse data in other files; raise what h5py does where h5netcdf would complain aloud."""
     import h5py  # noqa: PLC0415
 
     with h5py.File(path, "r") as file:
         list(file.attrs.items())
+        # neither follows an external link; both stop at the first that is found
+        if file.visititems_links(_leads_out) or file.visititems(_lies_outside):
+            raise InputError(
+                "has data in another file (external storage, an external link or a virtual "
+                "dataset), and a map is read from its own file only: copy all into one file"
+            )
+
+
+def _leads_out(_: str, link: Any) -> bool | None:
+    """Return True for a link into another file, and None to go on."""
+    import h5py  # noqa: PLC0415
+
+    return isinstance(link, h5py.ExternalLink) or None
+
+
+def _lies_outside(_: str, thing: Any) -> bool | None:
+    """Return True for a dataset whose numbers may lie in another file, and None to go on."""
+    import h5py  # noqa: PLC0415
+
+    is_table = isinstance(thing, h5py.Dataset)
+    return (is_table and (thing.is_virtual or thing.external is not None)) or None
 
 
 def _map_of(data: Any, name: str | None) -> RawMap:
@@ -64,6 +87,7 @@ def _map_of(data: Any, name: str | None) -> RawMap:
     check_count(found.shape)
     if {"x", "y"} == set(found.dims):
         found = found.transpose("y", "x")
+    found = _rising(found)
     steps = [_step(found, dim, axis) for dim, axis in zip(found.dims, "yx", strict=True)]
     (dy, unit_y), (dx, unit_x) = steps
     return RawMap(
@@ -102,12 +126,28 @@ def _listed(tables: dict[str, Any]) -> str:
     return ", ".join(names[:8]) + (", ..." if len(names) > 8 else "") or "none"
 
 
+def _rising(found: Any) -> Any:
+    """Return heights with the axes turned round along which the places fall, as rows of images."""
+    falling = [dim for dim in found.dims if _falls(found, dim)]
+    return found.isel({dim: slice(None, None, -1) for dim in falling})
+
+
+def _falls(found: Any, dim: str) -> bool:
+    if dim not in found.coords:
+        return False
+    places = _places(found, dim)
+    return places.size > 1 and bool(places[0] > places[-1])
+
+
+def _places(found: Any, dim: str) -> Array:
+    return np.asarray(found.coords[dim].values, dtype=np.float64)
+
+
 def _step(found: Any, dim: str, axis: str) -> tuple[float | None, str | None]:
     """Return the distance of the points along a dimension and its unit."""
     if dim not in found.coords:
         return None, None
-    places = found.coords[dim]
-    return step(np.asarray(places.values, dtype=np.float64), axis), _unit(places)
+    return step(_places(found, dim), axis), _unit(found.coords[dim])
 
 
 def _unit(variable: Any) -> str | None:
