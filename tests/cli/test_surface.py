@@ -70,6 +70,27 @@ def test_keys_of_a_map_are_options_too(monkeypatch, capsys, file):
     assert found["mean_wavelength_m"] > plain["mean_wavelength_m"]
 
 
+def test_what_was_taken_off_is_told(monkeypatch, capsys, file):
+    keys = ("--level", "quadratic", "--set", "lambda_s=12 um")
+    assert run(monkeypatch, "surface", file, *STATED, *keys) == 0
+    words = capsys.readouterr().out
+    assert 'a quadratic form by least squares (level = "quadratic")' in words
+    assert "Gaussian, lambda_s = 12 um" in words
+    assert run(monkeypatch, "surface", file, *STATED) == 0
+    assert "Gaussian" not in capsys.readouterr().out
+    found = numbers(monkeypatch, capsys, file, *STATED, *keys)
+    assert (found["level"], found["lambda_c_m"]) == ("quadratic", None)
+    assert found["lambda_s_m"] == pytest.approx(12e-6)
+
+
+@pytest.mark.parametrize("beside", [(), ("--half-width", "40 um")])
+def test_a_form_that_is_left_is_asked_for(monkeypatch, capsys, tmp_path, beside):
+    x = (np.arange(64) - 31.5) * 2e-6
+    np.save(tmp_path / "ball.npy", 1e6 * (-(x**2) / 0.04 - (x[:48, None]) ** 2 / 0.04))
+    found = numbers(monkeypatch, capsys, str(tmp_path / "ball.npy"), *STATED, *beside)
+    assert [one for one in found["questions"] if "20 mm along x" in one]
+
+
 def test_more_points_lose_less(monkeypatch, capsys, file):
     lost = [
         numbers(monkeypatch, capsys, file, *STATED, "--half-width", "20 um", "--points", count)[

@@ -8,6 +8,7 @@ import typer
 if TYPE_CHECKING:
     from pydantic import ValidationError
 
+    from tehl.roughness import Map
     from tehl.roughness.preview import Mesh, Preview
 
 _DOMAIN = 6.0
@@ -174,6 +175,8 @@ def as_text(found: "Preview") -> str:
         ("file", f"{found.kind}, {found.raw_shape[1]} x {found.raw_shape[0]} points"),
         ("size", f"{_micro(*values.size)}, {nx} x {ny} points {_micro(*values.pixel)} apart"),
         ("missing points", f"{found.missing} ({_percent(found.missing, found.raw_shape)})"),
+        ("taken off", _levelling(found.surface)),
+        *_filters(found.surface),
         ("Sq, Sa, Sz", f"{_metres(numbers.sq)}, {_metres(numbers.sa)}, {_metres(numbers.sz)}"),
         ("Ssk, Sku", f"{numbers.ssk:.3g}, {numbers.sku:.3g}"),
         ("Sdq", f"{numbers.sdq:.3g}"),
@@ -184,6 +187,22 @@ def as_text(found: "Preview") -> str:
         *(("question", sentence) for sentence in found.sentences),
     ]
     return "\n".join([found.file, *(f"  {name:<17}{text}" for name, text in rows)])
+
+
+def _levelling(surface: "Map") -> str:
+    words = {
+        "none": "nothing",
+        "mean": "the mean",
+        "plane": "a plane by least squares",
+        "quadratic": "a quadratic form by least squares",
+    }
+    return f'{words[surface.level]} (level = "{surface.level}")'
+
+
+def _filters(surface: "Map") -> list[tuple[str, str]]:
+    cut_offs = (("lambda_c", surface.lambda_c), ("lambda_s", surface.lambda_s))
+    stated = [f"{key} = {length * 1e6:.4g} um" for key, length in cut_offs if length is not None]
+    return [("filters", f"Gaussian, {', '.join(stated)}")] if stated else []
 
 
 def _on_the_mesh(found: "Preview") -> list[tuple[str, str]]:
@@ -210,6 +229,9 @@ def as_summary(found: "Preview") -> dict[str, Any]:
         "size_m": list(found.heights.size),
         "pixel_m": list(found.heights.pixel),
         "missing": found.missing,
+        "level": found.surface.level,
+        "lambda_c_m": found.surface.lambda_c,
+        "lambda_s_m": found.surface.lambda_s,
         "Sq_m": numbers.sq,
         "Sa_m": numbers.sa,
         "Sz_m": numbers.sz,

@@ -222,6 +222,8 @@ class Map(RoughnessModel):
         tuple of str
             Sentences, none when all is well.
         """
+        from tehl.roughness.form import question_of_form  # noqa: PLC0415 (only where heights are)
+
         heights = self.load()
         extent = _turned(heights.size, self.rotate)
         sizes = (
@@ -242,7 +244,8 @@ class Map(RoughnessModel):
             )
         if abs(self.x) > 0.5 * (extent[0] + width) or abs(self.y) > 0.5 * (extent[1] + length):
             sentences.append(f"{sizes} do not touch at time zero: the map lies beside the contact")
-        return tuple(sentences)
+        bent = question_of_form(heights, self.level)
+        return tuple(sentences) if bent is None else (*sentences, bent)
 
 
 _BEYOND: dict[str, str] = {

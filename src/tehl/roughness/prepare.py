@@ -141,21 +141,46 @@ def levelled(values: Array, how: Level) -> Array:
     """Return heights without their mean, plane or quadratic form, by least squares."""
     if how == "none":
         return values
-    degree = _DEGREE[how]
+    off = values - values.mean()
+    rows, columns, weights, _ = _fitted(off, _DEGREE[how])
+    return np.asarray(off - rows.T @ (weights @ columns))
+
+
+def quadratic_of(values: Array) -> tuple[Array, float]:
+    """Return the quadratic that fits heights best, and its mean square.
+
+    Parameters
+    ----------
+    values : (ny, nx) array
+        Heights [m].
+
+    Returns
+    -------
+    weights : (3, 3) array
+        Of the powers of y and x, both from -1 in the first point to 1 in the last [m].
+    square : float
+        Mean square of the quadratic [m^2].
+    """
+    _, _, weights, square = _fitted(values - values.mean(), _DEGREE["quadratic"])
+    return weights, square
+
+
+def _fitted(off: Array, degree: int) -> tuple[Array, Array, Array, float]:
+    """Return powers of y and of x, their weights by least squares, and the fit's mean square."""
     rows, columns = (
         np.vander(np.linspace(-1.0, 1.0, count), degree + 1, increasing=True).T
-        for count in values.shape
+        for count in off.shape
     )
     powers = [(i, j) for i in range(degree + 1) for j in range(degree + 1 - i)]
-    off = values - values.mean()
     # sums over the map part into sums over rows and columns, so that no term is ever a map
     along, across = columns @ columns.T, rows @ rows.T
     products = [[across[i, k] * along[j, m] for k, m in powers] for i, j in powers]
-    moments = rows @ off @ columns.T
+    sums = rows @ off @ columns.T
+    moments = np.array([sums[power] for power in powers])
     weights = np.zeros((degree + 1, degree + 1))
-    found = np.linalg.solve(np.array(products), [moments[power] for power in powers])
+    found = np.linalg.solve(np.array(products), moments)
     weights[tuple(np.transpose(powers))] = found
-    return np.asarray(off - rows.T @ (weights @ columns))
+    return rows, columns, weights, float(found @ moments) / off.size
 
 
 def gaussian_mean(heights: Array, pixel: tuple[float, float], cut_off: float) -> Array:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from tehl.errors import InputError
 from tehl.roughness.files import RawMap, read
 from tehl.roughness.files.raw import shown
+from tehl.roughness.form import question_of_form
 from tehl.roughness.loading import found_file
 from tehl.roughness.map import Map
 from tehl.roughness.prepare import Heights
@@ -36,6 +37,8 @@ class Preview:
 
     Attributes
     ----------
+    surface : Map
+        How it is prepared and placed.
     file, kind : str
         Name and format.
     raw_shape : (ny, nx)
@@ -55,9 +58,10 @@ class Preview:
     lost : float or None
         Share of the variance that the mesh cannot carry.
     sentences : tuple of str
-        What is odd beside the contact.
+        What is odd about the map, and beside the contact.
     """
 
+    surface: Map
     file: str
     kind: str
     raw_shape: tuple[int, int]
@@ -91,11 +95,10 @@ def preview(surface: Map, mesh: Mesh | None = None) -> Preview:
     raw = _raw(surface)
     heights = surface.load()
     lost: float | None = None
-    sentences: tuple[str, ...] = ()
     if mesh is not None:
         lost = share_beyond(heights.values, heights.pixel, mesh.spacing)
-        sentences = surface.fits(2.0 * mesh.half_widths[0], 2.0 * mesh.half_widths[1])
     return Preview(
+        surface=surface,
         file=shown(surface.file),
         kind=raw.kind,
         raw_shape=(raw.heights.shape[0], raw.heights.shape[1]),
@@ -106,8 +109,15 @@ def preview(surface: Map, mesh: Mesh | None = None) -> Preview:
         shortest_wavelength=surface.shortest_wavelength,
         mesh=mesh,
         lost=lost,
-        sentences=sentences,
+        sentences=_questions(surface, heights, mesh),
     )
+
+
+def _questions(surface: Map, heights: Heights, mesh: Mesh | None) -> tuple[str, ...]:
+    if mesh is not None:
+        return surface.fits(2.0 * mesh.half_widths[0], 2.0 * mesh.half_widths[1])
+    bent = question_of_form(heights, surface.level)
+    return () if bent is None else (bent,)
 
 
 def _raw(surface: Map) -> RawMap:
