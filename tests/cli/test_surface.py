@@ -70,6 +70,25 @@ def test_keys_of_a_map_are_options_too(monkeypatch, capsys, file):
     assert found["mean_wavelength_m"] > plain["mean_wavelength_m"]
 
 
+def test_keys_of_tables_have_dots_as_in_a_case(monkeypatch, capsys, file):
+    keys = ("--set", 'crop.x=["0 um", "64 um"]', "--set", 'crop.y=["32 um", "64 um"]')
+    found = numbers(monkeypatch, capsys, file, *STATED, *keys)
+    assert found["size_m"] == pytest.approx([64e-6, 32e-6])
+
+
+def test_a_turned_and_moved_map_is_told(monkeypatch, capsys, file):
+    keys = ("--set", "rotate=30 deg", "--set", "x=0.1 mm")
+    assert run(monkeypatch, "surface", file, *STATED, *keys) == 0
+    words = capsys.readouterr().out
+    assert "turned by 30 deg, its middle at x = 100 um, y = 0 um" in words
+    assert "along its x and y" in words
+    found = numbers(monkeypatch, capsys, file, *STATED, *keys)
+    assert found["middle_m"] == [1e-4, 0.0]
+    assert found["rotate_rad"] == pytest.approx(np.pi / 6)
+    assert run(monkeypatch, "surface", file, *STATED) == 0
+    assert "placed" not in capsys.readouterr().out
+
+
 def test_what_was_taken_off_is_told(monkeypatch, capsys, file):
     keys = ("--level", "quadratic", "--set", "lambda_s=12 um")
     assert run(monkeypatch, "surface", file, *STATED, *keys) == 0
@@ -139,6 +158,8 @@ def test_the_picture_has_map_histogram_and_spectrum(tmp_path, shape):
         (("{}", *STATED, "--level", "flat"), "level = 'flat' must be"),
         (("{}", *STATED, "--set", "shape=1"), "shape is no key of a map"),
         (("{}", *STATED, "--set", "shape"), "is no change"),
+        (("{}", *STATED, "--set", "crop..x=1"), "is no change: give key=value"),
+        (("{}", *STATED, "--set", "crop.z=1"), "crop.z is no key of a map"),
         (("{}", *STATED, "--points", "65"), "--points needs a contact"),
         (("{}", *STATED, "--half-width", "2 N"), "--half-width = '2 N' has the unit of a force"),
         (("{}", *STATED, "--half-width", "2 um", "--contact", "a"), "both state a contact"),

@@ -1,5 +1,6 @@
 """``tehl surface``: a measured surface at a glance."""
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -82,20 +83,19 @@ def _pair(text: str | None) -> list[str] | str | None:
 
 
 def _changed(changes: list[str]) -> dict[str, Any]:
-    """Return the keys and values of ``--set``, as TOML reads them, else as words."""
-    import tomllib
+    """Return the keys and values of ``--set``, as TOML reads them, else as words.
 
+    A key with dots is one of a table, as in ``tehl solve --set``.
+    """
     from tehl.errors import InputError
+    from tehl.io.case import change
 
     found: dict[str, Any] = {}
-    for change in changes:
-        key, equals, text = (part.strip() for part in change.partition("="))
-        if not (key and equals):
-            raise InputError(f"{change!r} is no change: give key=value, lambda_s=10 um")
-        try:
-            found[key] = tomllib.loads(f"value = {text}")["value"]
-        except ValueError:
-            found[key] = text
+    for text in changes:
+        key, equals, _ = (part.strip() for part in text.partition("="))
+        if not (equals and all(part.strip() for part in key.split("."))):
+            raise InputError(f"{text!r} is no change: give key=value, lambda_s=10 um")
+        change(found, text)
     return found
 
 
@@ -171,22 +171,32 @@ def as_text(found: "Preview") -> str:
     """Return a preview in lines for people."""
     values, numbers = found.heights, found.statistics
     ny, nx = values.values.shape
+    axes = "its x and y" if found.surface.rotate else "x and y"
     rows = [
         ("file", f"{found.kind}, {found.raw_shape[1]} x {found.raw_shape[0]} points"),
         ("size", f"{_micro(*values.size)}, {nx} x {ny} points {_micro(*values.pixel)} apart"),
+        *_placed(found.surface),
         ("missing points", f"{found.missing} ({_percent(found.missing, found.raw_shape)})"),
         ("taken off", _levelling(found.surface)),
         *_filters(found.surface),
         ("Sq, Sa, Sz", f"{_metres(numbers.sq)}, {_metres(numbers.sa)}, {_metres(numbers.sz)}"),
         ("Ssk, Sku", f"{numbers.ssk:.3g}, {numbers.sku:.3g}"),
         ("Sdq", f"{numbers.sdq:.3g}"),
-        ("correlation", f"{_correlation(numbers.correlation_lengths)} (1/e, along x and y)"),
+        ("correlation", f"{_correlation(numbers.correlation_lengths)} (1/e, along {axes})"),
         ("mean wavelength", f"{found.shortest_wavelength * 1e6:.4g} um (2 pi Sq / Sq')"),
         *_on_the_mesh(found),
         *(("note", note) for note in values.notes),
         *(("question", sentence) for sentence in found.sentences),
     ]
     return "\n".join([found.file, *(f"  {name:<17}{text}" for name, text in rows)])
+
+
+def _placed(surface: "Map") -> list[tuple[str, str]]:
+    """Return how the map lies in the contact, where it is turned or moved."""
+    words = [f"turned by {math.degrees(surface.rotate):.4g} deg"] if surface.rotate else []
+    if surface.x or surface.y:
+        words.append(f"its middle at x = {surface.x * 1e6:.4g} um, y = {surface.y * 1e6:.4g} um")
+    return [("placed", ", ".join(words))] if words else []
 
 
 def _levelling(surface: "Map") -> str:
@@ -228,6 +238,8 @@ def as_summary(found: "Preview") -> dict[str, Any]:
         "points": list(reversed(found.heights.values.shape)),
         "size_m": list(found.heights.size),
         "pixel_m": list(found.heights.pixel),
+        "rotate_rad": found.surface.rotate,
+        "middle_m": [found.surface.x, found.surface.y],
         "missing": found.missing,
         "level": found.surface.level,
         "lambda_c_m": found.surface.lambda_c,

@@ -1,17 +1,19 @@
 """A measured surface: its map, its heights and its spectrum."""
 
+from itertools import product
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Ellipse
+from matplotlib.patches import Ellipse, Polygon
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from tehl.plots.frame import MICRO, STEPS, outline
 from tehl.roughness.preview import Preview
+from tehl.roughness.view import View, view
 from tehl.typing import Array
 
-_CLIPPED = 0.1
-_PER_PICTURE = 900
+_CLIPPED, _COUNTED = 0.1, 10**6
 _SIZE, _NARROW = (10.5, 5.4), 8.0
 _SLENDER = 2.0
 _BINS = 81
@@ -30,11 +32,11 @@ def surface_preview(preview: Preview) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        The map with the contact, the distribution of heights, and the power spectral density with
-        what the mesh cannot carry.
+        The map with the contact, as it is turned and moved, the distribution of heights, and the
+        power spectral density with what the mesh cannot carry.
     """
-    picture = Figure(figsize=_SIZE, layout="constrained")
-    width, height = preview.heights.size
+    picture, seen = Figure(figsize=_SIZE, layout="constrained"), view(preview)
+    width, height = seen.size
     if width > _SLENDER * height:
         parts = picture.subfigures(2, 1, squeeze=False, height_ratios=[0.8, 1.0])[:, 0]
         panels = parts[1].subplots(1, 2)
@@ -45,7 +47,7 @@ def surface_preview(preview: Preview) -> Figure:
         panels = parts[1].subplots(2, 1)
         picture.set_figwidth(_NARROW if slender else _SIZE[0])
     picture.suptitle(_title(preview), fontsize=9)
-    _draw_map(parts[0].add_subplot(), preview)
+    _draw_map(parts[0].add_subplot(), preview, seen)
     _draw_heights(panels[0], preview)
     _draw_spectrum(panels[1], preview)
     return picture
@@ -68,17 +70,15 @@ def _height_unit(preview: Preview) -> tuple[float, str]:
     return (1e9, "nm") if preview.statistics.sq < 3e-8 else (MICRO, "µm")
 
 
-def _draw_map(axes: Axes, preview: Preview) -> None:
-    (width, height), values = preview.heights.size, preview.heights.values
+def _draw_map(axes: Axes, preview: Preview, seen: View) -> None:
+    width, height = seen.size
+    (left, right), (bottom, top) = seen.window
     factor, unit = _height_unit(preview)
-    right, top = 0.5 * width * MICRO, 0.5 * height * MICRO
-    steps = [max(1, count // _PER_PICTURE) for count in values.shape]
-    shown = values[:: steps[0], :: steps[1]] * factor
-    low, high = np.percentile(shown, [_CLIPPED, 100 - _CLIPPED])
+    low, high = (limit * factor for limit in _limits(preview.heights.values))
     image = axes.imshow(
-        shown,
+        seen.values * factor,
         origin="lower",
-        extent=(-right, right, -top, top),
+        extent=(left * MICRO, right * MICRO, bottom * MICRO, top * MICRO),
         aspect="equal",
         interpolation="nearest",
         vmin=low,
@@ -100,18 +100,39 @@ def _draw_map(axes: Axes, preview: Preview) -> None:
         shrink=0.9,
         label=f"height outwards [{unit}]",
     )
+    labels = []
     if preview.mesh is not None:
-        _draw_contact(axes, preview.mesh.half_widths)
+        labels.append(_draw_contact(axes, preview.mesh.half_widths))
+    if seen.corners is not None and _is_part(seen):
+        outlined = Polygon(seen.corners * MICRO, fill=False, color="white", lw=0.8)
+        axes.add_patch(outlined).set_path_effects(outline("0.2", 1.6))
+        labels.append("thin: edges of the map")
+    axes.set_title(", ".join(labels), fontsize=8)
 
 
-def _draw_contact(axes: Axes, half_widths: tuple[float, float]) -> None:
+def _limits(heights: Array) -> tuple[float, float]:
+    """Return heights of which few are lower or higher, in the map without what lies around."""
+    some = heights.ravel()[:: max(1, heights.size // _COUNTED)]
+    low, high = np.percentile(some, [_CLIPPED, 100 - _CLIPPED])
+    return float(low), float(high)
+
+
+def _is_part(seen: View) -> bool:
+    """Return whether the map is a part of its window, or turned in it."""
+    corners = {tuple(corner) for corner in np.round(np.array(seen.corners) * 1e9)}
+    window = {tuple(np.round(np.array(place) * 1e9)) for place in product(*seen.window)}
+    return corners != window
+
+
+def _draw_contact(axes: Axes, half_widths: tuple[float, float]) -> str:
+    """Draw the contact within the limits that are, and return what to say of it."""
     limits = axes.get_xlim(), axes.get_ylim()
-    wide, tall = (2 * MICRO * half for half in half_widths)
+    half_x, half_y = (MICRO * half for half in half_widths)
     axes.add_patch(
         Ellipse(
             (0, 0),
-            wide,
-            tall,
+            2 * half_x,
+            2 * half_y,
             fill=False,
             color="white",
             ls="--",
@@ -120,9 +141,9 @@ def _draw_contact(axes: Axes, half_widths: tuple[float, float]) -> None:
         )
     )
     axes.set(xlim=limits[0], ylim=limits[1])
-    inside = 0.5 * wide < limits[0][1] and 0.5 * tall < limits[1][1]
-    label = "dashed: Hertz contact" if inside else "dashed: Hertz contact, larger than the map"
-    axes.set_title(label, fontsize=8)
+    reaches = zip(limits, (half_x, half_y), strict=True)
+    inside = all(low <= -half and half <= high for (low, high), half in reaches)
+    return "dashed: Hertz contact" + ("" if inside else ", not whole in this picture")
 
 
 def _draw_heights(axes: Axes, preview: Preview) -> None:

@@ -1,7 +1,6 @@
 """Measured surfaces: a file, what it does not say, and how its heights are prepared."""
 
 import hashlib
-import math
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Self
@@ -188,13 +187,16 @@ class Map(RoughnessModel):
     def extent(self, length: float) -> Extent:
         """Return where the map lies at time zero, if it ends there [m]."""
         del length
-        if self.outside != "flat":
-            return ENDLESS
-        along, across = self.load().size
-        cosine, sine = (abs(part) for part in direction(self.rotate))
-        half_x = 0.5 * (along * cosine + across * sine)
-        half_y = 0.5 * (along * sine + across * cosine)
-        return (self.x - half_x, self.x + half_x), (self.y - half_y, self.y + half_y)
+        return self.box if self.outside == "flat" else ENDLESS
+
+    @property
+    def box(self) -> Extent:
+        """Return from where to where the measured part lies along x and y at time zero [m]."""
+        width, height = _turned(self.load().size, self.rotate)
+        return (
+            (self.x - 0.5 * width, self.x + 0.5 * width),
+            (self.y - 0.5 * height, self.y + 0.5 * height),
+        )
 
     def _at_rest(self, x: "Array", y: "Array") -> "Array":
         return self._sampled.height(x, y)
@@ -257,7 +259,7 @@ _BEYOND: dict[str, str] = {
 
 def _turned(size: tuple[float, float], angle: float) -> tuple[float, float]:
     """Return what a turned rectangle measures along x and y [m]."""
-    cosine, sine = abs(math.cos(angle)), abs(math.sin(angle))
+    cosine, sine = (abs(part) for part in direction(angle))
     return size[0] * cosine + size[1] * sine, size[0] * sine + size[1] * cosine
 
 
