@@ -4,9 +4,11 @@ import gc
 import hashlib
 import io
 import struct
+import sys
 import zipfile
 from contextlib import suppress
 from importlib.util import find_spec
+from types import SimpleNamespace
 
 import h5py
 import numpy as np
@@ -346,6 +348,16 @@ def test_hdf5_that_reads_another_file_is_refused(tmp_path, way):
             file["heights"] = HEIGHTS
     with pytest.raises(InputError, match=r"has data in another file .*: copy all into one file"):
         read(tmp_path / "a.nc")
+
+
+def test_hdf5_of_an_instrument_reads_no_other_file_either(tmp_path, monkeypatch):
+    reader = SimpleNamespace(open_topography=lambda *_, **__: pytest.fail("was opened"))
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", SimpleNamespace(IO=reader))
+    monkeypatch.setitem(sys.modules, "SurfaceTopography.IO", reader)
+    with h5py.File(tmp_path / "a.datx", "w") as file:
+        file["z"] = h5py.ExternalLink(str(tmp_path / "other.nc"), "/z")
+    with pytest.raises(InputError, match="has data in another file"):
+        read(tmp_path / "a.datx")
 
 
 def test_no_code_of_a_pickle_runs(tmp_path):

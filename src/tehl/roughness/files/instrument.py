@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from tehl.errors import InputError
+from tehl.roughness.files.hdf5 import MAGIC, check_hdf5
 from tehl.roughness.files.raw import RawMap, check_count
 
 FORMATS = {
@@ -58,6 +59,10 @@ def read_instrument(path: Path) -> RawMap:
             'pip install "tehl[surfaces]"'
         ) from None
     try:
+        with path.open("rb") as file:
+            is_hdf5 = file.read(len(MAGIC)) == MAGIC  # as datx is
+        if is_hdf5:
+            check_hdf5(path)
         reader = open_topography(str(path), format=FORMATS[path.suffix[1:].lower()])
         check_count(tuple(reader.channels[0].nb_grid_pts))
         found = reader.topography()

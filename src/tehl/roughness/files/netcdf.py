@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 
 from tehl.errors import InputError
+from tehl.roughness.files.hdf5 import MAGIC, check_hdf5
 from tehl.roughness.files.raw import RawMap, check_count, step
 from tehl.typing import Array
 
-_ENGINES = {b"\x89HDF": "h5netcdf", b"CDF\x01": "scipy", b"CDF\x02": "scipy"}
+_ENGINES = {MAGIC: "h5netcdf", b"CDF\x01": "scipy", b"CDF\x02": "scipy"}
 
 
 def read_netcdf(path: Path, variable: str | None) -> RawMap:
@@ -38,7 +39,7 @@ def read_netcdf(path: Path, variable: str | None) -> RawMap:
         raise InputError("is no NetCDF file")
     try:
         if engine == "h5netcdf":
-            _check_hdf5(path)
+            check_hdf5(path)
         with (
             warnings.catch_warnings(action="ignore"),  # of HDF5 without names of dimensions
             xr.open_dataset(path, engine=engine, decode_times=False, cache=False) as data,
@@ -51,35 +52,6 @@ def read_netcdf(path: Path, variable: str | None) -> RawMap:
         raise InputError(
             f"cannot be read as NetCDF, it is truncated or damaged: {reason}"
         ) from None
-
-
-def _check_hdf5(path: Path) -> None:
-    """Refuse data in other files; raise what h5py does where h5netcdf would complain aloud."""
-    import h5py  # noqa: PLC0415
-
-    with h5py.File(path, "r") as file:
-        list(file.attrs.items())
-        # neither follows an external link; both stop at the first that is found
-        if file.visititems_links(_leads_out) or file.visititems(_lies_outside):
-            raise InputError(
-                "has data in another file (external storage, an external link or a virtual "
-                "dataset), and a map is read from its own file only: copy all into one file"
-            )
-
-
-def _leads_out(_: str, link: Any) -> bool | None:
-    """Return True for a link into another file, and None to go on."""
-    import h5py  # noqa: PLC0415
-
-    return isinstance(link, h5py.ExternalLink) or None
-
-
-def _lies_outside(_: str, thing: Any) -> bool | None:
-    """Return True for a dataset whose numbers may lie in another file, and None to go on."""
-    import h5py  # noqa: PLC0415
-
-    is_table = isinstance(thing, h5py.Dataset)
-    return (is_table and (thing.is_virtual or thing.external is not None)) or None
 
 
 def _map_of(data: Any, name: str | None) -> RawMap:
