@@ -131,8 +131,13 @@ def touching(seconds: float, level: Level, *, rough: bool) -> Status:
         cause="asperity_contact",
         message=(
             f"At {seconds:.4g} s the film is not positive: smallest H = {h.min():.3g} at "
-            f"X = {grid.x[column]:.3g}, Y = {grid.y[row]:.3g}. Asperities would touch there, which "
-            "a film that carries all of the load cannot describe. What came before is kept."
+            f"X = {grid.x[column]:.3g}, Y = {grid.y[row]:.3g}. On {grid.nx} x {grid.ny} nodes "
+            "asperities would touch there, which a film that carries all of the load cannot "
+            "describe; one grid does not tell whether they do on a finer one. What came before is "
+            "kept."
         ),
-        hint="Take lower or longer asperities, more speed, or more nodes (numerics.points).",
+        hint=(
+            f"See whether numerics.points = {2 * max(grid.nx, grid.ny) - 1} finds a film; else "
+            "take lower or longer asperities, or more speed."
+        ),
     )
