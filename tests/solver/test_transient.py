@@ -11,6 +11,7 @@ from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.scaling import scales
 from tehl.solver.monitor import SILENT
+from tehl.solver.packing import pack, unpack
 from tehl.solver.stepper import StepError
 from tehl.solver.transient import Run
 from tests.reference import DOMAIN, moes_contact
@@ -269,6 +270,102 @@ def test_a_snapshot_that_is_not_whole_is_refused(harm):
         fields["temperature"] = fields["mass"]
     with pytest.raises(InputError, match="or not whole"):
         march(case, OPTIONS, resume=kept[0])
+
+
+@pytest.fixture(scope="module")
+def packed() -> dict:
+    """The arrays of a run of four steps after the third, two frames in it."""
+    kept = []
+    march(in_time(0.3), OPTIONS, keep=lambda snapshot: kept.append(snapshot.copy()))
+    return pack(kept[2])
+
+
+@pytest.mark.parametrize(
+    ("name", "harm"),
+    [
+        ("field_pressure", lambda field: field * np.nan),
+        ("field_pressure", lambda field: field.astype(str)),
+        ("rigid_approach", lambda number: number * np.nan),
+        ("rows", lambda rows: rows[:2]),
+        ("rows", lambda rows: rows[0]),
+        ("rows", lambda rows: rows[:, :3]),
+        ("rows", lambda rows: np.tile(rows, (10, 1))),
+        ("profiles", lambda lines: lines[:, :2]),
+        ("frame_steps", lambda steps: steps[:-1]),
+        ("frame_steps", lambda steps: steps[::-1].copy()),
+        ("frame_steps", lambda steps: steps + 10),
+        ("frames", lambda frames: frames[:, :2]),
+        ("setting", lambda _: np.array([0, 1])),
+        ("cost", lambda cost: -cost),
+    ],
+)
+def test_a_checkpoint_whose_arrays_do_not_fit_each_other_is_refused(packed, name, harm):
+    with pytest.raises(InputError, match=r"the checkpoint is not whole: .*begins anew"):
+        unpack(packed | {name: harm(packed[name])})
+
+
+def test_a_checkpoint_of_older_steps_than_its_film_is_refused(packed):
+    older = {name: packed[name][:2] for name in ("rows", "profiles")}
+    older |= {name: packed[name][:1] for name in ("frames", "frame_steps")}
+    with pytest.raises(InputError, match="its pressure is not that of its last step"):
+        unpack(packed | older)
+
+
+@pytest.mark.parametrize(
+    ("name", "harm"),
+    [
+        ("setting", lambda _: np.array(9)),
+        ("setting", lambda _: np.array(-1)),
+        ("rows", lambda rows: rows * ([2.0] + [1.0] * (rows.shape[1] - 1))),
+        ("profiles", lambda lines: lines[..., :9]),
+        ("frames", lambda frames: frames[..., :9]),
+        ("frame_steps", lambda steps: np.minimum(steps + 1, 3)),
+        ("field_mass", lambda mass: mass.astype(np.float32)),
+    ],
+)
+def test_a_checkpoint_that_does_not_fit_the_case_is_refused(packed, name, harm):
+    state = unpack(packed | {name: harm(packed[name])})
+    with pytest.raises(InputError, match="than the case, or"):
+        march(in_time(0.3), OPTIONS, resume=state)
+
+
+def test_the_cost_of_a_run_that_goes_on_is_that_of_all_its_parts(packed):
+    cost = np.array([1000.0, 2000.0])
+    again = march(in_time(0.3), OPTIONS, resume=unpack(packed | {"cost": cost}))
+    assert packed["cost"].min() > 0.0
+    assert 1000.0 < again.cost.cpu_seconds < 1900.0
+    assert 2000.0 < again.cost.wall_seconds < 2900.0
+
+
+def test_a_film_that_is_no_number_ends_the_run_and_is_not_noted():
+    case = in_time(0.3)
+    run = Run(case, OPTIONS, case.transient, SILENT)
+    step = run.stepper.step
+
+    def poisoned(heights, load):
+        settled = step(heights, load)
+        run.level.film.h[3, 3] = np.inf
+        return settled
+
+    run.stepper.step = poisoned
+    status = run.go(SILENT, None)
+    assert (status.kind, status.cause) == ("diverged", "step_not_settled")
+    assert len(run.record.rows) == 1
+
+
+@pytest.mark.parametrize("place", ["p", "h"])
+def test_a_step_that_is_no_number_does_not_settle(place):
+    case = in_time(0.3)
+    run = Run(case, OPTIONS, case.transient, SILENT)
+    update = run.level.update
+
+    def poisoned():
+        update()
+        getattr(run.level.film, place)[3, 3] = np.nan
+
+    run.level.update = poisoned
+    assert run.go(SILENT, None).cause == "step_not_settled"
+    assert len(run.record.rows) == 1
 
 
 @pytest.mark.slow

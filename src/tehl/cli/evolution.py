@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from tehl.io.checkpoint import Fingerprint
     from tehl.options import Options
     from tehl.problem import ContactProblem
-    from tehl.solver.transient import Snapshot
+    from tehl.solver.snapshot import Snapshot
 
 CHECKPOINT_SECONDS = 30.0
 """CPU time between two checkpoints [s]."""

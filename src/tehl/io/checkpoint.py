@@ -18,7 +18,7 @@ from tehl.roughness import Map, Sum
 
 Arrays = dict[str, NDArray[Any]]
 
-_LABEL, _LAYOUT = "tehl_checkpoint", 3
+_LABEL, _LAYOUT = "tehl_checkpoint", 4
 """What such a file calls itself; to be raised when a state of a run has other arrays."""
 
 

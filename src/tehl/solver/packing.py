@@ -1,56 +1,122 @@
 """A snapshot of a run in time as plain arrays, and back: what a checkpoint holds."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tehl.errors import InputError
+from tehl.evolution import History
+from tehl.result import Cost
 from tehl.solver.record import Record
-from tehl.solver.transient import Snapshot
+from tehl.solver.snapshot import Snapshot
+
+Arrays = Mapping[str, NDArray[Any]]
 
 _FIELD = "field_"
+_COLUMNS = tuple(one.name for one in fields(History))
+_LINES, _FRAMES = 4, 3
+"""What a step has in the history, along y = 0, and in a frame: pressure, film and heights."""
+_LAYOUT = {
+    "setting": (0, np.int64),
+    "rigid_approach": (0, np.float64),
+    "cost": (1, np.float64),
+    "rows": (2, np.float64),
+    "profiles": (3, np.float64),
+    "frame_steps": (1, np.int64),
+    "frames": (4, np.float32),
+}
+"""Dimensions and kind of number of all but the fields."""
 
 
 def pack(snapshot: Snapshot) -> dict[str, NDArray[Any]]:
     """Return a snapshot as arrays by name."""
     record = snapshot.record
     return {
-        "setting": np.array(snapshot.setting),
+        "setting": np.array(snapshot.setting, np.int64),
         "rigid_approach": np.array(snapshot.rigid_approach),
+        "cost": np.array([snapshot.cost.cpu_seconds, snapshot.cost.wall_seconds]),
         "rows": np.array(record.rows),
         "profiles": np.stack(record.profiles),
         "frame_steps": np.array(record.frame_steps, np.int64),
-        "frames": np.stack(record.frames) if record.frames else np.zeros(0, np.float32),
+        "frames": np.stack(record.frames) if record.frames else np.zeros((0,) * 4, np.float32),
         **{f"{_FIELD}{name}": field for name, field in snapshot.fields.items()},
     }
 
 
-def unpack(arrays: Mapping[str, NDArray[Any]]) -> Snapshot:
+def unpack(arrays: Arrays) -> Snapshot:
     """Return the snapshot that :func:`pack` made arrays of, bit by bit.
 
     Raises
     ------
     InputError
-        If something is missing.
+        If something is missing, does not fit the rest, or is no finite number.
     """
-    try:
-        record = Record(
+    check_whole(arrays)
+    cpu, wall = arrays["cost"].tolist()
+    return Snapshot(
+        setting=int(arrays["setting"]),
+        rigid_approach=float(arrays["rigid_approach"]),
+        fields={
+            name.removeprefix(_FIELD): field
+            for name, field in arrays.items()
+            if name.startswith(_FIELD)
+        },
+        record=Record(
             rows=[tuple(row) for row in arrays["rows"].tolist()],
             profiles=list(arrays["profiles"]),
             frame_steps=arrays["frame_steps"].tolist(),
             frames=list(arrays["frames"]),
+        ),
+        cost=Cost(cpu_seconds=cpu, wall_seconds=wall),
+    )
+
+
+def check_whole(arrays: Arrays) -> None:
+    """Refuse the arrays of a snapshot that do not belong together, whatever the case.
+
+    Raises
+    ------
+    InputError
+        If something is missing, does not fit the rest, or is no finite number.
+    """
+    wrong = next(_faults(arrays), None)
+    if wrong is not None:
+        raise InputError(
+            f"the checkpoint is not whole: {wrong}; remove it, and the run begins anew"
         )
-        return Snapshot(
-            setting=int(arrays["setting"]),
-            rigid_approach=float(arrays["rigid_approach"]),
-            fields={
-                name.removeprefix(_FIELD): field
-                for name, field in arrays.items()
-                if name.startswith(_FIELD)
-            },
-            record=record,
-        )
-    except KeyError as error:
-        raise InputError(f"the checkpoint is not whole: {error} is missing") from None
+
+
+def _faults(arrays: Arrays) -> Iterator[str]:
+    """Yield what is wrong; what comes later takes for granted that nothing was before."""
+    for name, (dimensions, kind) in _LAYOUT.items():
+        if name not in arrays:
+            yield f"{name!r} is missing"
+        elif arrays[name].ndim != dimensions or arrays[name].dtype != kind:
+            yield f"{name!r} is not of {dimensions} dimensions and {np.dtype(kind)}"
+    for name, values in arrays.items():
+        if values.dtype.kind not in "biuf" or not np.isfinite(values).all():
+            yield f"{name.removeprefix(_FIELD)!r} has values that are not finite numbers"
+    yield from _misfits(arrays)
+
+
+def _misfits(arrays: Arrays) -> Iterator[str]:
+    """Yield what of the record does not fit the rest of it."""
+    rows, profiles, frames = arrays["rows"], arrays["profiles"], arrays["frames"]
+    steps, kept = len(rows), arrays["frame_steps"]
+    if not steps or rows.shape[1] != len(_COLUMNS):
+        yield f"'rows' has the shape {rows.shape}, not {len(_COLUMNS)} numbers per step"
+    if profiles.shape[:2] != (steps, _LINES):
+        yield f"'profiles' has the shape {profiles.shape}, not {_LINES} lines in {steps} steps"
+    if len(frames) != len(kept) or (len(kept) and frames.shape[1] != _FRAMES):
+        yield f"'frames' has the shape {frames.shape}, not {_FRAMES} fields in {len(kept)} frames"
+    if (np.diff(kept) <= 0).any() or ((kept < 0) | (kept >= steps)).any():
+        yield f"'frame_steps' are no steps of {steps}, one after the other"
+    if arrays["cost"].shape != (2,) or (arrays["cost"] < 0.0).any():
+        yield "'cost' is not the seconds of processor and clock"
+    last = dict(zip(_COLUMNS, rows[-1], strict=True))
+    pressure = arrays.get(f"{_FIELD}pressure", np.zeros(1)).max()
+    if (last["rigid_approach"], last["pressure_max"]) != (arrays["rigid_approach"], pressure):
+        yield "its pressure is not that of its last step"

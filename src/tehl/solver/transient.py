@@ -1,9 +1,8 @@
 """Runs in time: from the steady film, step by step, to the end of the question."""
 
 import math
-import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,14 +14,16 @@ from tehl.operators.energy import stress_unit
 from tehl.operators.heights import MovingHeights
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.result import Cost, Result, Status
+from tehl.result import Result, Status
 from tehl.scaling import Scales, groups, scales
 from tehl.solver.level import Level
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.multigrid import film_numbers
 from tehl.solver.outputs import newtonian_sliding
+from tehl.solver.packing import check_whole, pack
 from tehl.solver.record import Moment, Record
 from tehl.solver.smoother import BROAD, CAREFUL, FAST, ROBUST, ROUGH
+from tehl.solver.snapshot import Clock, Snapshot
 from tehl.solver.steady import Attempt, finest_grid, solve_attempt
 from tehl.solver.stepper import Settled, StepError, Stepper
 from tehl.solver.thermal import FilmCoupling
@@ -45,35 +46,6 @@ START_TOLERANCE = 1e-7
 """Tolerance of the steady film at the beginning."""
 MOST_STEPS = 20_000
 """Steps that nobody asks for by accident."""
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Snapshot:
-    """All that a run needs to go on as if it had not been interrupted.
-
-    Attributes
-    ----------
-    setting : int
-        Number of the setting of the relaxation.
-    rigid_approach : float
-        H00 [-].
-    fields : dict of str to array
-        Pressure, mass of the last two films and what of it moves without being there, what the
-        pressure of the last four steps differed by from that of the beginning, and what the
-        coupling remembers.
-    record : Record
-        What has been noted so far.
-    """
-
-    setting: int
-    rigid_approach: float
-    fields: dict[str, Array]
-    record: Record
-
-    def copy(self) -> "Snapshot":
-        """Return a snapshot that the run does not change any more."""
-        fields = {name: field.copy() for name, field in self.fields.items()}
-        return replace(self, fields=fields, record=self.record.copy())
 
 
 def march(
@@ -117,13 +89,10 @@ def march(
         raise InputError("the case has no [transient] table: tehl.solve computes the steady film")
     check_memory(options, problem)
     warm_up(coupled=problem.is_coupled)
-    wall, cpu = time.perf_counter(), time.process_time()
     run = Run(problem, options, transient, monitor)
     if resume is not None:
         run.recall(resume)
-    status = run.go(monitor, keep)
-    cost = Cost(cpu_seconds=time.process_time() - cpu, wall_seconds=time.perf_counter() - wall)
-    return run.evolution(status, cost)
+    return run.evolution(run.go(monitor, keep))
 
 
 class Run:
@@ -136,6 +105,7 @@ class Run:
         transient: Transient,
         monitor: StepMonitor,
     ) -> None:
+        self.clock = Clock()
         self.problem, self.transient = problem, transient
         self.scales, self.groups = scales(problem), groups(problem)
         grid = finest_grid(problem, options)
@@ -172,6 +142,10 @@ class Run:
                 )
             except StepError as error:
                 return failed(error, time_now, self.level)
+            except ArithmeticError:  # a kernel divides by what is no number any more
+                return failed(StepError("diverged", math.nan), time_now, self.level)
+            if not np.isfinite(self.level.film.h).all():
+                return failed(StepError("diverged", settled.change), time_now, self.level)
             self._note(step, heights, settled)
             if not self.level.film.h.min() > self.level.floor:
                 return touching(time_now, self.level, rough=self.problem.is_rough)
@@ -241,6 +215,7 @@ class Run:
                 **self.stepper.run.coupling.memory(self.stepper.run.levels),
             },
             record=self.record,
+            cost=self.clock.cost(),
         )
 
     def recall(self, snapshot: Snapshot) -> None:
@@ -249,11 +224,10 @@ class Run:
         Raises
         ------
         InputError
-            If it is of another grid, or lacks a field.
+            If it is of another grid, lacks a field, or has a number that is not finite.
         """
         level, fields = self.level, dict(snapshot.fields)
-        if _shapes(fields) != _shapes(self.snapshot().fields):
-            raise InputError("the snapshot is of another grid than the case, or not whole")
+        self._check(snapshot)
         level.film.p[:] = fields.pop("pressure")
         self.stepper.now, self.stepper.before = fields.pop("mass"), fields.pop("mass_before")
         self.stepper.predictor.past = fields.pop("pressure_changes")
@@ -261,9 +235,28 @@ class Run:
         level.rigid_approach, level.stale = snapshot.rigid_approach, True
         self.stepper.choose(snapshot.setting)
         self.stepper.run.coupling.recall(self.stepper.run.levels, fields)
-        self.record = snapshot.record
+        self.record, self.clock.before = snapshot.record, snapshot.cost
 
-    def evolution(self, status: Status, cost: Cost) -> Evolution:
+    def _check(self, snapshot: Snapshot) -> None:
+        """Refuse a snapshot that is not whole, or not of this question."""
+        if _shapes(snapshot.fields) != _shapes(self.snapshot().fields):
+            raise InputError("the snapshot is of another grid than the case, or not whole")
+        arrays = pack(snapshot)
+        check_whole(arrays)
+        grid, count = self.level.grid, len(snapshot.record.rows)
+        steps = np.arange(count)
+        fitting = (
+            count <= self.steps + 1
+            and 0 <= snapshot.setting < len(self.stepper.settings)
+            and np.allclose(arrays["rows"][:, 0], steps * self.seconds, rtol=1e-9, atol=0.0)
+            and arrays["profiles"].shape[-1] == grid.nx
+            and snapshot.record.frame_steps == [step for step in steps if step in self.kept]
+            and arrays["frames"].shape[2:] in {(grid.ny, grid.nx), (0, 0)}
+        )
+        if not fitting:
+            raise InputError("the snapshot has other steps than the case, or is not whole")
+
+    def evolution(self, status: Status) -> Evolution:
         """Return the answer."""
         begun = self.start.status
         if status.converged and begun.is_vague:
@@ -276,13 +269,13 @@ class Run:
             frames=self.record.fields(self.scales, full),
             time_step=self.seconds,
             status=status,
-            cost=cost,
+            cost=self.clock.cost(),
             provenance=self.start.provenance,
         )
 
 
-def _shapes(fields: dict[str, Array]) -> dict[str, tuple[int, ...]]:
-    return {name: field.shape for name, field in fields.items()}
+def _shapes(fields: dict[str, Array]) -> dict[str, tuple[tuple[int, ...], np.dtype]]:
+    return {name: (field.shape, field.dtype) for name, field in fields.items()}
 
 
 def begin(
