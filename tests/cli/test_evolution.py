@@ -219,6 +219,26 @@ def test_a_beginning_that_is_not_reached_is_stored_and_exits_with_1(folder, run,
     assert isinstance(tehl.load("wave.nc"), tehl.Result)
 
 
+def test_a_beginning_that_diverges_is_told_as_a_steady_case_that_does(folder, run):
+    standing = [
+        "--set",
+        'transient.start="standing"',
+        "--set",
+        "surface_1.roughness.amplitude=3e-6",
+    ]
+    answer = run("solve", "wave.toml", *standing, "--json", "--plot", "pictures")
+    assert answer.code == 1
+    assert "not an answer (diverged): The steady film at time zero was not reached" in answer.err
+    assert "hint: Take lower or longer asperities" in answer.err
+    told = json.loads(answer.out)
+    assert told["status"] == "diverged"
+    assert told["cause"] == "grid_too_coarse"
+    assert told["hint"]
+    assert told["message"].startswith("The steady film at time zero")
+    assert tehl.load("wave.nc").status.hint == told["hint"]
+    assert "film.png" in names(folder / "pictures")
+
+
 @pytest.mark.parametrize("option", ["--with-smooth", "--with-isothermal"])
 def test_options_of_steady_cases_are_refused(folder, run, option):
     answer = run("solve", "wave.toml", option)

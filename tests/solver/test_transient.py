@@ -13,6 +13,7 @@ from tehl.scaling import scales
 from tehl.solver.monitor import SILENT
 from tehl.solver.packing import pack, unpack
 from tehl.solver.stepper import StepError
+from tehl.solver.time_verdict import failed
 from tehl.solver.transient import Run
 from tests.reference import DOMAIN, moes_contact
 
@@ -366,6 +367,21 @@ def test_a_step_that_is_no_number_does_not_settle(place):
     run.level.update = poisoned
     assert run.go(SILENT, None).cause == "step_not_settled"
     assert len(run.record.rows) == 1
+
+
+def test_a_tolerance_that_no_step_reaches_is_named():
+    run = march(in_time(0.3, transient={"tolerance": 1e-300, "max_cycles": 5}), OPTIONS)
+    assert run.status.cause == "step_not_settled"
+    assert "let transient.tolerance (now 1e-300) be 1e-06 or more" in str(run.status.hint)
+    assert "asperities" not in str(run.status.hint)
+
+
+@pytest.mark.parametrize(("cause", "change"), [("stalled", 1e-3), ("diverged", 1e-9)])
+def test_a_step_that_does_not_settle_blames_its_surfaces(cause, change):
+    case = in_time(0.3, transient={"tolerance": 1e-12})
+    level = Run(case, OPTIONS, case.transient, SILENT).level
+    status = failed(StepError(cause, change), 0.0, level, case.transient)
+    assert "asperities" in str(status.hint)
 
 
 @pytest.mark.slow

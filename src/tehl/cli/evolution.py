@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from tehl.io.checkpoint import Fingerprint
     from tehl.options import Options
     from tehl.problem import ContactProblem
+    from tehl.result import Result
     from tehl.solver.snapshot import Snapshot
 
 CHECKPOINT_SECONDS = 30.0
@@ -127,9 +128,8 @@ def solve_in_time(problem: "ContactProblem", options: "Options", wishes: Wishes)
         else:
             run = _march(problem, options, Keeper(path, owner), snapshot, quiet=wishes.quiet)
     except ConvergenceError as error:
-        error.result.save(wishes.target)
-        typer.echo(f"written: {wishes.target}", err=True)
-        raise
+        _tell_beginning(error.result, str(error), wishes)
+        raise typer.Exit(1) from None
     run.save(wishes.target)
     remove_with_parts(path)
     _tell(run, wishes)
@@ -216,6 +216,7 @@ def _tell(run: "Evolution", wishes: Wishes) -> None:
     import json
 
     from tehl.cli.evolution_words import as_text
+    from tehl.cli.failure import explain_failure
 
     if wishes.as_json:
         typer.echo(json.dumps(run.summary(), allow_nan=False))
@@ -226,10 +227,26 @@ def _tell(run: "Evolution", wishes: Wishes) -> None:
         draw(run, wishes.plot, told=lambda path: typer.echo(f"written: {path}", err=True))
     if run.status.converged:
         return
-    typer.echo(f"tehl: not an answer ({run.status.kind}): {run.status.message}", err=True)
-    if run.status.hint:
-        typer.echo(f"hint: {run.status.hint}", err=True)
+    explain_failure(run.status)
     raise typer.Exit(1)
+
+
+def _tell_beginning(start: "Result", failure: str, wishes: Wishes) -> None:
+    """Store the steady film of a run that got no farther, and tell of it as of a steady case."""
+    import json
+
+    from tehl.cli.failure import explain_failure
+    from tehl.cli.words import as_text
+
+    start.save(wishes.target)
+    typer.echo(json.dumps(start.summary(), allow_nan=False) if wishes.as_json else as_text(start))
+    typer.echo(f"written: {wishes.target}", err=True)
+    if wishes.plot is not None:
+        from tehl.plots.save import save_all
+
+        for path in save_all(start, wishes.plot):
+            typer.echo(f"written: {path}", err=True)
+    explain_failure(start.status, failure)
 
 
 def draw(run: "Evolution", folder: Path, *, told: Callable[[Path], None], dpi: int = 150) -> None:

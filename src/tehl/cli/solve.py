@@ -58,6 +58,7 @@ def solve(  # noqa: PLR0913, PLR0917 (the options of the command)
     nothing is written; 3: the environment failed.
     """
     from tehl.cli.evolution import Wishes, refuse, solve_in_time
+    from tehl.cli.failure import explain_failure
     from tehl.cli.twins import smooth_file, twins_of
     from tehl.io.case import read_case_and_options
     from tehl.memory import check_memory
@@ -96,7 +97,7 @@ def solve(  # noqa: PLR0913, PLR0917 (the options of the command)
     if plot is not None:
         _draw(result, plot, effects.smooth)
     if failure is not None:
-        _explain_failure(result, failure)
+        explain_failure(result.status, failure)
         raise typer.Exit(1)
 
 
@@ -188,10 +189,3 @@ def _draw(result: "Result", folder: Path, smooth: "Result | None") -> None:
 
     for path in save_all(result, folder, smooth=smooth):
         typer.echo(f"written: {path}", err=True)
-
-
-def _explain_failure(result: "Result", failure: str) -> None:
-    status = result.status
-    typer.echo(f"tehl: not an answer ({status.kind}): {status.message or failure}", err=True)
-    if status.hint:
-        typer.echo(f"hint: {status.hint}", err=True)

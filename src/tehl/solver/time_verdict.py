@@ -16,6 +16,8 @@ from tehl.transient import Transient
 LEAST_STEPS = 4.0
 """Steps of time in which a wave passes, below which they take it for another one."""
 ROUNDING = 1e-9
+SETTLED = 1e-6
+"""Change of P in the last cycle of a step below which it has all but settled."""
 MISSED = 0.25
 """Part of all of its change by which the load of the nearest step may be off that of a peak."""
 
@@ -95,7 +97,7 @@ def check_load(transient: Transient, seconds: float) -> None:
             )
 
 
-def failed(error: StepError, seconds: float, level: Level) -> Status:
+def failed(error: StepError, seconds: float, level: Level, transient: Transient) -> Status:
     """Return the status of a run whose step did not settle."""
     return Status(
         kind="diverged" if error.cause == "diverged" else "stalled",
@@ -104,10 +106,20 @@ def failed(error: StepError, seconds: float, level: Level) -> Status:
             f"The step to {seconds:.4g} s did not settle on {level.grid.nx} x {level.grid.ny} "
             f"nodes: the last change of P is {error.change:.2g}. What came before is kept."
         ),
-        hint=(
-            "Take lower or longer asperities, more nodes (numerics.points), or more cycles per "
-            "step (transient.max_cycles)."
-        ),
+        hint=_remedy(error, transient),
+    )
+
+
+def _remedy(error: StepError, transient: Transient) -> str:
+    """Return what to try where a step did not settle: its surfaces, or what was asked of it."""
+    if error.cause == "stalled" and transient.tolerance < error.change < SETTLED:
+        return (
+            f"The pressure has all but settled: let transient.tolerance (now "
+            f"{transient.tolerance:g}) be {SETTLED:g} or more."
+        )
+    return (
+        "Take lower or longer asperities, more nodes (numerics.points), or more cycles per step "
+        "(transient.max_cycles)."
     )
 
 

@@ -137,15 +137,9 @@ class Run:
             time_now = step * self.seconds
             heights = self.heights.at(time_now)
             try:
-                settled = self.stepper.step(
-                    heights[0] + heights[1], self.transient.load_at(time_now)
-                )
+                settled = self._step(heights[0] + heights[1], time_now)
             except StepError as error:
-                return failed(error, time_now, self.level)
-            except ArithmeticError:  # a kernel divides by what is no number any more
-                return failed(StepError("diverged", math.nan), time_now, self.level)
-            if not np.isfinite(self.level.film.h).all():
-                return failed(StepError("diverged", settled.change), time_now, self.level)
+                return failed(error, time_now, self.level, self.transient)
             self._note(step, heights, settled)
             if not self.level.film.h.min() > self.level.floor:
                 return touching(time_now, self.level, rough=self.problem.is_rough)
@@ -153,6 +147,18 @@ class Run:
             if keep is not None:
                 keep(self.snapshot())
         return Status(kind="converged")
+
+    def _step(self, heights: Array, time_now: float) -> Settled:
+        """Go one step on; what is no number any more has not settled."""
+        try:
+            settled = self.stepper.step(heights, self.transient.load_at(time_now))
+        except StepError:
+            raise
+        except ArithmeticError:  # a kernel divides by it
+            raise StepError("diverged", math.nan) from None
+        if not np.isfinite(self.level.film.h).all():
+            raise StepError("diverged", settled.change)
+        return settled
 
     def _note(self, step: int, heights: tuple[Array, Array], settled: Settled | None) -> None:
         time_now = step * self.seconds
@@ -295,11 +301,12 @@ def begin(
     )
     load = problem.transient.load_at(0.0) if problem.transient else 1.0
     attempt, result = solve_attempt(problem, tight, monitor=monitor, rough=rough, load=load)
+    result = replace(result, options=options)
     if not result.status.converged:
-        raise ConvergenceError(
-            f"the steady film at time zero was not reached: {result.status.message}", result
-        )
-    return attempt, replace(result, options=options)
+        message = f"The steady film at time zero was not reached: {result.status.message}"
+        status = replace(result.status, message=message)
+        raise ConvergenceError(message, replace(result, status=status))
+    return attempt, result
 
 
 def kept_steps(transient: Transient, steps: int, seconds: float) -> set[int]:
