@@ -13,6 +13,6 @@ def duration_of(problem: ContactProblem, units: Scales) -> float:
     if transient.duration is not None:
         return transient.duration
     moving = (part for part in parts_of(problem, units) if part.speed != 0)
-    passing = max((part.passing(units, transient.entrance) for part in moving), default=0.0)
+    passing = max((part.passing(units, transient) for part in moving), default=0.0)
     loaded = max((time for time, _ in transient.load), default=0.0)
     return max(passing, loaded, units.half_width_x / units.speed)

@@ -7,10 +7,16 @@ from dataclasses import dataclass
 from tehl.problem import ContactProblem
 from tehl.roughness.protocol import Extent
 from tehl.roughness.surface import OneRoughness, Sum
+from tehl.roughness.waves import HarmonicModel
 from tehl.scaling import Scales
+from tehl.transient import Transient
 
 BEYOND = 1.5
 """How far downstream of the centre the middle of what is passing has passed [a_x]."""
+PERIODS = 2.5
+"""Wavelengths of a harmonic surface that pass the centre, so that a fit in time has two of them."""
+LONGEST = 6.0
+"""Longest wave along x that is waited for [a_x]: longer ones tilt the surfaces as a whole."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -48,14 +54,24 @@ class Part:
         first, last = self.extent[0]
         return (first, last) if self.speed >= 0 else (-last, -first)
 
-    def passing(self, units: Scales, entrance: float) -> float:
+    def passing(self, units: Scales, transient: Transient) -> float:
         """Return how long it takes to come, pass and be gone [s]; what it lets in passes too."""
         width = units.half_width_x
-        distance = (entrance + BEYOND) * width
+        distance = max(transient.entrance + BEYOND, self._waves(width, transient)) * width
         if not self.is_endless:
             distance = max(distance, width - self.ends[0])
         # what a surface lets in at the inlet travels at the mean speed, however fast the surface is
         return distance / min(abs(self.speed), units.speed)
+
+    def _waves(self, width: float, transient: Transient) -> float:
+        """Return how far a harmonic surface goes until whole waves have passed the centre [a_x]."""
+        if not isinstance(self.roughness, HarmonicModel):
+            return 0.0
+        wave = self.roughness.shortest_wavelengths[0] / width
+        if not wave <= LONGEST:
+            return 0.0
+        front = transient.entrance if transient.start == "smooth" else 0.0
+        return front + min(wave, 0.5 * front) + PERIODS * wave  # it fades in over the second
 
     def is_in_contact(self, units: Scales, seconds: float, entrance: float | None) -> bool:
         """Whether some of it is in the contact within ``seconds``, come in from the entrance."""

@@ -38,6 +38,20 @@ def test_a_wave_is_left_as_the_published_curve_says():
     assert 1.0 < found.film_ratio / found.published_ratio < 1.25
 
 
+def test_a_run_of_default_duration_is_long_enough_for_the_fit():
+    """Of a wave that is longer than a contact's radius, as a run in pure rolling has it."""
+    case = moes_contact(50.0, 10.0)
+    units, given = scales(case), case.model_dump(exclude_none=True)
+    given["surface_1"]["roughness"] = {
+        "type": "wave",
+        "amplitude": 0.01 * units.film_thickness,
+        "wavelength": 1.5 * units.half_width_x,
+    }
+    given["transient"] = {"frames": 0, "stride": 2}
+    options = Options(points=65, domain=Domain(x=(-2.5, 1.5), y=(-2.0, 2.0)))
+    assert passing_wave(march(ContactProblem.model_validate(given), options), 1).periods == 2
+
+
 def test_a_wave_keeps_its_phase_on_the_way_through():
     """The film between crests moves on with both surfaces: nothing is left behind."""
     run = passed()

@@ -81,7 +81,7 @@ def test_a_feature_in_the_contact_at_time_zero_is_refused_with_a_place(slide, x,
 
 
 @pytest.mark.parametrize(("slide", "x", "expected"), [
-    (0.0, -2.0, 4.0), (0.0, -9.0, 10.8), (1.0, -9.0, 10.8), (-1.0, -9.0, 21.6), (0.0, None, 4.0),
+    (0.0, -2.0, 4.0), (0.0, -9.0, 10.8), (1.0, -9.0, 10.8), (-1.0, -9.0, 21.6), (0.0, None, 7.5),
 ])  # fmt: skip
 def test_a_run_lasts_until_all_has_passed(slide, x, expected):
     """In a_x / u_m: the feature with its flank, or what comes in from the entrance."""
@@ -91,6 +91,22 @@ def test_a_run_lasts_until_all_has_passed(slide, x, expected):
     del tables["transient"]["duration"]
     found = duration_of(ContactProblem.model_validate(tables), UNITS)
     assert found * UNITS.speed / WIDTH == pytest.approx(expected)
+
+
+@pytest.mark.parametrize(("start", "slide", "angle", "length", "expected"), [
+    ("smooth", 0.0, 0, 0.4, 4.0),  # more than two periods are there anyway
+    ("smooth", 0.0, 60, 0.5, 6.0),
+    ("smooth", -1.0, 0, 1.0, 12.0),
+    ("smooth", 0.0, 90, 1.0, 4.0),
+    ("smooth", 0.0, 89, 1.0, 4.0),
+    ("standing", 0.0, 0, 2.0, 5.0),
+])  # fmt: skip
+def test_two_waves_and_a_half_pass_the_centre_by_default(start, slide, angle, length, expected):
+    """In a_x / u_m, after the front and its fade; for waves as long as the domain none waits."""
+    rough = wave(wavelength=length)["roughness"] | {"angle": np.deg2rad(angle)}
+    given = {"start": start, "duration": None}
+    case = in_time(1.0, slide=slide, surface_1={"roughness": rough}, transient=given)
+    assert duration_of(case, UNITS) * UNITS.speed / WIDTH == pytest.approx(expected)
 
 
 def test_a_dent_that_passes_at_once_is_not_overlooked():
