@@ -26,7 +26,7 @@ class StepReport:
     change, load_error : float
         Of P in the last of them, and of the load balance [-].
     film_central, film_minimum : float
-        H at the centre, and at the thinnest node [-].
+        H at the centre, and the least between the nodes [-].
     pressure_max : float
         Largest P [-].
     smoother : str
@@ -56,7 +56,7 @@ class History:
     load : array
         Over that of the contact [-].
     film_central, film_minimum : array
-        Film at the centre and at the thinnest node [m].
+        Film at the centre, and the least between the nodes, as of a steady film [m].
     pressure_max : array
         Largest pressure [Pa].
     traction : array
@@ -128,7 +128,7 @@ class HistoryBars:
     time : array
         [s]; steps of the history that they belong to.
     film_central, film_minimum : array
-        Of the film at the centre and at the thinnest node [m].
+        Of the film at the centre, and of the least between the nodes [m].
     pressure_max : array
         Of the largest pressure [Pa].
     """

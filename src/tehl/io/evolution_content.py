@@ -23,7 +23,7 @@ _HISTORY = (
     ("time", "time", "s", "time; the mean of both surfaces has moved on by u_m time"),
     ("load", "load_factor", "1", "load over that of the contact"),
     ("film_central", "h_central", "m", "film at x = y = 0"),
-    ("film_minimum", "h_min", "m", "smallest nodal film"),
+    ("film_minimum", "h_min", "m", "smallest film between the nodes"),
     ("pressure_max", "p_max", "Pa", "largest pressure"),
     ("traction", "traction", "1", "mid-film traction coefficient, over the load at that time"),
     ("rigid_approach", "H00", "1", "rigid approach"),

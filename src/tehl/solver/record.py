@@ -6,8 +6,8 @@ import numpy as np
 
 from tehl.evolution import Frames, History, Profiles
 from tehl.scaling import Scales
+from tehl.solver.film_numbers import film_summary
 from tehl.solver.level import Level
-from tehl.solver.multigrid import film_numbers
 from tehl.typing import Array
 
 Heights = tuple[Array, Array]
@@ -41,13 +41,13 @@ class Record:
 
     def note(self, level: Level, heights: Heights, moment: Moment, *, keep: bool) -> None:
         """Note a step, its fields too where they are to be kept."""
-        central, minimum = film_numbers(level)
+        film = film_summary(level.grid, level.film.h)
         self.rows.append(
             (
                 moment.time,
                 moment.load,
-                central,
-                minimum,
+                film.central,
+                film.minimum,
                 float(level.film.p.max()),
                 moment.traction,
                 level.rigid_approach,

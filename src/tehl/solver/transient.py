@@ -18,7 +18,6 @@ from tehl.result import Result, Status
 from tehl.scaling import Scales, groups, scales
 from tehl.solver.level import Level
 from tehl.solver.monitor import SILENT, StepMonitor
-from tehl.solver.multigrid import film_numbers
 from tehl.solver.outputs import newtonian_sliding
 from tehl.solver.packing import check_whole, pack
 from tehl.solver.record import Moment, Record
@@ -193,7 +192,7 @@ class Run:
         return level.load.integral(wet) * unit
 
     def _report(self, step: int, settled: Settled) -> StepReport:
-        central, minimum = film_numbers(self.level)
+        _, _, central, minimum, *_ = self.record.rows[-1]
         return StepReport(
             step=step,
             steps=self.steps,
