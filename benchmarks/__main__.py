@@ -11,7 +11,17 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from pathlib import Path
 
-from benchmarks import deformation, domain, rate, robustness, rough, speed, thermal, waves
+from benchmarks import (
+    asperities,
+    deformation,
+    domain,
+    rate,
+    robustness,
+    rough,
+    speed,
+    thermal,
+    waves,
+)
 from benchmarks.table import Table
 
 TOPICS: dict[str, Callable[..., Table | Iterable[Table]]] = {
@@ -23,6 +33,7 @@ TOPICS: dict[str, Callable[..., Table | Iterable[Table]]] = {
     "heat": thermal.tables,
     "waves": waves.table,
     "rough": rough.tables,
+    "asperities": asperities.tables,
 }
 BY_DEFAULT = ("speed", "rate", "deformation")
 
@@ -32,7 +43,7 @@ def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
     parser.add_argument("topics", nargs="*", help=f"of {', '.join(TOPICS)}")
     parser.add_argument("--quick", action="store_true", help="small grids, few cases")
-    parser.add_argument("--points", type=int, default=257, help="grid of the robustness sweeps")
+    parser.add_argument("--points", type=int, default=257, help="grid of the sweeps")
     parser.add_argument("--judge", action="store_true", help="heat: judge by twice finer grids")
     parser.add_argument("--jobs", type=int, default=1, help="heat: processes of the sweep")
     parser.add_argument("--json", type=Path, help="also write the tables to this file")
@@ -49,7 +60,7 @@ def main() -> None:
     tables = []
     for topic in asked.topics or BY_DEFAULT:
         make = TOPICS[topic]
-        if topic in ("robustness", "rough"):
+        if topic in ("robustness", "rough", "asperities"):
             make = partial(make, asked.points)
         if topic == "heat":
             make = partial(make, asked.points, finer=asked.judge, jobs=asked.jobs)

@@ -1,0 +1,103 @@
+"""What asperities cost: waves that stand in a contact, and a dent that passes, in FFT units.
+
+Amplitudes are in units of a^2/R, lengths in half-widths a; the unit of work is
+`benchmarks.measure.fft_unit`.
+"""
+
+import statistics
+import time
+import tomllib
+from collections.abc import Iterator
+
+from tests.reference import DOMAIN
+
+from benchmarks.measure import fft_unit
+from benchmarks.rough import CONTACTS, wave
+from benchmarks.table import Cell, Table
+from tehl import march, solve
+from tehl.errors import ConvergenceError
+from tehl.evolution import Evolution
+from tehl.io.case import case_from_tables
+from tehl.io.templates import template_text
+from tehl.options import Options
+from tehl.problem import ContactProblem
+from tehl.result import Result
+
+SHAPE = (0.03, 0.5, 45)
+"""Amplitude, wavelength and angle of the wave that stands."""
+SLIDES = (0.0, 0.5)
+STEPS = 400
+"""Steps of the run that is asked about."""
+REPEATS = 3
+
+
+def standing_row(load: float, speed: float, points: int) -> tuple[Cell, ...]:
+    """Solve for the film of a wave that stands, and return its row."""
+    problem = wave(load, speed, SHAPE).problem()
+    options = Options(points=points, domain=DOMAIN)
+    attempt(problem, options)  # compiles
+    runs, seconds, work = [], [], []
+    for _ in range(REPEATS):
+        start = time.process_time()
+        runs.append(attempt(problem, options))
+        seconds.append(time.process_time() - start)
+        work.append(seconds[-1] / fft_unit(points))
+    last, status = runs[-1].history[-1], runs[-1].status
+    return (load, speed, status.cause or status.kind, last.smoother, last.cycle,
+            statistics.median(seconds), statistics.median(work))  # fmt: skip
+
+
+def attempt(problem: ContactProblem, options: Options) -> Result:
+    """Return the result, also of a run that did not converge."""
+    try:
+        return solve(problem, options)
+    except ConvergenceError as error:
+        return error.result
+
+
+def passing_row(slide: float, run: Evolution, unit: float) -> tuple[Cell, ...]:
+    """Return the row of a dent that passes: what its steps cost, without the steady beginning.
+
+    Parameters
+    ----------
+    slide : float
+        Slide to roll ratio [-].
+    run : Evolution
+        The run.
+    unit : float
+        CPU seconds of an FFT on its grid.
+    """
+    cycles = run.history.cycles[1:]
+    per_step = (run.cost.cpu_seconds - run.start.cost.cpu_seconds) / len(cycles)
+    return (slide, run.status.cause or run.status.kind, len(cycles), float(cycles.mean()),
+            int(cycles.max()), per_step / unit, STEPS * per_step,
+            run.start.cost.cpu_seconds)  # fmt: skip
+
+
+def dent(slide: float, points: int) -> Evolution:
+    """Follow the dent of the template."""
+    given = tomllib.loads(template_text("passing-dent"))
+    changed = {"contact": {"slide_roll_ratio": slide}, "numerics": {"points": points}}
+    return march(*case_from_tables(given | {key: given[key] | new for key, new in changed.items()}))
+
+
+def tables(points: int, *, quick: bool = False) -> Iterator[Table]:
+    """Yield a table of waves that stand, and one of a dent that passes."""
+    amplitude, length, angle = SHAPE
+    grid = f"{points} x {points} nodes, one thread"
+    standing = Table(
+        title=f"Asperities: a wave that stands, {amplitude:g} a^2/R, {length:g} a, {angle} deg, "
+        f"{grid}",
+        columns=("M", "L", "status", "smoother", "cycles", "CPU s", "work"),
+    )
+    for load, speed in CONTACTS[:1] if quick else CONTACTS:
+        standing.rows.append(standing_row(load, speed, points))
+    yield standing
+    passing = Table(
+        title=f"Asperities: a dent that passes, tehl new passing-dent, {grid}",
+        columns=("SRR", "status", "steps", "cycles per step", "at most", "work per step",
+                 f"CPU s of {STEPS} steps", "CPU s of the start"),
+    )  # fmt: skip
+    for slide in SLIDES[:1] if quick else SLIDES:
+        passing.rows.append(passing_row(slide, dent(slide, points), fft_unit(points)))
+    yield passing
