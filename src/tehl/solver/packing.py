@@ -15,6 +15,8 @@ from tehl.solver.snapshot import Snapshot
 
 Arrays = Mapping[str, NDArray[Any]]
 
+ANEW = "; remove it, and the run begins anew"
+"""How the sentence on a checkpoint ends that cannot be used."""
 _FIELD = "field_"
 _COLUMNS = tuple(one.name for one in fields(History))
 _LINES, _FRAMES = 4, 3
@@ -84,9 +86,7 @@ def check_whole(arrays: Arrays) -> None:
     """
     wrong = next(_faults(arrays), None)
     if wrong is not None:
-        raise InputError(
-            f"the checkpoint is not whole: {wrong}; remove it, and the run begins anew"
-        )
+        raise InputError(f"the checkpoint is not whole: {wrong}{ANEW}")
 
 
 def _faults(arrays: Arrays) -> Iterator[str]:

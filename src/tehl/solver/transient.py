@@ -19,7 +19,7 @@ from tehl.scaling import Scales, groups, scales
 from tehl.solver.level import Level
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.outputs import newtonian_sliding
-from tehl.solver.packing import check_whole, pack
+from tehl.solver.packing import ANEW, check_whole, pack
 from tehl.solver.record import Moment, Record
 from tehl.solver.smoother import BROAD, CAREFUL, FAST, ROBUST, ROUGH
 from tehl.solver.snapshot import Clock, Snapshot
@@ -245,7 +245,7 @@ class Run:
     def _check(self, snapshot: Snapshot) -> None:
         """Refuse a snapshot that is not whole, or not of this question."""
         if _shapes(snapshot.fields) != _shapes(self.snapshot().fields):
-            raise InputError("the snapshot is of another grid than the case, or not whole")
+            raise InputError(f"the checkpoint is of another grid than the case, or not whole{ANEW}")
         arrays = pack(snapshot)
         check_whole(arrays)
         grid, count = self.level.grid, len(snapshot.record.rows)
@@ -259,7 +259,7 @@ class Run:
             and arrays["frames"].shape[2:] in {(grid.ny, grid.nx), (0, 0)}
         )
         if not fitting:
-            raise InputError("the snapshot has other steps than the case, or is not whole")
+            raise InputError(f"the checkpoint has other steps than the case, or is not whole{ANEW}")
 
     def evolution(self, status: Status) -> Evolution:
         """Return the answer."""
