@@ -239,7 +239,8 @@ def test_a_steady_question_has_no_time():
         march(moes_contact(M, L), OPTIONS)
 
 
-def test_a_setting_that_runs_away_leaves_nothing_to_the_next_one():
+@pytest.mark.parametrize("failure", [StepError("diverged", np.nan), ZeroDivisionError()])
+def test_a_setting_that_runs_away_leaves_nothing_to_the_next_one(failure):
     """A step whose pressure is no number any more is taken again from the last sound film."""
     case = in_time(1.0, surface_1=wave(), transient={"entrance": 0.6})
     assert case.transient is not None
@@ -254,7 +255,7 @@ def test_a_setting_that_runs_away_leaves_nothing_to_the_next_one():
         level.film.p[:] = np.nan
         level.rigid_approach = np.nan
         level.stale = True
-        raise StepError("diverged", np.nan)
+        raise failure
 
     stepper._settle = run_away_once
     assert run.go(SILENT).converged

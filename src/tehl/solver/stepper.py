@@ -110,10 +110,12 @@ class Stepper:
             level.pose_step(history + self.squeeze.onward(), heights, load)
             try:
                 settled = self._settle(self.settings[number].name)
-            except StepError:
-                if number == len(self.settings) - 1:
+            except ArithmeticError as error:  # of a kernel too, at a film that is no number
+                if number < len(self.settings) - 1:
+                    continue
+                if isinstance(error, StepError):
                     raise
-                continue
+                raise StepError("diverged", np.nan) from error
             self.before, self.now = self.now, level.film.rho * level.film.h
             self.predictor.note(level.film.p)
             self.squeeze.advance()
@@ -153,7 +155,8 @@ class Stepper:
             np.subtract(level.film.p, before, out=before)
             change = float(max(before.max(), -before.min()))
             error = level.load_error()
-            if not (np.isfinite(change) and abs(error) < RUNAWAY):
+            sound = np.isfinite(change) and np.isfinite(level.film.h.min())
+            if not (sound and abs(error) < RUNAWAY):
                 raise StepError("diverged", change)
             settled = change <= self.transient.tolerance and abs(error) <= LARGEST_LOAD_ERROR
             settled = settled and warmer <= max(HEATED * rise, LEAST_KELVIN)
