@@ -159,14 +159,14 @@ IMechE J 214 (2000), 43-62, eq. 29), a fit to computations. 257 x 257 nodes on [
 to order two. Amplitudes of the waves are 5 % of the film.
 """
 PASSED = """
-All within 16 % of the curve, which lies below
-its own source where ∇ is about 2: the one value printed there, 0.739 (M = 1007.6, L = 12.05,
-λ = a/4, isotropic), is 5 % above it and 2 % below ours; transverse waves keep a little more
-than isotropic ones, of which the curve knows nothing. Dashes: 129 nodes are too few for the
-film."""
+All within 16 % of the curve, which lies below its own source where ∇ is about 2: the one value
+printed there, 0.739 (M = 1007.6, L = 12.05, λ = a/4, isotropic), is 5 % above it and 2 % below
+ours; transverse waves keep a little more than isotropic ones, of which the curve knows nothing.
+Dashes: 129 nodes are too few for the film."""
 COLLAPSE = """
 Twice the wavelength at a quarter of the load has the same ∇, and is the same wave in the inlet.
-What differs is its length beside the contact; both are extrapolated:
+What differs is its length beside the contact, most for those that are longer than it; both are
+extrapolated:
 """
 ORDER = """
 Order in space and time together (M = 50, L = 10, λ = a on [-4.5, 1.5], 65, 129 and 257 nodes):
