@@ -153,7 +153,7 @@ case.surface_2 = { material = "steel" }
 case.lubricant.viscosity = { law = "roelands", eta_0 = 0.04, alpha = 2.2e-8 }
 case.lubricant.density = { law = "dowson-higginson", rho_0 = 890 }
 case.numerics = { points = 65 }
-axes = [{ path = "contact.load", linspace = [20, 40, 40] }]
+axes = [{ path = "contact.load", linspace = [20, 40, 600] }]
 """
 
 
@@ -168,7 +168,7 @@ def test_ctrl_c_while_workers_begin_is_told_in_one_line(tmp_path, wait):
         time.sleep(wait)
         os.killpg(process.pid, signal.SIGINT)
         told = process.stderr.read()  # until the last of its processes is gone
-    assert "40 cases" in first
+    assert "600 cases" in first
     assert process.returncode == 130
     assert told.splitlines()[-1] == "tehl: interrupted"
     assert "Traceback" not in told
