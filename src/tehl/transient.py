@@ -18,7 +18,7 @@ class Transient(BaseModel):
     Attributes
     ----------
     duration : float or None
-        Until when [s]; None is until all that moves has passed the contact, and of waves two.
+        Until when [s]; None is until all that moves has passed the contact, of waves 2.5.
     stride : int
         Mesh widths that the mean of both surfaces moves on in one step of time: what changes is
         resolved as on a grid so many times coarser.

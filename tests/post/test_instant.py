@@ -8,6 +8,7 @@ from tehl.options import Options
 from tehl.post.instant import film_at, smooth_start
 from tehl.post.micro_film import micro_film
 from tehl.post.roughness import area_below, rough_film
+from tehl.post.waviness import drift_of_found
 from tests.reference import DOMAIN
 from tests.solver.test_transient import in_time, wave
 
@@ -59,3 +60,20 @@ def test_an_instant_that_was_not_kept_is_refused(run):
 def test_a_run_that_began_between_rough_surfaces_has_no_twin():
     standing = in_time(0.2, surface_1=wave(), transient={"start": "standing"})
     assert smooth_start(march(standing, OPTIONS)) is None
+
+
+def test_a_wave_that_is_found_in_a_map_moves_with_its_surface(tmp_path, run):
+    """In pure rolling the inlet decides of it, as of the same wave by its formula."""
+    units = run.start.scales
+    pixel = 1.5 * units.half_width_x / 32.0
+    heights = 0.01 * units.film_thickness * np.cos(np.arange(64) * np.pi / 16.0)
+    np.save(tmp_path / "wave.npy", np.tile(heights, (64, 1)))
+    table = {"type": "map", "file": str(tmp_path / "wave.npy"), "unit": "m", "level": "none",
+             "pixel": pixel, "outside": "periodic"}  # fmt: skip
+    moving = in_time(5.0, surface_1={"roughness": table})
+    assert drift_of_found(moving) == 0.0
+    assert drift_of_found(in_time(1.0, slide=0.5, surface_1={"roughness": table})) > 0.0
+    both = in_time(1.0, slide=0.5, surface_1={"roughness": table}, surface_2={"roughness": table})
+    assert drift_of_found(both) is None
+    steady = moving.model_copy(update={"transient": None})
+    assert drift_of_found(steady) == -units.speed

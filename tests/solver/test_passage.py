@@ -10,6 +10,7 @@ from tehl.operators.heights import MovingHeights
 from tehl.passage import misplaced
 from tehl.problem import ContactProblem
 from tehl.scaling import scales
+from tehl.solver.time_verdict import check_load, check_waves
 from tehl.solver.transient import kept_steps
 from tehl.transient import Transient
 from tests.reference import DOMAIN, moes_contact
@@ -139,6 +140,37 @@ def test_a_load_that_comes_and_goes_between_two_steps_is_refused():
     pulse = [(0.0, 1.0), (3.3 * step, 1.0), (3.5 * step, 3.0), (3.7 * step, 1.0)]
     with pytest.raises(InputError, match=r"transient\.load = 3 at .* which do not see it"):
         march(in_time(1.0, transient={"load": pulse}), OPTIONS)
+
+
+def test_a_pulse_with_a_flat_top_between_two_steps_is_refused_too():
+    step = GRID.dx * WIDTH / UNITS.speed
+    times = (0.0, 3.3, 3.35, 3.6, 3.65)
+    pulse = [(n * step, load) for n, load in zip(times, (1.0, 1.0, 1.5, 1.5, 1.0), strict=True)]
+    with pytest.raises(InputError, match=r"transient\.load = 1\.5 at .* which do not see it"):
+        march(in_time(1.0, transient={"load": pulse}), OPTIONS)
+    stays = [*pulse[:3], (0.2, 1.5)]  # a jump that the steps see
+    check_load(Transient(load=stays), step)
+
+
+def test_a_random_surface_loses_what_fast_steps_would_take_for_other_waves():
+    """Two mesh widths in a step: its shortest waves are half of those that the grid carries."""
+    rough = {"type": "random", "rms": 1e-9, "correlation_length": 0.05 * WIDTH, "seed": 1}
+    slow, fast = (
+        MovingHeights(in_time(1.0, slide=s, surface_1={"roughness": rough}), UNITS, GRID, 2.5)
+        for s in (0.0, 2.0)
+    )
+    assert fast.wavelengths[0] > 1.5 * slow.wavelengths[0]
+    check_waves(fast, GRID, 1)
+
+
+def test_the_traction_of_the_beginning_is_over_its_load():
+    run = march(in_time(0.2, slide=0.5, transient={"load": [(0.0, 1.3)]}), OPTIONS)
+    assert run.start.traction.mid_film == pytest.approx(run.history.traction[0], rel=1e-6)
+
+
+def test_a_duration_beyond_all_numbers_is_refused():
+    with pytest.raises(InputError, match="takes inf steps"):
+        march(in_time(1.0, transient={"duration": "1e308 s"}), OPTIONS)
 
 
 def test_fields_are_kept_at_chosen_instants():

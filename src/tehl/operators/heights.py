@@ -11,6 +11,7 @@ from tehl.passage import components
 from tehl.problem import ContactProblem
 from tehl.roughness import Roughness, Sum
 from tehl.roughness.surface import OneRoughness
+from tehl.roughness.waves import HarmonicModel
 from tehl.scaling import Scales
 from tehl.typing import Array
 
@@ -107,9 +108,15 @@ def check_nodes(nodes: float) -> None:
     if nodes < LEAST_NODES * (1.0 - 1e-9):
         raise UnresolvedError(
             f"the shortest wave of the surfaces has {nodes:.2g} nodes of the grid, which would "
-            f"take it for another one: numerics.points must be {LEAST_NODES / nodes:.2g} times as "
-            "many at least, and four times that for a good answer"
+            f"take it for another one: numerics.points must be {rounded_up(LEAST_NODES / nodes)} "
+            "times as many at least, and four times that for a good answer"
         )
+
+
+def rounded_up(factor: float) -> str:
+    """Return a factor in words that is enough: two digits, rounded up."""
+    step = 10.0 ** (math.floor(math.log10(factor)) - 1)
+    return f"{math.ceil(factor / step * (1.0 - 1e-9)) * step:.2g}"
 
 
 class MovingHeights:
@@ -143,31 +150,38 @@ class MovingHeights:
         self.shape, self.unit = grid.shape, scales.film_thickness
         self.front = None if entrance is None else entrance * width
         self.speed = scales.speed
-        motion = problem.motion
-        self.surfaces = (
-            _Moving(motion.speed_1, self._parts(problem.surface_1.roughness, grid)),
-            _Moving(motion.speed_2, self._parts(problem.surface_2.roughness, grid)),
+        stride = 1 if problem.transient is None else problem.transient.stride
+        self.surfaces = tuple(
+            _Moving(speed, self._parts(surface.roughness, grid, stride * abs(speed) / scales.speed))
+            for surface, speed in (
+                (problem.surface_1, problem.motion.speed_1),
+                (problem.surface_2, problem.motion.speed_2),
+            )
         )
 
     def _parts(
-        self, roughness: OneRoughness | Sum, grid: Grid
+        self, roughness: OneRoughness | Sum, grid: Grid, shift: float
     ) -> tuple[tuple[Roughness, float], ...]:
-        """Return what the grid resolves of each part of a surface, and over what length it begins.
+        """Return what grid and steps resolve of each part of a surface, and how it begins.
 
-        That is none for a part that does not come in.
+        ``shift``: mesh widths that the surface moves by in a step. A sampled surface loses what the
+        steps would take for other waves, too. With each part its length of beginning, none for one
+        that does not come in.
         """
         width, length = self.widths
+        along = grid.dx * width * max(shift, 1.0)
         resolved = []
         for part in components(roughness):
-            shown = part.resolved_on(grid.dx * width, grid.dy * length)
+            shown = part.resolved_on(along, grid.dy * length)
             comes_in = self.front is not None and math.isinf(part.extent(length)[0][0])
-            resolved.append((shown, self._fade(shown, grid.dx * width) if comes_in else 0.0))
+            least = 0.0 if isinstance(part, HarmonicModel) else 8.0 * grid.dx * width
+            resolved.append((shown, self._fade(shown, least) if comes_in else 0.0))
         return tuple(resolved)
 
-    def _fade(self, surface: Roughness, dx: float) -> float:
-        """Return over what length a surface that comes in begins [m]."""
+    def _fade(self, surface: Roughness, least: float) -> float:
+        """Return over what length a surface that comes in begins [m], if it can ``least``."""
         along = surface.shortest_wavelengths[0]
-        return min(max(along, 8.0 * dx), 0.5 * (self.front or math.inf))
+        return min(max(along, least), 0.5 * (self.front or math.inf))
 
     @property
     def wavelengths(self) -> tuple[float, float]:

@@ -81,7 +81,8 @@ class Traction:
 def traction(result: Result) -> Traction | None:
     """Return the traction of ``result``, None where it has no shear stresses.
 
-    Integrals are sums over the nodes under pressure; the gradient is a central difference.
+    Integrals are sums over the nodes under pressure; the gradient is a central difference. The film
+    that a run in time begins with carries the load of that time.
 
     Parameters
     ----------
@@ -91,7 +92,8 @@ def traction(result: Result) -> Traction | None:
     shear = result.shear
     if shear is None:
         return None
-    load, motion = result.scales.load, result.problem.motion
+    motion, transient = result.problem.motion, result.problem.transient
+    load = result.scales.load * (1.0 if transient is None else transient.load_at(0.0))
     area = under_pressure(result)
     inside = area > 0
     weights = area[inside]

@@ -153,6 +153,7 @@ def wave_responses(result: Result, smooth: Result | None = None) -> tuple[WaveRe
     fields = (heights, patch.cut(film), patch.cut(pressure))
     ripples = [fit.ripples(field) for field in fields]
     level = _flat_film(result, patch)
+    drift = drift_of_found(result.problem)
     holds = why_no_theory(result.problem) is None
     return tuple(
         WaveResponse(
@@ -162,8 +163,8 @@ def wave_responses(result: Result, smooth: Result | None = None) -> tuple[WaveRe
             theory=level.theory(
                 patch.straight(wave),
                 abs(ripples[0][n]),
-                known.get(wave, -result.scales.speed),
-                holds=holds,
+                known.get(wave, -result.scales.speed if drift is None else drift),
+                holds=holds and (wave in known or drift is not None),
             ),
         )
         for n, wave in enumerate(waves)
@@ -189,6 +190,8 @@ def wave_notes(result: Result) -> tuple[str, ...]:
         notes.append("no wave stands out of the heights in the contact: they are broad-band")
     told = [patch.straight(wave) for wave in waves if patch.holds(wave)]
     why = why_no_theory(result.problem)
+    if not known and drift_of_found(result.problem) is None:
+        why = why or "no theory: it is not known which of two surfaces that move apart has the wave"
     if why and any(wave.along for wave in told):
         notes.append(why)
     return tuple(notes)
@@ -203,6 +206,19 @@ def why_no_theory(problem: ContactProblem) -> str | None:
     if not parts:
         return None
     return f"no theory: it is for isothermal Newtonian films, and this one is {' and '.join(parts)}"
+
+
+def drift_of_found(problem: ContactProblem) -> float | None:
+    """Return the speed of waves that are found in the heights, less the mean speed [m/s].
+
+    None where both surfaces may have them and move apart. Without ``transient`` they stand still.
+    """
+    motion = problem.motion
+    if problem.transient is None:
+        return -motion.entrainment_speed
+    surfaces = ((problem.surface_1, motion.speed_1), (problem.surface_2, motion.speed_2))
+    speeds = {speed for one, speed in surfaces if not one.roughness.is_smooth}
+    return speeds.pop() - motion.entrainment_speed if len(speeds) == 1 else None
 
 
 def drifting_waves(problem: ContactProblem) -> Iterator[tuple[WaveVector, float]]:

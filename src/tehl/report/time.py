@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from tehl.domain import recommended_domain
-from tehl.duration import duration_of
+from tehl.duration import duration_of, number_of_steps
 from tehl.options import Domain, Options
 from tehl.passage import misplaced
 from tehl.problem import ContactProblem, Surface
@@ -72,7 +72,7 @@ def time_plan(problem: ContactProblem, options: Options) -> TimePlan | None:
     dy = (domain.y[1] - domain.y[0]) / (nodes_y - 1) * units.half_width_y
     step = transient.stride * dx / units.speed
     duration = duration_of(problem, units)
-    steps = math.ceil(duration / step * (1.0 - 1e-9))
+    steps = number_of_steps(problem, units, step)
     cost = SECONDS_COUPLED if problem.is_coupled else SECONDS_PER_NODE
     points = [
         _points_per_wave(one.roughness.shortest_wavelengths, dx, dy) for one in _both(problem)

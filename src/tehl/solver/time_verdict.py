@@ -1,10 +1,12 @@
 """What a run in time is refused for before it begins, and how it is said that it ended early."""
 
+import math
+
 import numpy as np
 
 from tehl.errors import InputError
 from tehl.grid import Grid
-from tehl.operators.heights import MovingHeights, check_nodes
+from tehl.operators.heights import MovingHeights, check_nodes, rounded_up
 from tehl.passage import misplaced
 from tehl.problem import ContactProblem
 from tehl.result import Status
@@ -52,10 +54,11 @@ def check_waves(heights: MovingHeights, grid: Grid, stride: int) -> None:
     for name, waves in zip(("surface_1", "surface_2"), heights.waves_per_step, strict=True):
         part = waves * stride * grid.dx
         if part * LEAST_STEPS > 1.0 + ROUNDING:
+            smaller = f", or transient.stride (now {stride}) smaller" if stride > 1 else ""
             raise InputError(
                 f"{name} moves by {part:.3g} of its shortest wave in a step of time, which would "
-                f"take it for another one: numerics.points must be {part * LEAST_STEPS:.2g} times "
-                f"as many at least, or transient.stride (now {stride}) so many times smaller"
+                f"take it for another one: numerics.points must be "
+                f"{rounded_up(part * LEAST_STEPS)} times as many at least{smaller}"
             )
 
 
@@ -80,21 +83,31 @@ def check_load(transient: Transient, seconds: float) -> None:
     InputError
         If the step nearest to one of its times is off by more than `MISSED` of the whole change.
     """
-    loads = [load for _, load in transient.load]
-    if not loads:
+    levels = plateaus(transient.load)
+    if not levels:
         return
+    loads = [load for *_, load in levels]
     change = max(loads) - min(loads)
-    for before, (time, peak), after in zip(
-        transient.load, transient.load[1:], transient.load[2:], strict=False
-    ):
-        turns = (peak - before[1]) * (peak - after[1]) > 0
-        missed = abs(peak - transient.load_at(round(time / seconds) * seconds))
-        if turns and missed > MISSED * change:
+    for before, (first, last, load), after in zip(levels, levels[1:], levels[2:], strict=False):
+        turns = (load - before[2]) * (load - after[2]) > 0
+        steps = [round(time / seconds) * seconds for time in (first, last)]
+        seen = math.ceil(first / seconds) * seconds <= last
+        missed = min(abs(load - transient.load_at(time)) for time in steps)
+        if turns and not seen and missed > MISSED * change:
             raise InputError(
-                f"transient.load = {peak:g} at {time:g} s comes and goes between two steps of "
+                f"transient.load = {load:g} at {first:g} s comes and goes between two steps of "
                 f"{seconds:.3g} s, which do not see it: take more numerics.points, or let it last "
                 "longer"
             )
+
+
+def plateaus(table: tuple[tuple[float, float], ...]) -> list[tuple[float, float, float]]:
+    """Return from when to when a load keeps each value of its table, and that value."""
+    found: list[tuple[float, float, float]] = []
+    for time, load in table:
+        first = found.pop()[0] if found and found[-1][2] == load else time
+        found.append((first, time, load))
+    return found
 
 
 def failed(error: StepError, seconds: float, level: Level, transient: Transient) -> Status:

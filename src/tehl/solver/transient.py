@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from tehl.duration import duration_of
+from tehl.duration import number_of_steps
 from tehl.errors import ConvergenceError, InputError
 from tehl.evolution import Evolution, StepReport
 from tehl.memory import check_memory
@@ -15,7 +15,7 @@ from tehl.operators.heights import MovingHeights
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import Result, Status
-from tehl.scaling import Scales, groups, scales
+from tehl.scaling import groups, scales
 from tehl.solver.level import Level
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.outputs import newtonian_sliding
@@ -43,8 +43,6 @@ SETTINGS, COUPLED_SETTINGS = (FAST, ROUGH, CAREFUL), (BROAD, ROBUST, CAREFUL)
 conductance."""
 START_TOLERANCE = 1e-7
 """Tolerance of the steady film at the beginning."""
-MOST_STEPS = 20_000
-"""Steps that nobody asks for by accident."""
 
 
 def march(
@@ -325,21 +323,3 @@ def kept_steps(transient: Transient, steps: int, seconds: float) -> set[int]:
             f"transient.frames = {late[0]:g} s is after the end of the run, {steps * seconds:.4g} s"
         )
     return {min(round(time / seconds), steps) for time in transient.frames}
-
-
-def number_of_steps(problem: ContactProblem, units: Scales, seconds: float) -> int:
-    """Return the steps of ``seconds`` until the end of the question.
-
-    Raises
-    ------
-    InputError
-        If there are more than anybody wants.
-    """
-    duration = duration_of(problem, units)
-    steps = math.ceil(duration / seconds * (1.0 - 1e-9))
-    if steps > MOST_STEPS:
-        raise InputError(
-            f"transient.duration = {duration:g} s takes {steps:.6g} steps of {seconds:.3g} s, more "
-            f"than {MOST_STEPS}: give a shorter one, or a larger transient.stride"
-        )
-    return steps
