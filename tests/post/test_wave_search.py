@@ -71,3 +71,14 @@ def test_random_surfaces_have_none(seed, kind):
 
 def test_flat_heights_have_none():
     assert vectors(np.zeros((Y.size, X.size))) == []
+
+
+@pytest.mark.parametrize("nodes", [4.2, 5.0])
+def test_a_wave_of_few_nodes_on_a_very_fine_grid_is_no_longer_one(nodes):
+    axis = np.linspace(-4.5, 1.5, 2049)
+    x, y = axis, np.linspace(-3.0, 3.0, 2049)
+    length = nodes * (axis[1] - axis[0])
+    heights = np.cos(2.0 * np.pi / length * x) * np.ones((y.size, 1))
+    (found,) = distinct_waves(x, y, heights, is_short)
+    assert 2.0 * np.pi / found.number == pytest.approx(length, rel=0.01)
+    assert found.amplitude == pytest.approx(math.sqrt(2.0), rel=0.02)

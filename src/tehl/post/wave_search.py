@@ -36,7 +36,7 @@ class FoundWave:
     along, across : float
         Wave numbers along X and Y, in rad per half-width.
     amplitude : float
-        In the unit of the heights.
+        Over the root mean square of the heights in the region [-].
     """
 
     along: float
@@ -97,9 +97,13 @@ def distinct_waves(
 
 
 def _within(axis: Array) -> slice:
-    """Return the nodes of the contact, every second or third where they are very many."""
+    """Return the nodes of the contact, the middle ones where they are very many.
+
+    Every other one would show the shortest waves as longer ones.
+    """
     inside = np.flatnonzero(np.abs(axis) <= REACH)
-    return slice(int(inside[0]), int(inside[-1]) + 1, 1 + inside.size // _NODES)
+    left = max(inside.size - _NODES, 0) // 2
+    return slice(int(inside[0]) + left, int(inside[-1]) + 1 - left)
 
 
 def _standing_out(found: Sequence[FoundWave]) -> list[FoundWave]:

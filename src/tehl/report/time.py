@@ -17,6 +17,8 @@ SECONDS_COUPLED = 1.0e-5
 """Time of a step, and more by node of the finest full grid, on one core of a usual machine."""
 FEWEST_POINTS = 16.0
 """Points per wave below which the amplitude of a wave that passes is off by some per cent."""
+LARGEST_PART = 0.25
+"""Of its shortest wave that a surface may move by in a step."""
 FARTHEST = 1.0
 """Mesh widths per step by which a surface may run ahead of the mean motion or fall behind."""
 
@@ -119,6 +121,11 @@ def _questions(problem: ContactProblem, points: list[float], shifts: list[float]
             yield (
                 f"{name} moves {apart:.2g} mesh widths per step {where} the mean motion, and its "
                 f"asperities jump: take a smaller transient.stride (now {stride})"
+            )
+        if shift > LARGEST_PART * one:
+            yield (
+                f"{name} moves by {shift / one:.2g} of its shortest wave in a step, which solve "
+                "refuses above a quarter, or filters off a measured or random surface"
             )
 
 
