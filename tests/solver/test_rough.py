@@ -5,9 +5,10 @@ import pytest
 
 from tehl.cli.words import as_text
 from tehl.errors import ConvergenceError, InputError
-from tehl.operators.heights import full_weighting
+from tehl.operators.heights import full_weighting, heights_of
 from tehl.options import Options
 from tehl.problem import ContactProblem
+from tehl.scaling import scales
 from tehl.solver.anderson import Anderson
 from tehl.solver.steady import finest_grid, solve
 from tests.reference import DOMAIN, moes_contact
@@ -163,3 +164,22 @@ def test_a_dent_between_the_nodes_is_refused():
     case["surface_1"]["roughness"] = {"type": "bump", "amplitude": -1e-8, "radius": 1e-6}
     with pytest.raises(InputError, match=r"numerics\.points must be"):
         solve(ContactProblem.model_validate(case), options(65))
+
+
+def test_a_map_that_the_grid_does_not_carry_is_filtered_and_not_refused(tmp_path):
+    """Blue noise: what is left of it has waves of less than four nodes."""
+    smooth = moes_contact(57.21, 10.52)
+    case, units = smooth.model_dump(exclude_none=True), scales(smooth)
+    noise = np.random.default_rng(5).standard_normal((96, 96))
+    np.save(tmp_path / "noise.npy", 1e-9 * (noise - np.roll(noise, 1, axis=1)))
+    pixel = 0.05 * units.half_width_x
+    table = {"type": "map", "file": str(tmp_path / "noise.npy"), "unit": "m", "pixel": pixel,
+             "outside": "periodic"}  # fmt: skip
+    case["surface_1"]["roughness"] = table
+    problem = ContactProblem.model_validate(case)
+    heights = heights_of(problem, units, finest_grid(problem, options(65)))
+    assert heights.points_per_wave(finest_grid(problem, options(65))) < 4.0
+    case["surface_1"]["roughness"] = [table, {"type": "bump", "amplitude": -1e-8, "radius": 1e-6}]
+    problem = ContactProblem.model_validate(case)
+    with pytest.raises(InputError, match="the shortest wave of the surfaces"):
+        heights_of(problem, units, finest_grid(problem, options(65)))

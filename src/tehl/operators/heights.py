@@ -1,6 +1,7 @@
 """Heights of both surfaces together on a hierarchy of grids, and how well each resolves them."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,7 +10,8 @@ from tehl.errors import InputError
 from tehl.grid import Grid
 from tehl.passage import components
 from tehl.problem import ContactProblem
-from tehl.roughness import Roughness, Sum
+from tehl.roughness import Roughness, Sum, Superposition
+from tehl.roughness.protocol import RoughnessModel
 from tehl.roughness.surface import OneRoughness
 from tehl.roughness.waves import HarmonicModel
 from tehl.scaling import Scales
@@ -76,17 +78,30 @@ def heights_of(problem: ContactProblem, scales: Scales, grid: Grid) -> Heights |
     width, length = scales.half_width_x, scales.half_width_y
     x, y = grid.x[None, :] * width, grid.y[:, None] * length
     values, waves = [], []
+    parts: list[Roughness] = []
     for surface in (problem.surface_1, problem.surface_2):
         resolved = surface.roughness.resolved_on(grid.dx * width, grid.dy * length)
         field = np.broadcast_to(resolved.height(x, y), grid.shape)
         values.append(np.ascontiguousarray(field / scales.film_thickness))
         waves.append(resolved.shortest_wavelengths)
+        parts += resolved.parts if isinstance(resolved, Superposition) else [resolved]
     along, across = (min(pair) for pair in zip(*waves, strict=True))
     heights = Heights(
         surface_1=values[0], surface_2=values[1], wavelengths=(along / width, across / length)
     )
-    check_nodes(heights.points_per_wave(grid))
+    shortest = shortest_of_formulas(parts)
+    check_nodes(min(shortest[0] / (grid.dx * width), shortest[1] / (grid.dy * length)))
     return heights
+
+
+def shortest_of_formulas(parts: Iterable[Roughness]) -> tuple[float, float]:
+    """Return the shortest wavelengths along x and y [m] of what a formula gives.
+
+    Sampled surfaces do not count: they have lost what is too short.
+    """
+    pairs = [one.shortest_wavelengths for one in parts if isinstance(one, RoughnessModel)]
+    along, across = zip(*pairs, strict=True) if pairs else ((), ())
+    return min(along, default=math.inf), min(across, default=math.inf)
 
 
 LEAST_NODES = 4.0
@@ -185,7 +200,7 @@ class MovingHeights:
 
     @property
     def wavelengths(self) -> tuple[float, float]:
-        """Return the shortest wavelengths along x [a_x] and y [a_y]."""
+        """Return the shortest wavelengths of formulas along x [a_x] and y [a_y]."""
         pairs = [one.wavelengths for one in self.surfaces]
         along, across = (min(pair) for pair in zip(*pairs, strict=True))
         return along / self.widths[0], across / self.widths[1]
@@ -194,7 +209,7 @@ class MovingHeights:
     def waves_per_step(self) -> tuple[float, float]:
         """Return what part of its shortest wave each surface passes while the mean moves on by a_x.
 
-        Zero for a surface without waves along x.
+        Zero for a surface whose formulas have no waves along x.
         """
         first, second = (
             abs(one.speed) / self.speed * self.widths[0] / one.wavelengths[0]
@@ -229,7 +244,5 @@ class _Moving:
 
     @property
     def wavelengths(self) -> tuple[float, float]:
-        """Return the shortest wavelengths along x and y [m]."""
-        pairs = [part.shortest_wavelengths for part, _ in self.parts]
-        along, across = zip(*pairs, strict=True) if pairs else ((), ())
-        return min(along, default=math.inf), min(across, default=math.inf)
+        """Return the shortest wavelengths of formulas along x and y [m]."""
+        return shortest_of_formulas(part for part, _ in self.parts)
