@@ -155,7 +155,7 @@ class Stepper:
             np.subtract(level.film.p, before, out=before)
             change = float(max(before.max(), -before.min()))
             error = level.load_error()
-            sound = np.isfinite(change) and np.isfinite(level.film.h.min())
+            sound = np.isfinite(change) and np.isfinite(level.film.h).all()
             if not (sound and abs(error) < RUNAWAY):
                 raise StepError("diverged", change)
             settled = change <= self.transient.tolerance and abs(error) <= LARGEST_LOAD_ERROR

@@ -1,6 +1,5 @@
 """Runs in time: from the steady film, step by step, to the end of the question."""
 
-import math
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -134,7 +133,8 @@ class Run:
             time_now = step * self.seconds
             heights = self.heights.at(time_now)
             try:
-                settled = self._step(heights[0] + heights[1], time_now)
+                load = self.transient.load_at(time_now)
+                settled = self.stepper.step(heights[0] + heights[1], load)
             except StepError as error:
                 return failed(error, time_now, self.level, self.transient)
             self._note(step, heights, settled)
@@ -144,18 +144,6 @@ class Run:
             if keep is not None:
                 keep(self.snapshot())
         return Status(kind="converged")
-
-    def _step(self, heights: Array, time_now: float) -> Settled:
-        """Go one step on; what is no number any more has not settled."""
-        try:
-            settled = self.stepper.step(heights, self.transient.load_at(time_now))
-        except StepError:
-            raise
-        except ArithmeticError:  # a kernel divides by it
-            raise StepError("diverged", math.nan) from None
-        if not np.isfinite(self.level.film.h).all():
-            raise StepError("diverged", settled.change)
-        return settled
 
     def _note(self, step: int, heights: tuple[Array, Array], settled: Settled | None) -> None:
         time_now = step * self.seconds
