@@ -15,7 +15,7 @@ from scipy import fft
 from tehl.operators.flow import flow_table
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.scaling import groups, scales
+from tehl.scaling import ScaledProblem
 from tehl.solver.multigrid import Multigrid
 from tehl.solver.smoother import FAST, Setting
 from tehl.solver.steady import finest_grid
@@ -65,7 +65,6 @@ def fft_unit(points: int) -> float:
 
 def multigrid(problem: ContactProblem, options: Options, setting: Setting = FAST) -> Multigrid:
     """Return the hierarchy that `tehl.solve` would cycle on."""
-    case_scales, case_groups = scales(problem), groups(problem)
-    grid = finest_grid(problem, options)
-    flow = flow_table(problem, case_scales, case_groups)
-    return Multigrid(grid, case_groups, flow, options, setting)
+    scaled = ScaledProblem.of(problem)
+    grid = finest_grid(scaled, options)
+    return Multigrid(grid, scaled, flow_table(scaled), options, setting)

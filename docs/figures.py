@@ -14,7 +14,7 @@ from tehl.operators.influence import influence_of
 from tehl.operators.reynolds import line_influence
 from tehl.post.waviness import WaveResponse, wave_responses
 from tehl.roughness import Wave
-from tehl.scaling import groups, scales
+from tehl.scaling import ScaledProblem
 from tehl.solver.fas import Cycle, cycle
 from tehl.solver.level import Level
 from tehl.solver.smoother import FAST, LineSmoother
@@ -47,9 +47,9 @@ def level() -> Level:
     """Return the solved contact as the grid that the relaxation sees."""
     case, options = problem(), tehl.Options(points=POINTS, half_domain="never")
     result = tehl.solve(case, options)
-    numbers = groups(case)
-    grid = finest_grid(case, options)
-    here = Level(grid, numbers, flow_table(case, scales(case), numbers), options, FAST)
+    scaled = ScaledProblem.of(case)
+    grid = finest_grid(scaled, options)
+    here = Level(grid, scaled.groups, flow_table(scaled), options, FAST)
     here.film.p[:] = result.scaled.pressure
     here.film.h[:] = result.scaled.film
     here.update_properties()
@@ -84,7 +84,7 @@ def regions() -> Figure:
 def dipoles() -> Figure:
     """Draw how far a change of one node and a dipole reach."""
     grid = finest_grid(problem(), tehl.Options(points=POINTS))
-    point, dipole = line_influence(influence_of(grid, groups(problem())))
+    point, dipole = line_influence(influence_of(grid, ScaledProblem.of(problem()).groups))
     figure = Figure(figsize=(5.4, 3.4), layout="constrained")
     axes = figure.add_subplot(
         xlabel="distance along the line [nodes]", ylabel="change of film / that at the node"

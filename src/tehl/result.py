@@ -9,7 +9,7 @@ import numpy as np
 
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.scaling import Groups, Scales
+from tehl.scaling import Groups, ScaledProblem, Scales
 from tehl.typing import Array
 
 if TYPE_CHECKING:
@@ -411,6 +411,11 @@ class Result:
     shear: FilmShear | None = None
     heat: FilmHeat | None = None
     heights: SurfaceHeights | None = None
+
+    @property
+    def scaled_problem(self) -> ScaledProblem:
+        """The problem with its scales and dimensionless groups."""
+        return ScaledProblem(problem=self.problem, scales=self.scales, groups=self.groups)
 
     @property
     def x(self) -> Array:

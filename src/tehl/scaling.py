@@ -73,6 +73,32 @@ class Groups:
     deflection_factor: float
 
 
+@dataclass(frozen=True, kw_only=True, slots=True)
+class ScaledProblem:
+    """A contact together with its scales and dimensionless groups.
+
+    Made once where a run begins, and passed down, so that nothing is scaled twice.
+
+    Attributes
+    ----------
+    problem : ContactProblem
+        The contact in SI.
+    scales : Scales
+        What one unit of each dimensionless quantity is in SI.
+    groups : Groups
+        Dimensionless groups.
+    """
+
+    problem: ContactProblem
+    scales: Scales
+    groups: Groups
+
+    @classmethod
+    def of(cls, problem: ContactProblem) -> "ScaledProblem":
+        """Scale a problem."""
+        return cls(problem=problem, scales=scales(problem), groups=groups(problem))
+
+
 def scales(problem: ContactProblem) -> Scales:
     """Return what one unit of each dimensionless quantity of ``problem`` is in SI."""
     hertz = problem.hertz

@@ -16,7 +16,7 @@ from tehl.grid import Grid
 from tehl.operators.energy import FilmState, HeatedFilm
 from tehl.options import Domain
 from tehl.problem import ContactProblem
-from tehl.scaling import groups, scales
+from tehl.scaling import ScaledProblem
 from tehl.typing import Array
 
 COLD = 313.0
@@ -90,9 +90,8 @@ class Layer:
     def state(self, *, film: float = 1.0, slope: float = 0.0, mirror: bool = True) -> FilmState:
         """Return the state of a film of constant thickness whose pressure rises by ``slope``."""
         problem = self.problem()
-        numbers = groups(problem)
         grid = Grid(nx=self.points, ny=ROWS, domain=DOMAIN, mirror=mirror)
-        state = FilmState(grid, HeatedFilm(problem, scales(problem), numbers), 2)
+        state = FilmState(grid, HeatedFilm(ScaledProblem.of(problem)), 2)
         pressure = 0.5 + np.broadcast_to(slope * grid.x, grid.shape)
         state.set_film(pressure.copy(), np.full(grid.shape, film))
         return state

@@ -7,12 +7,13 @@ from hypothesis import strategies as st
 
 from tehl.kernels import reynolds
 from tehl.operators.flow import flow_table
-from tehl.scaling import groups, scales
+from tehl.scaling import ScaledProblem
 from tests.reference import moes_contact
 
 PROBLEM = moes_contact(1000.0, 20.0)
-SCALES, GROUPS = scales(PROBLEM), groups(PROBLEM)
-FLOW = flow_table(PROBLEM, SCALES, GROUPS)
+SCALED = ScaledProblem.of(PROBLEM)
+SCALES, GROUPS = SCALED.scales, SCALED.groups
+FLOW = flow_table(SCALED)
 
 
 def properties(pressure: float, film: float, floor: float = 0.0) -> tuple[float, float, float]:

@@ -6,7 +6,7 @@ from tehl.operators.heights import heights_of
 from tehl.reproduce.open_runs import nodes_needed
 from tehl.reproduce.printed import printed
 from tehl.reproduce.series import NAMES, all_series, parameter_set, runs_of, series
-from tehl.scaling import groups, scales
+from tehl.scaling import ScaledProblem, groups
 from tehl.solver.steady import finest_grid
 
 HERTZ = {20: 0.5145, 40: 0.6482, 60: 0.7420, 80: 0.8167, 100: 0.8797}
@@ -73,10 +73,11 @@ def test_the_paper_is_treated_on_64_intervals_with_five_cycles_and_mean_properti
 def test_crests_narrow_the_film_as_minus_a_cosine_in_the_film_equation_does():
     run = next(one for one in runs_of(series("C")) if one.treatment == "paper")
     problem = run.case.problem
-    grid = finest_grid(problem, run.case.options)
-    heights = heights_of(problem, scales(problem), grid)
+    scaled = ScaledProblem.of(problem)
+    grid = finest_grid(scaled, run.case.options)
+    heights = heights_of(scaled, grid)
     row, column = grid.ny // 2, int(abs(grid.x).argmin())
-    outward = heights.surface_2[row, column] * scales(problem).film_thickness
+    outward = heights.surface_2[row, column] * scaled.scales.film_thickness
     assert outward == pytest.approx(0.495e-6, rel=0.03)  # X = 0 is no node
 
 

@@ -6,7 +6,7 @@ from tehl.operators.flow import flow_table
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import Result
-from tehl.scaling import groups, scales
+from tehl.scaling import ScaledProblem
 from tehl.solver import solve
 from tehl.solver.multigrid import Multigrid
 from tehl.solver.smoother import FAST
@@ -29,6 +29,5 @@ def film_of(load: float, speed: float, options: Options, radius_ratio: float = 1
 
 def multigrid(problem: ContactProblem, options: Options) -> Multigrid:
     """Return the hierarchy that `solve` would cycle on."""
-    numbers = groups(problem)
-    flow = flow_table(problem, scales(problem), numbers)
-    return Multigrid(finest_grid(problem, options), numbers, flow, options, FAST)
+    scaled = ScaledProblem.of(problem)
+    return Multigrid(finest_grid(scaled, options), scaled, flow_table(scaled), options, FAST)

@@ -12,7 +12,7 @@ from tehl.kernels import reynolds
 from tehl.operators.flow import flow_table
 from tehl.operators.jacobian import interpolation, jacobian, stencil_of
 from tehl.result import Status
-from tehl.scaling import groups, scales
+from tehl.scaling import ScaledProblem
 from tehl.solver import steady
 from tehl.solver.level import Level
 from tehl.solver.newton import (
@@ -37,9 +37,8 @@ def level(mirror: bool = True, points: int = POINTS) -> Level:
     """Return the level of a light contact, at a pressure near its solution."""
     problem = moes_contact(20.0, 10.0)
     grid = Grid(nx=points, ny=points, domain=DOMAIN, mirror=mirror)
-    case_groups = groups(problem)
-    flow = flow_table(problem, scales(problem), case_groups)
-    made = Level(grid, case_groups, flow, Options(deformation="fft"), ROUGH)
+    scaled = ScaledProblem.of(problem)
+    made = Level(grid, scaled.groups, flow_table(scaled), Options(deformation="fft"), ROUGH)
     run = solve(problem, Options(points=points, domain=DOMAIN))
     made.pose_problem()
     made.film.p[:] = run.scaled.pressure[-grid.shape[0] :]

@@ -8,7 +8,7 @@ from tehl.errors import ConvergenceError, InputError
 from tehl.operators.heights import full_weighting, heights_of
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.scaling import scales
+from tehl.scaling import ScaledProblem, scales
 from tehl.solver.anderson import Anderson
 from tehl.solver.steady import finest_grid, solve
 from tests.reference import DOMAIN, moes_contact
@@ -24,7 +24,7 @@ def options(points: int, **changes: object) -> Options:
 
 
 def test_heights_fade_on_coarser_grids_and_keep_their_mean():
-    grid = finest_grid(moes_contact(200.0, 10.0), tight(65, half_domain="never"))
+    grid = finest_grid(ScaledProblem.of(moes_contact(200.0, 10.0)), tight(65, half_domain="never"))
     heights = wave_on(grid, 0.1, 8.0 * grid.dx)
     coarse, fine = heights.on([grid.coarser(), grid])
     inner = (slice(2, -2), slice(2, -2))
@@ -176,10 +176,10 @@ def test_a_map_that_the_grid_does_not_carry_is_filtered_and_not_refused(tmp_path
     table = {"type": "map", "file": str(tmp_path / "noise.npy"), "unit": "m", "pixel": pixel,
              "outside": "periodic"}  # fmt: skip
     case["surface_1"]["roughness"] = table
-    problem = ContactProblem.model_validate(case)
-    heights = heights_of(problem, units, finest_grid(problem, options(65)))
-    assert heights.points_per_wave(finest_grid(problem, options(65))) < 4.0
+    problem = ScaledProblem.of(ContactProblem.model_validate(case))
+    grid = finest_grid(problem, options(65))
+    assert heights_of(problem, grid).points_per_wave(grid) < 4.0
     case["surface_1"]["roughness"] = [table, {"type": "bump", "amplitude": -1e-8, "radius": 1e-6}]
-    problem = ContactProblem.model_validate(case)
+    problem = ScaledProblem.of(ContactProblem.model_validate(case))
     with pytest.raises(InputError, match="the shortest wave of the surfaces"):
-        heights_of(problem, units, finest_grid(problem, options(65)))
+        heights_of(problem, grid)

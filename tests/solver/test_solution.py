@@ -7,7 +7,6 @@ from tehl.operators.flow import flow_table
 from tehl.operators.load import TARGET
 from tehl.problem import ContactProblem
 from tehl.result import Result
-from tehl.scaling import groups, scales
 from tehl.solver import solve
 from tests.reference import moes_contact
 from tests.solver.runs import film_of, multigrid, tight
@@ -71,8 +70,7 @@ def test_half_a_domain_gives_the_film_of_the_full_one():
 
 def test_mass_flow_through_sections_of_the_contact_is_conserved():
     run = film_of(100.0, 10.0, tight(129))
-    numbers = groups(run.problem)
-    flow = flow_table(run.problem, scales(run.problem), numbers)
+    numbers, flow = run.groups, flow_table(run.scaled_problem)
     p, h, x, y = run.scaled.pressure, run.scaled.film, run.scaled.x, run.scaled.y
     at = np.arange(len(flow.table))
     eps = np.interp(p / flow.step, at, flow.table[:, 0]) * h**3

@@ -6,7 +6,7 @@ from tehl.grid import Grid
 from tehl.operators.flow import flow_table
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
-from tehl.scaling import groups, scales
+from tehl.scaling import ScaledProblem
 from tehl.solver.multigrid import Multigrid
 from tehl.solver.smoother import BROAD
 from tehl.solver.steady import coupling_of, finest_grid
@@ -24,9 +24,9 @@ def changed(part: str, **values: object) -> ContactProblem:
     return ContactProblem.model_validate(case)
 
 
-def of(problem: ContactProblem, points: int = 257, *, coupled: bool = True) -> Suspect | None:
+def of(problem: ContactProblem, points: int = 257) -> Suspect | None:
     grid = Grid(nx=points, ny=points, domain=DOMAIN, mirror=False)
-    return suspect(grid, groups(problem), (problem, scales(problem)) if coupled else None)
+    return suspect(grid, ScaledProblem.of(problem))
 
 
 @pytest.mark.parametrize(("kelvin", "way"), [(60.0, "above"), (-60.0, "below")])
@@ -51,7 +51,7 @@ def test_a_stress_that_no_oil_bears_is_blamed_on_the_shear_law():
 
 
 def test_a_film_thinner_than_the_grid_names_the_grid():
-    found = of(moes_contact(1000.0, 5.0), 65, coupled=False)
+    found = of(moes_contact(1000.0, 5.0), 65)
     assert found is not None
     assert found.cause == "film_below_grid"
     assert "numerics.points = " in found.hint
@@ -66,14 +66,14 @@ def test_all_that_is_conspicuous_is_told_and_the_first_names_it():
 
 def test_the_status_of_a_run_away_tells_the_likely_cause_and_its_own_hint():
     problem, options = changed("surface_1", temperature=240.0), Options(points=65)
-    numbers, units = groups(problem), scales(problem)
+    scaled = ScaledProblem.of(problem)
     run = Multigrid(
-        finest_grid(problem, options),
-        numbers,
-        flow_table(problem, units, numbers),
+        finest_grid(scaled, options),
+        scaled,
+        flow_table(scaled),
         options,
         BROAD,
-        coupling_of(problem, options, ramped=False),
+        coupling_of(scaled, options, ramped=False),
     )
     status = diverged(run)
     assert (status.kind, status.cause) == ("diverged", "body_temperature")

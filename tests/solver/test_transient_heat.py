@@ -8,7 +8,7 @@ from tehl.grid import Grid
 from tehl.operators.energy import FilmState, HeatedFilm
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.scaling import groups, scales
+from tehl.scaling import ScaledProblem, scales
 from tehl.solver.monitor import SILENT
 from tehl.solver.transient import Run
 from tests.reference import DOMAIN, heated_contact
@@ -87,7 +87,7 @@ def test_a_film_at_rest_cools_by_conduction_as_it_must():
     """Between walls that keep their temperature sin(pi zeta) decays with the diffusion time."""
     problem = heated_contact(0.0)
     grid = Grid(nx=17, ny=17, domain=DOMAIN, mirror=True)
-    film = HeatedFilm(problem, scales(problem), groups(problem))
+    film = HeatedFilm(ScaledProblem.of(problem))
     state = FilmState(grid, film, 2)
     state.surfaces = tuple(surface._replace(factor=0.0) for surface in state.surfaces)
     terms = state.model.terms._replace(speed=0.0, slide=0.0, poiseuille=0.0, brinkman=0.0)

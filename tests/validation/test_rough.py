@@ -6,7 +6,6 @@ import pytest
 from tehl.errors import ConvergenceError
 from tehl.operators.flow import flow_table
 from tehl.result import Result
-from tehl.scaling import groups, scales
 from tehl.solver import solve
 from tests.reference import moes_contact
 from tests.solver.rough import rough_film
@@ -32,8 +31,7 @@ def test_the_film_between_a_standing_wave_is_that_of_an_independent_solver():
 
 def compression(smooth: Result, length: float) -> np.ndarray:
     """Return C = h E' k/(4 B) at every node, B the bulk modulus at the local pressure."""
-    problem = smooth.problem
-    flow = flow_table(problem, scales(problem), groups(problem))
+    flow = flow_table(smooth.scaled_problem)
     rows = np.minimum((smooth.scaled.pressure / flow.step).astype(int), len(flow.table) - 1)
     per_pressure = flow.table[rows, 3] / flow.step / flow.table[rows, 2]
     return np.pi**2 / 2.0 * smooth.scaled.film / length * per_pressure

@@ -12,7 +12,7 @@ from tehl.operators.line_source import history
 from tehl.operators.surfaces import Side, Solids, sides
 from tehl.operators.transfer import midpoints
 from tehl.problem import ContactProblem
-from tehl.scaling import Groups, Scales
+from tehl.scaling import Groups, ScaledProblem, Scales
 from tehl.typing import Array
 
 GHOSTS = energy.GHOSTS
@@ -33,16 +33,14 @@ class HeatedFilm:
 
     Parameters
     ----------
-    problem : ContactProblem
+    scaled : ScaledProblem
         Laws, motion and heat.
-    scales, groups : Scales, Groups
-        Units and dimensionless groups.
     """
 
-    def __init__(self, problem: ContactProblem, scales: Scales, groups: Groups) -> None:
-        self.problem, self.scales, self.groups = problem, scales, groups
-        self.heat = film_energy(problem)
-        self.sides = sides(problem, self.heat, scales)
+    def __init__(self, scaled: ScaledProblem) -> None:
+        problem, scales = scaled.problem, scaled.scales
+        self.scaled, self.heat = scaled, film_energy(problem)
+        self.sides = sides(scaled, self.heat)
         self.across = SCHEMES[self.heat.scheme](self.heat.layers)
         self.laws = law_table(problem.lubricant, scales)
 
@@ -75,9 +73,10 @@ class FilmState:
         finest: bool = True,
         thorough: bool = False,
     ) -> None:
-        self.grid, self.problem, self.scales = grid, film.problem, film.scales
-        self.groups, self.across, self.sides = film.groups, film.across, film.sides
-        problem, scales, groups, heat = film.problem, film.scales, film.groups, film.heat
+        scaled, heat = film.scaled, film.heat
+        problem, scales, groups = scaled.problem, scaled.scales, scaled.groups
+        self.grid, self.problem, self.scales, self.groups = grid, problem, scales, groups
+        self.across, self.sides = film.across, film.sides
         side_1, side_2 = film.sides
         nodes = heat.layers
         nx, ny = grid.nx, padded_rows(grid)
@@ -107,7 +106,7 @@ class FilmState:
         self.model = energy.Model(
             across=self.across,
             laws=film.laws,
-            terms=film_terms(grid, problem, scales, groups, wedge_order),
+            terms=film_terms(grid, scaled, wedge_order),
         )
         self.solids = Solids(
             grid,
@@ -291,10 +290,9 @@ def stress_unit(scales: Scales) -> float:
     return scales.viscosity * scales.speed / scales.film_thickness
 
 
-def film_terms(
-    grid: Grid, problem: ContactProblem, scales: Scales, groups: Groups, wedge_order: int
-) -> energy.Terms:
+def film_terms(grid: Grid, scaled: ScaledProblem, wedge_order: int) -> energy.Terms:
     """Return the dimensionless numbers of the energy equation."""
+    problem, scales, groups = scaled.problem, scaled.scales, scaled.groups
     lubricant = problem.lubricant
     conductivity = lubricant.ambient_conductivity or 1.0
     capacity = lubricant.ambient_heat_capacity or 0.0

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl.problem import ContactProblem
-from tehl.scaling import Groups, Scales
+from tehl.scaling import ScaledProblem
 from tehl.typing import Array
 
 LARGEST_PRESSURE = 8.0
@@ -29,13 +28,14 @@ class FlowTable:
     step: float
 
 
-def flow_table(problem: ContactProblem, scales: Scales, groups: Groups) -> FlowTable:
+def flow_table(scaled: ScaledProblem) -> FlowTable:
     """Tabulate the laws of the lubricant at the inlet temperature.
 
     The laws are written once, in SI; cubic Hermite interpolation between 8192 pressures up to
     8 p_h keeps them to better than 1e-6 (checked in the tests), at a fraction of their price.
     """
-    lubricant, temperature = problem.lubricant, scales.temperature
+    scales, lubricant = scaled.scales, scaled.problem.lubricant
+    temperature = scales.temperature
 
     def density(pressure: Array) -> Array:
         si = lubricant.density.density(scales.hertz_pressure * pressure, temperature)
@@ -43,7 +43,7 @@ def flow_table(problem: ContactProblem, scales: Scales, groups: Groups) -> FlowT
 
     def mobility(pressure: Array) -> Array:
         si = lubricant.viscosity.viscosity(scales.hertz_pressure * pressure, temperature)
-        return density(pressure) / (si / scales.viscosity * groups.lambda_bar)
+        return density(pressure) / (si / scales.viscosity * scaled.groups.lambda_bar)
 
     step = LARGEST_PRESSURE / NODES
     pressure = step * np.arange(NODES + 1.0)

@@ -6,15 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tehl.duration import components
 from tehl.errors import InputError
 from tehl.grid import Grid
-from tehl.passage import components
-from tehl.problem import ContactProblem
 from tehl.roughness import Roughness, Sum, Superposition
 from tehl.roughness.protocol import RoughnessModel
 from tehl.roughness.surface import OneRoughness
 from tehl.roughness.waves import HarmonicModel
-from tehl.scaling import Scales
+from tehl.scaling import ScaledProblem
 from tehl.typing import Array
 
 
@@ -65,7 +64,7 @@ def full_weighting(fine: Array, *, mirror: bool) -> Array:
     return 0.25 * (rows[:, :-2:2] + 2.0 * rows[:, 1:-1:2] + rows[:, 2::2])
 
 
-def heights_of(problem: ContactProblem, scales: Scales, grid: Grid) -> Heights | None:
+def heights_of(scaled: ScaledProblem, grid: Grid) -> Heights | None:
     """Return the heights of both surfaces as they stand on ``grid``, None where both are smooth.
 
     Raises
@@ -73,6 +72,7 @@ def heights_of(problem: ContactProblem, scales: Scales, grid: Grid) -> Heights |
     InputError
         If a measured surface cannot be read, or the grid has too few nodes for a wave.
     """
+    problem, scales = scaled.problem, scaled.scales
     if not problem.is_rough:
         return None
     width, length = scales.half_width_x, scales.half_width_y
@@ -139,10 +139,8 @@ class MovingHeights:
 
     Parameters
     ----------
-    problem : ContactProblem
+    scaled : ScaledProblem
         Surfaces and motion.
-    scales : Scales
-        Units.
     grid : Grid
         The nodes.
     entrance : float or None
@@ -156,9 +154,8 @@ class MovingHeights:
         If a measured surface cannot be read.
     """
 
-    def __init__(
-        self, problem: ContactProblem, scales: Scales, grid: Grid, entrance: float | None
-    ) -> None:
+    def __init__(self, scaled: ScaledProblem, grid: Grid, entrance: float | None) -> None:
+        problem, scales = scaled.problem, scaled.scales
         width, length = scales.half_width_x, scales.half_width_y
         self.x, self.y = grid.x[None, :] * width, grid.y[:, None] * length
         self.widths = (width, length)

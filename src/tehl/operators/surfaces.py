@@ -19,8 +19,7 @@ from tehl.heat import FilmEnergy, source_form
 from tehl.materials import Solid
 from tehl.operators.full_source import FullSource
 from tehl.operators.transfer import midpoints
-from tehl.problem import ContactProblem
-from tehl.scaling import Groups, Scales
+from tehl.scaling import Groups, ScaledProblem, Scales
 from tehl.typing import Array
 
 LEAST_LINE = 2.0
@@ -77,8 +76,9 @@ class Side:
         return float(flux_unit * np.sqrt(scales.half_width_x / effusivity))
 
 
-def sides(problem: ContactProblem, heat: FilmEnergy, scales: Scales) -> tuple[Side, Side]:
+def sides(scaled: ScaledProblem, heat: FilmEnergy) -> tuple[Side, Side]:
     """Return both solids."""
+    problem, scales = scaled.problem, scaled.scales
     motion = problem.motion
     return (
         _side(problem.surface_1.material, heat.bulk_1, motion.speed_1, heat, scales),

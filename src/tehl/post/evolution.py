@@ -20,9 +20,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tehl.duration import parts_of
 from tehl.errors import InputError
 from tehl.evolution import Evolution
-from tehl.passage import parts_of
 from tehl.post.waviness import waves_of
 from tehl.roughness import WaveVector
 from tehl.typing import Array
@@ -189,8 +189,8 @@ def _place_of_feature(run: Evolution, surface: int) -> float:
     InputError
         If it has several, or the line y = 0 does not see it.
     """
-    problem, name = run.start.problem, f"surface_{surface}"
-    parts = [one for one in parts_of(problem, run.start.scales) if one.surface == name]
+    name = f"surface_{surface}"
+    parts = [one for one in parts_of(run.start.scaled_problem) if one.surface == name]
     features = [one for one in parts if not one.is_endless]
     if not features:
         return 0.0

@@ -95,7 +95,7 @@ def _heights(run: Evolution, frame: int) -> SurfaceHeights | None:
     grid = Grid(nx=x.size, ny=y.size, domain=domain, mirror=False)
     entrance = problem.transient.entrance if problem.transient.start == "smooth" else None
     units = run.start.scales
-    moving = MovingHeights(problem, units, grid, entrance)
+    moving = MovingHeights(run.start.scaled_problem, grid, entrance)
     first, second = moving.at(float(run.history.time[run.frames.step[frame]]))
     return SurfaceHeights(
         surface_1=first * units.film_thickness, surface_2=second * units.film_thickness

@@ -5,11 +5,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from tehl.domain import recommended_domain
-from tehl.duration import duration_of, number_of_steps
+from tehl.duration import duration_of, misplaced, number_of_steps
 from tehl.options import Domain, Options
-from tehl.passage import misplaced
 from tehl.problem import ContactProblem, Surface
-from tehl.scaling import groups, scales
+from tehl.scaling import ScaledProblem
 
 SECONDS_PER_STEP = 0.014
 SECONDS_PER_NODE = 1.7e-6
@@ -66,15 +65,16 @@ def time_plan(problem: ContactProblem, options: Options) -> TimePlan | None:
     transient = problem.transient
     if transient is None:
         return None
-    units, motion = scales(problem), problem.motion
+    scaled, motion = ScaledProblem.of(problem), problem.motion
+    units = scaled.scales
     stated = options.domain if isinstance(options.domain, Domain) else None
-    domain = stated or recommended_domain(groups(problem))
+    domain = stated or recommended_domain(scaled.groups)
     nodes_y, nodes_x = options.shape
     dx = (domain.x[1] - domain.x[0]) / (nodes_x - 1) * units.half_width_x
     dy = (domain.y[1] - domain.y[0]) / (nodes_y - 1) * units.half_width_y
     step = transient.stride * dx / units.speed
-    duration = duration_of(problem, units)
-    steps = number_of_steps(problem, units, step)
+    duration = duration_of(scaled)
+    steps = number_of_steps(scaled, step)
     cost = SECONDS_COUPLED if problem.is_coupled else SECONDS_PER_NODE
     points = [
         _points_per_wave(one.roughness.shortest_wavelengths, dx, dy) for one in _both(problem)
@@ -105,8 +105,8 @@ def _points_per_wave(waves: tuple[float, float], dx: float, dy: float) -> float:
 def _questions(problem: ContactProblem, points: list[float], shifts: list[float]) -> Iterator[str]:
     """Yield what a careful reader would ask, a sentence each."""
     stride = problem.transient.stride if problem.transient else 1
-    units = scales(problem)
-    sentence = misplaced(problem, units, duration_of(problem, units))
+    scaled = ScaledProblem.of(problem)
+    sentence = misplaced(scaled, duration_of(scaled))
     if sentence is not None:
         yield sentence
     for name, one, shift in zip(("surface_1", "surface_2"), points, shifts, strict=True):

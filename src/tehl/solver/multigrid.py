@@ -15,7 +15,7 @@ from tehl.operators.heights import Heights
 from tehl.operators.transfer import refine
 from tehl.options import Options
 from tehl.result import CycleReport, ErrorEstimate, Result
-from tehl.scaling import Groups
+from tehl.scaling import ScaledProblem
 from tehl.solver.anderson import Anderson
 from tehl.solver.coarsest import CoarsestSolver
 from tehl.solver.convergence import (
@@ -92,8 +92,8 @@ class Multigrid:
     ----------
     finest : Grid
         The grid of the answer.
-    groups : Groups
-        Dimensionless groups.
+    scaled : ScaledProblem
+        The contact.
     flow : FlowTable
         The lubricant.
     options : Options
@@ -107,14 +107,16 @@ class Multigrid:
     def __init__(
         self,
         finest: Grid,
-        groups: Groups,
+        scaled: ScaledProblem,
         flow: FlowTable,
         options: Options,
         setting: Setting,
         coupling: Coupling | None = None,
     ) -> None:
         self.coupling = coupling or Uncoupled()
-        self.options, self.setting, self.groups = options, setting, groups
+        self.options, self.setting = options, setting
+        self.scaled, self.groups = scaled, scaled.groups
+        groups = scaled.groups
         # as long as the film is isothermal the zone that conducts is narrow
         first = FAST if setting is BROAD else setting
         self.first_setting = first

@@ -4,22 +4,19 @@ import numpy as np
 
 from tehl.grid import Grid
 from tehl.operators.energy import FilmState, pressure_slopes, stress_unit
-from tehl.problem import ContactProblem
 from tehl.result import FilmHeat, FilmShear, HeatBalance
-from tehl.scaling import Groups, Scales
+from tehl.scaling import ScaledProblem
 from tehl.solver.level import Level
 from tehl.typing import Array
 
 
-def newtonian_shear(
-    level: Level, problem: ContactProblem, scales: Scales, groups: Groups
-) -> FilmShear:
+def newtonian_shear(level: Level, scaled: ScaledProblem) -> FilmShear:
     """Return the shear stress of an isothermal Newtonian film from pressure and film alone."""
-    grid = level.grid
+    grid, groups = level.grid, scaled.groups
     slope_x, _ = pressure_slopes(grid, groups, level.film.p)
-    sliding = newtonian_sliding(level, problem, scales)
+    sliding = newtonian_sliding(level, scaled)
     rolling = 6.0 / groups.lambda_bar * level.film.h * slope_x
-    unit = stress_unit(scales)
+    unit = stress_unit(scaled.scales)
     return FilmShear(
         surface_1=grid.unfold(unit * (sliding - rolling)),
         mid_film=grid.unfold(unit * sliding),
@@ -29,8 +26,9 @@ def newtonian_shear(
     )
 
 
-def newtonian_sliding(level: Level, problem: ContactProblem, scales: Scales) -> Array:
+def newtonian_sliding(level: Level, scaled: ScaledProblem) -> Array:
     """Return the mid-film stress of an isothermal Newtonian film, ``grid.shape`` [-]."""
+    problem, scales = scaled.problem, scaled.scales
     if problem.slide_roll_ratio == 0:
         return np.zeros(level.grid.shape)
     film = np.maximum(level.film.h, level.floor)

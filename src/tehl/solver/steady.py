@@ -29,7 +29,7 @@ from tehl.result import (
     Status,
     SurfaceHeights,
 )
-from tehl.scaling import Scales, groups, scales
+from tehl.scaling import ScaledProblem, Scales
 from tehl.solver.film_numbers import film_summary
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.multigrid import Multigrid
@@ -140,16 +140,17 @@ def solve_attempt(
     """
     warm_up(coupled=problem.is_coupled)
     wall, cpu = time.perf_counter(), time.process_time()
-    grid = finest_grid(problem, options)
-    heights = heights_of(problem, scales(problem), grid) if rough else None
+    scaled = ScaledProblem.of(problem)
+    grid = finest_grid(scaled, options)
+    heights = heights_of(scaled, grid) if rough else None
     history = _History(monitor)
     attempts = []
-    for attempt in _attempts(problem, options, history, grid, heights, _Given(guess, load)):
+    for attempt in _attempts(scaled, options, history, grid, heights, _Given(guess, load)):
         attempts.append(attempt)
         if attempt.is_final:
             break
     best = min(attempts, key=_rank)
-    result = _result(problem, options, best, tuple(history.reports))
+    result = _result(scaled, options, best, tuple(history.reports))
     surfaces = _surfaces(grid, heights, result.scales)
     cost = Cost(cpu_seconds=time.process_time() - cpu, wall_seconds=time.perf_counter() - wall)
     return best, replace(result, heights=surfaces, cost=cost)
@@ -197,7 +198,7 @@ def _rank(attempt: Attempt) -> tuple[bool, bool, bool]:
 
 
 def _attempts(
-    problem: ContactProblem,
+    scaled: ScaledProblem,
     options: Options,
     monitor: Monitor,
     grid: Grid,
@@ -205,9 +206,8 @@ def _attempts(
     given: "_Given",
 ) -> Iterator[Attempt]:
     """Yield the outcome of each setting worth trying, the most promising first."""
-    case_scales, case_groups = scales(problem), groups(problem)
-    flow = flow_table(problem, case_scales, case_groups)
-    attempts = _settings(problem, options, rough=heights is not None)
+    flow = flow_table(scaled)
+    attempts = _settings(scaled.problem, options, rough=heights is not None)
     for number, (setting, ramped) in enumerate(attempts):
         if number:
             how = ", sliding step by step" if ramped else ""
@@ -215,8 +215,8 @@ def _attempts(
             name = newton if setting.rough.newton else f"the {setting.name} smoother"
             monitor.message(f"falling back to {name}{how}")
         follow = setting.rough.follow if heights is not None else 1.0
-        coupling = coupling_of(problem, options, ramped=ramped, follow=follow)
-        run = Multigrid(grid, case_groups, flow, options, setting, coupling)
+        coupling = coupling_of(scaled, options, ramped=ramped, follow=follow)
+        run = Multigrid(grid, scaled, flow, options, setting, coupling)
         run.carry(given.load)
         if heights is not None:
             run.roughen(heights)
@@ -255,41 +255,40 @@ def _run(run: Multigrid, monitor: Monitor, *, patient: bool) -> Attempt:
 
 
 def coupling_of(
-    problem: ContactProblem, options: Options, *, ramped: bool, follow: float = 1.0
+    scaled: ScaledProblem, options: Options, *, ramped: bool, follow: float = 1.0
 ) -> Coupling:
     """Return what acts on the film besides pressure and elasticity."""
-    if not problem.is_coupled:
+    if not scaled.problem.is_coupled:
         return Uncoupled()
-    units, numbers = scales(problem), groups(problem)
-    return FilmCoupling(problem, units, numbers, options, ramped=ramped, follow=follow)
+    return FilmCoupling(scaled, options, ramped=ramped, follow=follow)
 
 
-def finest_grid(problem: ContactProblem, options: Options) -> Grid:
+def finest_grid(scaled: ScaledProblem, options: Options) -> Grid:
     """Return the grid of the answer: the stated or proposed domain, half of it if symmetric."""
     domain = options.domain
     if not isinstance(domain, Domain):
-        domain = recommended_domain(groups(problem))
+        domain = recommended_domain(scaled.groups)
     ny, nx = options.shape
-    halves = options.half_domain == "auto" and problem.is_even_in_y
+    halves = options.half_domain == "auto" and scaled.problem.is_even_in_y
     return Grid(nx=nx, ny=ny, domain=domain, mirror=halves and can_mirror(options.shape, domain))
 
 
 def _result(
-    problem: ContactProblem,
+    scaled: ScaledProblem,
     options: Options,
     attempt: Attempt,
     history: tuple[CycleReport, ...],
 ) -> Result:
     """Return what was found; its cost is not known yet."""
-    run, units = attempt.run, scales(problem)
+    run = attempt.run
     level, grid = run.finest, run.finest.grid
     full = Grid(nx=grid.nx, ny=grid.ny, domain=grid.domain, mirror=False)
-    shear, heat = _stress_and_heat(problem, attempt, units)
+    shear, heat = _stress_and_heat(attempt)
     return Result(
-        problem=problem,
+        problem=scaled.problem,
         options=options,
-        scales=units,
-        groups=run.groups,
+        scales=scaled.scales,
+        groups=scaled.groups,
         scaled=Fields(
             x=full.x,
             y=full.y,
@@ -308,9 +307,7 @@ def _result(
     )
 
 
-def _stress_and_heat(
-    problem: ContactProblem, attempt: Attempt, units: Scales
-) -> tuple[FilmShear | None, FilmHeat | None]:
+def _stress_and_heat(attempt: Attempt) -> tuple[FilmShear | None, FilmHeat | None]:
     """Return stresses and temperatures; nothing where there is no credible film."""
     run = attempt.run
     if attempt.status.kind == "diverged" or run.finest.film.h.min() <= 0.0:
@@ -320,7 +317,7 @@ def _stress_and_heat(
         if state is None or state.grid != run.finest.grid:
             return None, None
         return film_shear(state), film_heat(state)
-    return newtonian_shear(run.finest, problem, units, run.groups), None
+    return newtonian_shear(run.finest, run.scaled), None
 
 
 def provenance() -> Provenance:

@@ -9,7 +9,7 @@ from tehl.grid import Grid
 from tehl.heat import FAR_BODY, FilmEnergy
 from tehl.problem import ContactProblem
 from tehl.result import Status
-from tehl.scaling import Groups, Scales
+from tehl.scaling import Groups, ScaledProblem
 
 LARGEST_TRACTION = 0.1
 """Shear stress over pressure that no oil bears."""
@@ -31,22 +31,17 @@ class Suspect:
     hint: str
 
 
-def suspect(
-    grid: Grid, groups: Groups, contact: tuple[ContactProblem, Scales] | None
-) -> Suspect | None:
+def suspect(grid: Grid, scaled: ScaledProblem) -> Suspect | None:
     """Return the likely causes of an iteration that fails, named by the first; None without any.
 
     Parameters
     ----------
     grid : Grid
         The finest grid.
-    groups : Groups
-        Dimensionless groups.
-    contact : (ContactProblem, Scales) or None
-        Of a film that is heated or thins in shear; None for an isothermal Newtonian one, to which
-        neither temperatures nor sliding matter.
+    scaled : ScaledProblem
+        The contact. Neither temperatures nor sliding matter to an isothermal Newtonian film.
     """
-    found = list(_suspects(grid, groups, contact))
+    found = list(_suspects(grid, scaled))
     if not found:
         return None
     return Suspect(
@@ -56,13 +51,11 @@ def suspect(
     )
 
 
-def _suspects(
-    grid: Grid, groups: Groups, contact: tuple[ContactProblem, Scales] | None
-) -> Iterator[Suspect]:
-    if contact is not None:
-        yield from _warm_or_cold_body(contact[0])
-        yield from _stress(contact[0], contact[1], groups)
-    yield from _thin_film(grid, groups)
+def _suspects(grid: Grid, scaled: ScaledProblem) -> Iterator[Suspect]:
+    if scaled.problem.is_coupled:
+        yield from _warm_or_cold_body(scaled.problem)
+        yield from _stress(scaled)
+    yield from _thin_film(grid, scaled.groups)
 
 
 def _warm_or_cold_body(problem: ContactProblem) -> Iterator[Suspect]:
@@ -91,8 +84,9 @@ def _warm_or_cold_body(problem: ContactProblem) -> Iterator[Suspect]:
     )
 
 
-def _stress(problem: ContactProblem, scales: Scales, groups: Groups) -> Iterator[Suspect]:
+def _stress(scaled: ScaledProblem) -> Iterator[Suspect]:
     """Blame a shear stress beyond what any oil bears, estimated at the temperature of the inlet."""
+    problem, scales, groups = scaled.problem, scaled.scales, scaled.groups
     pressure = MEAN_PRESSURE * scales.hertz_pressure
     film = expected_central_film(groups) * scales.film_thickness
     rate = abs(problem.motion.sliding_speed) / film

@@ -14,8 +14,7 @@ from tehl.kernels import reynolds
 from tehl.operators.energy import FilmState, HeatedFilm
 from tehl.operators.transfer import midpoints
 from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.scaling import Groups, Scales
+from tehl.scaling import ScaledProblem
 from tehl.solver.level import Level
 from tehl.typing import Array
 
@@ -137,10 +136,8 @@ class FilmCoupling:
 
     Parameters
     ----------
-    problem : ContactProblem
+    scaled : ScaledProblem
         Laws, motion and heat.
-    scales, groups : Scales, Groups
-        Units and dimensionless groups.
     options : Options
         Order of the upstream differences, and how far the answer is iterated.
     ramped : bool
@@ -153,17 +150,15 @@ class FilmCoupling:
 
     def __init__(
         self,
-        problem: ContactProblem,
-        scales: Scales,
-        groups: Groups,
+        scaled: ScaledProblem,
         options: Options,
         *,
         ramped: bool = False,
         follow: float = 1.0,
     ) -> None:
-        self.film = HeatedFilm(problem, scales, groups)
+        self.film = HeatedFilm(scaled)
         self.wedge_order = options.wedge_order
-        motion = problem.motion
+        motion = scaled.problem.motion
         counter_moving = min(motion.speed_1, motion.speed_2) <= 0.0
         # elsewhere the backflow of the coarser grids is a good one
         self.thorough = options.accuracy == "tight" or counter_moving
@@ -227,7 +222,7 @@ class FilmCoupling:
 
     def _rise(self, state: FilmState) -> float:
         """Return the largest temperature over that of the oil at the inlet [K]."""
-        return float(state.temperature.max()) - self.film.scales.temperature
+        return float(state.temperature.max()) - self.film.scaled.scales.temperature
 
     def forget(self, levels: Sequence[Level]) -> None:
         """Start again on the next grid, from an isothermal film."""
@@ -304,7 +299,7 @@ class FilmCoupling:
         fine, names = levels[-1], reynolds.Heated._fields
         shape = fine.grid.shape
         heated = reynolds.Heated(*(np.ascontiguousarray(state.view(name).T) for name in names))
-        heated.mobility[:] /= self.film.groups.lambda_bar
+        heated.mobility[:] /= self.film.scaled.groups.lambda_bar
         factors = reynolds.Factors(*np.empty((5, *shape)))
         isothermal = reynolds.Film(fine.film.p, np.ones(shape), *np.empty((5, *shape)))
         reynolds.factors_of(heated, isothermal, fine.flow.table, fine.flow.step, factors)

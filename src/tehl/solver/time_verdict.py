@@ -4,13 +4,12 @@ import math
 
 import numpy as np
 
+from tehl.duration import misplaced
 from tehl.errors import InputError
 from tehl.grid import Grid
 from tehl.operators.heights import MovingHeights, check_nodes, rounded_up
-from tehl.passage import misplaced
-from tehl.problem import ContactProblem
 from tehl.result import Status
-from tehl.scaling import Scales
+from tehl.scaling import ScaledProblem
 from tehl.solver.level import Level
 from tehl.solver.stepper import StepError
 from tehl.transient import Transient
@@ -62,7 +61,7 @@ def check_waves(heights: MovingHeights, grid: Grid, stride: int) -> None:
             )
 
 
-def check_places(problem: ContactProblem, units: Scales, seconds: float) -> None:
+def check_places(scaled: ScaledProblem, seconds: float) -> None:
     """Refuse roughness that never comes into the contact, or that is there at once.
 
     Raises
@@ -70,7 +69,7 @@ def check_places(problem: ContactProblem, units: Scales, seconds: float) -> None
     InputError
         If it does not, within ``seconds``, or stands in the contact where the film is smooth.
     """
-    sentence = misplaced(problem, units, seconds)
+    sentence = misplaced(scaled, seconds)
     if sentence is not None:
         raise InputError(sentence)
 

@@ -14,7 +14,7 @@ from tehl.operators.heights import MovingHeights
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import Result, Status
-from tehl.scaling import groups, scales
+from tehl.scaling import ScaledProblem
 from tehl.solver.level import Level
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.outputs import newtonian_sliding
@@ -103,17 +103,16 @@ class Run:
     ) -> None:
         self.clock = Clock()
         self.problem, self.transient = problem, transient
-        self.scales, self.groups = scales(problem), groups(problem)
-        grid = finest_grid(problem, options)
+        self.scaled = scaled = ScaledProblem.of(problem)
+        self.scales = scaled.scales
+        grid = finest_grid(scaled, options)
         smooth = transient.start == "smooth"
-        self.heights = MovingHeights(
-            problem, self.scales, grid, transient.entrance if smooth else None
-        )
+        self.heights = MovingHeights(scaled, grid, transient.entrance if smooth else None)
         self.seconds = transient.stride * grid.dx * self.scales.half_width_x / self.scales.speed
-        self.steps = number_of_steps(problem, self.scales, self.seconds)
+        self.steps = number_of_steps(scaled, self.seconds)
         check_stride(transient, grid)
         check_waves(self.heights, grid, transient.stride)
-        check_places(problem, self.scales, self.steps * self.seconds)
+        check_places(scaled, self.steps * self.seconds)
         check_load(transient, self.seconds)
         self.kept = kept_steps(transient, self.steps, self.seconds)
         attempt, self.start = begin(problem, options, rough=not smooth, monitor=monitor)
@@ -171,7 +170,7 @@ class Run:
         if isinstance(coupling, FilmCoupling) and coupling.state is not None:
             stress = coupling.state.view("tau_x").T
         else:
-            stress = newtonian_sliding(level, self.problem, self.scales)
+            stress = newtonian_sliding(level, self.scaled)
         wet = np.where(level.film.p > 0.0, stress, 0.0)
         area = self.scales.half_width_x * self.scales.half_width_y
         unit = stress_unit(self.scales) * area / (self.scales.load * load)

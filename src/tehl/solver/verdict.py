@@ -167,9 +167,7 @@ def _suspect(run: Multigrid) -> Suspect | None:
     coarser = no_film_before(run)
     if coarser is not None:
         return coarser
-    film = run.coupling.film if isinstance(run.coupling, FilmCoupling) else None
-    contact = None if film is None else (film.problem, film.scales)
-    return suspect(run.finest.grid, run.groups, contact)
+    return suspect(run.finest.grid, run.scaled)
 
 
 def _smoother_hint(run: Multigrid) -> str:

@@ -16,7 +16,7 @@ from tehl.operators.reynolds import stencil
 from tehl.operators.trail import Trail
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
-from tehl.scaling import groups, scales
+from tehl.scaling import ScaledProblem
 from tehl.solver.fas import Cycle, cycle
 from tehl.solver.multigrid import Multigrid
 from tehl.solver.smoother import FAST
@@ -56,32 +56,31 @@ def warm_up(*, coupled: bool) -> None:
 @cache
 def _one_sweep() -> None:
     """Evaluate a sheared film once."""
-    problem = ContactProblem.model_validate(COUPLED_CASE)
+    scaled = ScaledProblem.of(ContactProblem.model_validate(COUPLED_CASE))
     grid = Grid(nx=33, ny=33, domain=DOMAIN, mirror=True)
-    state = FilmState(grid, HeatedFilm(problem, scales(problem), groups(problem)), 2)
+    state = FilmState(grid, HeatedFilm(scaled), 2)
     state.set_film(hertz_pressure(grid), np.ones(grid.shape))
     state.sweep(1)
     energy.sweep_back(state.known)
     Trail(np.ones((5, energy.BLOCK)), 0.1, 1.0)
     film = reynolds.Film(*(np.ones(grid.shape) for _ in range(7)))
-    flow = flow_table(problem, scales(problem), groups(problem))
+    flow = flow_table(scaled)
     factors, heated = reynolds.Factors(*film[:5]), reynolds.Heated(*film[:5])
     reynolds.factors_of(heated, film, flow.table, flow.step, factors)
     reynolds.heated_properties(film, factors, flow.table, flow.step, 0.0)
-    reynolds.tangent_source(film, stencil(grid, groups(problem), 2), np.empty(grid.shape))
+    reynolds.tangent_source(film, stencil(grid, scaled.groups, 2), np.empty(grid.shape))
 
 
 @cache
 def _one_cycle() -> None:
-    problem = ContactProblem.model_validate(CASE)
-    case_groups = groups(problem)
-    flow = flow_table(problem, scales(problem), case_groups)
+    scaled = ScaledProblem.of(ContactProblem.model_validate(CASE))
+    flow = flow_table(scaled)
     grid = Grid(nx=129, ny=129, domain=DOMAIN, mirror=True)
-    run = Multigrid(grid, case_groups, flow, Options(), FAST)
+    run = Multigrid(grid, scaled, flow, Options(), FAST)
     run.finest.pose_problem()
     run.finest.film.p[:] = hertz_pressure(grid)
     cycle(run.levels, run.coarsest.step, Cycle(kind="V", pre_sweeps=1, post_sweeps=0), extra=0)
     run.finest.update()
     run.finest.evaluate_residual()
-    far = MultilevelDeformation(grid, influence_of(grid, case_groups))  # of finer grids
+    far = MultilevelDeformation(grid, influence_of(grid, scaled.groups))  # of finer grids
     far.deflect(run.finest.film.p, run.finest.deflection)

@@ -4,12 +4,11 @@ import numpy as np
 import pytest
 
 from tehl import InputError, march
-from tehl.duration import duration_of
+from tehl.duration import duration_of, misplaced
 from tehl.grid import Grid
 from tehl.operators.heights import MovingHeights
-from tehl.passage import misplaced
 from tehl.problem import ContactProblem
-from tehl.scaling import scales
+from tehl.scaling import ScaledProblem, scales
 from tehl.solver.time_verdict import check_load, check_waves
 from tehl.solver.transient import kept_steps
 from tehl.transient import Transient
@@ -28,7 +27,7 @@ def dent(x: float, **more: float) -> dict:
 
 def deepest(case: ContactProblem, seconds: float) -> float:
     """The deepest place of surface 1 at a time, over a_x^2/R_x."""
-    return float(MovingHeights(case, UNITS, GRID, 2.5).at(seconds)[0].min())
+    return float(MovingHeights(ScaledProblem.of(case), GRID, 2.5).at(seconds)[0].min())
 
 
 @pytest.fixture
@@ -65,7 +64,7 @@ def test_a_map_with_flat_surroundings_is_a_feature(dent_map):
 def test_a_map_that_goes_on_comes_in(dent_map):
     case = in_time(4.0, surface_1={"roughness": dent_map | {"outside": "periodic"}})
     assert deepest(case, 0.0) == pytest.approx(-0.1, rel=0.05)  # far upstream
-    start = MovingHeights(case, UNITS, GRID, 2.5).at(0.0)[0]
+    start = MovingHeights(ScaledProblem.of(case), GRID, 2.5).at(0.0)[0]
     assert not start[:, GRID.x > -2.5].any()
 
 
@@ -90,7 +89,7 @@ def test_a_run_lasts_until_all_has_passed(slide, x, expected):
     case = in_time(1.0, slide=slide, surface_1={"roughness": rough})
     tables = case.model_dump(exclude_none=True)
     del tables["transient"]["duration"]
-    found = duration_of(ContactProblem.model_validate(tables), UNITS)
+    found = duration_of(ScaledProblem.of(ContactProblem.model_validate(tables)))
     assert found * UNITS.speed / WIDTH == pytest.approx(expected)
 
 
@@ -107,16 +106,16 @@ def test_two_waves_and_a_half_pass_the_centre_by_default(start, slide, angle, le
     rough = wave(wavelength=length)["roughness"] | {"angle": np.deg2rad(angle)}
     given = {"start": start, "duration": None}
     case = in_time(1.0, slide=slide, surface_1={"roughness": rough}, transient=given)
-    assert duration_of(case, UNITS) * UNITS.speed / WIDTH == pytest.approx(expected)
+    assert duration_of(ScaledProblem.of(case)) * UNITS.speed / WIDTH == pytest.approx(expected)
 
 
 def test_a_dent_that_passes_at_once_is_not_overlooked():
     """In a run so long that it is in the contact for a moment only."""
     far = dent(-250.0) | {"radius": 0.6 * WIDTH}
     case = in_time(300.0, surface_1={"roughness": far}, transient={"stride": 4})
-    assert misplaced(case, UNITS, 300.0 * WIDTH / UNITS.speed) is None
+    assert misplaced(ScaledProblem.of(case), 300.0 * WIDTH / UNITS.speed) is None
     beside = far | {"y": 3.0 * WIDTH}
-    told = misplaced(in_time(300.0, surface_1={"roughness": beside}), UNITS, 1.0)
+    told = misplaced(ScaledProblem.of(in_time(300.0, surface_1={"roughness": beside})), 1.0)
     assert "does not come into the contact" in str(told)
 
 
@@ -156,7 +155,9 @@ def test_a_random_surface_loses_what_fast_steps_would_take_for_other_waves():
     """Two mesh widths in a step: its shortest waves are half of those that the grid carries."""
     rough = {"type": "random", "rms": 1e-9, "correlation_length": 0.05 * WIDTH, "seed": 1}
     slow, fast = (
-        MovingHeights(in_time(1.0, slide=s, surface_1={"roughness": rough}), UNITS, GRID, 2.5)
+        MovingHeights(
+            ScaledProblem.of(in_time(1.0, slide=s, surface_1={"roughness": rough})), GRID, 2.5
+        )
         for s in (0.0, 2.0)
     )
     lengths = [one.surfaces[0].parts[0][0].shortest_wavelengths[0] for one in (slow, fast)]
