@@ -14,14 +14,14 @@ from tests.reference import DOMAIN
 from benchmarks.measure import fft_unit
 from benchmarks.rough import CONTACTS, wave
 from benchmarks.table import Cell, Table
-from tehl import march, solve
+from tehl import solve, solve_transient
 from tehl.errors import ConvergenceError
-from tehl.evolution import Evolution
 from tehl.io.case import case_from_tables
 from tehl.io.templates import template_text
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import Result
+from tehl.transient_result import TransientResult
 
 SHAPE = (0.03, 0.5, 45)
 """Amplitude, wavelength and angle of the wave that stands."""
@@ -55,14 +55,14 @@ def attempt(problem: ContactProblem, options: Options) -> Result:
         return error.result
 
 
-def passing_row(slide: float, run: Evolution, unit: float) -> tuple[Cell, ...]:
+def passing_row(slide: float, run: TransientResult, unit: float) -> tuple[Cell, ...]:
     """Return the row of a dent that passes: what its steps cost, without the steady beginning.
 
     Parameters
     ----------
     slide : float
         Slide to roll ratio [-].
-    run : Evolution
+    run : TransientResult
         The run.
     unit : float
         CPU seconds of an FFT on its grid.
@@ -74,11 +74,13 @@ def passing_row(slide: float, run: Evolution, unit: float) -> tuple[Cell, ...]:
             run.start.cost.cpu_seconds)  # fmt: skip
 
 
-def dent(slide: float, points: int) -> Evolution:
+def dent(slide: float, points: int) -> TransientResult:
     """Follow the dent of the template."""
     given = tomllib.loads(template_text("passing-dent"))
     changed = {"contact": {"slide_roll_ratio": slide}, "numerics": {"points": points}}
-    return march(*case_from_tables(given | {key: given[key] | new for key, new in changed.items()}))
+    return solve_transient(
+        *case_from_tables(given | {key: given[key] | new for key, new in changed.items()})
+    )
 
 
 def tables(points: int, *, quick: bool = False) -> Iterator[Table]:

@@ -14,13 +14,13 @@ import numpy as np
 from tests.reference import moes_contact
 
 from benchmarks.table import Table
-from tehl import march
+from tehl import solve_transient
 from tehl.errors import ConvergenceError
-from tehl.evolution import Evolution
 from tehl.film_formulas import expected_central_film
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.scaling import groups, scales
+from tehl.transient_result import TransientResult
 
 DOMAIN = Domain(x=(-2.5, 1.5), y=(-2.0, 2.0))
 ENTRANCE = 1.7
@@ -85,7 +85,7 @@ def expected_film(case: ContactProblem) -> float:
     return expected_central_film(groups(case))
 
 
-def amplitude(run: Evolution, wavelength: float) -> float:
+def amplitude(run: TransientResult, wavelength: float) -> float:
     """Return the amplitude of the film at the centre over that of the surface [-]."""
     centre = int(np.argmin(np.abs(run.start.scaled.x)))
     period = wavelength * run.start.scales.half_width_x / run.start.scales.speed
@@ -169,7 +169,7 @@ def refined() -> tuple[list[float], float]:
 def measured(case: Passing, points: int) -> tuple[float | None, float]:
     """Return the amplitude and the CPU seconds; None where the run did not come to its end."""
     try:
-        run = march(case.problem(), Options(points=points, domain=case.domain))
+        run = solve_transient(case.problem(), Options(points=points, domain=case.domain))
     except ConvergenceError:
         return None, 0.0
     found = amplitude(run, case.wavelength) if run.status.converged else None

@@ -28,22 +28,22 @@ import numpy as np
 
 import tehl
 from tehl.io.templates import template_text
-from tehl.plots.evolution import moments, space_time
-from tehl.post.evolution import envelope, moving_profiles
+from tehl.plots.transient import moments, space_time
+from tehl.post.transient import envelope, moving_profiles
 
 SLIDES = (0.0, 0.5, -0.5)
 
 
 @cache
-def followed(slide: float, points: int = 129) -> tehl.Evolution:
-    """Return the film in time at one slide-to-roll ratio."""
+def followed(slide: float, points: int = 129) -> tehl.TransientResult:
+    """Return the transient film at one slide-to-roll ratio."""
     case = tomllib.loads(template_text("passing-dent"))
     del case["numerics"]
     case["contact"]["slide_roll_ratio"] = slide
-    return tehl.march(tehl.ContactProblem(**case), tehl.Options(points=points))
+    return tehl.solve_transient(tehl.ContactProblem(**case), tehl.Options(points=points))
 
 
-def numbers(run: tehl.Evolution) -> dict[str, float]:
+def numbers(run: tehl.TransientResult) -> dict[str, float]:
     """Return what one passage does along y = 0 inside the contact."""
     inside = np.abs(run.start.scaled.x) < 0.7
     limits, smooth = envelope(run), run.profiles.film[0]

@@ -14,23 +14,22 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from tehl import plots, studies
     from tehl.errors import ConvergenceError, FileFormatError, InputError, TehlError
-    from tehl.evolution import Evolution
     from tehl.io.case import read_case, read_case_and_options
-    from tehl.io.evolution_store import load
+    from tehl.io.transient_store import load
     from tehl.lubricant import Lubricant, oil
     from tehl.materials import Solid, material
     from tehl.options import Domain, Options
     from tehl.problem import Contact, ContactProblem, Surface
     from tehl.result import Result
-    from tehl.solver import certify, certify_march, march, solve
+    from tehl.solver import certify, certify_transient, solve, solve_transient
     from tehl.studies import study
+    from tehl.transient_result import TransientResult
 
 __all__ = [
     "Contact",
     "ContactProblem",
     "ConvergenceError",
     "Domain",
-    "Evolution",
     "FileFormatError",
     "InputError",
     "Lubricant",
@@ -39,17 +38,18 @@ __all__ = [
     "Solid",
     "Surface",
     "TehlError",
+    "TransientResult",
     "__version__",
     "certify",
-    "certify_march",
+    "certify_transient",
     "load",
-    "march",
     "material",
     "oil",
     "plots",
     "read_case",
     "read_case_and_options",
     "solve",
+    "solve_transient",
     "studies",
     "study",
 ]
@@ -63,7 +63,7 @@ _HOMES = {
     "ContactProblem": "tehl.problem",
     "ConvergenceError": "tehl.errors",
     "Domain": "tehl.options",
-    "Evolution": "tehl.evolution",
+    "TransientResult": "tehl.transient_result",
     "FileFormatError": "tehl.errors",
     "InputError": "tehl.errors",
     "Lubricant": "tehl.lubricant",
@@ -73,9 +73,9 @@ _HOMES = {
     "Surface": "tehl.problem",
     "TehlError": "tehl.errors",
     "certify": "tehl.solver",
-    "certify_march": "tehl.solver",
-    "load": "tehl.io.evolution_store",
-    "march": "tehl.solver",
+    "certify_transient": "tehl.solver",
+    "load": "tehl.io.transient_store",
+    "solve_transient": "tehl.solver",
     "material": "tehl.materials",
     "oil": "tehl.lubricant",
     "read_case": "tehl.io.case",

@@ -184,8 +184,8 @@ def check_certifiable(options: Options) -> None:
         )
 
 
-def check_certifiable_in_time(options: Options) -> None:
-    """Refuse options of a run in time whose grid cannot be certified, not even by two grids.
+def check_certifiable_transient(options: Options) -> None:
+    """Refuse options of a transient run whose grid cannot be certified, not even by two grids.
 
     Raises
     ------
@@ -194,6 +194,6 @@ def check_certifiable_in_time(options: Options) -> None:
     """
     if not can_be_halved(options, 1):
         raise InputError(
-            f"points = {options.points} is too few to certify a run in time: the grid is halved, "
+            f"points = {options.points} is too few to certify a transient run: the grid is halved, "
             "which takes 65 nodes or more per direction"
         )

@@ -13,7 +13,7 @@ LARGEST_FACTOR = 10.0
 
 
 class Transient(BaseModel):
-    """A run in time: the surfaces carry their roughness along, and the film is squeezed.
+    """A transient run: the surfaces carry their roughness along, and the film is squeezed.
 
     Attributes
     ----------

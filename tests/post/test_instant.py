@@ -1,9 +1,9 @@
-"""Instants of a run in time, read like steady films."""
+"""Instants of a transient run, read like steady films."""
 
 import numpy as np
 import pytest
 
-from tehl import InputError, march
+from tehl import InputError, solve_transient
 from tehl.options import Options
 from tehl.post.instant import film_at, smooth_start
 from tehl.post.micro_film import micro_film
@@ -18,7 +18,9 @@ OPTIONS = Options(points=65, domain=DOMAIN)
 @pytest.fixture(scope="module")
 def run():
     """A wave on each surface comes in, in pure rolling."""
-    return march(in_time(5.0, surface_1=wave(), surface_2=wave(0.005, phase=1.0)), OPTIONS)
+    return solve_transient(
+        in_time(5.0, surface_1=wave(), surface_2=wave(0.005, phase=1.0)), OPTIONS
+    )
 
 
 def test_an_instant_has_the_fields_and_heights_of_its_time(run):
@@ -59,7 +61,7 @@ def test_an_instant_that_was_not_kept_is_refused(run):
 
 def test_a_run_that_began_between_rough_surfaces_has_no_twin():
     standing = in_time(0.2, surface_1=wave(), transient={"start": "standing"})
-    assert smooth_start(march(standing, OPTIONS)) is None
+    assert smooth_start(solve_transient(standing, OPTIONS)) is None
 
 
 def test_a_wave_that_is_found_in_a_map_moves_with_its_surface(tmp_path, run):

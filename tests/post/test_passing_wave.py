@@ -4,17 +4,17 @@ from functools import cache
 
 import pytest
 
-from tehl import march
-from tehl.evolution import Evolution
+from tehl import solve_transient
 from tehl.options import Domain, Options
-from tehl.post.evolution import passing_wave
+from tehl.post.transient import passing_wave
 from tehl.problem import ContactProblem
 from tehl.scaling import scales
+from tehl.transient_result import TransientResult
 from tests.reference import moes_contact
 
 
 @cache
-def passed(amplitude: float = 0.01, points: int = 65) -> Evolution:
+def passed(amplitude: float = 0.01, points: int = 65) -> TransientResult:
     """M = 50, L = 10 with a transverse wave as long as the contact's radius on surface 1."""
     case = moes_contact(50.0, 10.0)
     units = scales(case)
@@ -25,7 +25,7 @@ def passed(amplitude: float = 0.01, points: int = 65) -> Evolution:
         "wavelength": units.half_width_x,
     }
     given["transient"] = {"duration": 6.0 * units.half_width_x / units.speed, "frames": 0}
-    return march(
+    return solve_transient(
         ContactProblem.model_validate(given),
         Options(points=points, domain=Domain(x=(-2.5, 1.5), y=(-2.0, 2.0))),
     )
@@ -49,7 +49,9 @@ def test_a_run_of_default_duration_is_long_enough_for_the_fit():
     }
     given["transient"] = {"frames": 0, "stride": 2}
     options = Options(points=65, domain=Domain(x=(-2.5, 1.5), y=(-2.0, 2.0)))
-    assert passing_wave(march(ContactProblem.model_validate(given), options), 1).periods == 2
+    assert (
+        passing_wave(solve_transient(ContactProblem.model_validate(given), options), 1).periods == 2
+    )
 
 
 def test_a_wave_keeps_its_phase_on_the_way_through():

@@ -1,4 +1,4 @@
-"""What is said of a run in time before it is made."""
+"""What is said of a transient run before it is made."""
 
 import pytest
 

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from tehl import InputError, march
+from tehl import InputError, solve_transient
 from tehl.duration import duration_of, misplaced
 from tehl.grid import Grid
 from tehl.operators.heights import MovingHeights
 from tehl.problem import ContactProblem
 from tehl.scaling import ScaledProblem, scales
-from tehl.solver.time_verdict import check_load, check_waves
 from tehl.solver.transient import kept_steps
+from tehl.solver.transient_verdict import check_load, check_waves
 from tehl.transient import Transient
 from tests.reference import DOMAIN, moes_contact
 from tests.solver.test_transient import OPTIONS, in_time, wave
@@ -58,7 +58,7 @@ def test_a_map_with_flat_surroundings_is_a_feature(dent_map):
     case = in_time(4.0, surface_1={"roughness": dent_map | {"x": -2.1 * WIDTH}})
     assert deepest(case, 2.1 * WIDTH / UNITS.speed) == pytest.approx(-0.1, rel=0.02)
     with pytest.raises(InputError, match="the map of surface_1 is in the contact at time zero"):
-        march(in_time(4.0, surface_1={"roughness": dent_map}), OPTIONS)
+        solve_transient(in_time(4.0, surface_1={"roughness": dent_map}), OPTIONS)
 
 
 def test_a_map_that_goes_on_comes_in(dent_map):
@@ -72,7 +72,7 @@ def test_a_map_that_goes_on_comes_in(dent_map):
 def test_a_feature_in_the_contact_at_time_zero_is_refused_with_a_place(slide, x, where):
     """The place that is proposed is one that goes, on the side that the surface comes from."""
     with pytest.raises(InputError, match=r"the bump of surface_1 .* or put it upstream") as told:
-        march(in_time(4.0, slide=slide, surface_1={"roughness": dent(x)}), OPTIONS)
+        solve_transient(in_time(4.0, slide=slide, surface_1={"roughness": dent(x)}), OPTIONS)
     place = float(str(told.value).split("x = ")[1].split(" um")[0]) * 1e-6
     assert where * place == pytest.approx(1.8 * WIDTH, rel=0.01)
     better = in_time(30.0, slide=slide, surface_1={"roughness": dent(place / WIDTH)})
@@ -124,12 +124,12 @@ def test_a_wave_that_the_steps_take_for_another_one_is_refused():
     long = wave(wavelength=1.5)
     case = in_time(4.0, slide=2.0, surface_1=long, transient={"stride": 4})
     with pytest.raises(InputError, match=r"surface_1 moves by 0.5 of its shortest wave in a step"):
-        march(case, OPTIONS)
+        solve_transient(case, OPTIONS)
 
 
 def test_a_run_begins_with_the_film_of_its_first_load():
     case = in_time(1.0, transient={"load": [(0.0, 1.3), (1.0, 1.3)]})
-    history = march(case, OPTIONS).history
+    history = solve_transient(case, OPTIONS).history
     assert history.pressure_max[0] / UNITS.hertz_pressure == pytest.approx(1.3 ** (1 / 3), rel=0.03)
     np.testing.assert_allclose(history.film_central, history.film_central[0], rtol=1e-5)
 
@@ -138,7 +138,7 @@ def test_a_load_that_comes_and_goes_between_two_steps_is_refused():
     step = GRID.dx * WIDTH / UNITS.speed
     pulse = [(0.0, 1.0), (3.3 * step, 1.0), (3.5 * step, 3.0), (3.7 * step, 1.0)]
     with pytest.raises(InputError, match=r"transient\.load = 3 at .* which do not see it"):
-        march(in_time(1.0, transient={"load": pulse}), OPTIONS)
+        solve_transient(in_time(1.0, transient={"load": pulse}), OPTIONS)
 
 
 def test_a_pulse_with_a_flat_top_between_two_steps_is_refused_too():
@@ -146,7 +146,7 @@ def test_a_pulse_with_a_flat_top_between_two_steps_is_refused_too():
     times = (0.0, 3.3, 3.35, 3.6, 3.65)
     pulse = [(n * step, load) for n, load in zip(times, (1.0, 1.0, 1.5, 1.5, 1.0), strict=True)]
     with pytest.raises(InputError, match=r"transient\.load = 1\.5 at .* which do not see it"):
-        march(in_time(1.0, transient={"load": pulse}), OPTIONS)
+        solve_transient(in_time(1.0, transient={"load": pulse}), OPTIONS)
     stays = [*pulse[:3], (0.2, 1.5)]  # a jump that the steps see
     check_load(Transient(load=stays), step)
 
@@ -166,13 +166,13 @@ def test_a_random_surface_loses_what_fast_steps_would_take_for_other_waves():
 
 
 def test_the_traction_of_the_beginning_is_over_its_load():
-    run = march(in_time(0.2, slide=0.5, transient={"load": [(0.0, 1.3)]}), OPTIONS)
+    run = solve_transient(in_time(0.2, slide=0.5, transient={"load": [(0.0, 1.3)]}), OPTIONS)
     assert run.start.traction.mid_film == pytest.approx(run.history.traction[0], rel=1e-6)
 
 
 def test_a_duration_beyond_all_numbers_is_refused():
     with pytest.raises(InputError, match="takes inf steps"):
-        march(in_time(1.0, transient={"duration": "1e308 s"}), OPTIONS)
+        solve_transient(in_time(1.0, transient={"duration": "1e308 s"}), OPTIONS)
 
 
 def test_fields_are_kept_at_chosen_instants():

@@ -1,20 +1,20 @@
-"""Runs in time: what a film must do when nothing changes, and when waves pass."""
+"""Transient runs: what a film must do when nothing changes, and when waves pass."""
 
 from functools import cache
 
 import numpy as np
 import pytest
 
-from tehl import InputError, march, solve
-from tehl.evolution import Evolution
+from tehl import InputError, solve, solve_transient
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.scaling import scales
 from tehl.solver.monitor import SILENT
 from tehl.solver.packing import pack, unpack
 from tehl.solver.stepper import StepError
-from tehl.solver.time_verdict import failed
 from tehl.solver.transient import Run
+from tehl.solver.transient_verdict import failed
+from tehl.transient_result import TransientResult
 from tests.reference import DOMAIN, moes_contact
 
 M, L = 50.0, 10.0
@@ -47,13 +47,13 @@ def wave(amplitude: float = 0.01, wavelength: float = 1.5, phase: float = 0.0) -
 
 
 @cache
-def rolling(phase: float = 0.0) -> Evolution:
+def rolling(phase: float = 0.0) -> TransientResult:
     """Pure rolling, a wave on surface 1 passes."""
-    return march(in_time(7.5, surface_1=wave(phase=phase)), OPTIONS)
+    return solve_transient(in_time(7.5, surface_1=wave(phase=phase)), OPTIONS)
 
 
 def test_a_film_without_roughness_stays_the_steady_one():
-    run = march(in_time(1.0), OPTIONS)
+    run = solve_transient(in_time(1.0), OPTIONS)
     start, history = run.start, run.history
     assert run.status.converged
     assert len(history.time) == 12
@@ -95,7 +95,7 @@ def test_a_wave_is_flattened_but_keeps_its_length():
 
 
 def test_a_wave_on_either_surface_is_the_same_in_pure_rolling():
-    first, second = rolling(), march(in_time(7.5, surface_2=wave()), OPTIONS)
+    first, second = rolling(), solve_transient(in_time(7.5, surface_2=wave()), OPTIONS)
     np.testing.assert_allclose(
         first.profiles.film, second.profiles.film, rtol=0, atol=1e-12 * first.start.film.central
     )
@@ -121,7 +121,7 @@ def test_mass_travels_through_the_contact_at_the_mean_speed():
         "wavelength": 0.75 * units.half_width_x,
     }
     given["transient"] = {"duration": 4.5 * units.half_width_x / units.speed, "tolerance": 1e-4}
-    run = march(
+    run = solve_transient(
         ContactProblem.model_validate(given),
         Options(points=129, domain=Domain(x=(-2.5, 1.5), y=(-2.0, 2.0))),
     )
@@ -154,7 +154,7 @@ def test_a_load_that_begins_to_rise_on_the_way_asks_for_no_other_setting():
     end = in_time(1.5).transient.duration
     load = [[0.0, 1.0], [0.4 * end, 1.0], [end, 1.3]]
     monitor = Smoothers()
-    run = march(in_time(1.5, transient={"load": load}), OPTIONS, monitor=monitor)
+    run = solve_transient(in_time(1.5, transient={"load": load}), OPTIONS, monitor=monitor)
     assert run.status.converged
     assert set(monitor.names) == {"fast"}
     assert run.history.cycles.max() <= 5
@@ -163,7 +163,7 @@ def test_a_load_that_begins_to_rise_on_the_way_asks_for_no_other_setting():
 def test_the_load_follows_its_table():
     units = scales(moes_contact(M, L))
     end = 2.0 * units.half_width_x / units.speed
-    run = march(in_time(2.0, transient={"load": [[0.0, 1.0], [end, 1.3]]}), OPTIONS)
+    run = solve_transient(in_time(2.0, transient={"load": [[0.0, 1.0], [end, 1.3]]}), OPTIONS)
     cell = run.start.scaled
     area = (cell.x[1] - cell.x[0]) * (cell.y[1] - cell.y[0])
     carried = run.frames.pressure[-1].sum() * area / run.start.scales.hertz_pressure
@@ -181,8 +181,8 @@ def test_a_snapshot_goes_on_bit_by_bit():
         if len(snapshot.record.rows) == 6:
             kept.append(snapshot.copy())
 
-    whole = march(case, OPTIONS, keep=keep)
-    again = march(case, OPTIONS, resume=kept[0])
+    whole = solve_transient(case, OPTIONS, keep=keep)
+    again = solve_transient(case, OPTIONS, resume=kept[0])
     for name in ("pressure", "film", "height_1"):
         assert (getattr(whole.profiles, name) == getattr(again.profiles, name)).all()
         assert (whole.frames.pressure == again.frames.pressure).all()
@@ -192,17 +192,17 @@ def test_a_snapshot_goes_on_bit_by_bit():
 def test_a_surface_that_stands_still_never_brings_its_roughness_in():
     case = in_time(1.0, slide=-2.0, surface_1=wave())
     with pytest.raises(InputError, match="surface_1 stands still"):
-        march(case, OPTIONS)
+        solve_transient(case, OPTIONS)
 
 
 @pytest.mark.parametrize("stride", [2, 4])
 def test_a_longer_step_keeps_the_steady_film_and_carries_a_wave(stride):
-    still = march(in_time(1.0, transient={"stride": stride}), OPTIONS)
+    still = solve_transient(in_time(1.0, transient={"stride": stride}), OPTIONS)
     film = still.history.film_central
     np.testing.assert_allclose(film, film[0], rtol=1e-6)
     short, long = (
         rolling(),
-        march(in_time(7.5, surface_1=wave(), transient={"stride": stride}), OPTIONS),
+        solve_transient(in_time(7.5, surface_1=wave(), transient={"stride": stride}), OPTIONS),
     )
     centre = int(np.argmin(np.abs(short.start.scaled.x)))
     last = [run.history.time > 0.75 * run.history.time[-1] for run in (short, long)]
@@ -221,22 +221,22 @@ REFUSED = [
 @pytest.mark.parametrize(("tables", "words"), REFUSED)
 def test_a_run_that_would_say_nothing_is_refused(tables, words):
     with pytest.raises(InputError, match=words):
-        march(in_time(4.0, **tables), OPTIONS)
+        solve_transient(in_time(4.0, **tables), OPTIONS)
 
 
 def test_too_many_steps_are_refused_before_any_work():
     with pytest.raises(InputError, match=r"give a shorter one, or a larger transient\.stride"):
-        march(in_time(1e6), OPTIONS)
+        solve_transient(in_time(1e6), OPTIONS)
 
 
 def test_solving_a_question_with_time_as_a_steady_one_is_refused():
-    with pytest.raises(InputError, match=r"tehl\.march"):
+    with pytest.raises(InputError, match=r"tehl\.solve_transient"):
         solve(in_time(1.0), OPTIONS)
 
 
 def test_a_steady_question_has_no_time():
     with pytest.raises(InputError, match=r"no \[transient\] table"):
-        march(moes_contact(M, L), OPTIONS)
+        solve_transient(moes_contact(M, L), OPTIONS)
 
 
 @pytest.mark.parametrize("failure", [StepError("diverged", np.nan), ZeroDivisionError()])
@@ -260,7 +260,7 @@ def test_a_setting_that_runs_away_leaves_nothing_to_the_next_one(failure):
     stepper._settle = run_away_once
     assert run.go(SILENT).converged
     assert calls[1] != calls[0]
-    sound = march(case, OPTIONS)
+    sound = solve_transient(case, OPTIONS)
     film = run.record.lines(run.scales).film
     # both within the tolerance of a step, 1e-3 of the pressure
     np.testing.assert_allclose(film, sound.profiles.film, rtol=2e-3)
@@ -269,7 +269,7 @@ def test_a_setting_that_runs_away_leaves_nothing_to_the_next_one(failure):
 @pytest.mark.parametrize("harm", ["lost", "cut", "more"])
 def test_a_snapshot_that_is_not_whole_is_refused(harm):
     case, kept = in_time(0.2), []
-    march(case, OPTIONS, keep=lambda snapshot: kept.append(snapshot.copy()))
+    solve_transient(case, OPTIONS, keep=lambda snapshot: kept.append(snapshot.copy()))
     fields = kept[0].fields
     if harm == "lost":
         del fields["pressure_changes"]
@@ -278,14 +278,14 @@ def test_a_snapshot_that_is_not_whole_is_refused(harm):
     else:
         fields["temperature"] = fields["mass"]
     with pytest.raises(InputError, match="or not whole"):
-        march(case, OPTIONS, resume=kept[0])
+        solve_transient(case, OPTIONS, resume=kept[0])
 
 
 @pytest.fixture(scope="module")
 def packed() -> dict:
     """The arrays of a run of four steps after the third, two frames in it."""
     kept = []
-    march(in_time(0.3), OPTIONS, keep=lambda snapshot: kept.append(snapshot.copy()))
+    solve_transient(in_time(0.3), OPTIONS, keep=lambda snapshot: kept.append(snapshot.copy()))
     return pack(kept[2])
 
 
@@ -335,12 +335,12 @@ def test_a_checkpoint_of_older_steps_than_its_film_is_refused(packed):
 def test_a_checkpoint_that_does_not_fit_the_case_is_refused(packed, name, harm):
     state = unpack(packed | {name: harm(packed[name])})
     with pytest.raises(InputError, match="than the case, or"):
-        march(in_time(0.3), OPTIONS, resume=state)
+        solve_transient(in_time(0.3), OPTIONS, resume=state)
 
 
 def test_the_cost_of_a_run_that_goes_on_is_that_of_all_its_parts(packed):
     cost = np.array([1000.0, 2000.0])
-    again = march(in_time(0.3), OPTIONS, resume=unpack(packed | {"cost": cost}))
+    again = solve_transient(in_time(0.3), OPTIONS, resume=unpack(packed | {"cost": cost}))
     assert packed["cost"].min() > 0.0
     assert 1000.0 < again.cost.cpu_seconds < 1900.0
     assert 2000.0 < again.cost.wall_seconds < 2900.0
@@ -362,7 +362,7 @@ def test_a_step_that_is_no_number_does_not_settle(place, value):
 
 
 def test_a_tolerance_that_no_step_reaches_is_named():
-    run = march(in_time(0.3, transient={"tolerance": 1e-300, "max_cycles": 5}), OPTIONS)
+    run = solve_transient(in_time(0.3, transient={"tolerance": 1e-300, "max_cycles": 5}), OPTIONS)
     assert run.status.cause == "step_not_settled"
     assert "let transient.tolerance (now 1e-300) be 1e-06 or more" in str(run.status.hint)
     assert "asperities" not in str(run.status.hint)
@@ -387,7 +387,7 @@ def test_a_dent_passes_on_a_fine_grid_as_on_a_coarse_one():
     given["surface_1"]["roughness"] = dent
     given["transient"] = {"duration": 2.2 * width / units.speed, "frames": 0}
     problem = ContactProblem.model_validate(given)
-    coarse, fine = (march(problem, Options(points=n, domain=DOMAIN)) for n in (257, 513))
+    coarse, fine = (solve_transient(problem, Options(points=n, domain=DOMAIN)) for n in (257, 513))
     assert fine.status.converged
     assert fine.history.cycles.max() <= 4
     one, other = (run.history.film_central / run.history.film_central[0] for run in (coarse, fine))

@@ -1,9 +1,9 @@
-"""Heated films in time."""
+"""Heated transient films."""
 
 import numpy as np
 import pytest
 
-from tehl import InputError, march
+from tehl import InputError, solve_transient
 from tehl.grid import Grid
 from tehl.operators.energy import FilmState, HeatedFilm
 from tehl.options import Options
@@ -35,7 +35,7 @@ def hot(distance: float, slide: float = 0.5, *, wavy: bool = False, **tables) ->
 
 
 def test_a_heated_film_without_roughness_stays_the_steady_one():
-    run = march(hot(1.0), OPTIONS)
+    run = solve_transient(hot(1.0), OPTIONS)
     assert run.status.converged
     film, rise = run.history.film_central, run.history.temperature_rise
     np.testing.assert_allclose(film, film[0], rtol=1e-6)
@@ -116,7 +116,7 @@ def test_a_film_at_rest_cools_by_conduction_as_it_must():
 
 
 def test_waves_make_the_temperature_swing_and_keep_the_film():
-    run = march(hot(5.5, wavy=True), OPTIONS)
+    run = solve_transient(hot(5.5, wavy=True), OPTIONS)
     assert run.status.converged
     rise = run.history.temperature_rise
     late = run.history.time > 0.7 * run.history.time[-1]
@@ -125,10 +125,10 @@ def test_waves_make_the_temperature_swing_and_keep_the_film():
 
 
 def test_equal_solids_do_not_know_which_of_them_has_the_wave():
-    ahead = march(hot(2.5, 0.5, wavy=True), OPTIONS)
+    ahead = solve_transient(hot(2.5, 0.5, wavy=True), OPTIONS)
     other = hot(2.5, -0.5, wavy=True).model_dump(exclude_none=True)
     other["surface_2"]["roughness"] = other["surface_1"].pop("roughness")
-    behind = march(ContactProblem.model_validate(other), OPTIONS)
+    behind = solve_transient(ContactProblem.model_validate(other), OPTIONS)
     np.testing.assert_allclose(
         ahead.profiles.film, behind.profiles.film, rtol=0, atol=1e-7 * ahead.start.film.central
     )
@@ -145,8 +145,8 @@ def test_a_heated_run_goes_on_bit_by_bit(shear):
         if len(snapshot.record.rows) == 4:
             kept.append(snapshot.copy())
 
-    whole = march(case, OPTIONS, keep=keep)
-    again = march(case, OPTIONS, resume=kept[0])
+    whole = solve_transient(case, OPTIONS, keep=keep)
+    again = solve_transient(case, OPTIONS, resume=kept[0])
     assert (whole.profiles.pressure == again.profiles.pressure).all()
     assert (whole.history.temperature_rise == again.history.temperature_rise).all()
 
@@ -157,9 +157,9 @@ def test_a_surface_too_slow_for_heat_in_time_is_refused():
 
 
 def test_a_longer_stride_serves_slower_surfaces():
-    run = march(hot(1.0, 1.4, transient={"stride": 2}), OPTIONS)
+    run = solve_transient(hot(1.0, 1.4, transient={"stride": 2}), OPTIONS)
     assert run.status.converged
     with pytest.raises(ValueError, match=r"thermal\.sources"):
         hot(1.0, thermal={"sources": "full"})
     with pytest.raises(InputError, match="stride"):
-        march(hot(1e5), OPTIONS)
+        solve_transient(hot(1e5), OPTIONS)

@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from tehl import march
+from tehl import solve_transient
 from tehl.options import Domain, Options
-from tehl.post.evolution import passing_wave
+from tehl.post.transient import passing_wave
 from tehl.problem import ContactProblem
 from tehl.scaling import scales
 from tests.reference import CLOSE, DOMAIN, moes_contact
@@ -43,7 +43,9 @@ def reduction(
         "tolerance": 1e-4,
         "frames": 0,
     }
-    run = march(ContactProblem.model_validate(given), Options(points=points, domain=domain))
+    run = solve_transient(
+        ContactProblem.model_validate(given), Options(points=points, domain=domain)
+    )
     assert run.status.converged
     return passing_wave(run, 1).film_ratio
 

@@ -1,4 +1,4 @@
-"""``tehl animate``: a stored run in time as a moving picture."""
+"""``tehl animate``: a stored transient run as a moving picture."""
 
 from pathlib import Path
 from typing import Annotated
@@ -7,7 +7,9 @@ import typer
 
 
 def animate(
-    stored: Annotated[Path, typer.Argument(metavar="RESULT", help="File of a run in time (.nc).")],
+    stored: Annotated[
+        Path, typer.Argument(metavar="RESULT", help="File of a transient run (.nc).")
+    ],
     output: Annotated[
         Path | None,
         typer.Option("-o", "--output", help="File: .gif, .mp4 or .html; RESULT.gif if left out."),
@@ -17,17 +19,17 @@ def animate(
     ] = 10,
     dpi: Annotated[int, typer.Option(min=30, max=600, help="Dots per inch.")] = 100,
 ) -> None:
-    """Show a run in time as a moving picture; nothing is compiled or solved.
+    """Show a transient run as a moving picture; nothing is compiled or solved.
 
     It shows the fields that the run has kept (transient.frames of its case).
     """
     from tehl.io.atomic import check_writable
-    from tehl.io.evolution_store import load_evolution
+    from tehl.io.transient_store import load_transient
     from tehl.plots.animation import animate as draw
     from tehl.plots.animation import check_format
 
     target = stored.with_suffix(".gif") if output is None else output
     check_format(target)
     check_writable(target, sources=(stored,))
-    draw(load_evolution(stored), target, per_second=per_second, dpi=dpi)
+    draw(load_transient(stored), target, per_second=per_second, dpi=dpi)
     typer.echo(target)

@@ -38,7 +38,7 @@ def export(
     """Write a stored steady result as CSV, VTK (ParaView), npz (numpy) or mat (MATLAB).
 
     VTK: the ending .vtr gives the plane of the film, .vts the film as a volume with its
-    temperatures. Runs in time are not exported: tehl.load and xarray read them.
+    temperatures. Transient runs are not exported: tehl.load and xarray read them.
     """
     from tehl.io.atomic import check_writable
     from tehl.io.export import SUFFIXES, kind_of, write, write_csv

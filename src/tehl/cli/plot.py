@@ -16,17 +16,17 @@ def plot(
 ) -> None:
     """Draw all pictures of a stored result; nothing is compiled or solved."""
     from tehl.cli.twins import smooth_beside
-    from tehl.evolution import Evolution
     from tehl.io.atomic import check_folder
-    from tehl.io.evolution_store import load
-    from tehl.plots.evolution import save_evolution
+    from tehl.io.transient_store import load
     from tehl.plots.save import save_all
+    from tehl.plots.transient import save_transient
+    from tehl.transient_result import TransientResult
 
     folder = stored.with_name(f"{stored.stem}_plots") if output is None else output
     check_folder(folder)
     result = load(stored)
-    if isinstance(result, Evolution):
-        for path in save_evolution(result, folder, dpi=dpi):
+    if isinstance(result, TransientResult):
+        for path in save_transient(result, folder, dpi=dpi):
             typer.echo(path)
         return
     for path in save_all(result, folder, dpi=dpi, smooth=smooth_beside(stored, result)):

@@ -14,7 +14,7 @@ def report(
 ) -> None:
     """Write one self-contained HTML page: inputs, groups, pictures, formulas, convergence.
 
-    Of steady results; tehl plot and tehl animate show runs in time.
+    Of steady results; tehl plot and tehl animate show transient runs.
     """
     from tehl.cli.twins import smooth_beside
     from tehl.io.atomic import check_writable

@@ -49,7 +49,7 @@ def solve(  # noqa: PLR0913, PLR0917 (the options of the command)
     ] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Show no progress.")] = False,
     resume: Annotated[
-        bool, typer.Option("--resume", help="Go on with a run in time that was interrupted.")
+        bool, typer.Option("--resume", help="Go on with a transient run that was interrupted.")
     ] = False,
 ) -> None:
     """Solve a case and store the result.
@@ -57,8 +57,8 @@ def solve(  # noqa: PLR0913, PLR0917 (the options of the command)
     Exit code 0: converged; 1: not converged, the result is stored and marked; 2: bad input,
     nothing is written; 3: the environment failed.
     """
-    from tehl.cli.evolution import Wishes, refuse, solve_in_time
     from tehl.cli.failure import explain_failure
+    from tehl.cli.transient import Wishes, refuse, solve_transient_case
     from tehl.cli.twins import smooth_file, twins_of
     from tehl.io.case import read_case_and_options
     from tehl.memory import check_memory
@@ -78,7 +78,7 @@ def solve(  # noqa: PLR0913, PLR0917 (the options of the command)
             resume=resume,
             certify=certify,
         )
-        solve_in_time(problem, options, wishes)
+        solve_transient_case(problem, options, wishes)
         return
     twins = twins_of(problem, cold=with_isothermal, smooth=with_smooth)
     if twins.smooth is not None:

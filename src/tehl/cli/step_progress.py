@@ -1,4 +1,4 @@
-"""What a run in time shows while it goes on, on stderr: a live table, plain lines or nothing."""
+"""What a transient run shows while it goes on, on stderr: a live table, plain lines or nothing."""
 
 import time
 from collections import deque
@@ -14,10 +14,10 @@ if TYPE_CHECKING:
     from rich.console import Group
     from rich.live import Live
 
-    from tehl.evolution import StepReport
     from tehl.result import CycleReport
     from tehl.scaling import Scales
     from tehl.solver.monitor import StepMonitor
+    from tehl.transient_result import StepReport
 
 COLUMNS = ("step", "time [us]", "cycles", "change", "h min [nm]", "h cent [nm]", "p max [GPa]")
 LEFT = "left [s]"
@@ -63,7 +63,7 @@ def cells(report: "StepReport", units: "Scales", left: float | None) -> tuple[st
 def step_progress(
     units: "Scales", *, quiet: bool, coupled: bool = False
 ) -> Iterator["StepMonitor"]:
-    """Yield the monitor for a run in time; warn when kernels are cold.
+    """Yield the monitor for a transient run; warn when kernels are cold.
 
     Parameters
     ----------

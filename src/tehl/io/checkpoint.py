@@ -1,4 +1,4 @@
-"""Checkpoints: the state of an unfinished run in time on disk, and whether it is of this run."""
+"""Checkpoints: the state of an unfinished transient run on disk, and whether it is of this run."""
 
 import hashlib
 import json

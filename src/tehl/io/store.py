@@ -171,7 +171,7 @@ def load(path: str | Path) -> Result:
     arrays, attrs = read(source)
     if attrs.get("tehl_kind", STEADY) != STEADY:
         raise FileFormatError(
-            f"{source} holds a film in time, not a steady one: tehl.load reads it, tehl plot and "
+            f"{source} holds a transient film, not a steady one: tehl.load reads it, tehl plot and "
             "tehl animate show it"
         )
     return rebuilt(source, arrays, attrs, rebuild)

@@ -1,4 +1,4 @@
-"""A run in time as a moving picture: the film from above, and the line y = 0 below."""
+"""A transient run as a moving picture: the film from above, and the line y = 0 below."""
 
 import shutil
 from collections.abc import Callable
@@ -12,10 +12,10 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from tehl.errors import InputError
-from tehl.evolution import Evolution
 from tehl.io.atomic import replacing
-from tehl.plots.evolution import CentreLines, evolution_figure, time_unit
 from tehl.plots.frame import MICRO, colour_axes, dress_contact, span_part, window
+from tehl.plots.transient import CentreLines, time_unit, transient_figure
+from tehl.transient_result import TransientResult
 from tehl.typing import Array, IntArray
 
 FORMATS = (".gif", ".mp4", ".html")
@@ -28,8 +28,10 @@ _LARGEST_PAGE = 200.0
 """Size of the pictures in a page [MB]."""
 
 
-def animate(run: Evolution, path: str | Path, *, per_second: int = 10, dpi: int = 100) -> None:
-    """Write a run in time as a moving picture; whole, or not at all.
+def animate(
+    run: TransientResult, path: str | Path, *, per_second: int = 10, dpi: int = 100
+) -> None:
+    """Write a transient run as a moving picture; whole, or not at all.
 
     It shows the fields that the run has kept (``transient.frames``): film thickness, and below it
     film, pressure and the rough body along y = 0. A run that has kept fewer than two shows that
@@ -37,7 +39,7 @@ def animate(run: Evolution, path: str | Path, *, per_second: int = 10, dpi: int 
 
     Parameters
     ----------
-    run : Evolution
+    run : TransientResult
         What to show.
     path : str or Path
         The file, whose ending says the format: ``.gif``, ``.html`` (a page with buttons, without
@@ -120,17 +122,17 @@ class Movie:
 
     Parameters
     ----------
-    run : Evolution
+    run : TransientResult
         What to show.
     dpi : int
         Dots per inch.
     """
 
-    def __init__(self, run: Evolution, *, dpi: int = 100) -> None:
+    def __init__(self, run: TransientResult, *, dpi: int = 100) -> None:
         self.run, self.lines = run, CentreLines(run)
         self.has_fields = run.frames.step.size >= 2
         self.steps = run.frames.step if self.has_fields else _thinned(len(run.history.time))
-        self.picture = evolution_figure(run, (6.2, 7.4 if self.has_fields else 3.4))
+        self.picture = transient_figure(run, (6.2, 7.4 if self.has_fields else 3.4))
         self.picture.set_dpi(dpi)
         self.canvas = FigureCanvasAgg(self.picture)
         if self.has_fields:
@@ -166,7 +168,7 @@ class Movie:
 class _FieldMap:
     """The film from above."""
 
-    def __init__(self, picture: Figure, axes: Axes, run: Evolution) -> None:
+    def __init__(self, picture: Figure, axes: Axes, run: TransientResult) -> None:
         self.run = run
         (west, east), (south, north) = window(run.start)
         scaled = run.start.scaled

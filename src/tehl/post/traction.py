@@ -82,7 +82,7 @@ def traction(result: Result) -> Traction | None:
     """Return the traction of ``result``, None where it has no shear stresses.
 
     Integrals are sums over the nodes under pressure; the gradient is a central difference. The film
-    that a run in time begins with carries the load of that time.
+    that a transient run begins with carries the load of that time.
 
     Parameters
     ----------

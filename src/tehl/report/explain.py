@@ -92,7 +92,7 @@ class Explanation:
     memory, seconds : float
         Estimated peak memory [byte] and time [s] of a solve.
     time : TimePlan or None
-        What a run in time will do; None for a steady case.
+        What a transient run will do; None for a steady case.
     questions : tuple of str
         What looks odd.
     """

@@ -1,4 +1,4 @@
-"""A run in time before it is made: duration, steps, cost, and how well it follows its waves."""
+"""A transient run before it is made: duration, steps, cost, and how well it follows its waves."""
 
 import math
 from collections.abc import Iterator
@@ -26,7 +26,7 @@ _UNITS = ((1.0, 1.0, "s"), (1e-3, 1e3, "ms"), (0.0, 1e6, "us"))
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class TimePlan:
-    """What a run in time will do.
+    """What a transient run will do.
 
     Attributes
     ----------
@@ -61,7 +61,7 @@ class TimePlan:
 
 
 def time_plan(problem: ContactProblem, options: Options) -> TimePlan | None:
-    """Return what a run in time will do, None for a steady case."""
+    """Return what a transient run will do, None for a steady case."""
     transient = problem.transient
     if transient is None:
         return None
@@ -130,7 +130,7 @@ def _questions(problem: ContactProblem, points: list[float], shifts: list[float]
 
 
 def as_lines(plan: TimePlan) -> Iterator[str]:
-    """Yield what is said of a run in time, in lines of plain text."""
+    """Yield what is said of a transient run, in lines of plain text."""
     yield "Time"
     yield _row(
         "duration",
@@ -150,7 +150,7 @@ def as_lines(plan: TimePlan) -> Iterator[str]:
 
 
 def as_summary(plan: TimePlan) -> dict[str, object]:
-    """Return what is said of a run in time as JSON can hold it."""
+    """Return what is said of a transient run as JSON can hold it."""
     return {
         "duration_s": plan.duration,
         "step_s": plan.step,

@@ -1,29 +1,29 @@
-"""Error bars of runs in time: of extremes over time, and along the history."""
+"""Error bars of transient runs: of extremes over time, and along the history."""
 
 import math
 
 import numpy as np
 
-from tehl.evolution import Evolution, HistoryBars
 from tehl.result import Estimate
 from tehl.solver.certify import ORDERS, RESIDUE, estimate, spike, with_growing_spike
+from tehl.transient_result import HistoryBars, TransientResult
 from tehl.typing import Array
 
 GROWTH = 2.0
 """By how often the last change a spike may still grow."""
 
-Runs = tuple[Evolution, ...]
+Runs = tuple[TransientResult, ...]
 """Coarse to fine, two or three of them, each with twice the steps of the one before."""
 
 
-def estimates(runs: Runs, wide: Evolution) -> dict[str, Estimate]:
+def estimates(runs: Runs, wide: TransientResult) -> dict[str, Estimate]:
     """Return extremes over time with their error bars, in SI.
 
     Parameters
     ----------
-    runs : tuple of Evolution
+    runs : tuple of TransientResult
         Two or three, coarse to fine.
-    wide : Evolution
+    wide : TransientResult
         On the larger domain, with mesh and steps of the run before the last.
     """
     end = float(runs[-1].history.time[-1])
@@ -41,7 +41,7 @@ def estimates(runs: Runs, wide: Evolution) -> dict[str, Estimate]:
     return bars
 
 
-def _extremes(run: Evolution, end: float) -> dict[str, float]:
+def _extremes(run: TransientResult, end: float) -> dict[str, float]:
     """Return the extremes until ``end`` [s], at which coarser runs need not have a step."""
     told, start = run.history, run.start
 
@@ -63,14 +63,14 @@ def _extremes(run: Evolution, end: float) -> dict[str, float]:
     return {name: float(value) for name, value in found.items()}
 
 
-def history_bars(runs: Runs, wide: Evolution) -> HistoryBars:
+def history_bars(runs: Runs, wide: TransientResult) -> HistoryBars:
     """Return error bars along the history, at the instants that all runs share.
 
     Parameters
     ----------
-    runs : tuple of Evolution
+    runs : tuple of TransientResult
         Two or three, coarse to fine.
-    wide : Evolution
+    wide : TransientResult
         On the larger domain, with mesh and steps of the run before the last.
     """
     time = _shared(runs, "time")[-1]
@@ -92,19 +92,19 @@ def _shared(runs: Runs, name: str) -> list[Array]:
     ]
 
 
-def _bar(runs: Runs, wide: Evolution, name: str) -> Array:
+def _bar(runs: Runs, wide: TransientResult, name: str) -> Array:
     """Return the parts of grid and domain joined in quadrature."""
     return np.hypot(grid_bar(_shared(runs, name)), _domain_bar(runs, wide, name))
 
 
-def _domain_bar(runs: Runs, wide: Evolution, name: str) -> Array:
+def _domain_bar(runs: Runs, wide: TransientResult, name: str) -> Array:
     """Return what the larger domain changed."""
     # the larger domain in the place of the run whose mesh and steps it has
     wider = _shared((*runs[:-2], wide, runs[-1]), name)[-2]
     return np.abs(wider - _shared(runs, name)[-2])
 
 
-def _pressure_bar(runs: Runs, wide: Evolution) -> Array:
+def _pressure_bar(runs: Runs, wide: TransientResult) -> Array:
     """Return the bar of the largest pressure, which holds a spike that grows."""
     series, steps = _shared(runs, "pressure_max"), 2 ** (len(runs) - 2)
     grid = np.maximum(grid_bar(series), _growth(runs)[::steps][: series[-1].size])
@@ -125,7 +125,7 @@ def _growth(runs: Runs) -> Array:
     return np.maximum(overtaking, GROWTH * (finest - middle))
 
 
-def _overtaking(middle: Evolution, finest: Evolution) -> float:
+def _overtaking(middle: TransientResult, finest: TransientResult) -> float:
     """Return by how much the spike of the steady film may overtake its largest pressure [Pa]."""
     now, before, highest = spike(finest.start), spike(middle.start), finest.history.pressure_max[0]
     reach = (now + GROWTH * max(now - before, 0.0)) * finest.start.scales.hertz_pressure

@@ -2,8 +2,8 @@
 
 from typing import Protocol
 
-from tehl.evolution import StepReport
 from tehl.result import CycleReport
+from tehl.transient_result import StepReport
 
 
 class Monitor(Protocol):
@@ -19,7 +19,7 @@ class Monitor(Protocol):
 
 
 class StepMonitor(Monitor, Protocol):
-    """What a run in time reports to."""
+    """What a transient run reports to."""
 
     def step(self, report: StepReport) -> None:
         """Take the report of one step of time."""

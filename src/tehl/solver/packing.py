@@ -1,4 +1,4 @@
-"""A snapshot of a run in time as plain arrays, and back: what a checkpoint holds."""
+"""A snapshot of a transient run as plain arrays, and back: what a checkpoint holds."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import fields
@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tehl.errors import InputError
-from tehl.evolution import History
 from tehl.result import Cost
 from tehl.solver.record import Record
 from tehl.solver.snapshot import Snapshot
+from tehl.transient_result import History
 
 Arrays = Mapping[str, NDArray[Any]]
 

@@ -1,13 +1,13 @@
-"""What is noted of a run in time, step by step, and how it becomes arrays in SI."""
+"""What is noted of a transient run, step by step, and how it becomes arrays in SI."""
 
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from tehl.evolution import Frames, History, Profiles
 from tehl.scaling import Scales
 from tehl.solver.film_numbers import film_summary
 from tehl.solver.level import Level
+from tehl.transient_result import Frames, History, Profiles
 from tehl.typing import Array
 
 Heights = tuple[Array, Array]
@@ -29,7 +29,7 @@ class Moment:
 class Record:
     """Numbers, profiles and fields of the steps so far.
 
-    ``rows`` has, per step, the columns of `tehl.evolution.History` in scaled units; ``profiles``
+    ``rows`` has, per step, the columns of `tehl.transient_result.History`, scaled; ``profiles``
     pressure, film and both heights along y = 0; ``frames`` pressure, film and height at the steps
     of ``frame_steps``.
     """

@@ -1,4 +1,4 @@
-"""The state of a run in time: what it needs to go on, and what it has cost so far."""
+"""The state of a transient run: what it needs to go on, and what it has cost so far."""
 
 import time
 from dataclasses import dataclass, replace

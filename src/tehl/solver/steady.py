@@ -108,7 +108,7 @@ def solve(
     options = options or Options()
     if problem.transient is not None:
         raise InputError(
-            "the case has a [transient] table: tehl.march follows it in time (the command "
+            "the case has a [transient] table: solve it with tehl.solve_transient (the command "
             "tehl solve does so by itself)"
         )
     check_memory(options, problem)

@@ -1,4 +1,4 @@
-"""Runs in time: from the steady film, step by step, to the end of the question."""
+"""Transient runs: from the steady film, step by step, to the end of the question."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -7,7 +7,6 @@ import numpy as np
 
 from tehl.duration import number_of_steps
 from tehl.errors import ConvergenceError, InputError
-from tehl.evolution import Evolution, StepReport
 from tehl.memory import check_memory
 from tehl.operators.energy import stress_unit
 from tehl.operators.heights import MovingHeights
@@ -25,7 +24,7 @@ from tehl.solver.snapshot import Clock, Snapshot
 from tehl.solver.steady import Attempt, finest_grid, solve_attempt
 from tehl.solver.stepper import Settled, StepError, Stepper
 from tehl.solver.thermal import FilmCoupling
-from tehl.solver.time_verdict import (
+from tehl.solver.transient_verdict import (
     check_load,
     check_places,
     check_stride,
@@ -35,6 +34,7 @@ from tehl.solver.time_verdict import (
 )
 from tehl.solver.warmup import warm_up
 from tehl.transient import Transient
+from tehl.transient_result import StepReport, TransientResult
 from tehl.typing import Array
 
 SETTINGS, COUPLED_SETTINGS = (FAST, ROUGH, CAREFUL), (BROAD, ROBUST, CAREFUL)
@@ -44,14 +44,14 @@ START_TOLERANCE = 1e-7
 """Tolerance of the steady film at the beginning."""
 
 
-def march(
+def solve_transient(
     problem: ContactProblem,
     options: Options | None = None,
     *,
     monitor: StepMonitor = SILENT,
     resume: Snapshot | None = None,
     keep: Callable[[Snapshot], None] | None = None,
-) -> Evolution:
+) -> TransientResult:
     """Follow a contact in time.
 
     Parameters
@@ -69,8 +69,8 @@ def march(
 
     Returns
     -------
-    Evolution
-        The film in time; its ``status`` says whether it came to the end.
+    TransientResult
+        The transient film; its ``status`` says whether it came to the end.
 
     Raises
     ------
@@ -88,11 +88,11 @@ def march(
     run = Run(problem, options, transient, monitor)
     if resume is not None:
         run.recall(resume)
-    return run.evolution(run.go(monitor, keep))
+    return run.result(run.go(monitor, keep))
 
 
 class Run:
-    """A run in time: its steady beginning, its stepper, and the record of what has happened."""
+    """A transient run: its steady beginning, its stepper, and the record of what has happened."""
 
     def __init__(
         self,
@@ -246,13 +246,13 @@ class Run:
         if not fitting:
             raise InputError(f"the checkpoint has other steps than the case, or is not whole{ANEW}")
 
-    def evolution(self, status: Status) -> Evolution:
+    def result(self, status: Status) -> TransientResult:
         """Return the answer."""
         begun = self.start.status
         if status.converged and begun.is_vague:
             status = replace(status, message=f"At time zero: {begun.message}", hint=begun.hint)
         full = (self.level.grid.ny, self.level.grid.nx)
-        return Evolution(
+        return TransientResult(
             start=self.start,
             history=self.record.history(self.scales),
             profiles=self.record.lines(self.scales),

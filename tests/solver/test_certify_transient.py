@@ -1,4 +1,4 @@
-"""Runs in time with error bars: what they hold, and what is told where there are none."""
+"""Transient runs with error bars: what they hold, and what is told where there are none."""
 
 import re
 import sys
@@ -8,22 +8,22 @@ from functools import cache
 import numpy as np
 import pytest
 
-from tehl import InputError, certify_march, march
+from tehl import InputError, certify_transient, solve_transient
 from tehl.errors import ConvergenceError
-from tehl.evolution import Evolution
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import Status
 from tehl.scaling import scales
 from tehl.solver.history_bars import estimates, grid_bar, history_bars
-from tests.fixtures_evolution import make_evolution
+from tehl.transient_result import TransientResult
 from tests.fixtures_result import make_result
+from tests.fixtures_transient import make_transient
 from tests.reference import DOMAIN, moes_contact
 from tests.solver.test_transient_heat import hot
 
 M, L = 10.0, 5.0
 FILMS = ("film_minimum", "film_central_least", "film_central_largest")
-MODULE = "tehl.solver.certify_in_time"
+MODULE = "tehl.solver.certify_transient"
 
 
 def passing(load: float = M, *, wavelength: float = 0.0, **transient: object) -> ContactProblem:
@@ -44,13 +44,13 @@ def options(points: int) -> Options:
 
 
 @cache
-def certified(points: int = 129) -> Evolution:
-    return certify_march(passing(), options(points))
+def certified(points: int = 129) -> TransientResult:
+    return certify_transient(passing(), options(points))
 
 
 @pytest.mark.parametrize("points", [65, 129])
 def test_the_run_on_a_twice_finer_grid_lies_in_the_bars(points):
-    run, finer = certified(points), march(passing(), options(2 * points - 1))
+    run, finer = certified(points), solve_transient(passing(), options(2 * points - 1))
     told = finer.history
     extremes = {
         "film_minimum": told.film_minimum.min(),
@@ -83,7 +83,7 @@ def test_three_grids_show_the_order_and_narrow_the_bar():
     assert len(run.bars.time) == (len(run.history.time) - 1) // 4 + 1
     assert (run.bars.film_central < 0.03 * run.history.film_central.mean()).all()
     assert run.frames.film.shape[0] == 3
-    assert run.cost.cpu_seconds > march(passing(), options(65)).cost.cpu_seconds
+    assert run.cost.cpu_seconds > solve_transient(passing(), options(65)).cost.cpu_seconds
 
 
 def test_two_grids_give_the_whole_change():
@@ -99,7 +99,7 @@ def test_two_grids_give_the_whole_change():
 
 
 def test_a_quarter_that_is_refused_is_left_out_and_named():
-    run = certify_march(passing(wavelength=0.7), options(129))
+    run = certify_transient(passing(wavelength=0.7), options(129))
     assert run.status.converged
     assert "33 x 33 refused, as the shortest wave" in run.status.message
     assert all(len(run.uncertainty[name].values) == 2 for name in FILMS)
@@ -113,7 +113,7 @@ REFUSED = [
 
 @pytest.mark.parametrize(("case", "points", "words"), REFUSED)
 def test_without_half_the_intervals_the_run_is_kept_and_told_why(case, points, words):
-    run = certify_march(case, options(points))
+    run = certify_transient(case, options(points))
     assert run.status.cause == "not_certified"
     assert not run.status.converged
     assert re.search(words, run.status.message)
@@ -124,15 +124,15 @@ def test_without_half_the_intervals_the_run_is_kept_and_told_why(case, points, w
 
 def test_a_grid_that_cannot_be_halved_is_refused_before_any_work():
     with pytest.raises(InputError, match="65 nodes or more"):
-        certify_march(passing(), options(33))
+        certify_transient(passing(), options(33))
 
 
-class Marched:
+class Replayed:
     """Stands for the runs: finest, half, larger domain, quarter; notes what it was asked."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, *outcomes: object) -> None:
         self.outcomes, self.asked = list(outcomes), []
-        monkeypatch.setattr(sys.modules[MODULE], "march", self)
+        monkeypatch.setattr(sys.modules[MODULE], "solve_transient", self)
 
     def __call__(self, problem, asked, *, monitor):
         del monitor
@@ -147,48 +147,48 @@ STALLED = Status(kind="stalled", cause="step_not_settled", message="it did not s
 
 
 def test_a_finest_run_without_an_end_is_returned_as_it_is(monkeypatch):
-    run = replace(make_evolution(), status=STALLED)
-    marched = Marched(monkeypatch, run)
-    assert certify_march(passing(), options(129)) is run
-    assert len(marched.asked) == 1
+    run = replace(make_transient(), status=STALLED)
+    replayed = Replayed(monkeypatch, run)
+    assert certify_transient(passing(), options(129)) is run
+    assert len(replayed.asked) == 1
 
 
 def test_the_other_runs_have_the_stride_and_keep_no_fields(monkeypatch):
-    marched = Marched(monkeypatch, *[every(step) for step in (1, 2, 2, 4)])
-    certify_march(passing(stride=2), options(129))
-    assert [points for points, _ in marched.asked] == [129, (65, 65), 129, (33, 33)]
-    assert [asked.frames for _, asked in marched.asked] == [3, 0, 0, 0]
-    assert {asked.stride for _, asked in marched.asked} == {2}
+    replayed = Replayed(monkeypatch, *[every(step) for step in (1, 2, 2, 4)])
+    certify_transient(passing(stride=2), options(129))
+    assert [points for points, _ in replayed.asked] == [129, (65, 65), 129, (33, 33)]
+    assert [asked.frames for _, asked in replayed.asked] == [3, 0, 0, 0]
+    assert {asked.stride for _, asked in replayed.asked} == {2}
 
 
 def test_a_larger_domain_that_fails_leaves_no_bar(monkeypatch):
-    Marched(monkeypatch, every(1), every(2), replace(every(2), status=STALLED))
-    run = certify_march(passing(), options(129))
+    Replayed(monkeypatch, every(1), every(2), replace(every(2), status=STALLED))
+    run = certify_transient(passing(), options(129))
     assert run.status.cause == "not_certified"
     assert "larger domain failed (129 x 129 stalled: step not settled)" in run.status.message
-    assert run.cost.cpu_seconds == pytest.approx(3 * make_evolution().cost.cpu_seconds)
+    assert run.cost.cpu_seconds == pytest.approx(3 * make_transient().cost.cpu_seconds)
 
 
 def test_a_quarter_that_fails_is_left_out(monkeypatch):
     stalled = Status(kind="stalled", cause="stalled", message="stalled")
     error = ConvergenceError("no", replace(make_result(33), status=stalled))
-    Marched(monkeypatch, every(1), every(2), every(2), error)
-    run = certify_march(passing(), options(129))
+    Replayed(monkeypatch, every(1), every(2), every(2), error)
+    run = certify_transient(passing(), options(129))
     assert run.status.converged
     assert "33 x 33 at time zero stalled" in run.status.message
     assert len(run.uncertainty["film_minimum"].values) == 2
 
 
 def test_bars_that_say_nothing_are_a_grid_too_coarse(monkeypatch):
-    Marched(monkeypatch, every(1), every(2, error=0.6), every(2), every(4))
-    run = certify_march(passing(), options(129))
+    Replayed(monkeypatch, every(1), every(2, error=0.6), every(2), every(4))
+    run = certify_transient(passing(), options(129))
     assert run.status.cause == "grid_too_coarse"
     assert run.uncertainty["film_minimum"].uncertainty > 0.5 * run.uncertainty["film_minimum"].value
 
 
-def every(step: int, *, error: float = 0.0, steps: int = 57) -> Evolution:
+def every(step: int, *, error: float = 0.0, steps: int = 57) -> TransientResult:
     """A run whose film and pressure grow to the end, with every so many of ``steps`` steps."""
-    whole = make_evolution()
+    whole = make_transient()
     count = -(-steps // step) + 1
     time = step * whole.time_step * np.arange(count)
     growth = 1.0 + error + 0.01 * time / whole.time_step
@@ -235,7 +235,7 @@ def test_a_pressure_that_grows_without_order_may_grow_on():
     assert (bars >= 2 * 0.01e9 * (1 - 1e-9)).all()
 
 
-def with_spike(run: Evolution, height: float) -> Evolution:
+def with_spike(run: TransientResult, height: float) -> TransientResult:
     """Give the steady beginning a spike of so many Hertz pressures, below the largest pressure."""
     start = run.start
     pressure = np.where(start.scaled.x > 0.5, 0.0, start.scaled.pressure)
@@ -286,8 +286,8 @@ def test_a_change_through_zero_leaves_a_bar():
 
 
 def test_a_heated_film_that_slides_has_bars_for_temperature_and_traction():
-    run = certify_march(hot(1.0), options(129))
-    finer = march(hot(1.0), options(257)).history
+    run = certify_transient(hot(1.0), options(129))
+    finer = solve_transient(hot(1.0), options(257)).history
     rise, traction = run.uncertainty["film_rise_max"], run.uncertainty["traction_extreme"]
     assert abs(finer.temperature_rise.max() - rise.value) <= rise.uncertainty
     assert traction.value < 0

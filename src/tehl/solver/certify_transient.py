@@ -1,26 +1,26 @@
-"""A run in time with error bars: grids and steps that double together, and a larger domain."""
+"""A transient run with error bars: grids and steps that double together, and a larger domain."""
 
 import math
 from dataclasses import dataclass, replace
 
 from tehl.errors import ConvergenceError, InputError
-from tehl.evolution import Evolution
-from tehl.options import Options, can_be_halved, check_certifiable_in_time
+from tehl.options import Options, can_be_halved, check_certifiable_transient
 from tehl.problem import ContactProblem
 from tehl.result import Cost, Status
 from tehl.solver.certify import halved, nodes_of, widened
 from tehl.solver.history_bars import estimates, history_bars
 from tehl.solver.monitor import SILENT, StepMonitor
-from tehl.solver.transient import march
+from tehl.solver.transient import solve_transient
 from tehl.solver.verdict import LARGEST_BAR, not_certified, too_coarse
+from tehl.transient_result import TransientResult
 
 JUDGED = ("film_minimum", "film_central_least", "pressure_max")
 """What must be known well enough, else the grid is too coarse; temperatures need not be."""
 
 
-def certify_march(
+def certify_transient(
     problem: ContactProblem, options: Options | None = None, *, monitor: StepMonitor = SILENT
-) -> Evolution:
+) -> TransientResult:
     """Follow a contact in time on three grids and on a larger domain; return it with error bars.
 
     The coarser grids have a half and a quarter of the intervals. Their stride is the same, so that
@@ -38,7 +38,7 @@ def certify_march(
 
     Returns
     -------
-    Evolution
+    TransientResult
         That of the finest grid, with ``uncertainty`` and ``bars`` filled. If it did not come to its
         end, or no error bar follows from the other runs, ``status`` says so and they are not
         filled. A run on a quarter of the intervals that is refused or has no end is left out.
@@ -51,10 +51,10 @@ def certify_march(
         When the question cannot be followed in time, or the grid cannot be halved.
     """
     options = options or Options()
-    check_certifiable_in_time(options)
+    check_certifiable_transient(options)
     monitor.message(f"certify: {nodes_of(options)} nodes, as asked")
     # first, as only this run tells whether the question can be answered at all
-    finest = march(problem, options, monitor=monitor)
+    finest = solve_transient(problem, options, monitor=monitor)
     if not finest.status.converged:
         return finest
     runs = _Runs(problem=_without_frames(problem), monitor=monitor)
@@ -84,7 +84,7 @@ class _Other:
     """A run beside the finest; ``run`` is None when nothing follows from it."""
 
     ending: str
-    run: Evolution | None = None
+    run: TransientResult | None = None
     cost: Cost | None = None
 
 
@@ -113,7 +113,7 @@ class _Runs:
     def _try(self, options: Options) -> _Other:
         name = nodes_of(options)
         try:
-            run = march(self.problem, options, monitor=self.monitor)
+            run = solve_transient(self.problem, options, monitor=self.monitor)
         except InputError as error:
             return _Other(ending=f"{name} refused, as {error}")
         except ConvergenceError as error:
@@ -130,14 +130,14 @@ def _without_frames(problem: ContactProblem) -> ContactProblem:
     return problem.model_copy(update={"transient": bare})
 
 
-def _refused(finest: Evolution, what: str, others: tuple[_Other, ...]) -> Evolution:
+def _refused(finest: TransientResult, what: str, others: tuple[_Other, ...]) -> TransientResult:
     """Return the finest run without error bars, and why it has none: the last of the others."""
     status = not_certified(finest.start, f"{what} failed ({others[-1].ending}).")
     cost = _sum((finest.cost, *(other.cost for other in others)))
     return replace(finest, status=status, cost=cost)
 
 
-def _told(finest: Evolution, coarse: _Other, middle: _Other, wide: _Other) -> Status:
+def _told(finest: TransientResult, coarse: _Other, middle: _Other, wide: _Other) -> Status:
     """Return the status that tells how each run ended, and what that does to the bars."""
     last = f"{nodes_of(finest.start.options)} {finest.status.outcome}"
     endings = f"{coarse.ending}, {middle.ending}, {last}"
@@ -155,7 +155,7 @@ def _sum(costs: tuple[Cost | None, ...]) -> Cost:
     )
 
 
-def _judged(run: Evolution) -> Evolution:
+def _judged(run: TransientResult) -> TransientResult:
     """Call the grid too coarse where a bar says no more than that."""
     bars = [run.uncertainty[name] for name in JUDGED]
     # a film extrapolated to nothing is as unknown as it gets

@@ -1,4 +1,4 @@
-"""Pictures of a run in time: its numbers, what happens along y = 0, and a few moments."""
+"""Pictures of a transient run: its numbers, what happens along y = 0, and a few moments."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -13,11 +13,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
-from tehl.evolution import Evolution
 from tehl.io.atomic import check_folder
 from tehl.plots.frame import GIGA, MICRO, WINDOW, banner, outline, span_part
 from tehl.plots.save import save_picture
-from tehl.post.evolution import envelope, speed_of
+from tehl.post.transient import envelope, speed_of
+from tehl.transient_result import TransientResult
 
 if TYPE_CHECKING:
     from tehl.typing import Array
@@ -32,7 +32,7 @@ _MILLISECOND = 2e-3
 """Duration from which on times are in milliseconds [s]."""
 
 
-def evolution_figure(run: Evolution, size: tuple[float, float]) -> Figure:
+def transient_figure(run: TransientResult, size: tuple[float, float]) -> Figure:
     """Return an empty figure under the title of ``run``, with a banner if it has no end."""
     problem, groups = run.start.problem, run.start.groups
     title = fill(problem.title, 80).replace("$", r"\$") or "Lubricated point contact"
@@ -47,17 +47,17 @@ def evolution_figure(run: Evolution, size: tuple[float, float]) -> Figure:
     return picture
 
 
-def time_unit(run: Evolution) -> tuple[float, str]:
+def time_unit(run: TransientResult) -> tuple[float, str]:
     """Return the factor from seconds to the unit in which times read well, and that unit."""
     return (1e3, "ms") if run.history.time[-1] >= _MILLISECOND else (1e6, "µs")
 
 
-def history(run: Evolution) -> Figure:
+def history(run: TransientResult) -> Figure:
     """Draw film, largest pressure, traction, and rise and load if they change, over the time.
 
     Parameters
     ----------
-    run : Evolution
+    run : TransientResult
         What to draw.
 
     Returns
@@ -76,7 +76,7 @@ def history(run: Evolution) -> Figure:
         curves.append(("largest rise [K]", told.temperature_rise, "#8a1c7c"))
     if np.ptp(told.load) > 0:
         curves.append(("load [N]", told.load * run.start.problem.load, "0.2"))
-    picture = evolution_figure(run, (7.0, 1.8 + 1.6 * (1 + len(curves))))
+    picture = transient_figure(run, (7.0, 1.8 + 1.6 * (1 + len(curves))))
     panels = picture.subplots(1 + len(curves), sharex=True)
     panels[0].plot(time, told.film_central * MICRO, color=FILM, label="central")
     panels[0].plot(time, told.film_minimum * MICRO, color=FILM, ls="--", label="smallest")
@@ -95,7 +95,7 @@ def history(run: Evolution) -> Figure:
     return picture
 
 
-def _bands(panels: Sequence[Axes], run: Evolution, factor: float) -> None:
+def _bands(panels: Sequence[Axes], run: TransientResult, factor: float) -> None:
     """Fill the error bars around film and largest pressure of a certified run."""
     bars, told = run.bars, run.history
     if bars is None:
@@ -111,7 +111,7 @@ def _bands(panels: Sequence[Axes], run: Evolution, factor: float) -> None:
         axes.fill_between(time, low, high, color=colour, alpha=0.25, lw=0)
 
 
-def _distance_axis(axes: Axes, run: Evolution, factor: float) -> None:
+def _distance_axis(axes: Axes, run: TransientResult, factor: float) -> None:
     """Add an axis above with the way of the mean motion in half-widths."""
     scale = run.start.scales.speed / run.start.scales.half_width_x / factor
     there_and_back: Any = (lambda time: time * scale, lambda distance: distance / scale)
@@ -120,7 +120,7 @@ def _distance_axis(axes: Axes, run: Evolution, factor: float) -> None:
     other.tick_params(labelsize=8)
 
 
-def space_time(run: Evolution) -> Figure:
+def space_time(run: TransientResult) -> Figure:
     """Draw film and pressure along y = 0 over place and time.
 
     Lines show how points of both surfaces move on (and the oil between them, dotted, at the mean
@@ -128,14 +128,14 @@ def space_time(run: Evolution) -> Figure:
 
     Parameters
     ----------
-    run : Evolution
+    run : TransientResult
         What to draw.
     """
     factor, unit = time_unit(run)
     part = _window(run)
     x, time = run.x[part] * MICRO, run.history.time * factor
     film, pressure = run.profiles.film[:, part] * MICRO, run.profiles.pressure[:, part] * GIGA
-    picture = evolution_figure(run, (8.4, 4.8))
+    picture = transient_figure(run, (8.4, 4.8))
     left, right = picture.subplots(1, 2, sharey=True)
     contact = np.abs(run.start.scaled.x[part]) < 0.8
     low, high = float(film.min()), float(film[:, contact].max())
@@ -155,7 +155,7 @@ def space_time(run: Evolution) -> Figure:
     return picture
 
 
-def _paths(axes: Axes, run: Evolution, factor: float) -> None:
+def _paths(axes: Axes, run: TransientResult, factor: float) -> None:
     """Draw the paths of points that are in the middle together, when a feature is there."""
     motion, time = run.start.problem.motion, run.history.time
     middle = _time_of_passing(run)
@@ -179,7 +179,7 @@ def _paths(axes: Axes, run: Evolution, factor: float) -> None:
         )
 
 
-def _time_of_passing(run: Evolution) -> float:
+def _time_of_passing(run: TransientResult) -> float:
     """Return when the first single feature is in the middle, half of the run without one [s]."""
     problem = run.start.problem
     for number, surface in ((1, problem.surface_1), (2, problem.surface_2)):
@@ -189,12 +189,12 @@ def _time_of_passing(run: Evolution) -> float:
     return 0.5 * float(run.history.time[-1])
 
 
-def moments(run: Evolution, times: Sequence[float] | None = None) -> Figure:
+def moments(run: TransientResult, times: Sequence[float] | None = None) -> Figure:
     """Draw pressure and film along y = 0 at several moments, above the rough body as it is.
 
     Parameters
     ----------
-    run : Evolution
+    run : TransientResult
         What to draw.
     times : sequence of float
         Moments [s], the nearest steps are taken; if left out, four while the roughness passes.
@@ -207,7 +207,7 @@ def moments(run: Evolution, times: Sequence[float] | None = None) -> Figure:
     """
     steps = moments_of(run) if times is None else [_step(run, time) for time in times]
     factor, unit = time_unit(run)
-    picture = evolution_figure(run, (7.2, 0.9 + 1.75 * len(steps)))
+    picture = transient_figure(run, (7.2, 0.9 + 1.75 * len(steps)))
     panels = picture.subplots(len(steps), 1, sharex=True, squeeze=False)[:, 0]
     lines = CentreLines(run)
     for axes, step in zip(panels, steps, strict=True):
@@ -218,7 +218,7 @@ def moments(run: Evolution, times: Sequence[float] | None = None) -> Figure:
     return picture
 
 
-def moments_of(run: Evolution, count: int = MOMENTS) -> list[int]:
+def moments_of(run: TransientResult, count: int = MOMENTS) -> list[int]:
     """Return steps at even distances, while there is roughness inside the contact."""
     inside = np.abs(run.start.scaled.x) <= 1.0
     heights = (run.profiles.height_1 + run.profiles.height_2)[:, inside]
@@ -229,14 +229,14 @@ def moments_of(run: Evolution, count: int = MOMENTS) -> list[int]:
     return sorted({round(float(step)) for step in every})
 
 
-def _step(run: Evolution, time: float) -> int:
+def _step(run: TransientResult, time: float) -> int:
     return int(np.argmin(np.abs(run.history.time - time)))
 
 
 class CentreLines:
     """Draws pressure, film and the rough body along y = 0, at any step on the same scales."""
 
-    def __init__(self, run: Evolution) -> None:
+    def __init__(self, run: TransientResult) -> None:
         self.run, self.part = run, _window(run)
         self.x = run.x[self.part] * MICRO
         lines = run.profiles
@@ -299,21 +299,21 @@ def _only_positive(axes: Axes, largest: float) -> None:
     axes.tick_params(labelsize=8)
 
 
-def _window(run: Evolution) -> slice:
+def _window(run: TransientResult) -> slice:
     return span_part(run.start.scaled.x, *WINDOW[0])
 
 
-def passage(run: Evolution) -> Figure:
+def passage(run: TransientResult) -> Figure:
     """Draw between which limits film and pressure along y = 0 have been.
 
     Parameters
     ----------
-    run : Evolution
+    run : TransientResult
         What to draw.
     """
     found, part = envelope(run), _window(run)
     x = found.x[part] * MICRO
-    picture = evolution_figure(run, (7.0, 6.2))
+    picture = transient_figure(run, (7.0, 6.2))
     upper, lower = picture.subplots(2, 1, sharex=True)
     bands: tuple[tuple[Axes, Array, Array, Array, str, float], ...] = (
         (
@@ -341,21 +341,21 @@ def passage(run: Evolution) -> Figure:
     return picture
 
 
-PICTURES: dict[str, Callable[[Evolution], Figure]] = {
+PICTURES: dict[str, Callable[[TransientResult], Figure]] = {
     "history": history,
     "space_time": space_time,
     "moments": moments,
     "passage": passage,
 }
-"""Pictures of a run in time, by name."""
+"""Pictures of a transient run, by name."""
 
 
-def save_evolution(run: Evolution, folder: str | Path, *, dpi: int = 150) -> list[Path]:
-    """Draw all pictures of a run in time as PNG files; each appears whole or not at all.
+def save_transient(run: TransientResult, folder: str | Path, *, dpi: int = 150) -> list[Path]:
+    """Draw all pictures of a transient run as PNG files; each appears whole or not at all.
 
     Parameters
     ----------
-    run : Evolution
+    run : TransientResult
         What to draw.
     folder : str or Path
         Where; made if it is missing.

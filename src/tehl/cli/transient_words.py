@@ -1,4 +1,4 @@
-"""A run in time told to people, in a few lines."""
+"""A transient run told to people, in a few lines."""
 
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
@@ -8,18 +8,18 @@ from tehl.report.explain import UNTITLED, length_unit
 from tehl.report.time import seconds_in_words
 
 if TYPE_CHECKING:
-    from tehl.evolution import Evolution
+    from tehl.transient_result import TransientResult
     from tehl.typing import Array
 
 
-def as_text(run: "Evolution") -> str:
+def as_text(run: "TransientResult") -> str:
     """Return the numbers of ``run`` that people ask for first, one per line."""
     title = run.start.problem.title or UNTITLED
     lines = (f"  {name:<17}{value}" for name, value in _rows(run))
     return "\n".join([f"{title} - {run.status.outcome}", *lines])
 
 
-def _rows(run: "Evolution") -> Iterator[tuple[str, str]]:
+def _rows(run: "TransientResult") -> Iterator[tuple[str, str]]:
     history, start = run.history, run.start
     groups, x, y = start.groups, start.scaled.x, start.scaled.y
     thinnest, highest = int(history.film_minimum.argmin()), int(history.pressure_max.argmax())
@@ -78,24 +78,24 @@ def _rows(run: "Evolution") -> Iterator[tuple[str, str]]:
         yield "hint", str(run.status.hint)
 
 
-def _bar(run: "Evolution", name: str, unit: float, word: str) -> str:
+def _bar(run: "TransientResult", name: str, unit: float, word: str) -> str:
     """Return a certified extreme, nothing where the run is not certified."""
     found = run.uncertainty.get(name)
     return "" if found is None else f"   {certified_in_words(found, unit, word)}"
 
 
-def _film_bar(run: "Evolution", name: str) -> str:
+def _film_bar(run: "TransientResult", name: str) -> str:
     found = run.uncertainty.get(name)
     return "" if found is None else _bar(run, name, *length_unit(found.value))
 
 
-def _central_bars(run: "Evolution") -> Iterator[tuple[str, str]]:
+def _central_bars(run: "TransientResult") -> Iterator[tuple[str, str]]:
     for name, what in (("film_central_least", "least"), ("film_central_largest", "largest")):
         if bar := _film_bar(run, name):
             yield "", f"{what}{bar}"
 
 
-def _certified(run: "Evolution") -> Iterator[tuple[str, str]]:
+def _certified(run: "TransientResult") -> Iterator[tuple[str, str]]:
     """Yield what is known of the whole history, and from which grids."""
     bars = run.bars
     if bars is not None:
@@ -131,7 +131,7 @@ def _clean(value: float) -> str:
     return "0" if abs(value) < 1e-12 else f"{value:.4g}"
 
 
-def _effort(run: "Evolution") -> str:
+def _effort(run: "TransientResult") -> str:
     cycles = run.history.cycles[1:]
     mean, most = (float(cycles.mean()), int(cycles.max())) if cycles.size else (0.0, 0)
     return f"{mean:.3g} cycles per step, {most} at most, {run.cost.cpu_seconds:.3g} s"

@@ -140,8 +140,8 @@ class HistoryBars:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Evolution:
-    """A film in time.
+class TransientResult:
+    """A transient film.
 
     Attributes
     ----------
@@ -191,18 +191,18 @@ class Evolution:
 
     def save(self, path: str | Path) -> None:
         """Write the run to a NetCDF-4 file; nothing is left behind when writing fails."""
-        from tehl.io.evolution_store import save  # noqa: PLC0415 (a method users expect here)
+        from tehl.io.transient_store import save  # noqa: PLC0415 (a method users expect here)
 
         save(self, path)
 
     def to_xarray(self) -> "xr.Dataset":
         """Return the run as a dataset with dimensions time, frame, y and x, units and names."""
-        from tehl.io.evolution_store import to_dataset  # noqa: PLC0415
+        from tehl.io.transient_store import to_dataset  # noqa: PLC0415
 
         return to_dataset(self)
 
     def summary(self) -> dict[str, Any]:
         """Return the JSON summary of the run, as ``tehl solve --json`` prints it."""
-        from tehl.io.evolution_summary import evolution_summary  # noqa: PLC0415
+        from tehl.io.transient_summary import transient_summary  # noqa: PLC0415
 
-        return evolution_summary(self)
+        return transient_summary(self)

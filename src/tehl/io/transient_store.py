@@ -1,25 +1,25 @@
-"""Runs in time on disk (NetCDF-4) and as datasets, there and back without loss."""
+"""Transient runs on disk (NetCDF-4) and as datasets, there and back without loss."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tehl.errors import FileFormatError
-from tehl.evolution import Evolution
 from tehl.io import content, store
-from tehl.io.evolution_content import COORDINATES, KIND, attributes, rebuild, variables
+from tehl.io.transient_content import COORDINATES, KIND, attributes, rebuild, variables
 from tehl.result import Result
+from tehl.transient_result import TransientResult
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
-def to_dataset(run: Evolution) -> "xr.Dataset":
+def to_dataset(run: TransientResult) -> "xr.Dataset":
     """Return ``run`` as a dataset.
 
     Parameters
     ----------
-    run : Evolution
-        What a run in time returned or :func:`load` read.
+    run : TransientResult
+        What a transient run returned or :func:`load` read.
 
     Returns
     -------
@@ -31,12 +31,12 @@ def to_dataset(run: Evolution) -> "xr.Dataset":
     return store.dataset(variables(run), attributes(run), COORDINATES)
 
 
-def save(run: Evolution, path: str | Path) -> None:
+def save(run: TransientResult, path: str | Path) -> None:
     """Write ``run`` to a NetCDF-4 file; whole, or not at all.
 
     Parameters
     ----------
-    run : Evolution
+    run : TransientResult
         The run, to its end or not; the file says which.
     path : str or Path
         The file; an older one is replaced.
@@ -49,8 +49,8 @@ def save(run: Evolution, path: str | Path) -> None:
     store.write(path, variables(run), attributes(run))
 
 
-def load(path: str | Path) -> Result | Evolution:
-    """Read what a solve or a run in time has stored; nothing is compiled for it.
+def load(path: str | Path) -> Result | TransientResult:
+    """Read what a solve or a transient run has stored; nothing is compiled for it.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def load(path: str | Path) -> Result | Evolution:
 
     Returns
     -------
-    Result or Evolution
+    Result or TransientResult
         As the file says; equal to the one saved, its fields bit by bit.
 
     Raises
@@ -82,8 +82,8 @@ def load(path: str | Path) -> Result | Evolution:
     return store.rebuilt(source, arrays, attrs, content.rebuild)
 
 
-def load_evolution(path: str | Path) -> Evolution:
-    """Read a run in time.
+def load_transient(path: str | Path) -> TransientResult:
+    """Read a transient run.
 
     Parameters
     ----------
@@ -98,6 +98,6 @@ def load_evolution(path: str | Path) -> Evolution:
         If it is no file of this package, or that of a steady film.
     """
     run = load(path)
-    if isinstance(run, Evolution):
+    if isinstance(run, TransientResult):
         return run
     raise FileFormatError(f"{path} holds a steady film: there is nothing that moves in time")

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 import typer
 
 if TYPE_CHECKING:
-    from tehl.evolution import Evolution
     from tehl.io.checkpoint import Fingerprint
     from tehl.options import Options
     from tehl.problem import ContactProblem
     from tehl.result import Result
     from tehl.solver.snapshot import Snapshot
+    from tehl.transient_result import TransientResult
 
 CHECKPOINT_SECONDS = 30.0
 """CPU time between two checkpoints [s]."""
@@ -23,7 +23,7 @@ CHECKPOINT_SECONDS = 30.0
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Wishes:
-    """What is asked of a run in time: where to, what to show, whether to go on or to certify."""
+    """What is asked of a transient run: where to, what to show, whether to go on or to certify."""
 
     target: Path
     plot: Path | None
@@ -36,7 +36,7 @@ class Wishes:
 def refuse(
     problem: "ContactProblem", *, steady_only: dict[str, bool], in_time_only: dict[str, bool]
 ) -> None:
-    """Refuse options that belong to steady cases only, or to runs in time only.
+    """Refuse options that belong to steady cases only, or to transient runs only.
 
     Raises
     ------
@@ -50,7 +50,7 @@ def refuse(
         if given and in_time:
             raise InputError(f"{option} is for steady cases: leave it out, or [transient]")
         if given:
-            raise InputError(f"{option} is for runs in time, and the case has no [transient]")
+            raise InputError(f"{option} is for transient runs, and the case has no [transient]")
 
 
 class Keeper:
@@ -94,7 +94,7 @@ class Keeper:
         return True
 
 
-def solve_in_time(problem: "ContactProblem", options: "Options", wishes: Wishes) -> None:
+def solve_transient_case(problem: "ContactProblem", options: "Options", wishes: Wishes) -> None:
     """Follow a case in time, store the run and tell of it.
 
     Parameters
@@ -126,7 +126,7 @@ def solve_in_time(problem: "ContactProblem", options: "Options", wishes: Wishes)
         if wishes.certify:
             run = _certify(problem, options, quiet=wishes.quiet)
         else:
-            run = _march(problem, options, Keeper(path, owner), snapshot, quiet=wishes.quiet)
+            run = _solve(problem, options, Keeper(path, owner), snapshot, quiet=wishes.quiet)
     except ConvergenceError as error:
         _tell_beginning(error.result, str(error), wishes)
         raise typer.Exit(1) from None
@@ -166,14 +166,14 @@ def _begin(path: Path, owner: "Fingerprint", *, resume: bool) -> "Snapshot | Non
     return snapshot
 
 
-def _march(
+def _solve(
     problem: "ContactProblem",
     options: "Options",
     keeper: Keeper,
     snapshot: "Snapshot | None",
     *,
     quiet: bool,
-) -> "Evolution":
+) -> "TransientResult":
     """Return the run; what ends it from outside leaves a checkpoint."""
     from tehl import solver
     from tehl.cli.step_progress import step_progress
@@ -183,17 +183,19 @@ def _march(
         _kept(keeper),
         step_progress(scales(problem), quiet=quiet, coupled=problem.is_coupled) as monitor,
     ):
-        return solver.march(problem, options, monitor=monitor, resume=snapshot, keep=keeper)
+        return solver.solve_transient(
+            problem, options, monitor=monitor, resume=snapshot, keep=keeper
+        )
 
 
-def _certify(problem: "ContactProblem", options: "Options", *, quiet: bool) -> "Evolution":
+def _certify(problem: "ContactProblem", options: "Options", *, quiet: bool) -> "TransientResult":
     """Return the run with error bars; nothing is kept on the way."""
     from tehl import solver
     from tehl.cli.step_progress import step_progress
     from tehl.scaling import scales
 
     with step_progress(scales(problem), quiet=quiet, coupled=problem.is_coupled) as monitor:
-        return solver.certify_march(problem, options, monitor=monitor)
+        return solver.certify_transient(problem, options, monitor=monitor)
 
 
 @contextmanager
@@ -211,12 +213,12 @@ def _kept(keeper: Keeper) -> Iterator[None]:
         raise
 
 
-def _tell(run: "Evolution", wishes: Wishes) -> None:
+def _tell(run: "TransientResult", wishes: Wishes) -> None:
     """Print the numbers, draw what is wished, and exit with 1 if the run has no end."""
     import json
 
-    from tehl.cli.evolution_words import as_text
     from tehl.cli.failure import explain_failure
+    from tehl.cli.transient_words import as_text
 
     if wishes.as_json:
         typer.echo(json.dumps(run.summary(), allow_nan=False))
@@ -249,9 +251,11 @@ def _tell_beginning(start: "Result", failure: str, wishes: Wishes) -> None:
     explain_failure(start.status, failure)
 
 
-def draw(run: "Evolution", folder: Path, *, told: Callable[[Path], None], dpi: int = 150) -> None:
-    """Draw all pictures of a run in time into ``folder``, and tell of each."""
-    from tehl.plots.evolution import save_evolution
+def draw(
+    run: "TransientResult", folder: Path, *, told: Callable[[Path], None], dpi: int = 150
+) -> None:
+    """Draw all pictures of a transient run into ``folder``, and tell of each."""
+    from tehl.plots.transient import save_transient
 
-    for path in save_evolution(run, folder, dpi=dpi):
+    for path in save_transient(run, folder, dpi=dpi):
         told(path)

@@ -1,4 +1,4 @@
-"""Runs in time on disk: there and back without loss, and what is told of other files."""
+"""Transient runs on disk: there and back without loss, and what is told of other files."""
 
 import json
 from dataclasses import asdict, fields, replace
@@ -11,15 +11,15 @@ import pytest
 import tehl
 from tehl.errors import FileFormatError
 from tehl.io import store
-from tehl.io.evolution_store import load_evolution
+from tehl.io.transient_store import load_transient
 from tehl.result import Status
-from tests.fixtures_evolution import make_certified, make_evolution
+from tests.fixtures_transient import make_certified, make_transient
 
 
 @pytest.fixture
 def stored(tmp_path):
     path = tmp_path / "run.nc"
-    make_evolution().save(path)
+    make_transient().save(path)
     return path
 
 
@@ -29,8 +29,8 @@ def same(one, other) -> None:
 
 
 def test_a_run_comes_back_bit_by_bit(stored):
-    run, again = make_evolution(), tehl.load(stored)
-    assert isinstance(again, tehl.Evolution)
+    run, again = make_transient(), tehl.load(stored)
+    assert isinstance(again, tehl.TransientResult)
     for name in ("history", "profiles", "frames"):
         same(getattr(run, name), getattr(again, name))
     assert again.frames.film.dtype == np.float32
@@ -41,7 +41,7 @@ def test_a_run_comes_back_bit_by_bit(stored):
 
 
 def test_a_run_without_fields_comes_back(tmp_path):
-    run = make_evolution(frames=False)
+    run = make_transient(frames=False)
     run.save(tmp_path / "run.nc")
     again = tehl.load(tmp_path / "run.nc")
     assert again.frames.film.shape == (0, 33, 33)
@@ -58,9 +58,9 @@ def test_error_bars_come_back_bit_by_bit(tmp_path):
 
 def test_a_run_without_error_bars_and_one_of_an_older_version_come_back(stored):
     with h5py.File(stored, "a") as file:
-        state = json.loads(file.attrs["evolution"])
+        state = json.loads(file.attrs["transient"])
         assert state.pop("uncertainty") == {}
-        file.attrs["evolution"] = json.dumps(state)
+        file.attrs["transient"] = json.dumps(state)
     again = tehl.load(stored)
     assert again.uncertainty == {}
     assert again.bars is None
@@ -89,12 +89,12 @@ def test_the_summary_mirrors_certified_values():
     assert set(found) == {"film", "pressure", "temperature", "traction", "history"}
     assert found["history"]["h_min_m"] == run.bars.film_minimum.max()
     assert found["history"]["instants"] == 16
-    assert "uncertainty" not in make_evolution().summary()
+    assert "uncertainty" not in make_transient().summary()
 
 
 def test_a_failed_run_says_so_in_its_file(tmp_path):
     status = Status(kind="stalled", cause="step_not_settled", message="it did not settle")
-    replace(make_evolution(), status=status).save(tmp_path / "run.nc")
+    replace(make_transient(), status=status).save(tmp_path / "run.nc")
     with h5netcdf.File(tmp_path / "run.nc") as file:
         assert file.attrs["converged"] == 0
     assert tehl.load(tmp_path / "run.nc").status == status
@@ -104,16 +104,16 @@ def test_a_steady_film_is_loaded_as_one(tmp_path, result):
     result.save(tmp_path / "film.nc")
     assert isinstance(tehl.load(tmp_path / "film.nc"), tehl.Result)
     with pytest.raises(FileFormatError, match="holds a steady film"):
-        load_evolution(tmp_path / "film.nc")
+        load_transient(tmp_path / "film.nc")
 
 
 def test_a_reader_of_steady_films_refuses_a_run_in_time(stored):
-    with pytest.raises(FileFormatError, match="holds a film in time"):
+    with pytest.raises(FileFormatError, match="holds a transient film"):
         store.load(stored)
 
 
 def test_the_dataset_has_units_and_dimensions():
-    data = make_evolution().to_xarray()
+    data = make_transient().to_xarray()
     assert data.film_centre_line.dims == ("time", "x")
     assert data.film_frames.dims == ("frame", "y", "x")
     assert data.p_max.attrs["units"] == "Pa"
@@ -129,7 +129,7 @@ def test_the_dataset_has_units_and_dimensions():
         (lambda file: file["h_min"].write_direct(np.full(61, np.nan)), "h_min holds values"),
         (lambda file: file.attrs.update(tehl_kind="movie"), "of the kind 'movie'"),
         (lambda file: file["frame_step"].write_direct(np.full(4, 99)), "frame_step names steps"),
-        (lambda file: file.attrs.update(evolution="{"), "not a valid tehl result"),
+        (lambda file: file.attrs.update(transient="{"), "not a valid tehl result"),
     ],
 )
 def test_what_does_not_fit_is_told_in_one_sentence(stored, change, words):
@@ -147,7 +147,7 @@ def test_a_truncated_file_is_told(stored):
 
 
 def test_the_summary_tells_extremes_with_their_times():
-    run = make_evolution()
+    run = make_transient()
     found = run.summary()
     least = found["film"]["h_min_m"]
     assert least["value"] == run.history.film_minimum.min()

@@ -1,13 +1,13 @@
-"""A run in time made without the solver: a dent or a wave passes a horseshoe film."""
+"""A transient run made without the solver: a dent or a wave passes a horseshoe film."""
 
 from dataclasses import replace
 from functools import cache
 
 import numpy as np
 
-from tehl.evolution import Evolution, Frames, History, HistoryBars, Profiles
 from tehl.problem import ContactProblem
 from tehl.result import Cost, Estimate, Provenance, Status
+from tehl.transient_result import Frames, History, HistoryBars, Profiles, TransientResult
 from tests.fixtures_result import CASE, make_result
 
 STEPS = 60
@@ -15,7 +15,7 @@ DENT = {"type": "bump", "amplitude": -2e-7, "radius": 5e-5, "x": -2e-4}
 
 
 @cache
-def make_evolution(*, points: int = 33, slide: float = 0.5, frames: bool = True) -> Evolution:
+def make_transient(*, points: int = 33, slide: float = 0.5, frames: bool = True) -> TransientResult:
     """Return a run in which a dent of surface 1 passes; the film follows it in full."""
     contact = CASE["contact"] | {"slide_roll_ratio": slide}
     surface = CASE["surface_1"] | {"roughness": DENT}
@@ -23,9 +23,9 @@ def make_evolution(*, points: int = 33, slide: float = 0.5, frames: bool = True)
     return passing(case, points=points, frames=frames)
 
 
-def make_certified() -> Evolution:
-    """Return the run of :func:`make_evolution` with error bars at every fourth step."""
-    run = make_evolution()
+def make_certified() -> TransientResult:
+    """Return the run of :func:`make_transient` with error bars at every fourth step."""
+    run = make_transient()
     told, every = run.history, slice(None, None, 4)
     extremes = {
         "film_minimum": told.film_minimum.min(),
@@ -65,7 +65,7 @@ def _estimate(value: float) -> Estimate:
 
 def passing(
     case: dict, *, points: int = 33, frames: bool = True, flattened: float = 0.0
-) -> Evolution:
+) -> TransientResult:
     """Return a run in which the roughness of surface 1 passes; its film lacks a part of it."""
     problem = ContactProblem.model_validate(case)
     start = replace(make_result(points), problem=problem)
@@ -87,7 +87,7 @@ def passing(
     pressure = start.pressure * (1 + 1e5 * heights)
     row = points // 2
     kept = np.linspace(0, STEPS, 4).astype(np.int64) if frames else np.zeros(0, np.int64)
-    return Evolution(
+    return TransientResult(
         start=start,
         history=History(
             time=time,

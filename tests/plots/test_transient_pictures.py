@@ -1,4 +1,4 @@
-"""Pictures of a run in time: what they show, on which axes, and files that appear whole."""
+"""Pictures of a transient run: what they show, on which axes, and files that appear whole."""
 
 from dataclasses import replace
 
@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 
 from tehl.errors import InputError
-from tehl.plots import evolution
+from tehl.plots import transient
 from tehl.plots.animation import Movie, animate
 from tehl.result import Status
-from tests.fixtures_evolution import make_certified, make_evolution
+from tests.fixtures_transient import make_certified, make_transient
 
 
 def test_the_history_shows_the_numbers_of_each_step():
-    run = make_evolution()
-    axes = evolution.history(run).axes
+    run = make_transient()
+    axes = transient.history(run).axes
     assert len(axes) == 3
     np.testing.assert_allclose(axes[0].lines[0].get_ydata(), run.history.film_central * 1e6)
     np.testing.assert_allclose(axes[1].lines[0].get_ydata(), run.history.pressure_max * 1e-9)
@@ -22,25 +22,25 @@ def test_the_history_shows_the_numbers_of_each_step():
 
 def test_error_bars_are_bands_around_the_curves():
     run = make_certified()
-    panels = evolution.history(run).axes
+    panels = transient.history(run).axes
     assert [len(axes.collections) for axes in panels] == [2, 1, 0]
     corners = panels[1].collections[0].get_paths()[0].vertices[:, 1]
     highest = ((run.history.pressure_max[::4] + run.bars.pressure_max) * 1e-9).max()
     assert corners.max() == pytest.approx(highest)
-    assert not evolution.history(make_evolution()).axes[0].collections
+    assert not transient.history(make_transient()).axes[0].collections
 
 
 def test_a_load_that_changes_has_its_panel():
-    run = make_evolution()
+    run = make_transient()
     load = np.linspace(1.0, 1.2, len(run.history.time))
     changed = replace(run, history=replace(run.history, load=load))
-    drawn = evolution.history(changed).axes[3].lines[0].get_ydata()
+    drawn = transient.history(changed).axes[3].lines[0].get_ydata()
     assert drawn[-1] == pytest.approx(1.2 * 80.0)
 
 
 def test_paths_of_both_surfaces_meet_where_the_dent_is_in_the_middle():
-    run = make_evolution()
-    axes = evolution.space_time(run).axes[0]
+    run = make_transient()
+    axes = transient.space_time(run).axes[0]
     lines = {line.get_label(): line for line in axes.lines}
     assert set(lines) == {"surface 1", "surface 2", "mean"}
     passing = 2e-4 / run.start.problem.motion.speed_1 * 1e6
@@ -50,30 +50,30 @@ def test_paths_of_both_surfaces_meet_where_the_dent_is_in_the_middle():
 
 
 def test_moments_are_those_in_which_the_dent_is_inside():
-    run = make_evolution()
-    steps = evolution.moments_of(run)
+    run = make_transient()
+    steps = transient.moments_of(run)
     assert len(steps) == 4
     place = -2e-4 + run.start.problem.motion.speed_1 * run.history.time[steps]
     assert np.abs(place).max() < 1.2 * run.start.scales.half_width_x
-    picture = evolution.moments(run, times=[0.0, float(run.history.time[-1])])
+    picture = transient.moments(run, times=[0.0, float(run.history.time[-1])])
     assert len(picture.axes) == 4  # pressure has an axis of its own in each
 
 
 def test_the_body_lies_below_the_film():
-    run = make_evolution()
-    lines = evolution.CentreLines(run)
+    run = make_transient()
+    lines = transient.CentreLines(run)
     for step in (0, 20, 40):
         assert (lines.ground + lines.heights[step]).max() < 0.0
         assert (lines.ground + lines.heights[step]).min() >= lines.bottom
 
 
 def test_a_run_without_an_end_says_so():
-    run = replace(make_evolution(), status=Status(kind="stalled", cause="step_not_settled"))
-    assert "NOT AN ANSWER" in evolution.passage(run).get_supxlabel()
+    run = replace(make_transient(), status=Status(kind="stalled", cause="step_not_settled"))
+    assert "NOT AN ANSWER" in transient.passage(run).get_supxlabel()
 
 
 def test_all_pictures_are_files(tmp_path):
-    paths = evolution.save_evolution(make_evolution(), tmp_path / "new", dpi=30)
+    paths = transient.save_transient(make_transient(), tmp_path / "new", dpi=30)
     assert [path.name for path in paths] == [
         "history.png",
         "space_time.png",
@@ -84,7 +84,7 @@ def test_all_pictures_are_files(tmp_path):
 
 
 def test_a_movie_shows_the_kept_fields():
-    run = make_evolution()
+    run = make_transient()
     movie = Movie(run, dpi=30)
     assert list(movie.steps) == list(run.frames.step)
     movie.show(2)
@@ -97,9 +97,9 @@ def test_a_movie_shows_the_kept_fields():
 
 
 def test_a_run_without_fields_shows_its_line_at_all_steps():
-    assert len(Movie(make_evolution(frames=False), dpi=30).steps) == 61
+    assert len(Movie(make_transient(frames=False), dpi=30).steps) == 61
 
 
 def test_a_speed_that_cannot_be_is_refused(tmp_path):
     with pytest.raises(InputError, match="per_second = 0 must be positive"):
-        animate(make_evolution(), tmp_path / "film.gif", per_second=0)
+        animate(make_transient(), tmp_path / "film.gif", per_second=0)

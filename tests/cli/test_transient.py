@@ -17,14 +17,14 @@ from rich.live import Live
 
 import tehl
 from tehl import cli
-from tehl.cli import evolution
+from tehl.cli import transient
 from tehl.cli.step_progress import LiveSteps, StepLines, step_progress
 from tehl.errors import ConvergenceError
-from tehl.evolution import StepReport
 from tehl.io.checkpoint import Fingerprint, read_checkpoint
 from tehl.plots import animation
-from tests.fixtures_evolution import make_certified, make_evolution
+from tehl.transient_result import StepReport
 from tests.fixtures_result import make_result
+from tests.fixtures_transient import make_certified, make_transient
 
 CASE = """
 title = "A wave passes"
@@ -48,7 +48,7 @@ duration = "0.8 ms"
 points = 65
 domain = { x = [-4.5, 1.5], y = [-3.0, 3.0] }
 """
-KEEPING = "import sys, tehl.cli.evolution as e; e.CHECKPOINT_SECONDS = 0; import tehl.cli as c;"
+KEEPING = "import sys, tehl.cli.transient as e; e.CHECKPOINT_SECONDS = 0; import tehl.cli as c;"
 TEHL = (sys.executable, "-c", f"{KEEPING} sys.argv = ['tehl', *sys.argv[1:]]; c.main()")
 
 
@@ -75,7 +75,7 @@ def names(folder) -> list[str]:
     return sorted(path.name for path in folder.iterdir())
 
 
-def equal(one: tehl.Evolution, other: tehl.Evolution) -> bool:
+def equal(one: tehl.TransientResult, other: tehl.TransientResult) -> bool:
     pairs = (
         (one.profiles.pressure, other.profiles.pressure),
         (one.profiles.film, other.profiles.film),
@@ -164,24 +164,24 @@ def test_a_broken_checkpoint_is_refused(folder, run):
 
 
 @pytest.fixture
-def marched(monkeypatch):
-    """Let runs in time have their outcome at once."""
+def solved(monkeypatch):
+    """Let transient runs have their outcome at once."""
 
     def give(outcome):
-        def march(problem, options, *, monitor, resume, keep):
+        def solve_transient(problem, options, *, monitor, resume, keep):
             del options, monitor, resume, keep
             if isinstance(outcome, Exception):
                 raise outcome
             assert problem.transient is not None
             return outcome
 
-        monkeypatch.setattr("tehl.solver.march", march)
+        monkeypatch.setattr("tehl.solver.solve_transient", solve_transient)
 
     return give
 
 
-def test_the_numbers_of_a_run_are_told(folder, run, marched):
-    marched(make_evolution())
+def test_the_numbers_of_a_run_are_told(folder, run, solved):
+    solved(make_transient())
     answer = run("solve", "wave.toml", "--plot", "pictures")
     assert answer.code == 0
     assert "60 steps" in answer.out
@@ -194,17 +194,17 @@ def test_the_numbers_of_a_run_are_told(folder, run, marched):
     ]
 
 
-def test_json_prints_one_object(folder, run, marched):
-    marched(make_evolution())
+def test_json_prints_one_object(folder, run, solved):
+    solved(make_transient())
     answer = run("solve", "wave.toml", "--json")
     assert json.loads(answer.out)["time"]["steps"] == 60
 
 
-def test_a_run_without_an_end_is_stored_marked_and_exits_with_1(folder, run, marched):
+def test_a_run_without_an_end_is_stored_marked_and_exits_with_1(folder, run, solved):
     status = tehl.result.Status(
         kind="not_converged", cause="asperity_contact", message="they touch", hint="go faster"
     )
-    marched(replace(make_evolution(), status=status))
+    solved(replace(make_transient(), status=status))
     answer = run("solve", "wave.toml")
     assert answer.code == 1
     assert "they touch" in answer.err
@@ -212,8 +212,8 @@ def test_a_run_without_an_end_is_stored_marked_and_exits_with_1(folder, run, mar
     assert tehl.load("wave.nc").status == status
 
 
-def test_a_beginning_that_is_not_reached_is_stored_and_exits_with_1(folder, run, marched):
-    marched(ConvergenceError("the steady film at time zero was not reached", make_result(33)))
+def test_a_beginning_that_is_not_reached_is_stored_and_exits_with_1(folder, run, solved):
+    solved(ConvergenceError("the steady film at time zero was not reached", make_result(33)))
     answer = run("solve", "wave.toml")
     assert answer.code == 1
     assert isinstance(tehl.load("wave.nc"), tehl.Result)
@@ -251,7 +251,7 @@ def certified(monkeypatch):
     """Let certified runs have their outcome at once."""
 
     def give(outcome):
-        monkeypatch.setattr("tehl.solver.certify_march", lambda *_, **__: outcome)
+        monkeypatch.setattr("tehl.solver.certify_transient", lambda *_, **__: outcome)
 
     return give
 
@@ -280,7 +280,7 @@ def test_a_run_that_has_no_error_bar_exits_with_1_and_is_kept(folder, run, certi
     status = tehl.result.Status(
         kind="not_converged", cause="not_certified", message="no bar follows", hint="more points"
     )
-    certified(replace(make_evolution(), status=status))
+    certified(replace(make_transient(), status=status))
     answer = run("solve", "wave.toml", "--certify")
     assert answer.code == 1
     assert "no bar follows" in answer.err
@@ -319,7 +319,7 @@ def test_a_steady_case_has_nothing_to_resume(folder, run):
 
 
 def test_a_full_disk_does_not_end_a_run(folder, capsys, monkeypatch):
-    keeper = evolution.Keeper(folder / "nowhere" / "x", Fingerprint("0.1.0", "abc"))
+    keeper = transient.Keeper(folder / "nowhere" / "x", Fingerprint("0.1.0", "abc"))
     keeper.last = object()
     monkeypatch.setattr("tehl.solver.packing.pack", lambda _: {})
     assert not keeper.write()
@@ -374,7 +374,7 @@ def test_progress_on_a_terminal_shows_the_last_steps(capsys):
 
 
 def test_a_moving_picture_of_a_stored_run(folder, run):
-    make_evolution().save("run.nc")
+    make_transient().save("run.nc")
     assert run("animate", "run.nc", "--dpi", "30").code == 0
     assert (folder / "run.gif").read_bytes()[:6] == b"GIF89a"
     assert run("animate", "run.nc", "-o", "run.html", "--dpi", "30").code == 0
@@ -398,7 +398,7 @@ def test_a_steady_film_does_not_move(folder, run):
 
 
 def test_plot_draws_what_the_file_holds(folder, run):
-    make_evolution().save("run.nc")
+    make_transient().save("run.nc")
     answer = run("plot", "run.nc")
     assert answer.code == 0
     assert "space_time.png" in names(folder / "run_plots")

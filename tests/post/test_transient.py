@@ -1,4 +1,4 @@
-"""Reading a run in time: profiles that move along, envelopes, what is left of a passing wave."""
+"""Reading a transient run: profiles that move along, envelopes, what is left of a passing wave."""
 
 import math
 from dataclasses import replace
@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from tehl.errors import InputError
-from tehl.evolution import Evolution
-from tehl.post.evolution import (
+from tehl.post.transient import (
     amplitude_reduction,
     envelope,
     moving_profiles,
@@ -16,8 +15,9 @@ from tehl.post.evolution import (
     passing_wave,
 )
 from tehl.roughness import Wave
-from tests.fixtures_evolution import make_evolution, passing
+from tehl.transient_result import TransientResult
 from tests.fixtures_result import CASE, make_result
+from tests.fixtures_transient import make_transient, passing
 
 LENGTH = 3e-4
 
@@ -29,7 +29,7 @@ def wave_case(**changes: float) -> dict:
 
 
 def test_a_dent_stands_still_for_somebody_on_its_surface():
-    seen = moving_profiles(make_evolution(points=65), 1, reach=1e-4)
+    seen = moving_profiles(make_transient(points=65), 1, reach=1e-4)
     whole = ~np.isnan(seen.height).any(axis=1)
     assert whole.sum() > 10
     depth = seen.height[whole].min(axis=1)
@@ -40,17 +40,17 @@ def test_a_dent_stands_still_for_somebody_on_its_surface():
 
 
 def test_somebody_on_the_other_surface_sees_it_pass():
-    run = make_evolution(points=65)
+    run = make_transient(points=65)
     seen = moving_profiles(run, 2, start=-2e-4)
     assert seen.place[0] == -2e-4
     assert seen.place[-1] == pytest.approx(-2e-4 + 0.75 * 1.5 * run.history.time[-1])
     assert (seen.height[~np.isnan(seen.height)] == 0.0).all()
 
 
-def carrying(*features: dict) -> Evolution:
+def carrying(*features: dict) -> TransientResult:
     """Return a run whose surface 1 carries them."""
     case = CASE | {"surface_1": CASE["surface_1"] | {"roughness": list(features)}}
-    run = make_evolution()
+    run = make_transient()
     start = make_result(case=case | {"transient": {}})
     return replace(run, start=replace(run.start, problem=start.problem))
 
@@ -73,7 +73,7 @@ def test_a_feature_beside_the_line_of_the_profiles_is_refused():
 
 
 def test_what_lies_outside_the_domain_is_not_a_number():
-    assert np.isnan(moving_profiles(make_evolution(), 1).film[-1]).any()
+    assert np.isnan(moving_profiles(make_transient(), 1).film[-1]).any()
 
 
 @pytest.mark.parametrize(
@@ -87,11 +87,11 @@ def test_what_lies_outside_the_domain_is_not_a_number():
 )
 def test_what_cannot_be_is_told(words, call):
     with pytest.raises(InputError, match=words):
-        call(make_evolution())
+        call(make_transient())
 
 
 def test_the_envelope_holds_all_profiles():
-    run = make_evolution()
+    run = make_transient()
     found = envelope(run)
     assert (found.film_least <= run.profiles.film).all()
     assert (found.film_largest >= run.profiles.film).all()
@@ -133,7 +133,7 @@ def test_the_published_curve():
 
 
 def test_nabla_takes_the_shorter_wavelength():
-    run, result = make_evolution(), make_result(33)
+    run, result = make_transient(), make_result(33)
     wave = Wave(amplitude=1e-8, wavelength=LENGTH).components[0]
     expected = LENGTH / result.scales.half_width_x * math.sqrt(result.groups.M / result.groups.L)
     assert nabla_of(run, wave) == pytest.approx(expected)

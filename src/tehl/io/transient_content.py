@@ -1,4 +1,4 @@
-"""What the file of a run in time holds: its steady beginning, its history, profiles and fields."""
+"""What a file of a transient run holds: steady beginning, history, profiles and fields."""
 
 import json
 from collections.abc import Iterator
@@ -9,14 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import TypeAdapter
 
-from tehl.evolution import Evolution, Frames, History, HistoryBars, Profiles
 from tehl.io import content
 from tehl.io.content import Reader, Variable, json_text
-from tehl.io.evolution_summary import evolution_summary
+from tehl.io.transient_summary import transient_summary
 from tehl.result import Cost, Estimate, Provenance, Status
+from tehl.transient_result import Frames, History, HistoryBars, Profiles, TransientResult
 
-KIND = "evolution"
-"""Kind of a file that holds a film in time."""
+KIND = "transient"
+"""Kind of a file that holds a transient film."""
 COORDINATES = ("x", "y", "X", "Y", "zeta", "cycle", "time", "frame_time", "bar_time")
 
 _HISTORY = (
@@ -49,12 +49,12 @@ _BARS = (
     ("film_minimum", "h_min_bar", "m", "half width of the error bar of h_min"),
     ("pressure_max", "p_max_bar", "Pa", "half width of the error bar of p_max"),
 )
-"""Fields of the evolution, names in the file, units and what they are."""
+"""Fields of `TransientResult`, names in the file, units and what they are."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class RunState:
-    """The scalars of a run in time besides those of its beginning."""
+    """The scalars of a transient run besides those of its beginning."""
 
     time_step: float
     status: Status
@@ -66,7 +66,7 @@ class RunState:
 _SCALARS = tuple(one.name for one in fields(RunState))
 
 
-def variables(run: Evolution) -> Iterator[Variable]:
+def variables(run: TransientResult) -> Iterator[Variable]:
     """Yield the arrays of ``run``; those of the steady beginning have their usual names."""
     for one in content.variables(run.start):
         text = one.long_name
@@ -83,7 +83,7 @@ def variables(run: Evolution) -> Iterator[Variable]:
     yield from _bar_variables(run)
 
 
-def _frame_variables(run: Evolution) -> Iterator[Variable]:
+def _frame_variables(run: TransientResult) -> Iterator[Variable]:
     """Yield the fields at chosen instants, nothing where none were kept."""
     steps = run.frames.step
     if not steps.size:
@@ -99,7 +99,7 @@ def _frame_variables(run: Evolution) -> Iterator[Variable]:
         yield Variable(name=name, dims=("frame", "y", "x"), data=data, units=units, long_name=text)
 
 
-def _bar_variables(run: Evolution) -> Iterator[Variable]:
+def _bar_variables(run: TransientResult) -> Iterator[Variable]:
     """Yield the error bars along the history, nothing where the run has none."""
     if run.bars is None:
         return
@@ -108,19 +108,19 @@ def _bar_variables(run: Evolution) -> Iterator[Variable]:
         yield Variable(name=name, dims=("bar",), data=data, units=units, long_name=text)
 
 
-def attributes(run: Evolution) -> dict[str, str | int]:
+def attributes(run: TransientResult) -> dict[str, str | int]:
     """Return the attributes of ``run``: those of its beginning, but its own end and summary."""
     state = RunState(**{name: getattr(run, name) for name in _SCALARS})
     return content.attributes(run.start) | {
         "tehl_kind": KIND,
         "status": run.status.kind,
         "converged": int(run.status.converged),
-        "summary": json_text(evolution_summary(run)),
-        "evolution": json_text(TypeAdapter(RunState).dump_python(state)),
+        "summary": json_text(transient_summary(run)),
+        "transient": json_text(TypeAdapter(RunState).dump_python(state)),
     }
 
 
-def rebuild(arrays: dict[str, NDArray[Any]], attrs: dict[str, Any]) -> Evolution:
+def rebuild(arrays: dict[str, NDArray[Any]], attrs: dict[str, Any]) -> TransientResult:
     """Return the run that ``arrays`` and ``attrs`` describe.
 
     Parameters
@@ -135,12 +135,12 @@ def rebuild(arrays: dict[str, NDArray[Any]], attrs: dict[str, Any]) -> Evolution
     KeyError, ValueError
         If something is missing or does not fit; the message names it.
     """
-    state = TypeAdapter(RunState).validate_python(json.loads(attrs["evolution"]))
+    state = TypeAdapter(RunState).validate_python(json.loads(attrs["transient"]))
     start = content.rebuild(arrays, attrs)
     reader = Reader(arrays=arrays, finite=state.status.converged)
     ny, nx = start.scaled.pressure.shape
     count = reader.axis("time").size
-    return Evolution(
+    return TransientResult(
         start=start,
         history=_history(reader, count),
         profiles=Profiles(**{f: reader.field(name, (count, nx)) for f, name, *_ in _PROFILES}),

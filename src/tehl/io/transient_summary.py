@@ -1,16 +1,16 @@
-"""The numbers of a run in time as one JSON object."""
+"""The numbers of a transient run as one JSON object."""
 
 from dataclasses import asdict
 from typing import Any
 
 import numpy as np
 
-from tehl.evolution import Evolution, HistoryBars
 from tehl.io.summary import plain, summary
+from tehl.transient_result import HistoryBars, TransientResult
 from tehl.typing import Array
 
 
-def evolution_summary(run: Evolution) -> dict[str, Any]:
+def transient_summary(run: TransientResult) -> dict[str, Any]:
     """Return the summary of ``run`` as JSON can hold it: null where a number is not finite.
 
     Keys that end in a unit (``_m``, ``_pa``, ``_k``, ``_s``) are SI, the others dimensionless.
@@ -20,12 +20,12 @@ def evolution_summary(run: Evolution) -> dict[str, Any]:
 
     Parameters
     ----------
-    run : Evolution
-        What a run in time returned or a file held.
+    run : TransientResult
+        What a transient run returned or a file held.
     """
     status, history = run.status, run.history
     content = {
-        "kind": "evolution",
+        "kind": "transient",
         "title": run.start.problem.title,
         "status": status.kind,
         "cause": status.cause,
@@ -50,7 +50,7 @@ def evolution_summary(run: Evolution) -> dict[str, Any]:
     return plain_content
 
 
-def _time(run: Evolution) -> dict[str, Any]:
+def _time(run: TransientResult) -> dict[str, Any]:
     return {
         "duration_s": float(run.history.time[-1]),
         "step_s": run.time_step,
@@ -64,7 +64,7 @@ def _extreme(values: Array, times: Array, find: Any) -> dict[str, float]:
     return {"value": float(values[place]), "time_s": float(times[place]), "start": float(values[0])}
 
 
-def _temperature(run: Evolution) -> dict[str, Any] | None:
+def _temperature(run: TransientResult) -> dict[str, Any] | None:
     """Return the largest rise, nothing for an isothermal run."""
     rise = run.history.temperature_rise
     if run.start.heat is None:
@@ -83,7 +83,7 @@ _MIRRORED = (
 """Names of estimates, and block and keys of the summary that they mirror."""
 
 
-def _uncertainty(run: Evolution) -> dict[str, Any]:
+def _uncertainty(run: TransientResult) -> dict[str, Any]:
     blocks: dict[str, Any] = {}
     for name, block, keys in _MIRRORED:
         if name not in run.uncertainty:
@@ -115,7 +115,7 @@ def _range(values: Array) -> dict[str, float]:
     }
 
 
-def _cycles(run: Evolution) -> dict[str, float]:
+def _cycles(run: TransientResult) -> dict[str, float]:
     cycles = run.history.cycles[1:]
     if not cycles.size:
         return {"per_step": 0.0, "most": 0.0, "total": 0.0}

@@ -1,4 +1,4 @@
-"""What a run in time is refused for before it begins, and how it is said that it ended early."""
+"""What a transient run is refused for before it begins, and how it is said that it ended early."""
 
 import math
 
