@@ -12,12 +12,12 @@ from collections.abc import Callable
 import numpy as np
 from scipy import fft
 
-from tehl.operators.flow import flow_table
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.scaling import ScaledProblem
-from tehl.solver.multigrid import Multigrid
-from tehl.solver.smoother import FAST, Setting
+from tehl.solver.fmg import FullMultigrid, Hierarchy
+from tehl.solver.ladder import Strategy
+from tehl.solver.relaxation import FAST, Relaxation
 from tehl.solver.steady import finest_grid
 
 FFT_REPEATS = 20
@@ -63,8 +63,11 @@ def fft_unit(points: int) -> float:
     return min(cpu_seconds(way, FFT_REPEATS) for way in ways)
 
 
-def multigrid(problem: ContactProblem, options: Options, setting: Setting = FAST) -> Multigrid:
+def multigrid(
+    problem: ContactProblem, options: Options, relaxation: Relaxation = FAST
+) -> FullMultigrid:
     """Return the hierarchy that `tehl.solve` would cycle on."""
     scaled = ScaledProblem.of(problem)
     grid = finest_grid(scaled, options)
-    return Multigrid(grid, scaled, flow_table(scaled), options, setting)
+    hierarchy = Hierarchy.on(grid, scaled, options, relaxation)
+    return FullMultigrid(hierarchy, Strategy(relaxation=relaxation))

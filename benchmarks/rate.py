@@ -9,9 +9,7 @@ from benchmarks.measure import multigrid
 from benchmarks.table import Table
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.solver.fas import Cycle, cycle
-from tehl.solver.monitor import SILENT
-from tehl.solver.multigrid import Multigrid
+from tehl.solver.fmg import FullMultigrid
 from tehl.typing import Array
 
 CASES = ((20, 10), (57.21, 10.52), (100, 12.04), (200, 10), (500, 10), (1000, 10))
@@ -22,15 +20,13 @@ MORE_CYCLES = 20
 RADIUS = 1.2
 
 
-def one_cycle(run: Multigrid) -> Array:
+def one_cycle(run: FullMultigrid) -> Array:
     """Run one cycle from the finest level; return the film inside r < 1.2."""
-    cycle(
-        run.levels, run.coarsest.step, Cycle.of(run.options, run.levels[0].grid, run.expected_film)
-    )
+    run.hierarchy.cycle(run.levels)
     return film_inside(run)
 
 
-def film_inside(run: Multigrid) -> Array:
+def film_inside(run: FullMultigrid) -> Array:
     """Return the film at the nodes with X^2 + Y^2 < 1.2^2."""
     run.finest.update()
     grid = run.finest.grid
@@ -45,7 +41,7 @@ def errors_by_cycle(problem: ContactProblem, points: int) -> list[float]:
     error is against the converged solution of the same grid.
     """
     run = multigrid(problem, Options(points=points, domain=DOMAIN, max_cycles=2))
-    run.solve(SILENT, patient=True)
+    run.solve(patient=True)
     films = [film_inside(run), *(one_cycle(run) for _ in range(CYCLES))]
     for _ in range(MORE_CYCLES):
         converged = one_cycle(run)

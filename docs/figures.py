@@ -16,8 +16,8 @@ from tehl.post.waviness import WaveResponse, wave_responses
 from tehl.roughness import Wave
 from tehl.scaling import ScaledProblem
 from tehl.solver.fas import Cycle, cycle
-from tehl.solver.level import Level
-from tehl.solver.smoother import FAST, LineSmoother
+from tehl.solver.level import Equations, Level
+from tehl.solver.relaxation import FAST, LineSmoother
 from tehl.solver.steady import finest_grid
 
 POINTS = 129
@@ -49,7 +49,7 @@ def level() -> Level:
     result = tehl.solve(case, options)
     scaled = ScaledProblem.of(case)
     grid = finest_grid(scaled, options)
-    here = Level(grid, scaled.groups, flow_table(scaled), options, FAST)
+    here = Level(Equations.on(grid, scaled.groups, flow_table(scaled), options), FAST)
     here.film.p[:] = result.scaled.pressure
     here.film.h[:] = result.scaled.film
     here.update_properties()
@@ -61,8 +61,8 @@ def regions() -> Figure:
     here = level()
     smoother = here.smoother
     assert isinstance(smoother, LineSmoother)
-    mark_dipoles(here.film, here.mesh, smoother.relaxation)
-    kind = np.where(here.film.p > 0, smoother.relaxation.kind + 1.0, 0.0)
+    mark_dipoles(here.film, here.mesh, smoother.workspace)
+    kind = np.where(here.film.p > 0, smoother.workspace.kind + 1.0, 0.0)
     figure = Figure(figsize=(5.0, 4.4), layout="constrained")
     axes = figure.add_subplot(xlabel="X", ylabel="Y")
     grid, colours = here.grid, ["#d9d9d9", "#4c78a8", "#e45756"]
@@ -83,8 +83,9 @@ def regions() -> Figure:
 
 def dipoles() -> Figure:
     """Draw how far a change of one node and a dipole reach."""
-    grid = finest_grid(problem(), tehl.Options(points=POINTS))
-    point, dipole = line_influence(influence_of(grid, ScaledProblem.of(problem()).groups))
+    scaled = ScaledProblem.of(problem())
+    grid = finest_grid(scaled, tehl.Options(points=POINTS))
+    point, dipole = line_influence(influence_of(grid, scaled.groups))
     figure = Figure(figsize=(5.4, 3.4), layout="constrained")
     axes = figure.add_subplot(
         xlabel="distance along the line [nodes]", ylabel="change of film / that at the node"

@@ -2,14 +2,14 @@
 
 from functools import cache
 
-from tehl.operators.flow import flow_table
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import Result
 from tehl.scaling import ScaledProblem
 from tehl.solver import solve
-from tehl.solver.multigrid import Multigrid
-from tehl.solver.smoother import FAST
+from tehl.solver.fmg import FullMultigrid, Hierarchy
+from tehl.solver.ladder import SMOOTH
+from tehl.solver.relaxation import FAST
 from tehl.solver.steady import finest_grid
 from tests.reference import DOMAIN, moes_contact
 
@@ -27,7 +27,8 @@ def film_of(load: float, speed: float, options: Options, radius_ratio: float = 1
     return solve(moes_contact(load, speed, radius_ratio=radius_ratio), options)
 
 
-def multigrid(problem: ContactProblem, options: Options) -> Multigrid:
+def multigrid(problem: ContactProblem, options: Options) -> FullMultigrid:
     """Return the hierarchy that `solve` would cycle on."""
     scaled = ScaledProblem.of(problem)
-    return Multigrid(finest_grid(scaled, options), scaled, flow_table(scaled), options, FAST)
+    grid = finest_grid(scaled, options)
+    return FullMultigrid(Hierarchy.on(grid, scaled, options, FAST), SMOOTH[0])

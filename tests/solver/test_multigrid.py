@@ -5,8 +5,6 @@ import pytest
 
 from tehl.options import Options
 from tehl.solver import solve
-from tehl.solver.fas import Cycle, cycle
-from tehl.solver.monitor import SILENT
 from tests.reference import DOMAIN, moes_contact
 from tests.solver.runs import film_of, multigrid, tight
 
@@ -17,18 +15,14 @@ LARGEST_RATE = {20.0: 0.25, 200.0: 0.3}
 def film_errors(load: float, points: int) -> list[float]:
     """RMS error of H in r < 1.2 after full multigrid and after each of five more cycles."""
     run = multigrid(moes_contact(load, 10.0), Options(points=points, domain=DOMAIN, max_cycles=2))
-    run.solve(SILENT, patient=True)
+    run.solve(patient=True)
     grid = run.finest.grid
     inside = grid.x[None, :] ** 2 + grid.y[:, None] ** 2 < 1.2**2
     films = []
     for _ in range(21):
         run.finest.update()
         films.append(run.finest.film.h[inside])
-        cycle(
-            run.levels,
-            run.coarsest.step,
-            Cycle.of(run.options, run.levels[0].grid, run.expected_film),
-        )
+        run.hierarchy.cycle(run.levels)
     return [float(np.sqrt(np.mean((film - films[-1]) ** 2))) for film in films[:6]]
 
 

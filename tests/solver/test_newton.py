@@ -13,19 +13,19 @@ from tehl.operators.flow import flow_table
 from tehl.operators.jacobian import interpolation, jacobian, stencil_of
 from tehl.result import Status
 from tehl.scaling import ScaledProblem
-from tehl.solver import steady
-from tehl.solver.level import Level
+from tehl.solver import fmg, steady
+from tehl.solver.continuation import MOST_STEPS, RAISED, raise_by_newton
+from tehl.solver.ladder import BETWEEN_ROUGH, Strategy
+from tehl.solver.level import Equations, Level
 from tehl.solver.newton import (
     ACCURACY,
     EXACT,
-    MOST_STEPS,
-    RAISED,
     Newton,
     Preconditioner,
     System,
     limited,
 )
-from tehl.solver.smoother import NEWTON, ROUGH, Setting
+from tehl.solver.relaxation import ROUGH
 from tehl.solver.state import DivergedError, state_of, take_state
 from tests.reference import DOMAIN, moes_contact
 from tests.solver.rough import wavy
@@ -38,11 +38,11 @@ def level(mirror: bool = True, points: int = POINTS) -> Level:
     problem = moes_contact(20.0, 10.0)
     grid = Grid(nx=points, ny=points, domain=DOMAIN, mirror=mirror)
     scaled = ScaledProblem.of(problem)
-    made = Level(grid, scaled.groups, flow_table(scaled), Options(deformation="fft"), ROUGH)
+    equations = Equations.on(grid, scaled.groups, flow_table(scaled), Options(deformation="fft"))
+    made = Level(equations, ROUGH)
     run = solve(problem, Options(points=points, domain=DOMAIN))
     made.pose_problem()
-    made.film.p[:] = run.scaled.pressure[-grid.shape[0] :]
-    made.rigid_approach = run.rigid_approach
+    made.set_state(run.scaled.pressure[-grid.shape[0] :], run.rigid_approach)
     made.update()
     return made
 
@@ -58,17 +58,14 @@ def test_jacobian_is_the_change_of_the_operator(mirror: bool) -> None:
         fine.film, fine.mesh, stencil_of(fine.grid, fine.mesh), *fine.conductance_slopes()
     )
     bent = np.empty(shape)
-    fine.deformation.deflect(change, bent)
+    fine.equations.deformation.deflect(change, bent)
     linear = (by_pressure @ change.ravel() + by_film @ (bent.ravel() + 0.3)).reshape(shape)
-    before, errors = fine.film.p.copy(), []
+    before, approach, errors = fine.film.p.copy(), fine.rigid_approach, []
     for step in (1e-4, 1e-5):
         sides = []
         for sign in (1.0, -1.0):
-            fine.film.p[:] = before + sign * step * change
-            fine.rigid_approach += sign * step * 0.3
-            fine.stale = True
+            fine.set_state(before + sign * step * change, approach + sign * step * 0.3)
             fine.update()
-            fine.rigid_approach -= sign * step * 0.3
             operator = np.empty(shape)
             reynolds.operator(fine.film, fine.mesh, operator)
             sides.append(operator)
@@ -91,8 +88,8 @@ def test_converges_quadratically_to_the_film_of_the_cycles() -> None:
     fine = level()
     newton = Newton(fine, Grid(nx=17, ny=17, domain=DOMAIN, mirror=True))
     central = fine.film.h[0, fine.grid.nx // 2]
-    fine.film.p[:] *= 1.0 + 0.05 * np.cos(3.0 * fine.grid.x)
-    fine.stale = True
+    disturbed = fine.film.p * (1.0 + 0.05 * np.cos(3.0 * fine.grid.x))
+    fine.set_state(disturbed, fine.rigid_approach)
     residuals = []
     for _ in range(7):
         newton.step()
@@ -106,8 +103,7 @@ def test_no_step_downhill_is_told() -> None:
     """A state that no step improves ends the level, and is left as it was."""
     fine = level()
     newton = Newton(fine, Grid(nx=17, ny=17, domain=DOMAIN, mirror=True))
-    fine.film.p[:] *= 1.05
-    fine.stale = True
+    fine.set_state(1.05 * fine.film.p, fine.rigid_approach)
     fine.update()
     before = state_of(fine)
     with pytest.raises(DivergedError):
@@ -121,8 +117,8 @@ def test_a_step_that_leads_nowhere_is_taken_again_from_exact_equations(
     """A rough solution of the linear equations may not lead downhill where a good one does."""
     fine, accuracies = level(), list[float]()
     newton = Newton(fine, Grid(nx=17, ny=17, domain=DOMAIN, mirror=True))
-    fine.film.p[:] *= 1.0 + 0.05 * np.cos(3.0 * fine.grid.x)
-    fine.stale = True
+    disturbed = fine.film.p * (1.0 + 0.05 * np.cos(3.0 * fine.grid.x))
+    fine.set_state(disturbed, fine.rigid_approach)
     fine.update()
     before, solve_system = fine.evaluate_residual(), System.solve
 
@@ -154,11 +150,10 @@ def test_single_nodes_do_not_hold_a_step_back() -> None:
 def test_no_residual_is_negative() -> None:
     """Where the film is far below zero the density makes the diagonal negative, not the norm."""
     fine = level()
-    fine.rigid_approach -= 50.0
-    fine.stale = True
+    fine.set_state(fine.film.p, fine.rigid_approach - 50.0)
     fine.update()
     diagonal = np.empty(fine.grid.shape)
-    reynolds.diagonal(fine.film, fine.mesh, fine.self_film, diagonal)
+    reynolds.diagonal(fine.film, fine.mesh, fine.equations.influence.self_film, diagonal)
     assert diagonal[:, 1:-1].min() < 0.0
     assert fine.evaluate_residual() > 0.0
 
@@ -171,9 +166,8 @@ def test_the_coarse_equations_are_not_singular_where_few_nodes_are_wet() -> None
     wet = np.zeros(fine.grid.shape, bool)
     wet[:, 1:middle] = fine.film.p[:, 1:middle] > 0.0
     wet[:-1, middle + 9] = True
-    fine.film.p[:] = np.where(wet, np.maximum(fine.film.p, 0.1), 0.0)
-    fine.rhs[:] = np.where(wet, 0.0, 1e3)  # nowhere else ought to be wet
-    fine.stale = True
+    fine.set_state(np.where(wet, np.maximum(fine.film.p, 0.1), 0.0), fine.rigid_approach)
+    fine.sources.reynolds[:] = np.where(wet, 0.0, 1e3)  # nowhere else ought to be wet
     fine.update()
     newton = Newton(fine, fine.grid.coarser())
     matrix = Preconditioner(System(newton)).coarse_matrix(System(newton))
@@ -184,21 +178,26 @@ def test_state_goes_back_and_forth() -> None:
     """Pressure and approach as one array."""
     fine = level()
     before = state_of(fine)
-    fine.film.p[:] = 0.0
-    fine.rigid_approach = 7.0
+    film = fine.film.h.copy()
+    fine.set_state(np.zeros_like(fine.film.p), 7.0)
+    fine.update()
     take_state(fine, before)
     np.testing.assert_allclose(state_of(fine), before, rtol=1e-15)
-    assert fine.stale
+    fine.update()
+    np.testing.assert_allclose(fine.film.h, film, atol=1e-14)
 
 
-@pytest.mark.parametrize("settings", [(ROUGH,), (NEWTON,)])
+NEWTON = BETWEEN_ROUGH[-1]
+
+
+@pytest.mark.parametrize("strategy", [BETWEEN_ROUGH[0], NEWTON], ids=["cycles", "newton"])
 def test_finds_the_film_of_the_cycles_between_waves(
-    settings: tuple[Setting, ...], monkeypatch: pytest.MonkeyPatch
+    strategy: Strategy, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A wave three times as high as the smooth film, by either method."""
-    monkeypatch.setattr(steady, "_settings", lambda *_, **__: [(one, False) for one in settings])
+    monkeypatch.setattr(steady, "ladder", lambda *_, **__: (strategy,))
     run = finished(wavy((57.21, 10.52), (0.4, 1.0, 0.0)), Options(points=65, domain=DOMAIN))
-    assert run.history[-1].smoother == settings[0].name
+    assert run.history[-1].smoother == strategy.name
     assert run.film_scaled.central == pytest.approx(0.4232, rel=5e-4)
     assert run.film_scaled.minimum == pytest.approx(0.0106, abs=2e-4)
 
@@ -207,21 +206,21 @@ def test_heights_are_raised_on_the_finest_grid_where_the_coarser_film_is_no_star
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """The film is the same whether they are raised on 65 nodes or before."""
-    monkeypatch.setattr(steady, "_settings", lambda *_, **__: [(NEWTON, False)])
+    monkeypatch.setattr(steady, "ladder", lambda *_, **__: (NEWTON,))
     problem, options = wavy((57.21, 10.52), (0.2, 1.0, 0.0)), Options(points=65, domain=DOMAIN)
     raised: list[tuple[int, bool]] = []
-    raise_heights, walk = Newton.raise_heights, Newton.walk
+    walk = Newton.walk
 
-    def noted(self: Newton, once: Any, *, last: bool) -> None:
-        raised.append((self.level.grid.nx, last))
-        raise_heights(self, once, last=last)
+    def noted(level: Level, iterate: Any, refresh: Any, *, finest: bool) -> None:
+        raised.append((level.grid.nx, finest))
+        raise_by_newton(level, iterate, refresh, finest=finest)
 
     def stumbling(self: Newton, change: Any) -> float:
         if self.level.grid.nx == 65 and raised[-1][0] < 65:
             raise DivergedError
         return walk(self, change)
 
-    monkeypatch.setattr(Newton, "raise_heights", noted)
+    monkeypatch.setattr(fmg, "raise_by_newton", noted)
     plain = finished(problem, options)
     assert raised == [(33, False)]
     monkeypatch.setattr(Newton, "walk", stumbling)
@@ -236,7 +235,7 @@ def test_a_coarser_grid_raises_all_heights_even_where_its_film_fails(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """The finest one has the last word."""
-    monkeypatch.setattr(steady, "_settings", lambda *_, **__: [(NEWTON, False)])
+    monkeypatch.setattr(steady, "ladder", lambda *_, **__: (NEWTON,))
     run = finished(wavy((20.0, 10.0), (3.0, 2.0, 0.0)), Options(points=65, domain=DOMAIN))
     assert {report.points[0] for report in run.history} == {33, 65}
     assert not run.status.converged
@@ -247,7 +246,7 @@ def test_heights_are_not_raised_again_where_the_coarser_film_is_none(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """They would end the same way; what is known of the coarser film is told."""
-    monkeypatch.setattr(steady, "_settings", lambda *_, **__: [(NEWTON, False)])
+    monkeypatch.setattr(steady, "ladder", lambda *_, **__: (NEWTON,))
     run = finished(wavy((57.21, 10.52), (1.0, 1.0, 0.0)), Options(points=65, domain=DOMAIN))
     assert (run.status.kind, run.status.cause) == ("diverged", "grid_too_coarse")
     assert "of 33 x 33 nodes, is not positive (smallest H = -" in (run.status.message or "")
@@ -289,7 +288,7 @@ def test_a_film_that_fails_on_the_way_is_told_with_the_part_of_the_heights(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Ridges far too high: the climb ends where the film is not positive any more."""
-    monkeypatch.setattr(steady, "_settings", lambda *_, **__: [(NEWTON, False)])
+    monkeypatch.setattr(steady, "ladder", lambda *_, **__: (NEWTON,))
     run = finished(wavy((20.0, 10.0), (3.0, 2.0, 0.0)), Options(points=33, domain=DOMAIN))
     assert run.status.cause in ("asperity_contact", "grid_too_coarse")
     assert run.status.message is not None
@@ -302,13 +301,13 @@ def test_the_last_relaxation_goes_to_the_end_before_newton(
 ) -> None:
     """Grids in disorder do not stop it; with heat it is the last setting of all."""
     seen: list[tuple[str, bool]] = []
-    run = steady._run
+    run = steady._attempt
 
     def noted(*args: Any, patient: bool) -> Any:
-        seen.append((args[0].setting.name, patient))
+        seen.append((args[0].strategy.name, patient))
         return replace(run(*args, patient=patient), status=Status(kind="stalled", cause="stalled"))
 
-    monkeypatch.setattr(steady, "_run", noted)
+    monkeypatch.setattr(steady, "_attempt", noted)
     smooth = wavy((20.0, 10.0), (0.01, 2.0, 0.0))
     sheared = smooth.model_copy(update={"lubricant": thinning(smooth)})
     for problem in (smooth, sheared):

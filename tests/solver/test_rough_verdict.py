@@ -24,7 +24,8 @@ def level(smallest: float, *, valley: bool = False) -> SimpleNamespace:
     centre = 0.5 * grid.dx if valley else 0.0
     there = (grid.x[None, :] + 1.5 - centre) ** 2 + grid.y[:, None] ** 2
     h = smallest + 3.0 * (there - centre**2)
-    return SimpleNamespace(grid=grid, film=SimpleNamespace(h=h), floor=FLOOR)
+    film, equations = SimpleNamespace(h=h), SimpleNamespace(floor=FLOOR)
+    return SimpleNamespace(grid=grid, film=film, equations=equations)
 
 
 def errors(grid: float) -> ErrorEstimate:

@@ -3,12 +3,11 @@
 import pytest
 
 from tehl.grid import Grid
-from tehl.operators.flow import flow_table
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.scaling import ScaledProblem
-from tehl.solver.multigrid import Multigrid
-from tehl.solver.smoother import BROAD
+from tehl.solver.fmg import FullMultigrid, Hierarchy
+from tehl.solver.ladder import COUPLED
 from tehl.solver.steady import coupling_of, finest_grid
 from tehl.solver.suspects import Suspect, suspect
 from tehl.solver.verdict import diverged
@@ -67,13 +66,11 @@ def test_all_that_is_conspicuous_is_told_and_the_first_names_it():
 def test_the_status_of_a_run_away_tells_the_likely_cause_and_its_own_hint():
     problem, options = changed("surface_1", temperature=240.0), Options(points=65)
     scaled = ScaledProblem.of(problem)
-    run = Multigrid(
-        finest_grid(scaled, options),
-        scaled,
-        flow_table(scaled),
-        options,
-        BROAD,
-        coupling_of(scaled, options, ramped=False),
+    first = COUPLED[0]
+    run = FullMultigrid(
+        Hierarchy.on(finest_grid(scaled, options), scaled, options, first.first_relaxation),
+        first,
+        coupling=coupling_of(scaled, options, first),
     )
     status = diverged(run)
     assert (status.kind, status.cause) == ("diverged", "body_temperature")

@@ -252,9 +252,7 @@ def test_a_setting_that_runs_away_leaves_nothing_to_the_next_one(failure):
         calls.append(name)
         if len(calls) > 1:
             return settle(name)
-        level.film.p[:] = np.nan
-        level.rigid_approach = np.nan
-        level.stale = True
+        level.set_state(np.full_like(level.film.p, np.nan), np.nan)
         raise failure
 
     stepper._settle = run_away_once

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Influence:
-    """Deflection at node offsets (dj, di) per unit pressure on one cell.
+    """Deflection at node offsets (dj, di) per unit pressure on one cell; at (0, 0) ``self_film``.
 
     Parameters
     ----------
@@ -29,6 +29,7 @@ class Influence:
 
     def __init__(self, dx: float, dy: float, factor: float) -> None:
         self.dx, self.dy, self.factor = dx, dy, factor
+        self.self_film = float(self(0, 0))
 
     def __call__(self, dj: "ArrayLike | slice", di: "ArrayLike | slice") -> Array:
         """Return the influence at rows ``dj`` and columns ``di`` away; slices count nodes."""

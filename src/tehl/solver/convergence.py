@@ -85,9 +85,15 @@ class GridTrace:
             trace.least_rate = max(LEAST_RATE, 1.0 - follow)
 
     def note(self, central: float, minimum: float) -> None:
-        """Take the film numbers after a cycle (or before the first)."""
+        """Append the film before the first cycle."""
         self.central.values.append(central)
         self.minimum.values.append(minimum)
+
+    def add(self, report: CycleReport) -> None:
+        """Append film and temperature rise after a cycle, and its report."""
+        self.reports.append(report)
+        self.note(report.film_central, report.film_minimum)
+        self.rise.values.append(report.temperature_rise)
 
 
 def ended(now: GridTrace, coarser: GridTrace | None, options: Options) -> bool:

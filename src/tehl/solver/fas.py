@@ -1,11 +1,14 @@
-"""Full approximation scheme: one cycle, written as the textbook writes it."""
+"""Full approximation scheme (FAS): one multigrid cycle.
+
+Brandt 1977; Trottenberg, Oosterlee and Schüller 2001, section 5.3; Venner and Lubrecht 2000, ch. 4.
+"""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Protocol, Self, TypeVar
 
 from tehl.grid import Grid
 from tehl.options import Options
-from tehl.solver.level import Level
 
 UNRESOLVED = 0.5
 """Mesh width of the coarsest grid, in Hertz half-widths, beyond which it hardly sees the contact.
@@ -14,8 +17,6 @@ level above it, cures that and costs next to nothing."""
 THICK = 0.25
 """Expected central film from which that is so: of a thinner one such a grid has no sound discrete
 solution, and going there more often does harm (M = 200 and more on wide domains)."""
-ENOUGH = 4
-"""Most cycles on a grid that only gives the start for the next finer one."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -58,45 +59,41 @@ class Cycle:
         return tuple(replace(self, kind=kind) for kind in kinds)
 
 
-class Cycles:
-    """Cycles on some levels, as a method to solve the finest of them.
+class Level(Protocol):
+    """What the cycle needs of a level."""
+
+    def relax(self, sweeps: int) -> None:
+        """Smooth the error by some sweeps."""
+        ...
+
+    def restrict_to(self, coarse: Self) -> None:
+        """Pose the FAS problem  A_c(u_c) = A_c(I u) + I (b - A(u))  on the next coarser level."""
+        ...
+
+    def correct_from(self, coarse: Self) -> None:
+        """Add the interpolated change of the coarser level:  u += I (u_c - I u)."""
+        ...
+
+
+AnyLevel = TypeVar("AnyLevel", bound=Level)
+
+
+def cycle(
+    levels: Sequence[AnyLevel], solve_coarsest: Callable[[], None], shape: Cycle, extra: int = 0
+) -> None:
+    """Perform one FAS cycle on ``levels`` in place.
 
     Parameters
     ----------
     levels : sequence of Level
-        Coarsest first.
+        Coarsest first; the last one holds the problem.
     solve_coarsest : callable
-        What is done there.
+        Solves the problem on the coarsest level.
     shape : Cycle
-        What one cycle does.
-    ramp : int
-        Cycles over which heights are raised.
+        Order of visits and sweeps.
+    extra : int
+        Sweeps added on this level.
     """
-
-    enough = ENOUGH
-
-    def __init__(
-        self, levels: Sequence[Level], solve_coarsest: Callable[[], None], shape: Cycle, ramp: int
-    ) -> None:
-        self.levels, self.solve_coarsest, self.shape = levels, solve_coarsest, shape
-        self.ramp = ramp
-
-    def step(self) -> None:
-        """Run one cycle."""
-        cycle(self.levels, self.solve_coarsest, self.shape)
-
-    def raise_heights(self, once: Callable[[], float], *, last: bool) -> None:
-        """Raise the heights in equal parts, one per cycle, up to the last part."""
-        del last
-        for number in range(1, self.ramp):
-            self.levels[-1].roughen(number / self.ramp)
-            once()
-
-
-def cycle(
-    levels: Sequence[Level], solve_coarsest: Callable[[], None], shape: Cycle, extra: int = 0
-) -> None:
-    """Run one multigrid cycle on ``levels``, coarsest first, in place."""
     *coarser, fine = levels
     if not coarser:
         solve_coarsest()

@@ -1,28 +1,35 @@
-"""One grid with its unknowns: pressure, film and rigid approach, and their right-hand sides.
+"""One grid of the hierarchy: its discrete equations, its unknowns and their right-hand sides.
 
-On the finest grid the right-hand sides are those of the problem; on a coarser one they carry the
-full approximation scheme (Brandt 1977; Venner and Lubrecht 2000, ch. 4 and 6), for the Reynolds,
-the film and the load equation alike.
+The unknowns are the pressure P and the rigid approach H00; the film H follows from them. On the
+finest grid the right-hand sides are those of the problem; on a coarser one they carry the full
+approximation scheme (FAS: Brandt 1977; Venner and Lubrecht 2000, chapters 4 and 6) for
+
+    L(P, H) = f                       Reynolds: (eps P_x)_x + (eps P_y)_y - (rho H)_x,
+    H - H00 - K P = g                 film, K the elastic deflection of the half-spaces,
+    sum(P) dx dy = w                  load balance,
+
+each of them written on the coarse grid as  A_c(u_c) = A_c(I u) + I (b - A(u)),  with the injected
+or weighted fine solution I u.
 """
 
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
 
 import numpy as np
 
 from tehl.grid import Grid
 from tehl.kernels import reynolds, transfer
-from tehl.operators.deformation import choose
-from tehl.operators.film import gap
+from tehl.operators.deformation import Deformation, choose
+from tehl.operators.film import gap, hertz_pressure
 from tehl.operators.flow import FlowTable
-from tehl.operators.influence import influence_of
+from tehl.operators.influence import Influence, influence_of
 from tehl.operators.load import TARGET, Load
 from tehl.operators.reynolds import stencil
+from tehl.operators.transfer import refine
 from tehl.options import Options
 from tehl.scaling import Groups
-from tehl.solver.smoother import Setting, make_smoother
-
-if TYPE_CHECKING:
-    from tehl.typing import Array
+from tehl.solver.film_summary import central_value
+from tehl.solver.relaxation import Relaxation, make_smoother
+from tehl.typing import Array
 
 PRESSURE_STEP = 1e-6
 """Step of the derivative of the conductance by pressure; its error is of this relative size."""
@@ -30,186 +37,339 @@ FROZEN_BELOW = 1e-3
 """Pressure below which a coarse node beside a cavity is left to the finer grid."""
 
 
-class Level:
-    """One grid of the hierarchy; the only mutable thing in the solver.
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Equations:
+    """The discrete equations on one grid: what does not change while they are solved.
 
-    Parameters
+    Attributes
     ----------
     grid : Grid
         The nodes.
     groups : Groups
         Dimensionless groups.
     flow : FlowTable
-        The lubricant.
-    options : Options
-        Wedge order and deformation.
-    setting : Setting
-        Of the relaxation.
+        Mobility and density of the lubricant over pressure.
+    mesh : Mesh
+        Weights of the Reynolds operator.
+    influence : Influence
+        Deflection per unit pressure on one cell.
+    deformation : Deformation
+        The sum K P over all cells.
+    load : Load
+        Integral of the pressure.
+    target : float
+        Load that the film carries [-].
+    gap : array of ``grid.shape``
+        Undeformed gap [-].
+    floor : float
+        Least film that the conductance is evaluated with [-]: coarse grids, whose discrete film
+        may not be positive, need it.
     """
 
-    def __init__(
-        self, grid: Grid, groups: Groups, flow: FlowTable, options: Options, setting: Setting
-    ) -> None:
-        self.grid, self.groups, self.flow = grid, groups, flow
-        self.mesh = stencil(grid, groups, options.wedge_order)
-        self.influence = influence_of(grid, groups)
-        self.deformation = choose(options.deformation, grid, groups)
-        self.load = Load(grid)
-        self.smoother = make_smoother(grid, self.influence, setting)
-        self.self_film = float(self.influence(0, 0))
-        self.gap = gap(grid, groups)
-        self.heights: Array | None = None
-        self.history: Array | None = None
-        self.correction, self.limit = 1.0, np.inf
-        self.floor = 0.0
-        p, h, eps, rho, drho = (np.zeros(grid.shape) for _ in range(5))
-        self.film = reynolds.Film(p, h, eps, rho, drho, eps_x=eps, eps_y=eps)
-        self.deflection, self.residual, self.rhs, self.film_rhs, self.before = (
-            np.zeros(grid.shape) for _ in range(5)
+    grid: Grid
+    groups: Groups
+    flow: FlowTable
+    mesh: reynolds.Mesh
+    influence: Influence
+    deformation: Deformation
+    load: Load
+    target: float
+    gap: Array
+    floor: float
+
+    @classmethod
+    def on(
+        cls,
+        grid: Grid,
+        groups: Groups,
+        flow: FlowTable,
+        options: Options,
+        *,
+        load: float = 1.0,
+        floor: float = 0.0,
+    ) -> "Equations":
+        """Discretise a contact on ``grid``; the film carries ``load`` times its load."""
+        return cls(
+            grid=grid,
+            groups=groups,
+            flow=flow,
+            mesh=stencil(grid, groups, options.wedge_order),
+            influence=influence_of(grid, groups),
+            deformation=choose(options.deformation, grid, groups),
+            load=Load(grid),
+            target=load * TARGET,
+            gap=gap(grid, groups),
+            floor=floor,
         )
-        self.rigid_approach, self.rigid_approach_before = 0.0, 0.0
-        self.load_part, self.load_target = 1.0, TARGET
-        self.stale, self.started_dry = True, False
+
+
+@dataclass(slots=True)
+class Sources:
+    """Right-hand sides: f of the Reynolds equation, g of the film, w of the load balance.
+
+    ``history`` is what former films contribute to wedge and squeeze in a step of a transient run;
+    f contains it.
+    """
+
+    reynolds: Array
+    film: Array
+    load: float
+    history: Array | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Correction:
+    """How much of its correction a coarse grid may give to the next finer one.
+
+    ``part`` multiplies the correction; ``limit`` bounds the change of a pressure by the pressure.
+    """
+
+    part: float = 1.0
+    limit: float = np.inf
+
+
+class Level:
+    """One grid with its unknowns; the only mutable object of the multigrid solver.
+
+    Whoever changes pressure or rigid approach does so through `set_state`; `update` then evaluates
+    film, density and conductance before they are used.
+
+    Parameters
+    ----------
+    equations : Equations
+        The discrete equations.
+    relaxation : Relaxation
+        Settings of the smoother.
+    """
+
+    def __init__(self, equations: Equations, relaxation: Relaxation) -> None:
+        shape = equations.grid.shape
+        self.equations = equations
+        self.smoother = make_smoother(equations.grid, equations.influence, relaxation)
+        p, h, eps, rho, drho, f, g = (np.zeros(shape) for _ in range(7))
+        self.film = reynolds.Film(p, h, eps, rho, drho, eps_x=eps, eps_y=eps)
+        self.rigid_approach = 0.0
+        self.sources = Sources(f, g, equations.target)
+        self.residual = np.zeros(shape)
+        self.restricted = (np.zeros(shape), 0.0)
+        self.heights: Array | None = None
+        self.correction = Correction()
         self.factors: reynolds.Factors | None = None
+        self._is_stale = True
 
-    def pose_problem(self) -> None:
-        """Make this the finest level: the right-hand sides of the problem itself."""
-        self.rhs[:] = 0.0
-        self.roughen(1.0)
-        self.load_target = self.load_part * TARGET
-        self.smoother.frozen[:] = 0
-        self.stale = True
+    @property
+    def grid(self) -> Grid:
+        """The nodes."""
+        return self.equations.grid
 
-    def pose_step(self, history: "Array", heights: "Array", load: float) -> None:
-        """Make this the finest level of a step of time.
+    @property
+    def mesh(self) -> reynolds.Mesh:
+        """Weights of the Reynolds operator."""
+        return self.equations.mesh
 
-        Parameters
-        ----------
-        history : (ny, nx) array
-            What former films bring to wedge and squeeze [-].
-        heights : (ny, nx) array
-            Of both surfaces now [-].
-        load : float
-            Over the load of the contact [-].
-        """
-        self.history, self.heights = history, heights
-        self.roughen(1.0)
-        self.load_target = load * TARGET
-        self.smoother.frozen[:] = 0
-        self.update()
-        reynolds.tangent_source(self.film, self.mesh, self.rhs)
-        self.add_history()
+    # state
 
-    def add_history(self) -> None:
-        """Bring back what a new right-hand side has overwritten."""
-        if self.history is not None:
-            self.rhs -= self.history
-
-    def roughen(self, part: float) -> None:
-        """Take ``part`` of the heights of the surfaces off the gap of the finest level."""
-        self.film_rhs[:] = self.gap
-        if self.heights is not None:
-            self.film_rhs -= part * self.heights
-        self.stale = True
-
-    def set_smoother(self, setting: Setting) -> None:
-        """Relax with another setting from now on."""
-        frozen = self.smoother.frozen
-        self.smoother = make_smoother(self.grid, self.influence, setting)
-        self.smoother.frozen[:] = frozen
-
-    def load_error(self) -> float:
-        """Return the relative error of the load balance."""
-        return self.load.integral(self.film.p) / self.load_target - 1.0
+    def set_state(self, pressure: Array, rigid_approach: float) -> None:
+        """Set pressure, shape ``grid.shape``, and rigid approach; what depends on them is stale."""
+        self.film.p[:] = pressure
+        self.rigid_approach = rigid_approach
+        self._is_stale = True
 
     def update(self) -> None:
-        """Evaluate the film, then conductance and density, for the present pressure."""
-        if not self.stale:
+        """Evaluate the film H = H00 + K P + g, then conductance and density, if they are stale."""
+        if not self._is_stale:
             return
-        self.deformation.deflect(self.film.p, self.deflection)
-        np.add(self.deflection, self.film_rhs, out=self.film.h)
-        np.add(self.film.h, self.rigid_approach, out=self.film.h)
+        h = self.film.h
+        self.equations.deformation.deflect(self.film.p, h)
+        np.add(h, self.sources.film, out=h)
+        np.add(h, self.rigid_approach, out=h)
         self.update_properties()
-        self.stale = False
+        self._is_stale = False
 
     def update_properties(self) -> None:
         """Evaluate conductance and density for the present pressure and film."""
         self._evaluate(self.film)
 
     def _evaluate(self, film: reynolds.Film) -> None:
-        """Fill the properties of ``film`` by its pressure and thickness."""
-        table, step = self.flow.table, self.flow.step
+        flow, floor = self.equations.flow, self.equations.floor
         if self.factors is None:
-            reynolds.properties(film, table, step, self.floor)
+            reynolds.properties(film, flow.table, flow.step, floor)
         else:
-            reynolds.heated_properties(film, self.factors, table, step, self.floor)
+            reynolds.heated_properties(film, self.factors, flow.table, flow.step, floor)
 
-    def conductance_slopes(self) -> "tuple[Array, Array]":
-        """Return the derivatives of the conductance by pressure and by film; it is up to date."""
-        film = self.film
+    def conductance_slopes(self) -> tuple[Array, Array]:
+        """Return d eps/dP and d eps/dH at the present pressure and film, each ``grid.shape``."""
+        film, floor = self.film, self.equations.floor
         scratch = (np.empty_like(film.p) for _ in range(5))
         shifted = reynolds.Film(film.p + PRESSURE_STEP, film.h, *scratch)
         self._evaluate(shifted)
         by_pressure = (shifted.eps - film.eps) / PRESSURE_STEP
-        thick = film.h > self.floor
-        by_film = np.where(thick, 3.0 * film.eps / np.maximum(film.h, self.floor), 0.0)
+        by_film = np.where(film.h > floor, 3.0 * film.eps / np.maximum(film.h, floor), 0.0)
         return by_pressure, by_film
 
     def couple(self, factors: reynolds.Factors) -> None:
-        """Take what heat and shear thinning make of the flow; the film is up to date."""
+        """Take the factors by which heat and shear thinning change mobility and density."""
         if self.factors is None:
             eps_x, eps_y = np.empty(self.grid.shape), np.empty(self.grid.shape)
             self.film = self.film._replace(eps_x=eps_x, eps_y=eps_y)
         self.factors = factors
 
     def uncouple(self) -> None:
-        """Let the film be isothermal and Newtonian again."""
+        """Return to an isothermal Newtonian film."""
         self.factors = None
         self.film = self.film._replace(eps_x=self.film.eps, eps_y=self.film.eps)
-        self.stale = True
+        self._is_stale = True
+
+    # the problem of the finest level
+
+    def pose_problem(self) -> None:
+        """Make this the finest level of a steady problem: f = 0, g = gap less heights."""
+        self.sources.reynolds[:] = 0.0
+        self.sources.load = self.equations.target
+        self.apply_heights(1.0)
+        self.smoother.frozen[:] = 0
+
+    def pose_step(self, history: Array, heights: Array, load: float) -> None:
+        """Make this the finest level of a step of a transient run.
+
+        Parameters
+        ----------
+        history : array of ``grid.shape``
+            Contribution of former films to wedge and squeeze [-].
+        heights : array of ``grid.shape``
+            Heights of both surfaces at the new time [-].
+        load : float
+            Load over that of the contact [-].
+        """
+        self.sources.history, self.heights = history, heights
+        self.sources.load = load * TARGET
+        self.apply_heights(1.0)
+        self.smoother.frozen[:] = 0
+        self.update()
+        self.write_source()
+
+    def apply_heights(self, part: float) -> None:
+        """Set g = gap - ``part`` * heights."""
+        self.sources.film[:] = self.equations.gap
+        if self.heights is not None:
+            self.sources.film -= part * self.heights
+        self._is_stale = True
+
+    def write_source(self) -> None:
+        """Set f of the finest level for the present film.
+
+        The conductances along x and y of a shear-thinning film are those of a small change of the
+        pressure gradient; f takes back what they add at the present pressure, so that the solution
+        is that of the secant conductance. History is subtracted.
+        """
+        reynolds.tangent_source(self.film, self.mesh, self.sources.reynolds)
+        if self.sources.history is not None:
+            self.sources.reynolds -= self.sources.history
+
+    def start_from_hertz(self, expected_film: float) -> None:
+        """Start from the Hertz pressure, with the rigid approach of an expected central film."""
+        self.pose_problem()
+        self.set_state(hertz_pressure(self.grid), 0.0)
+        self.update()
+        approach = expected_film - central_value(self.grid, self.film.h)
+        self.set_state(self.film.p, approach)
+
+    def interpolate_from(self, coarse: "Level") -> None:
+        """Start from the solution of the next coarser grid, by cubic interpolation."""
+        self.set_state(refine(coarse.film.p, self.grid), coarse.rigid_approach)
+
+    # relaxation and residual
+
+    def set_relaxation(self, relaxation: Relaxation) -> None:
+        """Change the settings of the smoother; frozen nodes stay frozen."""
+        frozen = self.smoother.frozen
+        self.smoother = make_smoother(self.grid, self.equations.influence, relaxation)
+        self.smoother.frozen[:] = frozen
 
     def relax(self, sweeps: int) -> None:
-        """Smooth the error of pressure and film in place."""
+        """Smooth the error of the pressure by some sweeps."""
         for _ in range(sweeps):
             self.update()
-            self.smoother.sweep(self.film, self.mesh, self.rhs, self.flow)
-            self.stale = True
+            self.smoother.sweep(self.film, self.mesh, self.sources.reynolds, self.equations.flow)
+            self._is_stale = True
 
     def evaluate_residual(self) -> float:
-        """Fill ``residual`` (zero where cavitated); return its scaled mean. Film is up to date."""
-        return reynolds.residual(self.film, self.mesh, self.rhs, self.self_film, self.residual)
+        """Evaluate f - L(P), zero where cavitated; return its mean over the local diagonal."""
+        self_film = self.equations.influence.self_film
+        return reynolds.residual(
+            self.film, self.mesh, self.sources.reynolds, self_film, self.residual
+        )
+
+    def missing_load(self) -> float:
+        """Return w - sum(P) dx dy [-]."""
+        return self.sources.load - self.equations.load.integral(self.film.p)
+
+    def load_error(self) -> float:
+        """Return the relative error of the load balance."""
+        return self.equations.load.integral(self.film.p) / self.sources.load - 1.0
+
+    # full approximation scheme
 
     def restrict_to(self, coarse: "Level") -> None:
-        """Send unknowns and right-hand sides of the full approximation scheme to ``coarse``."""
+        """Pose the FAS problem of this level's error on ``coarse``."""
         self.update()
         self.evaluate_residual()
-        mirror = self.mesh.mirror
+        self.restrict_solution(coarse)
+        self.restrict_film(coarse)
+        self.restrict_reynolds(coarse)
+        self.restrict_load(coarse)
+        coarse._is_stale = False
+
+    def restrict_solution(self, coarse: "Level") -> None:
+        """Restrict P by full weighting, beside cavities by injection; H00 is one number.
+
+        Coarse nodes beside a cavity and of low pressure are frozen: the coarse grid would cavitate
+        them again and again (Venner and Lubrecht 2000, chapter 6, restrict there by injection).
+        """
+        mirror, frozen = self.mesh.mirror, coarse.smoother.frozen
         transfer.restrict_pressure(self.film.p, mirror, coarse.film.p)
         transfer.freeze(
-            self.film.p,
-            self.smoother.frozen,
-            coarse.film.p,
-            mirror,
-            FROZEN_BELOW,
-            coarse.smoother.frozen,
+            self.film.p, self.smoother.frozen, coarse.film.p, mirror, FROZEN_BELOW, frozen
         )
-        coarse.before[:] = coarse.film.p
-        coarse.rigid_approach = coarse.rigid_approach_before = self.rigid_approach
+        before, _ = coarse.restricted
+        before[:] = coarse.film.p
+        coarse.restricted = (before, self.rigid_approach)
+        coarse.rigid_approach = self.rigid_approach
+
+    def restrict_film(self, coarse: "Level") -> None:
+        """Pose the film equation:  g_c = I H - K_c P_c - H00,  I injection.
+
+        The fine film satisfies its equation exactly, so that no residual is added. Density and
+        conductance of the coarse grid follow from the injected film.
+        """
+        g = coarse.sources.film
         coarse.film.h[:] = self.film.h[::2, ::2]
-        coarse.deformation.deflect(coarse.film.p, coarse.deflection)
-        np.subtract(coarse.film.h, coarse.deflection, out=coarse.film_rhs)
-        coarse.film_rhs -= coarse.rigid_approach
+        coarse.equations.deformation.deflect(coarse.film.p, g)
+        np.subtract(coarse.film.h, g, out=g)
+        g -= coarse.rigid_approach
         coarse.update_properties()
-        transfer.restrict_residual(self.residual, mirror, coarse.residual)
-        reynolds.operator(coarse.film, coarse.mesh, coarse.rhs)
-        coarse.rhs += coarse.residual
-        missing = self.load_target - self.load.integral(self.film.p)
-        coarse.load_target = missing + coarse.load.integral(coarse.film.p)
-        coarse.stale = False
+
+    def restrict_reynolds(self, coarse: "Level") -> None:
+        """Pose the Reynolds equation:  f_c = L_c(P_c, H_c) + I (f - L(P, H)),  I full weighting.
+
+        The residual is zero where the fine grid is cavitated: complementarity holds there.
+        """
+        transfer.restrict_residual(self.residual, self.mesh.mirror, coarse.residual)
+        reynolds.operator(coarse.film, coarse.mesh, coarse.sources.reynolds)
+        coarse.sources.reynolds += coarse.residual
+
+    def restrict_load(self, coarse: "Level") -> None:
+        """Pose the load balance:  w_c = sum(P_c) dx_c dy_c + (w - sum(P) dx dy)."""
+        carried = coarse.equations.load.integral(coarse.film.p)
+        coarse.sources.load = self.missing_load() + carried
 
     def correct_from(self, coarse: "Level") -> None:
-        """Add the change that ``coarse`` found, never across the cavitation front."""
-        mirror, part = self.mesh.mirror, coarse.correction
-        transfer.correct(self.film.p, coarse.film.p, coarse.before, mirror, part, coarse.limit)
-        self.rigid_approach += part * (coarse.rigid_approach - coarse.rigid_approach_before)
-        self.stale = True
+        """Add the change of the coarse grid:  P += I (P_c - I P),  H00 += H00_c - H00.
+
+        Bilinear interpolation, never across the cavitation front.
+        """
+        (before, approach), how = coarse.restricted, coarse.correction
+        mirror = self.mesh.mirror
+        transfer.correct(self.film.p, coarse.film.p, before, mirror, how.part, how.limit)
+        self.rigid_approach += how.part * (coarse.rigid_approach - approach)
+        self._is_stale = True

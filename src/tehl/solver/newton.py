@@ -11,7 +11,6 @@ products and makes it five times as dear.
 """
 
 import warnings
-from collections.abc import Callable
 from functools import partial
 
 import numpy as np
@@ -24,7 +23,7 @@ from tehl.kernels import reynolds
 from tehl.operators.influence import dense_matrix, influence_of
 from tehl.operators.jacobian import Stencil, interpolation, jacobian, rows, stencil_of
 from tehl.solver.level import Level
-from tehl.solver.state import APPROACH, DivergedError, TouchingError, state_of, take_state
+from tehl.solver.state import APPROACH, DivergedError, state_of, take_state
 from tehl.typing import Array, BoolArray
 
 ACCURACY, EXACT = 0.03, 0.001
@@ -39,13 +38,8 @@ back alone: single ones would go a hundred, and all others would hardly move wit
 DESCENT, SHORTEST = 0.1, 0.02
 """Part of the fall of the residual that a step must keep of what it promises, and the shortest step
 before the level is given up."""
-FIRST_PART, LEAST_PART = 0.25, 0.02
-"""Part of the heights that is raised first, and the least one before the level is given up."""
-RAISED = 1e-4
-"""Residual at which the next part is raised."""
-MOST_STEPS, QUICK, SLUGGISH, SMALLER = 12, 6, 9, 0.25
-"""Steps for one part, and on a grid that gives the start for the next; those after which the next
-part is larger, and smaller; and what is left of a part that could not be raised."""
+SETTLED = 1e-8
+"""Residual at which there is nothing left to gain."""
 
 
 class Newton:
@@ -59,8 +53,6 @@ class Newton:
         A coarser grid, of some hundred nodes.
     """
 
-    enough = MOST_STEPS
-
     def __init__(self, level: Level, coarse: Grid) -> None:
         self.level = level
         self.stencil: Stencil = stencil_of(level.grid, level.mesh)
@@ -69,10 +61,12 @@ class Newton:
             rows(1.0 / np.asarray(self.to_fine.sum(0)).ravel()) @ self.to_fine.T
         )
         self.same = np.asarray(self.to_fine.argmax(axis=0)).ravel()  # the node at each coarse one
-        coarse_influence = influence_of(coarse, level.groups)
+        coarse_influence = influence_of(coarse, level.equations.groups)
         self.deflection = dense_matrix(coarse.shape, coarse.mirror, coarse_influence)
-        weights = np.full(level.grid.shape, level.load.area * (2.0 if level.grid.mirror else 1.0))
-        weights[0] = level.load.area
+        weights = np.full(
+            level.grid.shape, level.equations.load.area * (2.0 if level.grid.mirror else 1.0)
+        )
+        weights[0] = level.equations.load.area
         self.load_weights = weights.ravel()
         self.preconditioner: Preconditioner | None = None
 
@@ -119,46 +113,13 @@ class Newton:
             part *= 0.5
         take_state(level, start)
         level.update()
-        if residual < RAISED * RAISED:  # nothing is left to gain
+        if residual < SETTLED:
             return 1.0
         raise DivergedError
 
-    def raise_heights(self, once: Callable[[], float], *, last: bool) -> None:
-        """Raise the heights of the level from none to all, part by part.
-
-        Each part starts on the line through the films of the last two.
-
-        Parameters
-        ----------
-        once : callable
-            Takes a step, reports it, and returns the residual.
-        last : bool
-            Whether the level is that of the answer. A film that is not positive on a coarser one
-            is a start for the next, where it may be.
-
-        Raises
-        ------
-        TouchingError
-            When the film of the last level is not positive with a part of them.
-        DivergedError
-            When a small part more cannot be solved.
-        """
-        level = self.level
-        before, known, size = None, (0.0, state_of(level)), FIRST_PART
-        while known[0] < 1.0:
-            part = min(known[0] + size, 1.0)
-            level.roughen(part)
-            take_state(level, known[1] if before is None else on_line(before, known, part))
-            steps = steps_to(RAISED, once)
-            if steps is None:
-                self.preconditioner, size = None, SMALLER * size
-            else:
-                before, known = known, (part, state_of(level))
-                size *= 1.5 if steps <= QUICK else 0.7 if steps > SLUGGISH else 1.0
-                if last and part < 1.0 and not level.film.h.min() > 0.0:
-                    raise TouchingError(part)
-            if size < LEAST_PART:
-                raise DivergedError
+    def refresh(self) -> None:
+        """Set up the preconditioner anew in the next step."""
+        self.preconditioner = None
 
 
 class System:
@@ -170,25 +131,24 @@ class System:
         self.shape, self.products = film.p.shape, 0
         rest = np.empty(self.shape)
         reynolds.operator(film, mesh, rest)
-        np.subtract(level.rhs, rest, out=rest)
+        np.subtract(level.sources.reynolds, rest, out=rest)
         inner = newton.stencil.here.diagonal() > 0.0
         self.free: BoolArray = inner & ((film.p > 0.0) | (rest < 0.0)).ravel()
         self.kept = rows(self.free.astype(float))
         diagonal = np.empty(self.shape)
-        reynolds.diagonal(film, mesh, level.self_film, diagonal)
+        reynolds.diagonal(film, mesh, level.equations.influence.self_film, diagonal)
         self.scale = np.where(self.free, 1.0 / np.where(self.free, diagonal.ravel(), 1.0), 0.0)
         by_pressure, by_film = jacobian(film, mesh, newton.stencil, *level.conductance_slopes())
         self.by_pressure = csr_matrix(rows(self.scale) @ by_pressure @ self.kept)
         self.by_film = csr_matrix(rows(self.scale) @ by_film)
-        missing = level.load_target - level.load.integral(film.p)
-        self.rest = np.append(self.scale * rest.ravel(), missing)
+        self.rest = np.append(self.scale * rest.ravel(), level.missing_load())
 
     def product(self, change: Array) -> Array:
         """Return what a change of pressures and approach makes of the equations."""
         self.products += 1
         pressure = np.where(self.free, change[:-1], 0.0)
         film = np.empty(self.shape)
-        self.newton.level.deformation.deflect(pressure.reshape(self.shape), film)
+        self.newton.level.equations.deformation.deflect(pressure.reshape(self.shape), film)
         flow = self.by_pressure @ pressure + self.by_film @ (film.ravel() + change[-1])
         kept = np.where(self.free, flow, change[:-1])
         return np.append(kept, self.newton.load_weights @ pressure)
@@ -220,7 +180,7 @@ class Preconditioner:
     def __init__(self, system: System) -> None:
         newton = system.newton
         fixed = rows(1.0 - system.free.astype(float))
-        by_itself = newton.level.self_film * system.by_film @ system.kept
+        by_itself = newton.level.equations.influence.self_film * system.by_film @ system.kept
         close = system.by_pressure + by_itself + fixed
         self.close = splu(
             csc_matrix(close, dtype=np.float32),
@@ -270,21 +230,3 @@ def limited(change: Array) -> tuple[Array, float]:
     step = share * change
     step[:-1] = np.clip(step[:-1], -LARGEST_CHANGE, LARGEST_CHANGE)
     return step, share
-
-
-def steps_to(residual: float, once: Callable[[], float]) -> int | None:
-    """Step down to a residual; return the steps, None if it is not reached."""
-    for number in range(1, MOST_STEPS + 1):
-        try:
-            if once() < residual:
-                return number
-        except ArithmeticError:
-            return None
-    return None
-
-
-def on_line(before: tuple[float, Array], known: tuple[float, Array], part: float) -> Array:
-    """Return the state at ``part`` on the line through two others; cavities stay."""
-    slope = (known[1] - before[1]) / (known[0] - before[0])
-    onward = known[1] + (part - known[0]) * slope
-    return np.where(known[1] == 0.0, 0.0, onward)

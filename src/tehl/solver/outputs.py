@@ -31,7 +31,7 @@ def newtonian_sliding(level: Level, scaled: ScaledProblem) -> Array:
     problem, scales = scaled.problem, scaled.scales
     if problem.slide_roll_ratio == 0:
         return np.zeros(level.grid.shape)
-    film = np.maximum(level.film.h, level.floor)
+    film = np.maximum(level.film.h, level.equations.floor)
     lubricant = problem.lubricant
     eta = lubricant.viscosity.viscosity(scales.hertz_pressure * level.film.p, scales.temperature)
     return np.asarray(-problem.slide_roll_ratio * eta / scales.viscosity / film)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from tehl.scaling import Scales
-from tehl.solver.film_numbers import film_summary
+from tehl.solver.film_summary import film_summary
 from tehl.solver.level import Level
 from tehl.transient_result import Frames, History, Profiles
 from tehl.typing import Array

@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 
 from tehl.result import ErrorEstimate, Status
-from tehl.solver.film_numbers import film_summary
+from tehl.solver.film_summary import film_summary
+from tehl.solver.fmg import FullMultigrid
 from tehl.solver.level import Level
-from tehl.solver.multigrid import Multigrid
 from tehl.solver.suspects import Suspect, coarse_status
 
 KNOWN = 0.5
@@ -30,8 +30,8 @@ def is_film(level: Level, errors: ErrorEstimate | None) -> bool:
     smallest, bar = float(level.film.h.min()), 0.0
     if errors is not None:
         bar = errors.discretisation_minimum
-    within = (1.0 + bar) * smallest > level.floor
-    thick = smallest > BELOW_FLOOR * level.floor
+    within = (1.0 + bar) * smallest > level.equations.floor
+    thick = smallest > BELOW_FLOOR * level.equations.floor
     return thick and within and film_summary(level.grid, level.film.h).minimum > 0.0
 
 
@@ -53,14 +53,14 @@ def vague_status(level: Level, error: float) -> Status:
     )
 
 
-def touching(run: Multigrid, part: float) -> Status:
+def touching(run: FullMultigrid, part: float) -> Status:
     """Return the status of a film that fails with ``part`` of the heights already."""
     status = no_film_status(run, run.errors())
     message = f"{status.message} The film shown has {100 * part:.0f} % of the heights."
     return replace(status, message=message)
 
 
-def no_film_status(run: Multigrid, errors: ErrorEstimate | None) -> Status:
+def no_film_status(run: FullMultigrid, errors: ErrorEstimate | None) -> Status:
     """Judge what is no film between asperities: they touch, or the grid cannot tell."""
     if errors is not None and errors.discretisation_minimum > VAGUE:
         status = coarse_status(run.finest.grid, run.groups, errors.discretisation_minimum)
@@ -68,7 +68,7 @@ def no_film_status(run: Multigrid, errors: ErrorEstimate | None) -> Status:
     return asperity_contact(run.finest)
 
 
-def no_film_before(run: Multigrid) -> Suspect | None:
+def no_film_before(run: FullMultigrid) -> Suspect | None:
     """Blame the film of the grid before the finest, if it has all heights and is not positive."""
     if not run.has_no_film_before:
         return None
@@ -97,20 +97,21 @@ def no_film(level: Level) -> str:
     smallest, x, y = thinnest(level)
     how = "not positive"
     if smallest > 0.0:
-        how = f"thinner than H = {level.floor:.2g}, the least that this grid lets flow"
+        how = f"thinner than H = {level.equations.floor:.2g}, the least that this grid lets flow"
     where = f"X = {x:.3g}, Y = {y:.3g} (half-widths)"
     return f"The film found is {how}: smallest H = {smallest:.3g} at {where}"
 
 
 def asperity_contact(level: Level) -> Status:
     """Name the place where the film of rough surfaces fails."""
-    grid, thin = level.grid, int(np.count_nonzero(level.film.h <= level.floor))
+    grid, floor = level.grid, level.equations.floor
+    thin = int(np.count_nonzero(level.film.h <= floor))
     return Status(
         kind="not_converged",
         cause="asperity_contact",
         message=(
             f"{no_film(level)}, on {grid.nx} x {grid.ny} nodes of which {thin} are below "
-            f"H = {level.floor:.2g}. Asperities would touch there, which a film that carries all "
+            f"H = {floor:.2g}. Asperities would touch there, which a film that carries all "
             "of the load cannot describe."
         ),
         hint=LESS_ROUGH,

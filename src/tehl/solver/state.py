@@ -1,4 +1,4 @@
-"""Pressure and rigid approach of a level as one array, to go back to and to combine."""
+"""Pressure and rigid approach of a level as one vector, and exceptions of the iteration."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ APPROACH = 10.0
 
 
 class DivergedError(ArithmeticError):
-    """The unknowns ran away."""
+    """The unknowns are not finite or grow without bound."""
 
 
 class TouchingError(DivergedError):
@@ -22,17 +22,16 @@ class TouchingError(DivergedError):
 
 
 def state_of(level: Level) -> Array:
-    """Return pressure and approach of a level as one array."""
+    """Return pressure and weighted rigid approach of a level, (n + 1,)."""
     return np.append(level.film.p.ravel(), APPROACH * level.rigid_approach)
 
 
 def take_state(level: Level, state: Array) -> None:
-    """Set pressure and approach; no pressure is negative."""
-    level.film.p[:] = np.maximum(state[:-1].reshape(level.film.p.shape), 0.0)
-    level.rigid_approach = float(state[-1]) / APPROACH
-    level.stale = True
+    """Set pressure and rigid approach of a level; negative pressures are clipped."""
+    pressure = np.maximum(state[:-1].reshape(level.grid.shape), 0.0)
+    level.set_state(pressure, float(state[-1]) / APPROACH)
 
 
 def keep_cavities(level: Level, state: Array) -> Array:
-    """Return ``state`` with no pressure where ``level`` is cavitated now."""
+    """Return ``state`` with zero pressure where ``level`` is cavitated."""
     return np.where(np.append(level.film.p.ravel() > 0.0, True), state, 0.0)

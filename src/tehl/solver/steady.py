@@ -1,9 +1,8 @@
-"""Solve a steady contact: choose grids and smoother, run, judge, and give the result."""
+"""Solve a steady contact: choose the grid, try the strategies, judge, assemble the result."""
 
 import platform
 import time
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
@@ -14,7 +13,6 @@ from tehl.domain import recommended_domain
 from tehl.errors import ConvergenceError, InputError
 from tehl.grid import Grid, can_mirror
 from tehl.memory import check_memory
-from tehl.operators.flow import flow_table
 from tehl.operators.heights import Heights, heights_of
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
@@ -30,43 +28,33 @@ from tehl.result import (
     SurfaceHeights,
 )
 from tehl.scaling import ScaledProblem, Scales
-from tehl.solver.film_numbers import film_summary
+from tehl.solver.film_summary import film_summary
+from tehl.solver.fmg import FullMultigrid, Hierarchy
+from tehl.solver.ladder import Strategy, ladder
 from tehl.solver.monitor import SILENT, Monitor
-from tehl.solver.multigrid import Multigrid
 from tehl.solver.outputs import film_heat, film_shear, newtonian_shear
 from tehl.solver.rough_verdict import touching
-from tehl.solver.smoother import (
-    BROAD,
-    CAREFUL,
-    FAST,
-    GENTLE,
-    NEWTON,
-    ROBUST,
-    ROUGH,
-    SETTINGS,
-    Setting,
-)
 from tehl.solver.state import TouchingError
-from tehl.solver.thermal import Coupling, FilmCoupling, Uncoupled
+from tehl.solver.thermal import Coupling, FilmCoupling
 from tehl.solver.verdict import diverged, verdict
 from tehl.solver.warmup import warm_up
 
 GRID_CAUSES = ("grid_too_coarse", "domain_too_small", "inlet_too_short", "sides_too_close")
-"""Causes that no other smoother cures."""
+"""Causes that no other strategy removes."""
 PACKAGES = ("tehl", "numpy", "scipy", "numba")
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Attempt:
-    """What one setting of the smoother reached, and whether its cycles got where they should."""
+    """The outcome of one strategy, and whether its iteration met the stopping criterion."""
 
-    run: Multigrid
+    run: FullMultigrid
     status: Status
     reached: bool
 
     @property
     def is_final(self) -> bool:
-        """Whether no other setting would end otherwise."""
+        """Whether no other strategy would end differently."""
         touching = self.reached and self.status.cause == "asperity_contact"
         return self.status.converged or self.status.cause in GRID_CAUSES or touching
 
@@ -127,41 +115,45 @@ def solve_attempt(
     guess: Result | None = None,
     load: float = 1.0,
 ) -> tuple[Attempt, Result]:
-    """Return the best attempt at the steady film, and its result, converged or not.
+    """Try the strategies; return the best attempt at the steady film and its result.
 
     Parameters
     ----------
     problem, options, monitor, guess
         As in `solve`.
     rough : bool
-        With the roughness of the surfaces, as they stand; without it they are smooth.
+        With the roughness of the surfaces as they are at time zero; else they are smooth.
     load : float
-        What the film carries, over the load of the contact [-].
+        Load that the film carries, over that of the contact [-].
     """
     warm_up(coupled=problem.is_coupled)
     wall, cpu = time.perf_counter(), time.process_time()
-    scaled = ScaledProblem.of(problem)
+    scaled, history = ScaledProblem.of(problem), _History(monitor)
     grid = finest_grid(scaled, options)
     heights = heights_of(scaled, grid) if rough else None
-    history = _History(monitor)
-    attempts = []
-    for attempt in _attempts(scaled, options, history, grid, heights, _Given(guess, load)):
-        attempts.append(attempt)
-        if attempt.is_final:
+    start = guess if options.accuracy == "tight" else None
+    rungs = ladder(problem, options, rough=heights is not None)
+    attempts: list[Attempt] = []
+    for number, strategy in enumerate(rungs):
+        if number:
+            monitor.message(f"falling back to {strategy.description}")
+        hierarchy = Hierarchy.on(grid, scaled, options, strategy.first_relaxation, load)
+        run = FullMultigrid(
+            hierarchy,
+            strategy,
+            coupling=coupling_of(scaled, options, strategy, rough=heights is not None),
+            heights=heights,
+            monitor=history,
+            guess=start,
+        )
+        only_newton_left = all(one.newton for one in rungs[number + 1 :])
+        attempts.append(_attempt(run, patient=only_newton_left))
+        if attempts[-1].is_final:
             break
     best = min(attempts, key=_rank)
-    result = _result(scaled, options, best, tuple(history.reports))
-    surfaces = _surfaces(grid, heights, result.scales)
+    surfaces = _surfaces(grid, heights, scaled.scales)
     cost = Cost(cpu_seconds=time.process_time() - cpu, wall_seconds=time.perf_counter() - wall)
-    return best, replace(result, heights=surfaces, cost=cost)
-
-
-@dataclass(frozen=True, slots=True)
-class _Given:
-    """The film of a similar contact, if there is one, and the load over that of the contact."""
-
-    guess: Result | None
-    load: float
+    return best, _result(best, tuple(history.reports), surfaces, cost)
 
 
 class _History:
@@ -197,55 +189,11 @@ def _rank(attempt: Attempt) -> tuple[bool, bool, bool]:
     return not attempt.is_final, not attempt.reached, attempt.status.kind == "diverged"
 
 
-def _attempts(
-    scaled: ScaledProblem,
-    options: Options,
-    monitor: Monitor,
-    grid: Grid,
-    heights: Heights | None,
-    given: "_Given",
-) -> Iterator[Attempt]:
-    """Yield the outcome of each setting worth trying, the most promising first."""
-    flow = flow_table(scaled)
-    attempts = _settings(scaled.problem, options, rough=heights is not None)
-    for number, (setting, ramped) in enumerate(attempts):
-        if number:
-            how = ", sliding step by step" if ramped else ""
-            newton = "Newton's method, which takes a while"
-            name = newton if setting.rough.newton else f"the {setting.name} smoother"
-            monitor.message(f"falling back to {name}{how}")
-        follow = setting.rough.follow if heights is not None else 1.0
-        coupling = coupling_of(scaled, options, ramped=ramped, follow=follow)
-        run = Multigrid(grid, scaled, flow, options, setting, coupling)
-        run.carry(given.load)
-        if heights is not None:
-            run.roughen(heights)
-        run.guess = given.guess if options.accuracy == "tight" else None
-        relaxing = [one for one, _ in attempts[number + 1 :] if not one.rough.newton]
-        yield _run(run, monitor, patient=not relaxing)
-
-
-def _settings(
-    problem: ContactProblem, options: Options, *, rough: bool
-) -> list[tuple[Setting, bool]]:
-    """Return the settings of the smoother to try, and whether sliding is raised step by step."""
-    if options.smoother != "auto":
-        return [(SETTINGS[options.smoother], False)]
-    if rough:
-        relaxations = [(ROUGH, False), (CAREFUL, False), (GENTLE, False)]
-        # heat follows Newton's steps no better than cycles, at ten times the cost
-        return relaxations if problem.is_coupled else [*relaxations, (NEWTON, False)]
-    if not problem.is_coupled:
-        return [(FAST, False), (ROBUST, False)]
-    attempts = [(BROAD, False), (ROBUST, False)]
-    return [*attempts, (ROBUST, True)] if problem.slide_roll_ratio else attempts
-
-
-def _run(run: Multigrid, monitor: Monitor, *, patient: bool) -> Attempt:
+def _attempt(run: FullMultigrid, *, patient: bool) -> Attempt:
     """Run and judge; a value that is not finite ends the run."""
-    with np.errstate(all="ignore"):  # a run away is judged below, not warned of on the way
+    with np.errstate(all="ignore"):  # divergence is judged below, not warned of on the way
         try:
-            reached = run.solve(monitor, patient=patient)
+            reached = run.solve(patient=patient)
         except TouchingError as error:
             return Attempt(run=run, status=touching(run, error.part), reached=True)
         except ArithmeticError:
@@ -255,12 +203,17 @@ def _run(run: Multigrid, monitor: Monitor, *, patient: bool) -> Attempt:
 
 
 def coupling_of(
-    scaled: ScaledProblem, options: Options, *, ramped: bool, follow: float = 1.0
+    scaled: ScaledProblem, options: Options, strategy: Strategy, *, rough: bool = False
 ) -> Coupling:
-    """Return what acts on the film besides pressure and elasticity."""
+    """Return the effects on the film other than pressure and elasticity."""
     if not scaled.problem.is_coupled:
-        return Uncoupled()
-    return FilmCoupling(scaled, options, ramped=ramped, follow=follow)
+        return Coupling()
+    return FilmCoupling(
+        scaled,
+        options,
+        slide_in_steps=strategy.slide_in_steps,
+        follow=strategy.follow if rough else 1.0,
+    )
 
 
 def finest_grid(scaled: ScaledProblem, options: Options) -> Grid:
@@ -274,19 +227,19 @@ def finest_grid(scaled: ScaledProblem, options: Options) -> Grid:
 
 
 def _result(
-    scaled: ScaledProblem,
-    options: Options,
     attempt: Attempt,
     history: tuple[CycleReport, ...],
+    surfaces: SurfaceHeights | None,
+    cost: Cost,
 ) -> Result:
-    """Return what was found; its cost is not known yet."""
+    """Assemble the result of an attempt on the full domain."""
     run = attempt.run
-    level, grid = run.finest, run.finest.grid
+    level, grid, scaled = run.finest, run.finest.grid, run.hierarchy.scaled
     full = Grid(nx=grid.nx, ny=grid.ny, domain=grid.domain, mirror=False)
     shear, heat = _stress_and_heat(attempt)
     return Result(
         problem=scaled.problem,
-        options=options,
+        options=run.options,
         scales=scaled.scales,
         groups=scaled.groups,
         scaled=Fields(
@@ -300,24 +253,25 @@ def _result(
         status=attempt.status,
         history=history,
         errors=run.errors(),
-        cost=Cost(cpu_seconds=0.0, wall_seconds=0.0),
+        cost=cost,
         provenance=provenance(),
         shear=shear,
         heat=heat,
+        heights=surfaces,
     )
 
 
 def _stress_and_heat(attempt: Attempt) -> tuple[FilmShear | None, FilmHeat | None]:
-    """Return stresses and temperatures; nothing where there is no credible film."""
+    """Return shear stresses and temperatures; None where there is no credible film."""
     run = attempt.run
     if attempt.status.kind == "diverged" or run.finest.film.h.min() <= 0.0:
         return None, None
-    if isinstance(run.coupling, FilmCoupling):
-        state = run.coupling.state
-        if state is None or state.grid != run.finest.grid:
-            return None, None
-        return film_shear(state), film_heat(state)
-    return newtonian_shear(run.finest, run.scaled), None
+    if not run.hierarchy.scaled.problem.is_coupled:
+        return newtonian_shear(run.finest, run.hierarchy.scaled), None
+    state = run.coupling.state
+    if state is None or state.grid != run.finest.grid:
+        return None, None
+    return film_shear(state), film_heat(state)
 
 
 def provenance() -> Provenance:

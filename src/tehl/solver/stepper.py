@@ -8,9 +8,9 @@ import numpy as np
 from tehl.operators.reynolds import steady_wedge, step_stencil, upstream
 from tehl.solver.convergence import LEAST_KELVIN
 from tehl.solver.fas import Cycle, cycle
-from tehl.solver.multigrid import RUNAWAY, Multigrid
+from tehl.solver.fmg import RUNAWAY, FullMultigrid
 from tehl.solver.predictor import Predictor
-from tehl.solver.smoother import Setting
+from tehl.solver.relaxation import Relaxation
 from tehl.solver.squeeze import Squeeze
 from tehl.transient import Transient
 from tehl.typing import Array
@@ -53,15 +53,17 @@ class Stepper:
 
     Parameters
     ----------
-    run : Multigrid
+    run : FullMultigrid
         Solved for the steady film that the run begins with.
     transient : Transient
         Length of the step, and when it has settled.
-    settings : sequence of Setting
+    settings : sequence of Relaxation
         Settings of the relaxation to try, the fastest first.
     """
 
-    def __init__(self, run: Multigrid, transient: Transient, settings: Sequence[Setting]) -> None:
+    def __init__(
+        self, run: FullMultigrid, transient: Transient, settings: Sequence[Relaxation]
+    ) -> None:
         self.run, self.transient, self.settings = run, transient, settings
         level = run.finest
         self.time_step = transient.stride * level.grid.dx
@@ -70,9 +72,10 @@ class Stepper:
         self.now, self.before = self.steady.copy(), self.steady.copy()
         self.predictor = Predictor(level.film.p, transient.stride)
         for one in run.levels:
-            one.mesh = step_stencil(one.mesh, self.time_step)
+            mesh = step_stencil(one.mesh, self.time_step)
+            one.equations = replace(one.equations, mesh=mesh)
         run.coupling.follow = 1.0  # steps are small enough to follow at once
-        run.coupling.begin_time(run.levels, self.time_step)
+        run.coupling.begin_transient(run.levels, self.time_step)
         step = (self.time_step, level.grid.dx, transient.stride)
         excess = run.coupling.excess()
         self.squeeze = Squeeze(self.steady, excess, step, run.options.wedge_order)
@@ -100,13 +103,11 @@ class Stepper:
         for number in range(first, len(self.settings)):
             self.choose(number)
             if number > first:  # before the step is posed: it takes stresses from this film
-                level.film.p[:], level.rigid_approach = start
-                level.stale = True
+                level.set_state(*start)
                 level.update()
                 self.run.coupling.go_back(self.run.levels)
             else:
-                level.film.p[:] = self.predictor.onward()
-                level.stale = True
+                level.set_state(self.predictor.onward(), level.rigid_approach)
             level.pose_step(history + self.squeeze.onward(), heights, load)
             try:
                 settled = self._settle(self.settings[number].name)
@@ -140,7 +141,7 @@ class Stepper:
         for level in self.run.levels:
             least = level.mesh.w0 / WEIGHT_OF_POINTS
             threshold = max(setting.threshold, least)
-            level.set_smoother(replace(setting, threshold=threshold))
+            level.set_relaxation(replace(setting, threshold=threshold))
 
     def _settle(self, name: str) -> Settled:
         """Cycle until the step has settled."""
@@ -148,7 +149,7 @@ class Stepper:
         # a slower setting is given more of them
         for number in range(1, (1 + self.setting) * self.transient.max_cycles + 1):
             before = level.film.p.copy()
-            cycle(self.run.levels, self.run.coarsest.step, SHAPE)
+            cycle(self.run.levels, self.run.hierarchy.coarsest.step, SHAPE)
             level.update()
             warmer, rise = self.run.coupling.update(self.run.levels)
             self._follow_density()
@@ -167,8 +168,9 @@ class Stepper:
     def _follow_density(self) -> None:
         """Let the squeeze follow what the last temperatures make of the density."""
         level, excess = self.run.finest, self.run.coupling.excess()
-        if excess is None or level.history is None:
+        history = level.sources.history
+        if excess is None or history is None:
             return
         more = self.squeeze.follow(excess * level.film.rho * level.film.h)
-        level.history += more
-        level.rhs -= more
+        history += more
+        level.sources.reynolds -= more

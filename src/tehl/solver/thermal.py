@@ -6,7 +6,6 @@ coarser grids.
 """
 
 from collections.abc import Sequence
-from typing import Protocol
 
 import numpy as np
 
@@ -43,95 +42,61 @@ SETTLED = 8.0
 """Change of temperature [K] at which the first sweeps may end."""
 
 
-class Coupling(Protocol):
-    """What acts on the film besides pressure and elasticity."""
+class Coupling:
+    """Effects on the film other than pressure and elasticity.
 
-    follow: float
-    """Part of the way that the flow follows per cycle [-]."""
+    This one has none: it is that of an isothermal Newtonian film. `FilmCoupling` overrides it.
 
-    def begin(self, levels: Sequence[Level], *, finest: bool) -> bool:
-        """Start on the last of ``levels`` from what is known before; return whether it acts."""
-        ...
-
-    def update(self, levels: Sequence[Level]) -> tuple[float, float]:
-        """Bring the last of ``levels`` up to date; return change and rise of temperature [K]."""
-        ...
-
-    def forget(self, levels: Sequence[Level]) -> None:
-        """Take back what was done to ``levels``: the film on them is no start for the next grid."""
-        ...
-
-    def memory(self, levels: Sequence[Level]) -> dict[str, Array]:
-        """Return what it remembers of the last of ``levels``."""
-        ...
-
-    def recall(self, levels: Sequence[Level], fields: dict[str, Array]) -> None:
-        """Remember what `memory` has returned."""
-        ...
-
-    def begin_time(self, levels: Sequence[Level], time_step: float) -> None:
-        """Let time pass from the present state on, in steps of ``time_step`` [a_x / u_m]."""
-        ...
-
-    def excess(self) -> Array | None:
-        """Return the part of the mass in motion that the film does not hold, (ny, nx); or None."""
-        ...
-
-    def advance(self, levels: Sequence[Level]) -> None:
-        """Take the present state for the past of the next step."""
-        ...
-
-    def go_back(self, levels: Sequence[Level]) -> None:
-        """Take the state of the last step again."""
-        ...
-
-
-class Uncoupled:
-    """An isothermal Newtonian film: pressure alone rules the flow."""
+    Attributes
+    ----------
+    follow : float
+        Part of the way, in logarithms, that mobility and density follow per sweep [-].
+    state : FilmState or None
+        Temperature and shear stress on the finest level; None where there are none.
+    """
 
     follow = 1.0
+    state: FilmState | None = None
 
-    def begin(self, levels: Sequence[Level], *, finest: bool) -> bool:
-        """Do nothing."""
-        del levels, finest
+    def begin(self, levels: Sequence[Level], *, finest: bool, has_film: bool) -> bool:
+        """Start on the last of ``levels`` from the coarser ones; return whether there is an effect.
+
+        ``has_film``: the film is that of cycles, not just the start from the Hertz pressure.
+        """
+        del levels, finest, has_film
         return False
 
     def update(self, levels: Sequence[Level]) -> tuple[float, float]:
-        """Do nothing; nothing changes."""
+        """Follow the film on the last of ``levels``; return change and rise of temperature [K]."""
         del levels
         return 0.0, 0.0
 
     def forget(self, levels: Sequence[Level]) -> None:
-        """Do nothing."""
-        del levels
+        """Undo the effect on ``levels``: their film is not a start for the next grid."""
 
-    def memory(self, levels: Sequence[Level]) -> dict[str, Array]:
-        """Return nothing."""
-        del levels
-        return {}
-
-    def recall(self, levels: Sequence[Level], fields: dict[str, Array]) -> None:
-        """Do nothing."""
-        del levels, fields
-
-    def begin_time(self, levels: Sequence[Level], time_step: float) -> None:
-        """Do nothing."""
-        del levels, time_step
+    def begin_transient(self, levels: Sequence[Level], time_step: float) -> None:
+        """Start a transient run from the present state, in steps of ``time_step`` [a_x / u_m]."""
 
     def excess(self) -> Array | None:
-        """Return None: what moves is what is there."""
+        """Return the part of the mass in motion that the film does not hold, (ny, nx); or None."""
         return None
 
     def advance(self, levels: Sequence[Level]) -> None:
-        """Do nothing."""
-        del levels
+        """Make the present state the past of the next step."""
 
     def go_back(self, levels: Sequence[Level]) -> None:
-        """Do nothing."""
+        """Restore the state of the last step."""
+
+    def pack(self, levels: Sequence[Level]) -> dict[str, Array]:
+        """Return the state as arrays by name, for a checkpoint."""
         del levels
+        return {}
+
+    def unpack(self, levels: Sequence[Level], fields: dict[str, Array]) -> None:
+        """Restore the state that `pack` returned."""
 
 
-class FilmCoupling:
+class FilmCoupling(Coupling):
     """Energy equation and shear law of the film.
 
     Parameters
@@ -140,8 +105,8 @@ class FilmCoupling:
         Laws, motion and heat.
     options : Options
         Order of the upstream differences, and how far the answer is iterated.
-    ramped : bool
-        Raise the sliding speed from nothing over the first sweeps.
+    slide_in_steps : bool
+        Raise the sliding speed from zero over the first sweeps.
     follow : float
         Part of the way that the flow follows each sweep, in logarithms [-]. Between rough surfaces
         the pressure that drives the oil down a flank may make nearly all of its heat and thinning:
@@ -153,7 +118,7 @@ class FilmCoupling:
         scaled: ScaledProblem,
         options: Options,
         *,
-        ramped: bool = False,
+        slide_in_steps: bool = False,
         follow: float = 1.0,
     ) -> None:
         self.film = HeatedFilm(scaled)
@@ -162,12 +127,12 @@ class FilmCoupling:
         counter_moving = min(motion.speed_1, motion.speed_2) <= 0.0
         # elsewhere the backflow of the coarser grids is a good one
         self.thorough = options.accuracy == "tight" or counter_moving
-        self.sweeps_left, self.follow = RAMP if ramped else 0, follow
+        self.sweeps_left, self.follow = RAMP if slide_in_steps else 0, follow
         self.state: FilmState | None = None
         self.factors: reynolds.Factors | None = None
         self.change, self.rise, self.quiet = 0.0, 0.0, False
 
-    def begin(self, levels: Sequence[Level], *, finest: bool) -> bool:
+    def begin(self, levels: Sequence[Level], *, finest: bool, has_film: bool) -> bool:
         """Heat the last of ``levels`` from the temperature of the one before it.
 
         A coarser grid that does not resolve the film, or has none to start from, is left as it is;
@@ -175,7 +140,7 @@ class FilmCoupling:
         """
         fine, coarser = levels[-1], self.state
         large = min(fine.grid.nx, fine.grid.ny) > COUPLED_FROM
-        sound = not fine.started_dry and float(fine.film.h.min()) > SOUND * fine.floor
+        sound = has_film and float(fine.film.h.min()) > SOUND * fine.equations.floor
         if not (finest or coarser is not None or (large and sound)):
             return False
         self.quiet = False
@@ -189,7 +154,7 @@ class FilmCoupling:
         self.state = state
         if coarser is not None:
             state.refine_from(coarser)
-            state.set_film(fine.film.p, fine.film.h, fine.floor)
+            state.set_film(fine.film.p, fine.film.h, fine.equations.floor)
             if not all(side.marches for side in state.sides):  # a line needs no help to begin
                 state.update_surfaces()
             self._hand_down(levels, refined(levels[-2]))
@@ -230,7 +195,7 @@ class FilmCoupling:
         for level in levels:
             level.uncouple()
 
-    def memory(self, levels: Sequence[Level]) -> dict[str, Array]:
+    def pack(self, levels: Sequence[Level]) -> dict[str, Array]:
         """Return temperature, stress and fluxes, and the factors that follow from them."""
         state, factors = self.state, levels[-1].factors
         if state is None or factors is None:
@@ -240,7 +205,7 @@ class FilmCoupling:
         known["film_back"] = state.work.back  # how far the march back goes before the next sweep
         return known | (state.time.memory() if state.time is not None else {})
 
-    def recall(self, levels: Sequence[Level], fields: dict[str, Array]) -> None:
+    def unpack(self, levels: Sequence[Level], fields: dict[str, Array]) -> None:
         """Take them back."""
         if self.state is None or not fields:
             return
@@ -253,7 +218,7 @@ class FilmCoupling:
         self._hand_down(levels, reynolds.Factors(*(fields[f"factor_{name}"] for name in names)))
         self.factors = levels[-1].factors
 
-    def begin_time(self, levels: Sequence[Level], time_step: float) -> None:
+    def begin_transient(self, levels: Sequence[Level], time_step: float) -> None:
         """Let the temperatures change in time, if there are any."""
         self.factors = levels[-1].factors
         if self.state is not None and self.state.model.terms.heat:
@@ -287,7 +252,7 @@ class FilmCoupling:
         fine = levels[-1]
         self.sweeps_left = max(self.sweeps_left - 1, 0)
         state.slide(1.0 - self.sweeps_left / RAMP)
-        state.set_film(fine.film.p, fine.film.h, fine.floor)
+        state.set_film(fine.film.p, fine.film.h, fine.equations.floor)
         change = state.sweep(steps)
         if self.sweeps_left:
             change = max(change, UNSETTLED)
@@ -302,7 +267,8 @@ class FilmCoupling:
         heated.mobility[:] /= self.film.scaled.groups.lambda_bar
         factors = reynolds.Factors(*np.empty((5, *shape)))
         isothermal = reynolds.Film(fine.film.p, np.ones(shape), *np.empty((5, *shape)))
-        reynolds.factors_of(heated, isothermal, fine.flow.table, fine.flow.step, factors)
+        flow = fine.equations.flow
+        reynolds.factors_of(heated, isothermal, flow.table, flow.step, factors)
         if fine.factors is not None and self.follow < 1.0:
             factors = between(fine.factors, factors, self.follow)
         self._hand_down(levels, factors)
@@ -315,8 +281,7 @@ class FilmCoupling:
             level.couple(factors)
             factors = reynolds.Factors(*(array[::2, ::2].copy() for array in factors))
         fine.update_properties()
-        reynolds.tangent_source(fine.film, fine.mesh, fine.rhs)
-        fine.add_history()
+        fine.write_source()
 
 
 def between(old: reynolds.Factors, new: reynolds.Factors, part: float) -> reynolds.Factors:

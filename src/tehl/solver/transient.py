@@ -19,11 +19,10 @@ from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.outputs import newtonian_sliding
 from tehl.solver.packing import ANEW, check_whole, pack
 from tehl.solver.record import Moment, Record
-from tehl.solver.smoother import BROAD, CAREFUL, FAST, ROBUST, ROUGH
+from tehl.solver.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH
 from tehl.solver.snapshot import Clock, Snapshot
 from tehl.solver.steady import Attempt, finest_grid, solve_attempt
 from tehl.solver.stepper import Settled, StepError, Stepper
-from tehl.solver.thermal import FilmCoupling
 from tehl.solver.transient_verdict import (
     check_load,
     check_places,
@@ -137,7 +136,7 @@ class Run:
             except StepError as error:
                 return failed(error, time_now, self.level, self.transient)
             self._note(step, heights, settled)
-            if not self.level.film.h.min() > self.level.floor:
+            if not self.level.film.h.min() > self.level.equations.floor:
                 return touching(time_now, self.level, rough=self.problem.is_rough)
             monitor.step(self._report(step, settled))
             if keep is not None:
@@ -159,22 +158,22 @@ class Run:
 
     def _rise(self) -> float:
         """Return the largest temperature over that of the oil at the inlet [K]."""
-        coupling = self.stepper.run.coupling
-        if not isinstance(coupling, FilmCoupling) or coupling.state is None:
+        state = self.stepper.run.coupling.state
+        if state is None:
             return 0.0
-        return float(coupling.state.temperature.max()) - self.scales.temperature
+        return float(state.temperature.max()) - self.scales.temperature
 
     def _traction(self, load: float) -> float:
         """Return the mid-film traction coefficient."""
-        level, coupling = self.level, self.stepper.run.coupling
-        if isinstance(coupling, FilmCoupling) and coupling.state is not None:
-            stress = coupling.state.view("tau_x").T
+        level, state = self.level, self.stepper.run.coupling.state
+        if state is not None:
+            stress = state.view("tau_x").T
         else:
             stress = newtonian_sliding(level, self.scaled)
         wet = np.where(level.film.p > 0.0, stress, 0.0)
         area = self.scales.half_width_x * self.scales.half_width_y
         unit = stress_unit(self.scales) * area / (self.scales.load * load)
-        return level.load.integral(wet) * unit
+        return level.equations.load.integral(wet) * unit
 
     def _report(self, step: int, settled: Settled) -> StepReport:
         _, _, central, minimum, *_ = self.record.rows[-1]
@@ -202,7 +201,7 @@ class Run:
                 "mass_before": self.stepper.before,
                 "pressure_changes": self.stepper.predictor.past,
                 "excess": self.stepper.squeeze.past,
-                **self.stepper.run.coupling.memory(self.stepper.run.levels),
+                **self.stepper.run.coupling.pack(self.stepper.run.levels),
             },
             record=self.record,
             cost=self.clock.cost(),
@@ -218,13 +217,12 @@ class Run:
         """
         level, fields = self.level, dict(snapshot.fields)
         self._check(snapshot)
-        level.film.p[:] = fields.pop("pressure")
         self.stepper.now, self.stepper.before = fields.pop("mass"), fields.pop("mass_before")
         self.stepper.predictor.past = fields.pop("pressure_changes")
         self.stepper.squeeze.past = fields.pop("excess")
-        level.rigid_approach, level.stale = snapshot.rigid_approach, True
+        level.set_state(fields.pop("pressure"), snapshot.rigid_approach)
         self.stepper.choose(snapshot.setting)
-        self.stepper.run.coupling.recall(self.stepper.run.levels, fields)
+        self.stepper.run.coupling.unpack(self.stepper.run.levels, fields)
         self.record, self.clock.before = snapshot.record, snapshot.cost
 
     def _check(self, snapshot: Snapshot) -> None:

@@ -8,8 +8,8 @@ from tehl.operators.energy import FilmState
 from tehl.options import Domain
 from tehl.result import ErrorEstimate, Result, Status
 from tehl.scaling import Groups
+from tehl.solver.fmg import FullMultigrid
 from tehl.solver.level import Level
-from tehl.solver.multigrid import Multigrid
 from tehl.solver.outputs import heat_balance
 from tehl.solver.rough_verdict import (
     LESS_ROUGH,
@@ -20,7 +20,6 @@ from tehl.solver.rough_verdict import (
     vague_status,
 )
 from tehl.solver.suspects import Suspect, coarse_status, grid_hint, suspect
-from tehl.solver.thermal import FilmCoupling
 
 LARGEST_BAR = 0.5
 """Relative discretisation error of the film beyond which a grid is called too coarse."""
@@ -36,7 +35,7 @@ STARVED = 0.9
 """Film over fully flooded film below which an edge is called too close."""
 
 
-def verdict(run: Multigrid, cycled_out: bool, errors: ErrorEstimate | None) -> Status:
+def verdict(run: FullMultigrid, cycled_out: bool, errors: ErrorEstimate | None) -> Status:
     """Judge the last state of a run that stayed finite.
 
     Parameters
@@ -51,7 +50,7 @@ def verdict(run: Multigrid, cycled_out: bool, errors: ErrorEstimate | None) -> S
     film = run.finest.film
     if not (np.isfinite(film.p).all() and np.isfinite(film.h).all() and film.p.min() >= 0):
         return diverged(run)
-    if cycled_out and run.is_rough:  # another setting may still get there, on this very grid
+    if cycled_out and run.roughness.is_rough:  # another strategy may converge on this grid
         return _not_reached(run)
     found = _film_status(run, errors)
     if not found.converged:
@@ -63,19 +62,19 @@ def verdict(run: Multigrid, cycled_out: bool, errors: ErrorEstimate | None) -> S
     return found if rest.converged else rest
 
 
-def _film_status(run: Multigrid, errors: ErrorEstimate | None) -> Status:
+def _film_status(run: FullMultigrid, errors: ErrorEstimate | None) -> Status:
     """Judge whether there is a film, and whether the grid resolves it."""
     level, groups = run.finest, run.groups
-    if run.is_rough and not is_film(level, errors):
+    if run.roughness.is_rough and not is_film(level, errors):
         return no_film_status(run, errors)
-    if run.is_rough and errors is not None and errors.iteration_minimum >= 1.0:
+    if run.roughness.is_rough and errors is not None and errors.iteration_minimum >= 1.0:
         return _not_reached(run)  # further cycles might take it away
-    if not run.is_rough and not level.film.h.min() > level.floor:
+    if not run.roughness.is_rough and not level.film.h.min() > level.equations.floor:
         return _film_not_positive(level, groups)
     return _resolution_status(run, errors)
 
 
-def _resolution_status(run: Multigrid, errors: ErrorEstimate | None) -> Status:
+def _resolution_status(run: FullMultigrid, errors: ErrorEstimate | None) -> Status:
     """Judge whether the grid resolves the film.
 
     Between rough surfaces the error of the minimum counts as a part of the film that smooth ones
@@ -85,29 +84,31 @@ def _resolution_status(run: Multigrid, errors: ErrorEstimate | None) -> Status:
     if errors is None:
         return CONVERGED
     error, part = errors.discretisation_minimum, 1.0
-    if run.is_rough:
-        part = float(level.film.h.min()) / run.expected_film
+    if run.roughness.is_rough:
+        part = float(level.film.h.min()) / run.hierarchy.expected_film
     if not max(part * error, errors.discretisation_central) <= LARGEST_BAR:
         return coarse_status(level.grid, groups, max(error, errors.discretisation_central))
-    return vague_status(level, error) if run.is_rough and error > VAGUE else CONVERGED
+    return vague_status(level, error) if run.roughness.is_rough and error > VAGUE else CONVERGED
 
 
-def _domain_status(run: Multigrid) -> Status:
+def _domain_status(run: FullMultigrid) -> Status:
     """Judge the domain: whether it is large enough, and leaves the contact flooded."""
     level, groups = run.finest, run.groups
     left_out = domain_error(groups, level.grid.domain)
     if left_out > LARGEST_DOMAIN_ERROR:
         return _domain_too_small(groups, left_out)
     # in a dent the film says nothing of the oil that the contact needs
-    central = run.expected_film if run.is_rough else run.traces[-1].central.values[-1]
+    central = (
+        run.hierarchy.expected_film if run.roughness.is_rough else run.traces[-1].central.values[-1]
+    )
     return edge_status(level.grid, groups, central)
 
 
-def _heat_status(run: Multigrid) -> Status:
+def _heat_status(run: FullMultigrid) -> Status:
     """Judge the temperatures: finite, nowhere far below what enters, and their heat in balance."""
-    if not isinstance(run.coupling, FilmCoupling) or run.coupling.state is None:
-        return CONVERGED
     state = run.coupling.state
+    if state is None:
+        return CONVERGED
     temperature = state.temperature
     entering = min(state.scales.temperature, *(side.bulk for side in state.sides))
     missing = heat_balance(state).error if state.model.terms.heat else 0.0
@@ -140,7 +141,7 @@ def _adiabatic_cooling(state: FilmState) -> float:
     return expansion * inlet * terms.compression / terms.peclet
 
 
-def diverged(run: Multigrid) -> Status:
+def diverged(run: FullMultigrid) -> Status:
     """Return the status of a run that ran away, with its likely cause if one is conspicuous."""
     grid, groups = run.finest.grid, run.groups
     what = (
@@ -151,7 +152,7 @@ def diverged(run: Multigrid) -> Status:
     if found is None:
         hint = (
             other
-            or (LESS_ROUGH if run.is_rough else "")
+            or (LESS_ROUGH if run.roughness.is_rough else "")
             or (
                 f"Nothing about the case is conspicuous: take {grid_hint(grid, groups)}, or come "
                 "nearer in steps, from less load, less sliding or a thicker film."
@@ -162,15 +163,15 @@ def diverged(run: Multigrid) -> Status:
     return Status(kind="diverged", cause=found.cause, message=message, hint=other or found.hint)
 
 
-def _suspect(run: Multigrid) -> Suspect | None:
+def _suspect(run: FullMultigrid) -> Suspect | None:
     """Return what is conspicuous about a run that fails."""
     coarser = no_film_before(run)
     if coarser is not None:
         return coarser
-    return suspect(run.finest.grid, run.scaled)
+    return suspect(run.finest.grid, run.hierarchy.scaled)
 
 
-def _smoother_hint(run: Multigrid) -> str:
+def _smoother_hint(run: FullMultigrid) -> str:
     """Name the smoother that was not tried, if there is one."""
     tried = run.options.smoother
     if tried == "gauss-seidel":
@@ -214,7 +215,7 @@ def not_certified(result: Result, why: str) -> Status:
     )
 
 
-def _not_reached(run: Multigrid) -> Status:
+def _not_reached(run: FullMultigrid) -> Status:
     reports = run.traces[-1].reports
     last = reports[-1]
     worst = max(
@@ -222,7 +223,7 @@ def _not_reached(run: Multigrid) -> Status:
          ("load error", abs(last.load_error))),
         key=lambda pair: pair[1],
     )  # fmt: skip
-    stalled = len(reports) < run.options.max_cycles * run.setting.rough.patience
+    stalled = len(reports) < run.options.max_cycles * run.strategy.patience
     wanted = (
         f"the tolerance is {run.options.tolerance:.1e}"
         if run.options.accuracy == "tight"

@@ -33,18 +33,15 @@ def start_from(level: Level, guess: Result | None) -> bool:
         return False
     level.pose_problem()
     known, approach, before = level.film.p.copy(), level.rigid_approach, _distance(level)
-    level.film.p[:] = pressure_on(level.grid, guess)
-    level.rigid_approach = guess.rigid_approach
+    level.set_state(pressure_on(level.grid, guess), guess.rigid_approach)
     if _distance(level) < NEARER * before:
         return True
-    level.film.p[:] = known
-    level.rigid_approach, level.stale = approach, True
+    level.set_state(known, approach)
     return False
 
 
 def _distance(level: Level) -> float:
     """Return how far the present state is from a solution: residual and load error [-]."""
-    level.stale = True
     level.update()
     return level.evaluate_residual() + abs(level.load_error())
 

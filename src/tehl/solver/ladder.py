@@ -1,0 +1,124 @@
+"""The ladder of strategies: which method is tried first, and what to fall back to.
+
+A strategy is a relaxation with the settings of everything around it. Smooth isothermal films need
+the first rung only, up to M of a thousand and more; the later rungs trade speed for robustness.
+"""
+
+from dataclasses import dataclass
+
+from tehl.options import Options
+from tehl.problem import ContactProblem
+from tehl.solver.continuation import Continuation
+from tehl.solver.relaxation import (
+    BESIDE_NEWTON,
+    BROAD,
+    CAREFUL,
+    FAST,
+    GAUSS_SEIDEL,
+    GENTLE,
+    ROBUST,
+    ROUGH,
+    Relaxation,
+)
+
+DIRECT = Continuation()
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Strategy:
+    """How a contact is solved.
+
+    Attributes
+    ----------
+    relaxation : Relaxation
+        Settings of the smoother.
+    continuation : Continuation
+        Settings of the continuation in the roughness.
+    memory : int
+        Earlier cycles that Anderson acceleration combines between rough surfaces; 0 is none.
+    patience : int
+        Factor on the cycles after which the iteration is given up.
+    follow : float
+        Part of the way, in logarithms, that mobility and density of a rough film follow a sweep of
+        the energy equation [-].
+    newton : bool
+        Newton's method in place of the cycles, on the grids that have the heights.
+    slide_in_steps : bool
+        Raise the sliding speed from zero over the first sweeps of the energy equation.
+    """
+
+    relaxation: Relaxation
+    continuation: Continuation = DIRECT
+    memory: int = 0
+    patience: int = 1
+    follow: float = 1.0
+    newton: bool = False
+    slide_in_steps: bool = False
+
+    @property
+    def name(self) -> str:
+        """Name of the relaxation."""
+        return self.relaxation.name
+
+    @property
+    def first_relaxation(self) -> Relaxation:
+        """Relaxation of the coarse grids on which the film is isothermal and conducts less."""
+        return FAST if self.relaxation is BROAD else self.relaxation
+
+    @property
+    def description(self) -> str:
+        """The strategy in words."""
+        if self.newton:
+            return "Newton's method, which takes a while"
+        steps = ", sliding raised in steps" if self.slide_in_steps else ""
+        return f"the {self.name} smoother{steps}"
+
+
+SMOOTH = (Strategy(relaxation=FAST), Strategy(relaxation=ROBUST))
+COUPLED = (
+    Strategy(relaxation=BROAD),
+    Strategy(relaxation=ROBUST),
+    Strategy(relaxation=ROBUST, slide_in_steps=True),
+)
+BETWEEN_ROUGH = (
+    Strategy(relaxation=ROUGH, memory=5),
+    Strategy(
+        relaxation=CAREFUL,
+        continuation=Continuation(correction=0.5, limit=0.3, ramp=8),
+        memory=8,
+        patience=2,
+        follow=0.3,
+    ),
+    Strategy(
+        relaxation=GENTLE,
+        continuation=Continuation(correction=0.15, limit=0.15, ramp=48, points=12.0),
+        memory=10,
+        patience=3,
+        follow=0.3,
+    ),
+    Strategy(relaxation=BESIDE_NEWTON, continuation=Continuation(points=5.0), newton=True),
+)
+STATED = {one.name: Strategy(relaxation=one) for one in (FAST, BROAD, ROBUST, GAUSS_SEIDEL)}
+
+
+def ladder(problem: ContactProblem, options: Options, *, rough: bool) -> tuple[Strategy, ...]:
+    """Return the strategies to try, the fastest first.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        The contact.
+    options : Options
+        A stated ``smoother`` is the only rung.
+    rough : bool
+        Whether the film is computed between rough surfaces.
+    """
+    if options.smoother != "auto":
+        return (STATED[options.smoother],)
+    if rough:
+        # heat does not follow Newton steps better than cycles, at ten times the cost
+        cycles = tuple(one for one in BETWEEN_ROUGH if not one.newton)
+        return cycles if problem.is_coupled else BETWEEN_ROUGH
+    if not problem.is_coupled:
+        return SMOOTH
+    return COUPLED if problem.slide_roll_ratio else COUPLED[:2]

@@ -1,0 +1,120 @@
+"""Relaxation of the pressure on one grid: hybrid line relaxation, and point Gauss-Seidel."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from tehl.grid import Grid
+from tehl.kernels import reynolds
+from tehl.kernels.gauss_seidel import relax_points
+from tehl.kernels.reynolds import Film, Mesh, relax_lines, stiffen
+from tehl.operators.flow import FlowTable
+from tehl.operators.influence import Influence
+from tehl.operators.reynolds import line_influence
+from tehl.typing import Array, FlagArray
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Relaxation:
+    """Settings of the hybrid line relaxation (Venner and Lubrecht 2000, chapter 6).
+
+    Attributes
+    ----------
+    name : str
+        As in `tehl.options.Options` and in the reports of the cycles.
+    threshold : float
+        Conductance over mesh width squared below which a node relaxes as a dipole [-].
+    point, dipole : float
+        Under-relaxation of points (Gauss-Seidel) and of dipoles (Jacobi) [-].
+    lines : int
+        Lines to each side that are assumed to move with a line while it is solved. On the steep
+        flank of a ridge along them they do, and together change the film by more than each alone.
+    stiff : bool
+        Add the change of conductance with pressure to the diagonal.
+    """
+
+    name: str
+    threshold: float
+    point: float
+    dipole: float
+    lines: int = 0
+    stiff: bool = False
+
+
+FAST = Relaxation(name="fast", threshold=1.0, point=0.7, dipole=0.6)
+BROAD = Relaxation(name="broad", threshold=10.0, point=0.7, dipole=0.6)
+ROBUST = Relaxation(name="robust", threshold=1.0, point=0.4, dipole=0.3, lines=4, stiff=True)
+ROUGH = Relaxation(name="rough", threshold=1.0, point=0.6, dipole=0.4, lines=4)
+CAREFUL = Relaxation(name="careful", threshold=1.0, point=0.5, dipole=0.35, lines=4, stiff=True)
+GENTLE = Relaxation(name="gentle", threshold=1.0, point=0.3, dipole=0.2, lines=4, stiff=True)
+BESIDE_NEWTON = Relaxation(name="newton", threshold=1.0, point=0.5, dipole=0.35)
+GAUSS_SEIDEL = Relaxation(name="gauss-seidel", threshold=0.0, point=0.5, dipole=0.0)
+
+
+class Smoother(Protocol):
+    """One sweep over the pressure of a level; the film is that of the last evaluation."""
+
+    frozen: FlagArray
+    """Nodes that keep their pressure on this level, (ny, nx) of 0 and 1."""
+
+    def sweep(self, film: Film, mesh: Mesh, rhs: Array, flow: FlowTable) -> None:
+        """Relax ``film.p`` in place."""
+        ...
+
+
+class LineSmoother:
+    """Lines along x in two colours: points where the film conducts, dipoles in the contact."""
+
+    def __init__(self, grid: Grid, influence: Influence, relaxation: Relaxation) -> None:
+        point, dipole = line_influence(influence)
+        point += 2.0 * neighbours(influence, relaxation.lines, point.size)
+        self.frozen = np.zeros(grid.shape, np.uint8)
+        self.steep = np.zeros(grid.shape)
+        self.workspace = reynolds.Relaxation(
+            xi=relaxation.threshold,
+            omega_point=relaxation.point,
+            omega_dipole=relaxation.dipole,
+            point=point,
+            dipole=dipole,
+            kind=np.zeros(grid.shape, np.uint8),
+            delta=np.zeros(grid.shape),
+            frozen=self.frozen,
+            steep=self.steep,
+        )
+        self.is_stiff = relaxation.stiff
+
+    def sweep(self, film: Film, mesh: Mesh, rhs: Array, flow: FlowTable) -> None:
+        """Relax ``film.p`` in place."""
+        if self.is_stiff:
+            stiffen(film, mesh, flow.table, flow.step, self.steep)
+        relax_lines(film, mesh, rhs, self.workspace)
+
+
+class PointSmoother:
+    """Plain Gauss-Seidel, node by node: for teaching; it fails when the contact is loaded."""
+
+    def __init__(self, grid: Grid, influence: Influence, relaxation: Relaxation) -> None:
+        self.frozen = np.zeros(grid.shape, np.uint8)
+        self.point, _ = line_influence(influence)
+        self.omega = relaxation.point
+
+    def sweep(self, film: Film, mesh: Mesh, rhs: Array, flow: FlowTable) -> None:
+        """Relax ``film.p`` in place."""
+        del flow
+        relax_points(film, mesh, rhs, self.point, self.omega)
+
+
+def neighbours(influence: Influence, lines: int, size: int) -> Array:
+    """Return the film along a line by a unit change of nodes abreast of it on 1 to ``lines``."""
+    total = np.zeros(size)
+    for line in range(1, lines + 1):
+        total += influence(line, slice(0, size))
+    return total
+
+
+def make_smoother(grid: Grid, influence: Influence, relaxation: Relaxation) -> Smoother:
+    """Return the smoother of one grid."""
+    if relaxation is GAUSS_SEIDEL:
+        return PointSmoother(grid, influence, relaxation)
+    return LineSmoother(grid, influence, relaxation)
