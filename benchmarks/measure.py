@@ -15,7 +15,8 @@ from scipy import fft
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.scaling import ScaledProblem
-from tehl.solver.fmg import FullMultigrid, Hierarchy
+from tehl.solver.film_solver import FilmSolver
+from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.ladder import Strategy
 from tehl.solver.relaxation import FAST, Relaxation
 from tehl.solver.steady import finest_grid
@@ -65,9 +66,9 @@ def fft_unit(points: int) -> float:
 
 def multigrid(
     problem: ContactProblem, options: Options, relaxation: Relaxation = FAST
-) -> FullMultigrid:
+) -> FilmSolver:
     """Return the hierarchy that `tehl.solve` would cycle on."""
     scaled = ScaledProblem.of(problem)
     grid = finest_grid(scaled, options)
     hierarchy = Hierarchy.on(grid, scaled, options, relaxation)
-    return FullMultigrid(hierarchy, Strategy(relaxation=relaxation))
+    return FilmSolver(hierarchy, Strategy(relaxation=relaxation))

@@ -9,7 +9,7 @@ from benchmarks.measure import multigrid
 from benchmarks.table import Table
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.solver.fmg import FullMultigrid
+from tehl.solver.film_solver import FilmSolver
 from tehl.typing import Array
 
 CASES = ((20, 10), (57.21, 10.52), (100, 12.04), (200, 10), (500, 10), (1000, 10))
@@ -20,13 +20,13 @@ MORE_CYCLES = 20
 RADIUS = 1.2
 
 
-def one_cycle(run: FullMultigrid) -> Array:
+def one_cycle(run: FilmSolver) -> Array:
     """Run one cycle from the finest level; return the film inside r < 1.2."""
     run.hierarchy.cycle(run.levels)
     return film_inside(run)
 
 
-def film_inside(run: FullMultigrid) -> Array:
+def film_inside(run: FilmSolver) -> Array:
     """Return the film at the nodes with X^2 + Y^2 < 1.2^2."""
     run.finest.update()
     grid = run.finest.grid

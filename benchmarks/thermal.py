@@ -23,7 +23,7 @@ from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import Result
 from tehl.solver import solve
-from tehl.solver.fmg import Cycles
+from tehl.solver.film_solver import Cycles
 from tehl.solver.work import with_work
 
 EYRING = {"law": "eyring", "stress": 10e6}

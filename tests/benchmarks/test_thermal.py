@@ -3,7 +3,7 @@
 from benchmarks.thermal import EYRING, attempt, speed_contact, timed_parts
 
 from tehl.options import Options
-from tehl.solver.fmg import Cycles
+from tehl.solver.film_solver import Cycles
 from tests.reference import DOMAIN
 
 

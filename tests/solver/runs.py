@@ -7,7 +7,8 @@ from tehl.problem import ContactProblem
 from tehl.result import Result
 from tehl.scaling import ScaledProblem
 from tehl.solver import solve
-from tehl.solver.fmg import FullMultigrid, Hierarchy
+from tehl.solver.film_solver import FilmSolver
+from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.ladder import SMOOTH
 from tehl.solver.relaxation import FAST
 from tehl.solver.steady import finest_grid
@@ -27,8 +28,8 @@ def film_of(load: float, speed: float, options: Options, radius_ratio: float = 1
     return solve(moes_contact(load, speed, radius_ratio=radius_ratio), options)
 
 
-def multigrid(problem: ContactProblem, options: Options) -> FullMultigrid:
+def multigrid(problem: ContactProblem, options: Options) -> FilmSolver:
     """Return the hierarchy that `solve` would cycle on."""
     scaled = ScaledProblem.of(problem)
     grid = finest_grid(scaled, options)
-    return FullMultigrid(Hierarchy.on(grid, scaled, options, FAST), SMOOTH[0])
+    return FilmSolver(Hierarchy.on(grid, scaled, options, FAST), SMOOTH[0])

@@ -14,7 +14,7 @@ from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import Status
 from tehl.scaling import scales
-from tehl.solver.history_bars import estimates, grid_bar, history_bars
+from tehl.solver.transient.certify import estimates, grid_bar, history_bars
 from tehl.transient_result import TransientResult
 from tests.fixtures_result import make_result
 from tests.fixtures_transient import make_transient
@@ -23,7 +23,7 @@ from tests.solver.test_transient_heat import hot
 
 M, L = 10.0, 5.0
 FILMS = ("film_minimum", "film_central_least", "film_central_largest")
-MODULE = "tehl.solver.certify_transient"
+MODULE = "tehl.solver.transient.certify"
 
 
 def passing(load: float = M, *, wavelength: float = 0.0, **transient: object) -> ContactProblem:

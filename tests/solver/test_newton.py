@@ -13,7 +13,7 @@ from tehl.operators.flow import flow_table
 from tehl.operators.jacobian import interpolation, jacobian, stencil_of
 from tehl.result import Status
 from tehl.scaling import ScaledProblem
-from tehl.solver import fmg, steady
+from tehl.solver import film_solver, steady
 from tehl.solver.continuation import MOST_STEPS, RAISED, raise_by_newton
 from tehl.solver.ladder import BETWEEN_ROUGH, Strategy
 from tehl.solver.level import Equations, Level
@@ -220,7 +220,7 @@ def test_heights_are_raised_on_the_finest_grid_where_the_coarser_film_is_no_star
             raise DivergedError
         return walk(self, change)
 
-    monkeypatch.setattr(fmg, "raise_by_newton", noted)
+    monkeypatch.setattr(film_solver, "raise_by_newton", noted)
     plain = finished(problem, options)
     assert raised == [(33, False)]
     monkeypatch.setattr(Newton, "walk", stumbling)

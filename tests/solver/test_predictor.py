@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tehl.solver.predictor import Predictor
+from tehl.solver.transient.predictor import Predictor
 
 X = np.linspace(-3.0, 3.0, 129)
 SPACING = X[1] - X[0]

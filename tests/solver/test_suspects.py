@@ -6,7 +6,8 @@ from tehl.grid import Grid
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.scaling import ScaledProblem
-from tehl.solver.fmg import FullMultigrid, Hierarchy
+from tehl.solver.film_solver import FilmSolver
+from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.ladder import COUPLED
 from tehl.solver.steady import coupling_of, finest_grid
 from tehl.solver.suspects import Suspect, suspect
@@ -67,7 +68,7 @@ def test_the_status_of_a_run_away_tells_the_likely_cause_and_its_own_hint():
     problem, options = changed("surface_1", temperature=240.0), Options(points=65)
     scaled = ScaledProblem.of(problem)
     first = COUPLED[0]
-    run = FullMultigrid(
+    run = FilmSolver(
         Hierarchy.on(finest_grid(scaled, options), scaled, options, first.first_relaxation),
         first,
         coupling=coupling_of(scaled, options, first),

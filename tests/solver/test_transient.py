@@ -10,10 +10,10 @@ from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.scaling import scales
 from tehl.solver.monitor import SILENT
-from tehl.solver.packing import pack, unpack
-from tehl.solver.stepper import StepError
-from tehl.solver.transient import Run
-from tehl.solver.transient_verdict import failed
+from tehl.solver.transient.checks import failed
+from tehl.solver.transient.run import Run
+from tehl.solver.transient.snapshot import pack, unpack
+from tehl.solver.transient.step import StepError
 from tehl.transient_result import TransientResult
 from tests.reference import DOMAIN, moes_contact
 

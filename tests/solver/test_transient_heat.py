@@ -10,7 +10,7 @@ from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.scaling import ScaledProblem, scales
 from tehl.solver.monitor import SILENT
-from tehl.solver.transient import Run
+from tehl.solver.transient.run import Run
 from tests.reference import DOMAIN, heated_contact
 
 OPTIONS = Options(points=65, domain=DOMAIN)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from tehl.options import Options
     from tehl.problem import ContactProblem
     from tehl.result import Result
-    from tehl.solver.snapshot import Snapshot
+    from tehl.solver.transient.snapshot import Snapshot
     from tehl.transient_result import TransientResult
 
 CHECKPOINT_SECONDS = 30.0
@@ -80,7 +80,7 @@ class Keeper:
         """Write the last state; a full disk is told once and does not end the run."""
         from tehl.errors import InputError
         from tehl.io.checkpoint import write_checkpoint
-        from tehl.solver.packing import pack
+        from tehl.solver.transient.snapshot import pack
 
         if self.last is None:
             return False
@@ -148,7 +148,7 @@ def _begin(path: Path, owner: "Fingerprint", *, resume: bool) -> "Snapshot | Non
     from tehl.errors import InputError
     from tehl.io.atomic import check_writable
     from tehl.io.checkpoint import check_owner, read_checkpoint
-    from tehl.solver.packing import unpack
+    from tehl.solver.transient.snapshot import unpack
 
     check_writable(path)
     if not path.exists():

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from tehl.result import ErrorEstimate, Status
+from tehl.solver.film_solver import FilmSolver
 from tehl.solver.film_summary import film_summary
-from tehl.solver.fmg import FullMultigrid
 from tehl.solver.level import Level
 from tehl.solver.suspects import Suspect, coarse_status
 
@@ -53,14 +53,14 @@ def vague_status(level: Level, error: float) -> Status:
     )
 
 
-def touching(run: FullMultigrid, part: float) -> Status:
+def touching(run: FilmSolver, part: float) -> Status:
     """Return the status of a film that fails with ``part`` of the heights already."""
     status = no_film_status(run, run.errors())
     message = f"{status.message} The film shown has {100 * part:.0f} % of the heights."
     return replace(status, message=message)
 
 
-def no_film_status(run: FullMultigrid, errors: ErrorEstimate | None) -> Status:
+def no_film_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     """Judge what is no film between asperities: they touch, or the grid cannot tell."""
     if errors is not None and errors.discretisation_minimum > VAGUE:
         status = coarse_status(run.finest.grid, run.groups, errors.discretisation_minimum)
@@ -68,7 +68,7 @@ def no_film_status(run: FullMultigrid, errors: ErrorEstimate | None) -> Status:
     return asperity_contact(run.finest)
 
 
-def no_film_before(run: FullMultigrid) -> Suspect | None:
+def no_film_before(run: FilmSolver) -> Suspect | None:
     """Blame the film of the grid before the finest, if it has all heights and is not positive."""
     if not run.has_no_film_before:
         return None

@@ -28,8 +28,9 @@ from tehl.result import (
     SurfaceHeights,
 )
 from tehl.scaling import ScaledProblem, Scales
+from tehl.solver.film_solver import FilmSolver
 from tehl.solver.film_summary import film_summary
-from tehl.solver.fmg import FullMultigrid, Hierarchy
+from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.ladder import Strategy, ladder
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.outputs import film_heat, film_shear, newtonian_shear
@@ -48,7 +49,7 @@ PACKAGES = ("tehl", "numpy", "scipy", "numba")
 class Attempt:
     """The outcome of one strategy, and whether its iteration met the stopping criterion."""
 
-    run: FullMultigrid
+    run: FilmSolver
     status: Status
     reached: bool
 
@@ -138,7 +139,7 @@ def solve_attempt(
         if number:
             monitor.message(f"falling back to {strategy.description}")
         hierarchy = Hierarchy.on(grid, scaled, options, strategy.first_relaxation, load)
-        run = FullMultigrid(
+        run = FilmSolver(
             hierarchy,
             strategy,
             coupling=coupling_of(scaled, options, strategy, rough=heights is not None),
@@ -189,7 +190,7 @@ def _rank(attempt: Attempt) -> tuple[bool, bool, bool]:
     return not attempt.is_final, not attempt.reached, attempt.status.kind == "diverged"
 
 
-def _attempt(run: FullMultigrid, *, patient: bool) -> Attempt:
+def _attempt(run: FilmSolver, *, patient: bool) -> Attempt:
     """Run and judge; a value that is not finite ends the run."""
     with np.errstate(all="ignore"):  # divergence is judged below, not warned of on the way
         try:

@@ -8,7 +8,7 @@ from tehl.operators.energy import FilmState
 from tehl.options import Domain
 from tehl.result import ErrorEstimate, Result, Status
 from tehl.scaling import Groups
-from tehl.solver.fmg import FullMultigrid
+from tehl.solver.film_solver import FilmSolver
 from tehl.solver.level import Level
 from tehl.solver.outputs import heat_balance
 from tehl.solver.rough_verdict import (
@@ -35,7 +35,7 @@ STARVED = 0.9
 """Film over fully flooded film below which an edge is called too close."""
 
 
-def verdict(run: FullMultigrid, cycled_out: bool, errors: ErrorEstimate | None) -> Status:
+def verdict(run: FilmSolver, cycled_out: bool, errors: ErrorEstimate | None) -> Status:
     """Judge the last state of a run that stayed finite.
 
     Parameters
@@ -62,7 +62,7 @@ def verdict(run: FullMultigrid, cycled_out: bool, errors: ErrorEstimate | None) 
     return found if rest.converged else rest
 
 
-def _film_status(run: FullMultigrid, errors: ErrorEstimate | None) -> Status:
+def _film_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     """Judge whether there is a film, and whether the grid resolves it."""
     level, groups = run.finest, run.groups
     if run.roughness.is_rough and not is_film(level, errors):
@@ -74,7 +74,7 @@ def _film_status(run: FullMultigrid, errors: ErrorEstimate | None) -> Status:
     return _resolution_status(run, errors)
 
 
-def _resolution_status(run: FullMultigrid, errors: ErrorEstimate | None) -> Status:
+def _resolution_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     """Judge whether the grid resolves the film.
 
     Between rough surfaces the error of the minimum counts as a part of the film that smooth ones
@@ -91,7 +91,7 @@ def _resolution_status(run: FullMultigrid, errors: ErrorEstimate | None) -> Stat
     return vague_status(level, error) if run.roughness.is_rough and error > VAGUE else CONVERGED
 
 
-def _domain_status(run: FullMultigrid) -> Status:
+def _domain_status(run: FilmSolver) -> Status:
     """Judge the domain: whether it is large enough, and leaves the contact flooded."""
     level, groups = run.finest, run.groups
     left_out = domain_error(groups, level.grid.domain)
@@ -104,7 +104,7 @@ def _domain_status(run: FullMultigrid) -> Status:
     return edge_status(level.grid, groups, central)
 
 
-def _heat_status(run: FullMultigrid) -> Status:
+def _heat_status(run: FilmSolver) -> Status:
     """Judge the temperatures: finite, nowhere far below what enters, and their heat in balance."""
     state = run.coupling.state
     if state is None:
@@ -141,7 +141,7 @@ def _adiabatic_cooling(state: FilmState) -> float:
     return expansion * inlet * terms.compression / terms.peclet
 
 
-def diverged(run: FullMultigrid) -> Status:
+def diverged(run: FilmSolver) -> Status:
     """Return the status of a run that ran away, with its likely cause if one is conspicuous."""
     grid, groups = run.finest.grid, run.groups
     what = (
@@ -163,7 +163,7 @@ def diverged(run: FullMultigrid) -> Status:
     return Status(kind="diverged", cause=found.cause, message=message, hint=other or found.hint)
 
 
-def _suspect(run: FullMultigrid) -> Suspect | None:
+def _suspect(run: FilmSolver) -> Suspect | None:
     """Return what is conspicuous about a run that fails."""
     coarser = no_film_before(run)
     if coarser is not None:
@@ -171,7 +171,7 @@ def _suspect(run: FullMultigrid) -> Suspect | None:
     return suspect(run.finest.grid, run.hierarchy.scaled)
 
 
-def _smoother_hint(run: FullMultigrid) -> str:
+def _smoother_hint(run: FilmSolver) -> str:
     """Name the smoother that was not tried, if there is one."""
     tried = run.options.smoother
     if tried == "gauss-seidel":
@@ -215,7 +215,7 @@ def not_certified(result: Result, why: str) -> Status:
     )
 
 
-def _not_reached(run: FullMultigrid) -> Status:
+def _not_reached(run: FilmSolver) -> Status:
     reports = run.traces[-1].reports
     last = reports[-1]
     worst = max(

@@ -18,7 +18,7 @@ from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.scaling import ScaledProblem
 from tehl.solver.fas import Cycle, cycle
-from tehl.solver.fmg import Hierarchy
+from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.relaxation import FAST
 
 CASE: dict[str, Any] = {

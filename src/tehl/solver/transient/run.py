@@ -17,13 +17,9 @@ from tehl.scaling import ScaledProblem
 from tehl.solver.level import Level
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.outputs import newtonian_sliding
-from tehl.solver.packing import ANEW, check_whole, pack
-from tehl.solver.record import Moment, Record
 from tehl.solver.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH
-from tehl.solver.snapshot import Clock, Snapshot
 from tehl.solver.steady import Attempt, finest_grid, solve_attempt
-from tehl.solver.stepper import Settled, StepError, Stepper
-from tehl.solver.transient_verdict import (
+from tehl.solver.transient.checks import (
     check_load,
     check_places,
     check_stride,
@@ -31,6 +27,9 @@ from tehl.solver.transient_verdict import (
     failed,
     touching,
 )
+from tehl.solver.transient.record import Moment, Record
+from tehl.solver.transient.snapshot import ANEW, Clock, Snapshot, check_whole, pack
+from tehl.solver.transient.step import Settled, StepError, Stepper
 from tehl.solver.warmup import warm_up
 from tehl.transient import Transient
 from tehl.transient_result import StepReport, TransientResult

@@ -11,7 +11,7 @@ from tehl.operators.heights import MovingHeights, check_nodes, rounded_up
 from tehl.result import Status
 from tehl.scaling import ScaledProblem
 from tehl.solver.level import Level
-from tehl.solver.stepper import StepError
+from tehl.solver.transient.step import StepError
 from tehl.transient import Transient
 
 LEAST_STEPS = 4.0
