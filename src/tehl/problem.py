@@ -1,7 +1,7 @@
-"""The question: two surfaces, a lubricant, a load and a motion.
+"""The problem: two surfaces, a lubricant, a load and a motion.
 
-The fields of :class:`ContactProblem` are the tables of the case file, so that validating the parsed
-file is the whole reading of it. What follows from them in SI is given by its properties.
+The fields of :class:`ContactProblem` are the tables of the case file, so that reading a case is
+validating the parsed file. Derived quantities in SI are properties.
 """
 
 import math
@@ -9,38 +9,26 @@ from typing import Self
 
 from pydantic import BaseModel, ConfigDict, model_validator
 
-from tehl.geometry import Radii, reduced_radii, reduced_radius
+from tehl.geometry import Radii, reduced_radii
 from tehl.heat import FilmEnergy, Isothermal, Thermal
 from tehl.hertz import HertzContact, hertz_contact, load_of_pressure
 from tehl.lubricant import NamedLubricant
 from tehl.materials import NamedSolid, reduced_modulus
 from tehl.motion import Motion
+from tehl.problem_checks import check
 from tehl.roughness import AnyRoughness, Smooth
 from tehl.transient import Transient
 from tehl.units import (
-    CONDUCTIVITY,
-    HEAT_CAPACITY,
-    SOLID_CONDUCTIVITY,
-    SOLID_DENSITY,
-    SOLID_HEAT_CAPACITY,
     Force,
     Height,
     Length,
     Number,
     PositiveNumber,
     Pressure,
-    Quantity,
     Radius,
     Speed,
     Temperature,
 )
-
-_THERMAL = {
-    "density": SOLID_DENSITY,
-    "heat_capacity": SOLID_HEAT_CAPACITY,
-    "conductivity": SOLID_CONDUCTIVITY,
-}
-_COLDEST, _HOTTEST = 200.0, 800.0  # [K], of an oil or a solid
 
 
 class Surface(BaseModel):
@@ -187,164 +175,9 @@ class ContactProblem(BaseModel):
     transient: Transient | None = None
 
     @model_validator(mode="after")
-    def _must_be_a_contact(self) -> Self:
-        self._check_radii()
-        self._check_temperatures()
-        self._check_heat()
-        self._check_time()
-        if self.contact.moes_speed is not None and not self.pressure_coefficient > 0:
-            raise ValueError(
-                "contact.moes_speed fixes no speed without a pressure coefficient of the "
-                "viscosity: give entrainment_speed"
-            )
-        ratio = self.radius_y / self.radius_x
-        if not 1e-3 <= ratio <= 1e3:
-            raise ValueError(
-                f"radius_y / radius_x = {ratio:.3g} is a line contact, not a point contact: it "
-                "must lie between 0.001 and 1000"
-            )
-        self._check_size()
+    def _check(self) -> Self:
+        check(self)
         return self
-
-    def _check_size(self) -> None:
-        """Refuse numbers that no contact has and no arithmetic bears."""
-        try:
-            sizes = [self.radius_x, self.load, self.entrainment_speed, self.hertz.pressure]
-            twice_speed = 2.0 * self.speed_group
-            load_number = self.load / (self.reduced_modulus * self.radius_x**2 * twice_speed**0.75)
-            speed_number = self.material_group * twice_speed**0.25
-        except ArithmeticError:
-            sizes, load_number, speed_number = [], math.nan, math.nan
-        bearable = all(1e-30 < size < 1e30 for size in sizes)
-        if not (bearable and 1e-6 < load_number < 1e9 and speed_number < 1e6):
-            raise ValueError(
-                "load, speed and Hertz pressure come out beyond all measure (Moes numbers "
-                f"M = {load_number:.3g}, L = {speed_number:.3g}): check the units of contact, "
-                "materials and viscosity"
-            )
-
-    def _check_temperatures(self) -> None:
-        for key, value in self._stated_temperatures().items():
-            if not _COLDEST <= value <= _HOTTEST:
-                raise ValueError(
-                    f"{key} = {value:g} K is no temperature of a lubricated contact: a bare number "
-                    'is in kelvin, write "40 degC"'
-                )
-        oil, heat = self.lubricant.temperature, self.thermal.temperature if self.thermal else None
-        if oil is not None and heat is not None and oil != heat:
-            raise ValueError(
-                f"lubricant.temperature = {oil:g} K and thermal.temperature = {heat:g} K are both "
-                "the temperature of the oil at the inlet: state one of them"
-            )
-        law = self.lubricant.viscosity
-        warmer = abs(self.inlet_temperature - law.reference_temperature)
-        if warmer > 0 and not law.temperature_coefficient > 0 and law.law != "constant":
-            raise ValueError(
-                f"lubricant.viscosity holds at {law.reference_temperature:g} K and knows no "
-                f"temperature, but the oil enters at {self.inlet_temperature:g} K: {self._remedy}"
-            )
-
-    def _stated_temperatures(self) -> dict[str, float]:
-        """Return the temperatures that the case states [K], by key path."""
-        stated = {
-            "lubricant.temperature": self.lubricant.temperature,
-            "thermal.temperature": self.thermal.temperature if self.thermal else None,
-            "surface_1.temperature": self.surface_1.temperature,
-            "surface_2.temperature": self.surface_2.temperature,
-        }
-        return {key: value for key, value in stated.items() if value is not None}
-
-    def _check_heat(self) -> None:
-        """Refuse heat without the properties that it takes."""
-        solids = {"surface_1": self.surface_1, "surface_2": self.surface_2}
-        if self.thermal is None:
-            for key, surface in solids.items():
-                if surface.temperature is not None:
-                    raise ValueError(
-                        f"{key}.temperature counts in thermal runs only: add a [thermal] table, "
-                        "or state lubricant.temperature for an isothermal film"
-                    )
-            return
-        for key, surface in solids.items():
-            for name, quantity in _THERMAL.items():
-                self._need(f"{key}.material.{name}", getattr(surface.material, name), quantity)
-        self._need("lubricant.conductivity", self.lubricant.conductivity, CONDUCTIVITY)
-        self._need("lubricant.heat_capacity", self.lubricant.heat_capacity, HEAT_CAPACITY)
-        if not self.lubricant.viscosity.temperature_coefficient > 0:
-            raise ValueError(
-                "lubricant.viscosity knows no temperature, which a thermal run needs: "
-                f"{self._remedy}"
-            )
-
-    @property
-    def _remedy(self) -> str:
-        """Say what lets the viscosity fall with temperature."""
-        keys = type(self.lubricant.viscosity).model_fields
-        if "gamma" in keys:
-            return 'add gamma, such as "0.04 1/K"'
-        if "expansion" in keys:
-            return 'add expansion, such as "8e-4 1/K"'
-        return 'take a law with gamma, or law = "walther"'
-
-    def _check_time(self) -> None:
-        """Refuse what cannot be followed in time."""
-        if self.transient is None:
-            return
-        if self.thermal is not None:
-            self._check_heat_in_time(self.transient.stride)
-        if self.transient.duration is None and not (self.is_rough or self.transient.load):
-            raise ValueError(
-                "transient has nothing that changes in time: give a surface roughness, or "
-                "transient.load, or a duration"
-            )
-
-    def _check_heat_in_time(self, stride: int) -> None:
-        """Refuse surfaces whose heat cannot be carried along in steps of time."""
-        if self.thermal is not None and self.thermal.sources == "full":
-            raise ValueError(
-                'thermal.sources = "full" is for steady films: in time the surfaces are heated by '
-                "lines that they carry along"
-            )
-        motion = self.motion
-        for key, speed in (("surface_1", motion.speed_1), ("surface_2", motion.speed_2)):
-            if not speed * stride >= 0.5 * self.entrainment_speed * (1.0 - 1e-9):
-                raise ValueError(
-                    f"{key} moves at {speed:g} m/s, less than half the entrainment speed over "
-                    f"transient.stride = {stride}, too slow for heat in time: let the stride be "
-                    f"larger, or the slide_roll_ratio smaller"
-                )
-
-    def _need(self, key: str, value: object, quantity: Quantity) -> None:
-        if value is None:
-            raise ValueError(
-                f"{key} is missing, which a thermal run needs: give {quantity.name} such as "
-                f"{quantity.example}"
-            )
-
-    def _check_radii(self) -> None:
-        on_surfaces = [self.surface_1.radii, self.surface_2.radii]
-        if self.contact.radii is not None:
-            if on_surfaces != [None, None]:
-                raise ValueError(
-                    "radii are stated twice: leave out those of [contact], which are reduced, or "
-                    "those of the surfaces"
-                )
-            return
-        if on_surfaces == [None, None]:
-            raise ValueError("contact.radius is missing: give it, or radii of both surfaces")
-        for name, radii in zip(("surface_1", "surface_2"), on_surfaces, strict=True):
-            if radii is None:
-                raise ValueError(f'{name}.radius is missing: give it ("inf" is flat)')
-        for axis in ("x", "y"):
-            try:
-                reduced_radius(*(getattr(radii, axis) for radii in on_surfaces))
-            except ValueError as error:
-                keys = " and ".join(self._radius_key(n, axis) for n in ("surface_1", "surface_2"))
-                raise ValueError(f"{keys}: {error}") from None
-
-    def _radius_key(self, surface: str, axis: str) -> str:
-        stated_once = getattr(self, surface).radius is not None
-        return f"{surface}.radius" if stated_once else f"{surface}.radius_{axis}"
 
     @property
     def radii(self) -> Radii:

@@ -152,7 +152,7 @@ def test_a_heated_run_goes_on_bit_by_bit(shear):
 
 
 def test_a_surface_too_slow_for_heat_in_time_is_refused():
-    with pytest.raises(ValueError, match="too slow for heat in time"):
+    with pytest.raises(ValueError, match="too slow for heat in a transient"):
         hot(1.0, 1.5)
 
 
