@@ -5,20 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tehl.fields import Fields, FilmSummary
 from tehl.options import Options
 from tehl.post.film import dry_gap, hertz_pressure
 from tehl.problem import ContactProblem
-from tehl.result import (
-    Cost,
-    CycleReport,
-    ErrorEstimate,
-    Estimate,
-    Fields,
-    FilmSummary,
-    Provenance,
-    Result,
-    Status,
-)
+from tehl.result import Cost, CycleReport, ErrorEstimate, Estimate, Provenance, Result, Status
 from tehl.scaling import groups, scales
 
 CASE = {

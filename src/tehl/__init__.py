@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from tehl import plots, studies
     from tehl.errors import ConvergenceError, FileFormatError, InputError, TehlError
     from tehl.io.case import read_case, read_case_and_options
-    from tehl.io.transient_store import load
+    from tehl.io.store import load
     from tehl.lubricant import Lubricant, oil
     from tehl.materials import Solid, material
     from tehl.options import Domain, Options
@@ -74,7 +74,7 @@ _HOMES = {
     "TehlError": "tehl.errors",
     "certify": "tehl.solver",
     "certify_transient": "tehl.solver",
-    "load": "tehl.io.transient_store",
+    "load": "tehl.io.store",
     "solve_transient": "tehl.solver",
     "material": "tehl.materials",
     "oil": "tehl.lubricant",

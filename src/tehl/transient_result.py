@@ -1,14 +1,10 @@
 """The answer to a question with time: a film that changes while its surfaces move on."""
 
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 from tehl.result import Cost, Estimate, Provenance, Result, Status
+from tehl.saved import Saved
 from tehl.typing import Array, IntArray, SingleArray
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -140,7 +136,7 @@ class HistoryBars:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class TransientResult:
+class TransientResult(Saved):
     """A transient film.
 
     Attributes
@@ -188,21 +184,3 @@ class TransientResult:
     def y(self) -> Array:
         """Coordinates across entrainment [m], (ny,)."""
         return self.start.y
-
-    def save(self, path: str | Path) -> None:
-        """Write the run to a NetCDF-4 file; nothing is left behind when writing fails."""
-        from tehl.io.transient_store import save  # noqa: PLC0415 (a method users expect here)
-
-        save(self, path)
-
-    def to_xarray(self) -> "xr.Dataset":
-        """Return the run as a dataset with dimensions time, frame, y and x, units and names."""
-        from tehl.io.transient_store import to_dataset  # noqa: PLC0415
-
-        return to_dataset(self)
-
-    def summary(self) -> dict[str, Any]:
-        """Return the JSON summary of the run, as ``tehl solve --json`` prints it."""
-        from tehl.io.transient_summary import transient_summary  # noqa: PLC0415
-
-        return transient_summary(self)

@@ -9,16 +9,8 @@ import numpy as np
 import pytest
 
 from tehl.errors import InputError
-from tehl.io.export import (
-    SUFFIXES,
-    WRITERS,
-    kind_of,
-    write,
-    write_csv,
-    write_mat,
-    write_npz,
-    write_vtk,
-)
+from tehl.io.export import ending_of, export, format_of, write_csv, write_vtk
+from tests.fixtures_transient import make_certified, make_transient
 
 
 def rows(path) -> list[dict[str, str]]:
@@ -46,7 +38,7 @@ def test_csv_fields_hold_every_node(result, tmp_path):
 
 
 def test_npz_holds_arrays_and_summary(result, tmp_path):
-    write_npz(result, tmp_path / "out.npz")
+    export(result, tmp_path / "out.npz")
     with np.load(tmp_path / "out.npz", allow_pickle=False) as stored:
         assert np.array_equal(stored["film_thickness"], result.film_thickness)
         assert json.loads(str(stored["summary"])) == result.summary()
@@ -54,7 +46,7 @@ def test_npz_holds_arrays_and_summary(result, tmp_path):
 
 def test_mat_holds_arrays_and_summary(result, tmp_path):
     io = pytest.importorskip("scipy.io")
-    write_mat(result, tmp_path / "out.mat")
+    export(result, tmp_path / "out.mat")
     stored = io.loadmat(tmp_path / "out.mat")
     assert np.array_equal(stored["pressure"], result.pressure)
     assert stored["x"].shape == (65, 1)
@@ -132,8 +124,8 @@ def test_an_isothermal_table_has_no_columns_of_heat(result, tmp_path):
 
 def test_npz_and_mat_hold_the_layers(thermal, tmp_path):
     io = pytest.importorskip("scipy.io")
-    write_npz(thermal, tmp_path / "out.npz")
-    write_mat(thermal, tmp_path / "out.mat")
+    export(thermal, tmp_path / "out.npz")
+    export(thermal, tmp_path / "out.mat")
     with np.load(tmp_path / "out.npz", allow_pickle=False) as stored:
         assert np.array_equal(stored["temperature"], thermal.heat.temperature)
     stored = io.loadmat(tmp_path / "out.mat")
@@ -160,35 +152,114 @@ def test_the_volume_of_an_isothermal_film_has_two_layers(result, tmp_path):
     assert root.find("StructuredGrid").attrib["WholeExtent"] == "0 64 0 64 0 1"
 
 
-@pytest.mark.parametrize("kind", sorted(WRITERS))
+KINDS = ("csv", "mat", "npz", "vtk")
+
+
+@pytest.mark.parametrize("kind", KINDS)
 def test_each_format_has_an_ending_and_leaves_one_file(result, tmp_path, kind):
-    path = tmp_path / f"out{SUFFIXES[kind]}"
-    write(result, path, kind)
+    path = tmp_path / f"out{ending_of(result, kind)}"
+    assert export(result, path, kind) == [path]
     assert list(tmp_path.iterdir()) == [path]
 
 
-def test_the_ending_tells_the_format():
-    assert kind_of("a.csv", None) == kind_of("a.CSV", "csv") == kind_of(None, "csv") == "csv"
-    assert kind_of("a.vtr", None) == kind_of("a.vts", "vtk") == "vtk"
+def test_the_ending_gives_the_format(result):
+    assert format_of(result, "a.csv") == format_of(result, "a.CSV", "csv") == "csv"
+    assert format_of(result, "a.vtr") == format_of(result, "a.vts", "vtk") == "vtk"
+    assert format_of(make_transient(), "a.pvd") == "vtk"
 
 
 @pytest.mark.parametrize(
     ("path", "stated", "words"),
     [
         ("a.vtk", "vtk", "ends in .vtr"),
-        ("a.vtu", None, "ends in .vtr"),
+        ("a.vtu", None, "or .vtr"),
+        ("a.pvd", None, "or .vtr"),
         ("a.csv", "npz", "ends in .npz"),
         ("a", "csv", "ends in .csv"),
-        ("a.txt", None, "tells no format"),
-        (None, None, "state a format"),
+        ("a.txt", None, "ends in .csv or .npz or"),
+        ("a.xls", "xls", "unknown export format 'xls'; expected --to csv, npz, mat, vtk"),
     ],
 )
-def test_an_ending_that_does_not_fit_is_refused(path, stated, words):
+def test_an_ending_that_does_not_match_is_rejected(result, path, stated, words):
     with pytest.raises(InputError, match=words):
-        kind_of(path, stated)
+        format_of(result, path, stated)
 
 
-def test_an_unknown_format_is_refused_with_the_known_ones(result, tmp_path):
-    with pytest.raises(InputError, match="csv, npz, vtk, mat"):
-        write(result, tmp_path / "out.xls", "xls")
+def test_a_transient_result_has_no_single_plane(tmp_path):
+    with pytest.raises(InputError, match="collection of frames"):
+        export(make_transient(), tmp_path / "run.vtr")
+
+
+def test_a_format_must_be_stated(result):
+    with pytest.raises(InputError, match="no format stated"):
+        ending_of(result, None)
+
+
+def test_csv_history_of_a_steady_result_has_a_row_per_cycle(result, tmp_path):
+    write_csv(result, tmp_path / "cycles.csv", "history")
+    table = rows(tmp_path / "cycles.csv")
+    assert [float(row["history_residual"]) for row in table] == [r.residual for r in result.history]
+    assert {row["history_smoother"] for row in table} == {r.smoother for r in result.history}
+
+
+def test_csv_history_of_a_transient_result_has_a_row_per_step(tmp_path):
+    run = make_transient()
+    export(run, tmp_path / "run.csv")
+    table = rows(tmp_path / "run.csv")
+    assert [float(row["time_s"]) for row in table] == run.history.time.tolist()
+    assert [float(row["h_min_m"]) for row in table] == run.history.film_minimum.tolist()
+    assert {"load_factor", "p_max_pa", "traction", "film_rise_max_k"} <= set(table[0])
+
+
+def test_csv_lines_of_a_transient_result_follow_the_line_at_each_step(tmp_path):
+    run = make_transient()
+    write_csv(run, tmp_path / "run.csv", "lines")
+    table = rows(tmp_path / "run.csv")
+    film = np.array([float(row["film_centre_line_m"]) for row in table])
+    assert np.array_equal(film.reshape(run.profiles.film.shape), run.profiles.film)
+    assert [float(row["x_m"]) for row in table[: run.x.size]] == run.x.tolist()
+    assert {float(row["time_s"]) for row in table} == set(run.history.time.tolist())
+
+
+def test_csv_fields_of_a_transient_result_hold_each_frame(tmp_path):
+    run = make_transient()
+    write_csv(run, tmp_path / "run.csv", "fields")
+    table = rows(tmp_path / "run.csv")
+    pressure = np.array([float(row["pressure_frames_pa"]) for row in table])
+    assert np.array_equal(pressure.reshape(run.frames.pressure.shape), run.frames.pressure)
+    times = run.history.time[run.frames.step]
+    assert [float(row["frame_time_s"]) for row in table[:: run.x.size * run.y.size]] == list(times)
+
+
+def test_npz_holds_all_parts_of_a_transient_result(tmp_path):
+    run = make_certified()
+    export(run, tmp_path / "run.npz")
+    with np.load(tmp_path / "run.npz", allow_pickle=False) as stored:
+        assert np.array_equal(stored["film_frames"], run.frames.film)
+        assert np.array_equal(stored["h_min_bar"], run.bars.film_minimum)
+        assert np.array_equal(stored["film_thickness"], run.start.film_thickness)
+        assert json.loads(str(stored["summary"])) == run.summary()
+
+
+def test_vtk_of_a_transient_result_is_a_collection_of_planes(tmp_path):
+    run = make_transient()
+    written = export(run, tmp_path / "run.pvd")
+    assert sorted(tmp_path.iterdir()) == sorted(written)
+    listed = list(ET.parse(tmp_path / "run.pvd").getroot().iter("DataSet"))
+    times = run.history.time[run.frames.step].tolist()
+    assert [float(one.attrib["timestep"]) for one in listed] == times
+    assert [one.attrib["file"] for one in listed] == [path.name for path in written[1:]]
+    for number, one in enumerate(listed):
+        root = ET.parse(tmp_path / one.attrib["file"]).getroot()
+        arrays = {e.attrib["Name"]: decoded(e) for e in root.iter("DataArray")}
+        assert np.array_equal(arrays["x"], run.x)
+        for name in ("pressure", "film", "height"):
+            found = arrays["film_thickness" if name == "film" else name]
+            assert np.array_equal(found, getattr(run.frames, name)[number].ravel())
+
+
+@pytest.mark.parametrize(("name", "what"), [("run.csv", "fields"), ("run.pvd", "")])
+def test_a_transient_result_without_frames_has_none_to_export(tmp_path, name, what):
+    with pytest.raises(InputError, match=r"has no (fields|frames) to export"):
+        export(make_transient(frames=False), tmp_path / name, what=what)
     assert list(tmp_path.iterdir()) == []

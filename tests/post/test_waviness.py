@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tehl.fields import SurfaceHeights
 from tehl.heat import Thermal
 from tehl.post.waviness import bulk_modulus, wave_notes, wave_responses
 from tehl.problem import ContactProblem
-from tehl.result import Result, SurfaceHeights
+from tehl.result import Result
 from tehl.transient import Transient
 from tests.fixtures_result import CASE, make_result
 from tests.fixtures_rough import (

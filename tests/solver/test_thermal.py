@@ -6,9 +6,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tehl.fields import FilmHeat
 from tehl.film_formulas import inlet_factors
 from tehl.problem import ContactProblem
-from tehl.result import FilmHeat, Result
+from tehl.result import Result
 from tehl.solver import solve
 from tests.reference import heated_contact
 from tests.solver.runs import tight

@@ -24,12 +24,13 @@ def animate(
     It shows the fields that the run has kept (transient.frames of its case).
     """
     from tehl.io.atomic import check_writable
-    from tehl.io.transient_store import load_transient
+    from tehl.io.store import load_as
     from tehl.plots.animation import animate as draw
     from tehl.plots.animation import check_format
+    from tehl.transient_result import TransientResult
 
     target = stored.with_suffix(".gif") if output is None else output
     check_format(target)
     check_writable(target, sources=(stored,))
-    draw(load_transient(stored), target, per_second=per_second, dpi=dpi)
+    draw(load_as(TransientResult, stored), target, per_second=per_second, dpi=dpi)
     typer.echo(target)

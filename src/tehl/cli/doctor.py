@@ -173,12 +173,13 @@ def _storage() -> tuple[str, bool]:
 
     import numpy as np
 
-    from tehl.io.store import load, save
+    from tehl.io.store import load_as, save
+    from tehl.result import Result
 
     result = _solved()
     with tempfile.TemporaryDirectory() as folder:
         save(result, Path(folder) / "check.nc")
-        back = load(Path(folder) / "check.nc")
+        back = load_as(Result, Path(folder) / "check.nc")
     same = np.array_equal(back.scaled.film, result.scaled.film)
     return "bit by bit" if same else "fields differ", same
 

@@ -17,10 +17,11 @@ class Kind(StrEnum):
 
 
 class What(StrEnum):
-    """Nodes of a CSV table."""
+    """Rows of a CSV table."""
 
     lines = "lines"
     fields = "fields"
+    history = "history"
 
 
 def export(
@@ -32,24 +33,25 @@ def export(
         Path | None, typer.Option("-o", "--output", help="File; beside RESULT if left out.")
     ] = None,
     what: Annotated[
-        What, typer.Option(help="csv only: both centre lines, or all nodes of the fields.")
-    ] = What.lines,
+        What | None,
+        typer.Option(
+            help="csv only: centre lines (default), fields at all nodes, or the history of the "
+            "cycles or time steps (default of a transient result)."
+        ),
+    ] = None,
 ) -> None:
-    """Write a stored steady result as CSV, VTK (ParaView), npz (numpy) or mat (MATLAB).
+    """Write a stored result as CSV, VTK (ParaView), npz (numpy) or mat (MATLAB).
 
-    VTK: the ending .vtr gives the plane of the film, .vts the film as a volume with its
-    temperatures. Transient runs are not exported: tehl.load and xarray read them.
+    VTK: of a steady result the ending .vtr gives the plane of the film, .vts the film as a volume
+    with its temperatures; of a transient result .pvd gives all frames, one .vtr file each.
     """
     from tehl.io.atomic import check_writable
-    from tehl.io.export import SUFFIXES, kind_of, write, write_csv
+    from tehl.io.export import ending_of
+    from tehl.io.export import export as write
     from tehl.io.store import load
 
-    kind = kind_of(output, None if to is None else to.value)
-    path = stored.with_suffix(SUFFIXES[kind]) if output is None else output
-    check_writable(path, sources=(stored,))
     result = load(stored)
-    if kind == "csv":
-        write_csv(result, path, what=what.value)
-    else:
-        write(result, path, kind)
-    typer.echo(path)
+    path = stored.with_suffix(ending_of(result, to)) if output is None else output
+    check_writable(path, sources=(stored,))
+    for written in write(result, path, to, what or ""):
+        typer.echo(written)

@@ -17,7 +17,7 @@ def plot(
     """Draw all pictures of a stored result; nothing is compiled or solved."""
     from tehl.cli.twins import smooth_beside
     from tehl.io.atomic import check_folder
-    from tehl.io.transient_store import load
+    from tehl.io.store import load
     from tehl.plots.save import save_all
     from tehl.plots.transient import save_transient
     from tehl.transient_result import TransientResult

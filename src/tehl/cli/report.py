@@ -18,13 +18,14 @@ def report(
     """
     from tehl.cli.twins import smooth_beside
     from tehl.io.atomic import check_writable
-    from tehl.io.store import load, load_summary
+    from tehl.io.store import load_as, load_summary
     from tehl.post import micro_film, thermal_effect
     from tehl.report.html import write_report
+    from tehl.result import Result
 
     path = stored.with_suffix(".html") if output is None else output
     check_writable(path, sources=(stored,))
-    result = load(stored)
+    result = load_as(Result, stored)
     summary = load_summary(stored)
     write_report(
         result,

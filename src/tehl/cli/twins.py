@@ -134,14 +134,15 @@ def smooth_file(stored: Path) -> Path:
 def smooth_beside(stored: Path, result: "Result") -> "Result | None":
     """Return the film between smooth surfaces beside a result file; None without one that fits."""
     from tehl.errors import FileFormatError
-    from tehl.io.store import load
+    from tehl.io.store import load_as
     from tehl.post.micro_film import is_twin
+    from tehl.result import Result
 
     path = smooth_file(stored)
     if result.heights is None or not path.is_file():
         return None
     try:
-        smooth = load(path)
+        smooth = load_as(Result, path)
     except FileFormatError:
         return None
     return smooth if is_twin(result, smooth) else None

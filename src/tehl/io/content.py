@@ -1,55 +1,39 @@
-"""What a result file holds, the same in memory and on disk: variables and attributes."""
+"""What a result file holds, the same in memory and on disk: arrays and attributes, both ways."""
 
 import json
-import math
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
-from typing import Any
+from dataclasses import dataclass, field, fields, replace
+from types import SimpleNamespace
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import TypeAdapter
+from pydantic import BaseModel, ConfigDict, TypeAdapter
 
+from tehl.fields import Fields, FilmHeat, FilmShear, FilmSummary, HeatBalance, SurfaceHeights
+from tehl.io import tables
 from tehl.io.summary import summary
+from tehl.io.tables import Column
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.result import (
-    Cost,
-    CycleReport,
-    ErrorEstimate,
-    Estimate,
-    Fields,
-    FilmHeat,
-    FilmShear,
-    FilmSummary,
-    HeatBalance,
-    Provenance,
-    Result,
-    Status,
-    SurfaceHeights,
-)
+from tehl.result import Cost, CycleReport, ErrorEstimate, Estimate, Provenance, Result, Status
 from tehl.scaling import Groups, Scales
+from tehl.transient_result import Frames, History, HistoryBars, Profiles, TransientResult
 from tehl.typing import Array
 
-FORMAT_VERSION = 2
-READABLE = (1, 2)
-"""Formats that are read: 1 knows neither shear stresses nor temperatures."""
+FORMAT_VERSION = 3
+STEADY, TRANSIENT = KINDS = ("steady", "transient")
+"""Values of the attribute ``tehl_kind``."""
 
-DEFINITIONS = """\
-reduced modulus E': 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 (twice the contact modulus E*)
-entrainment speed: u_m = (u1 + u2)/2; slide-to-roll ratio: SRR = (u1 - u2)/u_m
-surfaces: 1 is z = 0, 2 is z = h; x along entrainment, the inlet is at negative x
-Hertz: p_h = 3 w/(2 pi a_x a_y); for a circle a^3 = 3 w R/(2 E')
-dimensionless: X = x/a_x, Y = y/a_y, P = p/p_h, H = h R_x/a_x^2
-Moes: M = W (2U)^(-3/4), L = G (2U)^(1/4); U = eta_0 u_m/(E' R_x), W = w/(E' R_x^2), G = alpha E'
-pressure is gauge, positive in compression; cavitation by complementarity (p >= 0)
-h_central is the film at x = y = 0; h_min is the sub-grid minimum
-shear stress: tau = eta du/dz, negative for SRR > 0; traction is its integral over p > 0 by the load
-temperature in kelvin over (zeta, y, x), zeta = z/h; rises are over the oil at the inlet
-heat flux and powers into the solids are positive where the film heats them"""
+Arrays = dict[str, NDArray[Any]]
+Attributes = dict[str, Any]
+Table = tuple[Column, ...]
+Part = TypeVar("Part")
+_JSON = ConfigDict(ser_json_inf_nan="strings")
+"""Infinities and NaN as strings, which pydantic reads back as floats."""
 
 
-@dataclass(frozen=True, kw_only=True, slots=True)
+@dataclass(frozen=True, slots=True)
 class Variable:
     """One array of a result file.
 
@@ -58,11 +42,11 @@ class Variable:
     name : str
         Its name in the file.
     dims : tuple of str
-        Names of its dimensions: ``"zeta"``, ``"y"``, ``"x"``, ``"cycle"``.
+        Names of its dimensions: ``"zeta"``, ``"y"``, ``"x"``, ``"cycle"``, ``"time"``, ...
     data : array
-        The numbers (or words).
+        Numbers or words.
     units, long_name : str
-        Unit, ``"1"`` when dimensionless, and what it is.
+        Unit, ``"1"`` if dimensionless, and description.
     """
 
     name: str
@@ -74,7 +58,7 @@ class Variable:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class HeatState:
-    """The scalars of :class:`tehl.result.FilmHeat`."""
+    """The scalars of `tehl.fields.FilmHeat`."""
 
     balance: HeatBalance
     solid_peclet: tuple[float, float]
@@ -83,7 +67,9 @@ class HeatState:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class State:
-    """All scalars of a result besides its problem and options."""
+    """The scalars of a steady result besides its problem and options."""
+
+    __pydantic_config__ = _JSON
 
     scales: Scales
     groups: Groups
@@ -94,115 +80,126 @@ class State:
     cost: Cost
     provenance: Provenance
     uncertainty: dict[str, Estimate]
-    heat: HeatState | None = None
+    heat: HeatState | None
 
 
-_SCALARS = tuple(f.name for f in fields(State) if f.name != "heat")
-"""Fields of the state that are those of the result."""
+@dataclass(frozen=True, kw_only=True, slots=True)
+class TransientState:
+    """The scalars of a transient result besides those of its start."""
 
-_CYCLE = (
-    ("points_x", "1", "nodes of the grid in x", np.int64),
-    ("points_y", "1", "nodes of the grid in y", np.int64),
-    ("number", "1", "number of the cycle on its grid", np.int64),
-    ("residual", "1", "mean residual scaled by the local diagonal", np.float64),
-    ("change", "1", "largest change of P in the cycle", np.float64),
-    ("load_error", "1", "relative error of the load balance", np.float64),
-    ("film_central", "1", "H at X = Y = 0 after the cycle", np.float64),
-    ("film_minimum", "1", "smallest nodal H after the cycle", np.float64),
-    ("smoother", "1", "setting of the relaxation", np.str_),
-    ("temperature_change", "K", "largest change of the film temperature in the cycle", np.float64),
-)
+    __pydantic_config__ = _JSON
 
-_SHEAR = (
-    ("surface_1", "shear_stress_1", "Pa", "tau_zx at z = 0, on surface 1"),
-    ("mid_film", "shear_stress_mid", "Pa", "tau_zx at z = h/2"),
-    ("surface_2", "shear_stress_2", "Pa", "tau_zx at z = h, on surface 2"),
-    ("across", "shear_stress_across", "Pa", "tau_zy at z = h/2"),
-    ("thinning", "shear_thinning", "1", "effective over Newtonian viscosity at z = h/2"),
-)
-_HEIGHTS = (
-    ("surface_1", "height_1", "height of surface 1, positive outwards"),
-    ("surface_2", "height_2", "height of surface 2, positive outwards"),
-)
-_HEAT = (
-    ("zeta", "zeta", ("zeta",), "1", "z / h, 0 on surface 1"),
-    ("weights", "zeta_weights", ("zeta",), "1", "weights of the mean across the film"),
-    ("temperature", "temperature", ("zeta", "y", "x"), "K", "temperature of the film"),
-    ("flux_1", "heat_flux_1", ("y", "x"), "W/m^2", "heat conducted into surface 1"),
-    ("flux_2", "heat_flux_2", ("y", "x"), "W/m^2", "heat conducted into surface 2"),
-)
-"""Fields of the result, names in the file, dimensions, units and what they are."""
+    time_step: float
+    status: Status
+    cost: Cost
+    provenance: Provenance
+    uncertainty: dict[str, Estimate] = field(default_factory=dict)
 
 
-def variables(result: Result) -> tuple[Variable, ...]:
-    """Return the arrays of ``result``: coordinates, fields, shear and heat if any, the history."""
-    scaled = result.scaled
-    rows: tuple[tuple[str, tuple[str, ...], NDArray[Any], str, str], ...] = (
-        ("x", ("x",), result.x, "m", "coordinate along entrainment"),
-        ("y", ("y",), result.y, "m", "coordinate across entrainment"),
-        ("X", ("x",), scaled.x, "1", "x / a_x"),
-        ("Y", ("y",), scaled.y, "1", "y / a_y"),
-        ("pressure", ("y", "x"), result.pressure, "Pa", "film pressure"),
-        ("film_thickness", ("y", "x"), result.film_thickness, "m", "film thickness"),
-        ("P", ("y", "x"), scaled.pressure, "1", "p / p_h"),
-        ("H", ("y", "x"), scaled.film, "1", "h R_x / a_x^2"),
-    )
-    named = (Variable(name=n, dims=d, data=a, units=u, long_name=t) for n, d, a, u, t in rows)
-    return (
-        *named,
-        *_shear_variables(result.shear),
-        *_heat_variables(result.heat),
-        *_height_variables(result.heights),
-        *_history_variables(result.history),
-    )
+def _scalars(state: type, owner: Any) -> dict[str, Any]:
+    """Return the attributes of ``owner`` that ``state`` has too, by name."""
+    return {one.name: getattr(owner, one.name) for one in fields(state)}
 
 
-def _shear_variables(shear: FilmShear | None) -> Iterator[Variable]:
-    if shear is None:
-        return
-    for field, name, units, text in _SHEAR:
-        data = getattr(shear, field)
-        yield Variable(name=name, dims=("y", "x"), data=data, units=units, long_name=text)
+# ---- to a file
 
 
-def _heat_variables(heat: FilmHeat | None) -> Iterator[Variable]:
-    if heat is None:
-        return
-    for field, name, dims, units, text in _HEAT:
-        data = getattr(heat, field)
-        yield Variable(name=name, dims=dims, data=data, units=units, long_name=text)
+def variables(result: Result | TransientResult) -> Iterator[Variable]:
+    """Yield the arrays of a result; of a transient one those of its start too, by usual names."""
+    if isinstance(result, TransientResult):
+        for one in variables(result.start):
+            of_start = ", of the steady film at the start" if one.dims[-2:] == ("y", "x") else ""
+            yield replace(one, long_name=one.long_name + of_start)
+    for table, part in _parts(result):
+        for column in table:
+            data = np.asarray(getattr(part, column.field))
+            yield Variable(column.name, column.dims, data, column.units, column.text)
 
 
-def _height_variables(heights: SurfaceHeights | None) -> Iterator[Variable]:
-    if heights is None:
-        return
-    for field, name, text in _HEIGHTS:
-        data = getattr(heights, field)
-        yield Variable(name=name, dims=("y", "x"), data=data, units="m", long_name=text)
+def _parts(result: Result | TransientResult) -> Iterator[tuple[Table, Any]]:
+    """Yield each part that ``result`` has, with the table of its arrays."""
+    parts: tuple[tuple[Table, Any], ...]
+    if isinstance(result, Result):
+        parts = (
+            (tables.FIELDS, result),
+            (tables.SCALED, result.scaled),
+            (tables.HEIGHTS, result.heights),
+            (tables.SHEAR, result.shear),
+            (tables.HEAT, result.heat),
+            ((*tables.GRIDS, *tables.CYCLES), _columns(result.history)),
+        )
+    else:
+        parts = (
+            (tables.HISTORY, result.history),
+            (tables.PROFILES, result.profiles),
+            ((*tables.FRAME_TIMES, *tables.FRAMES), _frame_columns(result)),
+            (tables.BARS, result.bars),
+        )
+    return ((table, part) for table, part in parts if part is not None)
 
 
-def attributes(result: Result) -> dict[str, str | int]:
-    """Return the attributes of ``result``: what was asked, the scalars, definitions, versions."""
-    state = State(
-        **{name: getattr(result, name) for name in _SCALARS}, heat=_heat_state(result.heat)
-    )
-    return {
-        "tehl_format": FORMAT_VERSION,
-        "title": result.problem.title,
+def _columns(history: tuple[CycleReport, ...]) -> SimpleNamespace | None:
+    """Return the numbers of all cycles as one array each, None without cycles."""
+    if not history:
+        return None
+    points_x, points_y = np.array([report.points for report in history]).T
+    columns = {
+        column.field: np.array([getattr(report, column.field) for report in history])
+        for column in tables.CYCLES
+    }
+    index = np.arange(1, len(history) + 1)
+    return SimpleNamespace(index=index, points_x=points_x, points_y=points_y, **columns)
+
+
+def _frame_columns(result: TransientResult) -> SimpleNamespace | None:
+    """Return the fields that were kept with their times, None without any."""
+    frames = result.frames
+    if not frames.step.size:
+        return None
+    own = _scalars(Frames, frames)
+    return SimpleNamespace(time=result.history.time[frames.step], **own)
+
+
+def attributes(result: Result | TransientResult) -> Attributes:
+    """Return the attributes of a result: kind, case, scalars, definitions, versions.
+
+    A transient result has those of its start, with its own kind, status and summary.
+    """
+    own = {
+        "tehl_kind": STEADY,
         "status": result.status.kind,
         "converged": int(result.status.converged),
+        "summary": json.dumps(summary(result), allow_nan=False),
+    }
+    if isinstance(result, TransientResult):
+        scalars = _state(TransientState, _scalars(TransientState, result))
+        return attributes(result.start) | own | {"tehl_kind": TRANSIENT, "transient": scalars}
+    heat = None if result.heat is None else HeatState(**_scalars(HeatState, result.heat))
+    return own | {
+        "tehl_format": FORMAT_VERSION,
+        "title": result.problem.title,
         "source": f"tehl {result.provenance.versions.get('tehl', 'of unknown version')}",
         "created": result.provenance.created,
-        "versions": json_text(result.provenance.versions),
-        "definitions": DEFINITIONS,
-        "problem": json_text(result.problem.model_dump(mode="json")),
-        "options": json_text(result.options.model_dump(mode="json")),
-        "summary": json_text(summary(result)),
-        "state": json_text(TypeAdapter(State).dump_python(state)),
+        "versions": json.dumps(result.provenance.versions),
+        "definitions": tables.DEFINITIONS,
+        "problem": _json(result.problem),
+        "options": _json(result.options),
+        "state": _state(State, _scalars(State, result) | {"heat": heat}),
     }
 
 
-def rebuild(arrays: dict[str, NDArray[Any]], attrs: dict[str, Any]) -> Result:
+def _state(kind: type, scalars: dict[str, Any]) -> str:
+    return TypeAdapter(kind).dump_json(kind(**scalars)).decode()
+
+
+def _json(model: BaseModel) -> str:
+    return json.dumps(model.model_dump(mode="json"), allow_nan=False)
+
+
+# ---- from a file
+
+
+def rebuild(arrays: Arrays, attrs: Attributes) -> Result | TransientResult:
     """Return the result that ``arrays`` and ``attrs`` describe.
 
     Parameters
@@ -217,159 +214,114 @@ def rebuild(arrays: dict[str, NDArray[Any]], attrs: dict[str, Any]) -> Result:
     KeyError, ValueError
         If something is missing or does not fit; the message names it.
     """
-    state = TypeAdapter(State).validate_python(json.loads(attrs["state"]))
+    steady = _steady(arrays, attrs)
+    return _transient(steady, arrays, attrs) if attrs["tehl_kind"] == TRANSIENT else steady
+
+
+def _steady(arrays: Arrays, attrs: Attributes) -> Result:
+    state = TypeAdapter(State).validate_json(attrs["state"])
     reader = Reader(arrays=arrays, finite=state.status.converged)
-    scaled = _fields(reader)
+    scaled = Fields(**reader.columns(tables.SCALED))
     return Result(
-        problem=ContactProblem.model_validate(json.loads(attrs["problem"])),
-        options=Options.model_validate(json.loads(attrs["options"])),
+        **_scalars(State, state) | {"heat": _heat(reader, state.heat)},
+        problem=ContactProblem.model_validate_json(attrs["problem"]),
+        options=Options.model_validate_json(attrs["options"]),
         scaled=scaled,
-        history=_history(arrays),
-        shear=_shear(reader, scaled.pressure.shape),
-        heat=_heat(reader, scaled.pressure.shape, state.heat),
-        heights=_heights(reader, scaled.pressure.shape),
-        **{name: getattr(state, name) for name in _SCALARS},
+        history=_cycles(arrays),
+        shear=reader.part(FilmShear, tables.SHEAR),
+        heights=reader.part(SurfaceHeights, tables.HEIGHTS),
     )
 
 
-def _heat_state(heat: FilmHeat | None) -> HeatState | None:
-    if heat is None:
-        return None
-    return HeatState(balance=heat.balance, solid_peclet=heat.solid_peclet, sources=heat.sources)
-
-
-def _fields(reader: "Reader") -> Fields:
-    x, y = reader.axis("X"), reader.axis("Y")
-    shape = (y.size, x.size)
-    return Fields(x=x, y=y, pressure=reader.field("P", shape), film=reader.field("H", shape))
-
-
-def _shear(reader: "Reader", shape: tuple[int, ...]) -> FilmShear | None:
-    if _SHEAR[0][1] not in reader.arrays:
-        return None
-    return FilmShear(**{field: reader.field(name, shape) for field, name, *_ in _SHEAR})
-
-
-def _heat(reader: "Reader", shape: tuple[int, ...], state: HeatState | None) -> FilmHeat | None:
+def _heat(reader: "Reader", state: HeatState | None) -> FilmHeat | None:
     if state is None:
         return None
-    zeta = reader.axis("zeta")
-    sizes = {"zeta": zeta.size, "y": shape[0], "x": shape[1]}
-    found = {
-        field: reader.field(name, tuple(sizes[dim] for dim in dims))
-        for field, name, dims, *_ in _HEAT
-    }
-    return FilmHeat(
-        **found, balance=state.balance, solid_peclet=state.solid_peclet, sources=state.sources
+    return FilmHeat(**_scalars(HeatState, state) | reader.columns(tables.HEAT))
+
+
+def _transient(start: Result, arrays: Arrays, attrs: Attributes) -> TransientResult:
+    state = TypeAdapter(TransientState).validate_json(attrs["transient"])
+    reader = Reader(arrays=arrays, finite=state.status.converged)
+    history = reader.columns(tables.HISTORY)
+    cycles = history.pop("cycles").astype(np.int64)
+    return TransientResult(
+        **_scalars(TransientState, state),
+        start=start,
+        history=History(**history, cycles=cycles),
+        profiles=Profiles(**reader.columns(tables.PROFILES)),
+        frames=_frames(reader, start.scaled.pressure.shape, cycles.size),
+        bars=reader.part(HistoryBars, tables.BARS),
     )
 
 
-def _heights(reader: "Reader", shape: tuple[int, ...]) -> SurfaceHeights | None:
-    if _HEIGHTS[0][1] not in reader.arrays:
-        return None
-    return SurfaceHeights(**{field: reader.field(name, shape) for field, name, _ in _HEIGHTS})
+def _frames(reader: "Reader", shape: tuple[int, ...], count: int) -> Frames:
+    """Return the fields that were kept; ``count`` is the number of steps in the history."""
+    if "frame_step" not in reader.arrays:
+        empty = np.zeros((0, *shape), np.float32)
+        return Frames(step=np.zeros(0, np.int64), pressure=empty, film=empty, height=empty)
+    steps = np.asarray(reader.arrays["frame_step"], np.int64)
+    if not ((steps >= 0) & (steps < count)).all():
+        raise ValueError("frame_step names steps that are not in the history")
+    found = reader.columns(tables.FRAMES)
+    return Frames(step=steps, **{name: data.astype(np.float32) for name, data in found.items()})
+
+
+def _cycles(arrays: Arrays) -> tuple[CycleReport, ...]:
+    if "cycle" not in arrays:
+        return ()
+    table = (*tables.GRIDS[1:], *tables.CYCLES)
+    points_x, points_y, *others = (arrays[column.name].tolist() for column in table)
+    names = [column.field for column in tables.CYCLES]
+    return tuple(
+        CycleReport(points=(nx, ny), **dict(zip(names, row, strict=True)))
+        for nx, ny, *row in zip(points_x, points_y, *others, strict=True)
+    )
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Reader:
-    """Takes arrays out of a file and looks whether they can be what they claim to be.
+    """Takes arrays from a file and checks that they fit together.
 
     Attributes
     ----------
     arrays : dict of str to array
         All of the file, by name.
     finite : bool
-        Whether numbers have to be finite: those of a converged result.
+        Whether all numbers must be finite: those of a converged result.
     """
 
-    arrays: dict[str, NDArray[Any]]
+    arrays: Arrays
     finite: bool
 
-    def axis(self, name: str) -> Array:
-        """Return a coordinate; it must increase."""
-        values = np.asarray(self.arrays[name], np.float64)
-        if not (values.ndim == 1 and (np.diff(values) > 0).all()):
-            raise ValueError(f"the coordinate {name} does not increase")
-        return values
+    def part(self, kind: type[Part], table: Table) -> Part | None:
+        """Return a part of the result, None if the file does not have its first array."""
+        return kind(**self.columns(table)) if table[0].name in self.arrays else None
 
-    def field(self, name: str, shape: tuple[int, ...]) -> Array:
-        """Return a field; it must fit to the coordinates, and be finite in a converged result."""
-        values = np.asarray(self.arrays[name], np.float64)
+    def columns(self, table: Table) -> dict[str, Array]:
+        """Return the arrays of a table, by attribute of the part that has them."""
+        return {column.field: self._array(column) for column in table}
+
+    def _array(self, column: Column) -> Array:
+        """Return an array; a coordinate increases, a field has the shape of its coordinates."""
+        values = np.asarray(self.arrays[column.name], np.float64)
+        if column.name in _AXES.values():
+            if not (values.ndim == 1 and (np.diff(values) > 0).all()):
+                raise ValueError(f"the coordinate {column.name} does not increase")
+            return values
+        shape = tuple(self.arrays[_AXES[dim]].size for dim in column.dims)
         if values.shape != shape:
-            raise ValueError(f"{name} has shape {values.shape}, not {shape}")
+            raise ValueError(f"{column.name} has shape {values.shape}, not {shape}")
         if self.finite and not np.isfinite(values).all():
-            raise ValueError(f"{name} holds values that are not finite, though it says converged")
+            raise ValueError(f"{column.name} has non-finite values in a converged result")
         return values
 
 
-def _history_variables(history: tuple[CycleReport, ...]) -> tuple[Variable, ...]:
-    if not history:
-        return ()
-    names = (
-        "cycle",
-        "residual",
-        "change",
-        "load_error",
-        "film_central",
-        "film_minimum",
-        "smoother",
-        "temperature_change",
-    )
-    rows = [(*r.points, *(getattr(r, name) for name in names)) for r in history]
-    index = Variable(
-        name="cycle",
-        dims=("cycle",),
-        data=np.arange(1, len(rows) + 1),
-        units="1",
-        long_name="cycles in the order they were made, coarse grids first",
-    )
-    columns = zip(_CYCLE, zip(*rows, strict=True), strict=True)
-    return (
-        index,
-        *(
-            Variable(
-                name=f"history_{name}",
-                dims=("cycle",),
-                data=np.array(column, dtype=kind),
-                units=units,
-                long_name=text,
-            )
-            for (name, units, text, kind), column in columns
-        ),
-    )
-
-
-def _history(arrays: dict[str, NDArray[Any]]) -> tuple[CycleReport, ...]:
-    if "cycle" not in arrays:
-        return ()
-    known = {"history_temperature_change": np.zeros(arrays["cycle"].size)} | arrays  # format 1
-    columns = [known[f"history_{name}"].tolist() for name, *_ in _CYCLE]
-    return tuple(
-        CycleReport(
-            points=(row[0], row[1]),
-            cycle=row[2],
-            residual=row[3],
-            change=row[4],
-            load_error=row[5],
-            film_central=row[6],
-            film_minimum=row[7],
-            smoother=str(row[8]),
-            temperature_change=row[9],
-        )
-        for row in zip(*columns, strict=True)
-    )
-
-
-def json_text(value: Any) -> str:
-    """Return strict JSON; infinities and NaN become words that pydantic reads back as floats."""
-    return json.dumps(_spelled(value), allow_nan=False)
-
-
-def _spelled(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _spelled(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_spelled(item) for item in value]
-    if isinstance(value, float):
-        return float(value) if math.isfinite(value) else str(float(value))
-    return value
+_AXES = {
+    "x": "X",
+    "y": "Y",
+    "zeta": "zeta",
+    "time": "time",
+    "frame": "frame_step",
+    "bar": "bar_time",
+}
+"""Array that gives the size of each dimension."""

@@ -1,254 +1,248 @@
-"""Results in the formats of other programs: CSV, npz, VTK and MATLAB files."""
+"""Stored results in the formats of other programs: CSV, npz, MATLAB and VTK files."""
 
 import csv
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tehl.errors import InputError
-from tehl.io.atomic import replacing
-from tehl.io.content import variables
+from tehl.io.atomic import check_writable, replacing
+from tehl.io.content import Variable, variables
 from tehl.io.summary import summary
-from tehl.io.vtk import rectilinear_grid, structured_grid
+from tehl.io.tables import COORDINATES
+from tehl.io.vtk import collection, rectilinear_grid, structured_grid
 from tehl.result import Result
-from tehl.typing import Array
+from tehl.transient_result import TransientResult
 
-What = Literal["lines", "fields"]
+_ENDINGS = {".csv": "csv", ".npz": "npz", ".mat": "mat"}
+_STEADY = _ENDINGS | {".vtr": "vtk", ".vts": "vtk"}
+_TRANSIENT = _ENDINGS | {".pvd": "vtk"}
+_MEANINGS = {".vtr": " (plane)", ".vts": " (volume)", ".pvd": " (collection of frames)"}
+"""Endings of the formats; programs choose a reader by the ending."""
 
-_SHEAR = (
-    ("shear_stress_1", "pa"),
-    ("shear_stress_mid", "pa"),
-    ("shear_stress_2", "pa"),
-    ("shear_stress_across", "pa"),
-    ("shear_thinning", ""),
-)
-_HEIGHTS = (("height_1", "m"), ("height_2", "m"))
-_HEAT = (
-    ("temperature_1", "k"),
-    ("temperature_mid", "k"),
-    ("temperature_2", "k"),
-    ("temperature_mean", "k"),
-    ("heat_flux_1", "w_m2"),
-    ("heat_flux_2", "w_m2"),
-)
-"""Maps that go with a film if it has them, and their units as endings of columns."""
+_ROWS = {
+    Result: {"lines": ("y", "x"), "fields": ("y", "x"), "history": ("cycle",)},
+    TransientResult: {"history": ("time",), "lines": ("time", "x"), "fields": ("frame", "y", "x")},
+}
+"""Dimensions over which a CSV table has its rows; the first of each kind is the default."""
+_SUFFIXES = {"m": "_m", "s": "_s", "Pa": "_pa", "K": "_k", "W/m^2": "_w_m2", "1": ""}
+"""Endings of column names by unit."""
 
 
-def write(result: Result, path: str | Path, kind: str) -> None:
-    """Write ``result`` as ``kind``, with the defaults of that format.
+def export(
+    result: Result | TransientResult, path: str | Path, to: str | None = None, what: str = ""
+) -> list[Path]:
+    """Write a result in the format of another program.
+
+    CSV has one row per node, cycle or step, see :func:`write_csv`. npz (numpy) and mat (MATLAB)
+    have all arrays of the NetCDF file under the same names, and its ``summary`` as JSON text. VTK
+    (ParaView) has the maps of a steady result, see :func:`write_vtk`, or the frames of a transient
+    one, see :func:`write_frames`.
 
     Parameters
     ----------
-    result : Result
+    result : Result or TransientResult
         What to write.
     path : str or Path
-        The file; an older one is replaced.
-    kind : {"csv", "npz", "vtk", "mat"}
-        The format.
+        The file; an existing one is replaced.
+    to : {"csv", "npz", "vtk", "mat"}, optional
+        Format; by default that of the ending of ``path``.
+    what : {"lines", "fields", "history"}, optional
+        Rows of a CSV table.
+
+    Returns
+    -------
+    list of Path
+        The files written.
 
     Raises
     ------
     InputError
-        If ``kind`` is unknown or the file cannot be written.
+        If format and ending do not match, if the result does not have what is to be written, or if
+        a file cannot be written.
     """
-    if kind not in WRITERS:
-        raise InputError(f"unknown export format {kind!r}; known: {', '.join(WRITERS)}")
-    WRITERS[kind](result, path)
+    kind = format_of(result, path, to)
+    if kind == "csv":
+        write_csv(result, path, what)
+    elif kind == "npz":
+        with replacing(path) as temporary, temporary.open("wb") as file:
+            np.savez_compressed(file, allow_pickle=False, **_arrays(result))
+    elif kind == "mat":
+        from scipy.io import savemat  # noqa: PLC0415 (0.3 s, for this format only)
+
+        with replacing(path) as temporary, temporary.open("wb") as file:
+            savemat(file, _arrays(result), do_compression=True, oned_as="column")
+    elif isinstance(result, TransientResult):
+        return write_frames(result, path)
+    else:
+        write_vtk(result, path)
+    return [Path(path)]
 
 
-def kind_of(path: str | Path | None, stated: str | None) -> str:
-    """Return the format of an export, from what is stated and from the ending of its file.
-
-    Parameters
-    ----------
-    path : str, Path or None
-        The file; None when it gets the ending of its format.
-    stated : {"csv", "npz", "vtk", "mat"} or None
-        The format; None where the ending of the file tells it.
-
-    Raises
-    ------
-    InputError
-        If neither tells a format, or if they do not fit: programs choose a reader by the ending.
-    """
-    endings = ", ".join(SUFFIXES.values())
-    if path is None:
-        if stated is None:
-            raise InputError(f"state a format (--to) or a file (-o) with the ending {endings}")
-        return stated
-    suffix = Path(path).suffix
-    ends = {end: kind for kind, end in SUFFIXES.items()} | {_VOLUME: "vtk"}
-    deduced = ends.get(suffix.lower())
-    if stated is None and deduced is not None:
-        return deduced
-    if stated is None and suffix.lower() in _OTHER_VTK:
-        stated = "vtk"
-    if stated is None:
-        raise InputError(f"output {path}: its ending tells no format; state --to or use {endings}")
-    if stated != deduced:
-        volume = f" (the plane) or {_VOLUME} (the film as a volume)" if stated == "vtk" else ""
-        raise InputError(
-            f"output {path}: a file of format {stated} ends in {SUFFIXES[stated]}{volume}"
-        )
-    return stated
-
-
-def write_csv(result: Result, path: str | Path, *, what: What = "lines") -> None:
-    """Write a table with one row per node, as any spreadsheet reads it.
-
-    ``"lines"`` gives the two grid lines nearest to the axes, told apart by a column more: first
-    ``line = x`` (along entrainment, Y = 0), then ``line = y`` (across, X = 0). ``"fields"`` gives
-    all nodes in long form, x running fastest. Columns carry their unit in their name; X, Y, P, H
-    and shear_thinning are dimensionless. Heights of rough surfaces, shear stresses and temperatures
-    follow if there are any: on surface 1, at mid-film, on surface 2. Numbers are written so that
-    reading them gives back the same bits.
-
-    Parameters
-    ----------
-    result : Result
-        What to write.
-    path : str or Path
-        The file; an older one is replaced.
-    what : {"lines", "fields"}
-        Which nodes.
-    """
-    lines = what == "lines"
-    columns = _columns(result)
-    rows = _line_rows(result, columns) if lines else _rows(columns, (slice(None), slice(None)))
-    with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(("line", *columns) if lines else columns)
-        writer.writerows(rows)
-
-
-def _columns(result: Result) -> dict[str, Array]:
-    """Return the maps of a table, (ny, nx) each, by the name of their column."""
-    x, y = np.meshgrid(result.x, result.y)
-    scaled_x, scaled_y = np.meshgrid(result.scaled.x, result.scaled.y)
-    return {
-        "x_m": x,
-        "y_m": y,
-        "pressure_pa": result.pressure,
-        "film_thickness_m": result.film_thickness,
-        "X": scaled_x,
-        "Y": scaled_y,
-        "P": result.scaled.pressure,
-        "H": result.scaled.film,
-        **{f"{name}_{unit}".rstrip("_"): field for name, unit, field in _more_maps(result)},
-    }
-
-
-def _more_maps(result: Result) -> Iterator[tuple[str, str, Array]]:
-    """Yield name, unit and map of what the film has of roughness, shear and heat."""
-    heights = result.heights
-    if heights is not None:
-        fields = (heights.surface_1, heights.surface_2)
-        yield from ((*named, field) for named, field in zip(_HEIGHTS, fields, strict=True))
-    shear, heat, temperature = result.shear, result.heat, result.temperature
-    if shear is not None:
-        stresses = (shear.surface_1, shear.mid_film, shear.surface_2, shear.across, shear.thinning)
-        yield from ((*named, field) for named, field in zip(_SHEAR, stresses, strict=True))
-    if heat is not None and temperature is not None:
-        first, second = heat.temperature[0], heat.temperature[-1]
-        layers = (first, temperature.mid_film, second, temperature.mean)
-        maps = (*layers, heat.flux_1, heat.flux_2)
-        yield from ((*named, field) for named, field in zip(_HEAT, maps, strict=True))
-
-
-def _line_rows(result: Result, columns: dict[str, Array]) -> Iterator[tuple[Any, ...]]:
-    row = int(np.argmin(np.abs(result.scaled.y)))
-    column = int(np.argmin(np.abs(result.scaled.x)))
-    for name, part in (
-        ("x", (slice(row, row + 1), slice(None))),
-        ("y", (slice(None), slice(column, column + 1))),
-    ):
-        yield from ((name, *numbers) for numbers in _rows(columns, part))
-
-
-def _rows(columns: dict[str, Array], part: tuple[slice, slice]) -> Iterator[tuple[Any, ...]]:
-    return zip(*(field[part].ravel().tolist() for field in columns.values()), strict=True)
-
-
-def write_npz(result: Result, path: str | Path) -> None:
-    """Write all arrays, and the summary as JSON text, for ``numpy.load``.
-
-    Parameters
-    ----------
-    result : Result
-        What to write.
-    path : str or Path
-        The file; an older one is replaced.
-    """
-    with replacing(path) as temporary, temporary.open("wb") as file:
-        np.savez_compressed(file, allow_pickle=False, **_arrays(result))
-
-
-def write_mat(result: Result, path: str | Path) -> None:
-    """Write all arrays, and the summary as JSON text (``jsondecode``), for MATLAB and Octave.
-
-    Names differ by case, as MATLAB allows: ``x`` is in metres, ``X`` in Hertz half-widths. Fields
-    have rows along y.
-
-    Parameters
-    ----------
-    result : Result
-        What to write.
-    path : str or Path
-        The file; an older one is replaced.
-    """
-    from scipy.io import savemat  # noqa: PLC0415 (0.3 s, for this format only)
-
-    with replacing(path) as temporary, temporary.open("wb") as file:
-        savemat(file, _arrays(result), do_compression=True, oned_as="column")
-
-
-def _arrays(result: Result) -> dict[str, NDArray[Any]]:
+def _arrays(result: Result | TransientResult) -> dict[str, NDArray[Any]]:
     arrays = {variable.name: variable.data for variable in variables(result)}
     return {**arrays, "summary": np.array(json.dumps(summary(result)))}
 
 
+def ending_of(result: Result | TransientResult, to: str | None) -> str:
+    """Return the usual ending of a file of format ``to``.
+
+    Raises
+    ------
+    InputError
+        If the format is unknown or None.
+    """
+    known = _endings(result)
+    for ending, kind in known.items():
+        if kind == to:
+            return ending
+    listed = ", ".join(dict.fromkeys(known.values()))
+    stated = "no format stated" if to is None else f"unknown export format {to!r}"
+    raise InputError(f"{stated}; expected --to {listed}, or -o with the ending {', '.join(known)}")
+
+
+def format_of(result: Result | TransientResult, path: str | Path, to: str | None = None) -> str:
+    """Return the format of an export to ``path``.
+
+    Raises
+    ------
+    InputError
+        If the ending of ``path`` is unknown or does not match the format ``to``.
+    """
+    known = _endings(result)
+    kind = known.get(Path(path).suffix.lower())
+    if to is not None:
+        ending_of(result, to)
+    if kind is not None and to in (None, kind):
+        return kind
+    fitting = [
+        ending + _MEANINGS.get(ending, "") for ending in known if to in (None, known[ending])
+    ]
+    of_format = "" if to is None else f" of format {to}"
+    raise InputError(f"output {path}: a file{of_format} ends in {' or '.join(fitting)}")
+
+
+def _endings(result: Result | TransientResult) -> dict[str, str]:
+    return _TRANSIENT if isinstance(result, TransientResult) else _STEADY
+
+
+# ---- CSV
+
+
+def write_csv(result: Result | TransientResult, path: str | Path, what: str = "") -> None:
+    """Write a table, as any spreadsheet reads it.
+
+    Columns are named as the variables of the NetCDF file, with their unit as ending. Numbers are
+    written so that reading them gives the same bits.
+
+    ``"lines"`` of a steady result are the grid lines nearest to the axes: first those with ``line =
+    x`` (along entrainment, Y = 0), then ``line = y`` (across, X = 0); ``"fields"`` are all nodes, x
+    running fastest, and ``"history"`` the multigrid cycles. Of a transient result ``"history"`` has
+    a row per step, ``"lines"`` the nodes of the line y = 0 at each step, and ``"fields"`` all nodes
+    of each frame.
+
+    Parameters
+    ----------
+    result : Result or TransientResult
+        What to write.
+    path : str or Path
+        The file; an existing one is replaced.
+    what : {"lines", "fields", "history"}
+        Which rows; lines of a steady result and the history of a transient one by default.
+
+    Raises
+    ------
+    InputError
+        If the result has no such rows, or the file cannot be written.
+    """
+    known = _ROWS[type(result)]
+    what = what or next(iter(known))
+    dims = known.get(what, ())
+    columns = {v.name + _SUFFIXES[v.units]: v.data for v in _over(dims, result)}
+    if not columns:
+        raise InputError(f"the result has no {what} to export; expected {' or '.join(known)}")
+    names: Iterable[str] = columns
+    if isinstance(result, Result) and what == "lines":
+        names, rows = ("line", *columns), _line_rows(result, list(columns.values()))
+    else:
+        rows = _rows(list(columns.values()))
+    with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(names)
+        writer.writerows(rows)
+
+
+def _over(dims: tuple[str, ...], result: Result | TransientResult) -> Iterator[Variable]:
+    """Yield the arrays over ``dims`` and their coordinates, broadcast to the same shape."""
+    found = list(variables(result))
+    sizes = {dim: size for v in found for dim, size in zip(v.dims, v.data.shape, strict=True)}
+    if not set(dims) <= sizes.keys():
+        return
+    shape = tuple(sizes[dim] for dim in dims)
+    for v in found:
+        if v.dims == dims or (v.name in COORDINATES and set(v.dims) < set(dims)):
+            axes = [sizes[dim] if dim in v.dims else 1 for dim in dims]
+            yield replace(v, dims=dims, data=np.broadcast_to(v.data.reshape(axes), shape))
+        elif v.name == "temperature" and dims == ("y", "x") and isinstance(result, Result):
+            yield from _layers(result, v)
+
+
+def _layers(result: Result, all_layers: Variable) -> Iterator[Variable]:
+    """Yield the temperatures on surface 1, at mid-film, on surface 2, and their mean."""
+    found = result.temperature
+    if found is not None:
+        maps = (all_layers.data[0], found.mid_film, all_layers.data[-1], found.mean)
+        for name, data in zip(("1", "mid", "2", "mean"), maps, strict=True):
+            yield replace(all_layers, name=f"temperature_{name}", dims=("y", "x"), data=data)
+
+
+def _line_rows(result: Result, columns: list[NDArray[Any]]) -> Iterator[tuple[Any, ...]]:
+    row = int(np.argmin(np.abs(result.scaled.y)))
+    column = int(np.argmin(np.abs(result.scaled.x)))
+    for name, line in (("x", np.s_[row, :]), ("y", np.s_[:, column])):
+        yield from ((name, *numbers) for numbers in _rows([field[line] for field in columns]))
+
+
+def _rows(columns: list[NDArray[Any]]) -> Iterator[tuple[Any, ...]]:
+    return zip(*(column.ravel().tolist() for column in columns), strict=True)
+
+
+# ---- VTK
+
+
 def write_vtk(result: Result, path: str | Path) -> None:
-    """Write the fields as a VTK grid, which ParaView opens: of the film or of its plane.
+    """Write the maps of a steady result as a VTK grid: the plane of the film, or its volume.
 
-    The ending ``.vtr`` gives a rectilinear grid, the plane z = 0 with x and y in metres and point
-    arrays ``pressure`` [Pa], ``film_thickness`` [m], ``P`` and ``H`` [-], and heights [m], shear
-    stresses [Pa], temperatures [K] and heat fluxes [W/m^2] if there are any: the maps of
-    :func:`write_csv`.
-    "Warp by scalar" raises a film to a surface.
+    The ending ``.vtr`` gives a rectilinear grid, the plane z = 0 with x and y in metres, and the
+    maps of :func:`write_csv` in SI as point arrays. "Warp by scalar" raises a film to a surface.
 
-    The ending ``.vts`` gives a structured grid that fills the film, with nodes at
-    (x, y, zeta h) in metres and ``temperature`` [K] at each; without temperatures it has the two
-    surfaces only. Raise the scale of z to see it.
+    The ending ``.vts`` gives a structured grid that fills the film, with nodes at (x, y, zeta h) in
+    metres and ``temperature`` [K] at each; without temperatures it has the two surfaces only. Raise
+    the scale of z to see it.
 
     Parameters
     ----------
     result : Result
         What to write.
     path : str or Path
-        The file; an older one is replaced.
+        The file; an existing one is replaced.
     """
-    maps = {
-        "pressure": result.pressure,
-        "film_thickness": result.film_thickness,
-        "P": result.scaled.pressure,
-        "H": result.scaled.film,
-        **{name: field for name, _, field in _more_maps(result)},
-    }
+    maps = {v.name: v.data for v in _over(("y", "x"), result) if v.name not in COORDINATES}
     numbers = {"converged": float(result.status.converged)}
-    if Path(path).suffix.lower() == _VOLUME:
+    if Path(path).suffix.lower() == ".vts":
         text = _volume(result, maps, numbers)
     else:
-        axes = (result.x, result.y, np.zeros(1))
-        text = rectilinear_grid(axes, maps, field_data=numbers)
+        text = rectilinear_grid((result.x, result.y, np.zeros(1)), maps, field_data=numbers)
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="ascii")
 
 
-def _volume(result: Result, maps: dict[str, Array], numbers: dict[str, float]) -> str:
+def _volume(result: Result, maps: dict[str, NDArray[Any]], numbers: dict[str, float]) -> str:
     """Return the film as a structured grid; maps are the same on each layer."""
     heat, film = result.heat, result.film_thickness
     zeta = np.array([0.0, 1.0]) if heat is None else heat.zeta
@@ -262,13 +256,47 @@ def _volume(result: Result, maps: dict[str, Array], numbers: dict[str, float]) -
     return structured_grid(points, fields, field_data=numbers)
 
 
-WRITERS: dict[str, Callable[[Result, str | Path], None]] = {
-    "csv": write_csv,
-    "npz": write_npz,
-    "vtk": write_vtk,
-    "mat": write_mat,
-}
+def write_frames(run: TransientResult, path: str | Path) -> list[Path]:
+    """Write each frame of a transient result as a plane, and a collection that lists them.
 
-SUFFIXES = {"csv": ".csv", "npz": ".npz", "vtk": ".vtr", "mat": ".mat"}
-_VOLUME = ".vts"
-_OTHER_VTK = (".vtk", ".vti", ".vtu")
+    ParaView opens the collection ``NAME.pvd`` as one animation; its frames are the files
+    ``NAME_0000.vtr`` ... beside it, with pressure [Pa], film thickness [m] and the heights of both
+    surfaces [m] as point arrays.
+
+    Parameters
+    ----------
+    run : TransientResult
+        With frames (``transient.frames`` of its case).
+    path : str or Path
+        The collection; existing files are replaced.
+
+    Returns
+    -------
+    list of Path
+        All files, the collection first.
+
+    Raises
+    ------
+    InputError
+        If the result has no frames, or a file cannot be written.
+    """
+    target, frames = Path(path), run.frames
+    if not frames.step.size:
+        raise InputError("the result has no frames to export (transient.frames = 0)")
+    check_writable(target)
+    axes, numbers = (run.x, run.y, np.zeros(1)), {"converged": float(run.status.converged)}
+    times: dict[Path, float] = {}
+    for number, step in enumerate(frames.step):
+        maps = {
+            "pressure": frames.pressure[number],
+            "film_thickness": frames.film[number],
+            "height": frames.height[number],
+        }
+        plane = target.with_name(f"{target.stem}_{number:04d}.vtr")
+        times[plane] = float(run.history.time[step])
+        with replacing(plane) as temporary:
+            temporary.write_text(rectilinear_grid(axes, maps, field_data=numbers), encoding="ascii")
+    with replacing(target) as temporary:
+        named = {plane.name: time for plane, time in times.items()}
+        temporary.write_text(collection(named), encoding="utf-8")
+    return [target, *times]

@@ -7,51 +7,51 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from tehl.fields import FilmHeat
 from tehl.result import Estimate, Result
+from tehl.transient_result import HistoryBars, TransientResult
 from tehl.typing import Array
 
 if TYPE_CHECKING:
-    from tehl.post.roughness import Ripples, RoughFilm
+    from tehl.post.roughness import RoughFilm
     from tehl.post.waviness import WaveResponse
 
+Block = dict[str, Any]
 
-def summary(result: Result) -> dict[str, Any]:
-    """Return the summary of ``result`` as JSON can hold it: null where a number is not finite.
 
-    Keys that end in a unit (``_m``, ``_pa``, ``_k``, ``_w``) are SI, the others dimensionless.
-    A film that is not positive is null; ``temperature`` and ``heat`` are null for an isothermal
-    run, ``traction`` where there are no shear stresses, ``roughness`` where no surface states any.
-    A certified result has ``uncertainty``, which mirrors the values.
+def summary(result: Result | TransientResult) -> Block:
+    """Return the summary of a result as JSON can hold it: null where a number is not finite.
+
+    Keys that end in a unit (``_m``, ``_pa``, ``_k``, ``_s``, ``_w``) are SI, the others
+    dimensionless. A film that is not positive is null; ``temperature`` and ``heat`` are null for an
+    isothermal run, ``traction`` without shear stresses, ``roughness`` if no surface states any. A
+    certified result has ``uncertainty``, which mirrors the values.
+
+    A transient result has ``"kind": "transient"``, extremes with their times, and under ``start``
+    the summary of the steady film at its start.
 
     Parameters
     ----------
-    result : Result
+    result : Result or TransientResult
         What a solve returned or a file held.
     """
+    if isinstance(result, TransientResult):
+        content = _transient(result)
+    else:
+        content = _head(result, result.problem.title) | _steady(result)
+    plain_content: Block = plain(content)
+    return plain_content
+
+
+def _head(result: Result | TransientResult, title: str) -> Block:
     status = result.status
-    content = {
-        "title": result.problem.title,
+    return {
+        "title": title,
         "status": status.kind,
         "cause": status.cause,
         "message": status.message,
         "hint": status.hint,
-        "laws": _laws(result),
-        "domain": _domain(result),
-        "groups": _groups(result),
-        "film": _film(result),
-        "pressure": _pressure(result),
-        "temperature": _temperature(result),
-        "traction": _traction(result),
-        "heat": _heat(result),
-        "roughness": None if result.roughness is None else roughness_block(result.roughness),
-        "convergence": _convergence(result),
-        "errors": asdict(result.errors) if result.errors else None,
-        "cost": _cost(result),
     }
-    if result.uncertainty:
-        content["uncertainty"] = _uncertainty(result)
-    plain_content: dict[str, Any] = plain(content)
-    return plain_content
 
 
 def plain(value: Any) -> Any:
@@ -60,8 +60,6 @@ def plain(value: Any) -> Any:
         value = value.item()
     if isinstance(value, float):
         return value if math.isfinite(value) else None
-    if isinstance(value, str | int | None):
-        return value
     if isinstance(value, Mapping):
         return {key: plain(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
@@ -69,44 +67,99 @@ def plain(value: Any) -> Any:
     return value
 
 
-def _laws(result: Result) -> dict[str, str | None]:
-    lubricant = result.problem.lubricant
-    return {
-        "viscosity": lubricant.viscosity.law,
-        "viscosity_temperature": getattr(lubricant.viscosity, "temperature_law", None),
-        "density": lubricant.density.law,
-        "shear": lubricant.shear.law,
-        "reynolds": getattr(result.problem.heat, "reynolds", "isothermal"),
+Path = tuple[str, ...]
+
+_STEADY: dict[str, tuple[Path, ...]] = {
+    "film_central": (("film", "H_central"), ("film", "h_central_m")),
+    "film_minimum": (("film", "H_min"), ("film", "h_min_m")),
+    "pressure_max": (("pressure", "P_max"), ("pressure", "max_pa")),
+    "film_rise_max": (("temperature", "film_rise_max_k"),),
+    "mid_film_rise_central": (("temperature", "mid_film_rise_central_k"),),
+    "traction_mid_film": (("traction", "mid_film"),),
+}
+_TRANSIENT: dict[str, tuple[Path, ...]] = {
+    "film_minimum": (("film", "h_min_m", "value"),),
+    "film_central_least": (("film", "h_central_m", "least"),),
+    "film_central_largest": (("film", "h_central_m", "largest"),),
+    "pressure_max": (("pressure", "p_max_pa", "value"),),
+    "film_rise_max": (("temperature", "film_rise_max_k", "value"),),
+    "traction_extreme": (("traction", "extreme"),),
+}
+"""Keys of the summary that the estimates of a certified result belong to."""
+
+
+def _mirrored(
+    result: Result | TransientResult, places: dict[str, tuple[Path, ...]], units: dict[str, float]
+) -> Block:
+    """Return the estimates of a result under the keys of their values, in ``units``."""
+    blocks: Block = {}
+    for name, paths in places.items():
+        for *parents, key in paths if name in result.uncertainty else ():
+            block = blocks
+            for parent in parents:
+                block = block.setdefault(parent, {})
+            block[key] = asdict(_in_unit(result.uncertainty[name], units.get(key, 1.0)))
+    return blocks
+
+
+def _in_unit(estimate: Estimate, unit: float) -> Estimate:
+    return Estimate(
+        value=estimate.value * unit,
+        uncertainty=estimate.uncertainty * unit,
+        discretisation=estimate.discretisation * unit,
+        domain=estimate.domain * unit,
+        observed_order=estimate.observed_order,
+        values=tuple(value * unit for value in estimate.values),
+    )
+
+
+# ---- steady results
+
+
+def _steady(result: Result) -> Block:
+    lubricant, heat, rough = result.problem.lubricant, result.heat, result.roughness
+    scaled, cost = result.scaled, result.cost
+    content = {
+        "laws": {
+            "viscosity": lubricant.viscosity.law,
+            "viscosity_temperature": getattr(lubricant.viscosity, "temperature_law", None),
+            "density": lubricant.density.law,
+            "shear": lubricant.shear.law,
+            "reynolds": getattr(result.problem.heat, "reynolds", "isothermal"),
+        },
+        "domain": {"x": scaled.x[[0, -1]].tolist(), "y": scaled.y[[0, -1]].tolist()},
+        "groups": _groups(result),
+        "film": _film(result),
+        "pressure": _pressure(result),
+        "temperature": _temperature(result),
+        "traction": _traction(result),
+        "heat": None if heat is None else _heat(heat),
+        "roughness": None if rough is None else roughness_block(rough),
+        "convergence": _convergence(result),
+        "errors": asdict(result.errors) if result.errors else None,
+        "cost": {"points": [scaled.x.size, scaled.y.size]} | asdict(cost),
+    }
+    if result.uncertainty:
+        units = {
+            "h_central_m": result.scales.film_thickness,
+            "h_min_m": result.scales.film_thickness,
+            "max_pa": result.scales.hertz_pressure,
+        }
+        content["uncertainty"] = {"film": {}, "pressure": {}} | _mirrored(result, _STEADY, units)
+    return content
+
+
+def _groups(result: Result) -> Block:
+    groups, scales = asdict(result.groups), result.scales
+    del groups["deflection_factor"]
+    return groups | {
+        "hertz_pressure_pa": scales.hertz_pressure,
+        "hertz_half_width_m": scales.half_width_x,
+        "hertz_half_width_y_m": scales.half_width_y,
     }
 
 
-def _domain(result: Result) -> dict[str, list[float]]:
-    return {"x": _ends(result.scaled.x), "y": _ends(result.scaled.y)}
-
-
-def _ends(axis: Array) -> list[float]:
-    return [float(axis[0]), float(axis[-1])]
-
-
-def _groups(result: Result) -> dict[str, float]:
-    groups = result.groups
-    return {
-        "M": groups.M,
-        "L": groups.L,
-        "U": groups.U,
-        "W": groups.W,
-        "G": groups.G,
-        "lambda_bar": groups.lambda_bar,
-        "alpha_bar": groups.alpha_bar,
-        "ellipticity": groups.ellipticity,
-        "radius_ratio": groups.radius_ratio,
-        "hertz_pressure_pa": result.scales.hertz_pressure,
-        "hertz_half_width_m": result.scales.half_width_x,
-        "hertz_half_width_y_m": result.scales.half_width_y,
-    }
-
-
-def _film(result: Result) -> dict[str, Any]:
+def _film(result: Result) -> Block:
     film, scaled, moes = result.film, result.film_scaled, moes_film_factor(result)
     numbers = {
         "h_min_m": film.minimum,
@@ -133,7 +186,7 @@ def moes_film_factor(result: Result) -> float:
     return (scales.film_thickness / scales.half_width_x) ** 2 / math.sqrt(2.0 * groups.U)
 
 
-def _pressure(result: Result) -> dict[str, float]:
+def _pressure(result: Result) -> Block:
     highest = float(np.max(result.scaled.pressure))
     return {
         "max_pa": highest * result.scales.hertz_pressure,
@@ -142,7 +195,7 @@ def _pressure(result: Result) -> dict[str, float]:
     }
 
 
-def _temperature(result: Result) -> dict[str, Any] | None:
+def _temperature(result: Result) -> Block | None:
     found = result.temperature
     if found is None:
         return None
@@ -157,7 +210,7 @@ def _temperature(result: Result) -> dict[str, Any] | None:
     }
 
 
-def _traction(result: Result) -> dict[str, float | bool] | None:
+def _traction(result: Result) -> Block | None:
     found = result.traction
     if found is None:
         return None
@@ -174,21 +227,18 @@ def _traction(result: Result) -> dict[str, float | bool] | None:
     }
 
 
-def _heat(result: Result) -> dict[str, Any] | None:
-    heat = result.heat
-    if heat is None:
-        return None
+def _heat(heat: FilmHeat) -> Block:
     powers = {f"{name}_w": power for name, power in asdict(heat.balance).items()}
     return powers | {"solid_peclet": heat.solid_peclet, "sources": heat.sources}
 
 
-def roughness_block(found: "RoughFilm") -> dict[str, Any]:
-    """Return what a summary says of a rough film, in the block ``roughness``.
+def roughness_block(found: "RoughFilm") -> Block:
+    """Return the block ``roughness`` of a summary.
 
     Parameters
     ----------
     found : RoughFilm
-        As :attr:`tehl.result.Result.roughness` gives it, or with the smooth contact subtracted.
+        As :attr:`tehl.result.Result.roughness` gives it, or with the smooth film subtracted.
     """
     return {
         "surface_1_sq_m": found.sq[0],
@@ -201,18 +251,14 @@ def roughness_block(found: "RoughFilm") -> dict[str, Any]:
         "area_below_half_median": found.below_half,
         "minimum_at": found.minimum_at,
         "P_max": found.largest_pressure,
-        "ripples_x": _ripples(found.ripples_x),
-        "ripples_y": _ripples(found.ripples_y),
+        "ripples_x": {"count": found.ripples_x.count, "depth_m": found.ripples_x.depth},
+        "ripples_y": {"count": found.ripples_y.count, "depth_m": found.ripples_y.depth},
         "waves": [_wave(wave) for wave in found.waves],
         "wave_notes": list(found.wave_notes),
     }
 
 
-def _ripples(found: "Ripples") -> dict[str, float]:
-    return {"count": found.count, "depth_m": found.depth}
-
-
-def _wave(wave: "WaveResponse") -> dict[str, float | None]:
+def _wave(wave: "WaveResponse") -> Block:
     return {
         "wavelength_m": wave.wavelength,
         "angle_rad": wave.angle,
@@ -231,62 +277,77 @@ def _wave(wave: "WaveResponse") -> dict[str, float | None]:
     }
 
 
-def _convergence(result: Result) -> dict[str, Any]:
-    balance = None if result.heat is None else result.heat.balance.error
-    if not result.history:
-        none = dict.fromkeys(("residual", "change", "load_error"))
-        return {"cycles": 0, **none, "heat_balance_error": balance}
-    last = result.history[-1]
+def _convergence(result: Result) -> Block:
+    history, names = result.history, ("residual", "change", "load_error")
+    finest = [report for report in history if report.points == history[-1].points]
     return {
-        "cycles": sum(report.points == last.points for report in result.history),
-        "residual": last.residual,
-        "change": last.change,
-        "load_error": last.load_error,
-        "heat_balance_error": balance,
+        "cycles": len(finest),
+        **{name: getattr(finest[-1], name) if finest else None for name in names},
+        "heat_balance_error": None if result.heat is None else result.heat.balance.error,
     }
 
 
-def _cost(result: Result) -> dict[str, Any]:
-    cost = result.cost
+# ---- transient results
+
+
+def _transient(run: TransientResult) -> Block:
+    history, times = run.history, run.history.time
+    rise = _extreme(history.temperature_rise, times, np.argmax)
+    content = {
+        "kind": "transient",
+        **_head(run, run.start.problem.title),
+        "time": {
+            "duration_s": float(times[-1]),
+            "step_s": run.time_step,
+            "steps": len(times) - 1,
+            "frames": len(run.frames.step),
+        },
+        "film": {
+            "h_min_m": _extreme(history.film_minimum, times, np.argmin),
+            "h_central_m": _range(history.film_central),
+        },
+        "pressure": {"p_max_pa": _extreme(history.pressure_max, times, np.argmax)},
+        "temperature": None if run.start.heat is None else {"film_rise_max_k": rise},
+        "traction": _range(history.traction),
+        "load_factor": _range(history.load),
+        "cycles": _cycles(run),
+        "cost": asdict(run.cost),
+        "start": summary(run.start),
+    }
+    if run.uncertainty:
+        content["uncertainty"] = _mirrored(run, _TRANSIENT, {})
+        if run.bars is not None:
+            content["uncertainty"]["history"] = _history_bars(run.bars)
+    return content
+
+
+def _extreme(values: Array, times: Array, find: Any) -> dict[str, float]:
+    place = int(find(values))
+    return {"value": float(values[place]), "time_s": float(times[place]), "start": float(values[0])}
+
+
+def _range(values: Array) -> dict[str, float]:
     return {
-        "points": [result.scaled.x.size, result.scaled.y.size],
-        "cpu_seconds": cost.cpu_seconds,
-        "wall_seconds": cost.wall_seconds,
-        "work": cost.work,
+        "least": float(values.min()),
+        "largest": float(values.max()),
+        "start": float(values[0]),
+        "end": float(values[-1]),
     }
 
 
-_MIRRORED = (
-    ("film_central", "film", "H_central", "h_central_m"),
-    ("film_minimum", "film", "H_min", "h_min_m"),
-    ("pressure_max", "pressure", "P_max", "max_pa"),
-    ("film_rise_max", "temperature", None, "film_rise_max_k"),
-    ("mid_film_rise_central", "temperature", None, "mid_film_rise_central_k"),
-    ("traction_mid_film", "traction", "mid_film", None),
-)
-"""Names of estimates, and block and keys of the summary that they mirror: scaled and SI."""
+def _cycles(run: TransientResult) -> dict[str, float]:
+    cycles = run.history.cycles[1:] if run.history.cycles.size > 1 else np.zeros(1)
+    return {
+        "per_step": float(cycles.mean()),
+        "most": float(cycles.max()),
+        "total": float(cycles.sum()),
+    }
 
 
-def _uncertainty(result: Result) -> dict[str, dict[str, Any]]:
-    units = {"film": result.scales.film_thickness, "pressure": result.scales.hertz_pressure}
-    blocks: dict[str, dict[str, Any]] = {"film": {}, "pressure": {}}
-    for name, block, scaled_key, si_key in _MIRRORED:
-        if name not in result.uncertainty:
-            continue
-        estimate, mirror = result.uncertainty[name], blocks.setdefault(block, {})
-        if scaled_key:
-            mirror[scaled_key] = asdict(estimate)
-        if si_key:
-            mirror[si_key] = asdict(_scaled_estimate(estimate, units.get(block, 1.0)))
-    return blocks
-
-
-def _scaled_estimate(estimate: Estimate, unit: float) -> Estimate:
-    return Estimate(
-        value=estimate.value * unit,
-        uncertainty=estimate.uncertainty * unit,
-        discretisation=estimate.discretisation * unit,
-        domain=estimate.domain * unit,
-        observed_order=estimate.observed_order,
-        values=tuple(value * unit for value in estimate.values),
-    )
+def _history_bars(bars: HistoryBars) -> dict[str, float]:
+    return {
+        "instants": len(bars.time),
+        "h_central_m": float(bars.film_central.max()),
+        "h_min_m": float(bars.film_minimum.max()),
+        "p_max_pa": float(bars.pressure_max.max()),
+    }

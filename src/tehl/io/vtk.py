@@ -1,18 +1,19 @@
-"""VTK XML files, as far as a film needs them: its plane and its volume."""
+"""VTK XML files for the plane of a film, its volume, and collections of planes over time."""
 
 import base64
 import xml.etree.ElementTree as ET
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tehl.typing import Array
 
+Maps = dict[str, NDArray[Any]]
+
 
 def rectilinear_grid(
-    coordinates: tuple[Array, Array, Array],
-    point_data: dict[str, Array],
-    *,
-    field_data: dict[str, float],
+    coordinates: tuple[Array, Array, Array], point_data: Maps, *, field_data: dict[str, float]
 ) -> str:
     """Return the text of a ``.vtr`` file, numbers as base64 of little-endian doubles.
 
@@ -25,17 +26,15 @@ def rectilinear_grid(
     field_data : dict of str to float
         Numbers about the whole grid.
     """
-    root, grid, extent = _frame("RectilinearGrid", [axis.size for axis in coordinates], field_data)
-    piece = _piece(grid, extent, point_data)
+    sizes = [axis.size for axis in coordinates]
+    root, piece = _grid("RectilinearGrid", sizes, point_data, field_data)
     lines = ET.SubElement(piece, "Coordinates")
     for name, axis in zip("xyz", coordinates, strict=True):
         _array(lines, name, axis)
     return _text(root)
 
 
-def structured_grid(
-    points: Array, point_data: dict[str, Array], *, field_data: dict[str, float]
-) -> str:
+def structured_grid(points: Array, point_data: Maps, *, field_data: dict[str, float]) -> str:
     """Return the text of a ``.vts`` file, numbers as base64 of little-endian doubles.
 
     Parameters
@@ -47,17 +46,24 @@ def structured_grid(
     field_data : dict of str to float
         Numbers about the whole grid.
     """
-    sizes = list(points.shape[2::-1])
-    root, grid, extent = _frame("StructuredGrid", sizes, field_data)
-    piece = _piece(grid, extent, point_data)
+    root, piece = _grid("StructuredGrid", list(points.shape[2::-1]), point_data, field_data)
     _array(ET.SubElement(piece, "Points"), "points", points).set("NumberOfComponents", "3")
     return _text(root)
 
 
-def _frame(
-    kind: str, sizes: list[int], field_data: dict[str, float]
-) -> tuple[ET.Element, ET.Element, str]:
-    """Return the root of a file, its grid with the numbers about it, and the extent."""
+def collection(times: dict[str, float]) -> str:
+    """Return the text of a ``.pvd`` file that lists files beside it with their times [s]."""
+    root = ET.Element("VTKFile", type="Collection", version="1.0", byte_order="LittleEndian")
+    listed = ET.SubElement(root, "Collection")
+    for name, time in times.items():
+        ET.SubElement(listed, "DataSet", timestep=repr(time), part="0", file=name)
+    return _text(root)
+
+
+def _grid(
+    kind: str, sizes: list[int], point_data: Maps, field_data: dict[str, float]
+) -> tuple[ET.Element, ET.Element]:
+    """Return the root of a file and the piece that takes its nodes."""
     extent = " ".join(f"0 {size - 1}" for size in sizes)
     root = ET.Element(
         "VTKFile", type=kind, version="1.0", byte_order="LittleEndian", header_type="UInt64"
@@ -66,15 +72,11 @@ def _frame(
     general = ET.SubElement(grid, "FieldData")
     for name, value in field_data.items():
         _array(general, name, np.array([value])).set("NumberOfTuples", "1")
-    return root, grid, extent
-
-
-def _piece(grid: ET.Element, extent: str, point_data: dict[str, Array]) -> ET.Element:
     piece = ET.SubElement(grid, "Piece", Extent=extent)
     values = ET.SubElement(piece, "PointData", Scalars=next(iter(point_data)))
     for name, field in point_data.items():
         _array(values, name, field)
-    return piece
+    return root, piece
 
 
 def _text(root: ET.Element) -> str:
@@ -82,8 +84,8 @@ def _text(root: ET.Element) -> str:
     return '<?xml version="1.0"?>\n' + ET.tostring(root, encoding="unicode") + "\n"
 
 
-def _array(parent: ET.Element, name: str, values: Array) -> ET.Element:
-    """Add one DataArray: eight bytes with the length, then the numbers, together in base64."""
+def _array(parent: ET.Element, name: str, values: NDArray[Any]) -> ET.Element:
+    """Add one DataArray: the length as eight bytes, then the numbers, together in base64."""
     data = np.ascontiguousarray(values, "<f8").tobytes()
     element = ET.SubElement(parent, "DataArray", type="Float64", Name=name, format="binary")
     header = np.array([len(data)], "<u8").tobytes()

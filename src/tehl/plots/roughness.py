@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from tehl.errors import InputError
+from tehl.fields import SurfaceHeights
 from tehl.plots.frame import (
     GIGA,
     MICRO,
@@ -29,7 +30,7 @@ from tehl.plots.maps import slenderness, window_places
 from tehl.post.film import hertz_pressure
 from tehl.post.micro_film import MicroFilm, micro_film
 from tehl.post.roughness import RoughFilm, film_histogram, in_contact, rough_film
-from tehl.result import Result, SurfaceHeights
+from tehl.result import Result
 from tehl.typing import Array
 
 _HEIGHTS, _RIPPLES = "viridis", "RdBu_r"

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from tehl.errors import InputError
+from tehl.fields import FilmHeat
 from tehl.plots.frame import (
     MICRO,
     STEPS,
@@ -31,7 +32,7 @@ from tehl.plots.frame import (
 )
 from tehl.plots.maps import slenderness, window_places
 from tehl.post.heat import Temperature
-from tehl.result import FilmHeat, Result
+from tehl.result import Result
 from tehl.typing import Array
 
 HEAT_COLOURS = "inferno"

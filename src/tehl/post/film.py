@@ -1,15 +1,18 @@
 """Profiles and balances of a film, computed from a stored result."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tehl.post.traction import cell_widths, under_pressure
-from tehl.result import Result
 from tehl.typing import Array, BoolArray
 
+if TYPE_CHECKING:
+    from tehl.result import Result
 
-def no_film(result: Result) -> str:
+
+def no_film(result: "Result") -> str:
     """Return why the film of ``result`` is none to speak of; nothing if it is a film.
 
     Parameters
@@ -49,19 +52,19 @@ class Profile:
     at: float
 
 
-def profile_x(result: Result) -> Profile:
+def profile_x(result: "Result") -> Profile:
     """Return the profile along entrainment, on the grid line nearest to y = 0."""
     row = int(np.argmin(np.abs(result.scaled.y)))
     return _profile(result, (row, slice(None)))
 
 
-def profile_y(result: Result) -> Profile:
+def profile_y(result: "Result") -> Profile:
     """Return the profile across entrainment, on the grid line nearest to x = 0."""
     column = int(np.argmin(np.abs(result.scaled.x)))
     return _profile(result, (slice(None), column))
 
 
-def _profile(result: Result, line: tuple[int, slice] | tuple[slice, int]) -> Profile:
+def _profile(result: "Result", line: tuple[int, slice] | tuple[slice, int]) -> Profile:
     along_x = isinstance(line[0], int)
     scaled_x, scaled_y = result.scaled.x[line[1]], result.scaled.y[line[0]]
     gap = dry_gap(scaled_x, scaled_y, result.groups.ellipticity)
@@ -126,7 +129,7 @@ def _curvature_integral(k2: float) -> float:
     return float(np.pi * values.mean())
 
 
-def pressurised_area(result: Result) -> float:
+def pressurised_area(result: "Result") -> float:
     """Return the area under pressure, where the film is full [m^2]."""
     return float(under_pressure(result).sum())
 
@@ -157,7 +160,7 @@ class MassFlow:
     imbalance: float
 
 
-def mass_flow(result: Result) -> MassFlow:
+def mass_flow(result: "Result") -> MassFlow:
     r"""Return the mass flow of an isothermal Newtonian film, with the laws of its lubricant.
 
     .. math:: m_x = \rho u_m h - \frac{\rho h^3}{12\eta} \frac{\partial p}{\partial x}, \quad

@@ -1,11 +1,16 @@
 """Temperatures of a film, computed from a stored result."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tehl.result import FilmHeat, Result
+from tehl.fields import FilmHeat
 from tehl.typing import Array
+
+if TYPE_CHECKING:
+    from tehl.result import Result
+
 
 MIDDLE = 0.5
 """z/h of the mid-film."""
@@ -42,7 +47,7 @@ class Temperature:
     mean: Array
 
 
-def temperature(result: Result) -> Temperature | None:
+def temperature(result: "Result") -> Temperature | None:
     """Return the temperatures of ``result``, None for an isothermal run.
 
     Parameters

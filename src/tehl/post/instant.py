@@ -1,19 +1,23 @@
 """One instant of a transient run as a film of its own: all that reads steady films reads it too."""
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tehl.errors import InputError
+from tehl.fields import Fields, FilmSummary, SurfaceHeights
 from tehl.grid import Grid
 from tehl.operators.heights import MovingHeights
 from tehl.options import Domain
 from tehl.post.micro_film import smooth_twin
-from tehl.result import Fields, FilmSummary, Result, SurfaceHeights
-from tehl.transient_result import TransientResult
+
+if TYPE_CHECKING:
+    from tehl.result import Result
+    from tehl.transient_result import TransientResult
 
 
-def film_at(run: TransientResult, frame: int = -1) -> Result:
+def film_at(run: "TransientResult", frame: int = -1) -> "Result":
     """Return the film of a kept field.
 
     With it the functions of `tehl.post.roughness`, `tehl.post.micro_film` and `tehl.plots` tell of
@@ -67,7 +71,7 @@ def film_at(run: TransientResult, frame: int = -1) -> Result:
     )
 
 
-def smooth_start(run: TransientResult) -> Result | None:
+def smooth_start(run: "TransientResult") -> "Result | None":
     """Return the film of smooth surfaces that a run began with: the twin of each instant.
 
     None if it did not begin with smooth surfaces, or under another load than that of the contact.
@@ -79,7 +83,7 @@ def smooth_start(run: TransientResult) -> Result | None:
     return replace(run.start, problem=smooth_twin(problem))
 
 
-def _heights(run: TransientResult, frame: int) -> SurfaceHeights | None:
+def _heights(run: "TransientResult", frame: int) -> SurfaceHeights | None:
     """Return the heights of both surfaces, from the field of both together where one is smooth."""
     problem = run.start.problem
     if not problem.is_rough or problem.transient is None:

@@ -3,18 +3,20 @@
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from tehl.errors import InputError
 from tehl.post.roughness import in_contact, middle_film
 from tehl.problem import ContactProblem
-from tehl.result import Result
 from tehl.roughness import Smooth
 from tehl.roughness.prepare import gaussian_mean
 from tehl.roughness.statistics import statistics
 from tehl.typing import Array
+
+if TYPE_CHECKING:
+    from tehl.result import Result
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -86,7 +88,7 @@ def smooth_twin(problem: ContactProblem) -> ContactProblem:
     return problem.model_copy(update=surfaces | {"transient": None})
 
 
-def micro_film(rough: Result, smooth: Result | None = None) -> MicroFilm:
+def micro_film(rough: "Result", smooth: "Result | None" = None) -> MicroFilm:
     """Return the ripples of film and pressure.
 
     Parameters
@@ -119,7 +121,7 @@ def micro_film(rough: Result, smooth: Result | None = None) -> MicroFilm:
     )
 
 
-def is_twin(rough: Result, smooth: Result) -> bool:
+def is_twin(rough: "Result", smooth: "Result") -> bool:
     """Return whether two results differ by nothing but the heights of the surfaces."""
     same_grid = all(
         one.shape == other.shape and np.allclose(one, other)
@@ -128,7 +130,7 @@ def is_twin(rough: Result, smooth: Result) -> bool:
     return same_grid and rough.groups == smooth.groups and rough.scales == smooth.scales
 
 
-def typical_wavelength(result: Result) -> float:
+def typical_wavelength(result: "Result") -> float:
     """Return the wavelength 2 pi Sq/Sdq of the heights in the contact [m]; at most a_x."""
     longest = result.scales.half_width_x
     if result.heights is None:
@@ -139,7 +141,7 @@ def typical_wavelength(result: Result) -> float:
     return min(2.0 * math.pi * found.sq / found.sdq, longest) if found.sdq > 0 else longest
 
 
-def roughness_effect(rough: Result, smooth: Result) -> RoughnessEffect:
+def roughness_effect(rough: "Result", smooth: "Result") -> RoughnessEffect:
     """Return what roughness does to the film, from a rough result and that of its twin."""
     ripples, contact = micro_film(rough, smooth), in_contact(rough)
     highest, without = float(rough.pressure.max()), float(smooth.pressure.max())
@@ -157,7 +159,7 @@ def roughness_effect(rough: Result, smooth: Result) -> RoughnessEffect:
     )
 
 
-def _traction_ratio(rough: Result, smooth: Result) -> float | None:
+def _traction_ratio(rough: "Result", smooth: "Result") -> float | None:
     here, there = rough.traction, smooth.traction
     if here is None or there is None or rough.problem.slide_roll_ratio == 0:
         return None

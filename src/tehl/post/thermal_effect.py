@@ -2,12 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from tehl.errors import InputError
 from tehl.film_formulas import InletFactor, inlet_factors
 from tehl.problem import ContactProblem
-from tehl.result import Result
+
+if TYPE_CHECKING:
+    from tehl.result import Result
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -49,7 +51,7 @@ def isothermal_twin(problem: ContactProblem) -> ContactProblem:
     return problem.model_copy(update={"thermal": None, "lubricant": oil, **surfaces})
 
 
-def thermal_effect(thermal: Result, isothermal: Result) -> ThermalEffect:
+def thermal_effect(thermal: "Result", isothermal: "Result") -> ThermalEffect:
     """Return what heat does to the film, from a thermal result and that of its twin."""
     warm, cold = thermal.film, isothermal.film
     return ThermalEffect(

@@ -6,11 +6,15 @@ The stress is ``tau = eta du/dz``, so all coefficients are negative where surfac
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tehl.result import Result
 from tehl.typing import Array
+
+if TYPE_CHECKING:
+    from tehl.result import Result
+
 
 LARGEST_CREDIBLE = 0.1
 """Traction coefficient that oils reach at most; a Newtonian film knows no such limit."""
@@ -78,7 +82,7 @@ class Traction:
         return (max(parts) - min(parts)) / (largest or 1.0)
 
 
-def traction(result: Result) -> Traction | None:
+def traction(result: "Result") -> Traction | None:
     """Return the traction of ``result``, None where it has no shear stresses.
 
     Integrals are sums over the nodes under pressure; the gradient is a central difference. The film
@@ -116,7 +120,7 @@ def traction(result: Result) -> Traction | None:
     )
 
 
-def under_pressure(result: Result) -> Array:
+def under_pressure(result: "Result") -> Array:
     """Return the area of each node where the film is under pressure, else zero [m^2], (ny, nx)."""
     area = np.outer(cell_widths(result.y), cell_widths(result.x))
     area *= result.scaled.pressure > 0

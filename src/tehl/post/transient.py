@@ -17,6 +17,7 @@ References
 import cmath
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -24,8 +25,11 @@ from tehl.duration import parts_of
 from tehl.errors import InputError
 from tehl.post.waviness import waves_of
 from tehl.roughness import WaveVector
-from tehl.transient_result import TransientResult
 from tehl.typing import Array
+
+if TYPE_CHECKING:
+    from tehl.transient_result import TransientResult
+
 
 MOST_PERIODS = 4
 """Periods at the end of a run over which a passing wave is fitted."""
@@ -118,7 +122,7 @@ class PassingWave:
         return self.film_amplitude / self.amplitude
 
 
-def speed_of(run: TransientResult, surface: int) -> float:
+def speed_of(run: "TransientResult", surface: int) -> float:
     """Return the speed of surface 1 or 2 [m/s].
 
     Raises
@@ -133,7 +137,7 @@ def speed_of(run: TransientResult, surface: int) -> float:
 
 
 def moving_profiles(
-    run: TransientResult, surface: int, *, start: float | None = None, reach: float | None = None
+    run: "TransientResult", surface: int, *, start: float | None = None, reach: float | None = None
 ) -> MovingProfiles:
     """Return the profiles along y = 0 around a place that moves with a surface.
 
@@ -181,7 +185,7 @@ def moving_profiles(
     return MovingProfiles(offset=offset, place=place, pressure=pressure, film=film, height=height)
 
 
-def _place_of_feature(run: TransientResult, surface: int) -> float:
+def _place_of_feature(run: "TransientResult", surface: int) -> float:
     """Return where the feature of a surface stands at time zero [m].
 
     Raises
@@ -206,7 +210,7 @@ def _place_of_feature(run: TransientResult, surface: int) -> float:
     return float(getattr(feature, "x", 0.0))
 
 
-def envelope(run: TransientResult, *, since: float = 0.0, until: float = math.inf) -> Envelope:
+def envelope(run: "TransientResult", *, since: float = 0.0, until: float = math.inf) -> Envelope:
     """Return the least and largest film and pressure along y = 0 over a passage.
 
     Parameters
@@ -237,7 +241,7 @@ def envelope(run: TransientResult, *, since: float = 0.0, until: float = math.in
     )
 
 
-def passing_wave(run: TransientResult, surface: int, *, x: float = 0.0) -> PassingWave:
+def passing_wave(run: "TransientResult", surface: int, *, x: float = 0.0) -> PassingWave:
     """Return what is left of the wave of a surface at a place that it passes.
 
     A harmonic, its overtone, a mean and a drift are fitted to film, pressure and height at the
@@ -314,7 +318,7 @@ def amplitude_reduction(nabla: float, *, ratio: float = 1.0) -> float:
     return 1.0 / (1.0 + 0.15 * scaled + 0.015 * scaled**2)
 
 
-def nabla_of(run: TransientResult, wave: WaveVector) -> float:
+def nabla_of(run: "TransientResult", wave: WaveVector) -> float:
     """Return (lambda / a) sqrt(M/L) [-], lambda the shorter one of those along x and y."""
     groups, half_width = run.start.groups, run.start.scales.half_width_x
     number = max(abs(wave.along), abs(wave.across))
@@ -326,7 +330,7 @@ def _ratio(wave: WaveVector) -> float:
     return abs(wave.across / wave.along)
 
 
-def _wave(run: TransientResult, surface: int) -> WaveVector:
+def _wave(run: "TransientResult", surface: int) -> WaveVector:
     """Return the one wave of a surface, or one of several that pass equally often."""
     roughness = getattr(run.start.problem, f"surface_{surface}").roughness
     waves = list(waves_of(roughness))
@@ -337,7 +341,7 @@ def _wave(run: TransientResult, surface: int) -> WaveVector:
     return waves[0]
 
 
-def _arrival(run: TransientResult, surface: int, x: float) -> float:
+def _arrival(run: "TransientResult", surface: int, x: float) -> float:
     """Return when a wave that comes in from the inlet has come to ``x`` in full [s]."""
     transient, speed = run.start.problem.transient, speed_of(run, surface)
     if transient is None or transient.start == "standing":
@@ -348,7 +352,7 @@ def _arrival(run: TransientResult, surface: int, x: float) -> float:
     return (math.copysign(x, x * speed) + front + faded) / abs(speed)
 
 
-def _at(run: TransientResult, line: Array, x: float) -> Array:
+def _at(run: "TransientResult", line: Array, x: float) -> Array:
     """Return a line in time at one place, interpolated."""
     if not run.x[0] <= x <= run.x[-1]:
         raise InputError(f"x = {x:g} m lies outside the domain, {run.x[0]:g} to {run.x[-1]:g} m")

@@ -28,16 +28,20 @@ import cmath
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tehl.lubricant.density import DensityLaw
 from tehl.post.wave_search import distinct_waves
 from tehl.problem import ContactProblem
-from tehl.result import Result
 from tehl.roughness import AnyRoughness, Map, Random, Sum, WaveVector
 from tehl.roughness.waves import HarmonicModel
 from tehl.typing import Array, BoolArray
+
+if TYPE_CHECKING:
+    from tehl.result import Result
+
 
 REACH = 0.4
 """Half-widths on each side of the centre in which waves are fitted: the pressure is even there."""
@@ -117,7 +121,7 @@ class WaveResponse:
         return self.film_amplitude / self.amplitude
 
 
-def wave_responses(result: Result, smooth: Result | None = None) -> tuple[WaveResponse, ...]:
+def wave_responses(result: "Result", smooth: "Result | None" = None) -> tuple[WaveResponse, ...]:
     """Return how film and pressure respond to each wave of the surfaces.
 
     Waves are those of ``wave`` and ``crossed`` surfaces, alone or in a sum; of measured and random
@@ -172,7 +176,7 @@ def wave_responses(result: Result, smooth: Result | None = None) -> tuple[WaveRe
     )
 
 
-def wave_notes(result: Result) -> tuple[str, ...]:
+def wave_notes(result: "Result") -> tuple[str, ...]:
     """Return what :func:`wave_responses` leaves out and why, a sentence each.
 
     Parameters
@@ -257,7 +261,7 @@ def _may_hold_waves(roughness: AnyRoughness) -> bool:
     return isinstance(roughness, Map | Random)
 
 
-def _standing_out(result: Result, patch: "_Patch") -> list[WaveVector]:
+def _standing_out(result: "Result", patch: "_Patch") -> list[WaveVector]:
     """Return the waves of surfaces that state none, also those too long for the patch."""
     if result.heights is None or not _is_searched(result.problem):
         return []
@@ -286,7 +290,7 @@ class _Patch:
     half_widths: tuple[float, float]
 
     @classmethod
-    def of(cls, result: Result) -> "_Patch":
+    def of(cls, result: "Result") -> "_Patch":
         columns, rows = (np.abs(axis) <= REACH for axis in (result.scaled.x, result.scaled.y))
         widths = (result.scales.half_width_x, result.scales.half_width_y)
         return cls(rows, columns, result.x[columns], result.y[rows], widths)
@@ -441,7 +445,7 @@ class FlatFilm:
         )
 
 
-def _flat_film(result: Result, patch: _Patch) -> FlatFilm:
+def _flat_film(result: "Result", patch: _Patch) -> FlatFilm:
     """Return the means of a film over the patch."""
     pressure = float(patch.cut(result.pressure).mean())
     temperature = result.scales.temperature

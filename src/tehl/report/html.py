@@ -4,9 +4,10 @@ from collections.abc import Iterator
 from html import escape
 from pathlib import Path
 
+from tehl.fields import FilmHeat, HeatBalance
 from tehl.film_formulas import film_estimates
 from tehl.io.atomic import check_writable, replacing
-from tehl.io.content import DEFINITIONS
+from tehl.io.tables import DEFINITIONS
 from tehl.plots.save import Picture, pictures_of
 from tehl.post.film import no_film
 from tehl.post.heat import Temperature
@@ -16,7 +17,7 @@ from tehl.post.thermal_effect import ThermalEffect
 from tehl.report.inputs import input_rows
 from tehl.report.parts import STYLE, image, section, table
 from tehl.report.rough_film import WAVE_HEAD, WAVE_NOTE, effect_rows, film_rows, wave_rows
-from tehl.result import ErrorEstimate, Estimate, FilmHeat, HeatBalance, Result
+from tehl.result import ErrorEstimate, Estimate, Result
 
 _CAPTIONS = {
     "film": "Film thickness. The dashed line is the Hertz contact; oil enters at the left.",

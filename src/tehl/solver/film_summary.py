@@ -4,8 +4,8 @@ from functools import cache
 
 import numpy as np
 
+from tehl.fields import FilmSummary
 from tehl.grid import Grid
-from tehl.result import FilmSummary
 from tehl.typing import Array, IntArray
 
 REACH = 5

@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from tehl.fields import FilmHeat, FilmShear, HeatBalance
 from tehl.grid import Grid
 from tehl.operators.energy import FilmState, pressure_slopes, stress_unit
-from tehl.result import FilmHeat, FilmShear, HeatBalance
 from tehl.scaling import ScaledProblem
 from tehl.solver.level import Level
 from tehl.typing import Array

@@ -11,22 +11,13 @@ import numpy as np
 
 from tehl.domain import recommended_domain
 from tehl.errors import ConvergenceError, InputError
+from tehl.fields import Fields, FilmHeat, FilmShear, SurfaceHeights
 from tehl.grid import Grid, can_mirror
 from tehl.memory import check_memory
 from tehl.operators.heights import Heights, heights_of
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
-from tehl.result import (
-    Cost,
-    CycleReport,
-    Fields,
-    FilmHeat,
-    FilmShear,
-    Provenance,
-    Result,
-    Status,
-    SurfaceHeights,
-)
+from tehl.result import Cost, CycleReport, Provenance, Result, Status
 from tehl.scaling import ScaledProblem, Scales
 from tehl.solver.film_solver import FilmSolver
 from tehl.solver.film_summary import film_summary

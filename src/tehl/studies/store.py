@@ -141,10 +141,10 @@ class Store:
         FileFormatError
             If the file is damaged.
         """
-        from tehl.io.store import load  # noqa: PLC0415 (rows do without HDF5)
+        from tehl.io.store import load_as  # noqa: PLC0415 (rows do without HDF5)
 
         path = self.fields_path(case)
-        return load(path) if path.is_file() else None
+        return load_as(Result, path) if path.is_file() else None
 
     def put(self, *rows: Row) -> None:
         """Keep rows, all or none, in the place of older ones of the same keys.

@@ -82,10 +82,10 @@ def _solved(case: Case, guess: Path | None) -> Result:
 
 def _loaded(guess: Path) -> Result | None:
     """Return a result to start from; a file that cannot be read is no reason to fail."""
-    from tehl.io.store import load  # noqa: PLC0415 (HDF5, for warm starts only)
+    from tehl.io.store import load_as  # noqa: PLC0415 (HDF5, for warm starts only)
 
     try:
-        return load(guess)
+        return load_as(Result, guess)
     except TehlError:
         return None
 
