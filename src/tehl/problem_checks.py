@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING
 
 from tehl.geometry import reduced_radius
 from tehl.units import (
-    CONDUCTIVITY,
-    HEAT_CAPACITY,
-    SOLID_CONDUCTIVITY,
-    SOLID_DENSITY,
-    SOLID_HEAT_CAPACITY,
+    Conductivity,
+    HeatCapacity,
     Quantity,
+    SolidConductivity,
+    SolidDensity,
+    SolidHeatCapacity,
+    quantity,
 )
 
 if TYPE_CHECKING:
@@ -22,9 +23,9 @@ if TYPE_CHECKING:
 
 SURFACES = ("surface_1", "surface_2")
 THERMAL_PROPERTIES = {
-    "density": SOLID_DENSITY,
-    "heat_capacity": SOLID_HEAT_CAPACITY,
-    "conductivity": SOLID_CONDUCTIVITY,
+    "density": quantity(SolidDensity),
+    "heat_capacity": quantity(SolidHeatCapacity),
+    "conductivity": quantity(SolidConductivity),
 }
 COLDEST, HOTTEST = 200.0, 800.0
 """Limits of the temperature of an oil or a solid [K]."""
@@ -116,12 +117,12 @@ def check_heat(problem: "ContactProblem") -> None:
                 f"{key}.temperature has an effect in thermal runs only: add a [thermal] table, or "
                 "state lubricant.temperature for an isothermal film"
             )
-        for name, quantity in THERMAL_PROPERTIES.items() if problem.thermal else ():
-            need(f"{key}.material.{name}", getattr(surface.material, name), quantity)
+        for name, wanted in THERMAL_PROPERTIES.items() if problem.thermal else ():
+            need(f"{key}.material.{name}", getattr(surface.material, name), wanted)
     if problem.thermal is None:
         return
-    need("lubricant.conductivity", oil.conductivity, CONDUCTIVITY)
-    need("lubricant.heat_capacity", oil.heat_capacity, HEAT_CAPACITY)
+    need("lubricant.conductivity", oil.conductivity, quantity(Conductivity))
+    need("lubricant.heat_capacity", oil.heat_capacity, quantity(HeatCapacity))
     if not oil.viscosity.temperature_coefficient > 0:
         raise ValueError(
             "lubricant.viscosity has no temperature coefficient, which a thermal run needs: "
@@ -129,12 +130,12 @@ def check_heat(problem: "ContactProblem") -> None:
         )
 
 
-def need(key: str, value: object, quantity: Quantity) -> None:
+def need(key: str, value: object, wanted: Quantity) -> None:
     """Raise if a property that a thermal run needs is missing."""
     if value is None:
         raise ValueError(
-            f"{key} is missing, which a thermal run needs: give {quantity.name} such as "
-            f"{quantity.example}"
+            f"{key} is missing, which a thermal run needs: give {wanted.name} such as "
+            f"{wanted.example}"
         )
 
 

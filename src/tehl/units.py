@@ -9,7 +9,7 @@ import math
 import re
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
@@ -74,37 +74,24 @@ class _UnitReader:
     """Recursive descent over a unit such as ``W/m/K`` or ``1/(Pa s)``."""
 
     def __init__(self, text: str) -> None:
-        self.text = text
-        self.tokens = self._split(text.replace("⁻¹", "^-1").translate(_SUPERSCRIPTS))
-        self.position = 0
-
-    def _split(self, text: str) -> list[str]:
-        tokens, start = [], 0
-        while text[start:].strip():
-            match = _TOKEN.match(text, start)
-            if match is None:
-                raise ValueError(f"has an unreadable unit {self.text!r}")
-            tokens.append(match.group().strip())
-            start = match.end()
-        return tokens
+        self.text, self.tokens = text, _tokens(text)
 
     def _next(self) -> str:
-        return self.tokens[self.position] if self.position < len(self.tokens) else ""
+        return self.tokens[0] if self.tokens else ""
 
     def read(self) -> tuple[float, Dimension]:
         """Return factor to SI and dimension of the whole text."""
         value = self._product()
-        if self._next():
+        if self.tokens:
             raise ValueError(f"has an unreadable unit {self.text!r}")
         return value
 
     def _product(self) -> tuple[float, Dimension]:
         factor, dimension = self._power()
         while self._next() not in ("", ")"):
-            sign = 1
+            sign = -1 if self._next() == "/" else 1
             if self._next() in ("*", "·", "/"):
-                sign = -1 if self._next() == "/" else 1
-                self.position += 1
+                self.tokens.pop(0)
             other, exponents = self._power()
             factor *= other**sign
             dimension = _combine(dimension, exponents, sign)
@@ -114,25 +101,34 @@ class _UnitReader:
         factor, dimension = self._atom()
         if self._next() not in ("^", "**"):
             return factor, dimension
-        self.position += 1
-        token = self._next()
-        if not re.fullmatch(r"[+-]?\d", token):
+        self.tokens.pop(0)
+        power = self.tokens.pop(0) if self.tokens else ""
+        if not re.fullmatch(r"[+-]?\d", power):
             raise ValueError(f"has an unreadable exponent in its unit {self.text!r}")
-        self.position += 1
-        return float(factor ** int(token)), _combine(_NONE, dimension, int(token))
+        return float(factor ** int(power)), _combine(_NONE, dimension, int(power))
 
     def _atom(self) -> tuple[float, Dimension]:
-        token = self._next()
-        self.position += 1
+        token = self.tokens.pop(0) if self.tokens else ""
         if token == "(":
             value = self._product()
             if self._next() != ")":
                 raise ValueError(f"has a bracket left open in its unit {self.text!r}")
-            self.position += 1
+            self.tokens.pop(0)
             return value
         if token not in _UNITS:
             raise ValueError(f"has an unknown unit {token or self.text!r}")
         return _UNITS[token]
+
+
+def _tokens(text: str) -> list[str]:
+    found, plain = [], text.replace("⁻¹", "^-1").translate(_SUPERSCRIPTS).rstrip()
+    while plain:
+        match = _TOKEN.match(plain)
+        if match is None:
+            raise ValueError(f"has an unreadable unit {text!r}")
+        found.append(match.group().strip())
+        plain = plain[match.end() :]
+    return found
 
 
 def _combine(first: Dimension, second: Dimension, power: int) -> Dimension:
@@ -146,7 +142,7 @@ def _read_unit(text: str) -> tuple[float, Dimension]:
     return _UnitReader(text).read()
 
 
-@dataclass(frozen=True, kw_only=True, slots=True)
+@dataclass(frozen=True, slots=True)
 class Quantity:
     """What kind of number is expected: dimension, sign and an example for messages.
 
@@ -194,21 +190,21 @@ class Quantity:
         if isinstance(value, str):
             return self._check(self._read(value.strip()))
         if isinstance(value, bool) or not isinstance(value, int | float):
-            raise ValueError(f"is not a number: {self._wanted}")
+            raise ValueError(f"is not a number; {self._expected}")
         if abs(value) > 1e300:  # so that huge integers of a case file do not overflow
             return self._check(math.inf if value > 0 else -math.inf)
         return self._check(float(value))
 
     @property
-    def _wanted(self) -> str:
-        return f"give {self.name} such as {self.example}"
+    def _expected(self) -> str:
+        return f"expected {self.name} such as {self.example}"
 
     def _read(self, text: str) -> float:
         if text.lstrip("+-").lower() in ("inf", "nan"):
             return float(text)
         match = _NUMBER.match(text)
         if match is None:
-            raise ValueError(f"does not begin with a number: {self._wanted}")
+            raise ValueError(f"does not begin with a number; {self._expected}")
         number, unit = float(match.group()), text[match.end() :].strip()
         if not unit:
             return self._unitless(number)
@@ -220,34 +216,35 @@ class Quantity:
     def _factor(self, unit: str) -> float:
         """Return the factor from ``unit`` to SI."""
         if len(unit) > LONGEST_UNIT:
-            raise ValueError(f"has an unreadable unit: {self._wanted}")
+            raise ValueError(f"has an unreadable unit; {self._expected}")
         if re.match(r",\d", unit):
-            raise ValueError(f"has a comma in its number, write a point: {self._wanted}")
+            raise ValueError(f"has a comma in its number, write a point; {self._expected}")
         try:
             factor, dimension = _read_unit(unit)
         except ValueError as error:
-            raise ValueError(f"{error}: {self._wanted}") from None
+            raise ValueError(f"{error}; {self._expected}") from None
         if self.unit == "-" and unit in _ANGLE_UNITS:
-            raise ValueError(f"has the unit of an angle ({unit}): {self._wanted}")
+            raise ValueError(f"has the unit of an angle ({unit}); {self._expected}")
         if dimension != self.dimension:
-            way = _WAYS.get((dimension, self.dimension), "")
-            raise ValueError(f"has the unit of {_kind(dimension, unit)}: {way}{self._wanted}")
+            way = _CONVERSIONS.get((dimension, self.dimension))
+            hint = "" if way is None else f" ({way})"
+            raise ValueError(f"has the unit of {_kind(dimension, unit)}; {self._expected}{hint}")
         return factor
 
     def _unitless(self, number: float) -> float:
         if self.unit != "-":
-            raise ValueError(f"lacks a unit: {self._wanted}, or a number without quotes in SI")
+            raise ValueError(f"lacks a unit; {self._expected}, or a number in SI without quotes")
         return number
 
     def _check(self, number: float) -> float:
         if math.isnan(number):
-            raise ValueError(f"is not a number: {self._wanted}")
+            raise ValueError(f"is not a number; {self._expected}")
         if math.isinf(number) and not (self.flat and number > 0):
-            raise ValueError(f"is not finite: {self._wanted}")
+            raise ValueError(f"is not finite; {self._expected}")
         if self.sign == "positive" and not number > 0:
-            raise ValueError(f"must be positive: {self._wanted}")
+            raise ValueError(f"must be positive; {self._expected}")
         if self.sign == "non-negative" and not number >= 0:
-            raise ValueError(f"must not be negative: {self._wanted}")
+            raise ValueError(f"must not be negative; {self._expected}")
         if self.flat and number == 0:
             raise ValueError('must not be zero: a flat surface has the radius "inf"')
         return number
@@ -290,100 +287,69 @@ def _finite_or_word(value: float) -> float | str:
 def _kind(dimension: Dimension, unit: str) -> str:
     if dimension == _NONE:
         return f"an angle ({unit})" if unit in _ANGLE_UNITS else f"a plain number ({unit})"
-    known = {quantity.dimension: quantity.name for quantity in reversed(_KINDS)}
-    return f"{known.get(dimension, 'something else')} ({unit})"
+    return f"{_KINDS.get(dimension, 'another quantity')} ({unit})"
 
 
-TIME = Quantity(name="a time", unit="s", example='"2 ms"')
-INSTANT = Quantity(name="a time", unit="s", example='"2 ms"', sign="non-negative")
-LENGTH = Quantity(name="a length", unit="m", example='"20 mm"')
-HEIGHT = Quantity(name="a length", unit="m", example='"0.05 um"', sign="non-negative")
-RADIUS = Quantity(name="a radius", unit="m", example='"20 mm"', sign="any", flat=True)
-PRESSURE = Quantity(name="a pressure", unit="Pa", example='"0.8 GPa"')
-BULK_MODULUS = Quantity(name="a bulk modulus", unit="Pa", example='"1.2 GPa"')
-STRESS = Quantity(name="a shear stress", unit="Pa", example='"5 MPa"')
-NON_NEGATIVE_STRESS = Quantity(
-    name="a shear stress", unit="Pa", example='"5 MPa"', sign="non-negative"
-)
-FORCE = Quantity(name="a force", unit="N", example='"80 N"')
-SPEED = Quantity(name="a speed", unit="m/s", example='"1.5 m/s"')
-VISCOSITY = Quantity(name="a viscosity", unit="Pa s", example='"0.04 Pa s"')
-KINEMATIC_VISCOSITY = Quantity(name="a kinematic viscosity", unit="m^2/s", example='"68 mm^2/s"')
-PER_PRESSURE = Quantity(
-    name="an inverse pressure", unit="1/Pa", example='"22 1/GPa"', sign="non-negative"
-)
-TEMPERATURE = Quantity(name="a temperature", unit="K", example='"40 degC"')
-PER_TEMPERATURE = Quantity(
-    name="an inverse temperature", unit="1/K", example='"6.5e-4 1/K"', sign="non-negative"
-)
-SIGNED_PER_TEMPERATURE = Quantity(
-    name="an inverse temperature", unit="1/K", example='"-7e-4 1/K"', sign="any"
-)
-DENSITY = Quantity(name="a density", unit="kg/m^3", example='"890 kg/m^3"')
-CONDUCTIVITY = Quantity(name="a thermal conductivity", unit="W/m/K", example='"0.14 W/m/K"')
-HEAT_CAPACITY = Quantity(name="a heat capacity per mass", unit="J/kg/K", example='"2000 J/kg/K"')
-VOLUME_HEAT_CAPACITY = Quantity(
-    name="a heat capacity per volume", unit="J/m^3/K", example='"1.8 MJ/m^3/K"'
-)
-SOLID_DENSITY = Quantity(name="a density", unit="kg/m^3", example='"7850 kg/m^3"')
-SOLID_CONDUCTIVITY = Quantity(name="a thermal conductivity", unit="W/m/K", example='"46 W/m/K"')
-SOLID_HEAT_CAPACITY = Quantity(
-    name="a heat capacity per mass", unit="J/kg/K", example='"470 J/kg/K"'
-)
-ANGLE = Quantity(name="an angle", unit="rad", example='"45 deg"', sign="any")
-NUMBER = Quantity(name="a plain number", unit="-", example="0.25", sign="any")
-POSITIVE_NUMBER = Quantity(name="a plain number", unit="-", example="100")
-RATIO = Quantity(name="a plain number", unit="-", example="0.6", sign="non-negative")
-STRESS_SLOPE = Quantity(name="a plain number", unit="-", example="0.04", sign="non-negative")
+Time = Annotated[float, Quantity("a time", "s", '"2 ms"')]
+Instant = Annotated[float, Quantity("a time", "s", '"2 ms"', "non-negative")]
+Length = Annotated[float, Quantity("a length", "m", '"20 mm"')]
+Height = Annotated[float, Quantity("a length", "m", '"0.05 um"', "non-negative")]
+Radius = Annotated[float, Quantity("a radius", "m", '"20 mm"', "any", flat=True)]
+Pressure = Annotated[float, Quantity("a pressure", "Pa", '"0.8 GPa"')]
+BulkModulus = Annotated[float, Quantity("a bulk modulus", "Pa", '"1.2 GPa"')]
+Stress = Annotated[float, Quantity("a shear stress", "Pa", '"5 MPa"')]
+NonNegativeStress = Annotated[float, Quantity("a shear stress", "Pa", '"5 MPa"', "non-negative")]
+Force = Annotated[float, Quantity("a force", "N", '"80 N"')]
+Speed = Annotated[float, Quantity("a speed", "m/s", '"1.5 m/s"')]
+Viscosity = Annotated[float, Quantity("a viscosity", "Pa s", '"0.04 Pa s"')]
+KinematicViscosity = Annotated[float, Quantity("a kinematic viscosity", "m^2/s", '"68 mm^2/s"')]
+PressureCoefficient = Annotated[
+    float, Quantity("an inverse pressure", "1/Pa", '"22 1/GPa"', "non-negative")
+]
+Temperature = Annotated[float, Quantity("a temperature", "K", '"40 degC"')]
+TemperatureCoefficient = Annotated[
+    float, Quantity("an inverse temperature", "1/K", '"6.5e-4 1/K"', "non-negative")
+]
+SignedTemperatureCoefficient = Annotated[
+    float, Quantity("an inverse temperature", "1/K", '"-7e-4 1/K"', "any")
+]
+Density = Annotated[float, Quantity("a density", "kg/m^3", '"890 kg/m^3"')]
+Conductivity = Annotated[float, Quantity("a thermal conductivity", "W/m/K", '"0.14 W/m/K"')]
+HeatCapacity = Annotated[float, Quantity("a heat capacity per mass", "J/kg/K", '"2000 J/kg/K"')]
+VolumeHeatCapacity = Annotated[
+    float, Quantity("a heat capacity per volume", "J/m^3/K", '"1.8 MJ/m^3/K"')
+]
+SolidDensity = Annotated[float, Quantity("a density", "kg/m^3", '"7850 kg/m^3"')]
+SolidConductivity = Annotated[float, Quantity("a thermal conductivity", "W/m/K", '"46 W/m/K"')]
+SolidHeatCapacity = Annotated[float, Quantity("a heat capacity per mass", "J/kg/K", '"470 J/kg/K"')]
+Angle = Annotated[float, Quantity("an angle", "rad", '"45 deg"', "any")]
+Number = Annotated[float, Quantity("a plain number", "-", "0.25", "any")]
+PositiveNumber = Annotated[float, Quantity("a plain number", "-", "100")]
+Ratio = Annotated[float, Quantity("a plain number", "-", "0.6", "non-negative")]
+StressSlope = Annotated[float, Quantity("a plain number", "-", "0.04", "non-negative")]
 
-_KINDS = (
-    LENGTH,
-    PRESSURE,
-    FORCE,
-    SPEED,
-    VISCOSITY,
-    KINEMATIC_VISCOSITY,
-    PER_PRESSURE,
-    TEMPERATURE,
-    PER_TEMPERATURE,
-    DENSITY,
-    CONDUCTIVITY,
-    HEAT_CAPACITY,
-    VOLUME_HEAT_CAPACITY,
-)
-_WAYS = {
-    (KINEMATIC_VISCOSITY.dimension, VISCOSITY.dimension): "multiply it by the density, and ",
-    (VOLUME_HEAT_CAPACITY.dimension, HEAT_CAPACITY.dimension): (
-        'divide it by the density (also with basis = "volume"), and '
+
+def quantity(kind: Any) -> Quantity:
+    """Return the quantity of an annotated type: ``quantity(Length)``."""
+    found: Quantity = kind.__metadata__[0]
+    return found
+
+
+_KINDS = {
+    quantity(kind).dimension: quantity(kind).name
+    for kind in (
+        *(Length, Pressure, Force, Speed, Viscosity, KinematicViscosity, PressureCoefficient),
+        *(Temperature, TemperatureCoefficient, Density, Conductivity),
+        *(HeatCapacity, VolumeHeatCapacity),
+    )
+}
+"""What a value with another unit is, by its dimension."""
+_CONVERSIONS = {
+    (quantity(KinematicViscosity).dimension, quantity(Viscosity).dimension): (
+        "multiply it by the density"
+    ),
+    (quantity(VolumeHeatCapacity).dimension, quantity(HeatCapacity).dimension): (
+        'divide it by the density, also with basis = "volume"'
     ),
 }
-"""How one gets from what was given to what is wanted, by their dimensions."""
-
-Time = Annotated[float, TIME]
-Instant = Annotated[float, INSTANT]
-Length = Annotated[float, LENGTH]
-Height = Annotated[float, HEIGHT]
-Radius = Annotated[float, RADIUS]
-Pressure = Annotated[float, PRESSURE]
-BulkModulus = Annotated[float, BULK_MODULUS]
-Stress = Annotated[float, STRESS]
-NonNegativeStress = Annotated[float, NON_NEGATIVE_STRESS]
-Force = Annotated[float, FORCE]
-Speed = Annotated[float, SPEED]
-Viscosity = Annotated[float, VISCOSITY]
-KinematicViscosity = Annotated[float, KINEMATIC_VISCOSITY]
-PressureCoefficient = Annotated[float, PER_PRESSURE]
-Temperature = Annotated[float, TEMPERATURE]
-TemperatureCoefficient = Annotated[float, PER_TEMPERATURE]
-SignedTemperatureCoefficient = Annotated[float, SIGNED_PER_TEMPERATURE]
-Density = Annotated[float, DENSITY]
-Conductivity = Annotated[float, CONDUCTIVITY]
-HeatCapacity = Annotated[float, HEAT_CAPACITY]
-SolidDensity = Annotated[float, SOLID_DENSITY]
-SolidConductivity = Annotated[float, SOLID_CONDUCTIVITY]
-SolidHeatCapacity = Annotated[float, SOLID_HEAT_CAPACITY]
-Angle = Annotated[float, ANGLE]
-Number = Annotated[float, NUMBER]
-PositiveNumber = Annotated[float, POSITIVE_NUMBER]
-Ratio = Annotated[float, RATIO]
-StressSlope = Annotated[float, STRESS_SLOPE]
+"""How to convert what was given to what is expected, by their dimensions."""

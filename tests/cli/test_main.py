@@ -97,7 +97,7 @@ def test_bad_input_is_an_object_with_json(monkeypatch, capsys, tmp_path: Path):
     assert run(monkeypatch, "explain", str(tmp_path / "none.toml"), "--json") == 2
     told = json.loads(capsys.readouterr().out)
     assert told["status"] == "bad_input"
-    assert "no such case file" in told["message"]
+    assert "case file does not exist" in told["message"]
 
 
 @pytest.mark.parametrize("arguments", [("explain",), ("explain", "--nonsense"), ("nonsense",)])

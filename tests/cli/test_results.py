@@ -6,10 +6,11 @@ from types import SimpleNamespace
 import pytest
 
 from tehl import cli
-from tehl.cli.twins import smooth_beside, smooth_file
+from tehl.cli.reference_runs import smooth_beside, smooth_file
 from tehl.io.store import save
 from tehl.plots import film_map
 from tehl.post.micro_film import effect_block, roughness_effect
+from tests.fixtures_transient import make_transient
 
 
 @pytest.fixture
@@ -51,7 +52,7 @@ def test_the_ending_of_the_output_tells_the_format(stored, run):
 
 
 @pytest.mark.parametrize("words", [[], ["-o", "film.txt"], ["--to", "vtk", "-o", "film.vtk"]])
-def test_a_format_that_is_not_told_or_does_not_fit_is_bad_input(stored, run, words):
+def test_a_format_that_is_missing_or_does_not_match_is_bad_input(stored, run, words):
     answer = run("export", str(stored), *words)
     assert answer.code == 2
     assert answer.err.count("\n") == 1
@@ -121,8 +122,18 @@ def test_a_file_that_is_no_result_is_bad_input(stored, run, command, damage):
     assert len(list(stored.parent.iterdir())) == (damage in content)
 
 
-@pytest.mark.parametrize("command", ["export", "report"])
-def test_the_help_says_that_transient_runs_are_for_others(command, run):
-    shown = " ".join(run(command, "--help").out.split())
-    assert "ransient runs" in shown
-    assert "steady result" in shown
+@pytest.mark.parametrize(
+    ("words", "names"),
+    [
+        (("--to", "csv"), ["run.csv"]),
+        (("--to", "npz"), ["run.npz"]),
+        (("-o", "film.pvd"), ["film.pvd", *(f"film_000{number}.vtr" for number in range(4))]),
+    ],
+)
+def test_a_transient_result_is_exported_too(tmp_path, run, monkeypatch, words, names):
+    monkeypatch.chdir(tmp_path)
+    make_transient().save("run.nc")
+    answer = run("export", "run.nc", *words)
+    assert answer.code == 0
+    assert answer.out.split() == names
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(["run.nc", *names])

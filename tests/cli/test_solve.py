@@ -153,7 +153,7 @@ def test_a_thermal_run_shows_how_the_temperature_changes(warm, solver, run):
     assert "dT [K]" not in run("solve", "ball.toml").err
 
 
-def test_the_isothermal_twin_enters_at_the_same_temperature(warm, solver, run):
+def test_the_isothermal_reference_enters_at_the_same_temperature(warm, solver, run):
     answer = run("solve", "warm.toml", "--with-isothermal", "--json")
     first, second = (call.problem for call in solver.calls)
     assert first.thermal is not None
@@ -168,27 +168,27 @@ def test_the_isothermal_twin_enters_at_the_same_temperature(warm, solver, run):
         assert json.loads(file.attrs["summary"]) == json.loads(answer.out)
 
 
-def test_the_effect_of_heat_is_told(warm, solver, run):
+def test_the_effect_of_heat_is_printed(warm, solver, run):
     answer = run("solve", "warm.toml", "--with-isothermal")
     assert "over isothermal  1.0000 of the central" in answer.out
     assert "without heat" in answer.err
 
 
-def test_a_twin_without_an_answer_spoils_nothing(warm, solver, run):
+def test_a_reference_run_that_fails_spoils_nothing(warm, solver, run):
     solver.cold = Status(kind="stalled", cause="grid_too_coarse", message="too coarse", hint="h")
     answer = run("solve", "warm.toml", "--with-isothermal", "--json")
     assert answer.code == 0
-    assert "no answer without heat" in answer.err
+    assert "reference run without heat did not converge" in answer.err
     assert json.loads(answer.out)["thermal_effect"] is None
     assert load("warm.nc").status.converged
 
 
-def test_without_the_question_there_is_no_answer_about_the_twin(warm, solver, run):
+def test_without_the_flag_there_is_no_reference_run(warm, solver, run):
     assert "thermal_effect" not in json.loads(run("solve", "warm.toml", "--json").out)
     assert len(solver.calls) == 1
 
 
-def test_the_smooth_twin_is_solved_stored_and_told(wavy, solver, run):
+def test_the_smooth_reference_is_solved_stored_and_compared(wavy, solver, run):
     answer = run("solve", "wavy.toml", "--with-smooth")
     first, second = (call.problem for call in solver.calls)
     assert first.is_rough
@@ -196,7 +196,7 @@ def test_the_smooth_twin_is_solved_stored_and_told(wavy, solver, run):
     assert solver.calls[1].options == solver.calls[0].options
     assert solver.calls[0].options.accuracy == "tight"
     assert "over smooth      1.0000 of the central" in answer.out
-    assert "between smooth surfaces" in answer.err
+    assert "with smooth surfaces" in answer.err
     assert not load("wavy.smooth.nc").problem.is_rough
     assert "written: wavy.smooth.nc" in answer.err
 
@@ -214,16 +214,16 @@ def test_heat_and_roughness_may_be_left_out_in_one_command(wavy, solver, run):
         assert json.loads(file.attrs["summary"]) == content
 
 
-def test_a_smooth_twin_without_an_answer_spoils_nothing(wavy, solver, run):
+def test_a_smooth_reference_that_fails_spoils_nothing(wavy, solver, run):
     solver.cold = Status(kind="stalled", cause="grid_too_coarse", message="too coarse", hint="h")
     answer = run("solve", "wavy.toml", "--with-smooth", "--json")
     assert answer.code == 0
-    assert "no answer between smooth surfaces to compare with" in answer.err
+    assert "reference run with smooth surfaces did not converge" in answer.err
     assert json.loads(answer.out)["roughness_effect"] is None
     assert not Path("wavy.smooth.nc").exists()
 
 
-def test_a_failure_asks_for_no_twins(wavy, solver, run):
+def test_a_failure_makes_no_reference_runs(wavy, solver, run):
     solver.outcome = Status(kind="stalled", cause="grid_too_coarse", message="m", hint="h")
     assert run("solve", "wavy.toml", "--with-smooth").code == 1
     assert len(solver.calls) == 1
@@ -234,7 +234,7 @@ def test_a_failure_asks_for_no_twins(wavy, solver, run):
     [
         (["ball.toml", "--with-smooth"], "both surfaces are smooth"),
         (["ball.toml", "--with-isothermal"], "no [thermal] table"),
-        (["none.toml"], "no such case file"),
+        (["none.toml"], "case file does not exist"),
         (["ball.toml", "-o", "none/out.nc"], "does not exist"),
         (["ball.toml", "-o", "."], "is a folder"),
         (["ball.toml", "-o", "ball.toml"], "same file as the input ball.toml"),
@@ -245,7 +245,7 @@ def test_a_failure_asks_for_no_twins(wavy, solver, run):
         (["ball.toml", "-o", "loop"], "cannot be written"),
         (["ball.toml", "-o", "ball.toml/out.nc"], "cannot be written: not a directory"),
         (["ball.toml", "-o", "n" * 300], "name too long"),
-        (["ball.toml", "-o", "new", "--plot", "new"], "in each other's way"),
+        (["ball.toml", "-o", "new", "--plot", "new"], "conflict"),
         (["ball.toml", "--plot", "ball.toml/x"], "is a file"),
         (["ball.toml", "--plot", "dangling/x"], "broken link"),
         (["ball.toml", "--set", "contact.load=-1 N"], "contact.load"),

@@ -328,10 +328,19 @@ def test_a_list_of_cases_in_a_csv_file(folder, run):
 
 
 WRONG = {
-    "no such case": (STUDY.replace("ball.toml", "bell.toml"), "bell.toml: there is no such case"),
+    "no such case": (
+        STUDY.replace("ball.toml", "bell.toml"),
+        "bell.toml: case file does not exist",
+    ),
     "no case": (STUDY.replace('case = "ball.toml"', ""), "case is missing: give the base case"),
-    "unknown path": (STUDY.replace("contact.load", "contact.lod"), "contact.lod is no key"),
-    "wrong unit": (STUDY.replace(" N", " mm"), 'contact.load = "20.0 mm" has the unit of a length'),
+    "unknown path": (
+        STUDY.replace("contact.load", "contact.lod"),
+        "contact.lod is not a known key",
+    ),
+    "wrong unit": (
+        STUDY.replace(" N", " mm"),
+        'contact.load = "20.0 mm": has the unit of a length',
+    ),
     "two units": (STUDY.replace("80 N", "80 kN"), "has the units N and kN"),
     "empty": (STUDY.replace("[0.0, 0.5]", "[]"), "(contact.slide_roll_ratio) has an empty list"),
     "no values": (STUDY.replace("values = [0.0, 0.5]", ""), "has no values: give one of values"),
@@ -352,7 +361,7 @@ WRONG = {
         "axis transient.frames: a study of steady films",
     ),
     "impossible": (STUDY.replace("20 N", "-20 N"), "must be positive"),
-    "no toml": ("case = ", "is no TOML"),
+    "no toml": ("case = ", "is not valid TOML"),
     "a picture": (STUDY + '[[pictures]]\nx = "load"', "pictures[1] needs x and y, or map"),
     "a case": (CASE, "is a case file: tehl solve takes it"),
     "a table and its key": (
@@ -444,7 +453,7 @@ def test_many_cases_can_be_meant(folder, run):
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (["nowhere.toml"], "there is no such study file"),
+        (["nowhere.toml"], "study file does not exist"),
         (["out", "--set", "a.b=1"], "is planned already"),
         (["loads.toml", "--jobs", "0"], "--jobs 0 must be a whole number of processes, 1 or more"),
         (["loads.toml", "--jobs", "abc"], "--jobs abc must be a whole number"),

@@ -17,7 +17,7 @@ from rich.live import Live
 
 import tehl
 from tehl import cli
-from tehl.cli import transient
+from tehl.cli.checkpoint import Keeper
 from tehl.cli.step_progress import LiveSteps, StepLines, step_progress
 from tehl.errors import ConvergenceError
 from tehl.io.checkpoint import Fingerprint, read_checkpoint
@@ -48,7 +48,7 @@ duration = "0.8 ms"
 points = 65
 domain = { x = [-4.5, 1.5], y = [-3.0, 3.0] }
 """
-KEEPING = "import sys, tehl.cli.transient as e; e.CHECKPOINT_SECONDS = 0; import tehl.cli as c;"
+KEEPING = "import sys, tehl.cli.checkpoint as e; e.CHECKPOINT_SECONDS = 0; import tehl.cli as c;"
 TEHL = (sys.executable, "-c", f"{KEEPING} sys.argv = ['tehl', *sys.argv[1:]]; c.main()")
 
 
@@ -97,7 +97,7 @@ def stopped_by(number: int, folder, step: int) -> subprocess.Popen:
             break
         time.sleep(0.01)
     job.send_signal(number)
-    job.told = job.communicate(timeout=60)[1]
+    job.err = job.communicate(timeout=60)[1]
     return job
 
 
@@ -128,13 +128,13 @@ def test_a_killed_run_goes_on_bit_by_bit(folder, run, warm):
     (folder / ".wave.nc.checkpoint.0123456789ab.part").write_bytes(b"killed while it was written")
     refused = run("solve", "wave.toml")
     assert refused.code == 2
-    assert "--resume goes on from it" in refused.err
+    assert "continue it with --resume" in refused.err
     other = run("solve", "wave.toml", "--resume", "--set", "contact.moes_load=11")
     assert other.code == 2
     assert "belongs to another case" in other.err
     answer = run("solve", "wave.toml", "--resume")
     assert answer.code == 0
-    assert "going on after step" in answer.err
+    assert "continuing after step" in answer.err
     assert equal(tehl.load("whole.nc"), tehl.load("wave.nc"))
     assert names(folder) == ["wave.nc", "wave.toml", "whole.nc"]
 
@@ -144,7 +144,7 @@ def test_a_killed_run_goes_on_bit_by_bit(folder, run, warm):
 def test_a_run_that_is_asked_to_end_keeps_its_last_step(folder, number):
     job = stopped_by(number, folder, 2)
     assert job.returncode == 128 + number
-    assert "tehl solve --resume goes on from it" in job.told
+    assert "tehl solve --resume continues from it" in job.err
     assert names(folder) == ["wave.nc.checkpoint", "wave.toml"]
 
 
@@ -160,7 +160,7 @@ def test_a_broken_checkpoint_is_refused(folder, run):
     (folder / "wave.nc.checkpoint").write_bytes(b"PK\x03\x04 and then nothing")
     answer = run("solve", "wave.toml", "--resume")
     assert answer.code == 2
-    assert "is no whole checkpoint" in answer.err
+    assert "is not a whole checkpoint" in answer.err
 
 
 @pytest.fixture
@@ -228,7 +228,7 @@ def test_a_beginning_that_diverges_is_told_as_a_steady_case_that_does(folder, ru
     ]
     answer = run("solve", "wave.toml", *standing, "--json", "--plot", "pictures")
     assert answer.code == 1
-    assert "not an answer (diverged): The steady film at time zero was not reached" in answer.err
+    assert "not converged (diverged): The steady film at time zero was not reached" in answer.err
     assert "hint: Take lower or longer asperities" in answer.err
     told = json.loads(answer.out)
     assert told["status"] == "diverged"
@@ -319,12 +319,12 @@ def test_a_steady_case_has_nothing_to_resume(folder, run):
 
 
 def test_a_full_disk_does_not_end_a_run(folder, capsys, monkeypatch):
-    keeper = transient.Keeper(folder / "nowhere" / "x", Fingerprint("0.1.0", "abc"))
+    keeper = Keeper(folder / "nowhere" / "x", Fingerprint("0.1.0", "abc"))
     keeper.last = object()
     monkeypatch.setattr("tehl.solver.transient.snapshot.pack", lambda _: {})
     assert not keeper.write()
     assert not keeper.write()
-    assert capsys.readouterr().err.count("no checkpoint is kept") == 1
+    assert capsys.readouterr().err.count("checkpoint not written") == 1
 
 
 def report(step: int) -> StepReport:
@@ -394,7 +394,7 @@ def test_a_steady_film_does_not_move(folder, run):
     make_result(33).save("film.nc")
     answer = run("animate", "film.nc")
     assert answer.code == 2
-    assert "nothing that moves" in answer.err
+    assert "holds a steady result; expected a transient one" in answer.err
 
 
 def test_plot_draws_what_the_file_holds(folder, run):

@@ -30,13 +30,13 @@ def test_a_checkpoint_comes_back_as_it_was_written(tmp_path):
         (b"{'descr'", 0, b"(((((((("),  # the header of an array ends nowhere
     ],
 )
-def test_a_damaged_header_is_told(tmp_path, found, place, harm):
+def test_a_damaged_header_is_reported(tmp_path, found, place, harm):
     path = tmp_path / "run.checkpoint"
     write_checkpoint(path, OWNER, {"pressure": np.ones(3)})
     content = path.read_bytes()
     start = content.rindex(found) + place
     path.write_bytes(content[:start] + harm + content[start + len(harm) :])
-    with pytest.raises(FileFormatError, match="is no whole checkpoint"):
+    with pytest.raises(FileFormatError, match="is not a whole checkpoint"):
         read_checkpoint(path)
 
 

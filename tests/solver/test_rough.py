@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tehl.cli.words import as_text
+from tehl.cli.text import as_text
 from tehl.errors import ConvergenceError, InputError
 from tehl.operators.heights import full_weighting, heights_of
 from tehl.options import Options

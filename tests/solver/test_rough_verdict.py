@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from tehl.cli.words import as_text
+from tehl.cli.text import as_text
 from tehl.grid import Grid
 from tehl.io.summary import summary
 from tehl.report.html import _status

@@ -145,8 +145,8 @@ def test_a_change_is_found_where_it_was_made(path, value):
 @pytest.mark.parametrize(
     ("axes", "words"),
     [
-        ({"contact.lod": [1]}, "contact.lod is no key of a case: did you mean"),
-        ({"contact.radius": ["5 N"]}, 'contact.radius = "5 N" has the unit of a force'),
+        ({"contact.lod": [1]}, "contact.lod is not a known key; did you mean"),
+        ({"contact.radius": ["5 N"]}, 'contact.radius = "5 N": has the unit of a force'),
         ({"contact.radius": []}, "empty list of values"),
         ({"title": ["a"]}, "does not vary it"),
         ({"surface_1.material.young_modulus.x": [1]}, "goes through young_modulus"),

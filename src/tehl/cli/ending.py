@@ -1,25 +1,97 @@
-"""Being stopped: Ctrl-C, a kill and a closed terminal unwind the stack."""
+"""How the command ends: exit codes, one line per error, and signals that unwind the stack."""
 
+import json
+import os
 import signal
+import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from typing import Any, NoReturn
 
 import typer
 
-INTERRUPTED = 128 + signal.SIGINT
-"""Exit code after Ctrl-C; that of another signal is 128 and its number too, as in shells."""
+from tehl.errors import ConvergenceError, TehlError
 
+NOT_CONVERGED, BAD_INPUT, ENVIRONMENT = 1, 2, 3
+"""Exit codes; 0 is success."""
+INTERRUPTED = 128 + signal.SIGINT
+"""Exit code after Ctrl-C; after another signal 128 plus its number, as in shells."""
+NO_READER = 141
+"""Exit code when the reader of the output has closed the pipe, as in shells."""
+
+_WrongCommandLine: Any = typer.BadParameter.__mro__[2]
+"""Base of the errors of a wrong command line; typer does not export it."""
+EXPECTED = (_WrongCommandLine, TehlError, MemoryError, OSError, ModuleNotFoundError)
 _SIGNALS = ("SIGTERM", "SIGHUP")
+_LONGEST = 300
+"""Characters of a message about the command line."""
+
+
+def fail(error: BaseException) -> NoReturn:
+    """Print an error to stderr, with ``--json`` also as an object to stdout, and exit."""
+    message, status, code = _outcome(error)
+    message = " ".join(message.split())
+    with suppress(OSError):
+        typer.echo(f"tehl: {message}", err=True)
+    if "--json" in sys.argv[1:]:
+        with suppress(OSError):
+            typer.echo(json.dumps({"status": status, "message": message}))
+            flush()
+    drop_output()
+    raise SystemExit(code)
+
+
+def _outcome(error: BaseException) -> tuple[str, str, int]:
+    """Return message, status and exit code of an error."""
+    if isinstance(error, _WrongCommandLine):
+        return _usage(error), "bad_input", BAD_INPUT
+    if isinstance(error, ConvergenceError):
+        return str(error), error.result.status.kind, NOT_CONVERGED
+    if isinstance(error, TehlError):
+        return str(error), "bad_input", BAD_INPUT
+    if isinstance(error, OSError):
+        reason = error.strerror or str(error)
+        named = f"{error.filename}: {reason}" if error.filename else reason
+        return named, "environment", ENVIRONMENT
+    if isinstance(error, ModuleNotFoundError):
+        return f"{error.name} is not installed; see tehl doctor", "environment", ENVIRONMENT
+    return "not enough memory: take fewer points", "environment", ENVIRONMENT
+
+
+def _usage(error: Any) -> str:
+    """Return what is wrong with a command line in one sentence; without arguments, the help."""
+    message = " ".join(error.format_message().split()).removesuffix(".")
+    if len(sys.argv) == 1:
+        error.show()
+        raise SystemExit(BAD_INPUT)
+    command = error.ctx.command_path if getattr(error, "ctx", None) else "tehl"
+    short = message if len(message) <= _LONGEST else f"{message[: _LONGEST - 3]}..."
+    return f"{short}; see {command} --help"
+
+
+def flush() -> None:
+    """Write what is buffered for stdout now, while a failure can still be reported."""
+    if sys.stdout is not None:
+        sys.stdout.flush()
+
+
+def drop_output() -> None:
+    """Discard what is buffered if stdout is a closed pipe or a full disk."""
+    try:
+        flush()
+    except OSError:
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
 
 
 @contextmanager
-def ending_cleanly() -> Iterator[None]:
-    """Let a signal that ends the program unwind the stack, so that no temporary file stays."""
-    ended: list[int] = []
+def ending() -> Iterator[None]:
+    """Let a signal that ends the program unwind the stack, so that no temporary file is left."""
+    received: list[int] = []
 
     def end(number: int, _frame: object) -> None:
-        ended.append(number)
+        received.append(number)
         raise SystemExit(128 + number)
 
     before = {}
@@ -30,19 +102,19 @@ def ending_cleanly() -> Iterator[None]:
     try:
         yield
     except KeyboardInterrupt:
-        _tell("interrupted")
+        _report("interrupted")
         raise SystemExit(INTERRUPTED) from None
     except SystemExit:
-        if ended:
-            _tell(f"ended by {signal.Signals(ended[0]).name}, no file is left half-written")
-            raise SystemExit(128 + ended[0]) from None
+        if received:
+            _report(f"ended by {signal.Signals(received[0]).name}, no file is left half-written")
+            raise SystemExit(128 + received[0]) from None
         raise
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
 
 
-def _tell(message: str) -> None:
-    """Say why it ends; a terminal that is gone hears nothing."""
+def _report(message: str) -> None:
+    """Print why the program ends, unless the terminal is gone."""
     with suppress(OSError):
         typer.echo(f"tehl: {message}", err=True)

@@ -1,5 +1,6 @@
 """``tehl surface``: a measured surface at a glance."""
 
+import json
 import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -7,13 +8,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
-    from pydantic import ValidationError
-
     from tehl.roughness import Map
     from tehl.roughness.preview import Mesh, Preview
 
 _DOMAIN = 6.0
 """Length of the usual domain in half-widths."""
+_LEVELS = {
+    "none": "nothing",
+    "mean": "the mean",
+    "plane": "a plane by least squares",
+    "quadratic": "a quadratic form by least squares",
+}
 
 
 def surface(  # noqa: PLR0913, PLR0917 (the options of the command)
@@ -28,10 +33,10 @@ def surface(  # noqa: PLR0913, PLR0917 (the options of the command)
     level: Annotated[
         str | None, typer.Option(help="What is taken off: none, mean, plane, quadratic.")
     ] = None,
-    changes: Annotated[
+    overrides: Annotated[
         list[str],
         typer.Option("--set", metavar="KEY=VALUE", help="Another key of a map, lambda_s=10 um."),
-    ] = [],  # noqa: B006 (typer reads the default, nobody writes it)
+    ] = [],  # noqa: B006 (typer reads the default, nothing writes it)
     contact: Annotated[
         Path | None, typer.Option(metavar="CASE", help="Case whose contact and grid to compare.")
     ] = None,
@@ -46,18 +51,16 @@ def surface(  # noqa: PLR0913, PLR0917 (the options of the command)
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
 ) -> None:
-    """Show a measured surface: size, unit, roughness, spectrum, and what a grid sees of it."""
-    import json
-
+    """Show a measured surface: size, unit, roughness, spectrum, and what a grid resolves of it."""
     from tehl.io.atomic import check_writable
     from tehl.roughness.preview import preview
 
     if output is not None:
         check_writable(output, sources=(file,))
     stated = {"unit": unit, "pixel": _pair(pixel), "size": _pair(size), "level": level}
-    keys = {key: value for key, value in stated.items() if value is not None} | _changed(changes)
+    keys = {key: value for key, value in stated.items() if value is not None}
     mesh = _mesh(contact, half_width, points)
-    found = preview(_map(file, keys), mesh)
+    found = preview(_map(file, keys, overrides), mesh)
     typer.echo(json.dumps(as_summary(found)) if as_json else as_text(found))
     if output is not None:
         _draw(found, output)
@@ -82,64 +85,42 @@ def _pair(text: str | None) -> list[str] | str | None:
     return [part.strip() for part in text.split(",")]
 
 
-def _changed(changes: list[str]) -> dict[str, Any]:
-    """Return the keys and values of ``--set``, as TOML reads them, else as words.
-
-    A key with dots is one of a table, as in ``tehl solve --set``.
-    """
-    from tehl.errors import InputError
-    from tehl.io.case import change
-
-    found: dict[str, Any] = {}
-    for text in changes:
-        key, equals, _ = (part.strip() for part in text.partition("="))
-        if not (equals and all(part.strip() for part in key.split("."))):
-            raise InputError(f"{text!r} is no change: give key=value, lambda_s=10 um")
-        change(found, text)
-    return found
-
-
-def _map(file: Path, keys: dict[str, Any]) -> Any:
+def _map(file: Path, keys: dict[str, Any], overrides: list[str]) -> "Map":
     """Return the map that the options state."""
     from pydantic import ValidationError
 
     from tehl.errors import InputError
+    from tehl.io.case import change
+    from tehl.io.mistakes import describe
     from tehl.roughness import Map
 
+    stated = {"file": str(file), **keys}
+    for override in overrides:
+        change(stated, override)
     try:
-        return Map.model_validate({"file": str(file), **keys})
+        return Map.model_validate(stated)
     except ValidationError as error:
-        raise InputError(_told(error)) from None
-
-
-def _told(error: "ValidationError") -> str:
-    """Return the first mistake of a map in one sentence."""
-    first = error.errors(include_url=False)[0]
-    name = ".".join(str(part) for part in first["loc"])
-    words = first["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
-    if first["type"] == "extra_forbidden":
-        return f"{name} is no key of a map"
-    return f"{name} = {first['input']!r} {words}" if name else words
+        raise InputError(describe(error, stated, Map)) from None
 
 
 def _mesh(contact: Path | None, half_width: str | None, points: int | None) -> "Mesh | None":
     """Return the grid to compare with."""
     from tehl.errors import InputError
     from tehl.roughness.preview import Mesh
-    from tehl.units import LENGTH
+    from tehl.units import Length, quantity
 
     if contact is not None:
         if half_width is not None:
-            raise InputError("--contact and --half-width both state a contact: give one of them")
+            raise InputError("--contact and --half-width both state a contact; expected one")
         return _mesh_of_case(contact, points)
     if half_width is None:
         if points is not None:
             raise InputError('--points needs a contact: give --half-width "0.2 mm" or --contact')
         return None
     try:
-        width = LENGTH.parse(half_width)
+        width = quantity(Length).parse(half_width)
     except ValueError as error:
-        raise InputError(f"--half-width = {half_width!r} {error}") from None
+        raise InputError(f"--half-width = {half_width!r}: {error}") from None
     count = points or 257
     spacing = _DOMAIN * width / (count - 1)
     return Mesh(spacing=(spacing,) * 2, half_widths=(width, width), points=(count, count))
@@ -172,12 +153,16 @@ def as_text(found: "Preview") -> str:
     values, numbers = found.heights, found.statistics
     ny, nx = values.values.shape
     axes = "its x and y" if found.surface.rotate else "x and y"
+    missing = found.missing / math.prod(found.raw_shape)
     rows = [
         ("file", f"{found.kind}, {found.raw_shape[1]} x {found.raw_shape[0]} points"),
         ("size", f"{_micro(*values.size)}, {nx} x {ny} points {_micro(*values.pixel)} apart"),
         *_placed(found.surface),
-        ("missing points", f"{found.missing} ({_percent(found.missing, found.raw_shape)})"),
-        ("taken off", _levelling(found.surface)),
+        (
+            "missing points",
+            f"{found.missing} ({100 * missing:.2g} %)",
+        ),
+        ("taken off", f'{_LEVELS[found.surface.level]} (level = "{found.surface.level}")'),
         *_filters(found.surface),
         ("Sq, Sa, Sz", f"{_metres(numbers.sq)}, {_metres(numbers.sa)}, {_metres(numbers.sz)}"),
         ("Ssk, Sku", f"{numbers.ssk:.3g}, {numbers.sku:.3g}"),
@@ -193,20 +178,10 @@ def as_text(found: "Preview") -> str:
 
 def _placed(surface: "Map") -> list[tuple[str, str]]:
     """Return how the map lies in the contact, where it is turned or moved."""
-    words = [f"turned by {math.degrees(surface.rotate):.4g} deg"] if surface.rotate else []
+    placed = [f"turned by {math.degrees(surface.rotate):.4g} deg"] if surface.rotate else []
     if surface.x or surface.y:
-        words.append(f"its middle at x = {surface.x * 1e6:.4g} um, y = {surface.y * 1e6:.4g} um")
-    return [("placed", ", ".join(words))] if words else []
-
-
-def _levelling(surface: "Map") -> str:
-    words = {
-        "none": "nothing",
-        "mean": "the mean",
-        "plane": "a plane by least squares",
-        "quadratic": "a quadratic form by least squares",
-    }
-    return f'{words[surface.level]} (level = "{surface.level}")'
+        placed.append(f"its middle at x = {surface.x * 1e6:.4g} um, y = {surface.y * 1e6:.4g} um")
+    return [("placed", ", ".join(placed))] if placed else []
 
 
 def _filters(surface: "Map") -> list[tuple[str, str]]:
@@ -220,7 +195,7 @@ def _on_the_mesh(found: "Preview") -> list[tuple[str, str]]:
         return []
     nx, ny = found.mesh.points
     per_wave = found.shortest_wavelength / max(found.mesh.spacing)
-    advice = "" if per_wave >= 8 else "; at least 8 are wanted: take more points, or lambda_s"
+    advice = "" if per_wave >= 8 else "; at least 8 are recommended: take more points, or lambda_s"
     return [
         ("grid", f"{nx} x {ny} nodes {_micro(*found.mesh.spacing)} apart"),
         ("", f"{100 * found.lost:.2g} % of the variance is lost, in waves of two widths or less"),
@@ -265,10 +240,6 @@ def _micro(first: float, second: float) -> str:
 
 def _metres(length: float) -> str:
     return f"{length * 1e9:.4g} nm" if abs(length) < 1e-7 else f"{length * 1e6:.4g} um"
-
-
-def _percent(count: int, shape: tuple[int, int]) -> str:
-    return f"{100 * count / (shape[0] * shape[1]):.2g} %"
 
 
 def _correlation(lengths: tuple[float, float]) -> str:

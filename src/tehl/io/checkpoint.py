@@ -97,7 +97,7 @@ def read_checkpoint(path: str | Path) -> tuple[Fingerprint, Arrays]:
         version, case = (str(word) for word in arrays.pop(_LABEL))
     except Exception:  # a flipped bit makes zip and array headers raise whatever they like
         raise FileFormatError(
-            f"{path} is no whole checkpoint: remove it, and the run begins anew"
+            f"{path} is not a whole checkpoint: remove it to start again"
         ) from None
     return Fingerprint(version, case), arrays
 

@@ -6,7 +6,7 @@ from pydantic import AfterValidator, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
 
-from tehl.units import LENGTH, Quantity
+from tehl.units import Length, Quantity, quantity
 
 SIGNED_HEIGHT = Quantity(name="a height", unit="m", example='"-0.3 um"', sign="any")
 POSITION = Quantity(name="a position", unit="m", example='"0.1 mm"', sign="any")
@@ -42,7 +42,9 @@ def metres(unit: str) -> float:
     if text in _ANGSTROMS or text.lower() in _ANGSTROMS:
         return 1e-10
     word = text.lower()
-    return LENGTH.parse(f"1 {_WORDS.get(word) or _WORDS.get(word.removesuffix('s'), text)}")
+    return quantity(Length).parse(
+        f"1 {_WORDS.get(word) or _WORDS.get(word.removesuffix('s'), text)}"
+    )
 
 
 def _is_length(unit: str) -> str:

@@ -3,7 +3,8 @@
 import math
 from dataclasses import replace
 
-from tehl.cli.words import as_text, effect_as_text, headline, roughness_effect_as_text
+from tehl.cli.reference_runs import Comparisons
+from tehl.cli.text import as_text, failure_text
 from tehl.film_formulas import InletFactor
 from tehl.heat import Thermal
 from tehl.post.micro_film import roughness_effect
@@ -37,12 +38,12 @@ def test_a_certified_value_shows_the_parts_of_its_bar(result):
     assert f"certified 400 +- 5 {name} (grid 4, domain 3)" in shown
 
 
-def test_an_isothermal_run_says_nothing_of_heat(result):
+def test_an_isothermal_run_has_no_rows_of_heat(result):
     shown = as_text(result)
     assert not any(word in shown for word in ("temperature", "traction", "heat"))
 
 
-def test_a_thermal_run_tells_temperatures_traction_and_balance(thermal):
+def test_a_thermal_run_has_rows_of_temperature_traction_and_balance(thermal):
     lines = {line[2:19].strip(): line[19:] for line in as_text(thermal).splitlines()[1:]}
     found, traction = thermal.temperature, thermal.traction
     assert f"rise {found.film_rise_max:.4g} K" in lines["film temperature"]
@@ -52,14 +53,14 @@ def test_a_thermal_run_tells_temperatures_traction_and_balance(thermal):
         assert f"{value:.4g}" in lines["traction"]
 
 
-def test_a_traction_that_no_oil_bears_is_doubted(sheared):
-    assert "more than any oil" not in as_text(sheared)
+def test_a_traction_that_no_oil_can_carry_is_doubted(sheared):
+    assert "more than any oil can" not in as_text(sheared)
     shear = replace(sheared.shear, mid_film=5 * sheared.shear.mid_film)
     shown = as_text(replace(sheared, shear=shear))
-    assert "more than any oil bears: the shear law is newtonian, state lubricant.shear" in shown
+    assert "more than any oil can carry: the shear law is newtonian, state lubricant.shear" in shown
 
 
-def test_the_effect_of_heat_names_its_formulas():
+def test_the_effect_of_heat_names_its_formulas(thermal):
     effect = ThermalEffect(
         central=0.93,
         minimum=0.91,
@@ -67,17 +68,20 @@ def test_the_effect_of_heat_names_its_formulas():
         isothermal_minimum=5e-8,
         inlet_factors=(InletFactor(formula="Wilson-Sheu", source="", factor=0.95, remarks=()),),
     )
-    shown = effect_as_text(effect)
+    shown = as_text(thermal, Comparisons(heat=effect))
     assert "0.9300 of the central, 0.9100 of the minimum" in shown
     assert "0.9500 Wilson-Sheu" in shown
-    assert "formula" not in effect_as_text(replace(effect, inlet_factors=()))
+    bare = Comparisons(heat=replace(effect, inlet_factors=()))
+    assert "formula" not in as_text(thermal, bare)
 
 
-def test_a_rough_run_tells_its_lambda_ratio_and_what_is_left_of_its_wave(rough, smooth):
+def test_a_rough_run_has_its_lambda_ratio_and_the_rest_of_its_wave(rough, smooth):
     lines = {line[2:19].strip(): line[19:] for line in as_text(rough).splitlines()[1:]}
     assert f"lambda = {rough.roughness.lambda_ratio:.3g} " in lines["roughness"]
     assert " at 45 deg: " in lines["waves left"]
-    assert "20 % in the film (theory" in as_text(rough, rough=rough_film(rough, smooth))
+    assert "20 % in the film (theory" in as_text(
+        rough, Comparisons(rough_film=rough_film(rough, smooth))
+    )
     assert "roughness" not in as_text(smooth)
 
 
@@ -92,29 +96,30 @@ def test_a_heated_wave_has_no_theory_and_a_line_why(rough):
 
 def test_a_wave_that_is_too_long_has_a_line(rough):
     notes = replace(rough.roughness, waves=(), wave_notes=("1 mm is too long",))
-    assert "  waves left       1 mm is too long" in as_text(rough, rough=notes)
+    assert "  waves left       1 mm is too long" in as_text(rough, Comparisons(rough_film=notes))
 
 
-def test_crests_along_the_entrainment_are_left_to_the_inlet():
+def test_crests_along_the_entrainment_are_determined_by_the_inlet():
     shown = as_text(make_rough(angle=0.5 * math.pi))
-    assert "as the inlet lets it" in shown
+    assert "determined by the inlet" in shown
     assert " at 90 deg: " in shown
 
 
-def test_the_effect_of_roughness_is_told_with_traction_where_there_is_sliding(rough, smooth):
+def test_the_effect_of_roughness_includes_traction_if_there_is_sliding(rough, smooth):
     effect = roughness_effect(rough, smooth)
-    assert "1.0000 of the central" in roughness_effect_as_text(effect)
-    assert "traction" not in roughness_effect_as_text(effect)
-    sliding = replace(effect, traction=1.25)
-    assert "1.2500 of the traction" in roughness_effect_as_text(sliding)
+    shown = as_text(rough, Comparisons(roughness=effect))
+    assert "1.0000 of the central" in shown
+    assert "traction" not in shown
+    sliding = Comparisons(roughness=replace(effect, traction=1.25))
+    assert "1.2500 of the traction" in as_text(rough, sliding)
 
 
 def test_a_case_without_a_title_has_one(result):
     bare = replace(result, problem=result.problem.model_copy(update={"title": ""}))
-    assert headline(bare).startswith("Lubricated point contact - ")
+    assert as_text(bare).startswith("Lubricated point contact - ")
 
 
-def test_a_film_that_is_not_positive_is_no_number(result):
+def test_a_film_that_is_not_positive_has_no_value(result):
     thin = replace(result.film_scaled, central=-0.01, minimum=-0.02, minimum_node=-0.02)
     status = Status(kind="not_converged", cause="film_not_positive")
     bad = replace(result, film_scaled=thin, status=status)
@@ -125,7 +130,20 @@ def test_a_film_that_is_not_positive_is_no_number(result):
     assert film["h_min_m"] is film["H_central"] is film["H_min_moes"] is None
 
 
-def test_a_certified_run_tells_how_its_grids_ended(result):
+def test_a_grid_error_above_the_value_itself_is_a_percentage(result):
+    errors = replace(result.errors, discretisation_minimum=1.3)
+    assert "grid error about 130 %" in as_text(replace(result, errors=errors))
+
+
+def test_a_failure_has_its_hint_in_a_second_line():
+    status = Status(kind="stalled", cause="grid_too_coarse", message="too coarse", hint="take 513")
+    assert failure_text(status, None) == (
+        "tehl: not converged (stalled): too coarse\nhint: take 513"
+    )
+    assert failure_text(Status(kind="diverged"), "NaN").endswith("(diverged): NaN")
+
+
+def test_a_certified_run_reports_how_its_grids_ended(result):
     told = "Grids of the error bars: 65 x 65 too coarse for the film."
     assert told in as_text(replace(result, status=Status(kind="converged", message=told)))
     assert told in report_text(replace(result, status=Status(kind="converged", message=told)))

@@ -1,0 +1,46 @@
+"""``tehl new``, ``explain`` and ``schema``: case files before they are solved."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def new(
+    template: Annotated[str, typer.Argument(help="Name of the template.")] = "ball-on-disc",
+    show_list: Annotated[bool, typer.Option("--list", help="List the templates.")] = False,
+) -> None:
+    """Print a commented case or study file to edit."""
+    from tehl.io.templates import study_templates, template_text, templates
+
+    if not show_list:
+        typer.echo(template_text(template), nl=False)
+        return
+    for name, title in templates().items():
+        typer.echo(f"{name:<14} {title}")
+    for name, title in study_templates().items():
+        typer.echo(f"{name:<14} {title} (a study)")
+
+
+def explain(
+    case: Annotated[Path, typer.Argument(help="Case file.", show_default=False)],
+    overrides: Annotated[
+        list[str], typer.Option("--set", metavar="KEY=VALUE", help="Override a key of the case.")
+    ] = [],  # noqa: B006 (typer reads the default, nothing writes it)
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
+) -> None:
+    """Show what a case means: Hertz, groups, formulas, unusual values."""
+    from tehl.io.case import read_case_and_options
+    from tehl.report import explain as report
+
+    explanation = report.explain(*read_case_and_options(case, overrides))
+    as_summary, as_text = report.as_summary, report.as_text
+    typer.echo(json.dumps(as_summary(explanation)) if as_json else as_text(explanation))
+
+
+def schema() -> None:
+    """Print the JSON schema of the case file, for editors."""
+    from tehl.io.case import case_schema
+
+    typer.echo(json.dumps(case_schema(), indent=2, ensure_ascii=False))

@@ -1,0 +1,119 @@
+"""Reference runs of a steady case, without heat or with smooth surfaces, and comparisons."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from tehl.post.micro_film import RoughnessEffect
+    from tehl.post.roughness import RoughFilm
+    from tehl.post.thermal_effect import ThermalEffect
+    from tehl.problem import ContactProblem
+    from tehl.result import Result
+    from tehl.transient_result import TransientResult
+
+ISOTHERMAL, SMOOTH = "without heat", "with smooth surfaces"
+"""Reference runs."""
+
+Solve = Callable[["ContactProblem", str], "Result | None"]
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Comparisons:
+    """A result compared with its reference runs.
+
+    Attributes
+    ----------
+    heat, roughness : ThermalEffect, RoughnessEffect or None
+        What heat and roughness change; None without a converged reference run.
+    rough_film : RoughFilm or None
+        Numbers of the rough film with the smooth film subtracted.
+    smooth : Result or None
+        The film between smooth surfaces.
+    blocks : dict
+        Extra blocks of the summary; null for a reference run that did not converge.
+    """
+
+    heat: "ThermalEffect | None" = None
+    roughness: "RoughnessEffect | None" = None
+    rough_film: "RoughFilm | None" = None
+    smooth: "Result | None" = None
+    blocks: dict[str, Any] = field(default_factory=dict)
+
+
+def reference_cases(
+    problem: "ContactProblem", *, isothermal: bool, smooth: bool
+) -> dict[str, "ContactProblem"]:
+    """Return the cases to solve for comparison.
+
+    Raises
+    ------
+    InputError
+        If the case has no heat or no roughness to leave out.
+    """
+    from tehl.post.micro_film import smooth_twin
+    from tehl.post.thermal_effect import isothermal_twin
+
+    cases = {}
+    if isothermal:
+        cases[ISOTHERMAL] = isothermal_twin(problem)
+    if smooth:
+        cases[SMOOTH] = smooth_twin(problem)
+    return cases
+
+
+def compare(result: "Result", cases: dict[str, "ContactProblem"], solve: Solve) -> Comparisons:
+    """Solve the reference cases and compare a result with them.
+
+    Parameters
+    ----------
+    result : Result
+        Of the case itself, converged.
+    cases : dict
+        What :func:`reference_cases` returned.
+    solve : callable
+        Returns the result of a case, given its name too; None if it did not converge.
+    """
+    from tehl.io.summary import plain, roughness_block
+    from tehl.post import micro_film, thermal_effect
+    from tehl.post.roughness import rough_film
+
+    blocks: dict[str, Any] = {}
+    heat = roughness = rough = smooth = None
+    if ISOTHERMAL in cases:
+        cold = solve(cases[ISOTHERMAL], ISOTHERMAL)
+        heat = None if cold is None else thermal_effect.thermal_effect(result, cold)
+        blocks["thermal_effect"] = heat and thermal_effect.effect_block(heat)
+    if SMOOTH in cases:
+        smooth = solve(cases[SMOOTH], SMOOTH)
+        roughness = None if smooth is None else micro_film.roughness_effect(result, smooth)
+        blocks["roughness_effect"] = roughness and micro_film.effect_block(roughness)
+        rough = None if smooth is None else rough_film(result, smooth)
+    if rough is not None:
+        blocks["roughness"] = roughness_block(rough)
+    return Comparisons(
+        heat=heat, roughness=roughness, rough_film=rough, smooth=smooth, blocks=plain(blocks)
+    )
+
+
+def smooth_file(stored: Path) -> Path:
+    """Return the file of the smooth reference run that belongs to a result file."""
+    return stored.with_name(f"{stored.stem}.smooth.nc")
+
+
+def smooth_beside(stored: Path, result: "Result | TransientResult") -> "Result | None":
+    """Return the smooth reference run stored beside a result, None if there is none that fits."""
+    from tehl.errors import FileFormatError
+    from tehl.io.store import load_as
+    from tehl.post.micro_film import is_twin
+    from tehl.result import Result
+
+    path = smooth_file(stored)
+    if not isinstance(result, Result) or result.heights is None or not path.is_file():
+        return None
+    try:
+        smooth = load_as(Result, path)
+    except FileFormatError:
+        return None
+    return smooth if is_twin(result, smooth) else None

@@ -1,0 +1,137 @@
+"""``tehl plot``, ``animate``, ``export`` and ``report``: what can be made of a stored result."""
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+Stored = Annotated[Path, typer.Argument(metavar="RESULT", help="Result file (.nc).")]
+
+
+class Format(StrEnum):
+    """Format of an export."""
+
+    csv = "csv"
+    vtk = "vtk"
+    npz = "npz"
+    mat = "mat"
+
+
+class What(StrEnum):
+    """Rows of a CSV table."""
+
+    lines = "lines"
+    fields = "fields"
+    history = "history"
+
+
+def plot(
+    stored: Stored,
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="DIR", help="Folder; RESULT_plots if left out."),
+    ] = None,
+    dpi: Annotated[int, typer.Option(min=30, max=1200, help="Dots per inch.")] = 150,
+) -> None:
+    """Draw all pictures of a stored result, steady or transient; nothing is solved."""
+    from tehl.cli.reference_runs import smooth_beside
+    from tehl.io.atomic import check_folder
+    from tehl.io.store import load
+    from tehl.plots.save import save_all
+
+    folder = stored.with_name(f"{stored.stem}_plots") if output is None else output
+    check_folder(folder)
+    result = load(stored)
+    for path in save_all(result, folder, dpi=dpi, smooth=smooth_beside(stored, result)):
+        typer.echo(path)
+
+
+def animate(
+    stored: Annotated[
+        Path, typer.Argument(metavar="RESULT", help="File of a transient result (.nc).")
+    ],
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", help="File: .gif, .mp4 or .html; RESULT.gif if left out."),
+    ] = None,
+    per_second: Annotated[
+        int, typer.Option("--fps", min=1, max=100, help="Frames shown per second.")
+    ] = 10,
+    dpi: Annotated[int, typer.Option(min=30, max=600, help="Dots per inch.")] = 100,
+) -> None:
+    """Animate a stored transient result; nothing is solved.
+
+    It shows the frames of the result (transient.frames of its case).
+    """
+    from tehl.io.atomic import check_writable
+    from tehl.io.store import load_as
+    from tehl.plots import animation
+    from tehl.transient_result import TransientResult
+
+    target = stored.with_suffix(".gif") if output is None else output
+    animation.check_format(target)
+    check_writable(target, sources=(stored,))
+    animation.animate(load_as(TransientResult, stored), target, per_second=per_second, dpi=dpi)
+    typer.echo(target)
+
+
+def export(
+    stored: Stored,
+    to: Annotated[
+        Format | None, typer.Option("--to", help="Format; by the ending of -o if left out.")
+    ] = None,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="File; beside RESULT if left out.")
+    ] = None,
+    what: Annotated[
+        What | None,
+        typer.Option(
+            help="csv only: centre lines (default), fields at all nodes, or the history of the "
+            "cycles or time steps (default of a transient result)."
+        ),
+    ] = None,
+) -> None:
+    """Write a stored result as CSV, VTK (ParaView), npz (numpy) or mat (MATLAB).
+
+    VTK: of a steady result the ending .vtr gives the plane of the film, .vts the film as a volume
+    with its temperatures; of a transient result .pvd gives all frames, one .vtr file each.
+    """
+    from tehl.io.atomic import check_writable
+    from tehl.io.export import ending_of
+    from tehl.io.export import export as write
+    from tehl.io.store import load
+
+    result = load(stored)
+    path = stored.with_suffix(ending_of(result, to)) if output is None else output
+    check_writable(path, sources=(stored,))
+    for written in write(result, path, to, what or ""):
+        typer.echo(written)
+
+
+def report(
+    stored: Stored,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="HTML file; beside RESULT if left out.")
+    ] = None,
+) -> None:
+    """Write one self-contained HTML page: inputs, groups, pictures, formulas, convergence."""
+    from tehl.cli.reference_runs import smooth_beside
+    from tehl.io.atomic import check_writable
+    from tehl.io.store import load_as, load_summary
+    from tehl.post import micro_film, thermal_effect
+    from tehl.report.html import write_report
+    from tehl.result import Result
+
+    path = stored.with_suffix(".html") if output is None else output
+    check_writable(path, sources=(stored,))
+    result = load_as(Result, stored)
+    summary = load_summary(stored)
+    write_report(
+        result,
+        path,
+        effect=thermal_effect.stored_effect(summary),
+        roughness=micro_film.stored_effect(summary),
+        smooth=smooth_beside(stored, result),
+    )
+    typer.echo(path)

@@ -1,0 +1,322 @@
+"""What ``tehl solve`` prints: a steady or transient result in a few lines."""
+
+import math
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
+
+from tehl.cli.reference_runs import Comparisons
+from tehl.post.film import no_film
+from tehl.report.explain import UNTITLED, length, length_unit
+from tehl.report.time import seconds_in_words
+from tehl.transient_result import TransientResult
+
+if TYPE_CHECKING:
+    from tehl.post.roughness import RoughFilm
+    from tehl.post.waviness import WaveResponse
+    from tehl.result import Estimate, Result, Status
+    from tehl.typing import Array
+
+UNUSUAL_BALANCE = 0.05
+"""Missing share of the heat from which it is remarked."""
+
+Rows = Iterator[tuple[str, str]]
+Unit = tuple[float, str]
+"""Factor from SI, and the unit."""
+
+_GPA: Unit = (1e-9, "GPa")
+
+
+def as_text(result: "Result | TransientResult", compared: Comparisons | None = None) -> str:
+    """Return the main numbers of a result, one per line.
+
+    Parameters
+    ----------
+    result : Result or TransientResult
+        What a solve returned or a file held.
+    compared : Comparisons or None
+        Comparisons of a steady result with its reference runs.
+    """
+    if isinstance(result, TransientResult):
+        title, rows = result.start.problem.title, _transient_rows(result)
+    else:
+        title, rows = result.problem.title, _steady_rows(result, compared or Comparisons())
+    headline = f"{title or UNTITLED} - {result.status.outcome}"
+    return "\n".join([headline, *(f"  {name:<17}{value}" for name, value in rows)])
+
+
+def failure_text(status: "Status", reason: str | None) -> str:
+    """Return why a result did not converge, and the hint in a second line if there is one."""
+    message = f"tehl: not converged ({status.kind}): {status.message or reason}"
+    return f"{message}\nhint: {status.hint}" if status.hint else message
+
+
+# ---- steady results
+
+
+def _steady_rows(result: "Result", compared: Comparisons) -> Rows:
+    yield "minimum film", _film(result, "minimum")
+    yield "central film", _film(result, "central")
+    yield "largest pressure", _pressure(result)
+    yield from _heat(result)
+    yield from _traction(result)
+    yield from _roughness(compared.rough_film or result.roughness)
+    yield "groups", _groups(result)
+    yield "grid", _grid(result)
+    yield "effort", _effort(result)
+    status = result.status
+    if status.converged and status.message:
+        yield "uncertain" if status.is_vague else "certified", status.message
+    if status.is_vague:
+        yield "hint", str(status.hint)
+    yield from _compared(compared)
+
+
+def _film(result: "Result", which: str) -> str:
+    if why := no_film(result):
+        return f"none: {why}"
+    metres, scaled = getattr(result.film, which), getattr(result.film_scaled, which)
+    factor, unit = length_unit(metres)
+    bar = _bar(result, f"film_{which}", (result.scales.film_thickness * factor, unit))
+    return f"{length(metres)}   (H = {scaled:.5g})" + bar
+
+
+def _pressure(result: "Result") -> str:
+    highest = float(result.scaled.pressure.max())
+    giga = result.scales.hertz_pressure * 1e-9
+    text = f"{highest * giga:.4g} GPa   ({highest:.4g} p_h, p_h = {giga:.4g} GPa)"
+    return text + _bar(result, "pressure_max", (giga, "GPa"))
+
+
+def _heat(result: "Result") -> Rows:
+    heat, found = result.heat, result.temperature
+    if heat is None or found is None:
+        return
+    x, y, zeta = found.film_rise_max_at
+    yield (
+        "film temperature",
+        f"rise {found.film_rise_max:.4g} K at most (X = {x:.3g}, Y = {y:.3g}, z/h = {zeta:.3g}), "
+        f"{found.mid_film_rise_central:.4g} K central, over {found.inlet - 273.15:.4g} degC"
+        + _bar(result, "film_rise_max", (1.0, "K")),
+    )
+    first, second = found.surface_1_rise_max, found.surface_2_rise_max
+    yield (
+        "surfaces",
+        f"rise {first:.4g} K and {second:.4g} K at most over the oil (surface 1 and 2)",
+    )
+    error = heat.balance.error
+    doubt = (
+        "   (more than usual: the inlet is not resolved)" if abs(error) > UNUSUAL_BALANCE else ""
+    )
+    yield "heat balance", f"error {100 * error:.2g} %{doubt}"
+
+
+def _traction(result: "Result") -> Rows:
+    found = result.traction
+    if found is None:
+        return
+    yield (
+        "traction",
+        f"{found.surface_1:.4g} on surface 1, {_clean(found.mid_film)} at mid-film, "
+        f"{found.surface_2:.4g} on surface 2"
+        + _bar(result, "traction_mid_film", (1.0, "at mid-film")),
+    )
+    yield from _excessive_traction(result)
+
+
+def _excessive_traction(result: "Result") -> Rows:
+    """Yield a remark on a traction that no oil can carry, and what to do."""
+    found = result.traction
+    if found is not None and not found.credible:
+        law = result.problem.lubricant.shear.law
+        remedy = "state lubricant.shear" if law == "newtonian" else "check its numbers"
+        yield "", f"more than any oil can carry: the shear law is {law}, {remedy}"
+
+
+def _roughness(found: "RoughFilm | None") -> Rows:
+    if found is None:
+        return
+    yield (
+        "roughness",
+        f"Sq = {length(found.composite)} of both, lambda = {found.lambda_ratio:.3g} (film over Sq)"
+        f", {100 * found.below_composite:.2g} % of the contact below Sq",
+    )
+    for number, line in enumerate([*map(_wave, found.waves), *found.wave_notes]):
+        yield "" if number else "waves left", line
+
+
+def _wave(wave: "WaveResponse") -> str:
+    """Return the amplitude of a wave in film and pressure, relative to the undeformed one."""
+    giga, theory = 1e-9, wave.theory
+    film, pressure = "", ""
+    if theory.left_to_inlet:
+        film = " (determined by the inlet)"
+    elif theory.film_ratio is not None and theory.pressure is not None:
+        film = f" (theory {100 * theory.film_ratio:.3g})"
+        pressure = f"theory {theory.pressure * giga:.3g}, "
+    return (
+        f"{length(wave.wavelength)} at {math.degrees(wave.angle) + 0.0:.3g} deg: "
+        f"{100 * wave.film_ratio:.3g} % in the film{film}, "
+        f"{wave.pressure_amplitude * giga:.3g} GPa "
+        f"({pressure}{theory.elastic_pressure * giga:.3g} flattens it)"
+    )
+
+
+def _groups(result: "Result") -> str:
+    groups = result.groups
+    return f"M = {groups.M:.4g}, L = {groups.L:.4g}, alpha p_h = {groups.alpha_bar:.4g}"
+
+
+def _grid(result: "Result") -> str:
+    x, y = result.scaled.x, result.scaled.y
+    domain = f"[{x[0]:g}, {x[-1]:g}] x [{y[0]:g}, {y[-1]:g}]"
+    return f"{x.size} x {y.size} on {domain} half-widths"
+
+
+def _effort(result: "Result") -> str:
+    if not result.history:
+        return f"{result.cost.cpu_seconds:.3g} s"
+    last = result.history[-1]
+    cycles = sum(report.points == last.points for report in result.history)
+    return (
+        f"{cycles} cycles on the finest grid, residual {last.residual:.1e}, "
+        f"load error {last.load_error:.1e}, {result.cost.cpu_seconds:.3g} s"
+    )
+
+
+def _compared(compared: Comparisons) -> Rows:
+    heat, rough = compared.heat, compared.roughness
+    if heat is not None:
+        yield (
+            "over isothermal",
+            f"{heat.central:.4f} of the central, {heat.minimum:.4f} of the minimum film "
+            "without heat",
+        )
+        if heat.inlet_factors:
+            factors = ", ".join(f"{one.factor:.4f} {one.formula}" for one in heat.inlet_factors)
+            yield "inlet heating", f"by formula {factors}"
+    if rough is not None:
+        traction = "" if rough.traction is None else f", {rough.traction:.4f} of the traction"
+        yield (
+            "over smooth",
+            f"{rough.central:.4f} of the central, {rough.minimum:.4f} of the minimum film, "
+            f"{rough.largest_pressure:.4f} of the largest pressure{traction}",
+        )
+
+
+# ---- transient results
+
+
+def _transient_rows(run: TransientResult) -> Rows:
+    history, start = run.history, run.start
+    time = history.time
+    end, scales = float(time[-1]), start.scales
+    moved = end * scales.speed / scales.half_width_x
+    yield (
+        "duration",
+        f"{seconds_in_words(end)} in {time.size - 1} steps of {seconds_in_words(run.time_step)}; "
+        f"the mean of both surfaces moves on by {moved:.3g} half-widths",
+    )
+    thinnest = int(history.film_minimum.argmin())
+    yield (
+        "minimum film",
+        f"{length(history.film_minimum[thinnest])} at the least, at "
+        f"{_at_start(seconds_in_words(time[thinnest]), length(history.film_minimum[0]))}"
+        + _film_bar(run, "film_minimum"),
+    )
+    yield "central film", _between(history.film_central, length)
+    for which in ("least", "largest"):
+        if bar := _film_bar(run, f"film_central_{which}"):
+            yield "", which + bar
+    yield (
+        "largest pressure",
+        _peak(history.pressure_max, time, _GPA) + _bar(run, "pressure_max", _GPA),
+    )
+    yield (
+        "traction",
+        f"{_between(history.traction, _clean)}   (at mid-film)"
+        + _bar(run, "traction_extreme", (1.0, "at the extreme")),
+    )
+    yield from _excessive_traction(start)
+    if (history.temperature_rise > 0).any():
+        rise = _peak(history.temperature_rise, time, (1.0, "K"), " at most,")
+        yield "film temperature", f"rise {rise}" + _bar(run, "film_rise_max", (1.0, "K"))
+    if history.load.min() < history.load.max():
+        yield "load", _between(history.load * start.problem.load, lambda load: f"{load:.4g} N")
+    yield "groups", f"{_groups(start)}, SRR = {start.problem.slide_roll_ratio:g}"
+    yield "grid", f"{_grid(start)}, {len(run.frames.step)} fields kept"
+    yield "effort", _steps(run)
+    yield from _trust(run)
+
+
+def _steps(run: TransientResult) -> str:
+    cycles = run.history.cycles[1:]
+    mean, most = (float(cycles.mean()), int(cycles.max())) if cycles.size else (0.0, 0)
+    return f"{mean:.3g} cycles per step, {most} at most, {run.cost.cpu_seconds:.3g} s"
+
+
+def _trust(run: TransientResult) -> Rows:
+    """Yield the error bars of the whole history, the grids they come from, and doubts."""
+    bars, status = run.bars, run.status
+    if bars is not None:
+        yield (
+            "over time",
+            f"+- {length(bars.film_central.max())} of the central film at most, "
+            f"{length(bars.film_minimum.max())} of the minimum film, "
+            f"{bars.pressure_max.max() * 1e-9:.4g} GPa of the largest pressure, "
+            f"at {len(bars.time)} instants",
+        )
+    if run.uncertainty and status.converged:
+        yield "certified", str(status.message)
+    if status.is_vague:
+        yield "uncertain", str(status.message)
+        yield "hint", str(status.hint)
+
+
+def _film_bar(run: TransientResult, name: str) -> str:
+    found = run.uncertainty.get(name)
+    return "" if found is None else _bar(run, name, length_unit(found.value))
+
+
+def _peak(values: "Array", time: "Array", unit: Unit, most: str = "") -> str:
+    """Return the largest value, its time, and the value at the start."""
+    (factor, name), place = unit, int(values.argmax())
+    first, largest = (f"{value * factor:.4g} {name}" for value in (values[0], values[place]))
+    return f"{largest}{most} at {_at_start(seconds_in_words(time[place]), first)}"
+
+
+def _between(values: "Array", word: Callable[[float], str]) -> str:
+    return _at_start(f"{word(values.min())} to {word(values.max())}", word(values[0]))
+
+
+def _at_start(text: str, first: str) -> str:
+    return f"{text}   (at the start {first})"
+
+
+# ---- words
+
+
+def _clean(value: float) -> str:
+    """Return a number, rounding errors as zero."""
+    return "0" if abs(value) < 1e-12 else f"{value:.4g}"
+
+
+def _bar(result: "Result | TransientResult", name: str, unit: Unit) -> str:
+    """Return the error bar of a certified value, else the estimated error of the grid if known."""
+    estimate = result.uncertainty.get(name)
+    if estimate is not None:
+        return f"   {_certified(estimate, unit)}"
+    errors = None if isinstance(result, TransientResult) else result.errors
+    error = getattr(errors, f"discretisation_{name.removeprefix('film_')}", None)
+    if error is None:
+        return ""
+    percent = 100.0 * abs(error)
+    return f"   grid error about {percent:{'.2g' if percent < 99.5 else '.0f'}} %"
+
+
+def _certified(estimate: "Estimate", unit: Unit) -> str:
+    """Return a certified value with its error bar and the parts of the bar."""
+    factor, name = unit
+    bar = (estimate.uncertainty, estimate.discretisation, estimate.domain)
+    width, grid, domain = (part * factor for part in bar)
+    parts = f"grid {grid:.2g}, domain {domain:.2g}"
+    return f"certified {estimate.value * factor:.5g} +- {width:.2g} {name} ({parts})"

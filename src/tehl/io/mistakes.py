@@ -1,0 +1,378 @@
+"""The first mistake of a case in one sentence: key, value, what is wrong, what is expected."""
+
+import difflib
+import json
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, get_args, get_origin
+
+from pydantic import BaseModel, ValidationError
+from pydantic.fields import FieldInfo
+from pydantic_core import ErrorDetails
+
+from tehl.options import Options
+from tehl.problem import ContactProblem
+from tehl.units import Quantity
+
+NUMERICS = "numerics"
+"""Table of a case that holds its options."""
+
+Model = type[BaseModel]
+KeyPath = tuple[str | int, ...]
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class _Mistake:
+    """One mistake and its place.
+
+    Attributes
+    ----------
+    name : str
+        Key path as the file shows it.
+    path : tuple
+        Keys that lead to it.
+    value : object
+        What was given there.
+    error : ErrorDetails
+        What pydantic found.
+    models : list of list of type
+        Possible models of each step of ``path``, the root first.
+    table : object
+        What was given where the last key of ``path`` belongs.
+    """
+
+    name: str
+    path: KeyPath
+    value: object
+    error: ErrorDetails
+    models: list[list[Model]]
+    table: Any
+
+
+def describe(error: ValidationError, data: object, model: Model, prefix: str = "") -> str:
+    """Return the first mistake of a validation in one sentence.
+
+    Parameters
+    ----------
+    error : ValidationError
+        What pydantic found.
+    data : object
+        The input.
+    model : type
+        The model that was validated.
+    prefix : str
+        Key path of ``data`` in its file.
+    """
+    first = min(error.errors(include_url=False), key=_rank)
+    path = _path(first, data)
+    table: Any = data
+    for part in path[:-1]:
+        table = table[part]
+    mistake = _Mistake(
+        name=".".join(_key(part) for part in ((prefix, *path) if prefix else path)),
+        path=path,
+        value=first["input"],
+        error=first,
+        models=_models_at(model, path),
+        table=table,
+    )
+    return _SENTENCES.get(first["type"], _pydantic_sentence)(mistake)
+
+
+# ---- where the mistake is
+
+_NOT_A_TABLE = ("model_type", "model_attributes_type", "dict_type")
+_RANKS = {"extra_forbidden": 0, "value_error": 1, "missing": 2, "literal_error": 4}
+
+
+def _rank(error: ErrorDetails) -> tuple[int, int]:
+    """Order mistakes: causes of others first, those of unused alternatives of a union last."""
+    kind = error["type"]
+    if kind in _NOT_A_TABLE and len(error["loc"]) == 1:  # deeper ones may be of a union
+        return 0, 0
+    if kind == "literal_error" and isinstance(error["input"], dict | list):
+        return 6, 0
+    return _RANKS.get(kind, 5 if kind.endswith("_type") else 3), -len(error["loc"])
+
+
+def _path(error: ErrorDetails, data: object) -> KeyPath:
+    """Return the keys that lead to a mistake, without the labels of unions."""
+    path: list[str | int] = []
+    node: Any = data
+    for part in error["loc"]:
+        in_table = isinstance(node, Mapping) and part in node
+        in_list = isinstance(node, list | tuple) and isinstance(part, int) and part < len(node)
+        if in_table or in_list:
+            path.append(part)
+            node = node[part]
+    if error["type"] == "missing":
+        path.append(error["loc"][-1])
+    return tuple(path)
+
+
+def _models(annotation: object) -> Iterator[Model]:
+    """Yield the models an annotation may hold."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for argument in get_args(annotation):
+        yield from _models(argument)
+
+
+def _models_at(root: Model, path: KeyPath) -> list[list[Model]]:
+    """Return the possible models of each step of ``path``, the root first."""
+    steps = [[root]]
+    for key in path:
+        field = _field(steps[-1], key)
+        inside = steps[-1] if isinstance(key, int) else []
+        steps.append(list(_models(field.annotation)) if field else inside)
+    return steps
+
+
+def _field(models: Sequence[Model], key: str | int) -> FieldInfo | None:
+    found = (model.model_fields[key] for model in models if key in model.model_fields)
+    return next(found, None) if isinstance(key, str) else None
+
+
+# ---- one sentence per type of mistake
+
+
+def _unknown_key(mistake: _Mistake) -> str:
+    models, word = mistake.models[-2], str(mistake.path[-1])
+    law = _chosen_law(models, mistake.table)
+    if law is not None and any(word in model.model_fields for model in models):
+        return _key_of_another_law(mistake, law)
+    known = list(dict.fromkeys(key for m in ([law] if law else models) for key in m.model_fields))
+    if len(mistake.path) == 1 and ContactProblem in models:
+        known.append(NUMERICS)
+    near = difflib.get_close_matches(word, known, n=1, cutoff=0.55)
+    of_case = mistake.models[0][0] in (ContactProblem, Options)
+    elsewhere = [path for path in _key_paths() if of_case and path.split(".")[-1] == word]
+    moved = elsewhere and not near and len(word) > 1
+    suggestion = f"did you mean {elsewhere[0]}?" if moved else _suggest(word, known)
+    return f"{mistake.name} is not a known key; {suggestion}"
+
+
+def _missing(mistake: _Mistake) -> str:
+    if isinstance(mistake.path[-1], int):
+        name = mistake.name.rpartition(".")[0]
+        return f"{name} = {shown(mistake.value)}: must have two numbers"
+    laws = [tag for model in mistake.models[-1] for tag in _tags(model)]
+    if laws:
+        return f"{mistake.name} is missing; expected a table with law, one of {', '.join(laws)}"
+    field = _field(mistake.models[-2], mistake.path[-1])
+    if field is None or (good := example(field)) is None:
+        return f"{mistake.name} is missing"
+    kinds = [note.name for note in field.metadata if isinstance(note, Quantity)]
+    return f"{mistake.name} is missing; expected {(*kinds, 'a number')[0]} such as {good}"
+
+
+def _discriminator_missing(mistake: _Mistake) -> str:
+    key = _discriminator(mistake)
+    known = [tag for model in mistake.models[-1] for tag in _tags(model, key)]
+    if isinstance(mistake.path[-1], int):  # a sum within a sum
+        known = [tag for tag in known if tag != "sum"]
+    return f"{mistake.name}.{key} is missing; known are {', '.join(known)}"
+
+
+def _discriminator_unknown(mistake: _Mistake) -> str:
+    tag = mistake.error["ctx"]["tag"]
+    known = re.findall(r"'([^']+)'", mistake.error["ctx"]["expected_tags"])
+    name = f"{mistake.name}.{_discriminator(mistake)}"
+    return f"{name} = {shown(tag)}: unknown; {_suggest(str(tag), known)}"
+
+
+def _discriminator(mistake: _Mistake) -> str:
+    """Return the key that chooses among several tables: law or type."""
+    return str(mistake.error["ctx"]["discriminator"]).strip("'")
+
+
+def _word_unknown(mistake: _Mistake) -> str:
+    expected = mistake.error["ctx"]["expected"]
+    known = [word.strip("'") for word in re.findall(r"'[^']+'|\d+", expected)]
+    keys = [key for model in mistake.models[-1] for key in model.model_fields]
+    table = f", or a table with {' and '.join(keys)}" if keys else ""
+    suggestion = _suggest(str(mistake.value), known)
+    return f"{mistake.name} = {shown(mistake.value)}: unknown; {suggestion}{table}"
+
+
+def _own_sentence(mistake: _Mistake) -> str:
+    """Join an error raised by one of our models to the key it is about."""
+    message = str(mistake.error["ctx"]["error"])
+    if not isinstance(mistake.value, Mapping):
+        return f"{mistake.name} = {shown(mistake.value)}: {message}"
+    if not mistake.name:
+        return message
+    first = re.split(r"[ .]", message, maxsplit=1)[0]
+    about_a_key = first in mistake.value or _field(mistake.models[-1], first) is not None
+    return f"{mistake.name}{'.' if about_a_key else ' '}{message}"
+
+
+def _pydantic_sentence(mistake: _Mistake) -> str:
+    words = mistake.error["msg"]
+    if mistake.error["type"] in _NOT_A_TABLE:
+        words = _not_a_table(mistake)
+    elif mistake.error["type"] in _OUTSIDE:
+        words = _limits(mistake) or words
+    for theirs, ours in _WORDING:
+        words = re.sub(theirs, ours, words)
+    return f"{mistake.name} = {shown(mistake.value)}: {words}"
+
+
+def _not_a_table(mistake: _Mistake) -> str:
+    if str(mistake.value).startswith("{"):
+        quoted = '{ law = "eyring", stress = "5 MPa" }'
+        return f"not a TOML table; put words and quantities in double quotes, {quoted}"
+    laws = (model for model in mistake.models[-1] if mistake.value in _tags(model))
+    return "must be a table" + "".join(f" such as {_whole_table(law, {})}" for law in laws)
+
+
+def _limits(mistake: _Mistake) -> str:
+    """Return the numbers between which a value must lie; empty without limits."""
+    steps = len(mistake.path) - (1 if isinstance(mistake.path[-1], int) else 0)
+    field = _field(mistake.models[steps - 1], mistake.path[steps - 1])
+    found = {} if field is None else dict(_limits_of(field.annotation, field.metadata))
+    if found.pop("whole", False) and {"ge", "le"} <= found.keys():
+        return f"must be a whole number from {found['ge']} to {found['le']}"
+    words = [f"{_COMPARISONS[name]} {found[name]:g}" for name in _COMPARISONS if name in found]
+    return f"must be {' and '.join(words)}" if words else ""
+
+
+def _limits_of(annotation: Any, notes: list[Any]) -> Iterator[tuple[str, Any]]:
+    """Yield the limits of a field by name, and whether it is a whole number."""
+    if annotation is int:
+        yield "whole", True
+    for note in notes:
+        if isinstance(note, FieldInfo):
+            yield from _limits_of(None, note.metadata)
+        for name in _COMPARISONS:
+            if (limit := getattr(note, name, None)) is not None:
+                yield name, limit
+    for argument in get_args(annotation):
+        if not isinstance(argument, Quantity):
+            yield from _limits_of(argument, list(getattr(argument, "__metadata__", ())))
+
+
+_COMPARISONS = {"gt": "greater than", "ge": "at least", "lt": "less than", "le": "at most"}
+_OUTSIDE = (
+    *("greater_than", "greater_than_equal", "less_than", "less_than_equal"),
+    *("int_type", "int_parsing", "int_from_float", "int_parsing_size"),
+)
+_WORDING = (
+    ("Input should be", "must be"),
+    ("Tuple should have", "must have"),
+    ("greater than or equal to", "at least"),
+    ("less than or equal to", "at most"),
+    ("a valid integer", "a whole number"),
+    ("a valid tuple", "a list of two numbers"),
+    ("valid ", ""),
+    (", unable to parse .*|, got a number with a fractional part", ""),
+    ("items after validation.*", "numbers"),
+)
+_SENTENCES = {
+    "extra_forbidden": _unknown_key,
+    "missing": _missing,
+    "union_tag_not_found": _discriminator_missing,
+    "union_tag_invalid": _discriminator_unknown,
+    "literal_error": _word_unknown,
+    "value_error": _own_sentence,
+}
+
+
+# ---- laws, which are tables chosen by their key ``law``
+
+
+def _tags(model: Model, key: str = "law") -> tuple[str, ...]:
+    """Return the words under ``key`` that choose a model; none if it has no such key."""
+    law = model.model_fields.get(key)
+    annotation = law.annotation if law else None
+    return get_args(annotation) if get_origin(annotation) is Literal else ()
+
+
+def _chosen_law(models: Sequence[Model], table: object) -> Model | None:
+    """Return which of several laws a table states, None without a choice."""
+    if len(models) < 2 or not isinstance(table, Mapping):
+        return None
+    return next((model for model in models if table.get("law") in _tags(model)), None)
+
+
+def _key_of_another_law(mistake: _Mistake, law: Model) -> str:
+    *first, last = [key for key in law.model_fields if key != "law"] or ["no other key"]
+    keys = f"{', '.join(first)} and {last}" if first else last
+    where = mistake.name.rpartition(".")[0]
+    return (
+        f'{mistake.name} is not a key of law = "{_tags(law)[0]}", which takes {keys}; '
+        f"replace the whole table, {where} = {_whole_table(law, mistake.table)}"
+    )
+
+
+def _whole_table(law: Model, table: Mapping[str, object]) -> str:
+    """Return a law in TOML with the values that ``table`` states, and examples of missing ones."""
+    fields = {key: field for key, field in law.model_fields.items() if key != "law"}
+    kept = any(key in table and not field.is_required() for key, field in fields.items())
+    entries = [f'law = "{_tags(law)[0]}"']
+    for key, field in fields.items():
+        wanted = field.is_required() or (field.examples and not kept)
+        if key in table:
+            entries.append(f"{key} = {json.dumps(table[key], ensure_ascii=False, default=str)}")
+        elif wanted and (value := example(field)) is not None:
+            entries.append(f"{key} = {value}")
+    return "{ " + ", ".join(entries) + " }"
+
+
+def example(field: FieldInfo) -> str | None:
+    """Return a good value of a field, as a case file shows it; None if it has none."""
+    if field.examples:
+        return json.dumps(field.examples[0])
+    return next((note.example for note in field.metadata if isinstance(note, Quantity)), None)
+
+
+# ---- words
+
+
+def _key_paths() -> Iterator[str]:
+    """Yield the path of every key of a case."""
+    yield from _paths_below(ContactProblem, "")
+    yield from _paths_below(Options, f"{NUMERICS}.")
+
+
+def _paths_below(model: Model, prefix: str) -> Iterator[str]:
+    for key, field in model.model_fields.items():
+        yield f"{prefix}{key}"
+        for deeper in _models(field.annotation):
+            yield from _paths_below(deeper, f"{prefix}{key}.")
+
+
+def _suggest(word: str, known: list[str]) -> str:
+    close = difflib.get_close_matches(word[:100], known, n=1, cutoff=0.55)
+    return f"did you mean {close[0]}?" if close else f"known are {', '.join(known)}"
+
+
+def _key(part: str | int) -> str:
+    """Return a part of a key path as the file would show it, shortened."""
+    text = str(part)
+    bare = re.fullmatch(r"[A-Za-z0-9_-]+", text)
+    return short(text if bare else json.dumps(text), 60)
+
+
+def shown(value: object) -> str:
+    """Return a value as the file would show it, shortened."""
+    try:
+        text = json.dumps(value, ensure_ascii=False)
+    except RecursionError:
+        text = "a deeply nested table or list"
+    except (TypeError, ValueError):  # a type that JSON does not have
+        text = _text(value)
+    return short("".join(c if c.isprintable() else "?" for c in text), 60)
+
+
+def _text(value: object) -> str:
+    try:
+        return str(value)
+    except ValueError:  # an integer of thousands of digits
+        return "a number of thousands of digits"
+
+
+def short(text: str, length: int = 40) -> str:
+    """Return a text of at most ``length`` characters."""
+    return text if len(text) <= length else f"{text[: length - 3]}..."
