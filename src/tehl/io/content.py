@@ -2,22 +2,21 @@
 
 import json
 from collections.abc import Iterator
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, fields, replace
 from types import SimpleNamespace
 from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict, TypeAdapter
+from pydantic import BaseModel, ConfigDict, create_model
 
-from tehl.fields import Fields, FilmHeat, FilmShear, FilmSummary, HeatBalance, SurfaceHeights
+from tehl.fields import Fields, FilmHeat, FilmShear, SurfaceHeights
 from tehl.io import tables
 from tehl.io.summary import summary
 from tehl.io.tables import Column
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.result import Cost, CycleReport, ErrorEstimate, Estimate, Provenance, Result, Status
-from tehl.scaling import Groups, Scales
+from tehl.result import CycleReport, Result
 from tehl.transient_result import Frames, History, HistoryBars, Profiles, TransientResult
 from tehl.typing import Array
 
@@ -29,8 +28,6 @@ Arrays = dict[str, NDArray[Any]]
 Attributes = dict[str, Any]
 Table = tuple[Column, ...]
 Part = TypeVar("Part")
-_JSON = ConfigDict(ser_json_inf_nan="strings")
-"""Infinities and NaN as strings, which pydantic reads back as floats."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,49 +53,31 @@ class Variable:
     long_name: str
 
 
-@dataclass(frozen=True, kw_only=True, slots=True)
-class HeatState:
-    """The scalars of `tehl.fields.FilmHeat`."""
-
-    balance: HeatBalance
-    solid_peclet: tuple[float, float]
-    sources: tuple[str, str]
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class State:
-    """The scalars of a steady result besides its problem and options."""
-
-    __pydantic_config__ = _JSON
-
-    scales: Scales
-    groups: Groups
-    rigid_approach: float
-    film_scaled: FilmSummary
-    status: Status
-    errors: ErrorEstimate | None
-    cost: Cost
-    provenance: Provenance
-    uncertainty: dict[str, Estimate]
-    heat: HeatState | None
+_NOT_SCALAR = {
+    Result: ("problem", "options", "scaled", "history", "shear", "heat", "heights"),
+    FilmHeat: tuple(column.field for column in tables.HEAT),
+    TransientResult: ("start", "history", "profiles", "frames", "bars"),
+}
+"""Fields of a class that are stored as arrays or attributes of their own; the others as JSON."""
 
 
-@dataclass(frozen=True, kw_only=True, slots=True)
-class TransientState:
-    """The scalars of a transient result besides those of its start."""
-
-    __pydantic_config__ = _JSON
-
-    time_step: float
-    status: Status
-    cost: Cost
-    provenance: Provenance
-    uncertainty: dict[str, Estimate] = field(default_factory=dict)
+def _scalars(kind: type) -> type[BaseModel]:
+    """Return a model of the other fields of a class."""
+    scalar = (field for field in fields(kind) if field.name not in _NOT_SCALAR[kind])
+    found: dict[str, Any] = {field.name: (field.type, ...) for field in scalar}
+    # Infinities and NaN become strings, which pydantic reads back as floats.
+    config = ConfigDict(ser_json_inf_nan="strings")
+    model: type[BaseModel] = create_model(kind.__name__, __config__=config, **found)
+    return model
 
 
-def _scalars(state: type, owner: Any) -> dict[str, Any]:
-    """Return the attributes of ``owner`` that ``state`` has too, by name."""
-    return {one.name: getattr(owner, one.name) for one in fields(state)}
+def _dumped(part: Any) -> str:
+    model = _scalars(type(part))
+    return model(**{name: getattr(part, name) for name in model.model_fields}).model_dump_json()
+
+
+def _loaded(kind: type, text: str) -> dict[str, Any]:
+    return dict(_scalars(kind).model_validate_json(text))
 
 
 # ---- to a file
@@ -156,7 +135,7 @@ def _frame_columns(result: TransientResult) -> SimpleNamespace | None:
     frames = result.frames
     if not frames.step.size:
         return None
-    own = _scalars(Frames, frames)
+    own = {one.name: getattr(frames, one.name) for one in fields(frames)}
     return SimpleNamespace(time=result.history.time[frames.step], **own)
 
 
@@ -172,9 +151,9 @@ def attributes(result: Result | TransientResult) -> Attributes:
         "summary": json.dumps(summary(result), allow_nan=False),
     }
     if isinstance(result, TransientResult):
-        scalars = _state(TransientState, _scalars(TransientState, result))
-        return attributes(result.start) | own | {"tehl_kind": TRANSIENT, "transient": scalars}
-    heat = None if result.heat is None else HeatState(**_scalars(HeatState, result.heat))
+        own |= {"tehl_kind": TRANSIENT, "transient": _dumped(result)}
+        return attributes(result.start) | own
+    heat = {} if result.heat is None else {"heat": _dumped(result.heat)}
     return own | {
         "tehl_format": FORMAT_VERSION,
         "title": result.problem.title,
@@ -184,12 +163,9 @@ def attributes(result: Result | TransientResult) -> Attributes:
         "definitions": tables.DEFINITIONS,
         "problem": _json(result.problem),
         "options": _json(result.options),
-        "state": _state(State, _scalars(State, result) | {"heat": heat}),
+        "state": _dumped(result),
+        **heat,
     }
-
-
-def _state(kind: type, scalars: dict[str, Any]) -> str:
-    return TypeAdapter(kind).dump_json(kind(**scalars)).decode()
 
 
 def _json(model: BaseModel) -> str:
@@ -219,33 +195,28 @@ def rebuild(arrays: Arrays, attrs: Attributes) -> Result | TransientResult:
 
 
 def _steady(arrays: Arrays, attrs: Attributes) -> Result:
-    state = TypeAdapter(State).validate_json(attrs["state"])
-    reader = Reader(arrays=arrays, finite=state.status.converged)
-    scaled = Fields(**reader.columns(tables.SCALED))
+    state = _loaded(Result, attrs["state"])
+    reader = Reader(arrays=arrays, finite=state["status"].converged)
+    heat = _loaded(FilmHeat, attrs["heat"]) if "heat" in attrs else None
     return Result(
-        **_scalars(State, state) | {"heat": _heat(reader, state.heat)},
+        **state,
         problem=ContactProblem.model_validate_json(attrs["problem"]),
         options=Options.model_validate_json(attrs["options"]),
-        scaled=scaled,
+        scaled=Fields(**reader.columns(tables.SCALED)),
         history=_cycles(arrays),
         shear=reader.part(FilmShear, tables.SHEAR),
+        heat=None if heat is None else FilmHeat(**heat | reader.columns(tables.HEAT)),
         heights=reader.part(SurfaceHeights, tables.HEIGHTS),
     )
 
 
-def _heat(reader: "Reader", state: HeatState | None) -> FilmHeat | None:
-    if state is None:
-        return None
-    return FilmHeat(**_scalars(HeatState, state) | reader.columns(tables.HEAT))
-
-
 def _transient(start: Result, arrays: Arrays, attrs: Attributes) -> TransientResult:
-    state = TypeAdapter(TransientState).validate_json(attrs["transient"])
-    reader = Reader(arrays=arrays, finite=state.status.converged)
+    state = _loaded(TransientResult, attrs["transient"])
+    reader = Reader(arrays=arrays, finite=state["status"].converged)
     history = reader.columns(tables.HISTORY)
     cycles = history.pop("cycles").astype(np.int64)
     return TransientResult(
-        **_scalars(TransientState, state),
+        **state,
         start=start,
         history=History(**history, cycles=cycles),
         profiles=Profiles(**reader.columns(tables.PROFILES)),

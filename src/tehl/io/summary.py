@@ -1,22 +1,24 @@
 """The numbers of a result as one JSON object."""
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from tehl.fields import FilmHeat
+from tehl.post.heat import Temperature
+from tehl.post.roughness import RoughFilm
+from tehl.post.traction import Traction
+from tehl.post.waviness import WaveResponse
 from tehl.result import Estimate, Result
 from tehl.transient_result import HistoryBars, TransientResult
 from tehl.typing import Array
 
-if TYPE_CHECKING:
-    from tehl.post.roughness import RoughFilm
-    from tehl.post.waviness import WaveResponse
-
 Block = dict[str, Any]
+_UNIT = re.compile("_(m|pa|k|w|rad)$")
 
 
 def summary(result: Result | TransientResult) -> Block:
@@ -41,6 +43,11 @@ def summary(result: Result | TransientResult) -> Block:
         content = _head(result, result.problem.title) | _steady(result)
     plain_content: Block = plain(content)
     return plain_content
+
+
+def _picked(owner: object, *keys: str) -> Block:
+    """Return attributes of ``owner`` by keys, which are their names and perhaps an SI unit."""
+    return {key: getattr(owner, _UNIT.sub("", key)) for key in keys}
 
 
 def _head(result: Result | TransientResult, title: str) -> Block:
@@ -118,7 +125,7 @@ def _in_unit(estimate: Estimate, unit: float) -> Estimate:
 
 def _steady(result: Result) -> Block:
     lubricant, heat, rough = result.problem.lubricant, result.heat, result.roughness
-    scaled, cost = result.scaled, result.cost
+    temperature, traction, scaled = result.temperature, result.traction, result.scaled
     content = {
         "laws": {
             "viscosity": lubricant.viscosity.law,
@@ -131,13 +138,13 @@ def _steady(result: Result) -> Block:
         "groups": _groups(result),
         "film": _film(result),
         "pressure": _pressure(result),
-        "temperature": _temperature(result),
-        "traction": _traction(result),
+        "temperature": None if temperature is None else _temperature(temperature),
+        "traction": None if traction is None else _traction(traction),
         "heat": None if heat is None else _heat(heat),
         "roughness": None if rough is None else roughness_block(rough),
         "convergence": _convergence(result),
         "errors": asdict(result.errors) if result.errors else None,
-        "cost": {"points": [scaled.x.size, scaled.y.size]} | asdict(cost),
+        "cost": {"points": [scaled.x.size, scaled.y.size]} | asdict(result.cost),
     }
     if result.uncertainty:
         units = {
@@ -195,36 +202,24 @@ def _pressure(result: Result) -> Block:
     }
 
 
-def _temperature(result: Result) -> Block | None:
-    found = result.temperature
-    if found is None:
-        return None
-    return {
-        "film_rise_max_k": found.film_rise_max,
-        "film_rise_max_at": found.film_rise_max_at,
-        "mid_film_rise_central_k": found.mid_film_rise_central,
-        "mean_rise_central_k": found.mean_rise_central,
-        "surface_1_rise_max_k": found.surface_1_rise_max,
-        "surface_2_rise_max_k": found.surface_2_rise_max,
-        "inlet_k": found.inlet,
-    }
+def _temperature(found: Temperature) -> Block:
+    return {"film_rise_max_at": found.film_rise_max_at} | _picked(
+        found,
+        "film_rise_max_k",
+        "mid_film_rise_central_k",
+        "mean_rise_central_k",
+        "surface_1_rise_max_k",
+        "surface_2_rise_max_k",
+        "inlet_k",
+    )
 
 
-def _traction(result: Result) -> Block | None:
-    found = result.traction
-    if found is None:
-        return None
-    return {
-        "surface_1": found.surface_1,
-        "mid_film": found.mid_film,
-        "surface_2": found.surface_2,
-        "sliding": found.sliding,
-        "rolling": found.rolling,
-        "rolling_by_film": found.rolling_by_film,
-        "closure_error": found.closure_error,
-        "credible": found.credible,
-        "friction_power_w": found.friction_power,
-    }
+def _traction(found: Traction) -> Block:
+    return _picked(
+        found,
+        *("surface_1", "mid_film", "surface_2", "sliding", "rolling", "rolling_by_film"),
+        *("closure_error", "credible", "friction_power_w"),
+    )
 
 
 def _heat(heat: FilmHeat) -> Block:
@@ -232,7 +227,7 @@ def _heat(heat: FilmHeat) -> Block:
     return powers | {"solid_peclet": heat.solid_peclet, "sources": heat.sources}
 
 
-def roughness_block(found: "RoughFilm") -> Block:
+def roughness_block(found: RoughFilm) -> Block:
     """Return the block ``roughness`` of a summary.
 
     Parameters
@@ -258,18 +253,14 @@ def roughness_block(found: "RoughFilm") -> Block:
     }
 
 
-def _wave(wave: "WaveResponse") -> Block:
-    return {
-        "wavelength_m": wave.wavelength,
-        "angle_rad": wave.angle,
-        "amplitude_m": wave.amplitude,
-        "points_per_wave": wave.points_per_wave,
-        "film_amplitude_m": wave.film_amplitude,
-        "film_phase_rad": wave.film_phase,
-        "film_ratio": wave.film_ratio,
-        "pressure_amplitude_pa": wave.pressure_amplitude,
-        "pressure_phase_rad": wave.pressure_phase,
-        "carried_amplitude_m": wave.carried_amplitude,
+def _wave(wave: WaveResponse) -> Block:
+    measured = _picked(
+        wave,
+        *("wavelength_m", "angle_rad", "amplitude_m", "points_per_wave", "film_amplitude_m"),
+        *("film_phase_rad", "film_ratio", "pressure_amplitude_pa", "pressure_phase_rad"),
+        "carried_amplitude_m",
+    )
+    return measured | {
         "theory_film_ratio": wave.theory.film_ratio,
         "theory_pressure_pa": wave.theory.pressure,
         "elastic_pressure_pa": wave.theory.elastic_pressure,
