@@ -1,4 +1,4 @@
-"""The answer: fields, film numbers, status and history of a solve. Frozen; needs no solver."""
+"""Result of a steady solve: fields, film numbers, status, error bars and history. Frozen."""
 
 from dataclasses import dataclass, field
 from typing import Literal
@@ -18,7 +18,7 @@ StatusKind = Literal["converged", "not_converged", "diverged", "stalled"]
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Status:
-    """How the solve ended, as a word and as sentences.
+    """How a solve ended, for programs and for people.
 
     Attributes
     ----------
@@ -27,9 +27,9 @@ class Status:
     cause : str or None
         Name of the cause when not converged, for programs: ``"grid_too_coarse"``.
     message, hint : str or None
-        The cause and what to try, for people. A certified result that converged tells in
-        ``message`` how its grids ended; one between rough surfaces whose minimum is open says so,
-        and in ``hint`` which grid to try.
+        The cause and what to try. In a converged certified result ``message`` says how its grids
+        ended; a ``hint`` in a converged result means that its minimum film is uncertain, and names
+        the grid to try.
     """
 
     kind: StatusKind
@@ -39,17 +39,17 @@ class Status:
 
     @property
     def converged(self) -> bool:
-        """Whether the result may be believed."""
+        """Whether the solve converged."""
         return self.kind == "converged"
 
     @property
     def is_vague(self) -> bool:
-        """Whether the film converged but its minimum, one spot between asperities, is not known."""
+        """Whether the film converged but its minimum, one spot between asperities, is uncertain."""
         return self.converged and self.hint is not None
 
     @property
     def outcome(self) -> str:
-        """The outcome in words, with the cause where it says more: "stalled"."""
+        """The outcome in words, with the cause if it adds to the kind."""
         if self.is_vague:
             return "converged, minimum film open"
         kind = self.kind.replace("_", " ")
@@ -82,7 +82,8 @@ class CycleReport:
         Largest change of the film temperature in this cycle, where the pressure exceeds a fiftieth
         of the Hertz pressure [K]; zero in an isothermal run.
     temperature_rise : float
-        Largest rise of the film temperature over the inlet [K]; zero in an isothermal run.
+        Largest rise of the film temperature over the inlet [K]; zero in an isothermal run; not
+        stored.
     mean_change : float
         Sum of the changes of pressure in this cycle over the sum of pressures [-]; not stored.
     """
@@ -113,9 +114,9 @@ class Estimate:
     discretisation, domain : float
         The two parts.
     observed_order : float or None
-        Order seen on three grids; None where the grids do not show one.
+        Order observed on three grids; None if they do not show one.
     values : tuple of float
-        What the grids gave, coarse to fine.
+        Values on the grids, coarse to fine.
     """
 
     value: float
@@ -135,7 +136,7 @@ class ErrorEstimate:
     discretisation_central, discretisation_minimum : float
         From the difference to the next coarser grid of the full multigrid, relative [-].
     iteration_central, iteration_minimum : float
-        What further cycles would still change, relative [-].
+        Change by further cycles, relative [-].
     """
 
     discretisation_central: float
@@ -146,7 +147,7 @@ class ErrorEstimate:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Cost:
-    """What the solve cost.
+    """Computing cost of a solve.
 
     Attributes
     ----------
@@ -171,14 +172,14 @@ class Provenance:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Result(Saved):
-    """Answer of one solve.
+    """Result of one steady solve.
 
     Attributes
     ----------
     problem : ContactProblem
-        What was asked, in SI.
+        The case, in SI.
     options : Options
-        How hard to try; ``options.domain`` as stated, the domain used is that of ``scaled``.
+        Numerical options; ``options.domain`` as stated, the domain used is that of ``scaled``.
     scales, groups : Scales, Groups
         Units removed by the solver, and the dimensionless groups.
     scaled : Fields
@@ -192,9 +193,9 @@ class Result(Saved):
     history : tuple of CycleReport
         Each cycle on each grid.
     errors : ErrorEstimate or None
-        Estimated errors; None when the solve did not get far enough to tell.
+        Estimated errors; None if the solve ended too early for them.
     uncertainty : dict of str to Estimate
-        Filled by a certified run: ``film_central``, ``film_minimum``, ``pressure_max`` [-].
+        Of a certified result: ``film_central``, ``film_minimum``, ``pressure_max`` [-].
     shear : FilmShear or None
         Shear stresses; None when there is no credible film.
     heat : FilmHeat or None
@@ -202,7 +203,7 @@ class Result(Saved):
     heights : SurfaceHeights or None
         Heights of rough surfaces; None when both are smooth.
     cost, provenance : Cost, Provenance
-        Expense and origin.
+        Computing cost and origin.
     """
 
     problem: ContactProblem

@@ -1,4 +1,4 @@
-"""The answer to a question with time: a film that changes while its surfaces move on."""
+"""Result of a transient solve: a film that changes with time while its surfaces move."""
 
 from dataclasses import dataclass, field
 
@@ -9,16 +9,16 @@ from tehl.typing import Array, IntArray, SingleArray
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class StepReport:
-    """One step of time, as a monitor is told of it.
+    """One time step, as reported to a monitor.
 
     Attributes
     ----------
     step, steps : int
-        Number of the step, and how many there will be.
+        Number of the step, and total number of steps.
     time : float
         [s].
     cycles : int
-        Multigrid cycles that it took.
+        Multigrid cycles of the step.
     change, load_error : float
         Of P in the last of them, and of the load balance [-].
     film_central, film_minimum : float
@@ -26,7 +26,7 @@ class StepReport:
     pressure_max : float
         Largest P [-].
     smoother : str
-        Setting that did it.
+        Setting of the relaxation that converged.
     """
 
     step: int
@@ -99,7 +99,7 @@ class Profiles:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Frames:
-    """Fields at chosen instants, (nf, ny, nx) in single precision.
+    """Fields at chosen times, (nf, ny, nx) in single precision.
 
     Attributes
     ----------
@@ -117,7 +117,7 @@ class Frames:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class HistoryBars:
-    """Half widths of the error bars of a history, at the instants that its grids share; (nb,).
+    """Half widths of the error bars of a history, at the times that its grids share; (nb,).
 
     Attributes
     ----------
@@ -137,24 +137,24 @@ class HistoryBars:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class TransientResult(Saved):
-    """A transient film.
+    """Result of one transient solve.
 
     Attributes
     ----------
     start : Result
-        The steady film that it began from; its problem and options are those of the run.
+        The steady film at time zero; its problem and options are those of the run.
     history : History
         Numbers of each step.
     profiles : Profiles
         The line y = 0 at each step.
     frames : Frames
-        Fields at chosen instants.
+        Fields at chosen times.
     time_step : float
         [s].
     status : Status
         How the run ended.
     cost, provenance : Cost, Provenance
-        Expense, that of the start included, and origin; of a certified run that of all grids.
+        Computing cost, including the start, and origin; of a certified run that of all grids.
     uncertainty : dict of str to Estimate
         Of a certified run, extremes over time in SI with their error bars: ``"film_minimum"``,
         ``"film_central_least"``, ``"film_central_largest"``, ``"pressure_max"``,

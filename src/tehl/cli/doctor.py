@@ -1,40 +1,41 @@
 """``tehl doctor``: what is installed, whether it works, and compiling ahead of time."""
 
+import json
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
+
+from tehl.cli.ending import ENVIRONMENT
 
 if TYPE_CHECKING:
     from tehl.problem import ContactProblem
     from tehl.result import Result
 
 PACKAGES = (
-    "tehl",
-    "numpy",
-    "scipy",
-    "numba",
-    "llvmlite",
-    "pydantic",
-    "typer",
-    "rich",
-    "xarray",
-    "h5netcdf",
-    "h5py",
-    "matplotlib",
+    *("tehl", "numpy", "scipy", "numba", "llvmlite", "pydantic", "typer", "rich", "xarray"),
+    *("h5netcdf", "h5py", "matplotlib"),
 )
-ENVIRONMENT = 3
 KNOWN_CENTRAL_FILM = 0.4270310700955564
 """H at the centre for M = 20, L = 10, alpha p_h = 9.89, on 129 x 129 nodes: a Newton solver."""
+_STEEL = {"young_modulus": 2.06e11, "poisson_ratio": 0.3}
+_CASE: dict[str, Any] = {
+    "title": "Self-check",
+    "contact": {"radius": 0.02, "moes_load": 20.0, "moes_speed": 10.0},
+    "surface_1": {"material": _STEEL},
+    "surface_2": {"material": _STEEL},
+    "lubricant": {
+        "viscosity": {"law": "roelands", "eta_0": 0.04, "alpha": 22e-9},
+        "density": {"law": "dowson-higginson", "rho_0": 890.0},
+    },
+}
+"""The contact whose film is known."""
 
 
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Check:
-    """One check: its name, what was found, and whether that is well."""
+class Check(NamedTuple):
+    """What a check found, and whether it passed."""
 
-    name: str
     found: str
     passed: bool
 
@@ -49,21 +50,19 @@ def doctor(
 
     The checks compile the kernels if they are cold. Exit code 3 if one fails.
     """
-    import json
-
     facts = dict(_facts())
     if not as_json:
         _show(facts)
     if warm:
         typer.echo("compiling all kernels", err=True)
         _warm()
-    checks = [_made(name, check) for name, check in _CHECKS.items()]
+    checks = {name: _checked(check) for name, check in _CHECKS.items()}
     if as_json:
-        found = {check.name: {"found": check.found, "passed": check.passed} for check in checks}
+        found = {name: check._asdict() for name, check in checks.items()}
         typer.echo(json.dumps({**facts, "checks": found}))
     else:
-        _show({c.name: f"{'ok' if c.passed else 'FAILED'}: {c.found}" for c in checks})
-    if not all(check.passed for check in checks):
+        _show({n: f"{'ok' if c.passed else 'FAILED'}: {c.found}" for n, c in checks.items()})
+    if not all(check.passed for check in checks.values()):
         raise typer.Exit(ENVIRONMENT)
 
 
@@ -74,9 +73,12 @@ def _show(rows: dict[str, str]) -> None:
 
 def _facts() -> Iterator[tuple[str, str]]:
     """Yield what this installation is, by name."""
+    import os
     import platform
     from importlib.metadata import PackageNotFoundError, version
+    from pathlib import Path
 
+    import tehl.kernels
     from tehl.kernels.cache import is_cold
 
     yield "python", f"{platform.python_version()} ({platform.python_implementation()})"
@@ -86,49 +88,10 @@ def _facts() -> Iterator[tuple[str, str]]:
             yield name, version(name)
         except PackageNotFoundError:
             yield name, "missing"
-    yield "kernel cache", _cache_folder()
-    yield (
-        "kernels compiled",
-        "no, the first solve compiles once" if is_cold(coupled=True) else "yes",
-    )
-
-
-def _cache_folder() -> str:
-    import os
-    from pathlib import Path
-
-    import tehl.kernels
-
     beside = Path(tehl.kernels.__file__).parent / "__pycache__"
-    return os.environ.get("NUMBA_CACHE_DIR") or str(beside)
-
-
-def _problem() -> "ContactProblem":
-    """Return the steel contact of M = 20, L = 10 whose film is known."""
-    from tehl.problem import ContactProblem
-
-    steel = {"young_modulus": 2.06e11, "poisson_ratio": 0.3}
-    return ContactProblem.model_validate(
-        {
-            "title": "Self-check",
-            "contact": {"radius": 0.02, "moes_load": 20.0, "moes_speed": 10.0},
-            "surface_1": {"material": steel},
-            "surface_2": {"material": steel},
-            "lubricant": {
-                "viscosity": {"law": "roelands", "eta_0": 0.04, "alpha": 22e-9},
-                "density": {"law": "dowson-higginson", "rho_0": 890.0},
-            },
-        }
-    )
-
-
-def _solved() -> "Result":
-    from tehl.options import Domain, Options
-    from tehl.solver import solve
-
-    domain = Domain(x=(-4.5, 1.5), y=(-3.0, 3.0))
-    exact = Options(points=129, domain=domain, deformation="fft", accuracy="tight", tolerance=1e-8)
-    return solve(_problem(), exact)
+    yield "kernel cache", os.environ.get("NUMBA_CACHE_DIR") or str(beside)
+    cold = is_cold(coupled=True)
+    yield "kernels compiled", "no, the first solve compiles once" if cold else "yes"
 
 
 def _warm() -> None:
@@ -143,30 +106,47 @@ def _warm() -> None:
         solve(_problem(), Options(points=33, smoother="gauss-seidel", max_cycles=1))
 
 
-def _made(name: str, check: Callable[[], tuple[str, bool]]) -> Check:
-    """Make a check; whatever breaks is its finding."""
+def _problem() -> "ContactProblem":
+    from tehl.problem import ContactProblem
+
+    return ContactProblem.model_validate(_CASE)
+
+
+def _solved() -> "Result":
+    from tehl.options import Domain, Options
+    from tehl.solver import solve
+
+    domain = Domain(x=(-4.5, 1.5), y=(-3.0, 3.0))
+    exact = Options(points=129, domain=domain, deformation="fft", accuracy="tight", tolerance=1e-8)
+    return solve(_problem(), exact)
+
+
+# ---- checks
+
+
+def _checked(check: Callable[[], Check]) -> Check:
+    """Run a check; an exception is its finding."""
     try:
-        found, passed = check()
+        return check()
     except Exception as error:
-        found, passed = f"{type(error).__name__}: {error}", False
-    return Check(name=name, found=found, passed=passed)
+        return Check(f"{type(error).__name__}: {error}", passed=False)
 
 
-def _hertz() -> tuple[str, bool]:
+def _hertz() -> Check:
     """Check the dry contact of a sphere against ``a^3 = 3 w R / (2 E')``."""
     problem = _problem()
     cube = 1.5 * problem.load * problem.radius_x / problem.reduced_modulus
     error = abs(problem.hertz.half_width_x**3 / cube - 1.0)
-    return f"error {error:.1e}", error < 1e-9
+    return Check(f"error {error:.1e}", passed=error < 1e-9)
 
 
-def _film() -> tuple[str, bool]:
+def _film() -> Check:
     """Check a small solve against an independent solver on the same grid."""
-    ratio = _solved().film_scaled.central / KNOWN_CENTRAL_FILM
-    return f"central film off by {abs(ratio - 1.0):.0e} of itself", abs(ratio - 1.0) < 1e-6
+    error = abs(_solved().film_scaled.central / KNOWN_CENTRAL_FILM - 1.0)
+    return Check(f"relative error of the central film {error:.0e}", passed=error < 1e-6)
 
 
-def _storage() -> tuple[str, bool]:
+def _storage() -> Check:
     """Check that a stored result comes back bit by bit."""
     import tempfile
     from pathlib import Path
@@ -181,11 +161,7 @@ def _storage() -> tuple[str, bool]:
         save(result, Path(folder) / "check.nc")
         back = load_as(Result, Path(folder) / "check.nc")
     same = np.array_equal(back.scaled.film, result.scaled.film)
-    return "bit by bit" if same else "fields differ", same
+    return Check("bit by bit" if same else "fields differ", passed=same)
 
 
-_CHECKS: dict[str, Callable[[], tuple[str, bool]]] = {
-    "Hertz contact": _hertz,
-    "film, 129 x 129": _film,
-    "storage": _storage,
-}
+_CHECKS = {"Hertz contact": _hertz, "film, 129 x 129": _film, "storage": _storage}

@@ -1,4 +1,4 @@
-"""Files appear whole or not at all."""
+"""Write files atomically, and check outputs before any work is done for them."""
 
 import glob
 import os
@@ -24,20 +24,20 @@ _NAMED = 40
 
 @contextmanager
 def replacing(path: str | Path) -> Iterator[Path]:
-    """Yield a temporary path beside ``path``; it takes the place of ``path`` when all went well.
+    """Yield a temporary path beside ``path``, which replaces ``path`` unless there is an exception.
 
-    On any exception, an interrupt included, the temporary file goes away and ``path`` stays as
-    it was. A link stays a link: the file that it points to is replaced.
+    On any exception, an interrupt included, the temporary file is removed and ``path`` is
+    unchanged. A link stays a link: the file that it points to is replaced.
 
     Parameters
     ----------
     path : str or Path
-        The file to appear.
+        The file to write.
 
     Raises
     ------
     InputError
-        If the folder of ``path`` cannot take files.
+        If the folder of ``path`` is not writable.
     OSError
         If writing fails, with the name of the file: a full disk, a quota.
     """
@@ -56,7 +56,7 @@ def replacing(path: str | Path) -> Iterator[Path]:
 
 
 def remove_with_parts(path: str | Path) -> None:
-    """Remove a file, and what a killed program has left of writing it.
+    """Remove a file, and temporary files left by a killed program.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def remove_with_parts(path: str | Path) -> None:
 
 
 def check_writable(path: str | Path, *, sources: tuple[str | Path, ...] = ()) -> None:
-    """Refuse an output file that could not be written, before any work is done for it.
+    """Raise if an output file could not be written, before any work is done for it.
 
     Parameters
     ----------
@@ -84,8 +84,8 @@ def check_writable(path: str | Path, *, sources: tuple[str | Path, ...] = ()) ->
     Raises
     ------
     InputError
-        If ``path`` is a source, no regular file or write-protected, or its folder is missing or
-        takes no files.
+        If ``path`` is a source, not a regular file or write-protected, or its folder is missing
+        or not writable.
     """
     shown, target = shortened(path), Path(os.path.realpath(path))
     folder = target.parent
@@ -102,7 +102,7 @@ def check_writable(path: str | Path, *, sources: tuple[str | Path, ...] = ()) ->
 
 
 def _check_kind(path: str | Path) -> None:
-    """Refuse what exists and is no regular file, and names that no file can have."""
+    """Raise if something other than a regular file exists there, or the name is invalid."""
     shown = shortened(path)
     try:
         mode = Path(path).stat().st_mode
@@ -119,7 +119,7 @@ def _check_kind(path: str | Path) -> None:
 
 
 def check_folder(folder: str | Path) -> None:
-    """Refuse an output folder that could not be made or written; make nothing yet.
+    """Raise if an output folder could not be made or written; make nothing yet.
 
     Parameters
     ----------
@@ -129,13 +129,13 @@ def check_folder(folder: str | Path) -> None:
     Raises
     ------
     InputError
-        If a file is in the way or the place takes no files.
+        If a file is in the way or the place is not writable.
     """
     _check_folder(check_place(folder))
 
 
 def check_place(folder: str | Path) -> Path:
-    """Refuse a folder with something else in its way; return what there is of its path.
+    """Raise if a file is in the way of a folder; return the part of its path that exists.
 
     Parameters
     ----------

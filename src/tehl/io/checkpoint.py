@@ -1,4 +1,4 @@
-"""Checkpoints: the state of an unfinished transient run on disk, and whether it is of this run."""
+"""Checkpoints: the state of an unfinished transient run on disk, and the run it belongs to."""
 
 import hashlib
 import json
@@ -19,12 +19,12 @@ from tehl.roughness import Map, Sum
 Arrays = dict[str, NDArray[Any]]
 
 _LABEL, _LAYOUT = "tehl_checkpoint", 4
-"""What such a file calls itself; to be raised when a state of a run has other arrays."""
+"""Array that marks such a file; version, to be raised when the arrays of a state change."""
 
 
 @dataclass(frozen=True, slots=True)
 class Fingerprint:
-    """What a checkpoint belongs to.
+    """The run that a checkpoint belongs to.
 
     Attributes
     ----------
@@ -39,7 +39,7 @@ class Fingerprint:
 
 
 def fingerprint(problem: ContactProblem, options: Options) -> Fingerprint:
-    """Return the fingerprint of a question, the same however its case file is written."""
+    """Return the fingerprint of a case, which does not depend on how its file is written."""
     from tehl import SOLVER_VERSION, __version__  # noqa: PLC0415 (the package is being imported before)
 
     maps = [one.fingerprint for one in _maps(problem)]
@@ -80,22 +80,22 @@ def write_checkpoint(path: str | Path, owner: Fingerprint, arrays: Mapping[str, 
 
 
 def read_checkpoint(path: str | Path) -> tuple[Fingerprint, Arrays]:
-    """Return whose state a checkpoint holds, and the state.
+    """Return the owner of a checkpoint, and the state.
 
     Raises
     ------
     InputError
-        If there is no such file.
+        If the file does not exist.
     FileFormatError
-        If it is no checkpoint, or not whole.
+        If it is not a whole checkpoint.
     """
     if not Path(path).is_file():
-        raise InputError(f"there is no checkpoint {path}")
+        raise InputError(f"checkpoint {path} does not exist")
     try:
         with Path(path).open("rb") as opened, np.load(opened, allow_pickle=False) as file:
             arrays = {name: file[name] for name in file.files}
         version, case = (str(word) for word in arrays.pop(_LABEL))
-    except Exception:  # a flipped bit makes zip and array headers raise whatever they like
+    except Exception:  # a flipped bit makes zip and array headers raise anything
         raise FileFormatError(
             f"{path} is not a whole checkpoint: remove it to start again"
         ) from None
@@ -103,7 +103,7 @@ def read_checkpoint(path: str | Path) -> tuple[Fingerprint, Arrays]:
 
 
 def check_owner(path: str | Path, found: Fingerprint, wanted: Fingerprint) -> None:
-    """Refuse the checkpoint of another run.
+    """Raise if a checkpoint belongs to another run.
 
     Raises
     ------
@@ -112,11 +112,11 @@ def check_owner(path: str | Path, found: Fingerprint, wanted: Fingerprint) -> No
     """
     if found.version != wanted.version:
         raise InputError(
-            f"{path} was written by tehl {found.version}, and this is {wanted.version}: go on with "
-            "that version, or remove the checkpoint and begin anew"
+            f"{path} was written by tehl {found.version}, and this is {wanted.version}: continue "
+            "with that version, or remove the checkpoint to start again"
         )
     if found.input != wanted.input:
         raise InputError(
-            f"{path} belongs to another case, other options or another measured surface: go on "
-            "with the unchanged case, or remove the checkpoint and begin anew"
+            f"{path} belongs to another case, other options or another measured surface: continue "
+            "with the unchanged case, or remove the checkpoint to start again"
         )

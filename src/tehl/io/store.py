@@ -21,7 +21,7 @@ from tehl.io.content import (
     rebuild,
     variables,
 )
-from tehl.io.summary import plain, summary
+from tehl.io.summary import plain
 from tehl.io.tables import COORDINATES
 from tehl.result import Result
 from tehl.transient_result import TransientResult
@@ -86,7 +86,7 @@ def save(
     """
     attrs = attributes(result)
     if extra:
-        attrs["summary"] = json.dumps(plain(summary(result) | extra), allow_nan=False)
+        attrs["summary"] = json.dumps(json.loads(attrs["summary"]) | plain(extra), allow_nan=False)
     with replacing(path) as temporary:
         temporary.write_bytes(_image(variables(result), attrs))
 

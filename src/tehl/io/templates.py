@@ -41,7 +41,7 @@ def template_text(name: str) -> str:
         return _text(name)
     close = difflib.get_close_matches(name, known, n=1)
     guess = f"did you mean {close[0]}? " if close else ""
-    raise InputError(f"{name} is no template: {guess}known are {', '.join(known)}")
+    raise InputError(f"unknown template {name}: {guess}known are {', '.join(known)}")
 
 
 def _text(name: str) -> str:
