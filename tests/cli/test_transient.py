@@ -321,7 +321,7 @@ def test_a_steady_case_has_nothing_to_resume(folder, run):
 def test_a_full_disk_does_not_end_a_run(folder, capsys, monkeypatch):
     keeper = Keeper(folder / "nowhere" / "x", Fingerprint("0.1.0", "abc"))
     keeper.last = object()
-    monkeypatch.setattr("tehl.solver.transient.snapshot.pack", lambda _: {})
+    monkeypatch.setattr("tehl.cli.checkpoint.pack", lambda _: {})
     assert not keeper.write()
     assert not keeper.write()
     assert capsys.readouterr().err.count("checkpoint not written") == 1

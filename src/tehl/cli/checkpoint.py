@@ -4,13 +4,13 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import typer
 
-if TYPE_CHECKING:
-    from tehl.io.checkpoint import Fingerprint
-    from tehl.solver.transient.snapshot import Snapshot
+from tehl.errors import InputError
+from tehl.io.atomic import check_writable
+from tehl.io.checkpoint import Fingerprint, check_owner, read_checkpoint, write_checkpoint
+from tehl.solver.transient.snapshot import Snapshot, pack, unpack
 
 CHECKPOINT_SECONDS = 30.0
 """CPU time between two checkpoints [s]."""
@@ -27,12 +27,12 @@ class Keeper:
         Of the run.
     """
 
-    def __init__(self, path: Path, owner: "Fingerprint") -> None:
+    def __init__(self, path: Path, owner: Fingerprint) -> None:
         self.path, self.owner = path, owner
         self.last: Snapshot | None = None
         self._written, self._reported = time.process_time(), False
 
-    def __call__(self, snapshot: "Snapshot") -> None:
+    def __call__(self, snapshot: Snapshot) -> None:
         """Take the state after a step."""
         self.last = snapshot.copy()
         if time.process_time() - self._written >= CHECKPOINT_SECONDS:
@@ -41,10 +41,6 @@ class Keeper:
 
     def write(self) -> bool:
         """Write the last state; a full disk is reported once and does not end the run."""
-        from tehl.errors import InputError
-        from tehl.io.checkpoint import write_checkpoint
-        from tehl.solver.transient.snapshot import pack
-
         if self.last is None:
             return False
         try:
@@ -70,7 +66,7 @@ class Keeper:
                 )
             raise
 
-    def begin(self, *, resume: bool) -> "Snapshot | None":
+    def begin(self, *, resume: bool) -> Snapshot | None:
         """Return the state to continue from, None at time zero.
 
         Raises
@@ -80,11 +76,6 @@ class Keeper:
         FileFormatError
             If it cannot be read.
         """
-        from tehl.errors import InputError
-        from tehl.io.atomic import check_writable
-        from tehl.io.checkpoint import check_owner, read_checkpoint
-        from tehl.solver.transient.snapshot import unpack
-
         check_writable(self.path)
         if not self.path.exists():
             if resume:
@@ -104,5 +95,5 @@ class Keeper:
         return snapshot
 
 
-def _step(snapshot: "Snapshot") -> int:
+def _step(snapshot: Snapshot) -> int:
     return len(snapshot.record.rows) - 1

@@ -3,30 +3,29 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from tehl.post.micro_film import RoughnessEffect
-    from tehl.post.roughness import RoughFilm
-    from tehl.post.thermal_effect import ThermalEffect
-    from tehl.problem import ContactProblem
-    from tehl.result import Result
-    from tehl.transient_result import TransientResult
+from tehl.errors import FileFormatError
+from tehl.io.store import load_as
+from tehl.io.summary import plain, roughness_block
+from tehl.post import micro_film, thermal_effect
+from tehl.post.roughness import RoughFilm, rough_film
+from tehl.problem import ContactProblem
+from tehl.result import Result
+from tehl.transient_result import TransientResult
 
 ISOTHERMAL, SMOOTH = "without heat", "with smooth surfaces"
 """Reference runs."""
 
-Solve = Callable[["ContactProblem", str], "Result | None"]
-
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Comparisons:
-    """A result compared with its reference runs.
+    """A result compared with its reference runs; None where there is none that converged.
 
     Attributes
     ----------
     heat, roughness : ThermalEffect, RoughnessEffect or None
-        What heat and roughness change; None without a converged reference run.
+        What heat and roughness change.
     rough_film : RoughFilm or None
         Numbers of the rough film with the smooth film subtracted.
     smooth : Result or None
@@ -35,16 +34,16 @@ class Comparisons:
         Extra blocks of the summary; null for a reference run that did not converge.
     """
 
-    heat: "ThermalEffect | None" = None
-    roughness: "RoughnessEffect | None" = None
-    rough_film: "RoughFilm | None" = None
-    smooth: "Result | None" = None
+    heat: thermal_effect.ThermalEffect | None = None
+    roughness: micro_film.RoughnessEffect | None = None
+    rough_film: RoughFilm | None = None
+    smooth: Result | None = None
     blocks: dict[str, Any] = field(default_factory=dict)
 
 
 def reference_cases(
-    problem: "ContactProblem", *, isothermal: bool, smooth: bool
-) -> dict[str, "ContactProblem"]:
+    problem: ContactProblem, *, isothermal: bool, smooth: bool
+) -> dict[str, ContactProblem]:
     """Return the cases to solve for comparison.
 
     Raises
@@ -52,18 +51,19 @@ def reference_cases(
     InputError
         If the case has no heat or no roughness to leave out.
     """
-    from tehl.post.micro_film import smooth_twin
-    from tehl.post.thermal_effect import isothermal_twin
-
     cases = {}
     if isothermal:
-        cases[ISOTHERMAL] = isothermal_twin(problem)
+        cases[ISOTHERMAL] = thermal_effect.isothermal_twin(problem)
     if smooth:
-        cases[SMOOTH] = smooth_twin(problem)
+        cases[SMOOTH] = micro_film.smooth_twin(problem)
     return cases
 
 
-def compare(result: "Result", cases: dict[str, "ContactProblem"], solve: Solve) -> Comparisons:
+def compare(
+    result: Result,
+    cases: dict[str, ContactProblem],
+    solve: Callable[[ContactProblem, str], Result | None],
+) -> Comparisons:
     """Solve the reference cases and compare a result with them.
 
     Parameters
@@ -75,10 +75,6 @@ def compare(result: "Result", cases: dict[str, "ContactProblem"], solve: Solve) 
     solve : callable
         Returns the result of a case, given its name too; None if it did not converge.
     """
-    from tehl.io.summary import plain, roughness_block
-    from tehl.post import micro_film, thermal_effect
-    from tehl.post.roughness import rough_film
-
     blocks: dict[str, Any] = {}
     heat = roughness = rough = smooth = None
     if ISOTHERMAL in cases:
@@ -102,13 +98,8 @@ def smooth_file(stored: Path) -> Path:
     return stored.with_name(f"{stored.stem}.smooth.nc")
 
 
-def smooth_beside(stored: Path, result: "Result | TransientResult") -> "Result | None":
+def smooth_beside(stored: Path, result: Result | TransientResult) -> Result | None:
     """Return the smooth reference run stored beside a result, None if there is none that fits."""
-    from tehl.errors import FileFormatError
-    from tehl.io.store import load_as
-    from tehl.post.micro_film import is_twin
-    from tehl.result import Result
-
     path = smooth_file(stored)
     if not isinstance(result, Result) or result.heights is None or not path.is_file():
         return None
@@ -116,4 +107,4 @@ def smooth_beside(stored: Path, result: "Result | TransientResult") -> "Result |
         smooth = load_as(Result, path)
     except FileFormatError:
         return None
-    return smooth if is_twin(result, smooth) else None
+    return smooth if micro_film.is_twin(result, smooth) else None

@@ -2,19 +2,16 @@
 
 import math
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING
 
 from tehl.cli.reference_runs import Comparisons
 from tehl.post.film import no_film
+from tehl.post.roughness import RoughFilm
+from tehl.post.waviness import WaveResponse
 from tehl.report.explain import UNTITLED, length, length_unit
 from tehl.report.time import seconds_in_words
+from tehl.result import Estimate, Result, Status
 from tehl.transient_result import TransientResult
-
-if TYPE_CHECKING:
-    from tehl.post.roughness import RoughFilm
-    from tehl.post.waviness import WaveResponse
-    from tehl.result import Estimate, Result, Status
-    from tehl.typing import Array
+from tehl.typing import Array
 
 UNUSUAL_BALANCE = 0.05
 """Missing share of the heat from which it is remarked."""
@@ -26,7 +23,7 @@ Unit = tuple[float, str]
 _GPA: Unit = (1e-9, "GPa")
 
 
-def as_text(result: "Result | TransientResult", compared: Comparisons | None = None) -> str:
+def as_text(result: Result | TransientResult, compared: Comparisons | None = None) -> str:
     """Return the main numbers of a result, one per line.
 
     Parameters
@@ -44,7 +41,7 @@ def as_text(result: "Result | TransientResult", compared: Comparisons | None = N
     return "\n".join([headline, *(f"  {name:<17}{value}" for name, value in rows)])
 
 
-def failure_text(status: "Status", reason: str | None) -> str:
+def failure_text(status: Status, reason: str | None) -> str:
     """Return why a result did not converge, and the hint in a second line if there is one."""
     message = f"tehl: not converged ({status.kind}): {status.message or reason}"
     return f"{message}\nhint: {status.hint}" if status.hint else message
@@ -53,7 +50,7 @@ def failure_text(status: "Status", reason: str | None) -> str:
 # ---- steady results
 
 
-def _steady_rows(result: "Result", compared: Comparisons) -> Rows:
+def _steady_rows(result: Result, compared: Comparisons) -> Rows:
     yield "minimum film", _film(result, "minimum")
     yield "central film", _film(result, "central")
     yield "largest pressure", _pressure(result)
@@ -71,7 +68,7 @@ def _steady_rows(result: "Result", compared: Comparisons) -> Rows:
     yield from _compared(compared)
 
 
-def _film(result: "Result", which: str) -> str:
+def _film(result: Result, which: str) -> str:
     if why := no_film(result):
         return f"none: {why}"
     metres, scaled = getattr(result.film, which), getattr(result.film_scaled, which)
@@ -80,14 +77,14 @@ def _film(result: "Result", which: str) -> str:
     return f"{length(metres)}   (H = {scaled:.5g})" + bar
 
 
-def _pressure(result: "Result") -> str:
+def _pressure(result: Result) -> str:
     highest = float(result.scaled.pressure.max())
     giga = result.scales.hertz_pressure * 1e-9
     text = f"{highest * giga:.4g} GPa   ({highest:.4g} p_h, p_h = {giga:.4g} GPa)"
     return text + _bar(result, "pressure_max", (giga, "GPa"))
 
 
-def _heat(result: "Result") -> Rows:
+def _heat(result: Result) -> Rows:
     heat, found = result.heat, result.temperature
     if heat is None or found is None:
         return
@@ -110,7 +107,7 @@ def _heat(result: "Result") -> Rows:
     yield "heat balance", f"error {100 * error:.2g} %{doubt}"
 
 
-def _traction(result: "Result") -> Rows:
+def _traction(result: Result) -> Rows:
     found = result.traction
     if found is None:
         return
@@ -123,7 +120,7 @@ def _traction(result: "Result") -> Rows:
     yield from _excessive_traction(result)
 
 
-def _excessive_traction(result: "Result") -> Rows:
+def _excessive_traction(result: Result) -> Rows:
     """Yield a remark on a traction that no oil can carry, and what to do."""
     found = result.traction
     if found is not None and not found.credible:
@@ -132,7 +129,7 @@ def _excessive_traction(result: "Result") -> Rows:
         yield "", f"more than any oil can carry: the shear law is {law}, {remedy}"
 
 
-def _roughness(found: "RoughFilm | None") -> Rows:
+def _roughness(found: RoughFilm | None) -> Rows:
     if found is None:
         return
     yield (
@@ -144,7 +141,7 @@ def _roughness(found: "RoughFilm | None") -> Rows:
         yield "" if number else "waves left", line
 
 
-def _wave(wave: "WaveResponse") -> str:
+def _wave(wave: WaveResponse) -> str:
     """Return the amplitude of a wave in film and pressure, relative to the undeformed one."""
     giga, theory = 1e-9, wave.theory
     film, pressure = "", ""
@@ -161,18 +158,18 @@ def _wave(wave: "WaveResponse") -> str:
     )
 
 
-def _groups(result: "Result") -> str:
+def _groups(result: Result) -> str:
     groups = result.groups
     return f"M = {groups.M:.4g}, L = {groups.L:.4g}, alpha p_h = {groups.alpha_bar:.4g}"
 
 
-def _grid(result: "Result") -> str:
+def _grid(result: Result) -> str:
     x, y = result.scaled.x, result.scaled.y
     domain = f"[{x[0]:g}, {x[-1]:g}] x [{y[0]:g}, {y[-1]:g}]"
     return f"{x.size} x {y.size} on {domain} half-widths"
 
 
-def _effort(result: "Result") -> str:
+def _effort(result: Result) -> str:
     if not result.history:
         return f"{result.cost.cpu_seconds:.3g} s"
     last = result.history[-1]
@@ -277,14 +274,14 @@ def _film_bar(run: TransientResult, name: str) -> str:
     return "" if found is None else _bar(run, name, length_unit(found.value))
 
 
-def _peak(values: "Array", time: "Array", unit: Unit, most: str = "") -> str:
+def _peak(values: Array, time: Array, unit: Unit, most: str = "") -> str:
     """Return the largest value, its time, and the value at the start."""
     (factor, name), place = unit, int(values.argmax())
     first, largest = (f"{value * factor:.4g} {name}" for value in (values[0], values[place]))
     return f"{largest}{most} at {_at_start(seconds_in_words(time[place]), first)}"
 
 
-def _between(values: "Array", word: Callable[[float], str]) -> str:
+def _between(values: Array, word: Callable[[float], str]) -> str:
     return _at_start(f"{word(values.min())} to {word(values.max())}", word(values[0]))
 
 
@@ -300,7 +297,7 @@ def _clean(value: float) -> str:
     return "0" if abs(value) < 1e-12 else f"{value:.4g}"
 
 
-def _bar(result: "Result | TransientResult", name: str, unit: Unit) -> str:
+def _bar(result: Result | TransientResult, name: str, unit: Unit) -> str:
     """Return the error bar of a certified value, else the estimated error of the grid if known."""
     estimate = result.uncertainty.get(name)
     if estimate is not None:
@@ -313,7 +310,7 @@ def _bar(result: "Result | TransientResult", name: str, unit: Unit) -> str:
     return f"   grid error about {percent:{'.2g' if percent < 99.5 else '.0f'}} %"
 
 
-def _certified(estimate: "Estimate", unit: Unit) -> str:
+def _certified(estimate: Estimate, unit: Unit) -> str:
     """Return a certified value with its error bar and the parts of the bar."""
     factor, name = unit
     bar = (estimate.uncertainty, estimate.discretisation, estimate.domain)

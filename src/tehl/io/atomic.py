@@ -11,13 +11,6 @@ from pathlib import Path
 
 from tehl.errors import InputError
 
-_KINDS = (
-    (stat.S_ISCHR, "a device"),
-    (stat.S_ISBLK, "a device"),
-    (stat.S_ISFIFO, "a pipe"),
-    (stat.S_ISSOCK, "a socket"),
-)
-
 _NAMED = 40
 """Letters of a file in the name of its temporary one."""
 
@@ -28,11 +21,6 @@ def replacing(path: str | Path) -> Iterator[Path]:
 
     On any exception, an interrupt included, the temporary file is removed and ``path`` is
     unchanged. A link stays a link: the file that it points to is replaced.
-
-    Parameters
-    ----------
-    path : str or Path
-        The file to write.
 
     Raises
     ------
@@ -56,13 +44,7 @@ def replacing(path: str | Path) -> Iterator[Path]:
 
 
 def remove_with_parts(path: str | Path) -> None:
-    """Remove a file, and temporary files left by a killed program.
-
-    Parameters
-    ----------
-    path : str or Path
-        The file; it may be missing.
-    """
+    """Remove a file if it exists, and temporary files left by a killed program."""
     target = Path(os.path.realpath(path))
     target.unlink(missing_ok=True)
     if len(target.name) > _NAMED:  # others may begin with the same letters
@@ -88,17 +70,16 @@ def check_writable(path: str | Path, *, sources: tuple[str | Path, ...] = ()) ->
         or not writable.
     """
     shown, target = shortened(path), Path(os.path.realpath(path))
-    folder = target.parent
     _check_kind(path)
-    if not folder.is_dir():
-        raise InputError(f"output {shown}: the folder {shortened(folder)} does not exist")
+    if not target.parent.is_dir():
+        raise InputError(f"output {shown}: the folder {shortened(target.parent)} does not exist")
     if target.exists():
         if not os.access(target, os.W_OK):
             raise InputError(f"output {shown} is write-protected")
         for source in sources:
             if Path(source).exists() and target.samefile(source):
                 raise InputError(f"output {shown} is the same file as the input {source}")
-    _check_folder(folder)
+    _check_takes_files(target.parent)
 
 
 def _check_kind(path: str | Path) -> None:
@@ -109,38 +90,28 @@ def _check_kind(path: str | Path) -> None:
     except FileNotFoundError:
         return
     except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise InputError(f"output {shown} cannot be written: {reason.lower()}") from None
+        raise InputError(f"output {shown} cannot be written: {_reason(error)}") from None
     if stat.S_ISDIR(mode):
         raise InputError(f"output {shown} is a folder; give a file name, such as {shown}/out.nc")
     if not stat.S_ISREG(mode):
-        kind = next((word for test, word in _KINDS if test(mode)), "special")
-        raise InputError(f"output {shown} is {kind}, not a file")
+        kinds = {stat.S_IFCHR: "device", stat.S_IFBLK: "device", stat.S_IFIFO: "pipe"}
+        kind = kinds.get(stat.S_IFMT(mode), "socket")
+        raise InputError(f"output {shown} is a {kind}, not a file")
 
 
 def check_folder(folder: str | Path) -> None:
     """Raise if an output folder could not be made or written; make nothing yet.
-
-    Parameters
-    ----------
-    folder : str or Path
-        The folder to hold files later; missing parents are allowed.
 
     Raises
     ------
     InputError
         If a file is in the way or the place is not writable.
     """
-    _check_folder(check_place(folder))
+    _check_takes_files(check_place(folder))
 
 
 def check_place(folder: str | Path) -> Path:
     """Raise if a file is in the way of a folder; return the part of its path that exists.
-
-    Parameters
-    ----------
-    folder : str or Path
-        A folder to be read or made; missing parents are allowed.
 
     Raises
     ------
@@ -154,20 +125,23 @@ def check_place(folder: str | Path) -> Path:
                 raise InputError(f"output folder {shown}: {shortened(place)} is a broken link")
             place = place.parent
     except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise InputError(f"output folder {shown} cannot be made: {reason.lower()}") from None
+        raise InputError(f"output folder {shown} cannot be made: {_reason(error)}") from None
     if not place.is_dir():
         raise InputError(f"output folder {shown}: {shortened(place)} is a file")
     return place
 
 
-def _check_folder(folder: Path) -> None:
+def _check_takes_files(folder: Path) -> None:
     try:
         with tempfile.TemporaryFile(dir=folder):
             pass
     except OSError as error:
         place = shortened(folder.resolve())
         raise InputError(f"cannot write into {place}: {error.strerror}") from None
+
+
+def _reason(error: Exception) -> str:
+    return str(getattr(error, "strerror", None) or error).lower()
 
 
 def shortened(path: str | Path) -> str:

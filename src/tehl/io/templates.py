@@ -5,27 +5,21 @@ from pathlib import Path
 
 from tehl.errors import InputError
 
-_NAMES = (
-    "ball-on-disc",
-    "moes",
-    "gear-ellipse",
-    "rough",
-    "thermal",
-    "dimple",
-    "data-sheet",
+_CASES = (
+    *("ball-on-disc", "moes", "gear-ellipse", "rough", "thermal", "dimple", "data-sheet"),
     "passing-dent",
 )
 _STUDIES = ("traction-curve", "film-vs-speed", "film-vs-load", "moes-map", "stribeck")
 
 
+def templates() -> dict[str, str]:
+    """Return the first comment line of each template of a case, by name."""
+    return {name: _text(name).splitlines()[0].lstrip("# ") for name in _CASES}
+
+
 def study_templates() -> dict[str, str]:
     """Return the first comment line of each template of a study, by name."""
     return {name: _text(name).splitlines()[0].lstrip("# ") for name in _STUDIES}
-
-
-def templates() -> dict[str, str]:
-    """Return the first comment line of each template, by name."""
-    return {name: _text(name).splitlines()[0].lstrip("# ") for name in _NAMES}
 
 
 def template_text(name: str) -> str:
@@ -36,7 +30,7 @@ def template_text(name: str) -> str:
     InputError
         If there is no such template; the message lists those there are.
     """
-    known = (*_NAMES, *_STUDIES)
+    known = (*_CASES, *_STUDIES)
     if name in known:
         return _text(name)
     close = difflib.get_close_matches(name, known, n=1)

@@ -1,0 +1,181 @@
+"""One job of ``tehl solve``: checks, the solve, reference runs, what is stored and printed."""
+
+import json
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import typer
+
+from tehl.cli.reference_runs import Comparisons, compare, reference_cases, smooth_file
+from tehl.cli.text import as_text, failure_text
+from tehl.errors import ConvergenceError, InputError
+from tehl.io.atomic import check_folder, check_writable, remove_with_parts
+from tehl.io.case import read_case_and_options
+from tehl.io.checkpoint import checkpoint_of, fingerprint
+from tehl.io.store import save
+from tehl.memory import check_memory
+from tehl.options import Options
+from tehl.problem import ContactProblem
+from tehl.result import Result
+from tehl.scaling import scales
+from tehl.transient_result import TransientResult
+
+COMPARED_TO = 1e-4
+"""Tolerance of runs that are compared: small differences need tightly converged films."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Job:
+    """Arguments of the command."""
+
+    case: Path
+    overrides: list[str]
+    target: Path
+    plot: Path | None
+    as_json: bool
+    certify: bool
+    isothermal: bool
+    smooth: bool
+    quiet: bool
+    resume: bool
+
+
+def run(job: Job) -> bool:
+    """Solve the case, store and print the result; return whether it converged.
+
+    Raises
+    ------
+    InputError
+        If case, overrides, outputs or arguments are invalid; nothing is solved then.
+    """
+    problem, options = read_case_and_options(job.case, job.overrides)
+    _check_outputs(job)
+    check_memory(options, problem)
+    _check_arguments(problem, job)
+    references = reference_cases(problem, isothermal=job.isothermal, smooth=job.smooth)
+    if references and options.accuracy != "tight":
+        options = options.model_copy(update={"accuracy": "tight", "tolerance": COMPARED_TO})
+    result, failure = _solved(problem, options, job)
+    if job.as_json and problem.transient is None and isinstance(result, Result):
+        result = _with_work(result)
+    save(result, job.target)
+    compared = Comparisons()
+    if isinstance(result, TransientResult):
+        remove_with_parts(checkpoint_of(job.target))
+    elif references and failure is None:
+        compared = _compared(result, references, job)
+    _show(result, compared, job)
+    if failure is not None:
+        typer.echo(failure_text(result.status, failure), err=True)
+    return failure is None
+
+
+def _check_outputs(job: Job) -> None:
+    target, folder = job.target, job.plot
+    check_writable(target, sources=(job.case,))
+    if job.smooth:
+        check_writable(smooth_file(target), sources=(job.case,))
+    if folder is not None:
+        check_folder(folder)
+        within = folder.resolve() in (target.resolve(), *target.resolve().parents)
+        if within and not folder.is_dir():
+            raise InputError(f"output {target} and the folder of pictures {folder} conflict")
+
+
+def _check_arguments(problem: ContactProblem, job: Job) -> None:
+    """Raise if an argument does not apply to the case, or two exclude each other."""
+    for option, given in (("--with-isothermal", job.isothermal), ("--with-smooth", job.smooth)):
+        if given and problem.transient is not None:
+            raise InputError(f"{option} is for steady cases: remove it or [transient]")
+    if job.resume and problem.transient is None:
+        raise InputError("--resume is for transient runs, and the case has no [transient]")
+    if job.resume and job.certify:
+        raise InputError(
+            "--certify makes several runs and keeps no checkpoint, which belongs to a single one: "
+            "leave --resume out, or --certify"
+        )
+
+
+def _solved(
+    problem: ContactProblem, options: Options, job: Job
+) -> tuple[Result | TransientResult, str | None]:
+    """Return the result, and why it did not converge, None if it did.
+
+    A transient run whose start does not converge gives that start, a steady result.
+    """
+    solve = _steady if problem.transient is None else _transient
+    try:
+        result = solve(problem, options, job)
+    except ConvergenceError as error:
+        return error.result, str(error)
+    status = result.status
+    return result, None if status.converged else status.message or status.outcome
+
+
+def _steady(problem: ContactProblem, options: Options, job: Job) -> Result | TransientResult:
+    from tehl import solver
+    from tehl.cli.progress import progress
+
+    work = solver.certify if job.certify else solver.solve
+    thermal, coupled = problem.thermal is not None, problem.is_coupled
+    with progress(quiet=job.quiet, thermal=thermal, coupled=coupled) as monitor:
+        return work(problem, options, monitor=monitor)
+
+
+def _transient(problem: ContactProblem, options: Options, job: Job) -> Result | TransientResult:
+    """Solve a transient case; when it is interrupted, a checkpoint is left beside the target."""
+    from tehl import solver
+    from tehl.cli.checkpoint import Keeper
+    from tehl.cli.step_progress import step_progress
+
+    keep = Keeper(checkpoint_of(job.target), fingerprint(problem, options))
+    start, coupled = keep.begin(resume=job.resume), problem.is_coupled
+    with (
+        keep.on_interrupt(),
+        step_progress(scales(problem), quiet=job.quiet, coupled=coupled) as monitor,
+    ):
+        if job.certify:
+            return solver.certify_transient(problem, options, monitor=monitor)
+        return solver.solve_transient(problem, options, monitor=monitor, resume=start, keep=keep)
+
+
+def _with_work(result: Result) -> Result:
+    """Measure the unit of work too: for programs only, as it takes a moment."""
+    from tehl.solver import with_work
+
+    return with_work(result)
+
+
+def _compared(result: Result, cases: dict[str, ContactProblem], job: Job) -> Comparisons:
+    """Make the reference runs, and store the comparisons and the smooth film."""
+
+    def solved(problem: ContactProblem, what: str) -> Result | None:
+        if not job.quiet:
+            typer.echo(f"reference run {what}", err=True)
+        other, failure = _solved(problem, result.options, replace(job, certify=False))
+        if failure is None and isinstance(other, Result):
+            return other
+        typer.echo(f"tehl: reference run {what} did not converge: {failure}", err=True)
+        return None
+
+    compared = compare(result, cases, solved)
+    save(result, job.target, extra=compared.blocks)
+    if compared.smooth is not None:
+        save(compared.smooth, smooth_file(job.target))
+    return compared
+
+
+def _show(result: Result | TransientResult, compared: Comparisons, job: Job) -> None:
+    """Print the numbers, list the files written, and draw the pictures."""
+    if job.as_json:
+        typer.echo(json.dumps(result.summary() | compared.blocks, allow_nan=False))
+    else:
+        typer.echo(as_text(result, compared))
+    typer.echo(f"written: {job.target}", err=True)
+    if compared.smooth is not None:
+        typer.echo(f"written: {smooth_file(job.target)}", err=True)
+    if job.plot is not None:
+        from tehl.plots.save import save_all
+
+        for path in save_all(result, job.plot, smooth=compared.smooth):
+            typer.echo(f"written: {path}", err=True)
