@@ -264,7 +264,7 @@ def test_a_certified_run_prints_its_bars_and_keeps_no_checkpoint(folder, run, ce
     assert "certified 0.79148 +- 0.04 GPa (grid 0.032, domain 0.024)" in rows["largest pressure"]
     assert " nm (grid " in rows["minimum film"]
     assert "+- 0.0025 at the extreme" in rows["traction"]
-    assert "at 16 instants" in rows["over time"]
+    assert "at 16 times" in rows["over time"]
     assert "33 x 33 converged" in rows["certified"]
     assert sum("least   certified" in line for line in answer.out.splitlines()) == 1
     assert names(folder) == ["wave.nc", "wave.toml"]

@@ -260,7 +260,7 @@ def _trust(run: TransientResult) -> Rows:
             f"+- {length(bars.film_central.max())} of the central film at most, "
             f"{length(bars.film_minimum.max())} of the minimum film, "
             f"{bars.pressure_max.max() * 1e-9:.4g} GPa of the largest pressure, "
-            f"at {len(bars.time)} instants",
+            f"at {len(bars.time)} times",
         )
     if run.uncertainty and status.converged:
         yield "certified", str(status.message)

@@ -4,8 +4,7 @@ import difflib
 import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any, Literal, get_args, get_origin
+from typing import Any, Literal, NamedTuple, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
@@ -22,32 +21,28 @@ Model = type[BaseModel]
 KeyPath = tuple[str | int, ...]
 
 
-@dataclass(frozen=True, kw_only=True, slots=True)
-class _Mistake:
-    """One mistake and its place.
+class _Mistake(NamedTuple):
+    """One mistake: its key path as text and as keys, and what pydantic found.
 
-    Attributes
-    ----------
-    name : str
-        Key path as the file shows it.
-    path : tuple
-        Keys that lead to it.
-    value : object
-        What was given there.
-    error : ErrorDetails
-        What pydantic found.
-    models : list of list of type
-        Possible models of each step of ``path``, the root first.
-    table : object
-        What was given where the last key of ``path`` belongs.
+    ``models`` are the possible models of each step of ``path``, the root first; ``table`` is what
+    was given where the last key of ``path`` belongs.
     """
 
     name: str
     path: KeyPath
-    value: object
     error: ErrorDetails
     models: list[list[Model]]
     table: Any
+
+    @property
+    def value(self) -> object:
+        """What was given."""
+        return self.error["input"]
+
+    @property
+    def stated(self) -> str:
+        """Key path and value as the file would show them."""
+        return f"{self.name} = {shown(self.value)}"
 
 
 def describe(error: ValidationError, data: object, model: Model, prefix: str = "") -> str:
@@ -69,14 +64,8 @@ def describe(error: ValidationError, data: object, model: Model, prefix: str = "
     table: Any = data
     for part in path[:-1]:
         table = table[part]
-    mistake = _Mistake(
-        name=".".join(_key(part) for part in ((prefix, *path) if prefix else path)),
-        path=path,
-        value=first["input"],
-        error=first,
-        models=_models_at(model, path),
-        table=table,
-    )
+    name = ".".join(_key(part) for part in ((prefix, *path) if prefix else path))
+    mistake = _Mistake(name, path, first, _models_at(model, path), table)
     return _SENTENCES.get(first["type"], _pydantic_sentence)(mistake)
 
 
@@ -193,14 +182,14 @@ def _word_unknown(mistake: _Mistake) -> str:
     keys = [key for model in mistake.models[-1] for key in model.model_fields]
     table = f", or a table with {' and '.join(keys)}" if keys else ""
     suggestion = _suggest(str(mistake.value), known)
-    return f"{mistake.name} = {shown(mistake.value)}: unknown; {suggestion}{table}"
+    return f"{mistake.stated}: unknown; {suggestion}{table}"
 
 
 def _own_sentence(mistake: _Mistake) -> str:
     """Join an error raised by one of our models to the key it is about."""
     message = str(mistake.error["ctx"]["error"])
     if not isinstance(mistake.value, Mapping):
-        return f"{mistake.name} = {shown(mistake.value)}: {message}"
+        return f"{mistake.stated}: {message}"
     if not mistake.name:
         return message
     first = re.split(r"[ .]", message, maxsplit=1)[0]
@@ -216,7 +205,7 @@ def _pydantic_sentence(mistake: _Mistake) -> str:
         words = _limits(mistake) or words
     for theirs, ours in _WORDING:
         words = re.sub(theirs, ours, words)
-    return f"{mistake.name} = {shown(mistake.value)}: {words}"
+    return f"{mistake.stated}: {words}"
 
 
 def _not_a_table(mistake: _Mistake) -> str:
@@ -361,16 +350,11 @@ def shown(value: object) -> str:
         text = json.dumps(value, ensure_ascii=False)
     except RecursionError:
         text = "a deeply nested table or list"
-    except (TypeError, ValueError):  # a type that JSON does not have
-        text = _text(value)
-    return short("".join(c if c.isprintable() else "?" for c in text), 60)
-
-
-def _text(value: object) -> str:
-    try:
-        return str(value)
+    except TypeError:  # a type that JSON does not have
+        text = str(value)
     except ValueError:  # an integer of thousands of digits
-        return "a number of thousands of digits"
+        text = "a number of thousands of digits"
+    return short("".join(c if c.isprintable() else "?" for c in text), 60)
 
 
 def short(text: str, length: int = 40) -> str:
