@@ -205,37 +205,22 @@ def _compared(compared: Comparisons) -> Rows:
 
 def _transient_rows(run: TransientResult) -> Rows:
     history, start = run.history, run.start
-    time = history.time
-    end, scales = float(time[-1]), start.scales
-    moved = end * scales.speed / scales.half_width_x
+    steps, end = history.time.size - 1, float(history.time[-1])
+    moved = end * start.scales.speed / start.scales.half_width_x
     yield (
         "duration",
-        f"{seconds_in_words(end)} in {time.size - 1} steps of {seconds_in_words(run.time_step)}; "
-        f"the mean of both surfaces moves on by {moved:.3g} half-widths",
+        f"{seconds_in_words(end)} in {steps} steps of {seconds_in_words(run.time_step)}; the mean "
+        f"of both surfaces moves on by {moved:.3g} half-widths",
     )
-    thinnest = int(history.film_minimum.argmin())
-    yield (
-        "minimum film",
-        f"{length(history.film_minimum[thinnest])} at the least, at "
-        f"{_at_start(seconds_in_words(time[thinnest]), length(history.film_minimum[0]))}"
-        + _film_bar(run, "film_minimum"),
-    )
-    yield "central film", _between(history.film_central, length)
-    for which in ("least", "largest"):
-        if bar := _film_bar(run, f"film_central_{which}"):
-            yield "", which + bar
-    yield (
-        "largest pressure",
-        _peak(history.pressure_max, time, _GPA) + _bar(run, "pressure_max", _GPA),
-    )
-    yield (
-        "traction",
-        f"{_between(history.traction, _clean)}   (at mid-film)"
-        + _bar(run, "traction_extreme", (1.0, "at the extreme")),
-    )
+    yield from _film_history(run)
+    largest = _peak(history.pressure_max, history.time, _GPA)
+    yield "largest pressure", largest + _bar(run, "pressure_max", _GPA)
+    traction = _between(history.traction, _clean)
+    bar = _bar(run, "traction_extreme", (1.0, "at the extreme"))
+    yield "traction", f"{traction}   (at mid-film){bar}"
     yield from _excessive_traction(start)
     if (history.temperature_rise > 0).any():
-        rise = _peak(history.temperature_rise, time, (1.0, "K"), " at most,")
+        rise = _peak(history.temperature_rise, history.time, (1.0, "K"), " at most,")
         yield "film temperature", f"rise {rise}" + _bar(run, "film_rise_max", (1.0, "K"))
     if history.load.min() < history.load.max():
         yield "load", _between(history.load * start.problem.load, lambda load: f"{load:.4g} N")
@@ -243,6 +228,18 @@ def _transient_rows(run: TransientResult) -> Rows:
     yield "grid", f"{_grid(start)}, {len(run.frames.step)} fields kept"
     yield "effort", _steps(run)
     yield from _trust(run)
+
+
+def _film_history(run: TransientResult) -> Rows:
+    film, time = run.history.film_minimum, run.history.time
+    thinnest = int(film.argmin())
+    when = _at_start(seconds_in_words(time[thinnest]), length(film[0]))
+    bar = _film_bar(run, "film_minimum")
+    yield "minimum film", f"{length(film[thinnest])} at the least, at {when}{bar}"
+    yield "central film", _between(run.history.film_central, length)
+    for which in ("least", "largest"):
+        if bar := _film_bar(run, f"film_central_{which}"):
+            yield "", which + bar
 
 
 def _steps(run: TransientResult) -> str:
