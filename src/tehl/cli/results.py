@@ -2,9 +2,13 @@
 
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+if TYPE_CHECKING:
+    from tehl.result import Result
+    from tehl.transient_result import TransientResult
 
 Stored = Annotated[Path, typer.Argument(metavar="RESULT", help="Result file (.nc).")]
 
@@ -38,13 +42,29 @@ def plot(
     from tehl.cli.reference_runs import smooth_beside
     from tehl.io.atomic import check_folder
     from tehl.io.store import load
-    from tehl.plots.save import save_all
 
     folder = stored.with_name(f"{stored.stem}_plots") if output is None else output
     check_folder(folder)
     result = load(stored)
-    for path in save_all(result, folder, dpi=dpi, smooth=smooth_beside(stored, result)):
+    for path in draw(result, folder, dpi=dpi, smooth=smooth_beside(stored, result)):
         typer.echo(path)
+
+
+def draw(
+    result: "Result | TransientResult",
+    folder: Path,
+    *,
+    dpi: int = 150,
+    smooth: "Result | None" = None,
+) -> list[Path]:
+    """Draw all pictures of a result into ``folder``; return their files."""
+    from tehl.plots.save import save_all
+    from tehl.plots.transient import save_transient
+    from tehl.transient_result import TransientResult
+
+    if isinstance(result, TransientResult):
+        return save_transient(result, folder, dpi=dpi)
+    return save_all(result, folder, dpi=dpi, smooth=smooth)
 
 
 def animate(

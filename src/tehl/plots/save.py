@@ -25,7 +25,6 @@ from tehl.plots.temperature import (
     temperature_section,
 )
 from tehl.result import Result
-from tehl.transient_result import TransientResult
 
 Picture = Callable[[Result], Figure]
 
@@ -89,11 +88,7 @@ def pictures_of(result: Result, smooth: Result | None = None) -> dict[str, Pictu
 
 
 def save_all(
-    result: Result | TransientResult,
-    folder: str | Path,
-    *,
-    dpi: int = 150,
-    smooth: Result | None = None,
+    result: Result, folder: str | Path, *, dpi: int = 150, smooth: Result | None = None
 ) -> list[Path]:
     """Draw all pictures that ``result`` has as PNG files; each appears whole or not at all.
 
@@ -121,10 +116,6 @@ def save_all(
     place = Path(folder)
     check_folder(place)
     place.mkdir(parents=True, exist_ok=True)
-    if isinstance(result, TransientResult):
-        from tehl.plots.transient import save_transient  # noqa: PLC0415
-
-        return save_transient(result, folder, dpi=dpi)
     return [
         save_picture(draw(result), place / f"{name}.png", dpi)
         for name, draw in pictures_of(result, smooth).items()
