@@ -44,7 +44,14 @@ class Comparisons:
 def reference_cases(
     problem: ContactProblem, *, isothermal: bool, smooth: bool
 ) -> dict[str, ContactProblem]:
-    """Return the cases to solve for comparison.
+    """Return the cases to solve for comparison, by the name of the reference run.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        The case itself.
+    isothermal, smooth : bool
+        Leave out its heat; leave out its roughness.
 
     Raises
     ------

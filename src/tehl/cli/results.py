@@ -57,7 +57,19 @@ def draw(
     dpi: int = 150,
     smooth: "Result | None" = None,
 ) -> list[Path]:
-    """Draw all pictures of a result into ``folder``; return their files."""
+    """Draw all pictures of a result; return their files.
+
+    Parameters
+    ----------
+    result : Result or TransientResult
+        What to draw.
+    folder : Path
+        Where; made if it is missing.
+    dpi : int
+        Dots per inch.
+    smooth : Result or None
+        Smooth reference run of a steady result, for pictures of ripples.
+    """
     from tehl.plots.save import save_all
     from tehl.plots.transient import save_transient
     from tehl.transient_result import TransientResult

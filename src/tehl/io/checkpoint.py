@@ -105,6 +105,13 @@ def read_checkpoint(path: str | Path) -> tuple[Fingerprint, Arrays]:
 def check_owner(path: str | Path, found: Fingerprint, wanted: Fingerprint) -> None:
     """Raise if a checkpoint belongs to another run.
 
+    Parameters
+    ----------
+    path : str or Path
+        The checkpoint, for the message.
+    found, wanted : Fingerprint
+        Of the checkpoint, and of the run.
+
     Raises
     ------
     InputError

@@ -107,7 +107,16 @@ def ending_of(result: Result | TransientResult, to: str | None) -> str:
 
 
 def format_of(result: Result | TransientResult, path: str | Path, to: str | None = None) -> str:
-    """Return the format of an export to ``path``.
+    """Return the format of an export.
+
+    Parameters
+    ----------
+    result : Result or TransientResult
+        What to write.
+    path : str or Path
+        The file.
+    to : {"csv", "npz", "vtk", "mat"}, optional
+        The stated format.
 
     Raises
     ------
