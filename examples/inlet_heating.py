@@ -19,7 +19,7 @@ from matplotlib.figure import Figure
 
 import tehl
 from tehl.film_formulas import thermal_loading
-from tehl.post.thermal_effect import ThermalEffect, isothermal_twin, thermal_effect
+from tehl.post.thermal_effect import ThermalEffect, isothermal_reference, thermal_effect
 
 SPEEDS = (1.0, 2.0, 4.0, 8.0, 16.0)
 
@@ -39,7 +39,9 @@ def problem(speed: float) -> tehl.ContactProblem:
 def effect(speed: float) -> ThermalEffect:
     """Return what heat does to the film at one speed [m/s]."""
     case, options = problem(speed), tehl.Options(points=129)
-    return thermal_effect(tehl.solve(case, options), tehl.solve(isothermal_twin(case), options))
+    return thermal_effect(
+        tehl.solve(case, options), tehl.solve(isothermal_reference(case), options)
+    )
 
 
 def main() -> dict[float, dict[str, float]]:

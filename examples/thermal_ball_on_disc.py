@@ -21,7 +21,7 @@ from pathlib import Path
 import tehl
 from tehl import plots
 from tehl.io.templates import template_text
-from tehl.post.thermal_effect import isothermal_twin
+from tehl.post.thermal_effect import isothermal_reference
 
 
 @cache
@@ -31,7 +31,7 @@ def solved(*, heat: bool = True) -> tehl.Result:
         case = Path(folder) / "thermal.toml"
         case.write_text(template_text("thermal"), encoding="utf-8")
         problem, options = tehl.read_case_and_options(case)
-    return tehl.solve(problem if heat else isothermal_twin(problem), options)
+    return tehl.solve(problem if heat else isothermal_reference(problem), options)
 
 
 def main() -> dict[str, float]:

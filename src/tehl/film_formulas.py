@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from tehl.problem import ContactProblem
-from tehl.scaling import Groups, Scales
+from tehl.scaling import Groups, ScaledProblem, Scales
 
 Regime = Literal[
     "rigid-isoviscous", "elastic-isoviscous", "rigid-piezoviscous", "elastic-piezoviscous"
@@ -218,6 +218,11 @@ def _piezoviscous(limits: Asymptotes) -> float:
 def expected_central_film(groups: Groups) -> float:
     """Return the central film H to expect, from Nijenbanning, Venner and Moes [-]."""
     return nijenbanning_venner_moes(groups).central / hertz_ratio_squared(groups)
+
+
+def expected_film(scaled: ScaledProblem) -> float:
+    """Return the central film to expect, from Nijenbanning, Venner and Moes [m]."""
+    return expected_central_film(scaled.groups) * scaled.scales.film_thickness
 
 
 def regime(groups: Groups) -> Regime:

@@ -69,7 +69,7 @@ def test_plots_land_in_the_folder(stored, run, monkeypatch):
 
 
 def test_the_report_lands_beside_the_result(stored, run, monkeypatch):
-    monkeypatch.setattr("tehl.report.html._CAPTIONS", {})
+    monkeypatch.setattr("tehl.report.page.CAPTIONS", {})
     assert run("report", str(stored)).code == 0
     assert "<!DOCTYPE html>" in (stored.parent / "ball.html").read_text(encoding="utf-8")
 
@@ -90,7 +90,7 @@ def test_the_smooth_film_beside_a_rough_one_is_taken_if_it_fits(rough, smooth, r
 def test_the_report_of_a_rough_result_shows_what_roughness_does(
     rough, smooth, tmp_path, run, monkeypatch
 ):
-    monkeypatch.setattr("tehl.report.html._CAPTIONS", {})
+    monkeypatch.setattr("tehl.report.page.CAPTIONS", {})
     block = {"roughness_effect": effect_block(roughness_effect(rough, smooth))}
     save(rough, tmp_path / "wavy.nc", extra=block)
     assert run("report", str(tmp_path / "wavy.nc")).code == 0

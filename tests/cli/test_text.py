@@ -10,8 +10,8 @@ from tehl.heat import Thermal
 from tehl.post.micro_film import roughness_effect
 from tehl.post.roughness import rough_film
 from tehl.post.thermal_effect import ThermalEffect
-from tehl.report.explain import length
-from tehl.report.html import report_text
+from tehl.report.page import report_text
+from tehl.report.readable import length
 from tehl.result import Estimate, Status
 from tests.fixtures_rough import make_rough
 

@@ -77,7 +77,7 @@ def test_a_state_that_is_not_finite_is_still_drawn(thermal, stalled, draw):
             flux_2=field,
         ),
     )
-    assert "NOT AN ANSWER" in texts(draw(broken))
+    assert "NOT CONVERGED" in texts(draw(broken))
 
 
 @pytest.mark.parametrize("draw", OURS.values(), ids=OURS)

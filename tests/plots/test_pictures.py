@@ -42,7 +42,7 @@ def test_each_picture_names_the_case_and_its_groups(result, draw):
 
 @pytest.mark.parametrize("draw", PICTURES.values(), ids=PICTURES)
 def test_each_picture_of_a_failure_carries_a_banner(stalled, draw):
-    assert "NOT AN ANSWER: stalled: grid too coarse" in texts(draw(stalled))
+    assert "NOT CONVERGED: stalled: grid too coarse" in texts(draw(stalled))
 
 
 def test_dollar_signs_in_a_title_are_no_formula(result):

@@ -8,6 +8,7 @@ import pytest
 from tehl.errors import InputError
 from tehl.plots import transient
 from tehl.plots.animation import Movie, animate
+from tehl.plots.save import save_all
 from tehl.result import Status
 from tests.fixtures_transient import make_certified, make_transient
 
@@ -69,11 +70,11 @@ def test_the_body_lies_below_the_film():
 
 def test_a_run_without_an_end_says_so():
     run = replace(make_transient(), status=Status(kind="stalled", cause="step_not_settled"))
-    assert "NOT AN ANSWER" in transient.passage(run).get_supxlabel()
+    assert "NOT CONVERGED" in transient.passage(run).get_supxlabel()
 
 
 def test_all_pictures_are_files(tmp_path):
-    paths = transient.save_transient(make_transient(), tmp_path / "new", dpi=30)
+    paths = save_all(make_transient(), tmp_path / "new", dpi=30)
     assert [path.name for path in paths] == [
         "history.png",
         "space_time.png",
@@ -101,5 +102,5 @@ def test_a_run_without_fields_shows_its_line_at_all_steps():
 
 
 def test_a_speed_that_cannot_be_is_refused(tmp_path):
-    with pytest.raises(InputError, match="per_second = 0 must be positive"):
+    with pytest.raises(InputError, match="per_second = 0: must be positive"):
         animate(make_transient(), tmp_path / "film.gif", per_second=0)

@@ -8,7 +8,7 @@ from tehl.errors import InputError
 from tehl.io.store import load_summary, save
 from tehl.post.thermal_effect import (
     effect_block,
-    isothermal_twin,
+    isothermal_reference,
     stored_effect,
     thermal_effect,
 )
@@ -27,17 +27,17 @@ def warm() -> ContactProblem:
 
 
 def test_the_twin_is_a_case_of_its_own(warm):
-    twin = isothermal_twin(warm)
+    twin = isothermal_reference(warm)
     assert ContactProblem.model_validate(twin.model_dump(mode="json")) == twin
     assert twin.thermal is None
     assert twin.inlet_temperature == warm.inlet_temperature == 333.15
     assert twin.ambient_viscosity == warm.ambient_viscosity < 0.04
-    assert isothermal_twin(warm).contact == warm.contact
+    assert isothermal_reference(warm).contact == warm.contact
 
 
 def test_a_case_without_heat_has_no_twin(result):
     with pytest.raises(InputError, match=r"\[thermal\]"):
-        isothermal_twin(result.problem)
+        isothermal_reference(result.problem)
 
 
 def test_the_effect_is_thermal_over_isothermal(result, warm):

@@ -7,13 +7,8 @@ import numpy as np
 import pytest
 
 from tehl.errors import InputError
-from tehl.post.transient import (
-    amplitude_reduction,
-    envelope,
-    moving_profiles,
-    nabla_of,
-    passing_wave,
-)
+from tehl.post.passing_wave import amplitude_reduction, nabla_of, passing_wave
+from tehl.post.transient import envelope, largest_change, moving_profiles, passing_features
 from tehl.roughness import Wave
 from tehl.transient_result import TransientResult
 from tests.fixtures_result import CASE, make_result
@@ -60,14 +55,14 @@ def test_of_several_features_the_one_is_to_be_said():
     wave = {"type": "wave", "amplitude": 1e-8, "wavelength": LENGTH}
     assert moving_profiles(carrying(dent, wave), 1).place[0] == -6e-4
     two = carrying(dent, dent | {"x": -9e-4})
-    with pytest.raises(InputError, match="surface_1 has 2 features: say around which place, start"):
+    with pytest.raises(InputError, match="surface_1 has 2 features: state the place"):
         moving_profiles(two, 1)
     assert moving_profiles(two, 1, start=-9e-4).place[0] == -9e-4
 
 
 def test_a_feature_beside_the_line_of_the_profiles_is_refused():
     dent = {"type": "bump", "amplitude": -1e-7, "radius": 5e-5, "x": -6e-4}
-    with pytest.raises(InputError, match=r"stands at y = 0\.0001 m, beside the line y = 0"):
+    with pytest.raises(InputError, match=r"is at y = 0\.0001 m, but profiles are stored"):
         moving_profiles(carrying(dent | {"y": 1e-4}), 1)
     assert moving_profiles(carrying(dent | {"y": 2e-5}), 1).place[0] == -6e-4
 
@@ -79,8 +74,8 @@ def test_what_lies_outside_the_domain_is_not_a_number():
 @pytest.mark.parametrize(
     ("words", "call"),
     [
-        ("surface = 3 must be 1 or 2", lambda run: moving_profiles(run, 3)),
-        ("reach = -1.0 m must be positive", lambda run: moving_profiles(run, 1, reach=-1.0)),
+        ("surface = 3: must be 1 or 2", lambda run: moving_profiles(run, 3)),
+        ("reach = -1.0 m: must be positive", lambda run: moving_profiles(run, 1, reach=-1.0)),
         ("no step lies between", lambda run: envelope(run, since=1.0)),
         ("surface_1 has no wave", lambda run: passing_wave(run, 1)),
     ],
@@ -99,6 +94,27 @@ def test_the_envelope_holds_all_profiles():
     np.testing.assert_array_equal(late.pressure_least, run.profiles.pressure[-1])
 
 
+def test_the_largest_change_is_that_of_the_film_in_the_dent():
+    run = make_transient()
+    inside = np.abs(run.start.scaled.x) < 0.8
+    changes = (run.profiles.film - run.profiles.film[0])[:, inside]
+    found = largest_change(run, "film", 1)
+    assert found.value - found.start == changes.max()
+    assert found.x in run.x[inside]
+    place = -2e-4 + run.start.problem.motion.speed_1 * found.time
+    assert found.x == pytest.approx(place, abs=1e-4)  # the mesh width is 4e-5 m
+    thinnest = largest_change(run, "film", -1)
+    assert thinnest.value - thinnest.start == changes.min()
+
+
+def test_a_feature_passes_the_centre_when_it_has_come_from_where_it_was():
+    run = make_transient()
+    ((part, time),) = passing_features(run)
+    assert (part.surface, part.roughness.type) == ("surface_1", "bump")
+    assert time == pytest.approx(2e-4 / run.start.problem.motion.speed_1)
+    assert list(passing_features(passing(wave_case()))) == []
+
+
 @pytest.mark.parametrize("phase", [0.0, 2.0])
 def test_what_is_left_of_a_wave_is_found(phase):
     run = passing(wave_case(phase=phase), points=65, flattened=0.3)
@@ -115,12 +131,12 @@ def test_what_is_left_of_a_wave_is_found(phase):
 def test_a_run_that_ends_too_early_is_told():
     case = wave_case()
     case["transient"] = {"entrance": 6.0}
-    with pytest.raises(InputError, match=r"let transient\.duration be longer"):
+    with pytest.raises(InputError, match=r"increase transient\.duration"):
         passing_wave(passing(case, points=65), 1)
 
 
 def test_a_wave_of_too_few_steps_is_told():
-    with pytest.raises(InputError, match="8 or more: take more nodes"):
+    with pytest.raises(InputError, match="8 or more; take more nodes"):
         passing_wave(passing(wave_case(wavelength=1e-4)), 1)
 
 

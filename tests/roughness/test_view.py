@@ -83,7 +83,7 @@ def test_beyond_the_edges_is_what_the_contact_gets(seen):
     [
         ({}, "dashed: Hertz contact"),
         ({"rotate": "20 deg"}, "dashed: Hertz contact, thin: edges of the map"),
-        ({"x": "20 mm"}, "dashed: Hertz contact, not whole in this picture"),
+        ({"x": "20 mm"}, "dashed: Hertz contact, cut off by this picture"),
     ],
 )
 def test_the_picture_says_what_its_lines_are(seen, keys, words):

@@ -8,7 +8,7 @@ import pytest
 from tehl.cli.text import as_text
 from tehl.grid import Grid
 from tehl.io.summary import summary
-from tehl.report.html import _status
+from tehl.report.page import report_text
 from tehl.result import ErrorEstimate, Result, Status
 from tehl.solver.certify import _Grid
 from tehl.solver.rough_verdict import is_film, no_film
@@ -67,12 +67,13 @@ def test_a_film_below_the_floor_is_told_as_what_it_is():
     assert "thinner than H = 0.01, the least that this grid lets flow" in no_film(level(0.004))
 
 
-def test_an_open_minimum_is_told_wherever_the_result_is(result: Result):
+def test_an_open_minimum_is_reported_everywhere(result: Result, monkeypatch):
+    monkeypatch.setattr("tehl.report.page.CAPTIONS", {})
     vague = replace(result, status=VAGUE)
     assert vague.status.is_vague
     assert vague.status.outcome == "converged, minimum film open"
     assert "uncertain        The minimum film is uncertain." in as_text(vague)
-    assert "<p>The minimum film is uncertain.</p><p>Take more.</p>" in _status(vague)
+    assert "<p>The minimum film is uncertain.</p><p>Take more.</p>" in report_text(vague)
     told = summary(vague)
     assert (told["status"], told["message"], told["hint"]) == (
         "converged",

@@ -32,10 +32,11 @@ def explain(
 ) -> None:
     """Show what a case means: Hertz, groups, formulas, unusual values."""
     from tehl.io.case import read_case_and_options
-    from tehl.report import explain as report
+    from tehl.report.explain import as_summary
+    from tehl.report.explain import explain as explained
+    from tehl.report.explain_text import as_text
 
-    explanation = report.explain(*read_case_and_options(case, overrides))
-    as_summary, as_text = report.as_summary, report.as_text
+    explanation = explained(*read_case_and_options(case, overrides))
     typer.echo(json.dumps(as_summary(explanation)) if as_json else as_text(explanation))
 
 

@@ -7,7 +7,6 @@ from pathlib import Path
 import typer
 
 from tehl.cli.reference_runs import Comparisons, compare, reference_cases, smooth_file
-from tehl.cli.results import draw
 from tehl.cli.text import as_text, failure_text
 from tehl.errors import ConvergenceError, InputError
 from tehl.io.atomic import check_folder, check_writable, remove_with_parts
@@ -176,5 +175,7 @@ def _show(result: Result | TransientResult, compared: Comparisons, job: Job) -> 
     if compared.smooth is not None:
         typer.echo(f"written: {smooth_file(job.target)}", err=True)
     if job.plot is not None:
-        for path in draw(result, job.plot, smooth=compared.smooth):
+        from tehl.plots.save import save_all
+
+        for path in save_all(result, job.plot, smooth=compared.smooth):
             typer.echo(f"written: {path}", err=True)

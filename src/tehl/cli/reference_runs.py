@@ -60,7 +60,7 @@ def reference_cases(
     """
     cases = {}
     if isothermal:
-        cases[ISOTHERMAL] = thermal_effect.isothermal_twin(problem)
+        cases[ISOTHERMAL] = thermal_effect.isothermal_reference(problem)
     if smooth:
         cases[SMOOTH] = micro_film.smooth_twin(problem)
     return cases

@@ -2,13 +2,9 @@
 
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
-
-if TYPE_CHECKING:
-    from tehl.result import Result
-    from tehl.transient_result import TransientResult
 
 Stored = Annotated[Path, typer.Argument(metavar="RESULT", help="Result file (.nc).")]
 
@@ -42,41 +38,13 @@ def plot(
     from tehl.cli.reference_runs import smooth_beside
     from tehl.io.atomic import check_folder
     from tehl.io.store import load
+    from tehl.plots.save import save_all
 
     folder = stored.with_name(f"{stored.stem}_plots") if output is None else output
     check_folder(folder)
     result = load(stored)
-    for path in draw(result, folder, dpi=dpi, smooth=smooth_beside(stored, result)):
+    for path in save_all(result, folder, dpi=dpi, smooth=smooth_beside(stored, result)):
         typer.echo(path)
-
-
-def draw(
-    result: "Result | TransientResult",
-    folder: Path,
-    *,
-    dpi: int = 150,
-    smooth: "Result | None" = None,
-) -> list[Path]:
-    """Draw all pictures of a result; return their files.
-
-    Parameters
-    ----------
-    result : Result or TransientResult
-        What to draw.
-    folder : Path
-        Where; made if it is missing.
-    dpi : int
-        Dots per inch.
-    smooth : Result or None
-        Smooth reference run of a steady result, for pictures of ripples.
-    """
-    from tehl.plots.save import save_all
-    from tehl.plots.transient import save_transient
-    from tehl.transient_result import TransientResult
-
-    if isinstance(result, TransientResult):
-        return save_transient(result, folder, dpi=dpi)
-    return save_all(result, folder, dpi=dpi, smooth=smooth)
 
 
 def animate(
@@ -147,17 +115,19 @@ def report(
         Path | None, typer.Option("-o", "--output", help="HTML file; beside RESULT if left out.")
     ] = None,
 ) -> None:
-    """Write one self-contained HTML page: inputs, groups, pictures, formulas, convergence."""
+    """Write one self-contained HTML page of a steady or transient result.
+
+    It has numbers, pictures, formulas, inputs, groups, errors and convergence.
+    """
     from tehl.cli.reference_runs import smooth_beside
     from tehl.io.atomic import check_writable
-    from tehl.io.store import load_as, load_summary
+    from tehl.io.store import load, load_summary
     from tehl.post import micro_film, thermal_effect
-    from tehl.report.html import write_report
-    from tehl.result import Result
+    from tehl.report.page import write_report
 
     path = stored.with_suffix(".html") if output is None else output
     check_writable(path, sources=(stored,))
-    result = load_as(Result, stored)
+    result = load(stored)
     summary = load_summary(stored)
     write_report(
         result,

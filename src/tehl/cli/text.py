@@ -7,8 +7,7 @@ from tehl.cli.reference_runs import Comparisons
 from tehl.post.film import no_film
 from tehl.post.roughness import RoughFilm
 from tehl.post.waviness import WaveResponse
-from tehl.report.explain import UNTITLED, length, length_unit
-from tehl.report.time import seconds_in_words
+from tehl.report.readable import UNTITLED, length, length_unit, seconds
 from tehl.result import Estimate, Result, Status
 from tehl.transient_result import TransientResult
 from tehl.typing import Array
@@ -209,7 +208,7 @@ def _transient_rows(run: TransientResult) -> Rows:
     moved = end * start.scales.speed / start.scales.half_width_x
     yield (
         "duration",
-        f"{seconds_in_words(end)} in {steps} steps of {seconds_in_words(run.time_step)}; the mean "
+        f"{seconds(end)} in {steps} steps of {seconds(run.time_step)}; the mean "
         f"of both surfaces moves on by {moved:.3g} half-widths",
     )
     yield from _film_history(run)
@@ -233,7 +232,7 @@ def _transient_rows(run: TransientResult) -> Rows:
 def _film_history(run: TransientResult) -> Rows:
     film, time = run.history.film_minimum, run.history.time
     thinnest = int(film.argmin())
-    when = _at_start(seconds_in_words(time[thinnest]), length(film[0]))
+    when = _at_start(seconds(time[thinnest]), length(film[0]))
     bar = _film_bar(run, "film_minimum")
     yield "minimum film", f"{length(film[thinnest])} at the least, at {when}{bar}"
     yield "central film", _between(run.history.film_central, length)
@@ -275,7 +274,7 @@ def _peak(values: Array, time: Array, unit: Unit, most: str = "") -> str:
     """Return the largest value, its time, and the value at the start."""
     (factor, name), place = unit, int(values.argmax())
     first, largest = (f"{value * factor:.4g} {name}" for value in (values[0], values[place]))
-    return f"{largest}{most} at {_at_start(seconds_in_words(time[place]), first)}"
+    return f"{largest}{most} at {_at_start(seconds(time[place]), first)}"
 
 
 def _between(values: Array, word: Callable[[float], str]) -> str:

@@ -1,17 +1,16 @@
 """Pictures of a result; each function returns a matplotlib figure and touches no global state."""
 
-from tehl.plots.history import residual_history
+from tehl.plots.convergence import residual_history
 from tehl.plots.interferogram import Optics, interferogram
-from tehl.plots.lines import centre_lines
-from tehl.plots.maps import film_map, pressure_map, pressure_surface
-from tehl.plots.roughness import (
-    film_distribution,
+from tehl.plots.lines import centre_lines, film_distribution, pressure_surface, rough_centre_line
+from tehl.plots.maps import (
+    film_map,
     heights_map,
     micro_film_map,
-    rough_centre_line,
+    pressure_map,
+    shear_stress_map,
 )
 from tehl.plots.save import save_all
-from tehl.plots.shear import shear_stress_map
 from tehl.plots.table_curves import curves
 from tehl.plots.table_maps import contour_map, film_deviations, moes_map
 from tehl.plots.temperature import (

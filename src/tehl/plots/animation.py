@@ -1,82 +1,93 @@
-"""A transient run as a moving picture: the film from above, and the line y = 0 below."""
+"""A transient run as an animation: a map of the film above, the line y = 0 below."""
 
 import shutil
-from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.animation import AbstractMovieWriter, FFMpegWriter, HTMLWriter
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
 from numpy.typing import NDArray
 
 from tehl.errors import InputError
 from tehl.io.atomic import replacing
-from tehl.plots.frame import MICRO, colour_axes, dress_contact, span_part, window
-from tehl.plots.transient import CentreLines, time_unit, transient_figure
+from tehl.plots.frame import (
+    ALONG_X,
+    MICRO,
+    colour_axes,
+    dress_contact,
+    figure,
+    window_part,
+    window_places,
+)
+from tehl.plots.transient import CentreLines, time_unit
 from tehl.transient_result import TransientResult
-from tehl.typing import Array, IntArray
+from tehl.typing import Array
 
-FORMATS = (".gif", ".mp4", ".html")
-"""Endings of moving pictures."""
 MOST = 200
-"""Moments of a moving picture that shows the line y = 0 alone."""
+"""Largest number of moments in an animation of the line y = 0 alone."""
 _UPPER, _LOWER = (0.13, 0.41, 0.69, 0.51), (0.13, 0.07, 0.75, 0.255)
-"""Places of map and lines in the picture."""
+"""Axes of map and lines: left, bottom, width and height in parts of the picture."""
 _LARGEST_PAGE = 200.0
-"""Size of the pictures in a page [MB]."""
+"""Largest size of the pictures in a page [MB]."""
 
 
 def animate(
     run: TransientResult, path: str | Path, *, per_second: int = 10, dpi: int = 100
 ) -> None:
-    """Write a transient run as a moving picture; whole, or not at all.
+    """Write a transient run as an animation; whole, or not at all.
 
-    It shows the fields that the run has kept (``transient.frames``): film thickness, and below it
-    film, pressure and the rough body along y = 0. A run that has kept fewer than two shows that
-    line at all steps.
+    It shows the stored fields (``transient.frames``): film thickness, and below it film, pressure
+    and the rough body along y = 0. With fewer than two stored fields it shows that line at all
+    steps.
 
     Parameters
     ----------
     run : TransientResult
         What to show.
     path : str or Path
-        The file, whose ending says the format: ``.gif``, ``.html`` (a page with buttons, without
-        other files) or ``.mp4``, for which the program ffmpeg has to be installed.
+        The file; its extension selects the format: ``.gif``, ``.html`` (a self-contained page
+        with buttons) or ``.mp4``, which needs the program ffmpeg.
     per_second : int
-        Moments shown in a second.
+        Moments per second.
     dpi : int
         Dots per inch.
 
     Raises
     ------
     InputError
-        If the ending is of no known format, ffmpeg is missing, or the file cannot be written.
+        If the extension is not supported, ffmpeg is missing, or the file cannot be written.
     """
     ending = check_format(path)
     if not per_second > 0:
-        raise InputError(f"per_second = {per_second} must be positive: 10 moments are usual")
+        raise InputError(f"per_second = {per_second}: must be positive, typically 10")
     movie = Movie(run, dpi=dpi)
     with replacing(path) as temporary:
-        made = temporary.with_suffix(ending)  # the writers tell a format by the ending
+        made = temporary.with_suffix(ending)  # the writers choose the format by the extension
         try:
-            if ending == ".gif":
-                _write_gif(movie, made, per_second)
-            else:
-                _write(movie, made, _WRITERS[ending](per_second))
+            _WRITERS[ending](movie, made, per_second)
             made.replace(temporary)
         finally:
             made.unlink(missing_ok=True)
 
 
 def _write_gif(movie: "Movie", path: Path, per_second: int) -> None:
-    """Write the moments by Pillow itself: matplotlib would draw each of them three times."""
+    """Write the moments with Pillow: the writer of matplotlib draws each of them three times."""
     from PIL import Image  # noqa: PLC0415 (0.1 s, for this format only)
 
-    pictures = [Image.fromarray(movie.pixels(number)) for number in range(len(movie.steps))]
-    first, *others = pictures
+    first, *others = (Image.fromarray(movie.pixels(number)) for number in range(len(movie.steps)))
     first.save(path, save_all=True, append_images=others, duration=round(1e3 / per_second), loop=0)
+
+
+def _write_html(movie: "Movie", path: Path, per_second: int) -> None:
+    style: dict[str, Any] = {"embed_frames": True, "default_mode": "loop"}
+    _write(movie, path, HTMLWriter(fps=per_second, embed_limit=_LARGEST_PAGE, **style))
+
+
+def _write_mp4(movie: "Movie", path: Path, per_second: int) -> None:
+    _write(movie, path, FFMpegWriter(fps=per_second))
 
 
 def _write(movie: "Movie", path: Path, writer: AbstractMovieWriter) -> None:
@@ -86,68 +97,49 @@ def _write(movie: "Movie", path: Path, writer: AbstractMovieWriter) -> None:
             writer.grab_frame()
 
 
-def _page(per_second: int) -> HTMLWriter:
-    return HTMLWriter(
-        fps=per_second, embed_frames=True, default_mode="loop", embed_limit=_LARGEST_PAGE
-    )
-
-
-_WRITERS: dict[str, Callable[[int], AbstractMovieWriter]] = {
-    ".html": _page,
-    ".mp4": lambda per_second: FFMpegWriter(fps=per_second),
-}
+_WRITERS = {".gif": _write_gif, ".mp4": _write_mp4, ".html": _write_html}
 
 
 def check_format(path: str | Path) -> str:
-    """Return the ending of a moving picture that can be made here.
+    """Return the extension of an animation that can be written here.
 
-    Raises
-    ------
-    InputError
-        If it is of no known format, or needs a program that is not installed.
+    Raises InputError if the format is not supported, or needs a program that is not installed.
     """
     ending = Path(path).suffix.lower()
-    if ending not in FORMATS:
-        raise InputError(f"output {path}: a moving picture ends in {', '.join(FORMATS)}")
+    if ending not in _WRITERS:
+        raise InputError(
+            f"output {path}: format not supported; an animation ends in {', '.join(_WRITERS)}"
+        )
     if ending == ".mp4" and shutil.which("ffmpeg") is None:
         raise InputError(
-            f"output {path}: mp4 is made by the program ffmpeg, which is not installed; .gif and "
-            ".html need nothing else"
+            f"output {path}: mp4 needs the program ffmpeg, which is not installed; .gif and .html "
+            "do not"
         )
     return ending
 
 
 class Movie:
-    """One figure that shows any of the moments of a run.
-
-    Parameters
-    ----------
-    run : TransientResult
-        What to show.
-    dpi : int
-        Dots per inch.
-    """
+    """One figure that can show each moment of a run, with the map of the film if it is stored."""
 
     def __init__(self, run: TransientResult, *, dpi: int = 100) -> None:
         self.run, self.lines = run, CentreLines(run)
-        self.has_fields = run.frames.step.size >= 2
-        self.steps = run.frames.step if self.has_fields else _thinned(len(run.history.time))
-        self.picture = transient_figure(run, (6.2, 7.4 if self.has_fields else 3.4))
+        has_fields, count = run.frames.step.size >= 2, len(run.history.time)
+        shown = np.unique(np.linspace(0, count - 1, min(count, MOST)).round().astype(np.int64))
+        self.steps = run.frames.step if has_fields else shown
+        self.picture = figure(run, (6.2, 7.4 if has_fields else 3.4))
         self.picture.set_dpi(dpi)
         self.canvas = FigureCanvasAgg(self.picture)
-        if self.has_fields:
+        self.film: AxesImage | None = None
+        if has_fields:
             self.picture.set_layout_engine("none")
-            self.field = _FieldMap(self.picture, self.picture.add_axes(_UPPER), run)
-            self.lower = self.picture.add_axes(_LOWER)
-        else:
-            self.lower = self.picture.add_subplot()
-        lower = self.lower
+            self.film = _film_image(self.picture.add_axes(_UPPER), run)
+        lower = self.picture.add_axes(_LOWER) if has_fields else self.picture.add_subplot()
         self.moving = self.lines.draw(lower, int(self.steps[0]))
-        lower.set_xlabel("x along entrainment [µm]  (y = 0)")
+        lower.set_xlabel(ALONG_X)
         self.caption = lower.set_title(" ", fontsize=9, loc="left")
         self.show(0)
         self.picture.draw_without_rendering()
-        self.picture.set_layout_engine("none")  # panels that jump would be all that one sees
+        self.picture.set_layout_engine("none")  # else the panels move from moment to moment
 
     def show(self, number: int) -> None:
         """Show one moment."""
@@ -155,8 +147,9 @@ class Movie:
         factor, unit = time_unit(self.run)
         self.caption.set_text(f"t = {self.run.history.time[step] * factor:.4g} {unit}")
         self.lines.move(self.moving, step)
-        if self.has_fields:
-            self.field.show(number)
+        if self.film is not None:
+            shown = self.run.frames.film[number][window_part(self.run.start)]
+            self.film.set_data(shown * np.float32(MICRO))
 
     def pixels(self, number: int) -> NDArray[np.uint8]:
         """Return one moment as a picture, (rows, columns, 3)."""
@@ -165,40 +158,22 @@ class Movie:
         return np.asarray(self.canvas.buffer_rgba())[..., :3].copy()
 
 
-class _FieldMap:
-    """The film from above."""
-
-    def __init__(self, picture: Figure, axes: Axes, run: TransientResult) -> None:
-        self.run = run
-        (west, east), (south, north) = window(run.start)
-        scaled = run.start.scaled
-        self.part = (span_part(scaled.y, south, north), span_part(scaled.x, west, east))
-        x, y = run.x[self.part[1]] * MICRO, run.y[self.part[0]] * MICRO
-        films = run.frames.film[:, *self.part]
-        inside = np.hypot(scaled.x[None, self.part[1]], scaled.y[self.part[0], None]) < 0.8
-        low, high = float(films.min()) * MICRO, float(films[:, inside].max()) * MICRO
-        self.image = axes.imshow(
-            films[0] * MICRO,
-            extent=_edges(x) + _edges(y),
-            origin="lower",
-            interpolation="bilinear",
-            vmin=low,
-            vmax=high + 0.15 * (high - low),
-        )
-        dress_contact(axes, run.start)
-        picture.colorbar(self.image, cax=colour_axes(axes), extend="max", label="film h [µm]")
-
-    def show(self, number: int) -> None:
-        """Show one of the kept fields."""
-        self.image.set_data(self.run.frames.film[number][self.part] * np.float32(MICRO))
+def _film_image(axes: Axes, run: TransientResult) -> AxesImage:
+    """Draw the map of the first stored film, in colours that fit all of them."""
+    scaled, (rows, columns) = run.start.scaled, window_part(run.start)
+    films = run.frames.film[:, rows, columns]
+    inside = np.hypot(scaled.x[None, columns], scaled.y[rows, None]) < 0.8
+    low, high = float(films.min()) * MICRO, float(films[:, inside].max()) * MICRO
+    (west, east), (south, north) = map(_edges, window_places(run.start))
+    top, extent = high + 0.15 * (high - low), (west, east, south, north)
+    style: dict[str, Any] = {"origin": "lower", "interpolation": "bilinear"}
+    image = axes.imshow(films[0] * MICRO, extent=extent, vmin=low, vmax=top, **style)
+    dress_contact(axes, run.start)
+    axes.figure.colorbar(image, cax=colour_axes(axes), extend="max", label="film h [µm]")
+    return image
 
 
 def _edges(axis: Array) -> tuple[float, float]:
-    """Return where the cells of the first and of the last node end."""
+    """Return the outer edges of the first and of the last cell."""
     half = 0.5 * float(axis[1] - axis[0])
     return float(axis[0]) - half, float(axis[-1]) + half
-
-
-def _thinned(count: int) -> IntArray:
-    """Return all steps, or two hundred at even distances."""
-    return np.unique(np.linspace(0, count - 1, min(count, MOST)).round().astype(np.int64))

@@ -1,7 +1,7 @@
-"""What an optical rig would show: synthetic interferograms of the film.
+"""Synthetic interferograms of the film, as an optical rig shows them.
 
 Light falls through a glass disc with a semi-reflecting chromium layer (and a transparent spacer, if
-any) and the oil onto the steel ball. Two beams meet again, from the chromium and from the ball:
+any) and the oil onto the steel ball. Two beams interfere, from the chromium and from the ball:
 
     I(lambda) = R1 + R2 + 2 sqrt(R1 R2) cos(4 pi d / lambda + phase),   d = n h + n_s h_s
 
@@ -15,14 +15,7 @@ from typing import Literal
 import numpy as np
 from matplotlib.figure import Figure
 
-from tehl.plots.frame import (
-    MICRO,
-    contact_axes,
-    entrainment_arrow,
-    legend_above,
-    map_figure,
-    window_part,
-)
+from tehl.plots.frame import MICRO, entrainment_arrow, legend_above, map_figure, window_part
 from tehl.result import Result
 from tehl.typing import Array
 
@@ -69,7 +62,7 @@ class Optics:
 
 
 def interferogram(result: Result, optics: Optics | None = None, *, pixels: int = 900) -> Figure:
-    """Draw the film as an optical rig would show it.
+    """Draw the film as an optical rig shows it.
 
     Parameters
     ----------
@@ -78,7 +71,7 @@ def interferogram(result: Result, optics: Optics | None = None, *, pixels: int =
     optics : Optics, optional
         Light and layers; white light by default.
     pixels : int
-        Width of the picture of the film; the film is interpolated so that fringes stay clean.
+        Pixels along x; the film is interpolated so that fringes stay clean.
 
     Returns
     -------
@@ -87,8 +80,7 @@ def interferogram(result: Result, optics: Optics | None = None, *, pixels: int =
     """
     chosen = Optics() if optics is None else optics
     x, y, thickness = _fine(result, chosen, pixels)
-    picture = map_figure(result, _caption(chosen))
-    axes = contact_axes(picture, result)
+    picture, axes = map_figure(result, _caption(chosen))
     extent = (x[0] * MICRO, x[-1] * MICRO, y[0] * MICRO, y[-1] * MICRO)
     window = (axes.get_xlim(), axes.get_ylim())
     axes.imshow(colours(thickness, chosen), extent=extent, origin="lower", interpolation="bilinear")
@@ -149,7 +141,7 @@ def optical_thickness(film: Array, optics: Optics, density_ratio: Array | float 
 
 
 def reflectance(thickness: Array, wavelength: Array | float, optics: Optics) -> Array:
-    """Return the part of the light that comes back, two beams interfering.
+    """Return the reflected part of the light, by interference of two beams.
 
     Parameters
     ----------

@@ -1,70 +1,69 @@
-"""Pressure and film on the two centre lines, over the dry Hertz contact."""
+"""Curves of a film: centre lines, profiles of the pressure, distribution of the film."""
 
+import math
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
-from tehl.plots.frame import GIGA, MICRO, WINDOW, Span, figure
-from tehl.plots.temperature import temperature_lines
-from tehl.post.film import Profile, profile_x, profile_y
+from tehl.errors import InputError
+from tehl.plots.frame import (
+    ALONG_X,
+    FILM,
+    GIGA,
+    GREEN,
+    MICRO,
+    PRESSURE,
+    STEPS,
+    WINDOW,
+    Span,
+    centre_row,
+    figure,
+    plain_legend,
+    span_part,
+)
+from tehl.plots.maps import FILTERED, heights_of
+from tehl.plots.temperature import Line, temperature_lines
+from tehl.post.film import Profile, hertz_pressure, profile_x, profile_y
+from tehl.post.micro_film import micro_film
+from tehl.post.roughness import film_histogram, rough_film
 from tehl.result import Result
+from tehl.typing import Array
 
-PRESSURE, FILM = "#1f4e9c", "#c2410c"
-"""Colours of pressure and film."""
+_REACH = 1.25
+"""Half-widths of the centre line between rough surfaces, on each side."""
+_AROUND = 1.4
+"""Half-widths of the pressure profiles, on each side."""
+_PROFILES = 45
 
 
 def centre_lines(result: Result) -> Figure:
     """Draw pressure and film along x (y = 0) and along y (x = 0), with the dry contact dashed.
 
-    Parameters
-    ----------
-    result : Result
-        What to draw.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Two panels, each with the pressure [GPa] and the film [um] on twin axes; for a thermal run
-        two more beside them, with the temperature rises [K].
+    Pressure [GPa] and film [um] are on twin axes; a thermal run has two more panels beside them,
+    with the temperature rises [K].
     """
     thermal = result.heat is not None
     picture = figure(result, (12.4, 7.2) if thermal else (7.2, 7.2))
     grid = picture.subplots(2, 2 if thermal else 1, squeeze=False)
-    curves = _panel(grid[0, 0], result, profile_x(result), WINDOW[0])
-    _panel(grid[1, 0], result, profile_y(result), WINDOW[1])
-    legends = [curves]
-    if thermal:
-        legends.append(_heat_panels((grid[0, 1], grid[1, 1]), result))
-    for column, handles in zip(grid.T, legends, strict=True):
-        column[0].set_xlabel("x along entrainment [µm]  (y = 0)")
-        column[1].set_xlabel("y [µm]  (x = 0)")
-        column[1].legend(
-            handles=handles,
-            loc="upper center",
-            bbox_to_anchor=(0.5, -0.15),
-            ncols=4,
-            fontsize=8,
-            frameon=False,
-        )
-    return picture
-
-
-def _heat_panels(panels: tuple[Axes, Axes], result: Result) -> list[Any]:
-    """Draw the temperatures along both lines; return the curves of one panel."""
-    row = int(np.argmin(np.abs(result.scaled.y)))
     column = int(np.argmin(np.abs(result.scaled.x)))
-    along, across = panels
-    temperature_lines(along, result.x * MICRO, (row, slice(None)), result)
-    temperature_lines(across, result.y * MICRO, (slice(None), column), result)
-    for axes, profile, window in (
-        (along, profile_x(result), WINDOW[0]),
-        (across, profile_y(result), WINDOW[1]),
-    ):
-        axes.set_xlim(_limits(profile, window))
-        axes.grid(axis="y", lw=0.3)
-    return list(along.lines)
+    lines: tuple[Line, Line] = ((centre_row(result), slice(None)), (slice(None), column))
+    profiles = (profile_x(result), profile_y(result))
+    for panels, profile, window, line in zip(grid, profiles, WINDOW, lines, strict=True):
+        curves = [_pressure_and_film(panels[0], result, profile)]
+        if thermal:
+            temperature_lines(panels[1], profile.coordinate * MICRO, line, result)
+            panels[1].grid(axis="y", lw=0.3)
+            curves.append(panels[1].lines)
+        for axes in panels:
+            axes.set_xlim(_limits(profile, window))
+    for (upper, lower), handles in zip(grid.T, curves, strict=True):
+        upper.set_xlabel(ALONG_X)
+        lower.set_xlabel("y [µm]  (x = 0)")
+        plain_legend(lower, "upper center", (0.5, -0.15), handles=handles, ncols=4)
+    return picture
 
 
 def _limits(profile: Profile, window: Span) -> tuple[float, float]:
@@ -73,27 +72,127 @@ def _limits(profile: Profile, window: Span) -> tuple[float, float]:
     return float(shown[0]), float(shown[-1])
 
 
-def _panel(axes: Axes, result: Result, profile: Profile, window: Span) -> list[Any]:
+def _pressure_and_film(axes: Axes, result: Result, profile: Profile) -> list[Any]:
     """Draw pressure and film along a line; return the curves."""
     place = profile.coordinate * MICRO
-    axes.plot(
-        place, profile.hertz_pressure * GIGA, color="0.45", lw=1.0, ls="--", label="dry Hertz"
-    )
+    dry: dict[str, Any] = {"color": "0.45", "lw": 1.0, "ls": "--", "label": "dry Hertz"}
+    axes.plot(place, profile.hertz_pressure * GIGA, **dry)
     axes.plot(place, profile.pressure * GIGA, color=PRESSURE, lw=1.4, label="pressure")
     axes.set_ylabel("pressure p [GPa]", color=PRESSURE)
     axes.set_ylim(bottom=0.0)
-    axes.set_xlim(_limits(profile, window))
     film = axes.twinx()
     film.plot(place, profile.dry_gap * MICRO, color=FILM, lw=0.8, ls=":", label="dry gap")
     film.plot(place, profile.film_thickness * MICRO, color=FILM, lw=1.4, label="film")
-    show_film_behind(axes, film, result, 4.0)
+    _show_film_behind(axes, film, result, 4.0)
     return [*axes.lines, *film.lines]
 
 
-def show_film_behind(axes: Axes, film: Axes, result: Result, most: float) -> None:
+def _show_film_behind(axes: Axes, film: Axes, result: Result, most: float) -> None:
     """Give drawn axes of the film [um] up to ``most`` central films, behind the pressure's."""
     film.set_ylabel("film h [µm]", color=FILM)
     central = result.film.central * MICRO
     film.set_ylim(0.0, most * central if central > 0 else None)
     axes.set_zorder(film.get_zorder() + 1)
     axes.patch.set_visible(False)
+
+
+def rough_centre_line(result: Result, smooth: Result | None = None) -> Figure:
+    """Draw pressure, film and the surfaces along y = 0.
+
+    The upper panel has pressure [GPa] and film [um], those of the smooth reference run drawn thin,
+    the lower one the undeformed heights beside the ripple of the film [nm]. Raises InputError if
+    both surfaces are smooth.
+    """
+    heights, row = heights_of(result).together, centre_row(result)
+    inside = np.abs(result.scaled.x) <= _REACH
+    place = result.x[inside] * MICRO
+    picture = figure(result, (7.6, 7.0))
+    upper, lower = picture.subplots(2, 1, sharex=True, height_ratios=[1.5, 1.0])
+    dry = hertz_pressure(result.scaled.x[inside], result.scaled.y[row])
+    upper.plot(place, dry * result.scales.hertz_pressure * GIGA, color="0.45", ls="--", lw=1.0)
+    film = upper.twinx()
+    for one, width in ((result, 1.4), *([(smooth, 0.7)] if smooth else [])):
+        upper.plot(place, one.pressure[row, inside] * GIGA, color=PRESSURE, lw=width)
+        film.plot(place, one.film_thickness[row, inside] * MICRO, color=FILM, lw=width)
+    upper.set_ylabel("pressure p [GPa], dashed: dry Hertz", color=PRESSURE)
+    upper.set_ylim(bottom=0.0)
+    _show_film_behind(upper, film, result, 3.0)
+    if smooth is not None:
+        upper.set_title("thin lines: smooth surfaces", fontsize=8)
+    gap = "gap left by undeformed heights (-s)"
+    lower.plot(place, -heights[row, inside] * 1e9, color=GREEN, lw=1.2, label=gap)
+    lower.axhline(0.0, color="0.6", lw=0.6)
+    shown = np.abs(result.scaled.x[inside]) < (FILTERED if smooth is None else 1.0)
+    ripple = np.where(shown, micro_film(result, smooth).film[row, inside] * 1e9, np.nan)
+    lower.plot(place, ripple, color=FILM, lw=1.2, label="ripple of the film")
+    lower.set(xlabel=ALONG_X, ylabel="deviation from the mean [nm]", xlim=(place[0], place[-1]))
+    plain_legend(lower, "upper left", (0.0, -0.22), ncols=2)
+    return picture
+
+
+def film_distribution(result: Result) -> Figure:
+    """Draw the distribution of the film thickness over the Hertz contact.
+
+    Beside the histogram are the part of the contact that has a thinner film, and Sq. Raises
+    InputError if the result has neither roughness nor ``rms_roughness``, or no film.
+    """
+    found = rough_film(result)
+    if found is None:
+        raise InputError("the result has no film between rough surfaces to draw")
+    edges, share = film_histogram(result)
+    below = 100.0 * np.concatenate([[0.0], np.cumsum(share * np.diff(edges))])
+    edges, share = edges * 1e9, share * 1e-9
+    picture = figure(result, (6.8, 4.6))
+    axes = picture.add_subplot()
+    axes.stairs(share, edges, fill=True, color="#9db8dc")
+    axes.set(xlabel="film thickness h [nm]", ylabel="part of the contact by film [1/nm]")
+    axes.set_xlim(float(edges[0]), float(edges[-1]))
+    axes.axvline(found.composite * 1e9, color=FILM, lw=1.2, ls="--", label="Sq of both surfaces")
+    thinner = axes.twinx()
+    thinner.plot(edges, below, color=PRESSURE, lw=1.3)
+    thinner.set_ylabel("part with a thinner film [%]", color=PRESSURE)
+    thinner.set_ylim(0.0, 100.0)
+    median = dict(found.quantiles)[0.5]
+    if math.isfinite(median):
+        axes.axvline(median * 1e9, color="0.3", lw=1.0, label="median film")
+    plain_legend(axes, "lower center", (0.5, 1.0), ncols=2)
+    return picture
+
+
+def pressure_surface(result: Result) -> Figure:
+    """Draw the pressure as profiles along x, one behind another, seen from the outlet.
+
+    The profiles are rows of the stored field: nothing is interpolated, and the spike stands free.
+    Wide contacts are drawn at most 2.5 times as wide as long; the axes show the true size.
+    """
+    picture = figure(result, (7.0, 5.4))
+    axes: Any = picture.add_subplot(projection="3d", computed_zorder=False)
+    columns = span_part(result.scaled.x, -_AROUND, _AROUND)
+    every = np.arange(result.scaled.y.size)[span_part(result.scaled.y, -_AROUND, _AROUND)]
+    rows = np.unique(np.linspace(every[0], every[-1], _PROFILES).round().astype(int))
+    x, y = result.x[columns] * MICRO, result.y[rows] * MICRO
+    pressure = np.nan_to_num(result.pressure[rows][:, columns] * GIGA)
+    top = max(float(pressure.max()), 1e-9)
+    axes.add_collection3d(_curtains(x, y, pressure))
+    axes.set(xlim=x[[0, -1]], ylim=y[[0, -1]], zlim=(0.0, 1.02 * top))
+    axes.set_xlabel("x [µm]", labelpad=3)
+    axes.set_ylabel("y [µm]", labelpad=5)
+    axes.set_zlabel("p [GPa]")
+    wide = float(np.clip(np.ptp(y) / np.ptp(x), 0.4, 2.5))
+    axes.set_box_aspect((1.0, wide, 0.62 * max(1.0, wide)), zoom=1.15 if wide < 2.0 else 0.98)
+    for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
+        axis.set_major_locator(MaxNLocator(4, steps=STEPS))
+    axes.view_init(elev=27, azim=-52)
+    return picture
+
+
+def _curtains(x: Array, y: Array, pressure: Array) -> Any:
+    """Return one polygon below each profile."""
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # noqa: PLC0415 (0.1 s)
+
+    ends = np.concatenate([x[:1], x, x[-1:]])
+    curtains = [
+        np.column_stack([ends, np.full(ends.size, place), np.pad(row, 1)])
+        for place, row in zip(y, pressure, strict=True)
+    ]
+    return Poly3DCollection(curtains, facecolors="#dbe6f2", edgecolors="#16325c", linewidths=0.6)

@@ -1,4 +1,4 @@
-"""Maps of film thickness and pressure, and the pressure as a surface."""
+"""Maps of film, pressure, shear stress, heights and ripples, with the Hertz contact."""
 
 from typing import Any
 
@@ -9,28 +9,36 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator, NullFormatter, NullLocator
 
+from tehl.errors import InputError
+from tehl.fields import SurfaceHeights
 from tehl.plots.frame import (
     GIGA,
     MICRO,
     STEPS,
-    colour_axes,
-    contact_axes,
+    Span,
+    coloured,
+    dress_contact,
     entrainment_arrow,
     figure,
-    legend_above,
+    finish_map,
+    inner_levels,
+    length,
     map_figure,
     nice_levels,
-    span_part,
-    window,
+    slenderness,
     window_part,
+    window_places,
 )
+from tehl.post.micro_film import MicroFilm, micro_film
+from tehl.post.roughness import in_contact, rough_film
 from tehl.result import Result
 from tehl.typing import Array
 
-_REACH = 1.4
-_PROFILES = 45
-
-_Levels = tuple[Array, Array]
+FILTERED = 0.75
+"""Half-widths within which ripples by a filter are shown: at the rim the filter sees the rim."""
+_SHOWN = (0.5, 99.5)
+"""Percentiles of the heights between which colours change."""
+_RIPPLES = {"film": (1e9, "nm"), "pressure": (1e-6, "MPa")}
 
 
 def film_map(result: Result) -> Figure:
@@ -39,31 +47,15 @@ def film_map(result: Result) -> Figure:
     Colours are logarithmic, from just below the minimum film to 1.6 times the central film, and
     contour lines lie close below 1.1 times the central film, so that the horseshoe and the side
     lobes show.
-
-    Parameters
-    ----------
-    result : Result
-        What to draw.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The picture, in micrometres.
     """
-    picture = map_figure(result)
-    axes = contact_axes(picture, result)
-    part = window_part(result)
-    x, y = window_places(result)
-    film = result.film_thickness[part] * MICRO
+    picture, axes = map_figure(result)
+    film = result.film_thickness[window_part(result)] * MICRO
     low, central = _film_range(result, film)
     bottom, top = 0.95 * low, 1.6 * central
-    mesh = axes.pcolormesh(
-        x, y, film.clip(bottom, top), shading="gouraud", norm=LogNorm(bottom, top), rasterized=True
-    )
-    _film_contours(axes, x, y, film, film_levels(low, central))
-    legend_above(axes, *_mark_minimum(axes, result))
-    entrainment_arrow(axes)
-    bar = picture.colorbar(mesh, cax=colour_axes(axes), extend="max", label="film thickness h [µm]")
+    mesh = coloured(axes, result, film.clip(bottom, top), norm=LogNorm(bottom, top))
+    _film_contours(axes, window_places(result), film, film_levels(low, central))
+    marks = _mark_minimum(axes, result)
+    bar = finish_map(picture, mesh, "film thickness h [µm]", marks=marks, extend="max")
     ticks = nice_levels(low, top, 8)
     bar.ax.yaxis.set_minor_locator(NullLocator())
     bar.ax.yaxis.set_minor_formatter(NullFormatter())
@@ -72,30 +64,20 @@ def film_map(result: Result) -> Figure:
     return picture
 
 
-def window_places(result: Result) -> tuple[Array, Array]:
-    """Return x and y [um] of the nodes that :func:`window_part` shows."""
-    rows, columns = window_part(result)
-    return result.x[columns] * MICRO, result.y[rows] * MICRO
-
-
-def slenderness(result: Result) -> float:
-    """Return how many times as long across entrainment as along it the window is."""
-    (west, east), (south, north) = window(result)
-    return (north - south) / (east - west) * result.groups.ellipticity
-
-
-def _film_contours(axes: Axes, x: Array, y: Array, film: Array, levels: _Levels) -> None:
+def _film_contours(
+    axes: Axes, places: tuple[Array, Array], film: Array, levels: tuple[Array, Array]
+) -> None:
     """Draw the contour lines; slender contacts have no room for labels."""
     inner, outer = levels
-    lines = axes.contour(x, y, film, levels=inner, colors="white", linewidths=0.7)
-    outside = axes.contour(x, y, film, levels=outer, colors="black", linewidths=0.5, alpha=0.6)
+    lines = axes.contour(*places, film, levels=inner, colors="white", linewidths=0.7)
+    outside = axes.contour(*places, film, levels=outer, colors="black", linewidths=0.5, alpha=0.6)
     if 0.5 < np.ptp(axes.get_ylim()) / np.ptp(axes.get_xlim()) < 2.0:
         axes.clabel(lines, inner[1::2], fontsize=7, fmt="%.3g")
         axes.clabel(outside, fontsize=7, fmt="%.3g")
 
 
 def _film_range(result: Result, film: Array) -> tuple[float, float]:
-    """Return the smallest and the central film [um], positive even for a state that is no film."""
+    """Return the smallest and the central film [um], positive even where there is no film."""
     central = result.film.central * MICRO
     positive = film[film > 0]
     if not central > 0:
@@ -105,13 +87,7 @@ def _film_range(result: Result, film: Array) -> tuple[float, float]:
 
 
 def film_levels(low: float, central: float) -> tuple[Array, Array]:
-    """Return contour levels: close ones up to 1.1 central films, wide ones up to three.
-
-    Parameters
-    ----------
-    low, central : float
-        Smallest and central film, in any unit.
-    """
+    """Return contour levels: close ones up to 1.1 central films, wide ones up to three."""
     fine = nice_levels(low, 1.1 * central, 6)
     inner = fine[(fine > low) & (fine <= 1.1 * central)]
     wide = nice_levels(1.1 * central, 3.0 * central, 5)
@@ -138,41 +114,30 @@ def _mark_minimum(axes: Axes, result: Result) -> list[Line2D]:
 
 
 def pressure_map(result: Result) -> Figure:
-    """Draw the pressure as a map with contour lines, named on the colour bar.
+    """Draw the pressure [GPa] as a map with contour lines, marked on the colour bar.
 
     Lines follow a slightly smoothed copy of the pressure.
-
-    Parameters
-    ----------
-    result : Result
-        What to draw.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The picture, in micrometres and gigapascals.
     """
-    picture = map_figure(result)
-    axes = contact_axes(picture, result)
-    part = window_part(result)
-    x, y = window_places(result)
-    pressure = result.pressure[part] * GIGA
-    mesh = axes.pcolormesh(x, y, pressure, shading="gouraud", cmap="cividis", rasterized=True)
-    levels = _pressure_levels(pressure)
-    lines = axes.contour(x, y, _smoothed(pressure), levels=levels, colors="black", linewidths=0.6)
-    entrainment_arrow(axes)
-    legend_above(axes)
-    bar = picture.colorbar(mesh, cax=colour_axes(axes), label="pressure p [GPa]")
-    if levels.size:
-        bar.add_lines(lines)
-    bar.set_ticks([0.0, *levels])
+    pressure = result.pressure[window_part(result)] * GIGA
+    top = float(np.max(pressure, initial=0.0, where=np.isfinite(pressure)))
+    levels = nice_levels(0.0, top if top > 0 else 1.0, 8)
+    levels = levels[(levels > 0) & (levels < top)] if top > 0 else levels[1:]
+    picture, axes = map_figure(result)
+    mesh = coloured(axes, result, pressure, cmap="cividis")
+    lines = _contours(axes, result, _smoothed(pressure), levels)
+    finish_map(picture, mesh, "pressure p [GPa]", lines=(lines, levels))
     return picture
 
 
-def _smoothed(field: Array) -> Array:
-    """Return ``field`` after a binomial filter of two nodes' reach.
+def _contours(axes: Axes, result: Result, shown: Array, levels: Array) -> Any:
+    places = window_places(result)
+    return axes.contour(*places, shown, levels=levels, colors="black", linewidths=0.6)
 
-    A ridge thinner than the nodes that carry it would else break into islands.
+
+def _smoothed(field: Array) -> Array:
+    """Return ``field`` after two binomial filters [1, 2, 1] / 4 along each axis.
+
+    The contour lines of a ridge narrower than a few nodes would otherwise break into islands.
     """
     for axis in (0, 1):
         for _ in range(2):
@@ -183,56 +148,97 @@ def _smoothed(field: Array) -> Array:
     return field
 
 
-def _pressure_levels(pressure: Array) -> Array:
-    top = float(np.max(pressure, initial=0.0, where=np.isfinite(pressure)))
-    levels = nice_levels(0.0, top if top > 0 else 1.0, 8)
-    return levels[(levels > 0) & (levels < top)] if top > 0 else levels[1:]
+def shear_stress_map(result: Result) -> Figure:
+    """Draw the magnitude of the shear stress at mid-film [MPa] as a map.
 
-
-def pressure_surface(result: Result) -> Figure:
-    """Draw the pressure as profiles along x, one behind another, seen from the outlet.
-
-    The profiles are rows of the stored field: nothing is interpolated, and the spike stands free.
-    Wide contacts are shortened to 2.5 times their breadth, the axes tell.
-
-    Parameters
-    ----------
-    result : Result
-        What to draw.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The picture, in micrometres and gigapascals.
+    Raises InputError if the result has no shear stresses.
     """
-    picture = figure(result, (7.0, 5.4))
-    axes: Any = picture.add_subplot(projection="3d", computed_zorder=False)
-    columns = span_part(result.scaled.x, -_REACH, _REACH)
-    every = np.arange(result.scaled.y.size)[span_part(result.scaled.y, -_REACH, _REACH)]
-    rows = np.unique(np.linspace(every[0], every[-1], _PROFILES).round().astype(int))
-    x, y = result.x[columns] * MICRO, result.y[rows] * MICRO
-    pressure = np.nan_to_num(result.pressure[rows][:, columns] * GIGA)
-    top = max(float(pressure.max()), 1e-9)
-    axes.add_collection3d(_curtains(x, y, pressure))
-    axes.set(xlim=x[[0, -1]], ylim=y[[0, -1]], zlim=(0.0, 1.02 * top))
-    axes.set_xlabel("x [µm]", labelpad=3)
-    axes.set_ylabel("y [µm]", labelpad=5)
-    axes.set_zlabel("p [GPa]")
-    wide = float(np.clip(np.ptp(y) / np.ptp(x), 0.4, 2.5))
-    axes.set_box_aspect((1.0, wide, 0.62 * max(1.0, wide)), zoom=1.15 if wide < 2.0 else 0.98)
-    for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
-        axis.set_major_locator(MaxNLocator(4, steps=STEPS))
-    axes.view_init(elev=27, azim=-52)
+    shear, traction = result.shear, result.traction
+    if shear is None or traction is None:
+        raise InputError("the result has no shear stresses to draw")
+    note = (
+        f"SRR = {result.problem.slide_roll_ratio:.4g}; traction {traction.mid_film:.4g} "
+        f"at mid-film, {traction.surface_1:.4g} and {traction.surface_2:.4g} on surfaces 1 and 2"
+    )
+    picture, axes = map_figure(result, note)
+    stress = np.hypot(shear.mid_film, shear.across)[window_part(result)] * 1e-6
+    top = float(np.max(stress, initial=0.0, where=np.isfinite(stress)))
+    levels = inner_levels(0.0, top)
+    mesh = coloured(axes, result, stress, cmap="cividis", clim=(0.0, top if top > 0 else 1.0))
+    lines = _contours(axes, result, stress, levels)
+    finish_map(
+        picture, mesh, "magnitude of the shear stress at mid-film [MPa]", lines=(lines, levels)
+    )
     return picture
 
 
-def _curtains(x: Array, y: Array, pressure: Array) -> Any:
-    """Return one polygon below each profile."""
-    from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # noqa: PLC0415 (0.1 s)
+def heights_of(result: Result) -> SurfaceHeights:
+    """Return the heights of a rough contact, which the pictures of roughness need."""
+    if result.heights is None:
+        raise InputError("both surfaces are smooth: there are no heights to draw")
+    return result.heights
 
-    ends = np.concatenate([x[:1], x, x[-1:]])
-    curtains = [
-        np.column_stack([ends, np.full(ends.size, place), np.pad(row, 1)])
-        for place, row in zip(y, pressure, strict=True)
-    ]
-    return Poly3DCollection(curtains, facecolors="#dbe6f2", edgecolors="#16325c", linewidths=0.6)
+
+def heights_map(result: Result) -> Figure:
+    """Draw the heights of both surfaces together [nm], as the grid carries them.
+
+    Peaks narrow the film. Raises InputError if both surfaces are smooth.
+    """
+    heights = heights_of(result).together[window_part(result)] * 1e9
+    found = rough_film(result)
+    note = ""
+    if found is not None:
+        note = f"Sq = {length(found.composite)} of both surfaces, "
+        note += f"lambda ratio {found.lambda_ratio:.3g}"
+    picture, axes = map_figure(result, note)
+    low, high = (float(value) for value in np.percentile(heights, _SHOWN))
+    span = (low, high) if high > low else (low - 0.5, high + 0.5)
+    mesh = coloured(axes, result, heights, clim=span)
+    label = "height of both surfaces, outwards [nm]"
+    finish_map(picture, mesh, label, extend=_ends(heights, span))
+    return picture
+
+
+def _ends(shown: Array, span: Span) -> str:
+    """Return the ends of a colour bar beyond which there are values."""
+    slack = 1e-3 * (span[1] - span[0])
+    below, above = bool(shown.min() < span[0] - slack), bool(shown.max() > span[1] + slack)
+    return ("both" if above else "min") if below else ("max" if above else "neither")
+
+
+def micro_film_map(result: Result, smooth: Result | None = None) -> Figure:
+    """Draw the ripples of film [nm] and pressure [MPa] side by side.
+
+    The smooth reference run is subtracted; without it long waves are filtered off, and the ripples
+    at the rim of the contact and beyond are left blank. Colours span the ripples in the Hertz
+    contact. Raises InputError if both surfaces are smooth, or the reference run has another grid.
+    """
+    heights_of(result)
+    ripples = micro_film(result, smooth)
+    side_by_side = slenderness(result) > 0.5
+    picture = figure(result, (9.6, 5.2) if side_by_side else (6.4, 6.4))
+    rows, columns = (1, 2) if side_by_side else (2, 1)
+    panels = picture.subplots(rows, columns, squeeze=False).ravel()
+    _ripple_panel(panels[0], result, ripples, "film")
+    _ripple_panel(panels[1], result, ripples, "pressure")
+    if side_by_side:
+        panels[1].set_ylabel("")
+    return picture
+
+
+def _ripple_panel(axes: Axes, result: Result, ripples: MicroFilm, name: str) -> None:
+    factor, unit = _RIPPLES[name]
+    contact = in_contact(result, 1.0 if ripples.by_twin else FILTERED)
+    values = getattr(ripples, name) * factor
+    reach = float(np.percentile(np.abs(values[contact]), 99.0)) or 1.0
+    shown = values if ripples.by_twin else np.where(contact, values, np.nan)
+    dress_contact(axes, result)
+    part, span = window_part(result), (-reach, reach)
+    mesh = coloured(axes, result, shown[part], cmap="RdBu_r", clim=span)
+    less = "less that of smooth surfaces" if ripples.by_twin else "less its long waves"
+    axes.set_title(f"{name} {less}", fontsize=9)
+    axes.xaxis.set_major_locator(MaxNLocator(5, steps=STEPS))
+    label = f"{name} ripple [{unit}]"
+    bar: dict[str, Any] = {"extend": "both", "shrink": 0.9, "aspect": 32}
+    axes.figure.colorbar(mesh, ax=axes, location="bottom", label=label, **bar)
+    entrainment_arrow(axes)

@@ -1,23 +1,24 @@
-"""All pictures of a result into a folder."""
+"""All pictures of a result, steady or transient, by name and into a folder."""
 
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from matplotlib.figure import Figure
 
 from tehl.io.atomic import check_folder, replacing
-from tehl.plots.history import residual_history
+from tehl.plots import transient
+from tehl.plots.convergence import residual_history
 from tehl.plots.interferogram import Optics, interferogram
-from tehl.plots.lines import centre_lines
-from tehl.plots.maps import film_map, pressure_map, pressure_surface
-from tehl.plots.roughness import (
-    film_distribution,
+from tehl.plots.lines import centre_lines, film_distribution, pressure_surface, rough_centre_line
+from tehl.plots.maps import (
+    film_map,
     heights_map,
     micro_film_map,
-    rough_centre_line,
+    pressure_map,
+    shear_stress_map,
 )
-from tehl.plots.shear import shear_stress_map
 from tehl.plots.temperature import (
     mid_film_temperature,
     surface_heat,
@@ -25,83 +26,90 @@ from tehl.plots.temperature import (
     temperature_section,
 )
 from tehl.result import Result
+from tehl.transient_result import TransientResult
 
-Picture = Callable[[Result], Figure]
+Pictures = dict[str, Callable[[Any], Figure]]
+"""Functions that draw a result, by name."""
 
-PICTURES: dict[str, Picture] = {
+PICTURES: Pictures = {
     "film": film_map,
     "pressure": pressure_map,
     "pressure_surface": pressure_surface,
     "centre_lines": centre_lines,
     "residuals": residual_history,
-    "interferogram_white": lambda result: interferogram(result, Optics(light="white")),
-    "interferogram_dichromatic": lambda result: interferogram(result, Optics(light="dichromatic")),
-    "interferogram_monochromatic": lambda result: interferogram(
-        result, Optics(light="monochromatic")
-    ),
+    **{
+        f"interferogram_{light}": partial(interferogram, optics=Optics(light=light))
+        for light in ("white", "dichromatic", "monochromatic")
+    },
 }
-
-"""Pictures that every result has, by name."""
-
-SHEAR_PICTURES: dict[str, Picture] = {"shear_stress": shear_stress_map}
+"""Pictures of every steady result."""
+SHEAR_PICTURES: Pictures = {"shear_stress": shear_stress_map}
 """Pictures of a film that slides."""
-
-HEAT_PICTURES: dict[str, Picture] = {
+HEAT_PICTURES: Pictures = {
     "temperature": mid_film_temperature,
     "temperature_layers": temperature_layers,
     "temperature_section": temperature_section,
     "surface_heat": surface_heat,
 }
-"""Pictures of a thermal run."""
+"""Pictures of a thermal result."""
+TRANSIENT_PICTURES: Pictures = {
+    "history": transient.history,
+    "space_time": transient.space_time,
+    "moments": transient.moments,
+    "passage": transient.passage,
+}
+"""Pictures of a transient result."""
 
 
-def rough_pictures(result: Result, smooth: Result | None) -> dict[str, Picture]:
-    """Return the pictures of a film between surfaces that are not ideally smooth, by name."""
-    if result.roughness is None:
-        return {}
-    heights: dict[str, Picture] = {
-        "heights": heights_map,
-        "micro_film": partial(micro_film_map, smooth=smooth),
-        "rough_centre_line": partial(rough_centre_line, smooth=smooth),
-    }
-    stands = result.heights is not None
-    return {**(heights if stands else {}), "film_distribution": film_distribution}
+def pictures_of(result: Result | TransientResult, smooth: Result | None = None) -> Pictures:
+    """Return the functions that draw ``result``, by name, in the order of drawing.
 
-
-def pictures_of(result: Result, smooth: Result | None = None) -> dict[str, Picture]:
-    """Return the pictures that ``result`` has, by name.
-
-    Parameters
-    ----------
-    result : Result
-        What to draw.
-    smooth : Result or None
-        The film between smooth surfaces on the same grid, for pictures of ripples.
+    ``smooth`` is the smooth reference run on the same grid, for pictures of ripples.
     """
+    if isinstance(result, TransientResult):
+        return TRANSIENT_PICTURES
     slides = result.shear is not None and result.problem.slide_roll_ratio != 0
     return {
         **PICTURES,
-        **rough_pictures(result, smooth),
+        **_rough_pictures(result, smooth),
         **(SHEAR_PICTURES if slides else {}),
         **(HEAT_PICTURES if result.heat is not None else {}),
     }
 
 
+def _rough_pictures(result: Result, smooth: Result | None) -> Pictures:
+    """Return the pictures of a film between surfaces that are not ideally smooth."""
+    if result.roughness is None:
+        return {}
+    heights: Pictures = {
+        "heights": heights_map,
+        "micro_film": partial(micro_film_map, smooth=smooth),
+        "rough_centre_line": partial(rough_centre_line, smooth=smooth),
+    }
+    return (heights if result.heights is not None else {}) | {
+        "film_distribution": film_distribution
+    }
+
+
 def save_all(
-    result: Result, folder: str | Path, *, dpi: int = 150, smooth: Result | None = None
+    result: Result | TransientResult,
+    folder: str | Path,
+    *,
+    dpi: int = 150,
+    smooth: Result | None = None,
 ) -> list[Path]:
-    """Draw all pictures that ``result`` has as PNG files; each appears whole or not at all.
+    """Draw all pictures of ``result`` as PNG files; each appears whole or not at all.
 
     Parameters
     ----------
-    result : Result
+    result : Result or TransientResult
         What to draw.
     folder : str or Path
         Where; made if it is missing.
     dpi : int
         Dots per inch.
     smooth : Result or None
-        The film between smooth surfaces on the same grid, for pictures of ripples.
+        Smooth reference run on the same grid, for pictures of ripples.
 
     Returns
     -------
@@ -116,14 +124,9 @@ def save_all(
     place = Path(folder)
     check_folder(place)
     place.mkdir(parents=True, exist_ok=True)
-    return [
-        save_picture(draw(result), place / f"{name}.png", dpi)
-        for name, draw in pictures_of(result, smooth).items()
-    ]
-
-
-def save_picture(picture: Figure, path: Path, dpi: int) -> Path:
-    """Write a figure as a PNG file, whole or not at all; return its path."""
-    with replacing(path) as temporary:
-        picture.savefig(temporary, dpi=dpi, format="png")
-    return path
+    paths = []
+    for name, draw in pictures_of(result, smooth).items():
+        paths.append(place / f"{name}.png")
+        with replacing(paths[-1]) as temporary:
+            draw(result).savefig(temporary, dpi=dpi, format="png")
+    return paths

@@ -1,6 +1,7 @@
 """A measured surface: its map, its heights and its spectrum."""
 
 from itertools import product
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -8,32 +9,23 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Ellipse, Polygon
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from tehl.plots.frame import MICRO, STEPS, outline
+from tehl.plots.frame import BLUE, MICRO, ORANGE, STEPS, outline
 from tehl.roughness.preview import Preview
 from tehl.roughness.view import View, view
 from tehl.typing import Array
 
 _CLIPPED, _COUNTED = 0.1, 10**6
+"""Percentile of the heights that colours leave out, and the number of heights it is found from."""
 _SIZE, _NARROW = (10.5, 5.4), 8.0
 _SLENDER = 2.0
 _BINS = 81
-_LINE = "#1f4e9c"
-_MARK = "#c2410c"
 
 
 def surface_preview(preview: Preview) -> Figure:
-    """Draw a measured surface as it is prepared.
+    """Draw a measured surface after its preparation.
 
-    Parameters
-    ----------
-    preview : Preview
-        What to draw.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The map with the contact, as it is turned and moved, the distribution of heights, and the
-        power spectral density with what the mesh cannot carry.
+    The picture has the map with the contact, rotated and shifted as stated, the distribution of
+    heights, and the power spectral density with the waves that the mesh loses.
     """
     picture, seen = Figure(figsize=_SIZE, layout="constrained"), view(preview)
     width, height = seen.size
@@ -74,7 +66,9 @@ def _draw_map(axes: Axes, preview: Preview, seen: View) -> None:
     width, height = seen.size
     (left, right), (bottom, top) = seen.window
     factor, unit = _height_unit(preview)
-    low, high = (limit * factor for limit in _limits(preview.heights.values))
+    few = preview.heights.values.ravel()
+    few = few[:: max(1, few.size // _COUNTED)]
+    low, high = np.percentile(few, [_CLIPPED, 100 - _CLIPPED]) * factor
     image = axes.imshow(
         seen.values * factor,
         origin="lower",
@@ -86,20 +80,12 @@ def _draw_map(axes: Axes, preview: Preview, seen: View) -> None:
         cmap="viridis",
     )
     axes.set(xlabel="x along entrainment [µm]", ylabel="y [µm]")
-    ticks = 2 if height > _SLENDER * width else 6
-    axes.xaxis.set_major_locator(MaxNLocator(ticks, steps=STEPS))
-    ticks = 2 if width > _SLENDER * height else 6
-    axes.yaxis.set_major_locator(MaxNLocator(ticks, steps=STEPS))
+    for axis, slender in ((axes.xaxis, height / width), (axes.yaxis, width / height)):
+        axis.set_major_locator(MaxNLocator(2 if slender > _SLENDER else 6, steps=STEPS))
     where = "bottom" if 1.4 * height < width <= _SLENDER * height else "right"
-    axes.figure.colorbar(
-        image,
-        ax=axes,
-        location=where,
-        extend="both",
-        aspect=35,
-        shrink=0.9,
-        label=f"height outwards [{unit}]",
-    )
+    label = f"height outwards [{unit}]"
+    bar: dict[str, Any] = {"extend": "both", "aspect": 35, "shrink": 0.9}
+    axes.figure.colorbar(image, ax=axes, location=where, label=label, **bar)
     labels = []
     if preview.mesh is not None:
         labels.append(_draw_contact(axes, preview.mesh.half_widths))
@@ -110,40 +96,23 @@ def _draw_map(axes: Axes, preview: Preview, seen: View) -> None:
     axes.set_title(", ".join(labels), fontsize=8)
 
 
-def _limits(heights: Array) -> tuple[float, float]:
-    """Return heights of which few are lower or higher, in the map without what lies around."""
-    some = heights.ravel()[:: max(1, heights.size // _COUNTED)]
-    low, high = np.percentile(some, [_CLIPPED, 100 - _CLIPPED])
-    return float(low), float(high)
-
-
 def _is_part(seen: View) -> bool:
-    """Return whether the map is a part of its window, or turned in it."""
+    """Return whether the map is a part of its window, or rotated in it."""
     corners = {tuple(corner) for corner in np.round(np.array(seen.corners) * 1e9)}
     window = {tuple(np.round(np.array(place) * 1e9)) for place in product(*seen.window)}
     return corners != window
 
 
 def _draw_contact(axes: Axes, half_widths: tuple[float, float]) -> str:
-    """Draw the contact within the limits that are, and return what to say of it."""
+    """Draw the contact within the present limits; return its caption."""
     limits = axes.get_xlim(), axes.get_ylim()
     half_x, half_y = (MICRO * half for half in half_widths)
-    axes.add_patch(
-        Ellipse(
-            (0, 0),
-            2 * half_x,
-            2 * half_y,
-            fill=False,
-            color="white",
-            ls="--",
-            lw=1.3,
-            path_effects=outline("0.2", 2.4),
-        )
-    )
+    rim = Ellipse((0, 0), 2 * half_x, 2 * half_y, fill=False, color="white", ls="--", lw=1.3)
+    axes.add_patch(rim).set_path_effects(outline("0.2", 2.4))
     axes.set(xlim=limits[0], ylim=limits[1])
     reaches = zip(limits, (half_x, half_y), strict=True)
     inside = all(low <= -half and half <= high for (low, high), half in reaches)
-    return "dashed: Hertz contact" + ("" if inside else ", not whole in this picture")
+    return "dashed: Hertz contact" + ("" if inside else ", cut off by this picture")
 
 
 def _draw_heights(axes: Axes, preview: Preview) -> None:
@@ -164,7 +133,7 @@ def _draw_spectrum(axes: Axes, preview: Preview) -> None:
     found = preview.spectrum
     lengths = 2.0 * np.pi / found.wave_number * MICRO
     seen = found.density > 0
-    axes.loglog(lengths[seen], found.density[seen] * MICRO**4, color=_LINE, lw=1.3)
+    axes.loglog(lengths[seen], found.density[seen] * MICRO**4, color=BLUE, lw=1.3)
     axes.set(xlabel="wavelength [µm]", ylabel="power density [µm$^4$]")
     axes.xaxis.set_major_formatter(FuncFormatter(lambda length, _: f"{length:g}"))
     axes.set_ylim(*_decades(found.density[seen] * MICRO**4))
@@ -175,7 +144,7 @@ def _draw_spectrum(axes: Axes, preview: Preview) -> None:
 
 
 def _decades(density: Array) -> tuple[float, float]:
-    """Return limits that leave out what rounding makes of filtered waves."""
+    """Return limits that leave out the rounding errors of filtered waves."""
     if not density.size:
         return 1e-12, 1.0
     return max(0.5 * float(density.min()), 1e-12 * float(density.max())), 3.0 * float(density.max())
@@ -189,7 +158,7 @@ def _mark_mesh(axes: Axes, preview: Preview) -> None:
     nx, ny = preview.mesh.points
     label = f"lost on {nx} x {ny} nodes: {100 * preview.lost:.2g} % of Sq²"
     if cut_off > shortest:
-        axes.axvspan(min(cut_off, longest), shortest, color=_MARK, alpha=0.15, lw=0)
-        axes.axvline(cut_off, color=_MARK, lw=1.0)
+        axes.axvspan(min(cut_off, longest), shortest, color=ORANGE, alpha=0.15, lw=0)
+        axes.axvline(cut_off, color=ORANGE, lw=1.0)
     axes.set_xlim(max(longest, 1.1 * cut_off), shortest)
-    axes.set_title(label, fontsize=8, color=_MARK)
+    axes.set_title(label, fontsize=8, color=ORANGE)

@@ -7,10 +7,11 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tehl.errors import InputError
+from tehl.plots.frame import BLUE, GIGA, ORANGE
 from tehl.result import Result
 from tehl.typing import Array
 
-_STYLES = {True: ("o-", "#c2410c", "thermal"), False: ("s--", "#1f4e9c", "isothermal")}
+_STYLES = {True: ("o-", ORANGE, "thermal"), False: ("s--", BLUE, "isothermal")}
 _FADING = (1.0, 0.55, 0.3)
 
 
@@ -81,19 +82,20 @@ def _dress(axes: Any, table: dict[str, Array], cases: list[str]) -> None:
 
 def _of_results(results: Sequence[Result]) -> dict[str, Array]:
     """Return the columns of results; those without stresses are left out."""
-    rows = [
-        (result.problem.slide_roll_ratio, found.mid_film, result.heat is not None, _name(result))
-        for result in results
-        if (found := result.traction) is not None
-    ]
-    names = ("slide_roll_ratio", "traction", "thermal", "case")
-    return dict(zip(names, (np.array([row[i] for row in rows]) for i in range(4)), strict=True))
+    found = [result for result in results if result.traction is not None]
+    columns = {
+        "slide_roll_ratio": [result.problem.slide_roll_ratio for result in found],
+        "traction": [one.traction.mid_film for one in found if one.traction is not None],
+        "thermal": [result.heat is not None for result in found],
+        "case": [_name(result) for result in found],
+    }
+    return {name: np.array(values) for name, values in columns.items()}
 
 
 def _name(result: Result) -> str:
-    """Return what tells one contact from another, at any sliding."""
+    """Return groups, pressure and shear law: the same for any sliding."""
     groups, law = result.groups, result.problem.lubricant.shear.law
-    pressure = result.scales.hertz_pressure * 1e-9
+    pressure = result.scales.hertz_pressure * GIGA
     return f"M = {groups.M:.4g}, L = {groups.L:.4g}, p_h = {pressure:.3g} GPa, {law}"
 
 
@@ -103,9 +105,9 @@ def _columns(table: Mapping[str, Any]) -> dict[str, Array]:
         if name not in known:
             raise InputError(f"the table has no column {name}; it has {', '.join(map(str, known))}")
     ratio = np.asarray(table["slide_roll_ratio"], np.float64)
-    thermal = (
-        np.asarray(table["thermal"], bool) if "thermal" in known else np.ones(ratio.size, bool)
-    )
-    case = np.asarray(table["case"], str) if "case" in known else np.full(ratio.size, "")
-    traction = np.asarray(table["traction"], np.float64)
-    return {"slide_roll_ratio": ratio, "traction": traction, "thermal": thermal, "case": case}
+    return {
+        "slide_roll_ratio": ratio,
+        "traction": np.asarray(table["traction"], np.float64),
+        "thermal": np.broadcast_to(table["thermal"] if "thermal" in known else True, ratio.shape),
+        "case": np.broadcast_to(table["case"] if "case" in known else "", ratio.shape),
+    }

@@ -1,4 +1,4 @@
-"""Profiles and balances of a film, computed from a stored result."""
+"""Profiles and mass balance of a film."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -13,13 +13,7 @@ if TYPE_CHECKING:
 
 
 def no_film(result: "Result") -> str:
-    """Return why the film of ``result`` is none to speak of; nothing if it is a film.
-
-    Parameters
-    ----------
-    result : Result
-        What a solve returned or a file held.
-    """
+    """Return why ``result`` has no film (h <= 0); an empty text if it has one."""
     if result.status.kind == "diverged":
         return "the iteration diverged"
     return "" if result.film.minimum > 0 else "the last iterate is not positive"
@@ -147,10 +141,10 @@ class MassFlow:
     sideways : (nx,) array
         Out of both side edges between the inlet and the section [kg/s].
     full : (nx,) array of bool
-        Whether the film is full on this section and on all before it.
+        Whether the film is full (not cavitated) on this section and on all upstream.
     imbalance : float
         Largest change of ``forward + sideways`` over full sections, relative to the flow [-];
-        zero but for the error of the grid.
+        zero up to the discretisation error.
     """
 
     x: Array

@@ -1,4 +1,4 @@
-"""Temperatures of a film, computed from a stored result."""
+"""Temperatures of a film."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -48,13 +48,7 @@ class Temperature:
 
 
 def temperature(result: "Result") -> Temperature | None:
-    """Return the temperatures of ``result``, None for an isothermal run.
-
-    Parameters
-    ----------
-    result : Result
-        What a solve returned or a file held.
-    """
+    """Return the temperatures of ``result``, None for an isothermal run."""
     heat, inlet = result.heat, result.scales.temperature
     if heat is None:
         return None
@@ -75,17 +69,13 @@ def temperature(result: "Result") -> Temperature | None:
 
 
 def _hottest(field: Array) -> tuple[int, int, int]:
-    """Return layer, row and column of the largest value; of two equal ones the greater row."""
+    """Return layer, row and column of the largest value, of equal ones with the largest row."""
     layer, row, column = np.unravel_index(int(np.argmax(field[:, ::-1])), field.shape)
     return int(layer), field.shape[1] - 1 - int(row), int(column)
 
 
 def mid_film_temperature(heat: FilmHeat) -> Array:
-    """Return T half-way between the surfaces, (ny, nx) [K].
-
-    That of the middle node, or where there is none of the polynomial through all nodes: in the
-    middle it is tame for uniform nodes too.
-    """
+    """Draw the temperature rise half-way between the surfaces [K] as a map."""
     return np.tensordot(lagrange_weights(heat.zeta, MIDDLE), heat.temperature, axes=1)
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tehl.film_formulas import expected_central_film
+from tehl.film_formulas import expected_film
 from tehl.post.film import no_film
 from tehl.post.waviness import REACH, WaveResponse, wave_notes, wave_responses
 from tehl.typing import Array, BoolArray
@@ -107,7 +107,7 @@ def rough_film(result: "Result", smooth: "Result | None" = None) -> RoughFilm | 
     if no_film(result) or not composite > 0:
         return None
     film = film_in_contact(result)
-    formula = expected_central_film(result.groups) * result.scales.film_thickness
+    formula = expected_film(result.scaled_problem)
     row, column = (int(np.argmin(np.abs(axis))) for axis in (result.scaled.y, result.scaled.x))
     return RoughFilm(
         sq=(first, second),

@@ -1,4 +1,4 @@
-"""What heat does to a film: a thermal result beside its isothermal twin."""
+"""Effect of heat on a film: a thermal result beside its isothermal reference run."""
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
@@ -14,16 +14,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class ThermalEffect:
-    """Films of a thermal run over those of its isothermal twin.
+    """Films of a thermal run over those of its isothermal reference run.
 
     Attributes
     ----------
     central, minimum : float
         Ratio of the central and of the minimum films [-].
     isothermal_central, isothermal_minimum : float
-        Films of the twin [m].
+        Films of the reference run [m].
     inlet_factors : tuple of InletFactor
-        Ratio that heating in the inlet alone would make, by each formula.
+        Ratio by heating in the inlet alone, by each formula.
     """
 
     central: float
@@ -33,8 +33,8 @@ class ThermalEffect:
     inlet_factors: tuple[InletFactor, ...]
 
 
-def isothermal_twin(problem: ContactProblem) -> ContactProblem:
-    """Return ``problem`` without heat, its oil as warm everywhere as it is at the inlet.
+def isothermal_reference(problem: ContactProblem) -> ContactProblem:
+    """Return ``problem`` without heat, its oil at inlet temperature everywhere.
 
     Raises
     ------
@@ -42,7 +42,7 @@ def isothermal_twin(problem: ContactProblem) -> ContactProblem:
         If the problem is isothermal already.
     """
     if problem.thermal is None:
-        raise InputError("the case is isothermal: it has no [thermal] table to compare without")
+        raise InputError("the case is isothermal: no [thermal] table to compare without")
     oil = problem.lubricant.model_copy(update={"temperature": problem.inlet_temperature})
     surfaces = {
         name: getattr(problem, name).model_copy(update={"temperature": None})
@@ -52,7 +52,7 @@ def isothermal_twin(problem: ContactProblem) -> ContactProblem:
 
 
 def thermal_effect(thermal: "Result", isothermal: "Result") -> ThermalEffect:
-    """Return what heat does to the film, from a thermal result and that of its twin."""
+    """Return the effect of heat, from a thermal result and its isothermal reference run."""
     warm, cold = thermal.film, isothermal.film
     return ThermalEffect(
         central=warm.central / cold.central,
@@ -64,7 +64,7 @@ def thermal_effect(thermal: "Result", isothermal: "Result") -> ThermalEffect:
 
 
 def effect_block(effect: ThermalEffect) -> dict[str, Any]:
-    """Return what a summary says of the comparison, in the block ``thermal_effect``."""
+    """Return the comparison as the block ``thermal_effect`` of a summary."""
     return {
         "central": effect.central,
         "minimum": effect.minimum,
@@ -75,7 +75,7 @@ def effect_block(effect: ThermalEffect) -> dict[str, Any]:
 
 
 def stored_effect(summary: Mapping[str, Any]) -> ThermalEffect | None:
-    """Return the comparison that a stored summary holds; None where there is none.
+    """Return the comparison in a stored summary, None without one.
 
     Parameters
     ----------
@@ -89,11 +89,10 @@ def stored_effect(summary: Mapping[str, Any]) -> ThermalEffect | None:
             minimum=float(block["minimum"]),
             isothermal_central=float(block["isothermal_h_central_m"]),
             isothermal_minimum=float(block["isothermal_h_min_m"]),
-            inlet_factors=tuple(_factor(**one) for one in block["inlet_factors"]),
+            inlet_factors=tuple(
+                InletFactor(**one | {"remarks": tuple(one["remarks"])})
+                for one in block["inlet_factors"]
+            ),
         )
-    except (TypeError, KeyError, ValueError):  # none, or one that another program wrote
+    except (TypeError, KeyError, ValueError):  # missing, or written by another program
         return None
-
-
-def _factor(formula: str, source: str, factor: float, remarks: list[str]) -> InletFactor:
-    return InletFactor(formula=formula, source=source, factor=factor, remarks=tuple(remarks))

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 LARGEST_CREDIBLE = 0.1
-"""Traction coefficient that oils reach at most; a Newtonian film knows no such limit."""
+"""Largest traction coefficient of oils; a Newtonian film has no such limit."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -41,7 +41,7 @@ class Traction:
     load : float
         Normal load w [N].
     friction_power : float
-        Power that the surfaces spend on the film [W].
+        Power that the surfaces transfer to the film [W].
     """
 
     surface_1: float
@@ -64,15 +64,15 @@ class Traction:
 
     @property
     def credible(self) -> bool:
-        """Whether an oil can bear so much: no more than 0.1 at mid-film."""
+        """Whether an oil can transmit so much: at most 0.1 at mid-film."""
         return abs(self.mid_film) <= LARGEST_CREDIBLE
 
     @property
     def closure_error(self) -> float:
-        """How far the stresses miss the balance of forces on the film, over the largest part [-].
+        """Imbalance of the forces on the film, over the largest part [-].
 
         ``surface_2 - surface_1`` is twice the rolling part, by the pressure gradient and by the
-        slope of the film: all three agree but for the error of the grid.
+        slope of the film: all three agree up to the discretisation error.
         """
         ends = self.surface_2 - self.surface_1
         parts = (ends, 2.0 * self.rolling, 2.0 * self.rolling_by_film)
@@ -85,13 +85,13 @@ class Traction:
 def traction(result: "Result") -> Traction | None:
     """Return the traction of ``result``, None where it has no shear stresses.
 
-    Integrals are sums over the nodes under pressure; the gradient is a central difference. The film
-    that a transient run begins with carries the load of that time.
+    Integrals are sums over the nodes under pressure; the gradient is a central difference. The
+    steady film at the start of a transient run carries the load at time zero.
 
     Parameters
     ----------
     result : Result
-        What a solve returned or a file held.
+        Steady, computed or loaded.
     """
     shear = result.shear
     if shear is None:
@@ -103,8 +103,8 @@ def traction(result: "Result") -> Traction | None:
     weights = area[inside]
     pressure, film = np.maximum(result.pressure, 0.0), result.film_thickness
 
-    def integral(stress: Array) -> float:
-        return float(np.sum(weights * stress[inside]))  # a dot would wake all threads of the BLAS
+    def integral(stress: Array) -> float:  # a dot product would start all threads of the BLAS
+        return float(np.sum(weights * stress[inside]))
 
     first, middle, second = map(integral, (shear.surface_1, shear.mid_film, shear.surface_2))
     push = integral(film * _slope(pressure, result.x))

@@ -1,51 +1,37 @@
-r"""Transient runs read: what travels with a surface, what a passage does, what is left of a wave.
+"""Profiles and fields of a transient result: beside a moving surface, over time, at one time."""
 
-A wave that passes is flattened less the shorter it is. For pure rolling its amplitude in the film
-follows, by a fit to computed contacts,
-
-.. math:: \frac{A_d}{A_i} = \frac{1}{1 + 0.15 f\nabla + 0.015 (f\nabla)^2}, \quad
-          \nabla = \frac{\lambda}{a}\sqrt{\frac{M}{L}}
-
-with :math:`\lambda` the shorter one of the wavelengths along x and y, :math:`r = \lambda_x /
-\lambda_y`, and :math:`f = e^{1 - 1/r}` for r > 1, else one.
-
-References
-----------
-.. [1] C. H. Venner and A. A. Lubrecht, Proc. IMechE Part J 214 (2000), 43-62.
-"""
-
-import cmath
 import math
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tehl.duration import parts_of
+from tehl.duration import Part, parts_of
 from tehl.errors import InputError
-from tehl.post.waviness import waves_of
-from tehl.roughness import WaveVector
+from tehl.fields import Fields, FilmSummary, SurfaceHeights
+from tehl.grid import Grid
+from tehl.operators.heights import MovingHeights
+from tehl.options import Domain
+from tehl.post.micro_film import smooth_twin
 from tehl.typing import Array
 
 if TYPE_CHECKING:
+    from tehl.result import Result
     from tehl.transient_result import TransientResult
 
-
-MOST_PERIODS = 4
-"""Periods at the end of a run over which a passing wave is fitted."""
-FEWEST_STEPS = 8
-"""Steps of time in a period that a fit needs."""
-_WHOLE = 1e-6
+_INSIDE = 0.8
+"""Half-widths of y = 0 on each side in which the largest changes are searched."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class MovingProfiles:
-    """The line y = 0 as somebody on a surface sees it.
+    """The line y = 0 in the frame of a surface.
 
     Attributes
     ----------
     offset : (n,) array
-        Distance along x from the place that moves along [m].
+        Distance along x from the moving place [m].
     place : (nt,) array
         Where that place is at each step [m].
     pressure, film, height : (nt, n) array
@@ -61,7 +47,7 @@ class MovingProfiles:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Envelope:
-    """Least and largest values along y = 0 over a passage, (nx,) each.
+    """Least and largest values along y = 0 over time, (nx,) each.
 
     Attributes
     ----------
@@ -80,59 +66,11 @@ class Envelope:
     pressure_largest: Array
 
 
-@dataclass(frozen=True, kw_only=True, slots=True)
-class PassingWave:
-    """What is left of a wave that passes a place on y = 0.
-
-    Attributes
-    ----------
-    x : float
-        The place [m].
-    periods : int
-        Periods that were fitted.
-    steps_per_period : float
-        Steps of time in each of them.
-    amplitude : float
-        Of the heights, as the grid carries them [m].
-    film_amplitude, pressure_amplitude : float
-        Of the ripples [m], [Pa].
-    film_phase, pressure_phase : float
-        Zero where the film is thinnest and the pressure highest under the crests; positive where
-        the ripple comes later [rad].
-    nabla : float
-        (lambda / a) sqrt(M/L) [-].
-    published_ratio : float
-        Amplitude reduction by the fit for pure rolling [-].
-    """
-
-    x: float
-    periods: int
-    steps_per_period: float
-    amplitude: float
-    film_amplitude: float
-    film_phase: float
-    pressure_amplitude: float
-    pressure_phase: float
-    nabla: float
-    published_ratio: float
-
-    @property
-    def film_ratio(self) -> float:
-        """Return the part of the wave that is left in the film [-]."""
-        return self.film_amplitude / self.amplitude
-
-
 def speed_of(run: "TransientResult", surface: int) -> float:
-    """Return the speed of surface 1 or 2 [m/s].
-
-    Raises
-    ------
-    InputError
-        For any other number.
-    """
+    """Return the speed of surface 1 or 2 [m/s]; raise InputError for any other number."""
     motion = run.start.problem.motion
     if surface not in (1, 2):
-        raise InputError(f"surface = {surface} must be 1 or 2")
+        raise InputError(f"surface = {surface}: must be 1 or 2")
     return motion.speed_1 if surface == 1 else motion.speed_2
 
 
@@ -148,10 +86,10 @@ def moving_profiles(
     surface : {1, 2}
         Which surface.
     start : float
-        Where the place is at time zero [m]; if left out, where the feature of the surface stands,
-        and 0 if it has none.
+        Where the place is at time zero [m]; by default the place of the feature of the surface, 0
+        without one.
     reach : float
-        How far from it profiles go on either side [m]; a half-width of the contact if left out.
+        Length of the profiles on either side of it [m]; by default a half-width of the contact.
 
     Returns
     -------
@@ -161,14 +99,13 @@ def moving_profiles(
     Raises
     ------
     InputError
-        If the surface has several features, or one beside the line y = 0, and ``start`` is not
-        given.
+        If the surface has several features, or one away from y = 0, and ``start`` is not given.
     """
     speed, x = speed_of(run, surface), run.x
     start = _place_of_feature(run, surface) if start is None else start
     reach = run.start.scales.half_width_x if reach is None else reach
     if not reach > 0:
-        raise InputError(f"reach = {reach} m must be positive")
+        raise InputError(f"reach = {reach} m: must be positive")
     count = round(reach / (x[1] - x[0]))
     offset = np.linspace(-reach, reach, 2 * max(count, 1) + 1)
     place = start + speed * run.history.time
@@ -186,12 +123,9 @@ def moving_profiles(
 
 
 def _place_of_feature(run: "TransientResult", surface: int) -> float:
-    """Return where the feature of a surface stands at time zero [m].
+    """Return the place of the feature of a surface at time zero [m].
 
-    Raises
-    ------
-    InputError
-        If it has several, or the line y = 0 does not see it.
+    Raises InputError if it has several, or one away from y = 0.
     """
     name = f"surface_{surface}"
     parts = [one for one in parts_of(run.start.scaled_problem) if one.surface == name]
@@ -199,26 +133,26 @@ def _place_of_feature(run: "TransientResult", surface: int) -> float:
     if not features:
         return 0.0
     if len(features) > 1:
-        raise InputError(f"{name} has {len(features)} features: say around which place, start")
+        raise InputError(f"{name} has {len(features)} features: state the place to follow, start")
     feature = features[0].roughness
     y, (first, last) = float(getattr(feature, "y", 0.0)), features[0].extent[1]
     if not abs(y) <= 0.25 * (last - first):
         raise InputError(
-            f"the {feature.type} of {name} stands at y = {y:g} m, beside the line y = 0 whose "
-            "profiles are kept: read its fields (tehl.post.instant.film_at)"
+            f"the {feature.type} of {name} is at y = {y:g} m, but profiles are stored along y = 0 "
+            "only: use the fields (tehl.post.transient.film_at)"
         )
     return float(getattr(feature, "x", 0.0))
 
 
 def envelope(run: "TransientResult", *, since: float = 0.0, until: float = math.inf) -> Envelope:
-    """Return the least and largest film and pressure along y = 0 over a passage.
+    """Return the least and largest film and pressure along y = 0 over time.
 
     Parameters
     ----------
     run : TransientResult
         The run.
     since, until : float
-        First and last time that counts [s].
+        First and last time [s].
 
     Raises
     ------
@@ -241,146 +175,120 @@ def envelope(run: "TransientResult", *, since: float = 0.0, until: float = math.
     )
 
 
-def passing_wave(run: "TransientResult", surface: int, *, x: float = 0.0) -> PassingWave:
-    """Return what is left of the wave of a surface at a place that it passes.
+@dataclass(frozen=True, kw_only=True, slots=True)
+class LargestChange:
+    """Largest deviation from the steady film at the start, on y = 0 where |X| < 0.8.
 
-    A harmonic, its overtone, a mean and a drift are fitted to film, pressure and height at the
-    place over the last whole periods, four of them at most.
+    Attributes
+    ----------
+    start, value : float
+        Film [m] or pressure [Pa] at the start, and where and when it deviates most.
+    x, time : float
+        Where [m] and when [s].
+    """
+
+    start: float
+    value: float
+    x: float
+    time: float
+
+
+def largest_change(run: "TransientResult", name: str, sign: int) -> LargestChange:
+    """Return the largest change of a profile along y = 0 over the run.
 
     Parameters
     ----------
     run : TransientResult
-        Of a surface with a ``wave`` or crossed waves.
-    surface : {1, 2}
-        Which surface.
-    x : float
-        Where on y = 0 [m].
-
-    Raises
-    ------
-    InputError
-        If the surface has no wave that passes, if no whole period is left after the wave has come
-        to the place, or if there are too few steps in a period.
+        The run.
+    name : {"film", "pressure"}
+        Which profile.
+    sign : {-1, 1}
+        The largest decrease or the largest increase.
     """
-    speed, wave = speed_of(run, surface), _wave(run, surface)
-    rate = abs(wave.along * speed)
-    if not rate > 0:
-        raise InputError(f"the wave of surface_{surface} does not pass: it lies along x or stands")
-    period, time = 2.0 * math.pi / rate, run.history.time
-    steps = period / run.time_step
-    if steps < FEWEST_STEPS:
-        raise InputError(
-            f"a period of the wave of surface_{surface} has {steps:.3g} steps of time, and a fit "
-            f"takes {FEWEST_STEPS} or more: take more nodes"
-        )
-    left = time[-1] - _arrival(run, surface, x)
-    periods = min(math.floor(left / period + _WHOLE), MOST_PERIODS)
-    if periods < 1:
-        raise InputError(
-            f"the wave of surface_{surface} has been at x = {x:g} m for "
-            f"{max(left, 0.0) / period:.2g} of a period: let transient.duration be longer"
-        )
-    fit = _TimeFit.over(time, time[-1] - periods * period, rate)
-    height, film, pressure = (
-        fit.amplitude(_at(run, line, x))
-        for line in (
-            getattr(run.profiles, f"height_{surface}"),
-            run.profiles.film,
-            run.profiles.pressure,
-        )
-    )
-    number = nabla_of(run, wave)
-    return PassingWave(
-        x=x,
-        periods=periods,
-        steps_per_period=steps,
-        amplitude=abs(height),
-        film_amplitude=abs(film),
-        film_phase=_later(film / -height),
-        pressure_amplitude=abs(pressure),
-        pressure_phase=_later(pressure / height),
-        nabla=number,
-        published_ratio=amplitude_reduction(number, ratio=_ratio(wave)),
+    inside = np.flatnonzero(np.abs(run.start.scaled.x) < _INSIDE)
+    values = getattr(run.profiles, name)[:, inside]
+    step, node = np.unravel_index(int(np.argmax(sign * (values - values[0]))), values.shape)
+    return LargestChange(
+        start=float(values[0, node]),
+        value=float(values[step, node]),
+        x=float(run.x[inside[node]]),
+        time=float(run.history.time[step]),
     )
 
 
-def amplitude_reduction(nabla: float, *, ratio: float = 1.0) -> float:
-    """Return the published part of a wave that is left in the film, for pure rolling [-].
+def passing_features(run: "TransientResult") -> Iterator[tuple[Part, float]]:
+    """Yield each dent, bump or ridge that moves, and when it is at x = 0 [s]."""
+    for part in parts_of(run.start.scaled_problem):
+        if not part.is_endless and part.speed != 0:
+            yield part, -float(getattr(part.roughness, "x", 0.0)) / part.speed
 
-    Parameters
-    ----------
-    nabla : float
-        (lambda / a) sqrt(M/L) [-].
-    ratio : float
-        Wavelength along x over that along y [-]; zero for a transverse wave.
+
+def film_at(run: "TransientResult", frame: int = -1) -> "Result":
+    """Return a stored field as a steady result; negative numbers count from the last field.
+
+    It has pressure, film and heights at that time in the precision of the fields, with the smallest
+    nodal film as the minimum; no temperatures, stresses, error bars and cycles. The functions of
+    `tehl.post.roughness`, `tehl.post.micro_film` and `tehl.plots` take it. Raises InputError if the
+    field is not stored.
     """
-    scaled = nabla * (math.exp(1.0 - 1.0 / ratio) if ratio > 1.0 else 1.0)
-    return 1.0 / (1.0 + 0.15 * scaled + 0.015 * scaled**2)
+    frames, start = run.frames, run.start
+    count = len(frames.step)
+    if not -count <= frame < count:
+        raise InputError(f"frame = {frame}: the run has {count} stored fields (transient.frames)")
+    units, x, y = start.scales, start.scaled.x, start.scaled.y
+    film = np.asarray(frames.film[frame], np.float64) / units.film_thickness
+    pressure = np.asarray(frames.pressure[frame], np.float64) / units.hertz_pressure
+    scaled = Fields(x=x, y=y, pressure=pressure, film=film)
+    row, column = np.unravel_index(int(np.argmin(film)), film.shape)
+    return replace(
+        start,
+        scaled=scaled,
+        rigid_approach=float(run.history.rigid_approach[frames.step[frame]]),
+        film_scaled=FilmSummary(
+            central=scaled.at_origin(film),
+            minimum=float(film.min()),
+            minimum_node=float(film.min()),
+            minimum_at=(float(x[column]), float(y[row])),
+        ),
+        heights=_heights(run, frame),
+        history=(),
+        errors=None,
+        uncertainty={},
+        shear=None,
+        heat=None,
+    )
 
 
-def nabla_of(run: "TransientResult", wave: WaveVector) -> float:
-    """Return (lambda / a) sqrt(M/L) [-], lambda the shorter one of those along x and y."""
-    groups, half_width = run.start.groups, run.start.scales.half_width_x
-    number = max(abs(wave.along), abs(wave.across))
-    return 2.0 * math.pi / (number * half_width) * math.sqrt(groups.M / groups.L)
+def smooth_start(run: "TransientResult") -> "Result | None":
+    """Return the steady film of smooth surfaces at the start of a run, to compare its fields with.
+
+    None if the run did not start from smooth surfaces under the load of the contact.
+    """
+    transient, problem = run.start.problem.transient, run.start.problem
+    starts = transient is not None and transient.start == "smooth" and transient.load_at(0.0) == 1.0
+    if not starts or not problem.is_rough:
+        return None
+    return replace(run.start, problem=smooth_twin(problem))
 
 
-def _ratio(wave: WaveVector) -> float:
-    """Return the wavelength along x over that along y."""
-    return abs(wave.across / wave.along)
-
-
-def _wave(run: "TransientResult", surface: int) -> WaveVector:
-    """Return the one wave of a surface, or one of several that pass equally often."""
-    roughness = getattr(run.start.problem, f"surface_{surface}").roughness
-    waves = list(waves_of(roughness))
-    if not waves:
-        raise InputError(f"surface_{surface} has no wave: its roughness is {roughness.type}")
-    if not all(math.isclose(abs(one.along), abs(waves[0].along)) for one in waves):
-        raise InputError(f"surface_{surface} has waves of several lengths along x: fit one of them")
-    return waves[0]
-
-
-def _arrival(run: "TransientResult", surface: int, x: float) -> float:
-    """Return when a wave that comes in from the inlet has come to ``x`` in full [s]."""
-    transient, speed = run.start.problem.transient, speed_of(run, surface)
-    if transient is None or transient.start == "standing":
-        return 0.0
-    front = transient.entrance * run.start.scales.half_width_x
-    wave = _wave(run, surface)
-    faded = min(2.0 * math.pi / abs(wave.along), 0.5 * front)
-    return (math.copysign(x, x * speed) + front + faded) / abs(speed)
-
-
-def _at(run: "TransientResult", line: Array, x: float) -> Array:
-    """Return a line in time at one place, interpolated."""
-    if not run.x[0] <= x <= run.x[-1]:
-        raise InputError(f"x = {x:g} m lies outside the domain, {run.x[0]:g} to {run.x[-1]:g} m")
-    return np.array([np.interp(x, run.x, values) for values in line])
-
-
-@dataclass(frozen=True, slots=True)
-class _TimeFit:
-    """The steps of a fit, and the rows of its inverse matrix that give the harmonic."""
-
-    inside: slice
-    rows: Array
-
-    @classmethod
-    def over(cls, time: Array, since: float, rate: float) -> "_TimeFit":
-        first = int(np.searchsorted(time, since - 1e-9 * abs(time[-1])))
-        t = time[first:]
-        drift = (t - t.mean()) / max(np.ptp(t), 1e-300)
-        columns = [np.cos(rate * t), np.sin(rate * t), np.cos(2 * rate * t), np.sin(2 * rate * t)]
-        matrix = np.stack([*columns, np.ones_like(t), drift], axis=1)
-        return cls(slice(first, None), np.linalg.pinv(matrix)[:2])
-
-    def amplitude(self, values: Array) -> complex:
-        """Return the complex amplitude of ``cos(rate t)`` in values of all times."""
-        cosine, sine = self.rows @ values[self.inside]
-        return complex(cosine, -sine)
-
-
-def _later(ratio: complex) -> float:
-    """Return how much later a ripple comes than what it is divided by [rad]."""
-    return -cmath.phase(ratio) + 0.0
+def _heights(run: "TransientResult", frame: int) -> SurfaceHeights | None:
+    """Return the heights of both surfaces at a stored field."""
+    problem = run.start.problem
+    if not problem.is_rough or problem.transient is None:
+        return None
+    together = np.asarray(run.frames.height[frame], np.float64)
+    flat = np.zeros_like(together)
+    if problem.surface_2.roughness.is_smooth:
+        return SurfaceHeights(surface_1=together, surface_2=flat)
+    if problem.surface_1.roughness.is_smooth:
+        return SurfaceHeights(surface_1=flat, surface_2=together)
+    x, y = run.start.scaled.x, run.start.scaled.y
+    domain = Domain(x=(float(x[0]), float(x[-1])), y=(float(y[0]), float(y[-1])))
+    grid = Grid(nx=x.size, ny=y.size, domain=domain, mirror=False)
+    entrance = problem.transient.entrance if problem.transient.start == "smooth" else None
+    units = run.start.scales
+    moving = MovingHeights(run.start.scaled_problem, grid, entrance)
+    first, second = moving.at(float(run.history.time[run.frames.step[frame]]))
+    return SurfaceHeights(
+        surface_1=first * units.film_thickness, surface_2=second * units.film_thickness
+    )

@@ -1,4 +1,4 @@
-"""What can be said of rough surfaces before the solve: heights, grid, waves, what is odd."""
+"""Rough surfaces before the solve: heights, needed grid, waves, plausibility."""
 
 import math
 from collections.abc import Iterator
@@ -51,7 +51,7 @@ class ExpectedWave:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Asperities:
-    """What the heights of a case mean for its contact and its grid.
+    """Heights of the surfaces in a contact and on a grid.
 
     Attributes
     ----------
@@ -73,7 +73,7 @@ class Asperities:
     waves : tuple of ExpectedWave
         Of surfaces that consist of waves.
     remarks : tuple of str
-        What is odd about a surface beside the contact.
+        Sizes of a surface that do not fit the contact.
     """
 
     sq: tuple[float, float]
@@ -91,7 +91,7 @@ class Asperities:
 def asperities(
     problem: ContactProblem, options: Options, domain: Domain, film: float
 ) -> Asperities | None:
-    """Return what the heights of a case mean; None where both surfaces are smooth.
+    """Return heights, needed grid and waves of a case; None where both surfaces are smooth.
 
     Parameters
     ----------
@@ -230,12 +230,12 @@ def _remarks(problem: ContactProblem) -> Iterator[str]:
 def odd_asperities(
     found: Asperities | None, problem: ContactProblem, options: Options, film: float
 ) -> Iterator[str]:
-    """Yield what a careful reader would ask about rough surfaces, a sentence each.
+    """Yield what is not plausible about rough surfaces, a sentence each.
 
     Parameters
     ----------
     found : Asperities or None
-        What the heights mean; None asks nothing.
+        As of :func:`asperities`; None yields nothing.
     problem, options : ContactProblem, Options
         The case.
     film : float
@@ -246,27 +246,27 @@ def odd_asperities(
     yield from found.remarks
     if found.points_per_wave < CONVERGES:
         yield (
-            f"numerics.points = {min(options.shape)} puts {found.points_per_wave:.2g} nodes on the "
-            f"shortest wave of the surfaces ({found.shortest_wave * 1e6:.3g} um), and a run may "
-            f"not converge: {_nodes(found.points_to_converge)} put {CONVERGES} on it, "
-            f"{_nodes(found.points_to_answer)} the {ANSWERS} that its ripples take"
+            f"numerics.points = {min(options.shape)}: {found.points_per_wave:.2g} nodes on the "
+            f"shortest wave of the surfaces ({found.shortest_wave * 1e6:.3g} um), so a run may not "
+            f"converge; {_nodes(found.points_to_converge)} put {CONVERGES} on it, "
+            f"{_nodes(found.points_to_answer)} the {ANSWERS} that its ripples need"
         )
     if found.steepest > STEEP:
         yield (
-            f"the surfaces have slopes up to {found.steepest:.2g}, but Reynolds' equation asks for "
-            "gentle ones: are the units of height and length right?"
+            f"the surfaces have slopes up to {found.steepest:.2g}: Reynolds' equation needs gentle "
+            "ones, check the units of height and length"
         )
     if film < found.composite:
         yield (
-            f"the film is {film / found.composite:.2g} times Sq: asperities may touch, and the run "
-            "will say where there is no film"
+            f"the film is {film / found.composite:.2g} times Sq: asperities may touch, and the "
+            "result shows where there is no film"
         )
     pressures = (w.elastic_pressure if w.pressure is None else w.pressure for w in found.waves)
     largest = max(pressures, default=0.0)
     if largest > problem.hertz.pressure:
         yield (
-            f"a wave takes {largest / problem.hertz.pressure:.2g} Hertz pressures to be flattened: "
-            "its valleys will cavitate, and a run may not converge"
+            f"flattening a wave needs {largest / problem.hertz.pressure:.2g} Hertz pressures: its "
+            "valleys will cavitate, and a run may not converge"
         )
 
 

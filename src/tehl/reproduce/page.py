@@ -4,10 +4,10 @@ import base64
 from html import escape
 from pathlib import Path
 
-from tehl.report.parts import STYLE, section, table
 from tehl.reproduce.draw.gallery import SMALL
 from tehl.reproduce.findings import Drawn, Findings
 from tehl.reproduce.judge import Check, Finding, Verdict
+from tehl.reproduce.parts import STYLE, section, table
 from tehl.reproduce.propositions import Proposition
 from tehl.reproduce.tables import Table
 from tehl.reproduce.words import MEANING, RUNS, SETS, TREATMENTS, counted, run_cells

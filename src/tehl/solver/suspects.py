@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from tehl.domain import needed_points
-from tehl.film_formulas import expected_central_film
+from tehl.film_formulas import expected_central_film, expected_film
 from tehl.grid import Grid
 from tehl.heat import FAR_BODY, FilmEnergy
 from tehl.problem import ContactProblem
@@ -86,10 +86,9 @@ def _warm_or_cold_body(problem: ContactProblem) -> Iterator[Suspect]:
 
 def _stress(scaled: ScaledProblem) -> Iterator[Suspect]:
     """Blame a shear stress beyond what any oil bears, estimated at the temperature of the inlet."""
-    problem, scales, groups = scaled.problem, scaled.scales, scaled.groups
+    problem, scales = scaled.problem, scaled.scales
     pressure = MEAN_PRESSURE * scales.hertz_pressure
-    film = expected_central_film(groups) * scales.film_thickness
-    rate = abs(problem.motion.sliding_speed) / film
+    rate = abs(problem.motion.sliding_speed) / expected_film(scaled)
     oil = problem.lubricant
     viscosity = oil.viscosity.viscosity_at(pressure, scales.temperature)
     stress = oil.shear.thinned(viscosity * rate, pressure)

@@ -1,11 +1,7 @@
-"""Parts of a page that needs nothing else: style, sections, tables, pictures."""
+"""Parts of a page that needs nothing else: style, sections, tables."""
 
-import base64
-import io
 from collections.abc import Iterable, Sequence
 from html import escape
-
-from matplotlib.figure import Figure
 
 STYLE = """
 :root { color-scheme: light; }
@@ -56,10 +52,3 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 def _cell(text: str) -> str:
     number = text[:1].isdigit() or text[:2].lstrip("-+±").isdigit()
     return f"<td class={'number' if number else 'text'}>{escape(text)}</td>"
-
-
-def image(picture: Figure, dpi: int) -> str:
-    """Return a figure as the address of an image that carries its own bytes."""
-    buffer = io.BytesIO()
-    picture.savefig(buffer, format="png", dpi=dpi)
-    return f"data:image/png;base64,{base64.b64encode(buffer.getvalue()).decode('ascii')}"

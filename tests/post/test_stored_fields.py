@@ -5,9 +5,9 @@ import pytest
 
 from tehl import InputError, solve_transient
 from tehl.options import Options
-from tehl.post.instant import film_at, smooth_start
 from tehl.post.micro_film import micro_film
 from tehl.post.roughness import area_below, rough_film
+from tehl.post.transient import film_at, smooth_start
 from tehl.post.waviness import drift_of_found
 from tests.reference import DOMAIN
 from tests.solver.test_transient import in_time, wave
@@ -55,7 +55,7 @@ def test_the_numbers_of_rough_films_are_those_of_the_instant(run):
 
 
 def test_an_instant_that_was_not_kept_is_refused(run):
-    with pytest.raises(InputError, match="frame = 3: the run keeps 3 fields"):
+    with pytest.raises(InputError, match="frame = 3: the run has 3 stored fields"):
         film_at(run, 3)
 
 

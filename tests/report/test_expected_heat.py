@@ -5,10 +5,15 @@ from typing import Any
 
 import pytest
 
-from tehl.film_formulas import expected_central_film, inlet_heating_factor
+from tehl.film_formulas import expected_film, inlet_heating_factor
 from tehl.problem import ContactProblem
-from tehl.report.heating import ASSUMED_TRACTION, ExpectedHeat, expected_heat
-from tehl.scaling import groups, scales
+from tehl.report.expected_heat import (
+    ASSUMED_TRACTION,
+    ExpectedHeat,
+    body_effect,
+    expected_heat,
+)
+from tehl.scaling import ScaledProblem
 from tests.cases import ball_tables
 
 STEEL = {"k": 46.0, "rho": 7850.0, "c": 470.0}
@@ -21,7 +26,12 @@ def problem(slip: float = 0.5, speed: float = 1.5, **changes: Any) -> ContactPro
 
 
 def heat(slip: float = 0.5, speed: float = 1.5, **changes: Any) -> ExpectedHeat:
-    expected = expected_heat(problem(slip, speed, **changes))
+    return heat_of(problem(slip, speed, **changes))
+
+
+def heat_of(case: ContactProblem) -> ExpectedHeat:
+    scaled = ScaledProblem.of(case)
+    expected = expected_heat(scaled, body_effect(scaled))
     assert expected is not None
     return expected
 
@@ -35,8 +45,7 @@ def test_the_rises_of_a_known_stress_are_those_of_tian_and_kennedy():
     # A limiting stress far below the Newtonian one makes the heat known beforehand.
     shear = {"law": "limiting", "stress": "10 MPa"}
     case = problem(lubricant={"name": "mineral-oil", "shear": shear})
-    expected = expected_heat(case)
-    assert expected is not None
+    expected = heat_of(case)
     flux = 1e7 * 0.75
     diffusivity = STEEL["k"] / (STEEL["rho"] * STEEL["c"])
     width = case.hertz.half_width_x
@@ -44,7 +53,7 @@ def test_the_rises_of_a_known_stress_are_those_of_tian_and_kennedy():
         2.32 * width / (46 * math.sqrt(math.pi * (1.234 + speed * width / (2 * diffusivity))))
         for speed in (1.875, 1.125)
     ]
-    film = expected_central_film(groups(case)) * scales(case).film_thickness
+    film = expected_film(ScaledProblem.of(case))
     across = film * (inlet_heating_factor(case) or 1.0) / 0.14
     into_first = flux * (0.5 * across + resistance[1]) / (across + sum(resistance))
     rises = resistance[0] * into_first, resistance[1] * (flux - into_first)

@@ -3,8 +3,11 @@
 import pytest
 
 from tehl.io.case import case_from_tables
-from tehl.report.explain import as_summary, as_text, explain
-from tehl.report.time import seconds_in_words, time_plan
+from tehl.report.explain import as_summary, explain
+from tehl.report.explain_text import as_text
+from tehl.report.readable import seconds
+from tehl.report.transient_plan import transient_plan
+from tehl.scaling import ScaledProblem
 from tests.cases import ball_tables
 
 WAVE = {"type": "wave", "amplitude": "20 nm", "wavelength": "200 um"}
@@ -18,7 +21,8 @@ def plan(**changes):
     )
     tables["contact"] = tables["contact"] | changes
     problem, options = case_from_tables(tables)
-    return time_plan(problem, options), problem, options
+    found = transient_plan(ScaledProblem.of(problem), options, options.domain)
+    return found, problem, options
 
 
 def test_steps_follow_from_the_mesh_and_the_mean_speed():
@@ -59,7 +63,7 @@ def test_an_explanation_tells_of_time_only_where_there_is_some():
 
 
 @pytest.mark.parametrize(
-    ("seconds", "words"), [(2.0, "2 s"), (1.5e-3, "1.5 ms"), (2.5e-5, "25 us"), (0.0, "0 us")]
+    ("time", "words"), [(2.0, "2 s"), (1.5e-3, "1.5 ms"), (2.5e-5, "25 us"), (0.0, "0 us")]
 )
-def test_times_are_told_in_their_unit(seconds, words):
-    assert seconds_in_words(seconds) == words
+def test_times_have_a_fitting_unit(time, words):
+    assert seconds(time) == words

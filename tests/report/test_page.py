@@ -1,4 +1,4 @@
-"""The report: one file, everything in it, nothing executable from a title."""
+"""The report of either kind of result: one file, everything in it, all text escaped."""
 
 from dataclasses import replace
 from html.parser import HTMLParser
@@ -7,10 +7,15 @@ import pytest
 
 from tehl.film_formulas import InletFactor
 from tehl.post.micro_film import roughness_effect
+from tehl.post.passing_wave import passing_wave
 from tehl.post.thermal_effect import ThermalEffect
-from tehl.report import html
-from tehl.report.html import report_text, write_report
-from tehl.report.inputs import input_rows
+from tehl.post.transient import largest_change
+from tehl.report import page as module
+from tehl.report.page import report_text, write_report
+from tehl.report.readable import input_rows
+from tehl.result import Status
+from tests.fixtures_transient import make_certified, make_transient, passing
+from tests.post.test_transient import wave_case
 
 VOID = {"meta", "img", "br"}
 
@@ -20,7 +25,7 @@ class Page(HTMLParser):
 
     def __init__(self, text: str) -> None:
         super().__init__()
-        self.open, self.tags, self.sources, self.words = [], [], [], []
+        self.open, self.tags, self.sources, self.words, self.headings = [], [], [], [], []
         self.feed(text)
         self.close()
         assert self.open == []
@@ -36,6 +41,14 @@ class Page(HTMLParser):
 
     def handle_data(self, data):
         self.words.append(data)
+        if self.open and self.open[-1] == "h2":
+            self.headings.append(data)
+
+
+SHARED = (
+    "Result", "Pictures", "Formulas against computed", "Inputs", "Dimensionless groups", "Errors",
+    "Convergence", "Conventions", "Provenance",
+)  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +59,7 @@ def page(certified):
 @pytest.fixture
 def one_picture(monkeypatch):
     """Drawing all pictures takes seconds; they are tested once."""
-    monkeypatch.setattr(html, "_CAPTIONS", {"residuals": "Convergence."})
+    monkeypatch.setattr(module, "CAPTIONS", {"residuals": "Convergence."})
 
 
 def test_pictures_are_inside_and_nothing_is_remote(page):
@@ -87,24 +100,96 @@ def test_traction_alone_has_its_section(sheared):
     words = " ".join(Page(report_text(sheared, dpi=40)).words)
     assert "the film holds it back" in words
     assert "moving source" not in words
-    assert "More than any oil" not in words
+    assert "More than oils can transmit" not in words
     shear = replace(sheared.shear, mid_film=5 * sheared.shear.mid_film)
     doubted = " ".join(Page(report_text(replace(sheared, shear=shear), dpi=40)).words)
-    assert "More than any oil bears: the shear law is newtonian." in doubted
+    assert "More than oils can transmit: the shear law is newtonian." in doubted
+
+
+@pytest.mark.parametrize("kind", ["steady", "transient"])
+def test_each_kind_has_each_section_and_needs_no_network(result, kind):
+    run = result if kind == "steady" else make_transient()
+    text = report_text(run, dpi=30)
+    page = Page(text)
+    assert set(SHARED) <= set(page.headings)
+    assert page.sources
+    assert all(source.startswith("data:image/png;base64,") for source in page.sources)
+    assert not any(word in text for word in ("http:", "https:", "@import", "url("))
 
 
 @pytest.mark.usefixtures("one_picture")
-def test_a_title_cannot_bring_markup(result):
-    problem = result.problem.model_copy(update={"title": '<script>alert("x")</script> & co'})
-    page = Page(report_text(replace(result, problem=problem), dpi=40))
+@pytest.mark.parametrize("kind", ["steady", "transient"])
+def test_a_hostile_title_is_escaped(result, kind):
+    title = '<script>alert("x")</script> & co'
+    problem = result.problem.model_copy(update={"title": title})
+    run: object = replace(result, problem=problem)
+    if kind == "transient":
+        run = make_transient()
+        problem = run.start.problem.model_copy(update={"title": title})
+        run = replace(run, start=replace(run.start, problem=problem))
+    page = Page(report_text(run, dpi=40))
     assert "script" not in page.tags
-    assert '<script>alert("x")</script> & co' in " ".join(page.words)
+    assert title in " ".join(page.words)
+
+
+def test_a_transient_run_shows_its_pictures_and_extremes():
+    run = make_transient()
+    page = Page(report_text(run, dpi=30))
+    words = " ".join(page.words)
+    assert len(page.sources) == 4
+    assert f"{run.history.film_minimum.min() * 1e9:.4g} nm" in words
+    assert f"{run.history.traction.min():.4g}" in words
+    assert "Not certified" not in words
+    assert "The run is not certified" in words
+
+
+@pytest.mark.usefixtures("one_picture")
+def test_a_dent_is_followed_through_the_contact():
+    run = make_transient()
+    page = Page(report_text(run))
+    words = " ".join(page.words)
+    speed = run.start.problem.motion.speed_1
+    assert "Effect of the roughness" in page.headings
+    assert "bump of surface 1" in words
+    assert f"{2e-4 / speed * 1e6:.4g} µs" in words
+    assert f"{largest_change(run, 'film', 1).value * 1e9:.4g} nm" in words
+
+
+@pytest.mark.usefixtures("one_picture")
+def test_a_wave_shows_its_amplitude_reduction():
+    run = passing(wave_case(phase=0.0), points=65, flattened=0.3)
+    found = passing_wave(run, 1)
+    words = " ".join(Page(report_text(run)).words)
+    assert f"({100 * found.film_ratio:.3g} %)" in words
+    assert f"{100 * found.published_ratio:.3g} %" in words
+    few = " ".join(Page(report_text(passing(wave_case(wavelength=1e-4)))).words)
+    assert "Not evaluated: a period of the wave of surface_1 has" in few
+
+
+@pytest.mark.usefixtures("one_picture")
+def test_error_bars_of_a_transient_run_are_in_si():
+    run = make_certified()
+    words = " ".join(Page(report_text(run)).words)
+    one = run.uncertainty["pressure_max"]
+    assert f"{one.value * 1e-9:.5g} ± {one.uncertainty * 1e-9:.2g} GPa" in words
+    assert "± 1.4e-10" not in words
+
+
+@pytest.mark.usefixtures("one_picture")
+def test_a_transient_run_that_stopped_shows_cause_and_hint():
+    status = Status(
+        kind="stalled", cause="step_not_settled", message="A step failed.", hint="Halve it."
+    )
+    words = " ".join(Page(report_text(replace(make_transient(), status=status))).words)
+    assert all(
+        text in words for text in ("Stalled: step not settled", "A step failed.", "Halve it")
+    )
 
 
 @pytest.mark.usefixtures("one_picture")
 def test_a_failure_is_shown_with_its_hint(stalled):
     words = " ".join(Page(report_text(replace(stalled, errors=None), dpi=40)).words)
-    assert "Not an answer" in words
+    assert "Stalled: grid too coarse" in words
     assert "take points = 513" in words
     assert "No error could be estimated" in words
 
@@ -140,7 +225,7 @@ def test_a_negative_film_is_no_result(stalled):
 
 
 def test_the_film_without_heat_stands_beside_the_one_with_it(thermal, monkeypatch):
-    monkeypatch.setattr("tehl.report.html._CAPTIONS", {})
+    monkeypatch.setattr("tehl.report.page.CAPTIONS", {})
     factor = InletFactor(formula="Gupta", source="Trib. Trans.", factor=0.9375, remarks=("odd",))
     effect = ThermalEffect(
         central=0.9875,

@@ -1,4 +1,4 @@
-"""How the iteration went."""
+"""Convergence of the iteration."""
 
 from itertools import pairwise
 
@@ -8,32 +8,24 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator, NullFormatter
 
-from tehl.plots.frame import figure
+from tehl.plots.frame import BLUE, GREEN, ORANGE, figure, plain_legend
 from tehl.result import Result
 
 _CURVES = (
-    ("residual", "residual, scaled by the diagonal", "o-", "#1f4e9c"),
-    ("change", "change of P per cycle", "s-", "#c2410c"),
-    ("load_error", "load error", "^-", "#3f7d20"),
+    ("residual", "residual, scaled by the diagonal", "o-", BLUE),
+    ("change", "change of P per cycle", "s-", ORANGE),
+    ("load_error", "load error", "^-", GREEN),
 )
-_ROOM = 0.09
-"""Part of all cycles that a grid takes whose nodes can be written above."""
 _HEAT_CURVE = ("temperature_change", "change of T per cycle, right", "D-", "0.35")
+_ROOM = 0.09
+"""Part of all cycles from which on a grid has room for its number of nodes above."""
 
 
 def residual_history(result: Result) -> Figure:
     """Draw residual, changes and load error of each cycle, grid after grid.
 
-    Parameters
-    ----------
-    result : Result
-        What to draw.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        One panel with a logarithmic axis, and one in kelvin at the right for a thermal run;
-        vertical lines part the grids.
+    The axis is logarithmic, with one in kelvin at the right for a thermal run; vertical lines
+    separate the grids.
     """
     picture = figure(result, (7.0, 4.6))
     axes = picture.add_subplot()
@@ -42,23 +34,18 @@ def residual_history(result: Result) -> Figure:
     if not result.history:
         axes.text(0.5, 0.5, "no cycles were recorded", ha="center", transform=axes.transAxes)
         return picture
-    for curve in _CURVES:
-        _draw(axes, result, curve)
-    lines = list(axes.lines)
+    lines = [_draw(axes, result, curve) for curve in _CURVES]
     if result.heat is not None:
-        right = _kelvin_axes(axes)
+        right, colour = axes.twinx(), _HEAT_CURVE[-1]
+        right.set(yscale="log")
+        right.set_ylabel("change of temperature per cycle [K]", color=colour)
+        right.tick_params(axis="y", which="both", colors=colour)
         lines.append(_draw(right, result, _HEAT_CURVE))
         _align_decades(axes, right)
-    _part_grids(axes, [report.points for report in result.history])
+    _separate_grids(axes, [report.points for report in result.history])
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-    axes.legend(
-        handles=lines,
-        loc="upper center",
-        bbox_to_anchor=(0.5, -0.13),
-        ncols=3 if len(lines) == 3 else 2,
-        fontsize=8,
-        frameon=False,
-    )
+    columns = 3 if len(lines) == 3 else 2
+    plain_legend(axes, "upper center", (0.5, -0.13), handles=lines, ncols=columns)
     return picture
 
 
@@ -68,16 +55,6 @@ def _draw(axes: Axes, result: Result, curve: tuple[str, str, str, str]) -> Line2
     values = np.abs([getattr(report, name) for report in result.history])
     count, shown = np.arange(1, values.size + 1), np.where(values > 0, values, np.nan)
     return axes.plot(count, shown, style, ms=3.5, lw=1.1, color=colour, label=label)[0]
-
-
-def _kelvin_axes(axes: Axes) -> Axes:
-    """Return axes in kelvin over the same cycles, with their scale at the right."""
-    colour = _HEAT_CURVE[-1]
-    right = axes.twinx()
-    right.set(yscale="log")
-    right.set_ylabel("change of temperature per cycle [K]", color=colour)
-    right.tick_params(axis="y", which="both", colors=colour)
-    return right
 
 
 def _align_decades(left: Axes, right: Axes) -> None:
@@ -95,18 +72,12 @@ def _align_decades(left: Axes, right: Axes) -> None:
         axes.yaxis.set_minor_formatter(NullFormatter())
 
 
-def _part_grids(axes: Axes, grids: list[tuple[int, int]]) -> None:
+def _separate_grids(axes: Axes, grids: list[tuple[int, int]]) -> None:
     """Draw a line before each grid, and its nodes above where there is room."""
     starts = [i for i, grid in enumerate(grids) if i == 0 or grid != grids[i - 1]]
     for start, end in pairwise([*starts, len(grids)]):
         if start:
             axes.axvline(start + 0.5, color="0.6", lw=0.8, ls=":")
-        if end - start < _ROOM * len(grids) and len(starts) > 1:
-            continue
-        axes.annotate(
-            "{}×{}".format(*grids[start]),
-            (start + 0.6, 1.0),
-            xycoords=("data", "axes fraction"),
-            va="bottom",
-            fontsize=7,
-        )
+        if end - start >= _ROOM * len(grids) or len(starts) == 1:
+            place, nodes = (start + 0.6, 1.0), "{}×{}".format(*grids[start])
+            axes.annotate(nodes, place, xycoords=("data", "axes fraction"), va="bottom", fontsize=7)

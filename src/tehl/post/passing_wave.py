@@ -1,0 +1,212 @@
+r"""Amplitude of a wave that passes a place, fitted in time.
+
+A wave that passes is flattened less the shorter it is. For pure rolling its amplitude in the film
+follows, by a fit to computed contacts [1]_,
+
+.. math:: \frac{A_d}{A_i} = \frac{1}{1 + 0.15 f\nabla + 0.015 (f\nabla)^2}, \quad
+          \nabla = \frac{\lambda}{a}\sqrt{\frac{M}{L}}
+
+with :math:`\lambda` the shorter one of the wavelengths along x and y, :math:`r = \lambda_x /
+\lambda_y`, and :math:`f = e^{1 - 1/r}` for r > 1, else one.
+
+References
+----------
+.. [1] C. H. Venner and A. A. Lubrecht, Proc. IMechE Part J 214 (2000), 43-62.
+"""
+
+import cmath
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tehl.errors import InputError
+from tehl.post.transient import speed_of
+from tehl.post.waviness import waves_of
+from tehl.roughness import WaveVector
+from tehl.typing import Array
+
+if TYPE_CHECKING:
+    from tehl.transient_result import TransientResult
+
+MOST_PERIODS = 4
+"""Periods at the end of a run over which a passing wave is fitted."""
+FEWEST_STEPS = 8
+"""Time steps per period that a fit needs."""
+_WHOLE = 1e-6
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class PassingWave:
+    """Amplitudes of a wave that passes a place on y = 0.
+
+    Attributes
+    ----------
+    x : float
+        The place [m].
+    periods : int
+        Number of fitted periods.
+    steps_per_period : float
+        Time steps in each of them.
+    amplitude : float
+        Of the heights, as the grid carries them [m].
+    film_amplitude, pressure_amplitude : float
+        Of the ripples [m], [Pa].
+    film_phase, pressure_phase : float
+        Zero where the film is thinnest and the pressure highest under the crests; positive where
+        the ripple lags [rad].
+    nabla : float
+        (lambda / a) sqrt(M/L) [-].
+    published_ratio : float
+        Amplitude reduction by the fit for pure rolling [-].
+    """
+
+    x: float
+    periods: int
+    steps_per_period: float
+    amplitude: float
+    film_amplitude: float
+    film_phase: float
+    pressure_amplitude: float
+    pressure_phase: float
+    nabla: float
+    published_ratio: float
+
+    @property
+    def film_ratio(self) -> float:
+        """Return the part of the wave that is left in the film [-]."""
+        return self.film_amplitude / self.amplitude
+
+
+def passing_wave(run: "TransientResult", surface: int, *, x: float = 0.0) -> PassingWave:
+    """Return the amplitudes of the wave of a surface at a place that it passes.
+
+    A harmonic, its overtone, a mean and a drift are fitted to film, pressure and height at the
+    place over the last whole periods, at most four.
+
+    Parameters
+    ----------
+    run : TransientResult
+        Of a surface with a ``wave`` or crossed waves.
+    surface : {1, 2}
+        Which surface.
+    x : float
+        Place on y = 0 [m].
+
+    Raises
+    ------
+    InputError
+        If no wave of the surface passes, if less than a period remains after the wave has reached
+        the place, or if there are too few steps in a period.
+    """
+    wave = _wave(run, surface)
+    rate = abs(wave.along * speed_of(run, surface))
+    periods, steps = _periods(run, surface, rate, x)
+    harmonic = _harmonic(run.history.time, rate, periods)
+    height, film, pressure = (
+        complex(*(harmonic @ _at(run, line, x)[-harmonic.shape[1] :])).conjugate()
+        for line in (
+            getattr(run.profiles, f"height_{surface}"),
+            run.profiles.film,
+            run.profiles.pressure,
+        )
+    )
+    nabla = nabla_of(run, wave)
+    return PassingWave(
+        x=x,
+        periods=periods,
+        steps_per_period=steps,
+        amplitude=abs(height),
+        film_amplitude=abs(film),
+        film_phase=_lag(film / -height),
+        pressure_amplitude=abs(pressure),
+        pressure_phase=_lag(pressure / height),
+        nabla=nabla,
+        published_ratio=amplitude_reduction(nabla, ratio=abs(wave.across / wave.along)),
+    )
+
+
+def amplitude_reduction(nabla: float, *, ratio: float = 1.0) -> float:
+    """Return the published amplitude reduction A_d / A_i for pure rolling [-].
+
+    ``ratio`` is the wavelength along x over that along y, zero for a transverse wave.
+    """
+    scaled = nabla * (math.exp(1.0 - 1.0 / ratio) if ratio > 1.0 else 1.0)
+    return 1.0 / (1.0 + 0.15 * scaled + 0.015 * scaled**2)
+
+
+def nabla_of(run: "TransientResult", wave: WaveVector) -> float:
+    """Return (lambda / a) sqrt(M/L) [-], lambda the shorter one of those along x and y."""
+    groups, half_width = run.start.groups, run.start.scales.half_width_x
+    number = max(abs(wave.along), abs(wave.across))
+    return 2.0 * math.pi / (number * half_width) * math.sqrt(groups.M / groups.L)
+
+
+def _wave(run: "TransientResult", surface: int) -> WaveVector:
+    """Return the wave of a surface, or one of several of equal wavelength along x."""
+    roughness = getattr(run.start.problem, f"surface_{surface}").roughness
+    waves = list(waves_of(roughness))
+    if not waves:
+        raise InputError(f"surface_{surface} has no wave to fit: its roughness is {roughness.type}")
+    if not all(math.isclose(abs(one.along), abs(waves[0].along)) for one in waves):
+        raise InputError(
+            f"surface_{surface} has waves of several lengths along x: a fit needs a single one"
+        )
+    return waves[0]
+
+
+def _periods(run: "TransientResult", surface: int, rate: float, x: float) -> tuple[int, float]:
+    """Return the whole periods to fit, and the time steps in each."""
+    if not rate > 0:
+        raise InputError(
+            f"the wave of surface_{surface} does not pass: its crests lie along x, or it stands"
+        )
+    period = 2.0 * math.pi / rate
+    steps = period / run.time_step
+    if steps < FEWEST_STEPS:
+        raise InputError(
+            f"a period of the wave of surface_{surface} has {steps:.3g} time steps: a fit needs "
+            f"{FEWEST_STEPS} or more; take more nodes"
+        )
+    left = (float(run.history.time[-1]) - _arrival(run, surface, x)) / period
+    if math.floor(left + _WHOLE) < 1:
+        raise InputError(
+            f"the wave of surface_{surface} has been at x = {x:g} m for {max(left, 0.0):.2g} "
+            "periods: a fit needs one or more; increase transient.duration"
+        )
+    return min(math.floor(left + _WHOLE), MOST_PERIODS), steps
+
+
+def _arrival(run: "TransientResult", surface: int, x: float) -> float:
+    """Return when a wave that enters at the inlet has reached ``x`` in full [s]."""
+    transient, speed = run.start.problem.transient, speed_of(run, surface)
+    if transient is None or transient.start == "standing":
+        return 0.0
+    front = transient.entrance * run.start.scales.half_width_x
+    fade_in = min(2.0 * math.pi / abs(_wave(run, surface).along), 0.5 * front)
+    return (math.copysign(x, x * speed) + front + fade_in) / abs(speed)
+
+
+def _at(run: "TransientResult", line: Array, x: float) -> Array:
+    """Return a profile over time at one place, interpolated."""
+    if not run.x[0] <= x <= run.x[-1]:
+        raise InputError(f"x = {x:g} m: outside the domain, {run.x[0]:g} to {run.x[-1]:g} m")
+    return np.array([np.interp(x, run.x, values) for values in line])
+
+
+def _harmonic(time: Array, rate: float, periods: int) -> Array:
+    """Return the rows of a least-squares fit that give cosine and sine of ``rate t``.
+
+    They apply to the last whole periods; overtone, mean and drift are fitted too.
+    """
+    since = time[-1] - 2.0 * math.pi * periods / rate
+    t = time[int(np.searchsorted(time, since - 1e-9 * abs(time[-1]))) :]
+    drift = (t - t.mean()) / max(np.ptp(t), 1e-300)
+    columns = [np.cos(rate * t), np.sin(rate * t), np.cos(2 * rate * t), np.sin(2 * rate * t)]
+    return np.linalg.pinv(np.stack([*columns, np.ones_like(t), drift], axis=1))[:2]
+
+
+def _lag(ratio: complex) -> float:
+    """Return the lag of a ripple behind its divisor [rad]."""
+    return -cmath.phase(ratio) + 0.0

@@ -1,0 +1,267 @@
+"""A result, steady or transient, as one self-contained HTML page with its pictures inside."""
+
+import base64
+import io
+import math
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from matplotlib.figure import Figure
+
+from tehl.errors import InputError
+from tehl.film_formulas import film_estimates
+from tehl.io.atomic import check_writable, replacing
+from tehl.io.tables import DEFINITIONS
+from tehl.plots.save import Pictures, pictures_of
+from tehl.post.film import no_film
+from tehl.post.micro_film import RoughnessEffect
+from tehl.post.passing_wave import PassingWave, passing_wave
+from tehl.post.roughness import rough_film
+from tehl.post.thermal_effect import ThermalEffect
+from tehl.post.transient import largest_change, passing_features
+from tehl.post.waviness import waves_of
+from tehl.report.readable import UNTITLED, input_rows, seconds
+from tehl.result import Estimate, Result
+from tehl.transient_result import TransientResult
+
+CAPTIONS = {
+    "history": "Film, pressure and traction over time.",
+    "moments": "Pressure, film and the undeformed rough body along y = 0 at several times.",
+    "space_time": "Film and pressure along y = 0 over place and time, with paths of the surfaces.",
+    "passage": "Range of film and pressure along y = 0 over the run.",
+    "film": "Film thickness. The dashed line is the Hertz contact; oil enters at the left.",
+    "pressure": "Pressure.",
+    "pressure_surface": "Pressure along x, one profile behind another.",
+    "centre_lines": "Pressure and film on the centre lines, with the dry contact.",
+    "residuals": "Convergence, grid after grid.",
+    "heights": "Heights of both surfaces together, positive outwards: peaks narrow the film.",
+    "micro_film": "Ripples of film and pressure.",
+    "rough_centre_line": "Pressure, film and heights along y = 0.",
+    "film_distribution": "Distribution of the film thickness over the Hertz contact.",
+    "shear_stress": "Shear stress half-way between the surfaces.",
+    "temperature": "Temperature rise half-way between the surfaces, over the oil at the inlet.",
+    "temperature_layers": "Temperature rise on both surfaces and in the film.",
+    "temperature_section": "Temperature rise in the plane y = 0, over z/h and over z.",
+    "surface_heat": "Temperatures and heat fluxes into the solids along y = 0.",
+    "interferogram_white": "Synthetic interferogram, white light.",
+    "interferogram_dichromatic": "Synthetic interferogram, two lines.",
+}
+"""Pictures of a report, in its order."""
+_UNITS = {
+    "nm": (1e9, " nm"),
+    "um": (1e6, " µm"),
+    "mpa": (1e-6, " MPa"),
+    "gpa": (1e-9, " GPa"),
+    "kelvin": (1.0, " K"),
+    "newton": (1.0, " N"),
+    "watt": (1.0, " W"),
+    "plain": (1.0, ""),
+}
+"""Factor from SI and unit, by name of the filter."""
+_CERTIFIED = {
+    "pressure_max": "gpa",
+    "film_rise_max": "kelvin",
+    "mid_film_rise_central": "kelvin",
+    "traction_mid_film": "plain",
+    "traction_extreme": "plain",
+}
+"""Units of certified values; the others are films, in nanometres."""
+
+
+def write_report(
+    result: Result | TransientResult,
+    path: str | Path,
+    *,
+    effect: ThermalEffect | None = None,
+    roughness: RoughnessEffect | None = None,
+    smooth: Result | None = None,
+) -> None:
+    """Write ``result`` as one HTML file with its pictures inside; whole, or not at all.
+
+    Parameters
+    ----------
+    result : Result or TransientResult
+        Converged or not.
+    path : str or Path
+        The file; an older one is replaced.
+    effect : ThermalEffect or None
+        Effect of heat on a steady film, from an isothermal reference run.
+    roughness : RoughnessEffect or None
+        Effect of roughness on a steady film, from a smooth reference run.
+    smooth : Result or None
+        That reference run, for the pictures.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written there.
+    """
+    check_writable(path)
+    text = report_text(result, effect=effect, roughness=roughness, smooth=smooth)
+    with replacing(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+
+
+def report_text(
+    result: Result | TransientResult,
+    *,
+    dpi: int = 110,
+    effect: ThermalEffect | None = None,
+    roughness: RoughnessEffect | None = None,
+    smooth: Result | None = None,
+) -> str:
+    """Return the page as text.
+
+    Parameters
+    ----------
+    result : Result or TransientResult
+        Converged or not.
+    dpi : int
+        Dots per inch of the pictures.
+    effect, roughness, smooth : ThermalEffect, RoughnessEffect and Result, or None
+        As of :func:`write_report`.
+    """
+    content = _shared(result, pictures_of(result, smooth), dpi)
+    if isinstance(result, TransientResult):
+        return environment().get_template("transient.html").render(content | _transient(result))
+    content |= {
+        "effect": effect,
+        "heat": result.heat,
+        "rough": rough_film(result, smooth),
+        "roughness_effect": roughness,
+    }
+    return environment().get_template("steady.html").render(content)
+
+
+def environment() -> Environment:
+    """Return the templates with their filters; all values are escaped."""
+    found = Environment(
+        loader=PackageLoader("tehl", "report/templates"),
+        autoescape=True,
+        extensions=["jinja2.ext.do"],
+        lstrip_blocks=True,
+        trim_blocks=True,
+        undefined=StrictUndefined,
+    )
+    found.filters |= {name: _unit_filter(name) for name in _UNITS} | {
+        "bar": _bar,
+        "celsius": lambda kelvin: f"{kelvin - 273.15:.4g} °C",
+        "degrees": math.degrees,
+        "g": lambda value, digits=4: f"{value:.{digits}g}",
+        "metres": lambda value: _in_unit(value, "nm" if value < 1e-6 else "um"),
+        "off": lambda formula, value: f"{100 * (formula / value - 1):+.1f} %",
+        "percent": lambda part, digits=2: f"{100 * part:.{digits}g} %",
+        "seconds": lambda time: seconds(time).replace("us", "µs"),
+        "unit": _in_unit,
+    }
+    found.tests["numeral"] = _is_numeral
+    found.globals["zip"] = zip
+    return found
+
+
+def _unit_filter(name: str) -> Callable[..., str]:
+    return lambda value, digits=4: _in_unit(value, name, digits)
+
+
+def _in_unit(value: float, name: str, digits: int = 4) -> str:
+    """Return a value in SI with its unit."""
+    factor, word = _UNITS[name]
+    return f"{value * factor:.{digits}g}{word}"
+
+
+def _bar(estimate: Estimate | None, scale: float, name: str) -> str:
+    """Return a certified value with its error bar, both in SI when multiplied by ``scale``."""
+    if estimate is None:
+        return ""
+    factor, word = _UNITS[name]
+    unit = scale * factor
+    return f"{estimate.value * unit:.5g} ± {estimate.uncertainty * unit:.2g}{word}"
+
+
+def _is_numeral(text: str) -> bool:
+    """Return whether a cell is a number, perhaps with a unit or an error bar."""
+    begins = text[:1].isdigit() or text[:2].lstrip("-+±").isdigit()
+    return begins and len(text.split()) <= 4
+
+
+def _shared(result: Result | TransientResult, pictures: Pictures, dpi: int) -> dict[str, Any]:
+    """Return the content of both kinds of page."""
+    start = result.start if isinstance(result, TransientResult) else result
+    return {
+        "certified": list(_certified(result, start)),
+        "conventions": DEFINITIONS,
+        "formulas": film_estimates(start.groups, start.scales),
+        "inputs": _inputs(start),
+        "no_film": no_film(start),
+        "pictures": [
+            (caption, _embedded(pictures[name](result), dpi))
+            for name, caption in CAPTIONS.items()
+            if name in pictures
+        ],
+        "result": result,
+        "start": start,
+        "title": start.problem.title or UNTITLED,
+    }
+
+
+def _inputs(result: Result) -> dict[str, list[tuple[str, str]]]:
+    """Return key and value of each input, by table of the case file."""
+    tables: dict[str, list[tuple[str, str]]] = {}
+    for row in (*input_rows(result.problem), *input_rows(result.options, "numerics.")):
+        table = row.path.split(".")[0].replace("_", " ")
+        tables.setdefault(table, []).append((row.path, f"{row.value} {row.unit}".strip()))
+    tables.pop("title", None)
+    return tables
+
+
+def _certified(result: Result | TransientResult, start: Result) -> Iterator[tuple[str, ...]]:
+    """Yield a row for each value with an error bar."""
+    for name, one in result.uncertainty.items():
+        factor, word = _UNITS[_CERTIFIED.get(name, "nm")]
+        if result is start and word in (" nm", " GPa"):  # steady ones are dimensionless
+            scales = start.scales
+            factor *= scales.film_thickness if word == " nm" else scales.hertz_pressure
+        parts = (one.uncertainty, one.discretisation, one.domain)
+        yield (
+            name.replace("_", " "),
+            f"{one.value * factor:.5g}{word}",
+            *(f"{part * factor:.2g}{word}" for part in parts),
+            "" if one.observed_order is None else f"{one.observed_order:.2f}",
+            ", ".join(f"{value * factor:.5g}" for value in one.values),
+        )
+
+
+def _transient(run: TransientResult) -> dict[str, Any]:
+    """Return the effect of the roughness on a transient film."""
+    changes = (
+        ("thinning", "nm", "film", -1),
+        ("thickening", "nm", "film", 1),
+        ("pressure drop", "gpa", "pressure", -1),
+        ("pressure rise", "gpa", "pressure", 1),
+    )
+    return {
+        "changes": [
+            (label, unit, largest_change(run, name, sign)) for label, unit, name, sign in changes
+        ],
+        "features": list(passing_features(run)),
+        "waves": list(_waves(run)),
+    }
+
+
+def _waves(run: TransientResult) -> Iterator[tuple[int, PassingWave | str]]:
+    """Yield surface and passing wave of each wavy surface, or why it cannot be evaluated."""
+    for number in (1, 2):
+        if any(waves_of(getattr(run.start.problem, f"surface_{number}").roughness)):
+            try:
+                yield number, passing_wave(run, number)
+            except InputError as error:
+                yield number, str(error)
+
+
+def _embedded(picture: Figure, dpi: int) -> str:
+    """Return a figure as a data URL."""
+    buffer = io.BytesIO()
+    picture.savefig(buffer, format="png", dpi=dpi)
+    return f"data:image/png;base64,{base64.b64encode(buffer.getvalue()).decode('ascii')}"

@@ -1,0 +1,284 @@
+"""Plausibility of a case: typical ranges of its values, combinations that are seldom meant."""
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from tehl.domain import (
+    AIM,
+    NEARLY_RIGID,
+    domain_error,
+    grid_error,
+    needed_points,
+    recommended_domain,
+)
+from tehl.film_formulas import expected_film
+from tehl.heat import FAR_BODY, LAYERS
+from tehl.lubricant import Limiting, Roelands, RoelandsExponential, Walther
+from tehl.options import Domain, Options, coarsenable
+from tehl.problem import ContactProblem, Surface
+from tehl.report.expected_heat import NOTICEABLE, BodyEffect, ExpectedHeat
+from tehl.scaling import Groups, ScaledProblem
+
+SLIDING = 0.02
+"""Slide-roll ratio from which on surfaces count as sliding."""
+WARM = 5.0
+"""Temperature rise from which on an isothermal film is questionable [K]."""
+UNPHYSICAL = 0.8e9
+"""Hertz pressure from which on a sliding Newtonian film is questionable [Pa]."""
+FEW_LAYERS = 15
+"""Uniform layers below which a temperature profile is under-resolved."""
+SLOWEST_LINE = 5.0
+"""Solid Peclet number below which a line source deviates by more than four per cent."""
+MOLECULAR = 5e-9
+"""Film below which the oil is not a continuum [m]."""
+ROUNDING = 1e-9
+"""Part of a limit by which a value may miss it: groups are computed from SI with rounding."""
+
+
+class Typical(NamedTuple):
+    """Typical range of a quantity, in its unit, and what to check outside."""
+
+    name: str
+    value: float
+    low: float
+    high: float
+    unit: str
+    hint: str
+    hint_above: str = ""
+
+    def question(self) -> str | None:
+        """Return what is not plausible, None inside the range."""
+        if self.low * (1.0 - ROUNDING) <= self.value <= self.high * (1.0 + ROUNDING):
+            return None
+        hint = self.hint_above if self.value > self.high and self.hint_above else self.hint
+        unit = f" {self.unit}" if self.unit else ""
+        value = f"{float(f'{self.value:.3g}'):g}"  # 78500 rather than 7.85e+04
+        return (
+            f"{self.name} = {value}{unit}: typical values are {self.low:g} to {self.high:g}{unit}; "
+            f"{hint}"
+        )
+
+
+_UNIT = "check the unit (a bare number is SI)"
+_RUBBER = f"a polymer or rubber? Otherwise {_UNIT}"
+_YIELD = "the solids would yield, check load, radius and modulus"
+_WIDE = "wider contacts may not converge, and line contacts are not supported"
+
+
+def questions(
+    scaled: ScaledProblem,
+    options: Options,
+    heat: ExpectedHeat | None,
+    bodies: BodyEffect | None,
+) -> tuple[str, ...]:
+    """Return the values of a case that are not plausible, a sentence each.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        The contact.
+    options : Options
+        Its numerics.
+    heat : ExpectedHeat or None
+        Temperature rises to expect.
+    bodies : BodyEffect or None
+        Effect of bodies that are not at the temperature of the oil.
+    """
+    thinner = bodies.groups if bodies is not None and bodies.ratio < 1 else scaled.groups
+    ranges = (one.question() for one in typical_ranges(scaled))
+    return (
+        *(question for question in ranges if question),
+        *_about_film(scaled),
+        *_about_sliding(scaled.problem),
+        *_about_heat(scaled.problem, heat),
+        *_about_bodies(bodies),
+        *_about_domain(options, scaled.groups),
+        *_about_grid(options, thinner),
+    )
+
+
+def typical_ranges(scaled: ScaledProblem) -> Iterator[Typical]:
+    """Yield the quantities of a case with their typical ranges."""
+    problem, groups, hertz = scaled.problem, scaled.groups, scaled.problem.hertz
+    slender = hertz.half_width_x / problem.radius_x
+    soft, rigid = "check for a soft or lightly loaded contact", "check that the contact is elastic"
+    for row in (
+        ("Hertz pressure", hertz.pressure / 1e9, 0.05, 4, "GPa", soft, _YIELD),
+        ("reduced radius_x", problem.radius_x, 1e-4, 5, "m", _UNIT),
+        ("reduced radius_y", problem.radius_y, 1e-4, 5, "m", _UNIT),
+        ("entrainment speed", problem.entrainment_speed, 1e-4, 100, "m/s", _UNIT),
+        ("a_x / R_x", slender, 0, 0.2, "", "the solids are not half-spaces on this scale"),
+        ("a_y / a_x", groups.ellipticity, 0.05, 10, "", "check the order of the radii", _WIDE),
+        ("Moes M", groups.M, 1, 2000, "", rigid, "check the load: a very fine grid is needed"),
+        ("Moes L", groups.L, 0, 25, "", "check speed and viscosity"),
+    ):
+        yield Typical(*row)
+    yield from _ranges_of_solid("surface_1", problem.surface_1)
+    yield from _ranges_of_solid("surface_2", problem.surface_2)
+    yield from _ranges_of_oil(problem)
+
+
+def _ranges_of_solid(name: str, surface: Surface) -> Iterator[Typical]:
+    """Yield the properties that a solid states, thermal ones of an isothermal case too."""
+    solid = surface.material
+    young, conductivity = solid.young_modulus / 1e9, solid.conductivity or 0.0
+    density, heat_capacity = solid.density or 0.0, solid.heat_capacity or 0.0
+    grams, kilo = "in g/cm^3? Steel has 7850", "in kJ/kg/K? Steel has 470"
+    stated = (
+        Typical("density", density, 800, 23000, "kg/m^3", grams, _UNIT),
+        Typical("heat_capacity", heat_capacity, 100, 4300, "J/kg/K", kilo, _UNIT),
+        Typical("conductivity", conductivity, 0.1, 2500, "W/m/K", "steel has 46, glass 1.1"),
+    )
+    found = [Typical("young_modulus", young, 1, 1200, "GPa", _RUBBER, _UNIT)]
+    found += [one for one in stated if one.value > 0]
+    if density and heat_capacity and all(one.question() is None for one in stated[:2]):
+        stored, hint = density * heat_capacity / 1e6, "most solids have 2 to 4, check both units"
+        found.append(Typical("density times heat_capacity", stored, 1, 5, "MJ/m^3/K", hint))
+    yield from (one._replace(name=f"{name} {one.name}") for one in found)
+
+
+def _ranges_of_oil(problem: ContactProblem) -> Iterator[Typical]:
+    oil, viscosity = problem.lubricant, problem.lubricant.viscosity
+    alpha, density = problem.pressure_coefficient * 1e9, problem.ambient_density
+    alphas, inlet = "most oils have 10 to 30", problem.inlet_temperature
+    if viscosity.law != "constant":
+        yield Typical("pressure coefficient alpha", alpha, 5, 40, "1/GPa", alphas)
+    if isinstance(viscosity, Roelands | RoelandsExponential | Walther):
+        index, hint = viscosity.pressure_index, "most oils have 0.4 to 0.8, check alpha and eta_0"
+        yield Typical("Roelands z", index, 0.2, 1, "", hint)
+    hint = "in mPa s? Most oils have 0.005 to 1"
+    yield Typical("viscosity eta_0", viscosity.eta_0, 1e-3, 10, "Pa s", hint)
+    yield Typical("density rho_0", density, 600, 2000, "kg/m^3", _UNIT)
+    hint = "a bare number is in kelvin"
+    yield Typical("temperature of the oil at the inlet", inlet, 240, 480, "K", hint)
+    conductivity, capacity = oil.ambient_conductivity or 0.0, oil.ambient_heat_capacity or 0.0
+    kilo = "in kJ/kg/K? Most oils have 2000"
+    stated = (
+        Typical("lubricant.conductivity", conductivity, 0.05, 0.7, "W/m/K", _UNIT),
+        Typical("lubricant.heat_capacity", capacity, 800, 4300, "J/kg/K", kilo),
+    )
+    yield from (one for one in stated if one.value > 0)
+    yield from _ranges_of_flow(problem)
+
+
+def _ranges_of_flow(problem: ContactProblem) -> Iterator[Typical]:
+    shear, pressure = problem.lubricant.shear, problem.hertz.pressure
+    if isinstance(shear, Limiting):
+        part = (shear.stress + shear.slope * pressure) / pressure
+        hint = "most oils slip at 0.03 to 0.1 of the pressure"
+        yield Typical("limiting shear stress over p_h", part, 0.02, 0.15, "", hint)
+    if problem.thermal is not None:
+        fall, hint = problem.temperature_coefficient, "most oils have 0.02 to 0.06"
+        yield Typical("-d ln eta/dT of the oil", fall, 0.005, 0.12, "1/K", hint)
+
+
+def _about_film(scaled: ScaledProblem) -> Iterator[str]:
+    film, rough = expected_film(scaled), scaled.problem.rms_roughness
+    if film < MOLECULAR:
+        yield (
+            f"the expected film of {film * 1e9:.2g} nm is a few molecules: the oil is not a "
+            "continuum there, check speed and viscosity"
+        )
+    if rough > 0 and film / rough < 3:
+        yield (
+            f"the film is {film / rough:.2g} times the roughness: below 3 asperities touch, which "
+            "a smooth calculation does not show"
+        )
+
+
+def _about_sliding(problem: ContactProblem) -> Iterator[str]:
+    slip, pressure = abs(problem.slide_roll_ratio), problem.hertz.pressure
+    if slip > 2:
+        yield (
+            f"slide_roll_ratio = {problem.slide_roll_ratio:g}: the surfaces move in opposite "
+            "directions; the ratio is (u_1 - u_2) / u_m, with u_m the mean speed"
+        )
+    high = pressure >= UNPHYSICAL * (1.0 - ROUNDING)
+    if slip > SLIDING and high and problem.lubricant.shear.is_newtonian:
+        yield (
+            f"a Newtonian film slides at {pressure / 1e9:.2g} GPa: traction coefficients above 0.1 "
+            "are not physical; state an Eyring or limiting shear stress, "
+            'such as shear = { law = "eyring", stress = "5 MPa" }'
+        )
+
+
+def _about_heat(problem: ContactProblem, heat: ExpectedHeat | None) -> Iterator[str]:
+    """Yield what is missing of an isothermal case, or what is wrong in a thermal one."""
+    thermal, newtonian = problem.thermal, problem.lubricant.shear.is_newtonian
+    if thermal is None and heat is not None and heat.largest > WARM:
+        yield (
+            f"[thermal] is missing: shear heats the film by about {heat.largest:.2g} K, which an "
+            f"isothermal {'Newtonian ' if newtonian else ''}film neglects"
+        )
+    elif thermal is None and newtonian and abs(problem.slide_roll_ratio) > SLIDING:
+        yield (
+            "the surfaces slide, which an isothermal Newtonian film does not feel: heat would thin "
+            "it, and its traction is far too high"
+        )
+    if thermal is None:
+        return
+    if thermal.scheme == "uniform" and thermal.nodes < FEW_LAYERS:
+        yield (
+            f"thermal.layers = {thermal.nodes}: too few for uniform layers; take "
+            f'{LAYERS["uniform"]} or more, or scheme = "chebyshev"'
+        )
+    for name, peclet in zip(("surface_1", "surface_2"), problem.solid_peclet, strict=True):
+        if thermal.sources == "line" and peclet is not None and peclet < SLOWEST_LINE:
+            yield (
+                'thermal.sources = "line": valid for fast surfaces, but the Peclet number of '
+                f'{name} is {peclet:.2g}; take "auto"'
+            )
+
+
+def _about_bodies(bodies: BodyEffect | None) -> Iterator[str]:
+    """Yield bodies that are not at the temperature of the oil, which film formulas do not cover."""
+    if bodies is None:
+        return
+    for name, offset in (("surface_1", bodies.surface_1), ("surface_2", bodies.surface_2)):
+        if abs(offset) >= NOTICEABLE:
+            far = (
+                f"; beyond {FAR_BODY:g} K a run may not converge" if abs(offset) > FAR_BODY else ""
+            )
+            yield (
+                f"{name}.temperature is {abs(offset):.3g} K {'above' if offset > 0 else 'below'} "
+                f"the oil at the inlet, and the oil takes it on the way in{far}"
+            )
+
+
+def _about_domain(options: Options, groups: Groups) -> Iterator[str]:
+    wanted, stated = recommended_domain(groups), options.domain
+    if not isinstance(stated, Domain):
+        if groups.M < NEARLY_RIGID:
+            missing = domain_error(groups, wanted)
+            part = "more than half" if missing > 0.5 else f"about {100 * missing:.2g} %"
+            yield (
+                f"Moes M = {groups.M:.3g}: a nearly rigid contact, with part of its load far "
+                f"outside; the recommended domain leaves out {part} of the film, measured by "
+                "--certify"
+            )
+        return
+    for name, here, there in (
+        ("inlet edge x", stated.x[0], wanted.x[0]),
+        ("outlet edge x", stated.x[1], wanted.x[1]),
+        ("side edge y", stated.y[0], wanted.y[0]),
+        ("side edge y", stated.y[1], wanted.y[1]),
+    ):
+        if abs(here) < 0.99 * abs(there) and not math.isclose(here, there):
+            yield (
+                f"numerics.domain has its {name} at {here:g}, recommended is {there:.3g}: the "
+                "error of the film from the domain may exceed 0.3 %"
+            )
+
+
+def _about_grid(options: Options, groups: Groups) -> Iterator[str]:
+    needed, nodes = needed_points(groups), min(options.shape)
+    if nodes >= needed:
+        return
+    off = min(grid_error(groups, nodes), 1.0)
+    percent = float(f"{100 * off:.1g}")
+    yield (
+        f"numerics.points = {nodes} is coarse for so thin a film: the central film may deviate by "
+        f"{percent:g} %, the minimum by several times as much, or the run may not converge; "
+        f"{coarsenable(needed - 2)[1]} nodes keep the central film within about {100 * AIM:.0f} %"
+    )

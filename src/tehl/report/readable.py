@@ -1,0 +1,84 @@
+"""Numbers as people read them: lengths and times in a fitting unit, the inputs of a case."""
+
+import math
+from collections.abc import Iterator
+from typing import Any, NamedTuple, get_args
+
+from pydantic import BaseModel
+
+from tehl.units import Quantity
+
+UNTITLED = "Lubricated point contact"
+"""Title of a case that states none."""
+
+_LENGTHS = ((1e-3, 1e3, "mm"), (1e-6, 1e6, "um"), (0.0, 1e9, "nm"))
+_TIMES = ((1.0, 1.0, "s"), (1e-3, 1e3, "ms"), (0.0, 1e6, "us"))
+_INPUTS = {
+    "Pa": ((1e9, 1e-9, "GPa"), (1e6, 1e-6, "MPa")),
+    "1/Pa": ((1e-12, 1e9, "1/GPa"),),
+    "m^2/s": ((1e-9, 1e6, "mm^2/s"),),
+    "m": ((1.0, 1.0, "m"), (1e-3, 1e3, "mm"), (1e-7, 1e6, "µm"), (1e-12, 1e9, "nm")),
+}
+"""By SI unit, from the largest: smallest magnitude, factor and unit."""
+
+
+class InputRow(NamedTuple):
+    """One stated value: its key path (``"contact.load"``), value and unit as text."""
+
+    path: str
+    value: str
+    unit: str
+
+
+def length_unit(metres: float) -> tuple[float, str]:
+    """Return the factor from metres to a fitting unit (mm, um or nm), and that unit."""
+    return next(((f, unit) for least, f, unit in _LENGTHS if abs(metres) >= least), (1.0, "m"))
+
+
+def length(metres: float) -> str:
+    """Return a length in a fitting unit."""
+    factor, unit = length_unit(metres)
+    return f"{metres * factor:.4g} {unit}"
+
+
+def seconds(time: float) -> str:
+    """Return a time [s] in a fitting unit (s, ms or us)."""
+    factor, unit = next((f, unit) for least, f, unit in _TIMES if abs(time) >= least)
+    return f"{time * factor:.4g} {unit}"
+
+
+def input_rows(model: BaseModel, prefix: str = "") -> Iterator[InputRow]:
+    """Yield the stated values of a model and of the models in it, their paths after ``prefix``."""
+    for name, field in type(model).model_fields.items():
+        value = getattr(model, name)
+        if isinstance(value, BaseModel):
+            yield from input_rows(value, f"{prefix}{name}.")
+        elif value is not None and value != "":
+            yield _row(f"{prefix}{name}", value, _unit(field.annotation, field.metadata))
+
+
+def _row(path: str, value: Any, unit: str) -> InputRow:
+    """Return a row, its value with an SI prefix where that is shorter."""
+    if isinstance(value, float) and math.isinf(value):
+        return InputRow(path, _shown(value), "")
+    for least, factor, better in _INPUTS.get(unit, ()) if isinstance(value, float) else ():
+        if abs(value) >= least:
+            return InputRow(path, _shown(value * factor), better)
+    return InputRow(path, _shown(value), unit)
+
+
+def _unit(annotation: Any, metadata: list[Any]) -> str:
+    """Return the unit of a field, which may stand inside a union with None."""
+    for note in metadata:
+        if isinstance(note, Quantity):
+            return note.unit.strip("-")
+    units = (_unit(one, list(getattr(one, "__metadata__", ()))) for one in get_args(annotation))
+    return next(filter(None, units), "")
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if isinstance(value, tuple | list):
+        return "[" + ", ".join(_shown(item) for item in value) + "]"
+    return str(value)

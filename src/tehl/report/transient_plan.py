@@ -1,0 +1,126 @@
+"""A transient run before it is computed: duration, steps, cost, resolution of its waves."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from tehl.duration import duration_of, misplaced, number_of_steps
+from tehl.options import Domain, Options
+from tehl.scaling import ScaledProblem
+
+SECONDS_PER_STEP = 0.014
+SECONDS_PER_NODE = 1.7e-6
+SECONDS_COUPLED = 1.0e-5
+"""CPU time of a step, and more per node of the finest full grid, on one core of a usual machine;
+the last one where heat or shear thinning is coupled."""
+FEWEST_POINTS = 16.0
+"""Points per wave below which the amplitude of a passing wave is off by some per cent."""
+LARGEST_PART = 0.25
+"""Largest distance that a surface moves per step, over its shortest wave."""
+LARGEST_LEAD = 1.0
+"""Mesh widths per step by which a surface may move ahead of the mean motion or behind it."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class TransientPlan:
+    """Duration, steps, cost and resolution of a transient run.
+
+    Attributes
+    ----------
+    duration, step : float
+        [s].
+    steps : int
+        Number of time steps.
+    seconds : float
+        Estimated CPU time [s].
+    distance : float
+        Distance that the mean of both surfaces moves on [a_x].
+    speeds : (float, float)
+        Of both surfaces [m/s].
+    points_per_wave : (float, float)
+        Mesh widths on the shortest wave of each surface, along the axis that has fewer [-];
+        infinite for a smooth one.
+    shift : (float, float)
+        Mesh widths that each surface moves on per step [-]; the mean moves by ``stride``.
+    questions : tuple of str
+        What is not plausible.
+    """
+
+    duration: float
+    step: float
+    steps: int
+    seconds: float
+    distance: float
+    speeds: tuple[float, float]
+    points_per_wave: tuple[float, float]
+    shift: tuple[float, float]
+    questions: tuple[str, ...]
+
+
+def transient_plan(scaled: ScaledProblem, options: Options, domain: Domain) -> TransientPlan | None:
+    """Return the plan of a transient run, None for a steady case.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        The contact.
+    options : Options
+        Its numerics.
+    domain : Domain
+        The domain of the solve.
+    """
+    problem, units, transient = scaled.problem, scaled.scales, scaled.problem.transient
+    if transient is None:
+        return None
+    ny, nx = options.shape
+    dx = (domain.x[1] - domain.x[0]) / (nx - 1) * units.half_width_x
+    dy = (domain.y[1] - domain.y[0]) / (ny - 1) * units.half_width_y
+    step, duration = transient.stride * dx / units.speed, duration_of(scaled)
+    steps = number_of_steps(scaled, step)
+    cost = SECONDS_COUPLED if problem.is_coupled else SECONDS_PER_NODE
+    waves = (one.roughness.shortest_wavelengths for one in (problem.surface_1, problem.surface_2))
+    first, second = (min(wave[0] / dx, wave[1] / dy) for wave in waves)
+    speeds = (problem.motion.speed_1, problem.motion.speed_2)
+    shift = (transient.stride * speeds[0] / units.speed, transient.stride * speeds[1] / units.speed)
+    return TransientPlan(
+        duration=duration,
+        step=step,
+        steps=steps,
+        seconds=(SECONDS_PER_STEP + cost * nx * ny) * steps,
+        distance=duration * units.speed / units.half_width_x,
+        speeds=speeds,
+        points_per_wave=(first, second),
+        shift=shift,
+        questions=tuple(_questions(scaled, duration, (first, second), shift)),
+    )
+
+
+def _questions(
+    scaled: ScaledProblem,
+    duration: float,
+    points: tuple[float, float],
+    shifts: tuple[float, float],
+) -> Iterator[str]:
+    """Yield what is not plausible, a sentence each."""
+    stride = scaled.problem.transient.stride if scaled.problem.transient else 1
+    sentence = misplaced(scaled, duration)
+    if sentence is not None:
+        yield sentence
+    for name, one, shift in zip(("surface_1", "surface_2"), points, shifts, strict=True):
+        if one < FEWEST_POINTS:
+            yield (
+                f"{name} has {one:.3g} points on its shortest wave: the grid flattens the wave "
+                f"more than the film does; take {FEWEST_POINTS:g} or more (numerics.points)"
+            )
+        lead = abs(shift - stride)
+        if math.isfinite(one) and lead > LARGEST_LEAD:
+            where = "ahead of" if shift > stride else "behind"
+            yield (
+                f"{name} moves {lead:.2g} mesh widths per step {where} the mean motion, so its "
+                f"asperities jump: take a smaller transient.stride (now {stride})"
+            )
+        if shift > LARGEST_PART * one:
+            yield (
+                f"{name} moves by {shift / one:.2g} of its shortest wave per step: solve refuses "
+                "more than a quarter, and filters such waves off a measured or random surface"
+            )
