@@ -2,7 +2,6 @@
 """``tehl solve``: what it writes, prints and returns, with a solver that answers at once."""
 
 import errno
-import io
 import json
 import os
 import signal
@@ -14,7 +13,6 @@ import h5netcdf
 import pytest
 
 from tehl import cli
-from tehl.cli.progress import Lines, progress
 from tehl.io import store
 from tehl.io.store import load
 from tehl.result import Status
@@ -336,29 +334,3 @@ def test_cold_kernels_are_announced(folder, solver, run, monkeypatch):
         sys.modules, "tehl.kernels.cache", SimpleNamespace(is_cold=lambda **_: True)
     )
     assert "compiling once" in run("solve", "ball.toml").err
-
-
-def test_the_table_of_a_thermal_run_has_a_column_more(solver, thermal, monkeypatch):
-    terminal = io.StringIO()
-    terminal.isatty = lambda: True
-    monkeypatch.setattr(sys, "stderr", terminal)
-    monkeypatch.setenv("TERM", "xterm")
-    monkeypatch.setenv("COLUMNS", "120")
-    with progress(quiet=False, thermal=True) as monitor:
-        for report in thermal.history:
-            monitor.cycle(report)
-    assert "dT [K]" in terminal.getvalue()
-    assert "1.25e-02" in terminal.getvalue()
-
-
-def test_a_terminal_gets_a_table(solver, result, monkeypatch):
-    terminal = io.StringIO()
-    terminal.isatty = lambda: True
-    monkeypatch.setattr(sys, "stderr", terminal)
-    monkeypatch.setenv("TERM", "xterm")
-    monkeypatch.setenv("COLUMNS", "120")
-    with progress(quiet=False) as monitor:
-        assert not isinstance(monitor, Lines)
-        for report in result.history:
-            monitor.cycle(report)
-    assert "65 x 65" in terminal.getvalue()

@@ -11,13 +11,12 @@ import pandas as pd
 import pytest
 
 from tehl import cli
-from tehl.cli.study_progress import Lines, Tally, duration
 from tehl.io import atomic
 from tehl.io.templates import study_templates, template_text
 from tehl.result import Cost
 from tehl.studies import Row, runner
 from tehl.studies.file import read_study
-from tehl.studies.lock import only_run_in
+from tehl.studies.folder import locked
 from tehl.studies.plan import study_of
 
 STUDY = """
@@ -199,7 +198,7 @@ def test_the_folder_of_another_study_is_left_alone_unless_it_is_to_be_replaced(f
 
 def test_a_folder_takes_one_run_at_a_time(folder, run):
     (folder / "out").mkdir()
-    with only_run_in(folder / "out"):
+    with locked(folder / "out"):
         done = run("loads.toml", "-o", "out", "--jobs", "1")
     assert done.code == 3
     assert "another tehl study runs in out: wait until it ends" in done.err
@@ -211,8 +210,8 @@ def test_a_folder_takes_one_run_at_a_time(folder, run):
 def test_a_lock_goes_with_the_program_that_held_it(folder, run):
     (folder / "out").mkdir()
     code = (
-        "import time, pathlib\nfrom tehl.studies.lock import only_run_in\n"
-        "with only_run_in(pathlib.Path('out')):\n    print('held', flush=True)\n    time.sleep(60)"
+        "import time, pathlib\nfrom tehl.studies.folder import locked\n"
+        "with locked(pathlib.Path('out')):\n    print('held', flush=True)\n    time.sleep(60)"
     )
     with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) as process:
         assert process.stdout is not None
@@ -226,7 +225,7 @@ def test_a_scheduler_that_is_not_there_leaves_no_folder(folder, run):
     pytest.importorskip("distributed")
     done = run("loads.toml", "-o", "a/b", "--scheduler", "nonsense://nowhere")
     assert done.code == 3
-    assert "no dask scheduler answers" in done.err
+    assert "no dask scheduler replies" in done.err
     assert "are kept" not in done.err
     assert names(folder) == ["ball.toml", "loads.toml"]
 
@@ -296,7 +295,7 @@ def test_a_table_of_an_unfinished_study_says_what_is_open(folder, run, monkeypat
     monkeypatch.setattr(runner, "work", stopped)
     done = run("loads.toml", "-o", "out", "--jobs", "1")
     assert done.code == 130
-    assert "go on with: tehl study out" in done.err
+    assert "continue with: tehl study out" in done.err
     found = json.loads(run("out", "--table", "--json").out)
     assert found["status"] == {"converged": 4, "open": 4}
     monkeypatch.setattr(runner, "work", answer)
@@ -311,7 +310,7 @@ def test_a_full_disk_is_told_with_the_way_to_go_on(folder, run, monkeypatch):
     done = run("loads.toml", "-o", "out", "--jobs", "1")
     assert done.code == 3
     assert "No space left on device" in done.err
-    assert "go on with" in done.err
+    assert "continue with" in done.err
 
 
 def test_a_list_of_cases_in_a_csv_file(folder, run):
@@ -345,8 +344,14 @@ WRONG = {
     "empty": (STUDY.replace("[0.0, 0.5]", "[]"), "(contact.slide_roll_ratio) has an empty list"),
     "no values": (STUDY.replace("values = [0.0, 0.5]", ""), "has no values: give one of values"),
     "two ways": (STUDY + "linspace = [0, 1, 3]", "states values and linspace"),
-    "unknown key": (STUDY + "valeus = [1]", "axes[2].valeus (contact.slide_roll_ratio) is no key"),
-    "typo on top": ("certfy = true\n" + STUDY, "certfy is no key of a study: did you mean certify"),
+    "unknown key": (
+        STUDY + "valeus = [1]",
+        "axes[2].valeus (contact.slide_roll_ratio) is not a key",
+    ),
+    "typo on top": (
+        "certfy = true\n" + STUDY,
+        "certfy is not a key of a study: did you mean certify",
+    ),
     "twice": (STUDY.replace("slide_roll_ratio", "load"), "two axes with the path contact.load"),
     "no sample": (STUDY.replace("values = [0.0", "uniform = [0.0"), "is sampled, but there is no"),
     "unsampled": (STUDY + "[sample]\nnumber = 3", "no axis is sampled"),
@@ -445,7 +450,7 @@ def test_many_cases_can_be_meant(folder, run):
     text = STUDY.replace("4]", "5001]")
     (folder / "many.toml").write_text(text)
     assert run("many.toml", "--dry-run").code == 2
-    plan = read_study("many.toml", huge=True)
+    plan = read_study("many.toml", unlimited=True)
     (folder / "said.toml").write_text("largest = 10_002\n" + text)
     assert read_study("said.toml").count == plan.count == 10_002
 
@@ -457,11 +462,11 @@ def test_many_cases_can_be_meant(folder, run):
         (["out", "--set", "a.b=1"], "is planned already"),
         (["loads.toml", "--jobs", "0"], "--jobs 0 must be a whole number of processes, 1 or more"),
         (["loads.toml", "--jobs", "abc"], "--jobs abc must be a whole number"),
-        (["out", "--plot", "foo"], '"foo" is no picture'),
-        (["empty"], "is no folder of a study"),
-        (["out", "--plot", "x=load"], "is no picture"),
+        (["out", "--plot", "foo"], '"foo" is not a picture'),
+        (["empty"], "is not the folder of a study"),
+        (["out", "--plot", "x=load"], "is not a picture"),
         (["out", "--plot", "x=load,y=h_mn_m"], "has no column h_mn_m"),
-        (["out", "--plot", "color=load"], "is no part of a picture"),
+        (["out", "--plot", "color=load"], "is not part of a picture"),
         (["out", "--plot", "x=load,y=h_min_m,overlay=no.csv"], "no file of measured points"),
         (["loads.toml", "-o", "fresh", "--table"], "no case of the study is finished"),
     ],
@@ -484,30 +489,3 @@ def test_every_template_of_a_study_is_one(name, tmp_path):
     assert 20 < len(study.cases) < 100
     assert study.plan.pictures
     assert len(study_templates()[name]) > 20
-
-
-def test_plain_lines_come_now_and_then_and_name_failures(capsys, folder):
-    now = [0.0]
-    lines = Lines(clock=lambda: now[0])
-    case = study_of(read_study("loads.toml")).cases[0]
-    lines.begin(30, 10)
-    for number in range(20):
-        now[0] += 1.0
-        status = "stalled" if number == 3 else "converged"
-        lines.finished(case, Row(key=case.key, status=status))
-    told = capsys.readouterr().err.splitlines()
-    assert told[0] == "30 cases, 10 of them finished before"
-    assert told[1].startswith("no answer: load = 20")
-    assert told[2] == "20 of 30 cases, 1 per second, 10 s left, 1 without an answer"
-    assert len(told) == 4
-
-
-def test_the_tally_knows_rate_and_time_left():
-    now = [0.0]
-    tally = Tally(clock=lambda: now[0])
-    tally.begin(100, 50)
-    now[0] = 10.0
-    for _ in range(20):
-        tally.count(Row(key="a", status="converged"))
-    assert (tally.rate, tally.open) == (2.0, 30)
-    assert [duration(s) for s in (5, 600, 7200)] == ["5 s", "10 min", "2.0 h"]

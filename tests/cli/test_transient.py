@@ -12,17 +12,13 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from rich.console import Console
-from rich.live import Live
 
 import tehl
 from tehl import cli
 from tehl.cli.checkpoint import Keeper
-from tehl.cli.step_progress import LiveSteps, StepLines, step_progress
 from tehl.errors import ConvergenceError
 from tehl.io.checkpoint import Fingerprint, read_checkpoint
 from tehl.plots import animation
-from tehl.transient_result import StepReport
 from tests.fixtures_result import make_result
 from tests.fixtures_transient import make_certified, make_transient
 
@@ -325,52 +321,6 @@ def test_a_full_disk_does_not_end_a_run(folder, capsys, monkeypatch):
     assert not keeper.write()
     assert not keeper.write()
     assert capsys.readouterr().err.count("checkpoint not written") == 1
-
-
-def report(step: int) -> StepReport:
-    return StepReport(
-        step=step,
-        steps=200,
-        time=1e-6 * step,
-        cycles=3,
-        change=5e-4,
-        load_error=1e-5,
-        film_central=0.1,
-        film_minimum=0.06,
-        pressure_max=1.01,
-        smoother="rough",
-    )
-
-
-def test_progress_is_about_twenty_plain_lines_on_a_pipe(capsys):
-    with step_progress(make_result(33).scales, quiet=False) as monitor:
-        assert isinstance(monitor, StepLines)
-        for step in range(1, 201):
-            monitor.step(report(step))
-    told = capsys.readouterr().err
-    assert 20 <= told.count("\n") <= 24
-    assert "\x1b" not in told
-
-
-def test_progress_begins_anew_with_each_run_of_a_certification(capsys):
-    with step_progress(make_result(33).scales, quiet=False) as monitor:
-        for _ in range(2):
-            monitor.message("certify: a grid")
-            for step in range(1, 201):
-                monitor.step(report(step))
-    assert capsys.readouterr().err.count(" 1/200") == 2
-
-
-def test_progress_on_a_terminal_shows_the_last_steps(capsys):
-    console = Console(force_terminal=True, width=120)
-    with Live(console=console, auto_refresh=False) as live:
-        monitor = LiveSteps(make_result(33).scales, live)
-        monitor.cycle(make_result(33).history[0])
-        for step in range(1, 31):
-            monitor.step(report(step))
-    shown = capsys.readouterr().out
-    assert "30/200" in shown
-    assert "steady film at time zero" in shown
 
 
 def test_a_moving_picture_of_a_stored_run(folder, run):

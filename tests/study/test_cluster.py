@@ -40,5 +40,5 @@ def test_a_case_that_kills_its_workers_costs_itself_only(cluster, tmp_path, monk
 
 def test_an_address_without_a_scheduler_is_told(tmp_path, monkeypatch):
     monkeypatch.setattr("tehl.studies.engines._CONNECT", 1.0)
-    with pytest.raises(OSError, match="no dask scheduler answers at tcp"):
+    with pytest.raises(OSError, match="no dask scheduler replies at tcp"):
         run(cases(1), Store(tmp_path), scheduler="tcp://127.0.0.1:1")

@@ -76,9 +76,8 @@ def test_a_server_that_is_killed_before_it_has_workers_costs_nothing(
 ):
     monkeypatch.setattr(runner, "work", mishaps.quick)
     forkserver._forkserver._stop()  # one of the tests before, if any
-    with engine_of(2, 2, forked=True) as engine:
-        engine.executor()
-        forkserver.ensure_running()
+    forkserver.set_forkserver_preload(["tehl.studies.ready"])
+    forkserver.ensure_running()
     pid = forkserver._forkserver._forkserver_pid
     if server != "begins":
         time.sleep(3.0)
@@ -92,12 +91,15 @@ def test_a_server_that_is_killed_before_it_has_workers_costs_nothing(
 @pytest.mark.parametrize("forked", [True, False])
 def test_workers_have_one_thread_and_forked_ones_begin_with_the_solver(forked):
     with engine_of(2, 2, forked=forked) as engine:
-        executor = engine.executor()
-        assert executor.submit(mishaps.has_solver).result() == forked
-        assert executor.submit(os.getenv, "OMP_NUM_THREADS").result() == "1"
+        engine.submit("has solver", mishaps.has_solver)
+        engine.submit("threads", os.getenv, "OMP_NUM_THREADS")
+        found = dict(engine.take())
+        while len(found) < 2:
+            found |= dict(engine.take())
+        assert found == {"has solver": forked, "threads": "1"}
         if forked:
-            assert executor.submit(mishaps.threads_of_server).result() == 1
-        engine.leave(executor, at_once=False)
+            engine.submit("threads of server", mishaps.threads_of_server)
+            assert engine.take() == [("threads of server", 1)]
 
 
 def program(*words: str, **options) -> subprocess.Popen:

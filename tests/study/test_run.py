@@ -10,9 +10,9 @@ from tehl import solver
 from tehl.errors import InputError
 from tehl.result import Cost
 from tehl.studies import Case, Row, Store, engines, run, runner, table
-from tehl.studies.columns import is_number
-from tehl.studies.row import flat, row_of, unit_of
-from tehl.studies.work import in_turn
+from tehl.studies.case import flat, row_of, unit_of
+from tehl.studies.tables import is_number
+from tehl.studies.worker import solve_in_turn
 from tests.study.contacts import Notes, assert_same_numbers, cases, failing
 
 
@@ -51,28 +51,25 @@ def test_a_study_that_is_finished_solves_nothing(finished):
     assert (notes.begun, notes.names) == ([(4, 4)], [])
 
 
-class Cluster(engines.Serial):
+class Cluster(engines.Engine):
     """Solves here, with the tasks of a cluster of two workers."""
 
-    local, task_seconds = False, 1.0
+    local, task_seconds, ahead = False, 1.0, 32
 
     def workers(self):
         return 2
-
-    def window(self, workers):
-        return 32 * workers
 
 
 def test_quick_cases_are_bundled_and_the_last_ones_shared_out(tmp_path, monkeypatch):
     sizes = []
 
-    def in_no_time(_, tasks, seconds):
-        sizes.append(len(tasks))
+    def in_no_time(_, task, seconds):
+        sizes.append(len(task))
         assert seconds == 1.0
         cost = Cost(cpu_seconds=0.065, wall_seconds=0.065)
-        return [Row(key=case.key, status="converged", cost=cost) for case, _, _ in tasks]
+        return [Row(key=case.key, status="converged", cost=cost) for case, _ in task]
 
-    monkeypatch.setattr(runner, "in_turn", in_no_time)
+    monkeypatch.setattr(runner, "solve_in_turn", in_no_time)
     monkeypatch.setattr(runner, "engine_of", lambda *_, **__: nullcontext(Cluster()))
     assert run(cases(400), Store(tmp_path)).converged == 400
     assert sizes[:64] == [1] * 64  # nothing is known yet
@@ -212,15 +209,15 @@ def test_numbers_of_heat_and_roughness_are_columns_that_are_known_before(kind, r
 
 def test_a_task_keeps_what_is_done_before_its_time_is_over_or_a_file_fails() -> None:
     """The first case is always solved, or told; the others come back undone."""
-    tasks = [(case, None, None) for case in cases(3)]
+    task = [(case, (None, None)) for case in cases(3)]
     full = OSError(28, "No space left on device")
 
     def solve(case: Case, _: object, __: object) -> Row:
-        if case is tasks[1][0]:
+        if case is task[1][0]:
             raise full
         return Row(key=case.key, status="converged")
 
-    assert [row.key for row in in_turn(solve, tasks, 60.0)] == [tasks[0][0].key]
-    assert [row.key for row in in_turn(solve, tasks[2:] + tasks[:1], 0.0)] == [tasks[2][0].key]
+    assert [row.key for row in solve_in_turn(solve, task, 60.0)] == [task[0][0].key]
+    assert [row.key for row in solve_in_turn(solve, task[2:] + task[:1], 0.0)] == [task[2][0].key]
     with pytest.raises(OSError, match="No space"):
-        in_turn(solve, tasks[1:], 60.0)
+        solve_in_turn(solve, task[1:], 60.0)

@@ -6,7 +6,7 @@ import pytest
 from tehl import Options, solve
 from tehl.errors import ConvergenceError, InputError
 from tehl.studies import Case, Store, cases_of, run, table
-from tehl.studies.neighbours import Neighbours
+from tehl.studies.runner import Neighbours
 from tests.cases import moes_problem
 from tests.study.contacts import QUICK, problem
 

@@ -126,7 +126,7 @@ def _transient(problem: ContactProblem, options: Options, job: Job) -> Result | 
     """Solve a transient case; when it is interrupted, a checkpoint is left beside the target."""
     from tehl import solver
     from tehl.cli.checkpoint import Keeper
-    from tehl.cli.step_progress import step_progress
+    from tehl.cli.progress import step_progress
 
     keep = Keeper(checkpoint_of(job.target), fingerprint(problem, options))
     start, coupled = keep.begin(resume=job.resume), problem.is_coupled

@@ -1,139 +1,343 @@
-"""What a solve shows while it runs, on stderr: a live table, plain lines or nothing."""
+"""What a run shows on stderr: a live view on a terminal, plain lines elsewhere, or nothing."""
 
-from collections.abc import Iterator
+import sys
+import time
+from collections import deque
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import typer
 
 if TYPE_CHECKING:
     from rich.live import Live
+    from rich.progress import Progress
     from rich.table import Table
 
     from tehl.result import CycleReport
-    from tehl.solver.monitor import Monitor
+    from tehl.scaling import Scales
+    from tehl.solver.monitor import Monitor, StepMonitor
+    from tehl.studies import Case, Row, StudyMonitor
+    from tehl.transient_result import StepReport
 
-_COLUMNS = (
-    "grid",
-    "cycle",
-    "residual",
-    "change",
-    "load error",
-    "H central",
-    "H min",
-    "sweeps",
-)
-_WARMING = "dT [K]"
-"""Column of thermal runs: the largest change of the temperature in a cycle."""
-COMPILE_SECONDS = 60
-"""What compiling the kernels takes on a common machine, roughly."""
+Columns = dict[str, int]
+"""Widths by heading."""
+_CYCLE: Columns = {
+    "grid": 11,
+    "cycle": 5,
+    "residual": 8,
+    "change": 8,
+    "load err": 8,
+    "H cent": 8,
+    "H min": 8,
+    "dT [K]": 8,
+    "sweeps": 7,
+}
+_HEAT = "dT [K]"
+"""Column of heated films: the largest change of the temperature in a cycle."""
+_STEP: Columns = {
+    "step": 9,
+    "time [us]": 9,
+    "cycles": 6,
+    "change": 7,
+    "h min [nm]": 10,
+    "h cent [nm]": 11,
+    "p max [GPa]": 11,
+    "left [s]": 8,
+}
+_COMPILE_SECONDS = 60
+"""Typical time to compile the kernels."""
+_LINES, _ROWS = 20, 10
+"""Of a transient run: plain lines, and steps in the live view."""
+_EVERY = 10.0
+"""Seconds between two plain lines of a study."""
+SHOWN = 20
+"""Failed cases that are named."""
 
 
 @contextmanager
 def progress(*, quiet: bool, thermal: bool = False, coupled: bool = False) -> Iterator["Monitor"]:
-    """Yield the monitor for a run: a table on a terminal, else lines; warn when kernels are cold.
+    """Yield the monitor of a steady solve: a row per cycle.
 
     Parameters
     ----------
     quiet : bool
         Show nothing.
     thermal : bool
-        Show how the temperature changes.
+        Show the change of the temperature.
     coupled : bool
         The film is heated or thins in shear, which takes more kernels.
     """
-    import sys
-
-    from tehl.kernels.cache import is_cold
     from tehl.solver.monitor import SILENT
 
     if quiet:
         yield SILENT
         return
-    if is_cold(coupled=coupled):
-        typer.echo(f"compiling once, about {COMPILE_SECONDS} s", err=True)
-    if sys.stderr is None or not sys.stderr.isatty():
-        yield Lines(thermal=thermal)
-        return
-    with _live(thermal=thermal) as monitor:
-        yield monitor
-
-
-class Lines:
-    """A monitor that writes one plain line per cycle."""
-
-    def __init__(self, *, thermal: bool = False) -> None:
-        self._started, self._thermal = False, thermal
-
-    def message(self, text: str) -> None:
-        """Write ``text``."""
-        typer.echo(text, err=True)
-
-    def cycle(self, report: "CycleReport") -> None:
-        """Write the numbers of a cycle, below a heading when it is the first."""
-        if not self._started:
-            typer.echo(_line(columns(thermal=self._thermal)), err=True)
-            self._started = True
-        typer.echo(_line(cells(report, thermal=self._thermal)), err=True)
-
-
-class LiveTable:
-    """A monitor that adds one row per cycle to a table on the terminal."""
-
-    def __init__(self, table: "Table", live: "Live", *, thermal: bool) -> None:
-        self._table, self._live, self._thermal = table, live, thermal
-        self._grid: tuple[int, int] | None = None
-
-    def message(self, text: str) -> None:
-        """Write ``text`` above the table."""
-        self._live.console.print(text, markup=False)
-
-    def cycle(self, report: "CycleReport") -> None:
-        """Add a row; a rule parts it from the row of another grid."""
-        if self._grid not in (None, report.points):
-            self._table.add_section()
-        self._grid = report.points
-        self._table.add_row(*cells(report, thermal=self._thermal))
-        self._live.refresh()
+    _announce_compiling(coupled=coupled)
+    with _terminal() as live:
+        yield CycleProgress(live, thermal=thermal)
 
 
 @contextmanager
-def _live(*, thermal: bool) -> Iterator[LiveTable]:
-    from rich import box
+def step_progress(
+    units: "Scales", *, quiet: bool, coupled: bool = False
+) -> Iterator["StepMonitor"]:
+    """Yield the monitor of a transient run: a row per time step.
+
+    Parameters
+    ----------
+    units : Scales
+        Of the film and the pressure.
+    quiet : bool
+        Show nothing.
+    coupled : bool
+        The film thins in shear, which takes more kernels.
+    """
+    from tehl.solver.monitor import SILENT
+
+    if quiet:
+        yield SILENT
+        return
+    _announce_compiling(coupled=coupled)
+    with _terminal() as live:
+        yield StepProgress(live, units)
+
+
+@contextmanager
+def study_progress(*, quiet: bool) -> Iterator["StudyMonitor"]:
+    """Yield the monitor of a study: a bar, or a line now and then."""
+    from tehl.studies.runner import QUIET
+
+    if quiet:
+        yield QUIET
+    elif not _is_terminal():
+        yield StudyProgress(None)
+    else:
+        from rich.console import Console
+        from rich.progress import BarColumn, Progress, TextColumn
+
+        columns = (BarColumn(bar_width=20), TextColumn("{task.description}"))
+        with Progress(*columns, console=Console(stderr=True), refresh_per_second=4) as bar:
+            yield StudyProgress(bar)
+
+
+def _announce_compiling(*, coupled: bool) -> None:
+    from tehl.kernels.cache import is_cold
+
+    if is_cold(coupled=coupled):
+        typer.echo(f"compiling once, about {_COMPILE_SECONDS} s", err=True)
+
+
+def _is_terminal() -> bool:
+    return sys.stderr is not None and sys.stderr.isatty()
+
+
+@contextmanager
+def _terminal() -> Iterator["Live | None"]:
+    """Yield a live view on a terminal, None elsewhere."""
+    if not _is_terminal():
+        yield None
+        return
     from rich.console import Console
     from rich.live import Live
+
+    console = Console(stderr=True)
+    with Live(console=console, auto_refresh=False, vertical_overflow="visible") as live:
+        yield live
+
+
+class _Shown:
+    """Messages and rows on stderr: in a live view if there is one, else as plain lines."""
+
+    def __init__(self, view: Any) -> None:  # Live, Progress or None
+        self._view = view
+
+    def message(self, text: str) -> None:
+        """Show a message, above the live view."""
+        if self._view is None:
+            typer.echo(text, err=True)
+        else:
+            self._view.console.print(text, markup=False)
+
+    def _line(self, cells: tuple[str, ...], columns: Columns) -> None:
+        widths = columns.values()
+        self.message(" ".join(f"{c:>{width}}" for c, width in zip(cells, widths, strict=True)))
+
+
+class CycleProgress(_Shown):
+    """The monitor of a steady solve."""
+
+    def __init__(self, live: "Live | None", *, thermal: bool = False) -> None:
+        super().__init__(live)
+        self._columns = {name: _CYCLE[name] for name in _CYCLE if thermal or name != _HEAT}
+        self._table = None if live is None else _table(self._columns)
+        self._grid: tuple[int, int] | None = None
+
+    def cycle(self, report: "CycleReport") -> None:
+        """Show a cycle: below a heading if it is the first, a rule if the grid is another."""
+        heat = (f"{report.temperature_change:.2e}",) if _HEAT in self._columns else ()
+        cells = (
+            "{} x {}".format(*report.points),
+            str(report.cycle),
+            f"{report.residual:.2e}",
+            f"{report.change:.2e}",
+            f"{report.load_error:.1e}",
+            f"{report.film_central:.6f}",
+            f"{report.film_minimum:.6f}",
+            *heat,
+            report.smoother,
+        )
+        if self._table is None:
+            if self._grid is None:
+                self._line(tuple(self._columns), self._columns)
+            self._line(cells, self._columns)
+        else:
+            if self._grid not in (None, report.points):
+                self._table.add_section()
+            self._table.add_row(*cells)
+            self._view.update(self._table, refresh=True)
+        self._grid = report.points
+
+
+class StepProgress(_Shown):
+    """The monitor of a transient run."""
+
+    def __init__(self, live: "Live | None", units: "Scales") -> None:
+        super().__init__(live)
+        self._units = units
+        self._rows: deque[tuple[str, ...]] = deque(maxlen=_ROWS)
+        self._first: tuple[int, float] | None = None
+        self._part: int | None = None
+        self._steady = False
+
+    def cycle(self, report: "CycleReport") -> None:
+        """Show that the steady film at time zero is being found."""
+        if self._view is not None:
+            state = "{} x {}".format(*report.points)
+            state = f"{state}, cycle {report.cycle}, {report.residual:.1e}"
+            self._view.update(f"steady film at time zero: {state}", refresh=True)
+        elif not self._steady:
+            self.message("the steady film at time zero")
+        self._steady = True
+
+    def step(self, report: "StepReport") -> None:
+        """Show a step; as a plain line only if the last one is a twentieth of the run behind."""
+        cells = self._cells(report)
+        if self._view is not None:
+            self._rows.append(cells)
+            self._show(report)
+            return
+        part = report.step * _LINES // report.steps
+        if self._part is None:
+            self._line(tuple(_STEP), _STEP)
+        if part != self._part:
+            self._line(cells, _STEP)
+        self._part = part
+
+    def _show(self, report: "StepReport") -> None:
+        from rich.console import Group
+        from rich.progress_bar import ProgressBar
+
+        table = _table(_STEP)
+        for row in self._rows:
+            table.add_row(*row)
+        bar = ProgressBar(total=report.steps, completed=report.step, width=60)
+        self._view.update(Group(table, bar), refresh=True)
+
+    def _cells(self, report: "StepReport") -> tuple[str, ...]:
+        film, pressure = self._units.film_thickness * 1e9, self._units.hertz_pressure * 1e-9
+        left = self._left(report)
+        return (
+            f"{report.step}/{report.steps}",
+            f"{report.time * 1e6:.1f}",
+            str(report.cycles),
+            f"{report.change:.1e}",
+            f"{report.film_minimum * film:.1f}",
+            f"{report.film_central * film:.1f}",
+            f"{report.pressure_max * pressure:.4f}",
+            "" if left is None else f"{left:.0f}",
+        )
+
+    def _left(self, report: "StepReport") -> float | None:
+        """Return the seconds that are left, from the steps since the first; None at that one."""
+        now = time.monotonic()
+        if self._first is None or report.step <= self._first[0]:  # the first, or of another run
+            self._first = (report.step, now)
+            return None
+        step, then = self._first
+        return (now - then) / (report.step - step) * (report.steps - report.step)
+
+
+def _table(columns: Columns) -> "Table":
+    from rich import box
+    from rich.markup import escape
     from rich.table import Table
 
-    table = Table(box=box.SIMPLE_HEAD)
-    for name in columns(thermal=thermal):
-        table.add_column(name, justify="left" if name == "sweeps" else "right")
-    console = Console(stderr=True)
-    with Live(table, console=console, auto_refresh=False, vertical_overflow="visible") as live:
-        yield LiveTable(table, live, thermal=thermal)
+    table = Table(box=box.SIMPLE_HEAD, padding=0, show_edge=False)
+    for name, width in columns.items():
+        table.add_column(escape(name), justify="right", min_width=width)
+    return table
 
 
-def columns(*, thermal: bool) -> tuple[str, ...]:
-    """Return the names of the columns."""
-    return (*_COLUMNS[:-1], _WARMING, _COLUMNS[-1]) if thermal else _COLUMNS
+class StudyProgress(_Shown):
+    """The monitor of a study.
+
+    Attributes
+    ----------
+    total, reused, done, failed : int
+        Cases: all, finished before, finished now, and failed now.
+    """
+
+    def __init__(self, bar: "Progress | None", clock: Callable[[], float] = time.monotonic) -> None:
+        super().__init__(bar)
+        self.total = self.reused = self.done = self.failed = 0
+        self._clock = clock
+        self._start = self._last = clock()
+        self._task = None if bar is None else bar.add_task("", total=None)
+
+    def begin(self, total: int, reused: int) -> None:
+        """Show the number of cases."""
+        self.total, self.reused = total, reused
+        self._start = self._last = self._clock()
+        if self._task is None:
+            self.message(f"{total} cases, {reused} of them finished before")
+        self._show()
+
+    def finished(self, case: "Case", row: "Row") -> None:
+        """Count a case, and name it if it failed."""
+        self.done += 1
+        self.failed += not row.converged
+        if not row.converged and self.failed <= SHOWN:
+            cause = (row.cause or row.status).replace("_", " ")
+            self.message(f"failed: {case.name}: {cause}")
+        now = self._clock()
+        if self._task is None and (now - self._last >= _EVERY or not self.open):
+            self._last = now
+            self.message(self.counts)
+        self._show()
+
+    def _show(self) -> None:
+        if self._task is not None:
+            done = self.total - self.open
+            self._view.update(self._task, total=self.total, completed=done, description=self.counts)
+
+    @property
+    def open(self) -> int:
+        """Cases that are not finished."""
+        return self.total - self.reused - self.done
+
+    @property
+    def counts(self) -> str:
+        """The counts in a line."""
+        text = f"{self.total - self.open} of {self.total} cases"
+        if self.done:
+            rate = self.done / max(self._clock() - self._start, 1e-9)
+            text += f", {rate:.3g} per second, {duration(self.open / rate)} left"
+        return f"{text}, {self.failed} failed" if self.failed else text
 
 
-def cells(report: "CycleReport", *, thermal: bool = False) -> tuple[str, ...]:
-    """Return the numbers of a cycle as words, in the order of the columns."""
-    warming = (f"{report.temperature_change:.2e}",) if thermal else ()
-    return (
-        "{} x {}".format(*report.points),
-        str(report.cycle),
-        f"{report.residual:.2e}",
-        f"{report.change:.2e}",
-        f"{report.load_error:.1e}",
-        f"{report.film_central:.6f}",
-        f"{report.film_minimum:.6f}",
-        *warming,
-        report.smoother,
-    )
-
-
-def _line(words: tuple[str, ...]) -> str:
-    widths = (11, 6, 10, 12, 11, 10, 10, 9)
-    numbers = zip(words[:-1], widths, strict=False)
-    return " ".join(f"{word:>{width}}" for word, width in numbers) + f"  {words[-1]}"
+def duration(seconds: float) -> str:
+    """Return a time with its unit: 40 s, 12 min, 3.5 h."""
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"

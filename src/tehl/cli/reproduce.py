@@ -31,7 +31,7 @@ def reproduce(
     Minutes the first time; what is solved is kept in DIR, so that the next run only draws.
     """
     from tehl.reproduce import reproduce as make
-    from tehl.studies.monitor import QUIET
+    from tehl.studies.runner import QUIET
 
     names = [] if only is None else only.split(",")
     monitor = QUIET if quiet else _Progress()

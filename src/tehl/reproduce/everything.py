@@ -19,8 +19,7 @@ from tehl.reproduce.findings import Findings, findings
 from tehl.reproduce.series import all_series, runs_of
 from tehl.reproduce.wishes import wishes
 from tehl.studies import Store, StudyMonitor, run, table
-from tehl.studies.engines import begin_worker
-from tehl.studies.monitor import QUIET
+from tehl.studies.runner import QUIET
 
 CASES, MEASURES, FIGURES = "cases", "measures", "figures"
 """Folders of the results, of what was measured in them, and of the figures."""
@@ -157,7 +156,7 @@ def _all(jobs: int, tasks: list[tuple[Any, ...]]) -> None:
             work(*arguments)
         return
     context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(workers, mp_context=context, initializer=begin_worker) as pool:
+    with ProcessPoolExecutor(workers, mp_context=context) as pool:
         futures = [pool.submit(*task) for task in tasks]
         try:
             for future in as_completed(futures):

@@ -15,12 +15,11 @@ from tehl import SOLVER_VERSION
 
 if TYPE_CHECKING:
     from tehl.studies.axes import Axis, Sample
-    from tehl.studies.case import Case
-    from tehl.studies.monitor import StudyMonitor
-    from tehl.studies.plan import Study
+    from tehl.studies.case import Case, Row
+    from tehl.studies.file import read_study
+    from tehl.studies.plan import Study, study_of
     from tehl.studies.quick import cases_of, study
-    from tehl.studies.row import Row
-    from tehl.studies.runner import Outcome, run
+    from tehl.studies.runner import Outcome, StudyMonitor, run
     from tehl.studies.store import Store
     from tehl.studies.tables import table
 
@@ -28,14 +27,16 @@ _HOMES = {
     "Axis": "axes",
     "Case": "case",
     "Outcome": "runner",
-    "Row": "row",
+    "Row": "case",
     "Sample": "axes",
     "Store": "store",
     "Study": "plan",
-    "StudyMonitor": "monitor",
+    "StudyMonitor": "runner",
     "cases_of": "quick",
+    "read_study": "file",
     "run": "runner",
     "study": "quick",
+    "study_of": "plan",
     "table": "tables",
 }
 
@@ -50,8 +51,10 @@ __all__ = [
     "Study",
     "StudyMonitor",
     "cases_of",
+    "read_study",
     "run",
     "study",
+    "study_of",
     "table",
 ]
 
@@ -64,5 +67,5 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    """Show the exports, loaded or not, and nothing else."""
+    """List the exports, loaded or not."""
     return sorted(__all__)

@@ -1,26 +1,37 @@
-"""The axes of a study file: paths of the case and the values that they take."""
+"""Axes of a study: paths of the case and the values that they take."""
 
 import json
+import math
+import re
 from collections import Counter
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import zip_longest
 from typing import Annotated, Any, Literal, Self
 
+import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from tehl.studies.numbers import End, between, evenly
 from tehl.typing import Array
 
-KINDS = ("values", "linspace", "geomspace", "uniform", "loguniform")
-"""Ways to state the values of an axis; the last two are sampled."""
-DRAWN = ("uniform", "loguniform")
-_LONGEST = 60
-"""Letters of a value in a message."""
-
-Steps = tuple[End, End, Annotated[int, Field(ge=1)]]
+End = float | int | str
 Ends = tuple[End, End]
-Draw = Callable[[int, int], Array]
-"""From numbers of dimensions and points to places between 0 and 1, (points, dimensions)."""
+Steps = tuple[End, End, Annotated[int, Field(ge=1)]]
+
+_KINDS = ("values", "linspace", "geomspace", "uniform", "loguniform")
+"""Ways to state the values of an axis."""
+_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+|inf|nan)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
+_DIGITS = 12
+"""Significant digits of a value: 0.3, not 0.30000000000000004."""
+_LONGEST = 60
+"""Characters of a value in a message."""
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """A value along an axis, and its name in the table if it has one."""
+
+    value: Any
+    name: str | None = None
 
 
 class Axis(BaseModel):
@@ -35,13 +46,13 @@ class Axis(BaseModel):
     values : list or None
         Numbers, words, quantities or tables; ``false`` leaves the key out of the case.
     names : list of str or None
-        What to call the values in the table.
+        Names of the values in the table.
     linspace, geomspace : (first, last, number) or None
         Values with equal steps or equal ratios, both ends included.
     uniform, loguniform : (first, last) or None
-        Sampled between two ends, as the table ``sample`` says.
+        Sampled between two ends, as the table ``sample`` states.
     zip : str or None
-        Axes with the same word here go together, value by value.
+        Axes with the same word here vary together, value by value.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
@@ -57,69 +68,110 @@ class Axis(BaseModel):
     zip: str | None = None
 
     @model_validator(mode="after")
-    def _must_have_values(self) -> Self:
-        stated = [kind for kind in KINDS if getattr(self, kind) is not None]
+    def _check(self) -> Self:
+        stated = [kind for kind in _KINDS if getattr(self, kind) is not None]
         if len(stated) != 1:
             how = f"states {' and '.join(stated)}" if stated else "has no values"
-            raise ValueError(f"{how}: give one of {', '.join(KINDS)}")
+            raise ValueError(f"{how}: give one of {', '.join(_KINDS)}")
         if self.values == []:
             raise ValueError("has an empty list of values")
         if self.names is not None and len(self.names) != len(self.values or ()):
-            raise ValueError("names must be as many as values")
-        if self.zip is not None and self.is_drawn:
-            raise ValueError("is sampled, which goes together with all that is sampled: no zip")
+            raise ValueError("must have as many names as values")
+        if self.zip is not None and self.is_sampled:
+            raise ValueError("is sampled, and all sampled axes vary together: remove zip")
         if not all(part.strip() for part in self.path.split(".")):
-            raise ValueError("has no dotted path of a case, such as contact.load")
-        self._check_ends(stated[0])
-        if self.zip is None:  # zipped values may come again, beside others
-            self._check_once()
+            raise ValueError("is not a dotted path of a case, such as contact.load")
+        try:
+            self._span()
+        except ValueError as error:
+            kind = stated[0]
+            raise ValueError(f"{kind} = {list(getattr(self, kind))} {error}") from None
+        if self.zip is None:  # zipped values may repeat, beside others
+            self._check_repeated()
         return self
 
-    def _check_once(self) -> None:
-        """Refuse a value or a name that comes twice."""
+    def _check_repeated(self) -> None:
         if (steps := self.linspace or self.geomspace) and steps[0] == steps[1] and steps[2] > 1:
             raise ValueError(f"has the value {steps[0]} {steps[2]} times: give two different ends")
         for what, found in (("value", self.values), ("name", self.names)):
             words = Counter(json.dumps(one, default=str, sort_keys=True) for one in found or ())
-            if twice := [word for word, count in words.items() if count > 1]:
-                raise ValueError(f"has the {what} {twice[0][:_LONGEST]} twice: give each once")
-
-    def _check_ends(self, kind: str) -> None:
-        if kind == "values":
-            return
-        try:
-            self._spread()
-        except ValueError as error:
-            raise ValueError(f"{kind} = {list(getattr(self, kind))} {error}") from None
+            word, count = next(iter(words.most_common(1)), ("", 0))
+            if count > 1:
+                raise ValueError(f"has the {what} {word[:_LONGEST]} twice: give each once")
 
     @property
-    def is_drawn(self) -> bool:
+    def is_sampled(self) -> bool:
         """Whether its values are sampled."""
         return self.uniform is not None or self.loguniform is not None
 
     @property
     def count(self) -> int:
-        """Number of its values; of an axis that is not sampled."""
-        if self.values is not None:
-            return len(self.values)
+        """Number of its values, if it is not sampled."""
         steps = self.linspace or self.geomspace
-        return steps[2] if steps else 0
+        return steps[2] if steps else len(self.values or ())
 
-    def _spread(self) -> Callable[[Array], list[Any]]:
+    def _span(self) -> "_Span | None":
         ends = self.linspace or self.geomspace or self.uniform or self.loguniform
-        assert ends is not None
         geometric = self.geomspace is not None or self.loguniform is not None
-        return between(ends[0], ends[1], geometric=geometric)
+        return None if ends is None else _span(ends[0], ends[1], geometric=geometric)
 
-    def settings(self, places: Array | None = None) -> list["Setting"]:
-        """Return its values; of a sampled axis those at ``places`` between 0 and 1."""
-        if self.values is not None:
-            if self.names is None:
-                return [Setting(value) for value in self.values]
-            named = zip(self.values, self.names, strict=True)
-            return [Setting(value, name) for value, name in named]
-        where = evenly(self.count) if places is None else places
-        return [Setting(value) for value in self._spread()(where)]
+    def settings(self, places: Array | None = None) -> list[Setting]:
+        """Return its values; those of a sampled axis at ``places`` between 0 and 1."""
+        span = self._span()
+        if span is None:
+            values = self.values or []
+            return [Setting(*one) for one in zip_longest(values, self.names or ())]
+        places = np.linspace(0.0, 1.0, self.count) if places is None else places
+        return [Setting(value) for value in span.values(places)]
+
+
+@dataclass(frozen=True, slots=True)
+class _Span:
+    """What lies between two ends: numbers with a unit, by equal ratios if it is geometric."""
+
+    low: float
+    high: float
+    unit: str
+    geometric: bool
+
+    def values(self, places: Array) -> list[End]:
+        """Return the values at places from 0 to 1, as a case file states them."""
+        if self.geometric:
+            numbers = self.low ** (1.0 - places) * self.high**places
+        else:
+            numbers = self.low * (1.0 - places) + self.high * places
+        return [self._stated(float(f"{number:.{_DIGITS}g}")) for number in numbers]
+
+    def _stated(self, number: float) -> End:
+        if self.unit:
+            return f"{number!r} {self.unit}"
+        return int(number) if number.is_integer() and abs(number) < 1e9 else number
+
+
+def _span(first: End, last: End, *, geometric: bool) -> _Span:
+    """Return what lies between two ends.
+
+    Raises
+    ------
+    ValueError
+        If they have different units or cannot be geometric; the message continues a sentence.
+    """
+    (low, unit), (high, other) = _split(first), _split(last)
+    if unit != other:
+        raise ValueError(f"has the units {unit or 'none'} and {other or 'none'}: give one unit")
+    if geometric and not (low > 0 and high > 0):
+        raise ValueError("must have two positive ends to be geometric")
+    return _Span(low, high, unit, geometric)
+
+
+def _split(end: End) -> tuple[float, str]:
+    """Return number and unit of an end."""
+    match = _NUMBER.fullmatch(str(end))
+    if not match:
+        raise ValueError(f'has an end "{str(end)[:40]}" that does not begin with a number')
+    if not math.isfinite(float(match[1])):
+        raise ValueError("must have finite ends")
+    return float(match[1]), match[2]
 
 
 class Sample(BaseModel):
@@ -130,9 +182,9 @@ class Sample(BaseModel):
     method : {"latin-hypercube", "sobol", "random"}
         Points that fill the box evenly, or independent ones.
     number : int
-        How many.
+        Number of points.
     seed : int
-        Another seed, other points.
+        Of the random numbers.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
@@ -143,7 +195,6 @@ class Sample(BaseModel):
 
     def places(self, dimensions: int) -> Array:
         """Return the points between 0 and 1, (number, dimensions)."""
-        import numpy as np  # noqa: PLC0415
         from scipy.stats import qmc  # noqa: PLC0415 (half a second, for sampled studies only)
 
         generator = np.random.default_rng(self.seed)
@@ -156,76 +207,3 @@ class Sample(BaseModel):
             found = qmc.Sobol(dimensions, seed=generator).random_base2(doublings)
         places: Array = np.asarray(found[: self.number], np.float64)
         return places
-
-
-@dataclass(frozen=True, slots=True)
-class Setting:
-    """A value along an axis, and what to call it if not by itself."""
-
-    value: Any
-    name: str | None = None
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Block:
-    """Columns that vary together; the study is the grid of its blocks.
-
-    Attributes
-    ----------
-    paths, names : tuple of str
-        Of the columns: where in the case, and in the table.
-    rows : tuple of tuple of Setting or None
-        The values, one per column; None leaves the base case as it is.
-    titles : tuple of str
-        Names of the rows, empty if they have none.
-    """
-
-    paths: tuple[str, ...]
-    names: tuple[str, ...]
-    rows: tuple[tuple[Setting | None, ...], ...]
-    titles: tuple[str, ...] = ()
-
-
-def groups_of(axes: Sequence[Axis]) -> list[list[Axis]]:
-    """Return the axes that go together: zipped ones, all sampled ones, and each other alone."""
-    groups: dict[tuple[str, str], list[Axis]] = {}
-    for number, axis in enumerate(axes):
-        kind = ("drawn", "") if axis.is_drawn else ("zip", axis.zip) if axis.zip else None
-        groups.setdefault(kind or ("alone", str(number)), []).append(axis)
-    return list(groups.values())
-
-
-def count_of(group: Sequence[Axis], sample: Sample | None) -> int:
-    """Return how many values a group takes.
-
-    Raises
-    ------
-    ValueError
-        If zipped axes have different numbers of values, or nothing says how to sample.
-    """
-    if group[0].is_drawn:
-        if sample is None:
-            raise ValueError(
-                f"{group[0].path} is sampled, but there is no table [sample] with the number of "
-                'points: sample = { method = "latin-hypercube", number = 100 }'
-            )
-        return sample.number
-    counts = {axis.path: axis.count for axis in group}
-    if len(set(counts.values())) > 1:
-        told = ", ".join(f"{path} {count}" for path, count in counts.items())
-        raise ValueError(f'zip = "{group[0].zip}" joins axes of different lengths: {told}')
-    return group[0].count
-
-
-def block_of(group: Sequence[Axis], sample: Sample | None) -> Block:
-    """Return the block of a group that was counted."""
-    if group[0].is_drawn and sample is not None:
-        places = sample.places(len(group))
-        columns = [axis.settings(places[:, number]) for number, axis in enumerate(group)]
-    else:
-        columns = [axis.settings() for axis in group]
-    return Block(
-        paths=tuple(axis.path for axis in group),
-        names=tuple(axis.name or axis.path for axis in group),
-        rows=tuple(zip(*columns, strict=True)),
-    )

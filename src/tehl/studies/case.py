@@ -1,8 +1,8 @@
-"""One contact of a study, and the name under which its answer is kept."""
+"""A case of a study, the key that it is stored under, and its row: the outcome without fields."""
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -11,8 +11,18 @@ from typing import Any
 from tehl import SOLVER_VERSION, __version__
 from tehl.options import Options
 from tehl.problem import ContactProblem
+from tehl.result import Cost, Result
 
 Label = float | str
+Scalar = float | int | str | bool | None
+
+_SOLVED = ("converged", "not_converged", "diverged", "stalled")
+"""Statuses that come with fields."""
+_UNITS = {"m": "m", "pa": "Pa", "k": "K", "w": "W", "rad": "rad", "seconds": "s"}
+"""Unit by the last part of the name of a number."""
+_NOT_NUMBERS = ("title", "status", "cause", "message", "hint")
+"""Keys of a summary that a row holds elsewhere."""
+_PARTS_OF_ESTIMATES = ("value", "uncertainty", "discretisation", "domain", "values")
 
 
 @dataclass(frozen=True)
@@ -22,13 +32,13 @@ class Case:
     Attributes
     ----------
     name : str
-        For people, unique in its study.
+        Shown to the user, unique in its study.
     problem : ContactProblem
-        What is asked.
+        The contact.
     options : Options
-        How hard to try.
+        Numerical options.
     labels : mapping of str to float or str
-        What tells it from its neighbours, for tables and curves: values along the axes.
+        Values along the axes of the study, for tables and curves.
     certify : bool
         Solve on three grids and a larger domain, for error bars.
     """
@@ -41,50 +51,131 @@ class Case:
 
     @cached_property
     def key(self) -> str:
-        """Name of the answer: SHA-256 of all that it depends on, as 64 hexadecimal digits.
+        """SHA-256 of all that the result depends on, as 64 hexadecimal digits.
 
-        That is the problem without its title, measured surfaces by what their files hold, the
+        That is the problem without its title, measured surfaces by the content of their files, the
         options, whether error bars are wanted, and the version of the solver.
         """
-        text = json.dumps(canonical(self), sort_keys=True, allow_nan=False)
+        content = {
+            "problem": _with_contents(self.problem.model_dump(mode="json", exclude={"title"})),
+            "options": self.options.model_dump(mode="json"),
+            "certify": self.certify,
+            "solver": [__version__, SOLVER_VERSION],
+        }
+        text = json.dumps(content, sort_keys=True, allow_nan=False)
         return hashlib.sha256(text.encode()).hexdigest()
 
 
-def canonical(case: Case) -> dict[str, Any]:
-    """Return all that the answer of a case depends on, as JSON can hold it."""
-    problem = case.problem.model_dump(mode="json", exclude={"title"})
-    return {
-        "problem": _with_contents(problem),
-        "options": case.options.model_dump(mode="json"),
-        "certify": case.certify,
-        "solver": [__version__, SOLVER_VERSION],
-    }
-
-
 def _with_contents(value: Any) -> Any:
-    """Put the contents of measured surfaces in place of the names of their files."""
+    """Replace the names of the files of measured surfaces by what the files contain."""
     if isinstance(value, list | tuple):
         return [_with_contents(item) for item in value]
     if not isinstance(value, dict):
         return value
     inside = {key: _with_contents(item) for key, item in value.items()}
     if value.get("type") == "map" and isinstance(value.get("file"), str):
-        inside["file"] = _fingerprint(value["file"])
+        inside["file"] = _fingerprint(Path(value["file"]).expanduser()) or value["file"]
     return inside
 
 
-def _fingerprint(file: str) -> str:
-    """Return what a file holds as hexadecimal digits; its name where it cannot be read."""
+def _fingerprint(file: Path) -> str | None:
+    """Return the hash of a file, None if it cannot be read."""
     try:
-        state = Path(file).expanduser().stat()
+        state = file.stat()
         return _digest(file, state.st_size, state.st_mtime_ns)
     except OSError:
-        return file
+        return None
 
 
 @lru_cache(maxsize=256)
-def _digest(file: str, size: int, written: int) -> str:
-    """Read a file once, as long as neither its size nor its time changes."""
-    del size, written
-    with Path(file).expanduser().open("rb") as content:
+def _digest(file: Path, _size: int, _written: int) -> str:
+    """Return the hash of a file, read again only when its size or its time has changed."""
+    with file.open("rb") as content:
         return hashlib.file_digest(content, "sha256").hexdigest()
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Row:
+    """The outcome of one case.
+
+    Attributes
+    ----------
+    key : str
+        Of the case.
+    status : str
+        As of a result, or ``"bad_input"`` where the solver refused it, or ``"failed"`` where there
+        is no result.
+    cause, message, hint : str or None
+        Why it failed, as a word and in sentences; message and hint also of a converged case whose
+        minimum film is uncertain.
+    summary : mapping of str to scalar
+        Every number and word of the summary, by dotted names: ``"film.h_min_m"``.
+    cost : Cost
+        Of the solve.
+    """
+
+    key: str
+    status: str
+    cause: str | None = None
+    message: str | None = None
+    hint: str | None = None
+    summary: Mapping[str, Scalar] = field(default_factory=dict)
+    cost: Cost = Cost(cpu_seconds=0.0, wall_seconds=0.0)  # noqa: RUF009 (frozen)
+
+    @property
+    def converged(self) -> bool:
+        """Whether the case converged."""
+        return self.status == "converged"
+
+    @property
+    def has_fields(self) -> bool:
+        """Whether the solver returned fields, converged or not."""
+        return self.status in _SOLVED
+
+
+def row_of(key: str, result: Result) -> Row:
+    """Return the row of a result, converged or not."""
+    status = result.status
+    blocks = {name: block for name, block in result.summary().items() if block is not None}
+    return Row(
+        key=key,
+        status=status.kind,
+        cause=status.cause,
+        message=status.message,
+        hint=status.hint,
+        summary=dict(flat(blocks, skip=_NOT_NUMBERS)),
+        cost=result.cost,
+    )
+
+
+def flat(
+    tree: Mapping[Any, Any], prefix: str = "", skip: tuple[str, ...] = ()
+) -> Iterator[tuple[str, Scalar]]:
+    """Yield the scalars of nested tables and lists by dotted names, in order.
+
+    Parameters
+    ----------
+    tree : mapping
+        Tables of tables, lists and scalars.
+    prefix : str
+        Begins each name.
+    skip : tuple of str
+        Keys of the outermost table to leave out.
+    """
+    for key, value in tree.items():
+        if key in skip:
+            continue
+        inside = dict(enumerate(value)) if isinstance(value, list | tuple) else value
+        if isinstance(inside, Mapping):
+            yield from flat(inside, f"{prefix}{key}.")
+        else:
+            yield f"{prefix}{key}", value
+
+
+def unit_of(name: str) -> str:
+    """Return the unit of a number of a summary, ``"1"`` where it has none."""
+    parts = [part for part in name.split(".") if not part.isdigit()]
+    if parts[0] == "uncertainty" and parts[-1] in _PARTS_OF_ESTIMATES:
+        parts.pop()
+    _, underscore, ending = parts[-1].rpartition("_")
+    return _UNITS.get(ending, "1") if underscore else "1"

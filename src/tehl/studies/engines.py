@@ -1,74 +1,77 @@
-"""Where cases are solved: here, in processes of this machine, or on a running dask cluster.
+"""Where cases are solved: in this process, in processes of this machine, or on a dask cluster.
 
-The seam is :class:`concurrent.futures.Executor`; an engine says how to get one, how many cases to
-have in it, and how to leave it.
+An engine takes functions, each under a ticket, and returns in any order each ticket with what its
+function gave: a value, the error that it raised, or :class:`WorkerDied`.
 """
 
 import multiprocessing
 import os
 import signal
 import sys
-import threading
+import time
 from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, Future, ProcessPoolExecutor
-from contextlib import contextmanager
-from multiprocessing.connection import wait
-from multiprocessing.context import BaseContext
-from typing import Any, Protocol
+from concurrent.futures import FIRST_COMPLETED, Future
+from concurrent.futures import wait as wait_for
+from contextlib import closing, contextmanager, suppress
+from multiprocessing import resource_tracker
+from multiprocessing.connection import Connection, wait
+from typing import Any
 
 from tehl import __version__
 from tehl.errors import InputError
+from tehl.studies.worker import attempt, serve
 
-ONE_THREAD = (
-    "NUMBA_NUM_THREADS",
-    "OMP_NUM_THREADS",
-    "OPENBLAS_NUM_THREADS",
-    "MKL_NUM_THREADS",
-)
-"""What keeps a worker on its one core; read when the libraries are loaded."""
-_READY = "tehl.studies.ready"
-"""Loaded once by the server that workers are forked from."""
-_OF_WORKERS = dict.fromkeys((*ONE_THREAD, "PYTHONSAFEPATH"), "1")
-"""Their environment; the last keeps a random.py in the current folder from being the library's."""
-_WAITING = 2
-"""Tasks that a pool holds for each worker: one in work and one at hand."""
+Ticket = Any
+Finished = list[tuple[Ticket, Any]]
+
+_ONE = ("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+ENVIRONMENT = dict.fromkeys((*_ONE, "PYTHONSAFEPATH"), "1")
+"""Of workers: one thread; a random.py in the current folder does not shadow the library's."""
+_STARTS, _PAUSE = 3, 0.1
+"""Attempts to start workers, and seconds between them, for a dying fork server to end."""
 _GRACE = 10.0
-"""Seconds that a worker has to end."""
-_LEAST_ON_CLUSTER, _CONNECT = 64, 30.0
-"""Tasks that a cluster is given at least, so that it can grow; seconds to find its scheduler."""
-_TASK, _TASK_HERE = 1.0, 0.2
-"""Seconds of solving that are worth a message through the scheduler of a cluster, or to a process
-of this machine."""
+"""Seconds for a terminated worker to end."""
+_CONNECT = 30.0
+"""Seconds to find a scheduler."""
+_NO_WORKER = (
+    "no worker process starts, or each ends at once: there may be too little memory for this "
+    "number of jobs; and a script that solves with jobs > 1 must do its work below "
+    'if __name__ == "__main__":'
+)
 
 
-class Engine(Protocol):
-    """A place to solve cases."""
+class WorkerDied(Exception):  # noqa: N818 (an event)
+    """The process ended while it solved."""
 
-    @property
-    def local(self) -> bool:
-        """Whether workers are processes that the caller has to warm the kernels for."""
-        ...
 
-    @property
-    def task_seconds(self) -> float:
-        """Seconds of solving that cases are put together for; zero if each goes by itself."""
-        ...
+class Engine:
+    """A place to solve cases; this one is the calling process."""
 
-    def executor(self) -> Executor:
-        """Return a fresh executor."""
-        ...
+    local = True
+    """Whether workers share the compiled kernels of this machine."""
+    task_seconds = 0.0
+    """Seconds of solving worth a message to a worker: quick cases are bundled up to it."""
+    ahead, least = 1, 1
+    """Tasks that are submitted at a time: per worker, and at least."""
+
+    def __init__(self) -> None:
+        self._finished: Finished = []
 
     def workers(self) -> int:
-        """Return how many cases are solved at a time, now; zero before a cluster has grown."""
-        ...
+        """Return the number of cases that are solved at a time, 0 before a cluster has grown."""
+        return 1
 
-    def window(self, workers: int) -> int:
-        """Return how many tasks to have in the executor at a time, for so many workers."""
-        ...
+    def submit(self, ticket: Ticket, function: Callable[..., Any], *arguments: Any) -> None:
+        """Call the function now, or as soon as a worker is idle."""
+        self._finished.append((ticket, attempt(function, *arguments)))
 
-    def leave(self, executor: Executor, *, at_once: bool) -> None:
-        """End an executor; ``at_once`` gives up what is in work."""
-        ...
+    def take(self) -> Finished:
+        """Wait until some of what was submitted is finished; return it."""
+        finished, self._finished = self._finished, []
+        return finished
+
+    def close(self) -> None:
+        """End the workers, whatever they do."""
 
 
 @contextmanager
@@ -80,199 +83,191 @@ def engine_of(
     Parameters
     ----------
     jobs : int
-        Workers on this machine; one solves in this process.
+        Workers on this machine, at most one per case; 1 solves in this process.
     cases : int
-        No more workers than these are begun.
+        Number of cases.
     scheduler : str or None
-        Address of a dask scheduler, ``"tcp://host:8786"``; ``jobs`` does not count then.
+        Address of a dask scheduler, ``"tcp://host:8786"``; overrides ``jobs``.
     forked : bool
         As in :func:`tehl.studies.run`.
 
     Raises
     ------
     InputError
-        If the number of workers cannot be.
+        If ``jobs`` is less than one.
     OSError
-        If no scheduler answers.
+        If no scheduler replies, or its workers have another version of this package.
     ModuleNotFoundError
         If dask is not installed.
     """
     if scheduler is not None:
-        with _cluster(scheduler) as engine:
-            yield engine
+        with _client(scheduler) as client, closing(Cluster(client)) as cluster:
+            yield cluster
         return
     if not jobs >= 1:
         raise InputError(f"jobs = {jobs} must be at least 1")
-    if jobs == 1:
-        yield Serial()
-        return
-    with _environment(_OF_WORKERS):
-        yield Pool(min(jobs, cases), forked=forked)
+    with closing(Engine() if jobs == 1 else Pool(min(jobs, cases), forked=forked)) as engine:
+        yield engine
 
 
-class Serial:
-    """The process that calls, one case after the other."""
+class Pool(Engine):
+    """Processes of this machine.
 
-    local, task_seconds = True, 0.0
-
-    def executor(self) -> Executor:
-        """Return an executor that works when it is asked to."""
-        return _Here()
-
-    def workers(self) -> int:
-        """Return one."""
-        return 1
-
-    def window(self, workers: int) -> int:
-        """Return as many tasks as workers."""
-        return workers
-
-    def leave(self, executor: Executor, *, at_once: bool) -> None:
-        """Do nothing: there is nothing left over."""
-
-
-class _Here(Executor):
-    """An executor without workers."""
-
-    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Call ``fn`` now."""
-        future: Future[Any] = Future()
-        try:
-            future.set_result(fn(*args, **kwargs))
-        except Exception as error:
-            future.set_exception(error)
-        return future
-
-
-class Pool:
-    """Fresh processes of this machine, one thread each.
-
-    Each loads the solver itself; ``forked``, on Linux, from a server, a fresh process of one thread
-    that has loaded it with the kernels of Newtonian films. Python has one such server per program.
+    Each has its own connection and one task at a time, so one that dies loses its own task only.
+    Each loads the solver itself or, ``forked`` on Linux, is forked from a server of one thread that
+    has loaded it with the kernels of Newtonian films: Python's ``forkserver``, one per program.
     """
 
-    local, task_seconds = True, _TASK_HERE
+    task_seconds = 0.2
 
     def __init__(self, jobs: int, *, forked: bool = False) -> None:
-        self.jobs = jobs
-        self.forked = forked and sys.platform == "linux"  # elsewhere libraries do not bear it
-
-    def executor(self) -> Executor:
-        """Return a pool; its processes begin when they are needed."""
-        context = multiprocessing.get_context("forkserver" if self.forked else "spawn")
-        if self.forked:
-            _begin_server(context)
-        return ProcessPoolExecutor(self.jobs, mp_context=context, initializer=begin_worker)
+        self._jobs, self._idle = jobs, list[_Worker]()
+        self._busy: dict[Connection, tuple[_Worker, Ticket]] = {}
+        forked = forked and sys.platform == "linux"  # elsewhere libraries do not survive a fork
+        self._context: Any = multiprocessing.get_context("forkserver" if forked else "spawn")
+        if forked:
+            self._context.set_forkserver_preload(["tehl.studies.ready"])
 
     def workers(self) -> int:
         """Return the number of processes."""
-        return self.jobs
+        return self._jobs
 
-    def window(self, workers: int) -> int:
-        """Return two tasks per worker."""
-        return _WAITING * workers
+    def submit(self, ticket: Ticket, function: Callable[..., Any], *arguments: Any) -> None:
+        """Send the function to an idle worker; start those that are missing."""
+        if not self._idle:
+            self._idle = self._started(self._jobs - len(self._busy))
+        worker = self._idle.pop()
+        with suppress(ConnectionError):  # take() finds a worker that has died since
+            worker.connection.send((function, *arguments))
+        self._busy[worker.connection] = worker, ticket
 
-    def leave(self, executor: Executor, *, at_once: bool) -> None:
-        """End the processes, by force if it has to be at once."""
-        processes = list((getattr(executor, "_processes", None) or {}).values())
-        executor.shutdown(wait=not at_once, cancel_futures=True)
-        if at_once:
-            for process in processes:
-                process.terminate()
-            for process in processes:
-                process.join(_GRACE)
+    def take(self) -> Finished:
+        """Wait until some workers have finished or died; return their tasks."""
+        finished: Finished = []
+        for connection in wait(self._busy):
+            assert isinstance(connection, Connection)
+            worker, ticket = self._busy.pop(connection)
+            try:
+                finished.append((ticket, connection.recv()))
+                self._idle.append(worker)
+            except (EOFError, OSError):
+                _end([worker])
+                finished.append((ticket, WorkerDied()))
+        return finished
+
+    def close(self) -> None:
+        """Terminate the processes."""
+        _end([*self._idle, *(worker for worker, _ in self._busy.values())])
+
+    def _started(self, count: int) -> list["_Worker"]:
+        """Start workers side by side; return them when each has reported that it is ready.
+
+        Raises
+        ------
+        OSError
+            If one of them ends before, each time.
+        """
+        for _ in range(_STARTS):
+            workers = list[_Worker]()
+            try:
+                with _undisturbed():
+                    workers += (_Worker(self._context) for _ in range(count))
+                for worker in workers:
+                    worker.connection.recv()
+            except (EOFError, ConnectionError):
+                _end(workers)
+                time.sleep(_PAUSE)
+            else:
+                return workers
+        raise OSError(_NO_WORKER)
 
 
-def _begin_server(context: BaseContext) -> None:
-    """Begin the server of workers, if it does not run; Ctrl-C is not for it."""
-    from multiprocessing import forkserver, resource_tracker  # noqa: PLC0415 (not on every system)
+class _Worker:
+    """A process that ends with the program, and the connection to it."""
 
-    context.set_forkserver_preload([_READY])
-    resource_tracker.ensure_running()  # it lets signals through again when it begins
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
-    try:
-        forkserver.ensure_running()
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+    def __init__(self, context: Any) -> None:
+        self.connection, theirs = context.Pipe()
+        with theirs:
+            self.process = context.Process(target=serve, args=(theirs,), daemon=True)
+            self.process.start()
 
 
-def begin_worker() -> None:
-    """Leave Ctrl-C to the parent, and end when the parent is gone, however it went."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        threading.Thread(target=_end_with, args=(parent.sentinel,), daemon=True).start()
-
-
-def _end_with(sentinel: int) -> None:
-    wait([sentinel])
-    os._exit(1)
-
-
-class Cluster:
-    """A running dask cluster."""
-
-    local, task_seconds = False, _TASK
-
-    def __init__(self, client: Any) -> None:
-        self.client = client
-
-    def executor(self) -> Executor:
-        """Return the executor of the client."""
-        executor: Executor = self.client.get_executor(pure=False)
-        return executor
-
-    def workers(self) -> int:
-        """Return the threads that the cluster has now."""
-        return sum(self.client.nthreads().values())
-
-    def window(self, workers: int) -> int:
-        """Return three tasks per thread, and enough to make a cluster grow."""
-        return max(3 * workers, _LEAST_ON_CLUSTER)
-
-    def leave(self, executor: Executor, *, at_once: bool) -> None:
-        """Withdraw what is not done; the cluster goes on."""
-        executor.shutdown(wait=not at_once)
+def _end(workers: list[_Worker]) -> None:
+    for worker in workers:
+        worker.connection.close()
+        worker.process.terminate()
+    for worker in workers:
+        worker.process.join(_GRACE)
 
 
 @contextmanager
-def _cluster(address: str) -> Iterator[Cluster]:
+def _undisturbed() -> Iterator[None]:
+    """Start processes with the environment of workers, and out of reach of Ctrl-C."""
+    before = {name: os.environ[name] for name in ENVIRONMENT if name in os.environ}
+    os.environ.update(ENVIRONMENT)
+    resource_tracker.ensure_running()  # unblocks the signal when it starts
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        for name in ENVIRONMENT:
+            del os.environ[name]
+        os.environ.update(before)
+
+
+class Cluster(Engine):
+    """A running dask cluster; 64 tasks make it grow if it can."""
+
+    local, task_seconds, ahead, least = False, 1.0, 3, 64
+
+    def __init__(self, client: Any) -> None:
+        self._client, self._executor = client, client.get_executor(pure=False)
+        self._futures: dict[Future[Any], Ticket] = {}
+
+    def workers(self) -> int:
+        """Return the number of threads of the cluster at present."""
+        return sum(self._client.nthreads().values())
+
+    def submit(self, ticket: Ticket, function: Callable[..., Any], *arguments: Any) -> None:
+        """Send the function to the scheduler."""
+        self._futures[self._executor.submit(function, *arguments)] = ticket
+
+    def take(self) -> Finished:
+        """Wait until some tasks are finished; return them."""
+        done, _ = wait_for(self._futures, return_when=FIRST_COMPLETED)
+        return [(self._futures.pop(future), attempt(_value, future)) for future in done]
+
+    def close(self) -> None:
+        """Withdraw the tasks; the cluster stays."""
+        self._executor.shutdown(wait=False)
+
+
+def _value(future: Future[Any]) -> Any:
+    if future.cancelled():
+        raise OSError("the cluster has dropped its tasks: the scheduler is gone")
+    if type(future.exception()).__name__ == "KilledWorker":  # four workers died of it in turn
+        raise WorkerDied
+    return future.result()
+
+
+@contextmanager
+def _client(address: str) -> Iterator[Any]:
+    """Connect to a cluster whose workers have this version: others would mislabel their rows."""
     from distributed import Client  # noqa: PLC0415 (an extra, and a second of import)
 
     try:
         client = Client(address, timeout=_CONNECT)
-    except (OSError, ValueError) as error:  # the time ran out, or that is no address
-        raise OSError(f"no dask scheduler answers at {address} ({error})") from None
+    except (OSError, ValueError) as error:  # timed out, or an invalid address
+        raise OSError(f"no dask scheduler replies at {address} ({error})") from None
     with client:
-        _check_versions(client)
-        yield Cluster(client)
+        if others := set(client.run(_version).values()) - {__version__}:
+            raise OSError(
+                f"workers of the cluster have tehl {', '.join(sorted(others))}, this is "
+                f"{__version__}: install the same version everywhere"
+            )
+        yield client
 
 
-def _check_versions(client: Any) -> None:
-    """Refuse workers that have another version: their answers would be kept under a wrong name."""
-    others = {version for version in client.run(version_here).values() if version != __version__}
-    if others:
-        raise OSError(
-            f"workers of the cluster have tehl {', '.join(sorted(others))}, this is {__version__}: "
-            "install the same version everywhere"
-        )
-
-
-def version_here() -> str:
-    """Return the version of this package in the process that asks."""
+def _version() -> str:
     return __version__
-
-
-@contextmanager
-def _environment(values: dict[str, str]) -> Iterator[None]:
-    """Set variables of the environment for a while."""
-    before = {name: os.environ.get(name) for name in values}
-    os.environ.update(values)
-    try:
-        yield
-    finally:
-        for name, value in before.items():
-            if value is None:
-                os.environ.pop(name, None)
-            else:
-                os.environ[name] = value

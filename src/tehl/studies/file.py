@@ -1,34 +1,35 @@
-"""Study files: TOML in, a plan out, and every mistake told in one sentence before any work."""
+"""Study files: TOML in, a plan out; every mistake is one sentence before any work."""
 
+import copy
 import difflib
+import math
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any, cast
+from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, StrictBool, ValidationError
 
 from tehl.errors import InputError
 from tehl.io.atomic import shortened
 from tehl.io.case import change, toml_tables
-from tehl.studies.axes import Axis, Sample, block_of, count_of, groups_of
-from tehl.studies.checks import check_axes, checked_pictures
-from tehl.studies.listed import block_of_file
-from tehl.studies.pictures import Picture
+from tehl.studies.axes import Axis, Sample
+from tehl.studies.blocks import block_of, block_of_file, check_axes, count_of, groups_of
+from tehl.studies.pictures import Picture, checked_pictures
 from tehl.studies.plan import Plan
 from tehl.studies.store import Keep
 
-LARGEST = 10_000
-"""Cases of a study that does not say that it wants more."""
+_LARGEST = 10_000
+"""Cases of a study that does not state ``largest``."""
 
 
 class StudyFile(BaseModel):
-    """What a study file holds.
+    """The content of a study file.
 
     Attributes
     ----------
     title : str
-        For people.
+        Shown to the user.
     case : str or table
         The base case: a case file, or its tables.
     axes : list of Axis
@@ -36,7 +37,7 @@ class StudyFile(BaseModel):
     sample : Sample or None
         How sampled axes take their values.
     cases : str or None
-        A CSV file that lists cases, one axis more.
+        A CSV file that lists cases, one more axis.
     certify : bool
         Error bars for each case.
     keep : {"summary", "fields"}
@@ -46,7 +47,7 @@ class StudyFile(BaseModel):
     store : str or None
         Folder of finished cases that several studies share.
     largest : int or None
-        Most cases that are meant.
+        Upper limit of the number of cases.
     pictures : list of Picture
         What to draw of the table.
     """
@@ -66,7 +67,7 @@ class StudyFile(BaseModel):
     pictures: list[Picture] = []
 
 
-def read_study(path: str | Path, overrides: Sequence[str] = (), *, huge: bool = False) -> Plan:
+def read_study(path: str | Path, overrides: Sequence[str] = (), *, unlimited: bool = False) -> Plan:
     """Return the plan of a study file.
 
     Parameters
@@ -75,30 +76,37 @@ def read_study(path: str | Path, overrides: Sequence[str] = (), *, huge: bool = 
         TOML file.
     overrides : sequence of str
         Changes of the base case such as ``"numerics.points=129"``.
-    huge : bool
-        Any number of cases is meant.
+    unlimited : bool
+        Accept any number of cases.
 
     Raises
     ------
     InputError
-        If the file is no study; the message says what is wrong and what would be right.
+        If the file is not a valid study; the message says what is wrong and what is expected.
     """
-    shown = shortened(path)
+    shown, tables = shortened(path), dict[str, Any]()
     try:
-        tables = toml_tables(Path(path))
-    except InputError as error:
-        raise InputError(f"{shown}: {_as_study(str(error))}") from None
-    try:
+        tables = _study_tables(Path(path))
         stated = StudyFile.model_validate(tables)
-        return plan_of(stated, Path(path).parent, overrides, huge=huge)
+        return plan_of(stated, Path(path).parent, overrides, unlimited=unlimited)
     except ValidationError as error:
-        raise InputError(f"{shown}: {told(error, tables)}") from None
+        raise InputError(f"{shown}: {first_mistake(error, tables)}") from None
     except (InputError, ValueError) as error:
         raise InputError(f"{shown}: {error}") from None
 
 
+def _study_tables(path: Path) -> dict[str, Any]:
+    try:
+        return toml_tables(path)
+    except InputError as error:
+        message = str(error).replace("case file", "study file")
+        again = re.search(r"Cannot declare \('(axes|pictures)',\) twice", message)
+        hint = f": write [[{again[1]}]], with two brackets" if again else ""
+        raise InputError(f"{message}{hint}") from None
+
+
 def plan_of(
-    stated: StudyFile, folder: Path, overrides: Sequence[str] = (), *, huge: bool = False
+    stated: StudyFile, folder: Path, overrides: Sequence[str] = (), *, unlimited: bool = False
 ) -> Plan:
     """Return the plan of a study that was read.
 
@@ -108,25 +116,19 @@ def plan_of(
         The study.
     folder : Path
         Where relative paths begin.
-    overrides, huge
+    overrides, unlimited
         As of :func:`read_study`.
 
     Raises
     ------
     InputError, ValueError
-        If it cannot be.
+        If the study is not valid.
     """
     groups = groups_of(stated.axes)
     listed = () if stated.cases is None else (block_of_file(folder / stated.cases),)
-    count = 1
-    for group in groups:
-        count *= count_of(group, stated.sample)
-    count *= len(listed[0].rows) if listed else 1
-    _check_count(count, stated, huge=huge)
-    if stated.sample is not None and not any(axis.is_drawn for axis in stated.axes):
-        raise InputError("sample is stated, but no axis is sampled: give one uniform = [low, high]")
-    if stated.warm_start and stated.keep != "fields":
-        raise InputError('warm_start takes the fields of neighbours: give keep = "fields" too')
+    count = math.prod(count_of(group, stated.sample) for group in groups)
+    count *= math.prod(len(block.rows) for block in listed)
+    _check_keys(stated, count, unlimited=unlimited)
     blocks = (*listed, *(block_of(group, stated.sample) for group in groups))
     check_axes(blocks)
     pictures = checked_pictures(stated.pictures, blocks)
@@ -144,19 +146,22 @@ def plan_of(
     )
 
 
-def _check_count(count: int, stated: StudyFile, *, huge: bool) -> None:
-    most = stated.largest or LARGEST
-    if count > most and not huge:
+def _check_keys(stated: StudyFile, count: int, *, unlimited: bool) -> None:
+    """Refuse too many cases, and keys without those that they need."""
+    limit = stated.largest or _LARGEST
+    if count > limit and not unlimited:
         raise InputError(
-            f"has {count:,} cases, more than {most:,}: if they are meant, state largest = {count} "
-            "in the file or give --yes"
+            f"has {count:,} cases, more than {limit:,}: if this is intended, state "
+            f"largest = {count} in the file or give --yes"
         )
+    if stated.sample is not None and not any(axis.is_sampled for axis in stated.axes):
+        raise InputError("sample is stated, but no axis is sampled: give one uniform = [low, high]")
+    if stated.warm_start and stated.keep != "fields":
+        raise InputError('warm_start takes the fields of neighbours: give keep = "fields" too')
 
 
-def _base(
-    stated: StudyFile, folder: Path, overrides: Sequence[str]
-) -> tuple[Mapping[str, Any], Path]:
-    """Return the tables of the base case with the changes made, and the folder of its files."""
+def _base(stated: StudyFile, folder: Path, overrides: Sequence[str]) -> tuple[dict[str, Any], Path]:
+    """Return the tables of the base case with the overrides, and the folder of its files."""
     if isinstance(stated.case, str):
         path = folder / stated.case
         try:
@@ -164,36 +169,29 @@ def _base(
         except InputError as error:
             raise InputError(f"case {shortened(path)}: {error}") from None
     else:
-        base, place = cast("dict[str, Any]", _copy(stated.case)), folder
+        base, place = copy.deepcopy(stated.case), folder
     for override in overrides:
         change(base, override)
     return base, place
 
 
-def _copy(value: object) -> object:
-    """Return tables that may be changed."""
-    if isinstance(value, dict):
-        return {key: _copy(item) for key, item in value.items()}
-    return value
-
-
 def _placed(picture: Picture, folder: Path) -> Picture:
-    """Let the file of measured points lie beside the study."""
+    """Return a picture whose file of measured points lies beside the study."""
     if picture.overlay is None:
         return picture
     return picture.model_copy(update={"overlay": str(folder / picture.overlay)})
 
 
-# ---- telling mistakes
+# ---- messages
+
+_WANTED = {
+    "case": ': give the base case, case = "case.toml" or a table [case]',
+    "path": ': give the path of the case that the axis varies, path = "contact.load"',
+    "number": ": give the number of points, number = 100",
+}
 
 
-def _as_study(message: str) -> str:
-    again = re.search(r"Cannot declare \('(axes|pictures)',\) twice", message)
-    hint = f": write [[{again[1]}]], with two brackets" if again else ""
-    return message.replace("case file", "study file") + hint
-
-
-def told(error: ValidationError, tables: Mapping[str, Any]) -> str:
+def first_mistake(error: ValidationError, tables: Mapping[str, Any]) -> str:
     """Return the first mistake of a study in one sentence.
 
     Parameters
@@ -201,42 +199,35 @@ def told(error: ValidationError, tables: Mapping[str, Any]) -> str:
     error : ValidationError
         What pydantic found.
     tables : mapping
-        What it was given.
+        The study as it was read.
     """
     first = min(error.errors(include_url=False), key=lambda one: one["type"] != "extra_forbidden")
     where = [part for part in first["loc"] if part not in ("str", "dict[str,any]")]
-    name = _place(where, tables)
-    if first["type"] == "extra_forbidden" and where == ["contact"]:
-        return "is a case file: tehl solve takes it; a study has it as its base, case = ..."
-    if first["type"] == "extra_forbidden":
-        return f"{name} is no key of a study: {_near(where)}"
-    if first["type"] == "missing":
+    name, kind = _name(where, tables), first["type"]
+    if kind == "extra_forbidden":
+        if where == ["contact"]:
+            return "is a case file: tehl solve takes it; a study has it as its base, case = ..."
+        return f"{name} is not a key of a study: {_near(where)}"
+    if kind == "missing":
         return f"{name} is missing{_WANTED.get(str(where[-1]), '')}"
     message = first["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
-    if first["type"] == "value_error":
+    if kind == "value_error":
         return f"{name} {message}"
-    if first["type"] == "list_type" and len(where) == 1 and where[0] in ("axes", "pictures"):
+    if kind == "list_type" and where in (["axes"], ["pictures"]):
         return f"{name} must be a list of tables: write [[{name}]], with two brackets"
-    if first["type"] == "bool_type":
+    if kind == "bool_type":
         message = "must be true or false"
     shown = repr(first["input"])
     return f"{name} = {shown if len(shown) <= 60 else f'{shown[:57]}...'} {message}"
 
 
-_WANTED = {
-    "case": ': give the base case, case = "case.toml" or a table [case]',
-    "path": ': give the path of the case that the axis varies, path = "contact.load"',
-    "number": ": give how many points to sample, number = 100",
-}
-
-
-def _place(where: Sequence[int | str], tables: Mapping[str, Any]) -> str:
-    """Return a key path as people count, with the path of the axis that it is about."""
+def _name(where: Sequence[int | str], tables: Mapping[str, Any]) -> str:
+    """Return a key path, counted from 1, with the path of the axis that it belongs to."""
     words = [f"[{part + 1}]" if isinstance(part, int) else f".{part}" for part in where]
     name = "".join(words).lstrip(".")
-    if len(where) >= 2 and where[0] == "axes" and isinstance(where[1], int):
-        axes = tables.get("axes")
-        axis = axes[where[1]] if isinstance(axes, list) else None
+    axes = tables.get("axes")
+    if isinstance(axes, list) and len(where) > 1 and where[0] == "axes":
+        axis = axes[int(where[1])]
         if isinstance(axis, Mapping) and isinstance(axis.get("path"), str):
             return f"{name} ({axis['path'][:60]})"
     return name

@@ -1,6 +1,10 @@
-"""The folder of a study: its plan, its store, its table and its pictures."""
+"""The folder of a study: its plan, its lock, its table."""
 
+import errno
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,9 +18,10 @@ from tehl.studies.store import Store
 if TYPE_CHECKING:
     import pandas as pd
 
-PLAN, TABLE, PARQUET, UNITS = "study.json", "table.csv", "table.parquet", "units.json"
+PLAN, LOCK, TABLE = "study.json", "study.lock", "table.csv"
+_PARQUET, _UNITS = "table.parquet", "units.json"
 _FORMAT = 1
-_ANEW = (
+_REMEDY = (
     "run the study file again with -o and --replace, which writes it anew and keeps finished cases"
 )
 
@@ -32,9 +37,9 @@ def check_can_write(folder: Path) -> None:
     Raises
     ------
     InputError
-        If something else is in its way.
+        If a file is in the way.
     OSError
-        If it cannot be written.
+        If the folder is not writable.
     """
     check_place(folder)
     try:
@@ -43,77 +48,103 @@ def check_can_write(folder: Path) -> None:
         raise OSError(str(error)) from None
 
 
+@contextmanager
+def locked(folder: Path) -> Iterator[None]:
+    """Hold the lock of a folder, which the system releases however the program ends.
+
+    Where the system has no locks (Windows, some network drives), nothing is held.
+
+    Raises
+    ------
+    OSError
+        If another run holds it.
+    """
+    with (folder / LOCK).open("ab") as file:
+        try:
+            import fcntl  # noqa: PLC0415 (not on Windows)
+
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except ModuleNotFoundError:
+            pass
+        except OSError as error:
+            if error.errno in (errno.EAGAIN, errno.EACCES):
+                raise OSError(
+                    f"another tehl study runs in {folder}: wait until it ends, or take another "
+                    "folder with -o"
+                ) from None
+        yield
+
+
 def save_plan(plan: Plan, folder: Path) -> bool:
-    """Keep a plan, so that the folder alone says what was studied; return whether it is the first.
+    """Keep a plan, so that the folder can be run again; return whether it is the first.
 
     Raises
     ------
     InputError
-        If the folder cannot be, or holds something else under this name.
+        If the folder cannot be written, or holds something else under this name.
     """
     check_folder(folder)
     folder.mkdir(parents=True, exist_ok=True)
     content = {"tehl_study": _FORMAT, "plan": TypeAdapter(Plan).dump_python(plan, mode="json")}
     path, text = folder / PLAN, json.dumps(content, default=str, indent=1)
     is_first = not path.is_file()
-    if not is_first and path.read_bytes() == text.encode():
-        return False  # so that a study goes on where nothing more can be written
-    with replacing(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+    if is_first or path.read_bytes() != text.encode():  # a study goes on in a full folder
+        with replacing(path) as temporary:
+            temporary.write_text(text, encoding="utf-8")
     return is_first
 
 
 def load_plan(folder: Path) -> Plan:
-    """Return the plan that a folder of a study holds.
+    """Return the plan in the folder of a study.
 
     Raises
     ------
     InputError
-        If it is no folder of a study.
+        If it is not the folder of a study.
     FileFormatError
-        If its plan is damaged or of another version.
+        If the plan is damaged or of another version.
     """
     path = folder / PLAN
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
-        raise InputError(f"{folder} is no folder of a study: it has no {PLAN}") from None
+        raise InputError(f"{folder} is not the folder of a study: it has no {PLAN}") from None
     except (OSError, ValueError) as error:
-        raise FileFormatError(f"{path} cannot be read ({error}): {_ANEW}") from None
+        raise FileFormatError(f"{path} cannot be read ({error}): {_REMEDY}") from None
     if not isinstance(content, dict) or content.get("tehl_study") != _FORMAT:
-        raise FileFormatError(f"{path} is not the plan of a study of format {_FORMAT}: {_ANEW}")
+        raise FileFormatError(f"{path} is not the plan of a study of format {_FORMAT}: {_REMEDY}")
     try:
         return TypeAdapter(Plan).validate_python(content["plan"])
     except (KeyError, ValueError) as error:
         reason = str(error).splitlines()[0]
-        raise FileFormatError(f"{path} is damaged ({reason}): {_ANEW}") from None
+        raise FileFormatError(f"{path} is damaged ({reason}): {_REMEDY}") from None
 
 
 def check_same(plan: Plan, folder: Path) -> None:
-    """Refuse a folder that holds a study with another question.
+    """Refuse a folder that holds a study with another base case or other axes.
 
-    Other values along the same axes are the same question, and so is another title.
+    Other values along the same axes, and another title, are accepted.
 
     Raises
     ------
     InputError
-        If base case or axes differ; the message says which, and how to go on.
+        If they differ; the message says how to go on.
     FileFormatError
         If the plan in the folder is damaged or of another version.
     """
     if not (folder / PLAN).is_file():
         return
-    mine, other = _question(plan), _question(load_plan(folder))
-    differ = next((what for what in mine if mine[what] != other[what]), None)
-    if differ is not None:
-        raise InputError(
-            f"{folder} holds a study with another {differ}: take another folder with -o, or give "
-            "--replace to put this study in its place"
-        )
+    mine, other = _identity(plan), _identity(load_plan(folder))
+    for what in mine:
+        if mine[what] != other[what]:
+            raise InputError(
+                f"{folder} holds a study with another {what}: take another folder with -o, or give "
+                "--replace to put this study in its place"
+            )
 
 
-def _question(plan: Plan) -> dict[str, Any]:
-    """Return what a study asks, as JSON holds it, without its values."""
+def _identity(plan: Plan) -> dict[str, Any]:
+    """Return base case and axes of a study, as JSON holds them, without title and values."""
     base = json.loads(json.dumps(plan.base, default=str))
     columns = [column for b in plan.blocks for column in zip(b.paths, b.names, strict=True)]
     return {
@@ -122,20 +153,13 @@ def _question(plan: Plan) -> dict[str, Any]:
     }
 
 
-def forget_outcome(folder: Path) -> None:
-    """Remove plan, table and pictures of a study; its finished cases stay for those who ask them.
-
-    Parameters
-    ----------
-    folder : Path
-        Of the study; pictures are those that its plan names.
-    """
+def remove_outcome(folder: Path) -> None:
+    """Remove plan, table and pictures of the study in a folder; its finished cases stay."""
     try:
         pictures = load_plan(folder).pictures
     except (InputError, FileFormatError):
         pictures = ()
-    files = [f"{picture.stem}.{picture.format}" for picture in pictures]
-    for name in (*files, TABLE, UNITS, PARQUET, PLAN):
+    for name in (*(one.file_name for one in pictures), TABLE, _UNITS, _PARQUET, PLAN):
         (folder / name).unlink(missing_ok=True)
 
 
@@ -145,43 +169,36 @@ def write_table(frame: "pd.DataFrame", folder: Path) -> list[Path]:
     Parameters
     ----------
     frame : pandas.DataFrame
-        As :func:`tehl.studies.table` gives it.
+        As :func:`tehl.studies.table` returns it.
     folder : Path
         Where.
 
     Returns
     -------
     list of Path
-        What was written; each file appears whole or not at all.
+        The files; each appears whole or not at all.
     """
-    with replacing(folder / TABLE) as temporary:
+    written = [folder / TABLE, folder / _UNITS]
+    with replacing(written[0]) as temporary:
         frame.to_csv(temporary, index=False)
-    units: dict[str, Any] = frame.attrs["units"]
-    with replacing(folder / UNITS) as temporary:
-        temporary.write_text(json.dumps(units, indent=1), encoding="utf-8")
-    written = [folder / TABLE, folder / UNITS]
-    if _has_pyarrow():
-        with replacing(folder / PARQUET) as temporary:
+    with replacing(written[1]) as temporary:
+        temporary.write_text(json.dumps(frame.attrs["units"], indent=1), encoding="utf-8")
+    if find_spec("pyarrow") is not None:
+        written.append(folder / _PARQUET)
+        with replacing(written[2]) as temporary:
             _for_parquet(frame).to_parquet(temporary, index=False, engine="pyarrow")
-        written.append(folder / PARQUET)
     return written
 
 
-def _has_pyarrow() -> bool:
-    from importlib.util import find_spec  # noqa: PLC0415
-
-    return find_spec("pyarrow") is not None
-
-
 def _for_parquet(frame: "pd.DataFrame") -> "pd.DataFrame":
-    """Return the table with columns of one kind: those of mixed labels become words."""
+    """Return the table with columns of one kind: those of mixed labels become text."""
     mixed = {
-        name: frame[name].map(_word, na_action="ignore")
+        name: frame[name].map(_text, na_action="ignore")
         for name in frame
         if frame[name].dtype == object and len({type(v) for v in frame[name].dropna()}) > 1
     }
     return frame.assign(**mixed)
 
 
-def _word(value: object) -> str:
+def _text(value: object) -> str:
     return f"{value:.12g}" if isinstance(value, float) else str(value)

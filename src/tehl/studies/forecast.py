@@ -1,4 +1,4 @@
-"""What a study will take: time, memory and disk, before any work."""
+"""Time, memory and disk that a study will take, before any work."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -6,26 +6,23 @@ from dataclasses import dataclass
 from tehl.errors import InputError
 from tehl.memory import available_memory, needed_memory
 from tehl.report.explain import SECONDS_COUPLED, SECONDS_PER_NODE
-from tehl.studies.case import Case
-from tehl.studies.row import Row
+from tehl.studies.case import Case, Row
 
-CERTIFIED = 3.5
+_CERTIFIED = 3.5
 """Work of a certified solve over that of its finest grid, to tight tolerances."""
-_ROW_BYTES = 3_500
-"""Of a finished case without fields."""
-_FIELD_BYTES, _SHEAR_BYTES, _LAYER_BYTES = 15.0, 22.0, 8.0
-"""Compressed, per node: of pressure and film in both forms, of stresses, of each layer of heat."""
-_LEAST_SECONDS = 0.045
-"""Of a solve on few nodes, beside those by node."""
+_BASE_SECONDS, _START_SECONDS = 0.045, 3.0
+"""Of a solve, beside those by node; until workers solve."""
+_ROW_BYTES, _FILE_BYTES = 3_500, 25_000
+"""Of a finished case: its row; its file of fields, beside those by node."""
+_FIELD_BYTES, _LAYER_BYTES = 37, 8
+"""Compressed, per node: pressure, film and shear stresses; each layer of temperature."""
 _ENOUGH = 3
-"""Finished cases that tell how fast this machine is."""
-_BEGIN = 3.0
-"""Seconds until workers solve."""
+"""Finished cases that show how fast this machine is."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Forecast:
-    """Estimates of a study; guides, not promises.
+    """Estimates of a study.
 
     Attributes
     ----------
@@ -36,7 +33,7 @@ class Forecast:
     disk_bytes : float
         When all are finished.
     memory_bytes : float
-        Of all workers together, at most.
+        Upper limit of all workers together.
     """
 
     cases: int
@@ -50,14 +47,14 @@ class Forecast:
 def forecast(
     cases: Sequence[Case], finished: Mapping[str, Row], *, jobs: int, fields: bool
 ) -> Forecast:
-    """Return what a study will take.
+    """Return the estimates for a study.
 
     Parameters
     ----------
     cases : sequence of Case
         All of the study.
     finished : mapping of str to Row
-        What is finished, by key; what that took tells what the others will take.
+        Finished cases by key; the time that they took calibrates the estimate for the others.
     jobs : int
         Workers.
     fields : bool
@@ -65,29 +62,35 @@ def forecast(
     """
     every = {case.key: case for case in cases}
     waiting = [case for key, case in every.items() if key not in finished]
-    slow = _slowness([(every[key], row) for key, row in finished.items()])
-    seconds = [slow * _seconds(case) for case in waiting]
-    cpu, longest = sum(seconds), max(seconds, default=0.0)
+    known = [
+        (row.cost.cpu_seconds, _seconds(every[key]))
+        for key, row in finished.items()
+        if row.cost.cpu_seconds > 0
+    ]
+    taken, estimated = (sum(column) for column in zip(*known, strict=True)) if known else (1, 1)
+    slowness = taken / estimated if len(known) >= _ENOUGH else 1.0
+    seconds = [slowness * _seconds(case) for case in waiting]
     workers = max(1, min(jobs, len(waiting)))
-    disk = sum(_ROW_BYTES + (_field_bytes(case) if fields else 0.0) for case in every.values())
+    disk = sum(_ROW_BYTES + (_field_bytes(case) if fields else 0) for case in every.values())
     needs = sorted((needed_memory(case.options, case.problem) for case in waiting), reverse=True)
+    longest = max(sum(seconds) / workers, max(seconds, default=0.0))
     return Forecast(
         cases=len(every),
         open=len(waiting),
-        cpu_seconds=cpu,
-        wall_seconds=max(cpu / workers, longest) + (_BEGIN if waiting else 0.0),
+        cpu_seconds=sum(seconds),
+        wall_seconds=longest + (_START_SECONDS if waiting else 0.0),
         disk_bytes=disk,
         memory_bytes=sum(needs[:workers]),
     )
 
 
 def check_memory_of(forecast: Forecast, jobs: int) -> None:
-    """Refuse a study whose workers do not fit into the memory together.
+    """Refuse a study whose workers together need more memory than there is.
 
     Raises
     ------
     InputError
-        If the estimate exceeds what there is.
+        If the estimate exceeds the available memory.
     """
     available = available_memory()
     if available is None or forecast.memory_bytes <= available or jobs < 2:
@@ -98,14 +101,6 @@ def check_memory_of(forecast: Forecast, jobs: int) -> None:
     )
 
 
-def _slowness(finished: Sequence[tuple[Case, Row]]) -> float:
-    """Return what finished cases took over their estimates; one if they are too few to tell."""
-    known = [(case, row.cost.cpu_seconds) for case, row in finished if row.cost.cpu_seconds > 0]
-    if len(known) < _ENOUGH:
-        return 1.0
-    return sum(seconds for _, seconds in known) / sum(_seconds(case) for case, _ in known)
-
-
 def _nodes(case: Case) -> int:
     ny, nx = case.options.shape
     return ny * nx
@@ -113,12 +108,10 @@ def _nodes(case: Case) -> int:
 
 def _seconds(case: Case) -> float:
     each = SECONDS_COUPLED if case.problem.is_coupled else SECONDS_PER_NODE
-    return (each * _nodes(case) + _LEAST_SECONDS) * (CERTIFIED if case.certify else 1.0)
+    return (each * _nodes(case) + _BASE_SECONDS) * (_CERTIFIED if case.certify else 1.0)
 
 
-def _field_bytes(case: Case) -> float:
-    each = _FIELD_BYTES
-    each += _SHEAR_BYTES
-    if case.problem.thermal is not None:
-        each += _LAYER_BYTES * (case.problem.thermal.nodes + 2)
-    return each * _nodes(case) + 25_000.0
+def _field_bytes(case: Case) -> int:
+    thermal = case.problem.thermal
+    layers = 0 if thermal is None else thermal.nodes + 2
+    return (_FIELD_BYTES + _LAYER_BYTES * layers) * _nodes(case) + _FILE_BYTES

@@ -1,13 +1,24 @@
-"""Which pictures of its table a study wants."""
+"""Pictures of the table of a study: what they show, and how they are drawn."""
 
-from typing import Annotated, Literal, Self
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from tehl.errors import InputError
+from tehl.io.atomic import replacing
+from tehl.studies.blocks import Block
+from tehl.studies.tables import missing_column
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
 
 Range = tuple[float, float]
+_DPI = 200
 _KEYS = ("x", "y", "z", "hue", "style", "log", "map", "overlay", "file", "format")
+"""What ``--plot`` can state."""
 
 
 class Picture(BaseModel):
@@ -16,24 +27,24 @@ class Picture(BaseModel):
     Attributes
     ----------
     x, y : str or None
-        Columns; the last part of a dotted name will do where it tells them apart. A minus before
-        ``y`` turns its sign.
+        Columns; the last part of a dotted name suffices where it is unique. A minus before ``y``
+        turns its sign.
     z : str or None
         Column to draw as a contour map over x and y.
     hue, style : str or None
-        Columns that tell the curves apart, by colour and by line.
+        Columns that distinguish the curves, by colour and by line.
     log : {"", "x", "y", "xy"}
         Axes with a logarithmic scale.
     x_range, y_range : (float, float) or None
-        What the axes show, in the unit that they show.
+        Limits of the axes, in the unit that they show.
     map : {"moes"} or None
-        A ready picture instead: how far film formulas are off over M and L.
+        A ready picture instead: the deviation of film formulas over M and L.
     overlay : str or None
-        A CSV file with measured points: columns x and y, and if known their error and name.
+        A CSV file with measured points: columns x and y, and optionally their error and name.
     format : {"png", "pdf", "svg"}
         Of the file.
     file : str or None
-        Name of the picture without its ending.
+        Name of the file without its ending.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
@@ -52,34 +63,34 @@ class Picture(BaseModel):
     file: Annotated[str, Field(pattern=r"^[A-Za-z0-9._-]+$")] | None = None
 
     @model_validator(mode="after")
-    def _must_say_what(self) -> Self:
+    def _check(self) -> Self:
         if self.map is None and (self.x is None or self.y is None):
             raise ValueError("needs x and y, or map")
         return self
 
     @property
-    def stem(self) -> str:
-        """Name of the file without its ending."""
-        if self.file or self.map:
-            return self.file or f"{self.map}_map"
+    def file_name(self) -> str:
+        """Name of the file."""
         over = "_over_".join(str(part).lstrip("-") for part in (self.z, self.y, self.x) if part)
-        return over.replace(".", "_").replace(" ", "_").replace("/", "_")
+        plain = over.translate(str.maketrans(". /", "___"))
+        stem = self.file or (f"{self.map}_map" if self.map else plain)
+        return f"{stem}.{self.format}"
 
 
 def picture_of(words: str) -> Picture:
-    """Return the picture that ``x=...,y=...,hue=...`` asks for; one word alone is a ready one.
+    """Return the picture that ``x=...,y=...,hue=...`` states; one word alone is a ready one.
 
     Raises
     ------
     InputError
-        If it is none; the message says what would be.
+        If it is not a picture; the message says what would be.
     """
     stated = {}
     for part in (words if "=" in words else f"map={words}").split(","):
-        key, equals, value = (piece.strip() for piece in part.partition("="))
-        if not equals or not value or key not in _KEYS:
+        key, _, value = (piece.strip() for piece in part.partition("="))
+        if not value or key not in _KEYS:
             raise InputError(
-                f'"{part}" is no part of a picture: give x=COLUMN,y=COLUMN, and if wanted '
+                f'"{part}" is not part of a picture: give x=COLUMN,y=COLUMN, and optionally '
                 "hue=COLUMN, style=COLUMN, z=COLUMN, log=x, y or xy, overlay=FILE.csv"
             )
         stated[key] = value
@@ -87,5 +98,69 @@ def picture_of(words: str) -> Picture:
         return Picture.model_validate(stated)
     except ValueError:
         raise InputError(
-            f'"{words}" is no picture: give x=COLUMN,y=COLUMN, or moes for the map of formulas'
+            f'"{words}" is not a picture: give x=COLUMN,y=COLUMN, or moes for the map of formulas'
         ) from None
+
+
+def checked_pictures(pictures: Sequence[Picture], blocks: Sequence[Block]) -> tuple[Picture, ...]:
+    """Return the pictures, identical ones once.
+
+    Raises
+    ------
+    InputError
+        If one names a column that the table will not have, or two different ones have one file.
+    """
+    labels = [name for block in blocks for name in block.names]
+    numbers: dict[str, int] = {}
+    different = tuple(dict.fromkeys(pictures))
+    for picture in different:
+        number, file = pictures.index(picture) + 1, picture.file_name
+        for key in ("x", "y", "z", "hue", "style"):
+            name = getattr(picture, key)
+            missing = None if name is None else missing_column(labels, name)
+            if missing is not None:
+                raise InputError(f'pictures[{number}].{key} = "{name}": {missing}')
+        if file in numbers:
+            raise InputError(
+                f"pictures[{numbers[file]}] and pictures[{number}] would both be {file}: give one "
+                'of them a name of its own, file = "other"'
+            )
+        numbers[file] = number
+    return different
+
+
+def draw(picture: Picture, table: "pd.DataFrame") -> "Figure":
+    """Return a picture of a table.
+
+    Raises
+    ------
+    InputError
+        If a column is missing or there is nothing to draw.
+    """
+    from tehl.plots.table_curves import curves, overlay  # noqa: PLC0415 (matplotlib)
+    from tehl.plots.table_maps import contour_map, moes_map  # noqa: PLC0415
+
+    if picture.map is not None:
+        return moes_map(table)
+    x, y = str(picture.x), str(picture.y)
+    if picture.z is not None:
+        return contour_map(table, x, y, picture.z, picture.log)
+    figure = curves(table, x, y, picture.hue, picture.style, picture.log)
+    if picture.overlay is not None:
+        overlay(figure, table, x, y, path=Path(picture.overlay))
+    figure.axes[0].set(xlim=picture.x_range, ylim=picture.y_range)
+    return figure
+
+
+def save(picture: Picture, table: "pd.DataFrame", folder: Path) -> Path:
+    """Draw a picture into a folder; return its file, which appears whole or not at all.
+
+    Raises
+    ------
+    InputError
+        As :func:`draw`.
+    """
+    figure, path = draw(picture, table), folder / picture.file_name
+    with replacing(path) as temporary:
+        figure.savefig(temporary, dpi=_DPI, format=picture.format)
+    return path

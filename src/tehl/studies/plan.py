@@ -1,34 +1,40 @@
-"""What a study is: a base case, and blocks of values whose grid are the cases."""
+"""A plan, the base case with blocks of values, and the study, its cases."""
 
+import json
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
+
+from pydantic import BaseModel
 
 from tehl.errors import InputError
 from tehl.io.case import case_from_tables
 from tehl.options import Options, check_certifiable
 from tehl.problem import ContactProblem
-from tehl.studies.axes import Block, Setting
+from tehl.studies.axes import Setting
+from tehl.studies.blocks import Block
 from tehl.studies.case import Case, Label
-from tehl.studies.change import changed, found_at, label_of
 from tehl.studies.pictures import Picture
 from tehl.studies.store import Keep
+from tehl.units import Quantity
 
-SHOWN = 5
+_SHOWN = 5
 """Labels in the name of a case."""
+_LONGEST = 60
+"""Characters of a label."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Plan:
-    """A study that was read and can be made into cases.
+    """A study before its cases are made.
 
     Attributes
     ----------
     title : str
-        For people.
+        Shown to the user.
     base : mapping
         Tables of the base case.
     folder : Path
@@ -55,7 +61,7 @@ class Plan:
     keep: Keep = "summary"
     warm_start: bool = False
     store: Path | None = None
-    pictures: tuple[Picture, ...] = field(default_factory=tuple)
+    pictures: tuple[Picture, ...] = ()
 
     @property
     def count(self) -> int:
@@ -65,7 +71,7 @@ class Plan:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Study:
-    """The cases of a plan, with the units of their labels."""
+    """The cases of a plan, and the units of their labels."""
 
     plan: Plan
     cases: tuple[Case, ...]
@@ -78,7 +84,7 @@ def study_of(plan: Plan) -> Study:
     Raises
     ------
     InputError
-        If one of them is no case; the message says which and why.
+        If one of them is not a valid case; the message says which and why.
     """
     units: dict[str, str] = {}
     names: dict[str, int] = {}
@@ -99,17 +105,23 @@ def study_of(plan: Plan) -> Study:
 
 def _case(plan: Plan, rows: tuple[int, ...], units: dict[str, str]) -> Case:
     """Return the case at some rows of the blocks; add the units of its labels."""
+    settings = list(_settings(plan, rows))
     tables: Mapping[str, Any] = plan.base
-    for path, _, setting in _settings(plan, rows):
+    for path, _, setting in settings:
         tables = changed(tables, path, setting.value)
     problem, options = case_from_tables(tables, plan.folder)
     if problem.transient is not None:
-        raise InputError("has a [transient] table: a study is one of steady films")
+        raise InputError("has a table [transient]: a study is one of steady films")
     if plan.certify:
         check_certifiable(options)
-    labels = _labels(plan, rows, (problem, options), units)
+    labels: dict[str, Label] = {}
+    for path, name, setting in settings:
+        found, unit = _found_at(problem, options, path)
+        labels[name] = setting.name or _label(setting.value, found)
+        if unit and not setting.name:
+            units[name] = unit
     titles = [b.titles[row] for b, row in zip(plan.blocks, rows, strict=True) if b.titles]
-    name = ", ".join(titles) or _name(labels, units) or problem.title or "base case"
+    name = ", ".join(titles or _phrases(labels, units)) or problem.title or "base case"
     return Case(name, problem, options, labels, plan.certify)
 
 
@@ -121,27 +133,82 @@ def _settings(plan: Plan, rows: tuple[int, ...]) -> Iterator[tuple[str, str, Set
                 yield path, name, setting
 
 
-def _labels(
-    plan: Plan, rows: tuple[int, ...], case: tuple[ContactProblem, Options], units: dict[str, str]
-) -> dict[str, Label]:
-    labels: dict[str, Label] = {}
-    for path, name, setting in _settings(plan, rows):
-        found, unit = found_at(*case, path)
-        labels[name] = setting.name or label_of(setting.value, found)
-        if unit and not setting.name:
-            units[name] = unit
-    return labels
+def changed(tables: Mapping[str, Any], path: str, value: Any) -> dict[str, Any]:
+    """Return tables with ``value`` at a dotted path; ``false`` leaves the key out.
+
+    A name on the way, such as that of an oil, becomes the table with this name.
+
+    Raises
+    ------
+    ValueError
+        If the path goes through a number or a list.
+    """
+    key, _, deeper = (part.strip() for part in path.partition("."))
+    after = dict(tables)
+    if deeper:
+        below = after.get(key, {})
+        if isinstance(below, str):
+            below = {"name": below}
+        if not isinstance(below, Mapping):
+            raise ValueError(f"{path} goes through {key}, which is not a table in the base case")
+        after[key] = changed(below, deeper, value)
+    elif value is False:
+        after.pop(key, None)
+    else:
+        after[key] = value
+    return after
 
 
-def _name(labels: Mapping[str, Label], units: Mapping[str, str]) -> str:
-    parts = [
-        f"{name.rpartition('.')[2]} = {_in_words(value, units.get(name, '1'))}"
-        for name, value in labels.items()
-    ]
-    return ", ".join(parts[:SHOWN])
+def _found_at(problem: ContactProblem, options: Options, path: str) -> tuple[Any, str | None]:
+    """Return the validated value at a path of a case, and its SI unit if it is a quantity.
+
+    Both are None where the case no longer has such a place, as another law was chosen.
+    """
+    keys = [part.strip() for part in path.split(".")]
+    node: Any = problem
+    if keys[0] == "numerics":
+        node, keys = options, keys[1:]
+    unit = None
+    for key in keys:
+        if not isinstance(node, BaseModel) or key not in type(node).model_fields:
+            return None, None
+        field = type(node).model_fields[key]
+        unit = next(_units([*field.metadata, field.annotation]), None)
+        node = getattr(node, key)
+    return node, unit
 
 
-def _in_words(value: Label, unit: str) -> str:
-    if not isinstance(value, float):
-        return str(value)
-    return f"{value:.6g}" if unit == "1" else f"{value:.6g} {unit}"
+def _units(notes: Iterable[Any]) -> Iterator[str]:
+    """Yield the units among the metadata of a field and in its annotation."""
+    for note in notes:
+        if isinstance(note, Quantity):
+            yield "1" if note.unit == "-" else note.unit
+        else:
+            yield from _units(get_args(note))
+
+
+def _label(stated: Any, found: Any) -> Label:
+    """Return a value as the table shows it: numbers in SI, as the case has ``found`` them."""
+    if stated is False:
+        return "none"
+    if isinstance(found, bool):
+        return str(found).lower()
+    if isinstance(found, int | float):
+        return float(found)
+    if isinstance(stated, str):
+        return stated
+    if isinstance(stated, Mapping):
+        words = [stated[key] for key in ("law", "name", "type") if key in stated]
+        if words:
+            return str(words[0])
+    return json.dumps(stated, ensure_ascii=False, default=str)[:_LONGEST]
+
+
+def _phrases(labels: Mapping[str, Label], units: Mapping[str, str]) -> list[str]:
+    """Return the first labels for the name of a case: load = 20 N."""
+    phrases = []
+    for name, value in list(labels.items())[:_SHOWN]:
+        number = f"{value:.6g}" if isinstance(value, float) else value
+        unit = units.get(name, "1") if isinstance(value, float) else "1"
+        phrases.append(f"{name.rpartition('.')[2]} = {number}{'' if unit == '1' else f' {unit}'}")
+    return phrases

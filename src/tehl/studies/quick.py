@@ -1,6 +1,7 @@
 """A study in one call, without a study file."""
 
 from collections.abc import Mapping, Sequence
+from contextlib import closing, nullcontext
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
@@ -11,7 +12,7 @@ from tehl.errors import InputError
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.studies.axes import Axis, Sample
-from tehl.studies.file import StudyFile, plan_of, told
+from tehl.studies.file import StudyFile, first_mistake, plan_of
 from tehl.studies.plan import Study, study_of
 from tehl.studies.runner import run
 from tehl.studies.store import Store
@@ -40,9 +41,9 @@ def cases_of(
     axes : mapping of str to sequence, or sequence of Axis
         Dotted paths of the case with their values, numbers in SI or strings with units:
         ``{"contact.load": ["20 N", "50 N"]}``. The cases are their grid, the last axis the
-        fastest. As :class:`Axis` they can be sampled and zipped too.
+        fastest. An :class:`Axis` can be sampled and zipped too.
     options : Options
-        How hard to try; the defaults if left out. Paths that begin with ``numerics`` change them.
+        Numerical options; paths that begin with ``numerics`` change them.
     sample : Sample or None
         How sampled axes take their values.
     certify : bool
@@ -51,17 +52,19 @@ def cases_of(
     Raises
     ------
     InputError
-        If an axis cannot be; the message names it.
+        If an axis is not valid; the message names it.
     """
     base = problem.model_dump(mode="json", exclude_unset=True)
     base["numerics"] = (options or Options()).model_dump(mode="json", exclude_unset=True)
     try:
+        if isinstance(axes, Mapping):
+            axes = [Axis(path=path, values=list(values)) for path, values in axes.items()]
         stated = StudyFile(
-            case=base, axes=_axes(axes), sample=sample, certify=certify, title=problem.title
+            case=base, axes=list(axes), sample=sample, certify=certify, title=problem.title
         )
-        return study_of(plan_of(stated, Path(), huge=True))
+        return study_of(plan_of(stated, Path(), unlimited=True))
     except ValidationError as error:
-        raise InputError(told(error, {})) from None
+        raise InputError(first_mistake(error, {})) from None
     except ValueError as error:
         raise InputError(str(error)) from None
 
@@ -77,8 +80,8 @@ def study(
 ) -> "pd.DataFrame":
     """Solve a problem along axes; return one row per case.
 
-    For clusters, sampled axes and kept fields, take :func:`cases_of`, :func:`run` and
-    :func:`table`, of which this is made.
+    For clusters, sampled axes and kept fields, take its parts :func:`cases_of`, :func:`run` and
+    :func:`table`.
 
     Parameters
     ----------
@@ -92,30 +95,17 @@ def study(
     Returns
     -------
     pandas.DataFrame
-        As :func:`table` gives it: ``frame.attrs["units"]`` has the units. Of a full grid,
+        As :func:`table` returns it: ``frame.attrs["units"]`` has the units. Of a full grid,
         ``frame.set_index(list(axes)).to_xarray()`` is the dataset over the axes.
 
     Raises
     ------
     InputError
-        If an axis cannot be; the message names it.
+        If an axis is not valid; the message names it.
     """
-    study = cases_of(problem, axes, options, certify=certify)
-    if store is None:
-        with TemporaryDirectory() as folder:
-            return _solved(study, Store(folder), jobs)
-    return _solved(study, store if isinstance(store, Store) else Store(store), jobs)
-
-
-def _solved(study: Study, store: Store, jobs: int) -> "pd.DataFrame":
-    try:
-        run(study.cases, store, jobs=jobs)
-        return table(study.cases, store, study.units)
-    finally:
-        store.close()
-
-
-def _axes(axes: Axes) -> list[Axis]:
-    if isinstance(axes, Mapping):
-        return [Axis(path=path, values=list(values)) for path, values in axes.items()]
-    return list(axes)
+    found = cases_of(problem, axes, options, certify=certify)
+    with TemporaryDirectory() if store is None else nullcontext(store) as place:
+        kept = place if isinstance(place, Store) else Store(place)
+        with closing(kept):
+            run(found.cases, kept, jobs=jobs)
+            return table(found.cases, kept, found.units)

@@ -1,24 +1,17 @@
-"""Imported by the server of workers and by nobody else.
+"""Loaded by the server that workers are forked from, and by nothing else.
 
-What each worker needs is loaded here, before they are forked.
+It loads the solver and its kernels once for all workers.
 """
 
 import atexit
 import os
 import sys
 from contextlib import suppress
-from types import TracebackType
 
 from tehl.solver.warmup import warm_up
 
+sys.excepthook = lambda *_: None  # the program reports a worker that does not start
+atexit.register(os._exit, 0)  # ends at once: readers of its output wait for its end
 
-def tell(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
-    """Tell nothing: the program says so if a worker that it waits for does not begin."""
-    del kind, error, trace
-
-
-sys.excepthook = tell
-atexit.register(os._exit, 0)  # nothing of it is to be kept, and whoever reads its output waits
-
-with suppress(Exception):  # whoever solves meets it again, and tells it with the case
+with suppress(Exception):  # a solve meets the error again and reports it with its case
     warm_up(coupled=False)

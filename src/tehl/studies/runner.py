@@ -1,49 +1,50 @@
 """Run the cases of a study that are not finished yet."""
 
+import math
 import time
 from collections import deque
-from collections.abc import Iterable, Mapping
-from concurrent.futures import (
-    FIRST_COMPLETED,
-    BrokenExecutor,
-    CancelledError,
-    Executor,
-    Future,
-    wait,
-)
-from contextlib import AbstractContextManager, suppress
+from collections.abc import Iterable
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
-from pathlib import Path
+from typing import Protocol
 
 from tehl.errors import InputError
 from tehl.kernels.cache import is_cold
-from tehl.studies.case import Case
-from tehl.studies.engines import Engine, engine_of
-from tehl.studies.monitor import QUIET, StudyMonitor
-from tehl.studies.neighbours import Neighbours
-from tehl.studies.row import Row
+from tehl.studies.case import Case, Row
+from tehl.studies.engines import Engine, WorkerDied, engine_of
 from tehl.studies.store import Store
-from tehl.studies.work import Task, in_turn, work
+from tehl.studies.worker import Files, solve_in_turn, work
 
-_MOST_TOGETHER = 32
-"""Cases in a task: all of them are solved one by one if its worker dies."""
+_LARGEST_TASK = 32
+"""Cases of a task."""
 _SHARES = 4
-"""Tasks that are left for each worker at least, so that all are done at about the same time."""
-_KILLED = "KilledWorker"
-"""What a cluster calls the error of a task whose workers died again and again."""
-_NOT_BEGUN = (BrokenExecutor, EOFError, ConnectionError)
-"""Errors of a task given to a pool with a dead worker, or to one whose server died just now."""
-_TRIES, _WHILE = 2, 0.1
-"""How often workers are begun anew, and how long a server that is dying has to be dead [s]."""
+"""Least number of tasks left for each worker, so that all end at about the same time."""
+_SMALL = 1e-12
+"""A label below it is next to zero."""
 _DIED = (
     "the process that solved this case died, and died again when it solved nothing else; the "
     "system may have ended it for lack of memory"
 )
-_NO_WORKER = (
-    "no worker process begins, or each ends at once: there may be too little memory for so many "
-    "jobs; and a script that solves with jobs > 1 must do its work below "
-    'if __name__ == "__main__":'
-)
+
+
+class StudyMonitor(Protocol):
+    """What a study reports to."""
+
+    def message(self, text: str) -> None:
+        """Take a message to the user."""
+
+    def begin(self, total: int, reused: int) -> None:
+        """Take the number of cases, and how many of them were finished before."""
+
+    def finished(self, case: Case, row: Row) -> None:
+        """Take a case that has just been finished."""
+
+
+class Quiet(StudyMonitor):
+    """Discards all reports."""
+
+
+QUIET = Quiet()  # type: ignore[abstract]  # its methods are empty on purpose
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -53,16 +54,16 @@ class Outcome:
     Attributes
     ----------
     total : int
-        Different cases, by what they ask.
+        Different cases, by their keys.
     reused : int
         Cases that were finished before.
     converged : int
-        Cases with an answer, those of before included.
+        Converged cases, those of before included.
     uncertain : int
-        Those of them whose minimum film is hardly known; their rows say so.
+        Those of them whose minimum film is uncertain, as their rows say.
     failed : tuple of (Case, Row)
-        Cases without an answer, those of before included, in the order of the study; their rows
-        are without numbers.
+        Failed cases, those of before included, in the order of the study; their rows are without
+        summaries.
     cpu_seconds : float
         Of the solves of this run.
     wall_seconds : float
@@ -89,16 +90,15 @@ def run(  # noqa: PLR0913 (keywords with defaults)
     forked: bool = False,
     monitor: StudyMonitor = QUIET,
 ) -> Outcome:
-    """Solve the cases that the store does not have yet, and keep each when its task is finished.
+    """Solve the cases that the store does not have yet; keep them as tasks are finished.
 
-    A task is one case, or some quick ones for a worker, 0.2 seconds in all (on a cluster a second).
-
-    A case without an answer is a row with its cause; it is not tried again unless asked for.
+    A task is one case, or several quick ones: 0.2 seconds of solving, on a cluster one second. A
+    failed case is a row with its cause; it is not retried unless asked for.
 
     Parameters
     ----------
     cases : iterable of Case
-        The study; cases that ask the same are solved once.
+        The study; cases with the same key are solved once.
     store : Store
         Where finished cases are kept.
     jobs : int
@@ -107,24 +107,24 @@ def run(  # noqa: PLR0913 (keywords with defaults)
     scheduler : str or None
         Address of a running dask cluster to solve on instead.
     retry_failed : bool
-        Solve those again that have no answer.
+        Solve failed cases again.
     warm_start : bool
         Start cases of ``accuracy = "tight"`` from the nearest finished one. It takes a store that
         keeps fields, saves work where neighbours have nearly the same film, and gives the same
-        answers to the tolerance, no longer to the last digit.
+        results to the tolerance, no longer to the last digit.
     forked : bool
         On Linux, fork the processes from one that has loaded the solver, which saves two seconds of
         a core for each. It is Python's ``forkserver``, which stays until the program ends and
         serves all of it: for programs that have no other use for it.
     monitor : StudyMonitor
-        Told of each case.
+        Takes the reports.
 
     Raises
     ------
     InputError
-        If jobs or the folder of the store cannot be.
+        If jobs or the folder of the store are not valid.
     OSError
-        If rows or fields cannot be written, or no worker begins; what is finished is kept.
+        If rows or fields cannot be written, or no worker starts; what is finished is kept.
     """
     start = time.perf_counter()
     every = {case.key: case for case in cases}
@@ -133,9 +133,13 @@ def run(  # noqa: PLR0913 (keywords with defaults)
         done = {key: row for key, row in done.items() if row.converged}
     waiting = [case for key, case in every.items() if key not in done]
     monitor.begin(len(every), len(done))
-    known = _finished(every.values(), done, store) if warm_start else None
-    place = engine_of(jobs, len(waiting), scheduler, forked=forked)
-    solved = _solve(waiting, store, place, known, monitor) if waiting else {}
+    neighbours = None
+    if warm_start:
+        if store.keep != "fields":
+            raise InputError('a warm start takes a store that keeps the fields: keep = "fields"')
+        neighbours = Neighbours(every[key] for key, row in done.items() if row.converged)
+    engine = engine_of(jobs, len(waiting), scheduler, forked=forked)
+    solved = _Run(waiting, store, neighbours, monitor).solve(engine) if waiting else {}
     rows = done | solved
     return Outcome(
         total=len(every),
@@ -148,30 +152,140 @@ def run(  # noqa: PLR0913 (keywords with defaults)
     )
 
 
-def _finished(cases: Iterable[Case], done: Mapping[str, Row], store: Store) -> Neighbours:
-    """Return the cases with an answer to start from."""
-    if store.keep != "fields":
-        raise InputError('a warm start takes a store that keeps the fields: keep = "fields"')
-    return Neighbours(case for case in cases if case.key in done and done[case.key].converged)
+class Neighbours:
+    """Finished cases by their labels.
+
+    Cases are neighbours if they have the same labels, the same words among them, and the same
+    number of nodes; their distance is that of the logarithms of their numbers.
+    """
+
+    def __init__(self, finished: Iterable[Case] = ()) -> None:
+        self._cases: dict[object, list[tuple[tuple[float, ...], Case]]] = {}
+        for case in finished:
+            self.add(case)
+
+    def add(self, case: Case) -> None:
+        """Take a converged case."""
+        kind, place = _kind_and_place(case)
+        self._cases.setdefault(kind, []).append((place, case))
+
+    def nearest(self, case: Case) -> Case | None:
+        """Return the nearest finished case, None where there is none of its kind."""
+        kind, place = _kind_and_place(case)
+        known = self._cases.get(kind)
+        return min(known, key=lambda one: math.dist(place, one[0]))[1] if known else None
 
 
-def _solve(
-    cases: list[Case],
-    store: Store,
-    place: AbstractContextManager[Engine],
-    known: Neighbours | None,
-    monitor: StudyMonitor,
-) -> dict[str, Row]:
-    with place as engine:  # a cluster that is gone leaves nothing
-        store.prepare()
-        store.sweep(cases)
-        if engine.local:
-            _warm(cases, monitor)
-        return _Run(cases, store, engine, known, monitor).go()
+def _kind_and_place(case: Case) -> tuple[object, tuple[float, ...]]:
+    values = case.labels.values()
+    words = tuple(value for value in values if isinstance(value, str))
+    # on this scale equal ratios are equal steps, far from zero
+    place = tuple(math.asinh(value / _SMALL) for value in values if not isinstance(value, str))
+    return (tuple(case.labels), words, case.options.shape), place
 
 
-def _warm(cases: list[Case], monitor: StudyMonitor) -> None:
-    """Compile in this process what workers would all compile at the same time."""
+class _Run:
+    """The cases on their way through an engine.
+
+    The cases of a worker that dies are suspects: each is solved again with nothing else in work,
+    so that the one that kills its worker is known by doing it twice. (A cluster cannot tell which
+    of the tasks that it had sent to a worker was in work.)
+    """
+
+    def __init__(
+        self, cases: list[Case], store: Store, neighbours: Neighbours | None, monitor: StudyMonitor
+    ) -> None:
+        self.waiting, self.suspects = deque(cases), deque[Case]()
+        self.store, self.neighbours, self.monitor = store, neighbours, monitor
+        self.submitted, self.alone = 0, False
+        self.seconds, self.solved = 0.0, 0
+        self.rows: dict[str, Row] = {}
+
+    def solve(self, place: AbstractContextManager[Engine]) -> dict[str, Row]:
+        """Solve all; return the rows by key, without summaries."""
+        with place as engine:  # a cluster that is gone leaves no store behind
+            self.store.prepare()
+            self.store.sweep(self.waiting)
+            if engine.local:
+                _compile_once(self.waiting, self.monitor)
+            while self.waiting or self.suspects or self.submitted:
+                self._submit(engine)
+                self._take(engine)
+        return self.rows
+
+    def _submit(self, engine: Engine) -> None:
+        """Fill the window of the engine with tasks; suspects one by one."""
+        if self.submitted and (self.alone or self.suspects):
+            return
+        self.alone = bool(self.suspects)
+        queue = self.suspects if self.alone else self.waiting
+        workers = engine.workers()
+        window = 1 if self.alone else max(engine.ahead * workers, engine.least)
+        while queue and self.submitted < window:
+            cases = [queue.popleft() for _ in range(self._task_size(engine, workers))]
+            task = [(case, self._files(case)) for case in cases]
+            engine.submit(cases, solve_in_turn, work, task, engine.task_seconds)
+            self.submitted += 1
+
+    def _task_size(self, engine: Engine, workers: int) -> int:
+        """Return how many of the next cases make a task; those that take too long come back."""
+        in_order = self.neighbours is not None and engine.local  # each starts from the one before
+        if self.alone or in_order or not self.solved:
+            return 1
+        quick = int(engine.task_seconds * self.solved / max(self.seconds, 1e-9))
+        share = len(self.waiting) // (_SHARES * max(workers, 1))
+        return max(1, min(quick, share, _LARGEST_TASK))
+
+    def _files(self, case: Case) -> Files:
+        """Return where a worker writes the fields of a case, and finds those to start from."""
+        if self.store.keep != "fields":
+            return None, None
+        guess = None if self.neighbours is None else self.neighbours.nearest(case)
+        path = self.store.fields_path
+        return path(case).absolute(), None if guess is None else path(guess).absolute()
+
+    def _take(self, engine: Engine) -> None:
+        """Wait for tasks; keep their rows.
+
+        Raises
+        ------
+        OSError, InputError
+            If fields could not be written, or the cluster is gone.
+        """
+        errors = []
+        for cases, found in engine.take():
+            self.submitted -= 1
+            if isinstance(found, list):
+                self._keep(cases, found)
+                self.waiting.extendleft(reversed(cases[len(found) :]))
+            elif not isinstance(found, WorkerDied):
+                errors.append(found)
+            elif self.alone:
+                self._keep(cases, [_died(case) for case in cases])
+            else:
+                self.suspects.extend(cases)
+        for error in errors:
+            raise error
+
+    def _keep(self, cases: list[Case], rows: list[Row]) -> None:
+        """Keep the rows of the first of some cases."""
+        self.store.put(*rows)
+        for case, row in zip(cases, rows, strict=False):
+            if row.has_fields:  # a case refused at once says nothing about the time of others
+                self.seconds += row.cost.wall_seconds
+                self.solved += 1
+            self.rows[case.key] = replace(row, summary={})  # thousands would fill the memory
+            if self.neighbours is not None and row.converged:
+                self.neighbours.add(case)
+            self.monitor.finished(case, row)
+
+
+def _died(case: Case) -> Row:
+    return Row(key=case.key, status="failed", cause="worker_died", message=_DIED)
+
+
+def _compile_once(cases: Iterable[Case], monitor: StudyMonitor) -> None:
+    """Compile in this process what all workers would compile at the same time."""
     coupled = any(case.problem.is_coupled for case in cases)
     if not is_cold(coupled=coupled):
         return
@@ -179,174 +293,3 @@ def _warm(cases: list[Case], monitor: StudyMonitor) -> None:
 
     monitor.message("compiling once, about a minute")
     warm_up(coupled=coupled)
-
-
-class _Run:
-    """The cases on their way through an engine.
-
-    A worker that dies takes the work of its pool along, or, on a cluster, what waited for it. Then
-    each case that was concerned is solved alone, so that the one that kills its worker is known by
-    doing it twice. Where a message costs as much as a quick case, several cases make a task.
-    """
-
-    def __init__(
-        self,
-        cases: list[Case],
-        store: Store,
-        engine: Engine,
-        known: Neighbours | None,
-        monitor: StudyMonitor,
-    ) -> None:
-        self.waiting, self.suspects = deque(cases), deque[Case]()
-        self.store, self.engine, self.monitor = store, engine, monitor
-        self.known = known
-        self.running: dict[Future[list[Row]], list[Case]] = {}
-        self.seconds, self.solved = 0.0, 0
-        self.alone = False
-        self.rows: dict[str, Row] = {}
-        self.folder = store.fields_folder.resolve() if store.keep == "fields" else None
-
-    def go(self) -> dict[str, Row]:
-        """Solve all; return the rows by key."""
-        executor = self.engine.executor()
-        try:
-            while self.waiting or self.suspects or self.running:
-                self._fill(executor)
-                if not self._take():
-                    self.engine.leave(executor, at_once=True)
-                    executor = self._renewed()
-        except BaseException:
-            self._keep_finished()
-            self.engine.leave(executor, at_once=True)
-            raise
-        self.engine.leave(executor, at_once=False)
-        return self.rows
-
-    def _fill(self, executor: Executor) -> None:
-        """Give the executor as many tasks as it should have; suspects one by one."""
-        if self.running and (self.alone or self.suspects):
-            return
-        self.alone = bool(self.suspects)
-        if self.alone:
-            self._submit(executor, [self.suspects.popleft()])
-            return
-        workers = self.engine.workers()
-        window = self.engine.window(workers)
-        while self.waiting and len(self.running) < window:
-            count = min(self._together(workers), len(self.waiting))
-            self._submit(executor, [self.waiting.popleft() for _ in range(count)])
-
-    def _together(self, workers: int) -> int:
-        """Return how many of the next cases make a task; what takes too long comes back undone."""
-        in_order = self.known is not None and self.engine.local  # each starts from the one before
-        if in_order or not (self.engine.task_seconds and self.solved):
-            return 1
-        quick = int(self.engine.task_seconds * self.solved / max(self.seconds, 1e-9))
-        share = len(self.waiting) // (_SHARES * max(workers, 1))
-        return max(1, min(quick, share, _MOST_TOGETHER))
-
-    def _submit(self, executor: Executor, cases: list[Case]) -> None:
-        try:
-            tasks = [self._task(case) for case in cases]
-            future = executor.submit(in_turn, work, tasks, self.engine.task_seconds)
-        except _NOT_BEGUN as error:
-            future = Future()
-            future.set_exception(BrokenExecutor(str(error)))
-        self.running[future] = cases
-
-    def _task(self, case: Case) -> Task:
-        """Return a case with the files that its worker leaves or finds."""
-        guess = None if self.known is None else self.known.nearest(case)
-        return case, self._path(case), None if guess is None else self._path(guess)
-
-    def _path(self, case: Case) -> Path | None:
-        """Return where a worker finds or leaves the fields of a case; None if nobody keeps them."""
-        return None if self.folder is None else self.folder / self.store.fields_path(case).name
-
-    def _take(self) -> bool:
-        """Keep what is finished, once something is; return False when workers have died."""
-        done, _ = wait(self.running, return_when=FIRST_COMPLETED)
-        broken = any(isinstance(_error(future), BrokenExecutor) for future in done)
-        if broken:
-            done, _ = wait(self.running)  # all of a broken pool are done at once
-        dead = []
-        for future in [future for future in self.running if future in done]:
-            if _is_death(_error(future)):
-                dead.extend(self.running.pop(future))
-                continue
-            rows = _rows(future)
-            self._keep(self.running[future], rows)
-            self.waiting.extendleft(reversed(self.running.pop(future)[len(rows) :]))
-        if self.alone:
-            self._keep(dead, [_died(case) for case in dead])
-        else:
-            self.suspects.extend(dead)
-        return not broken
-
-    def _keep(self, cases: list[Case], rows: list[Row]) -> None:
-        """Keep the rows of the first of some cases."""
-        if rows:
-            self.store.put(*rows)
-        for case, row in zip(cases, rows, strict=False):
-            if row.has_fields:  # what was refused at once tells nothing of the others
-                self.seconds += row.cost.wall_seconds
-                self.solved += 1
-            self.rows[case.key] = replace(row, summary={})  # thousands of them need their room
-            if self.known is not None and row.converged:
-                self.known.add(case)
-            self.monitor.finished(case, row)
-
-    def _renewed(self) -> Executor:
-        """Return a fresh executor whose workers begin."""
-        for _ in range(_TRIES):
-            executor = self.engine.executor()
-            with suppress(*_NOT_BEGUN):
-                executor.submit(int).result()
-                return executor
-            self.engine.leave(executor, at_once=True)
-            time.sleep(_WHILE)
-        raise OSError(_NO_WORKER)
-
-    def _keep_finished(self) -> None:
-        """Keep what was finished when the run was stopped, as far as it can be kept."""
-        for future, cases in self.running.items():
-            if future.done() and _error(future) is None:
-                for case, row in zip(cases, future.result(), strict=False):
-                    if case.key in self.rows:
-                        continue
-                    with suppress(OSError):
-                        self.store.put(row)
-                        self.monitor.finished(case, row)
-
-
-def _error(future: "Future[list[Row]]") -> BaseException | None:
-    """Return the error of a future that is done."""
-    try:
-        return future.exception()
-    except CancelledError as error:
-        return error
-
-
-def _is_death(error: BaseException | None) -> bool:
-    """Whether an error says that a worker died."""
-    return isinstance(error, BrokenExecutor) or type(error).__name__ == _KILLED
-
-
-def _rows(future: "Future[list[Row]]") -> list[Row]:
-    """Return the rows of a task that is done.
-
-    Raises
-    ------
-    OSError
-        If the cluster is gone, or the fields could not be written.
-    """
-    error = _error(future)
-    if error is None:
-        return future.result()
-    if isinstance(error, CancelledError):
-        raise OSError("the cluster has dropped its work: its scheduler is gone") from None
-    raise error
-
-
-def _died(case: Case) -> Row:
-    return Row(key=case.key, status="failed", cause="worker_died", message=_DIED)

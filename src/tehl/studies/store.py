@@ -1,7 +1,7 @@
 """Finished cases on disk: rows in one SQLite file, fields in one NetCDF file per case.
 
-Only the process that runs a study writes rows, a transaction for those of a task; workers write
-fields, each file whole or not at all. So a kill at any time costs the tasks in work and no row.
+Only the process that runs a study writes rows, one transaction per task; workers write fields,
+each file whole or not at all. A kill at any time costs the tasks in work and no row.
 """
 
 import errno
@@ -10,34 +10,31 @@ import os
 import sqlite3
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import fields
 from pathlib import Path
 from typing import Literal, get_args
 
 from tehl.errors import FileFormatError, InputError
 from tehl.io.atomic import check_place
 from tehl.result import Cost, Result
-from tehl.studies.case import Case
-from tehl.studies.row import Row
+from tehl.studies.case import Case, Row
 
 Keep = Literal["summary", "fields"]
 
-FORMAT = 1
-_ROWS, _FIELDS = "rows.sqlite", "fields"
-_PATIENCE = 60.0
+_FORMAT = 1
+_TIMEOUT = 60.0
 """Seconds to wait for another study that writes into the same store."""
-_ANEW = "bring back a copy of it, or remove it and all its cases are solved again"
-_AT_ONCE = 500
+_REMEDY = "bring back a copy of it, or remove it and all its cases are solved again"
+_KEYS = 500
 """Keys of one query."""
 _COLUMNS = "key, status, cause, message, hint, summary, cpu_seconds, wall_seconds"
-_WHOLE = "CASE WHEN json_valid(summary) THEN json_type(summary) = 'object' ELSE 0 END"
-"""Whether the numbers of a row can be read, so that one without them is not taken for finished."""
+_READABLE = "CASE WHEN json_valid(summary) THEN json_type(summary) = 'object' ELSE 0 END"
+"""Whether the summary of a row can be read; a row where it cannot is not finished."""
 _SCHEMA = f"""
 CREATE TABLE IF NOT EXISTS rows (
     key TEXT PRIMARY KEY, status TEXT NOT NULL, cause TEXT, message TEXT, hint TEXT,
     summary TEXT NOT NULL, cpu_seconds REAL NOT NULL, wall_seconds REAL NOT NULL
 ) WITHOUT ROWID;
-PRAGMA user_version = {FORMAT};
+PRAGMA user_version = {_FORMAT};
 """
 
 
@@ -56,9 +53,9 @@ class Store:
     Raises
     ------
     InputError
-        If the folder cannot be.
+        If the path is not that of a folder.
     FileFormatError
-        If what lies there is no store of this version.
+        If the folder holds a store of another version, or something else under its name.
     """
 
     def __init__(self, directory: str | Path, keep: Keep = "summary") -> None:
@@ -66,8 +63,9 @@ class Store:
             raise InputError(f'keep = "{keep}" is not known: known are summary and fields')
         self.directory, self.keep = Path(directory), keep
         check_place(self.directory)
+        self._file = self.directory / "rows.sqlite"
         self._connection: sqlite3.Connection | None = None
-        if self._file.exists():
+        if self.exists:
             self._open()
 
     def __del__(self) -> None:
@@ -75,63 +73,54 @@ class Store:
             self.close()
 
     @property
-    def _file(self) -> Path:
-        return self.directory / _ROWS
+    def exists(self) -> bool:
+        """Whether there is a file for rows."""
+        return self._file.exists()
 
     @property
     def fields_folder(self) -> Path:
         """The folder of the fields."""
-        return self.directory / _FIELDS
+        return self.directory / "fields"
 
     def fields_path(self, case: Case) -> Path:
-        """Return where the fields of a case lie, if they are kept."""
+        """Return the file of the fields of a case, if they are kept."""
         return self.fields_folder / f"{case.key}.nc"
-
-    @property
-    def is_begun(self) -> bool:
-        """Whether there is a file for rows."""
-        return self._file.exists()
 
     def row(self, case: Case) -> Row | None:
         """Return the row of a case, None when it is not finished."""
         return self.rows([case]).get(case.key)
 
     def rows(self, cases: Iterable[Case], *, summaries: bool = True) -> dict[str, Row]:
-        """Return the rows of those cases that are finished, by key, if wanted without numbers.
+        """Return the rows of the finished cases by key, optionally without their summaries.
 
-        A row that is damaged is none.
+        A case whose row is damaged is not finished.
         """
         columns = _COLUMNS if summaries else _COLUMNS.replace("summary", "'{}'")
         keys = list(dict.fromkeys(case.key for case in cases))
-        if self._connection is None and not self._file.exists():
-            return {}
         found: dict[str, Row] = {}
-        with self._telling() as connection:
-            for start in range(0, len(keys), _AT_ONCE):
-                some = keys[start : start + _AT_ONCE]
+        if self._connection is None and not self.exists:
+            return found
+        with self._connected() as connection:
+            for start in range(0, len(keys), _KEYS):
+                some = keys[start : start + _KEYS]
                 marks = ", ".join("?" * len(some))
-                query = f"SELECT {columns} FROM rows WHERE key IN ({marks}) AND {_WHOLE}"
+                query = f"SELECT {columns} FROM rows WHERE key IN ({marks}) AND {_READABLE}"
                 rows = map(_row, connection.execute(query, some))
                 found |= {row.key: row for row in rows if row is not None}
         return found
 
     def finished(self, cases: Iterable[Case]) -> dict[str, Row]:
-        """Return the outcome of the cases that need no work, by key, without their numbers.
+        """Return the rows of the cases that need no work, by key, without their summaries.
 
-        Lost fields are work.
+        A case whose fields are wanted and lost needs work.
         """
         cases = list(cases)
         rows = self.rows(cases, summaries=False)
-        if self.keep == "summary":
-            return rows
-        lost = {
-            case.key
-            for case in cases
-            if case.key in rows
-            and rows[case.key].has_fields
-            and not self.fields_path(case).is_file()
-        }
-        return {key: row for key, row in rows.items() if key not in lost}
+        for case in cases if self.keep == "fields" else ():
+            row = rows.get(case.key)
+            if row is not None and row.has_fields and not self.fields_path(case).is_file():
+                del rows[case.key]
+        return rows
 
     def result(self, case: Case) -> Result | None:
         """Return the result of a case with all its fields, None when they are not kept.
@@ -147,7 +136,7 @@ class Store:
         return load_as(Result, path) if path.is_file() else None
 
     def put(self, *rows: Row) -> None:
-        """Keep rows, all or none, in the place of older ones of the same keys.
+        """Keep rows, all or none; they replace older ones of the same keys.
 
         Raises
         ------
@@ -156,11 +145,10 @@ class Store:
         """
         lines = [_line(row) for row in rows]
         self.prepare()
-        with self._telling() as connection, connection:
+        with self._connected() as connection, connection:
             marks = ", ".join("?" * len(_COLUMNS.split(",")))
-            connection.executemany(
-                f"INSERT OR REPLACE INTO rows ({_COLUMNS}) VALUES ({marks})", lines
-            )
+            query = f"INSERT OR REPLACE INTO rows ({_COLUMNS}) VALUES ({marks})"
+            connection.executemany(query, lines)
 
     def prepare(self) -> None:
         """Make the folder and its files, if they are missing."""
@@ -171,7 +159,7 @@ class Store:
             self.fields_folder.mkdir(exist_ok=True)
 
     def sweep(self, cases: Collection[Case]) -> None:
-        """Remove what killed workers left of writing the fields of ``cases``."""
+        """Remove the incomplete files that killed workers left of the fields of ``cases``."""
         if not self.fields_folder.is_dir():
             return
         begun = {case.key[:40] for case in cases}
@@ -186,23 +174,23 @@ class Store:
         self._connection = None
 
     def _open(self) -> None:
-        place, is_uri = self._address()
+        place, is_uri = str(self._file), False
+        if not os.access(self.directory, os.W_OK):
+            log = self._file.with_name(f"{self._file.name}-wal")
+            how = "mode=ro" if log.exists() else "immutable=1"  # nothing writes it without a log
+            place, is_uri = f"{self._file.resolve().as_uri()}?{how}", True
         self._connection = sqlite3.connect(
-            place,
-            timeout=_PATIENCE,
-            isolation_level="IMMEDIATE",
-            check_same_thread=False,
-            uri=is_uri,
+            place, _TIMEOUT, isolation_level="IMMEDIATE", check_same_thread=False, uri=is_uri
         )
-        # half a letter is no reason not to read the others
+        # text that is not UTF-8 must not hide the other rows
         self._connection.text_factory = lambda text: text.decode("utf-8", "replace")
-        with self._telling() as connection:
+        with self._connected() as connection:
             version = connection.execute("PRAGMA user_version").fetchone()[0]
-            if version not in (0, FORMAT):
+            if version not in (0, _FORMAT):
                 self.close()
                 raise FileFormatError(
-                    f"{self._file} is a store of format {version}, this tehl knows {FORMAT}: "
-                    f"{_ANEW}"
+                    f"{self._file} is a store of format {version}, this tehl reads {_FORMAT}: "
+                    f"{_REMEDY}"
                 )
             # a kill loses nothing that was committed, and no commit waits for the disk
             with suppress(sqlite3.OperationalError):  # file systems without shared memory
@@ -211,43 +199,31 @@ class Store:
             if version == 0:
                 connection.executescript(_SCHEMA)
 
-    def _address(self) -> tuple[str, bool]:
-        """Return how to open the file of rows, and whether that is a URI: to read it only."""
-        if os.access(self.directory, os.W_OK):
-            return str(self._file), False
-        log = self._file.with_name(f"{self._file.name}-wal")
-        how = "mode=ro" if log.exists() else "immutable=1"  # without a log nobody writes it
-        return f"{self._file.resolve().as_uri()}?{how}", True
-
     @contextmanager
-    def _telling(self) -> Iterator[sqlite3.Connection]:
-        """Yield the connection; its errors become ours."""
+    def _connected(self) -> Iterator[sqlite3.Connection]:
+        """Yield the connection; raise its errors as those of a file."""
         if self._connection is None:
             self._open()
         assert self._connection is not None
         try:
             yield self._connection
         except sqlite3.OperationalError as error:
-            full = "full" in str(error)
-            code = errno.ENOSPC if full else errno.EIO
+            code = errno.ENOSPC if "full" in str(error) else errno.EIO
             raise OSError(code, f"{error}", str(self._file)) from error
         except sqlite3.DatabaseError as error:
             raise FileFormatError(
-                f"{self._file} is no store of a study ({error}): {_ANEW}"
+                f"{self._file} is not a store of a study ({error}): {_REMEDY}"
             ) from None
 
 
-def _text(words: str | None) -> str | None:
-    """Return words that a file can hold: names of files may have half letters."""
-    return None if words is None else words.encode("utf-8", "replace").decode("utf-8")
-
-
 def _line(row: Row) -> tuple[str | float | None, ...]:
-    """Return a row as the columns have it."""
+    """Return a row as the columns of the table."""
+    words = (row.cause, row.message, row.hint)
     return (
         row.key,
         row.status,
-        *map(_text, (row.cause, row.message, row.hint)),
+        # names of files may hold characters that UTF-8 cannot
+        *(word and word.encode("utf-8", "replace").decode("utf-8") for word in words),
         json.dumps(dict(row.summary), allow_nan=False),
         row.cost.cpu_seconds,
         row.cost.wall_seconds,
@@ -255,13 +231,11 @@ def _line(row: Row) -> tuple[str | float | None, ...]:
 
 
 def _row(line: tuple[str, ...]) -> Row | None:
-    """Return a row as the columns have it, None if it is damaged."""
-    names = [f.name for f in fields(Row)][:5]
+    """Return a row from the columns of the table, None if it is damaged."""
+    key, status, cause, message, hint, summary, cpu, wall = line
     try:
-        return Row(
-            **dict(zip(names, line[:5], strict=True)),
-            summary=json.loads(line[5]),
-            cost=Cost(cpu_seconds=float(line[6]), wall_seconds=float(line[7])),
-        )
+        cost = Cost(cpu_seconds=float(cpu), wall_seconds=float(wall))
+        words = {"cause": cause, "message": message, "hint": hint}
+        return Row(key=key, status=status, **words, summary=json.loads(summary), cost=cost)
     except (ValueError, TypeError):
         return None

@@ -1,18 +1,53 @@
-"""One tidy table of a study: a row per case, a column per label and per number of the summary."""
+"""The table of a study: a row per case, a column per label and per number of the summary."""
 
+import difflib
+import re
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
-from tehl.studies.case import Case
-from tehl.studies.columns import OUTCOME
-from tehl.studies.row import Scalar, unit_of
+from tehl.studies.case import Case, Scalar, unit_of
 from tehl.studies.store import Store
 
 if TYPE_CHECKING:
     import pandas as pd
 
-_OPEN = "open"
+OPEN = "open"
 """Status of a case that is not finished."""
+_OUTCOME = ("status", "cause", "message")
+_BUILT_IN = ("name", *_OUTCOME, "hint", "key")
+"""Columns that every table has, and the hint of a case."""
+
+_WAVE = (
+    "wavelength_m angle_rad amplitude_m points_per_wave film_amplitude_m film_phase_rad film_ratio "
+    "pressure_amplitude_pa pressure_phase_rad carried_amplitude_m theory_film_ratio "
+    "theory_pressure_pa elastic_pressure_pa compressibility"
+)
+_BLOCKS = {
+    "laws": "viscosity viscosity_temperature density shear reynolds",
+    "domain": "x.0 y.0",
+    "groups": "M L U W G lambda_bar alpha_bar ellipticity radius_ratio hertz_pressure_pa "
+    "hertz_half_width_m hertz_half_width_y_m",
+    "film": "h_min_m h_central_m H_min H_min_node H_central H_min_moes H_central_moes "
+    "minimum_at.0 rigid_approach",
+    "pressure": "max_pa P_max P_central",
+    "temperature": "film_rise_max_k film_rise_max_at.0 mid_film_rise_central_k "
+    "mean_rise_central_k surface_1_rise_max_k surface_2_rise_max_k inlet_k",
+    "traction": "surface_1 mid_film surface_2 sliding rolling rolling_by_film closure_error "
+    "credible friction_power_w",
+    "heat": "shear_w compression_w surface_1_w surface_2_w carried_out_w solid_peclet.0 sources.0",
+    "roughness": "surface_1_sq_m surface_2_sq_m composite_sq_m lambda_ratio "
+    "lambda_ratio_by_formula film_quantiles.0.part film_quantiles.0.h_m area_below_composite_sq "
+    "area_below_half_median minimum_at.0 P_max ripples_x.count ripples_x.depth_m ripples_y.count "
+    "ripples_y.depth_m " + " ".join(f"waves.0.{key}" for key in _WAVE.split()),
+    "convergence": "cycles residual change load_error heat_balance_error",
+    "errors": "discretisation_central discretisation_minimum iteration_central iteration_minimum",
+    "cost": "points.0 cpu_seconds wall_seconds work",
+}
+"""Columns of the summary by their blocks; of a list, the first entry stands for all."""
+_MIRROR = "uncertainty"
+"""Block that repeats the names of others."""
+_NUMBERS = tuple(f"{block}.{key}" for block, keys in _BLOCKS.items() for key in keys.split())
+_INDEX = re.compile(r"\.\d+(?=\.|$)")
 
 
 def table(
@@ -42,24 +77,49 @@ def table(
     rows = store.rows(cases)
     lines: list[dict[str, Scalar]] = []
     for case in cases:
+        line: dict[str, Scalar] = {"name": case.name, **case.labels}
         row = rows.get(case.key)
-        outcome = (_OPEN, None, None) if row is None else (row.status, row.cause, row.message)
-        line = {"name": case.name, **case.labels, **dict(zip(OUTCOME, outcome, strict=True))}
-        lines.append(line | dict({} if row is None else row.summary) | {"key": case.key})
-    frame = pd.DataFrame(lines, columns=_columns(cases, lines))
-    numbers = [
-        name
-        for name, kind in frame.dtypes.items()
-        if pd.api.types.is_numeric_dtype(kind) and not pd.api.types.is_bool_dtype(kind)
-    ]
+        if row is None:
+            line |= {"status": OPEN, "cause": None, "message": None}
+        else:
+            line |= {name: getattr(row, name) for name in _OUTCOME} | dict(row.summary)
+        lines.append(line | {"key": case.key})
+    labels = [label for case in cases for label in case.labels]
+    names = dict.fromkeys(["name", *labels, *_OUTCOME, *(name for line in lines for name in line)])
+    frame = pd.DataFrame(lines, columns=[*(name for name in names if name != "key"), "key"])
+    numbers = frame.select_dtypes("number").columns
     known = units or {}
     frame.attrs["units"] = {name: known.get(name) or unit_of(name) for name in numbers}
     return frame
 
 
-def _columns(cases: list[Case], lines: list[dict[str, Scalar]]) -> list[str]:
-    """Return the names of the columns: labels first, numbers in the order of the summary."""
-    labels = [label for case in cases for label in case.labels]
-    numbers = [name for line in lines for name in line]
-    names = dict.fromkeys(["name", *labels, *OUTCOME, *numbers])
-    return [name for name in names if name != "key"] + ["key"]
+def is_reserved(name: str) -> bool:
+    """Return whether a column of this name has another meaning in every table."""
+    block, dot, _ = name.partition(".")
+    return name in _BUILT_IN or bool(dot and (block in _BLOCKS or block == _MIRROR))
+
+
+def is_number(name: str) -> bool:
+    """Return whether a summary may have a column of this full name."""
+    return _INDEX.sub(".0", name) in _NUMBERS or name.partition(".")[0] == _MIRROR
+
+
+def missing_column(labels: Iterable[str], name: str) -> str | None:
+    """Return why a table cannot have a column, None where it can.
+
+    Parameters
+    ----------
+    labels : iterable of str
+        Names of the axes.
+    name : str
+        Of the column as a picture names it: in full or its last part, a minus before it.
+    """
+    wanted = name.removeprefix("-")
+    known = [*labels, *_BUILT_IN, *_NUMBERS]
+    endings = (f".{wanted}", f".{_INDEX.sub('.0', wanted)}")
+    if is_number(wanted) or any(f".{column}".endswith(endings) for column in known):
+        return None
+    last = [column.rpartition(".")[2] for column in known]
+    close = difflib.get_close_matches(wanted, [*known, *last], n=1, cutoff=0.6)
+    hint = f"did you mean {close[0]}?" if close else f"it has {', '.join(known[:8])} ..."
+    return f"the table will have no column {wanted}: {hint}"

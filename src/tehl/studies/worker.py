@@ -1,0 +1,126 @@
+"""What runs in a worker: serve a connection, solve the cases of a task, return their rows."""
+
+import os
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from multiprocessing import parent_process
+from multiprocessing.connection import Connection, wait
+from pathlib import Path
+from threading import Thread
+from typing import Any
+
+from tehl.errors import ConvergenceError, InputError, TehlError
+from tehl.result import Cost, Result
+from tehl.studies.case import Case, Row, row_of
+
+Files = tuple[Path | None, Path | None]
+"""Where the fields of a case go, and those of another case to start from."""
+Solve = Callable[[Case, Path | None, Path | None], Row]
+
+
+def serve(connection: Connection) -> None:
+    """Report that the process is ready; then call what comes and send back what it gave."""
+    Thread(target=_end_with_parent, daemon=True).start()
+    with suppress(EOFError, ConnectionError):  # the parent is gone or has closed
+        connection.send("ready")
+        while True:
+            connection.send(attempt(*connection.recv()))
+
+
+def attempt(function: Callable[..., Any], *arguments: Any) -> Any:
+    """Return what a function returns, or the error that it raises."""
+    try:
+        return function(*arguments)
+    except Exception as error:
+        return error
+
+
+def _end_with_parent() -> None:
+    """End this process when its parent has ended, in the midst of a solve too."""
+    parent = parent_process()
+    if parent is not None:
+        wait([parent.sentinel])
+        os._exit(0)
+
+
+def solve_in_turn(solve: Solve, task: list[tuple[Case, Files]], seconds: float) -> list[Row]:
+    """Return the rows of the first cases of a task, of one at least.
+
+    The others are left after a number of seconds, or where the fields of one cannot be written:
+    that is raised when the case is the first of a task.
+    """
+    start, rows = time.perf_counter(), list[Row]()
+    for case, files in task:
+        if rows and time.perf_counter() - start > seconds:
+            break
+        try:
+            rows.append(solve(case, *files))
+        except (OSError, InputError):
+            if not rows:
+                raise
+            break
+    return rows
+
+
+def work(case: Case, fields: Path | None, guess: Path | None = None) -> Row:
+    """Return the row of a case; whatever goes wrong with the case is in the row.
+
+    Parameters
+    ----------
+    case : Case
+        What to solve.
+    fields : Path or None
+        File for the result, converged or not; None if only the row is wanted.
+    guess : Path or None
+        File with the result of a neighbour to start from.
+
+    Raises
+    ------
+    OSError, InputError
+        If the fields cannot be written, which is not a fault of the case.
+    """
+    start = time.perf_counter(), time.process_time()
+    try:
+        result = _solved(case, guess)
+        row = row_of(case.key, result)
+    except InputError as error:
+        return _failed(case, start, "bad_input", "bad_input", str(error))
+    except MemoryError:
+        words = "not enough memory: take fewer points or fewer jobs"
+        return _failed(case, start, "failed", "out_of_memory", words)
+    except Exception as error:  # an error in one case must not end a thousand
+        return _failed(case, start, "failed", "error", f"{type(error).__name__}: {error}")
+    if fields is not None:
+        result.save(fields)
+    return row
+
+
+def _solved(case: Case, guess: Path | None) -> Result:
+    """Return the result, converged or not."""
+    from tehl import solver  # noqa: PLC0415 (reading a store compiles nothing)
+
+    try:
+        if case.certify:
+            return solver.certify(case.problem, case.options)
+        known = None if guess is None else _loaded(guess)
+        return solver.solve(case.problem, case.options, guess=known)
+    except ConvergenceError as error:
+        return error.result
+
+
+def _loaded(guess: Path) -> Result | None:
+    """Return a result to start from, None if its file cannot be read."""
+    from tehl.io.store import load  # noqa: PLC0415 (HDF5, for warm starts only)
+
+    try:
+        return load(guess)
+    except TehlError:
+        return None
+
+
+def _failed(case: Case, start: tuple[float, float], status: str, cause: str, message: str) -> Row:
+    wall, cpu = start
+    cost = Cost(cpu_seconds=time.process_time() - cpu, wall_seconds=time.perf_counter() - wall)
+    message = " ".join(message.split())
+    return Row(key=case.key, status=status, cause=cause, message=message, cost=cost)
