@@ -43,13 +43,13 @@ def test_a_curve_runs_along_x_with_certified_values_and_their_bars(table):
     first, second = drawn(figure)
     assert first[0] == [20.0, 40.0, 80.0]
     assert first[1] == pytest.approx([20.2, 40.4, 80.8])  # nm
-    assert second[0] == [20.0, 80.0]  # the third has no answer
+    assert second[0] == [20.0, 80.0]  # the third failed
     bars = figure.axes[0].containers[0].lines[2][0].get_segments()
     assert np.ptp(bars[0][:, 1]) == pytest.approx(2 * 0.4)
     axes = figure.axes[0]
     assert axes.get_ylabel() == "minimum film thickness $h_{min}$ [nm]"
     assert [text.get_text() for text in axes.get_legend().get_texts()] == ["newtonian", "eyring"]
-    assert figure.get_supxlabel() == "1 of 6 cases have no answer and are left out"
+    assert figure.get_supxlabel() == "1 of 6 cases failed and are left out"
 
 
 def test_a_minus_turns_the_sign_and_short_names_will_do(table):

@@ -259,7 +259,7 @@ def test_a_file_that_is_no_store_is_refused(tmp_path, content):
     if not content:
         assert Store(tmp_path).rows(cases(1)) == {}  # as SQLite makes it, before anything is in
         return
-    with pytest.raises(FileFormatError, match="is no store of a study"):
+    with pytest.raises(FileFormatError, match="is not a store of a study"):
         Store(tmp_path)
 
 

@@ -1,21 +1,21 @@
-"""Columns of a table as people know them: names, units that suit, axes."""
+"""Columns of a table as they are shown: names, units that suit, axes."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from tehl.errors import InputError
 from tehl.typing import Array
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     import pandas as pd
     from matplotlib.axes import Axes
-    from matplotlib.axis import Axis
 
-_WORDS = {
+FAILED = "#b3001b"
+"""Colour of what is said of cases that did not converge."""
+_TITLES = {
     "film.h_central_m": "central film thickness $h_c$",
     "film.h_min_m": "minimum film thickness $h_{min}$",
     "film.H_central_moes": "central film $H_c$ (Moes)",
@@ -37,7 +37,6 @@ _WORDS = {
     "contact.moes_load": "M",
     "contact.moes_speed": "L",
 }
-"""Columns that have a name in words."""
 _SUITABLE: dict[str, tuple[tuple[float, float, str], ...]] = {
     "m": ((1e-7, 1e9, "nm"), (1e-3, 1e6, "µm"), (1.0, 1e3, "mm")),
     "Pa": ((1e4, 1.0, "Pa"), (3e8, 1e-6, "MPa"), (np.inf, 1e-9, "GPa")),
@@ -70,118 +69,94 @@ class Column:
 
     @property
     def title(self) -> str:
-        """What to write along an axis."""
-        words = _WORDS.get(self.name, self.name.replace("_", " "))
+        """Label of an axis."""
+        words = _TITLES.get(self.name, self.name.replace("_", " "))
         return words if self.unit == "1" else f"{words} [{self.unit}]"
 
 
 def find_column(table: "pd.DataFrame", name: str) -> str:
-    """Return the full name of a column; the last part will do where it tells columns apart.
+    """Return the full name of a column; its last part suffices where it is unique.
 
-    Raises
-    ------
-    InputError
-        If there is none, or more than one.
+    An axis of the study precedes a number of the same name.
     """
     names = [str(known) for known in table.columns]
     if name in names:
         return name
-    alike = [known for known in names if known.endswith(f".{name}") and _is_value(known)]
+    values = [known for known in names if not known.startswith("uncertainty.")]
+    alike = [known for known in values if known.endswith(f".{name}")]
     labels = [known for known in alike if known in names[: names.index("status")]]
     if 1 in (len(alike), len(labels)):
         return (labels or alike)[0]
     if alike:
         raise InputError(f"the table has several columns {name}: {', '.join(alike)}")
-    close = [known for known in names if name.lower() in known.lower() and _is_value(known)][:6]
+    close = [known for known in values if name.lower() in known.lower()][:6]
     hint = f"did you mean {' or '.join(close)}?" if close else f"it has {', '.join(names[:12])} ..."
     raise InputError(f"the table has no column {name}: {hint}")
 
 
-def _is_value(name: str) -> bool:
-    return not name.startswith("uncertainty.")
-
-
 def numbers(table: "pd.DataFrame", name: str) -> Column:
-    """Return a column of numbers; a minus before its name turns its sign.
-
-    Raises
-    ------
-    InputError
-        If there is no such column of numbers.
-    """
+    """Return a column of numbers in a unit that suits; a minus before its name turns its sign."""
     full = find_column(table, name.removeprefix("-"))
     try:
         values = table[full].to_numpy(np.float64, na_value=np.nan)
     except (TypeError, ValueError):
         raise InputError(f"the column {full} does not hold numbers") from None
-    units: Mapping[str, str] = table.attrs.get("units", {})
-    si = units.get(full, "1")
-    finite = np.abs(values[np.isfinite(values)])
-    factor, unit = _suitable(si, float(finite.max()) if finite.size else 0.0)
+    si = table.attrs.get("units", {}).get(full, "1")
+    largest = np.abs(values[np.isfinite(values)]).max(initial=0.0)
+    suitable = (one[1:] for one in _SUITABLE.get(si, ()) if largest < one[0])
+    factor, unit = next(suitable, (1.0, si))
     factor = -factor if name.startswith("-") else factor
     return Column(name=full, values=values * factor, factor=factor, unit=unit, si=si)
 
 
-def _suitable(si: str, largest: float) -> tuple[float, str]:
-    for limit, factor, unit in _SUITABLE.get(si, ()):
-        if largest < limit:
-            return factor, unit
-    return 1.0, si
+def certified(rows: "pd.DataFrame", column: Column) -> tuple[Column, Array | None]:
+    """Return a column with certified values where there are any, and its error bars."""
+    name = f"uncertainty.{column.name}"
+    if f"{name}.value" not in rows:
+        return column, None
+    known, bars = (
+        rows[f"{name}.{part}"].to_numpy(np.float64, na_value=np.nan)
+        for part in ("value", "uncertainty")
+    )
+    values = np.where(np.isfinite(known), known * column.factor, column.values)
+    return replace(column, values=values), np.nan_to_num(bars) * abs(column.factor)
 
 
-def answers(table: "pd.DataFrame") -> "pd.DataFrame":
-    """Return the rows that converged.
-
-    Raises
-    ------
-    InputError
-        If there are none.
-    """
+def converged(table: "pd.DataFrame") -> "pd.DataFrame":
+    """Return the rows that converged; refuse a table that has none."""
     found = table[table["status"] == "converged"]
     if not len(found):
         raise InputError("the table has no case that converged, so nothing to draw")
     return found
 
 
-def dress(axes: "Axes", x: Column, y: Column, log: str) -> None:
+def label_axes(axes: "Axes", x: Column, y: Column, log: str) -> None:
     """Give axes their titles, scales and a light grid."""
     axes.set(xlabel=x.title, ylabel=y.title)
-    for letter, axis, setter in (
-        ("x", axes.xaxis, axes.set_xscale),
-        ("y", axes.yaxis, axes.set_yscale),
-    ):
-        if letter in log:
-            setter("log")
-            _plain_decades(axis)
+    for letter in log:
+        axes.set(**{f"{letter}scale": "log"})
+        axis = axes.xaxis if letter == "x" else axes.yaxis
+        low, high = axis.get_view_interval()
+        if 0 < low and high / low < 2e3:  # few decades: numbers at 2 and 5 too
+            axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axis.set_minor_formatter(NullFormatter())
     axes.grid(lw=0.3, which="both" if log else "major")
 
 
-def _plain_decades(axis: "Axis") -> None:
-    """Label a logarithmic axis with plain numbers, and with 2 and 5 between few decades."""
-    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: PLC0415
-
-    low, high = axis.get_view_interval()
-    if 0 < low and high / low < 2e3:
-        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axis.set_minor_formatter(NullFormatter())
-
-
-def note_left_out(axes: "Axes", table: "pd.DataFrame") -> None:
-    """Tell below the axes how many cases have no answer and are not shown."""
-    unfinished = int((table["status"] == "open").sum())
-    count = int((table["status"] != "converged").sum()) - unfinished
-    words = f"{count} of {len(table)} cases have no answer and are left out" if count else ""
-    if unfinished:
-        words += f"{'; ' if count else ''}{unfinished} of {len(table)} are not finished yet"
-    if words:
-        axes.figure.supxlabel(words, fontsize=8, color="#b3001b")
+def note_missing(axes: "Axes", table: "pd.DataFrame") -> None:
+    """Write below the axes how many cases failed or are not finished, and are not shown."""
+    open_cases = int((table["status"] == "open").sum())
+    failed = int((table["status"] != "converged").sum()) - open_cases
+    notes = [f"{failed} of {len(table)} cases failed and are left out"] if failed else []
+    notes += [f"{open_cases} of {len(table)} are not finished yet"] if open_cases else []
+    if notes:
+        axes.figure.supxlabel("; ".join(notes), fontsize=8, color=FAILED)
 
 
-def kinds(table: "pd.DataFrame", name: str | None) -> list[Any]:
+def distinct(table: "pd.DataFrame", name: str | None) -> list[Any]:
     """Return the different values of a column in their order; one None without a column."""
     if name is None:
         return [None]
-    found = table[find_column(table, name)]
-    values = list(dict.fromkeys(found.dropna().tolist()))
+    values = table[find_column(table, name)].dropna().unique().tolist()
     return sorted(values) if all(isinstance(v, int | float) for v in values) else values

@@ -16,7 +16,7 @@ from tehl.film_formulas import (
     hamrock_dowson,
     nijenbanning_venner_moes,
 )
-from tehl.plots.table_columns import answers, dress, note_left_out, numbers
+from tehl.plots.table_columns import FAILED, converged, label_axes, note_missing, numbers
 from tehl.scaling import Groups
 from tehl.typing import Array
 
@@ -42,7 +42,7 @@ def contour_map(table: "pd.DataFrame", x: str, y: str, z: str, log: str = "") ->
     Parameters
     ----------
     table : pandas.DataFrame
-        As :func:`tehl.studies.table` gives it; cases that did not converge are left out.
+        As :func:`tehl.studies.table` returns it; cases that did not converge are left out.
     x, y, z : str
         Columns of numbers.
     log : {"", "x", "y", "xy"}
@@ -53,7 +53,7 @@ def contour_map(table: "pd.DataFrame", x: str, y: str, z: str, log: str = "") ->
     InputError
         If a column is missing, or the points span no area.
     """
-    rows = answers(table)
+    rows = converged(table)
     across, up, shown = numbers(rows, x), numbers(rows, y), numbers(rows, z)
     picture = Figure(figsize=(6.6, 5.0), layout="constrained")
     axes = picture.add_subplot()
@@ -62,31 +62,31 @@ def contour_map(table: "pd.DataFrame", x: str, y: str, z: str, log: str = "") ->
     filled = axes.tricontourf(mesh, shown.values[known], 14, cmap="viridis")
     picture.colorbar(filled, ax=axes, label=shown.title)
     axes.plot(across.values, up.values, "k.", ms=1.5, alpha=0.5)
-    dress(axes, across, up, log)
-    note_left_out(axes, table)
+    label_axes(axes, across, up, log)
+    note_missing(axes, table)
     return picture
 
 
 def moes_map(table: "pd.DataFrame") -> Figure:
-    """Draw how far film formulas are off the computed films, over the Moes numbers M and L.
+    """Draw the deviation of film formulas from the computed films, over the Moes numbers M and L.
 
     Parameters
     ----------
     table : pandas.DataFrame
-        As :func:`tehl.studies.table` gives it, of contacts with many M and L.
+        As :func:`tehl.studies.table` returns it, of contacts with many M and L.
 
     Returns
     -------
     matplotlib.figure.Figure
         The computed central film in Moes form, and for each formula its film over the computed
-        one less one, in per cent. Crosses are cases without an answer.
+        one less one, in per cent. Crosses are failed cases.
 
     Raises
     ------
     InputError
         If the points span no area.
     """
-    rows = answers(table)
+    rows = converged(table)
     load, speed = numbers(rows, "groups.M").values, numbers(rows, "groups.L").values
     mesh = _mesh(load, speed, "xy")
     picture = Figure(figsize=(11.5, 6.8), layout="constrained")
@@ -106,22 +106,9 @@ def moes_map(table: "pd.DataFrame") -> Figure:
 def film_deviations(table: "pd.DataFrame") -> dict[str, Array]:
     """Return films by formula over the computed ones, less one [%], by the name of the formula.
 
-    Parameters
-    ----------
-    table : pandas.DataFrame
-        As :func:`tehl.studies.table` gives it.
-
-    Returns
-    -------
-    dict of str to array
-        For each case that converged, in their order.
-
-    Raises
-    ------
-    InputError
-        If none converged.
+    Each array has a value for each converged case, in their order.
     """
-    rows = answers(table)
+    rows = converged(table)
     return {name: _deviation(rows, formula, which) for name, formula, which in _FORMULAS}
 
 
@@ -147,26 +134,20 @@ def _film_panel(axes: Axes, mesh: Triangulation, film: Array) -> None:
 
 
 def _mark(panels: Sequence[Axes], table: "pd.DataFrame", points: tuple[Array, Array]) -> None:
-    """Show where the cases are, and which of them have no answer."""
+    """Show where the cases are, and which of them failed."""
     missing = table[table["status"] != "converged"].dropna(
         subset=[name for name in ("groups.M", "groups.L") if name in table]
     )
     for number, axes in enumerate(panels):
         axes.plot(*points, "k.", ms=1.2, alpha=0.5)
         if len(missing):
-            axes.plot(missing["groups.M"], missing["groups.L"], "x", color="#b3001b", ms=4)
+            axes.plot(missing["groups.M"], missing["groups.L"], "x", color=FAILED, ms=4)
         axes.set(xscale="log", yscale="log")
         axes.set(xlabel="M" if number > 2 else "", ylabel="L" if number % 3 == 0 else "")
 
 
 def _mesh(x: Array, y: Array, log: str) -> Triangulation:
-    """Return triangles between points, made where the axes are straight.
-
-    Raises
-    ------
-    InputError
-        If the points span no area.
-    """
+    """Return triangles between points, made in the scale of the axes; refuse points in a line."""
     places: list[Any] = []
     for letter, values in (("x", x), ("y", y)):
         if letter in log and not (values > 0).all():

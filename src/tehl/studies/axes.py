@@ -82,7 +82,7 @@ class Axis(BaseModel):
         if not all(part.strip() for part in self.path.split(".")):
             raise ValueError("is not a dotted path of a case, such as contact.load")
         try:
-            self._span()
+            self.settings(np.zeros(0))
         except ValueError as error:
             kind = stated[0]
             raise ValueError(f"{kind} = {list(getattr(self, kind))} {error}") from None
@@ -110,58 +110,36 @@ class Axis(BaseModel):
         steps = self.linspace or self.geomspace
         return steps[2] if steps else len(self.values or ())
 
-    def _span(self) -> "_Span | None":
-        ends = self.linspace or self.geomspace or self.uniform or self.loguniform
-        geometric = self.geomspace is not None or self.loguniform is not None
-        return None if ends is None else _span(ends[0], ends[1], geometric=geometric)
-
     def settings(self, places: Array | None = None) -> list[Setting]:
         """Return its values; those of a sampled axis at ``places`` between 0 and 1."""
-        span = self._span()
-        if span is None:
-            values = self.values or []
-            return [Setting(*one) for one in zip_longest(values, self.names or ())]
+        ends = self.linspace or self.geomspace or self.uniform or self.loguniform
+        if ends is None:
+            return [Setting(*one) for one in zip_longest(self.values or (), self.names or ())]
+        geometric = self.geomspace is not None or self.loguniform is not None
         places = np.linspace(0.0, 1.0, self.count) if places is None else places
-        return [Setting(value) for value in span.values(places)]
+        return [Setting(value) for value in _spread(ends[0], ends[1], places, geometric=geometric)]
 
 
-@dataclass(frozen=True, slots=True)
-class _Span:
-    """What lies between two ends: numbers with a unit, by equal ratios if it is geometric."""
+def _spread(first: End, last: End, places: Array, *, geometric: bool) -> list[End]:
+    """Return values at places from 0 to 1 between two ends, by equal ratios if ``geometric``.
 
-    low: float
-    high: float
-    unit: str
-    geometric: bool
-
-    def values(self, places: Array) -> list[End]:
-        """Return the values at places from 0 to 1, as a case file states them."""
-        if self.geometric:
-            numbers = self.low ** (1.0 - places) * self.high**places
-        else:
-            numbers = self.low * (1.0 - places) + self.high * places
-        return [self._stated(float(f"{number:.{_DIGITS}g}")) for number in numbers]
-
-    def _stated(self, number: float) -> End:
-        if self.unit:
-            return f"{number!r} {self.unit}"
-        return int(number) if number.is_integer() and abs(number) < 1e9 else number
-
-
-def _span(first: End, last: End, *, geometric: bool) -> _Span:
-    """Return what lies between two ends.
-
-    Raises
-    ------
-    ValueError
-        If they have different units or cannot be geometric; the message continues a sentence.
+    Messages of errors continue a sentence about the ends.
     """
     (low, unit), (high, other) = _split(first), _split(last)
     if unit != other:
         raise ValueError(f"has the units {unit or 'none'} and {other or 'none'}: give one unit")
     if geometric and not (low > 0 and high > 0):
         raise ValueError("must have two positive ends to be geometric")
-    return _Span(low, high, unit, geometric)
+    rest = 1.0 - places  # so that both ends are exact
+    numbers = low**rest * high**places if geometric else low * rest + high * places
+    return [_stated(float(f"{number:.{_DIGITS}g}"), unit) for number in numbers]
+
+
+def _stated(number: float, unit: str) -> End:
+    """Return a number as a case file states it."""
+    if unit:
+        return f"{number!r} {unit}"
+    return int(number) if number.is_integer() and abs(number) < 1e9 else number
 
 
 def _split(end: End) -> tuple[float, str]:

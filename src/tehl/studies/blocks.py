@@ -52,10 +52,7 @@ def groups_of(axes: Sequence[Axis]) -> list[list[Axis]]:
 def count_of(group: Sequence[Axis], sample: Sample | None) -> int:
     """Return the number of rows of a group of axes, before they are made.
 
-    Raises
-    ------
-    ValueError
-        If zipped axes have different numbers of values, or nothing states how to sample.
+    Refuses zipped axes of different lengths, and sampled ones without a sample.
     """
     first = group[0]
     if first.is_sampled:
@@ -90,11 +87,6 @@ def block_of_file(path: Path) -> Block:
 
     The first line has dotted paths, optionally with a unit: ``contact.load [N]``; a column ``name``
     names the cases. An empty cell leaves the base case as it is.
-
-    Raises
-    ------
-    InputError
-        If the file is not such a list; the message names it.
     """
     shown = shortened(path)
     lines = _lines(path, shown)
@@ -150,13 +142,7 @@ def _setting(cell: str, unit: str) -> Setting | None:
 
 
 def check_axes(blocks: Sequence[Block]) -> None:
-    """Refuse axes that vary the same key, one key of another, or are named as another column.
-
-    Raises
-    ------
-    InputError
-        If two axes conflict, or one cannot be varied; the message names them.
-    """
+    """Refuse axes that vary the same key, one key of another, or are named as another column."""
     names = [name for block in blocks for name in block.names]
     paths = [_tidy(path) for block in blocks for path in block.paths]
     _check_repeated("path", paths, "zip different ones")

@@ -160,13 +160,7 @@ class Pool(Engine):
         _end([*self._idle, *(worker for worker, _ in self._busy.values())])
 
     def _started(self, count: int) -> list["_Worker"]:
-        """Start workers side by side; return them when each has reported that it is ready.
-
-        Raises
-        ------
-        OSError
-            If one of them ends before, each time.
-        """
+        """Start workers side by side; return them when each has reported that it is ready."""
         for _ in range(_STARTS):
             workers = list[_Worker]()
             try:

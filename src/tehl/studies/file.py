@@ -24,33 +24,7 @@ _LARGEST = 10_000
 
 
 class StudyFile(BaseModel):
-    """The content of a study file.
-
-    Attributes
-    ----------
-    title : str
-        Shown to the user.
-    case : str or table
-        The base case: a case file, or its tables.
-    axes : list of Axis
-        What varies; the cases are the grid of all axes.
-    sample : Sample or None
-        How sampled axes take their values.
-    cases : str or None
-        A CSV file that lists cases, one more axis.
-    certify : bool
-        Error bars for each case.
-    keep : {"summary", "fields"}
-        Whether the fields of each case are kept too.
-    warm_start : bool
-        Start from the nearest finished case.
-    store : str or None
-        Folder of finished cases that several studies share.
-    largest : int or None
-        Upper limit of the number of cases.
-    pictures : list of Picture
-        What to draw of the table.
-    """
+    """The keys of a study file, as the user guide explains them."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 

@@ -32,15 +32,7 @@ def store_of(plan: Plan, folder: Path) -> Store:
 
 
 def check_can_write(folder: Path) -> None:
-    """Refuse a folder that takes no files.
-
-    Raises
-    ------
-    InputError
-        If a file is in the way.
-    OSError
-        If the folder is not writable.
-    """
+    """Refuse a file in the place of a folder (InputError), and a read-only folder (OSError)."""
     check_place(folder)
     try:
         check_folder(folder)
@@ -53,11 +45,6 @@ def locked(folder: Path) -> Iterator[None]:
     """Hold the lock of a folder, which the system releases however the program ends.
 
     Where the system has no locks (Windows, some network drives), nothing is held.
-
-    Raises
-    ------
-    OSError
-        If another run holds it.
     """
     with (folder / LOCK).open("ab") as file:
         try:
@@ -76,13 +63,7 @@ def locked(folder: Path) -> Iterator[None]:
 
 
 def save_plan(plan: Plan, folder: Path) -> bool:
-    """Keep a plan, so that the folder can be run again; return whether it is the first.
-
-    Raises
-    ------
-    InputError
-        If the folder cannot be written, or holds something else under this name.
-    """
+    """Keep a plan, so that the folder can be run again; return whether it is the first."""
     check_folder(folder)
     folder.mkdir(parents=True, exist_ok=True)
     content = {"tehl_study": _FORMAT, "plan": TypeAdapter(Plan).dump_python(plan, mode="json")}
@@ -95,15 +76,7 @@ def save_plan(plan: Plan, folder: Path) -> bool:
 
 
 def load_plan(folder: Path) -> Plan:
-    """Return the plan in the folder of a study.
-
-    Raises
-    ------
-    InputError
-        If it is not the folder of a study.
-    FileFormatError
-        If the plan is damaged or of another version.
-    """
+    """Return the plan in the folder of a study; refuse damaged ones and those of other versions."""
     path = folder / PLAN
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
@@ -124,13 +97,6 @@ def check_same(plan: Plan, folder: Path) -> None:
     """Refuse a folder that holds a study with another base case or other axes.
 
     Other values along the same axes, and another title, are accepted.
-
-    Raises
-    ------
-    InputError
-        If they differ; the message says how to go on.
-    FileFormatError
-        If the plan in the folder is damaged or of another version.
     """
     if not (folder / PLAN).is_file():
         return
@@ -166,17 +132,7 @@ def remove_outcome(folder: Path) -> None:
 def write_table(frame: "pd.DataFrame", folder: Path) -> list[Path]:
     """Write a table as CSV, its units beside it, and as Parquet where pyarrow is installed.
 
-    Parameters
-    ----------
-    frame : pandas.DataFrame
-        As :func:`tehl.studies.table` returns it.
-    folder : Path
-        Where.
-
-    Returns
-    -------
-    list of Path
-        The files; each appears whole or not at all.
+    Returns the files; each appears whole or not at all.
     """
     written = [folder / TABLE, folder / _UNITS]
     with replacing(written[0]) as temporary:

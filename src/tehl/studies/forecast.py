@@ -85,13 +85,7 @@ def forecast(
 
 
 def check_memory_of(forecast: Forecast, jobs: int) -> None:
-    """Refuse a study whose workers together need more memory than there is.
-
-    Raises
-    ------
-    InputError
-        If the estimate exceeds the available memory.
-    """
+    """Refuse a study whose workers together need more memory than there is."""
     available = available_memory()
     if available is None or forecast.memory_bytes <= available or jobs < 2:
         return

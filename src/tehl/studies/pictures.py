@@ -22,30 +22,7 @@ _KEYS = ("x", "y", "z", "hue", "style", "log", "map", "overlay", "file", "format
 
 
 class Picture(BaseModel):
-    """Curves over a column of the table, or a map over two.
-
-    Attributes
-    ----------
-    x, y : str or None
-        Columns; the last part of a dotted name suffices where it is unique. A minus before ``y``
-        turns its sign.
-    z : str or None
-        Column to draw as a contour map over x and y.
-    hue, style : str or None
-        Columns that distinguish the curves, by colour and by line.
-    log : {"", "x", "y", "xy"}
-        Axes with a logarithmic scale.
-    x_range, y_range : (float, float) or None
-        Limits of the axes, in the unit that they show.
-    map : {"moes"} or None
-        A ready picture instead: the deviation of film formulas over M and L.
-    overlay : str or None
-        A CSV file with measured points: columns x and y, and optionally their error and name.
-    format : {"png", "pdf", "svg"}
-        Of the file.
-    file : str or None
-        Name of the file without its ending.
-    """
+    """Curves over a column of the table, or a map over two; the user guide explains the keys."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -78,13 +55,7 @@ class Picture(BaseModel):
 
 
 def picture_of(words: str) -> Picture:
-    """Return the picture that ``x=...,y=...,hue=...`` states; one word alone is a ready one.
-
-    Raises
-    ------
-    InputError
-        If it is not a picture; the message says what would be.
-    """
+    """Return the picture that ``x=...,y=...,hue=...`` states; one word alone is a ready one."""
     stated = {}
     for part in (words if "=" in words else f"map={words}").split(","):
         key, _, value = (piece.strip() for piece in part.partition("="))
@@ -103,13 +74,7 @@ def picture_of(words: str) -> Picture:
 
 
 def checked_pictures(pictures: Sequence[Picture], blocks: Sequence[Block]) -> tuple[Picture, ...]:
-    """Return the pictures, identical ones once.
-
-    Raises
-    ------
-    InputError
-        If one names a column that the table will not have, or two different ones have one file.
-    """
+    """Return the pictures, identical ones once; refuse missing columns and files of two."""
     labels = [name for block in blocks for name in block.names]
     numbers: dict[str, int] = {}
     different = tuple(dict.fromkeys(pictures))
@@ -130,13 +95,7 @@ def checked_pictures(pictures: Sequence[Picture], blocks: Sequence[Block]) -> tu
 
 
 def draw(picture: Picture, table: "pd.DataFrame") -> "Figure":
-    """Return a picture of a table.
-
-    Raises
-    ------
-    InputError
-        If a column is missing or there is nothing to draw.
-    """
+    """Return a picture of a table; refuse missing columns and a table without converged cases."""
     from tehl.plots.table_curves import curves, overlay  # noqa: PLC0415 (matplotlib)
     from tehl.plots.table_maps import contour_map, moes_map  # noqa: PLC0415
 
@@ -153,13 +112,7 @@ def draw(picture: Picture, table: "pd.DataFrame") -> "Figure":
 
 
 def save(picture: Picture, table: "pd.DataFrame", folder: Path) -> Path:
-    """Draw a picture into a folder; return its file, which appears whole or not at all.
-
-    Raises
-    ------
-    InputError
-        As :func:`draw`.
-    """
+    """Draw a picture into a folder; return its file, which appears whole or not at all."""
     figure, path = draw(picture, table), folder / picture.file_name
     with replacing(path) as temporary:
         figure.savefig(temporary, dpi=_DPI, format=picture.format)

@@ -33,24 +33,14 @@ class Plan:
 
     Attributes
     ----------
-    title : str
-        Shown to the user.
     base : mapping
         Tables of the base case.
     folder : Path
         Where relative paths of measured surfaces begin.
     blocks : tuple of Block
         The cases are their grid, the last one the fastest.
-    certify : bool
-        Error bars for each case.
-    keep : {"summary", "fields"}
-        What the store keeps.
-    warm_start : bool
-        Start from the nearest finished case.
-    store : Path or None
-        Where finished cases are kept, if not in the folder of the study.
-    pictures : tuple of Picture
-        What to draw.
+    title, certify, keep, warm_start, store, pictures
+        As in a study file.
     """
 
     title: str
@@ -79,13 +69,7 @@ class Study:
 
 
 def study_of(plan: Plan) -> Study:
-    """Return all cases of a plan, each of them checked.
-
-    Raises
-    ------
-    InputError
-        If one of them is not a valid case; the message says which and why.
-    """
+    """Return all cases of a plan; an InputError names the first that is not valid, and why."""
     units: dict[str, str] = {}
     names: dict[str, int] = {}
     cases = []
@@ -137,11 +121,6 @@ def changed(tables: Mapping[str, Any], path: str, value: Any) -> dict[str, Any]:
     """Return tables with ``value`` at a dotted path; ``false`` leaves the key out.
 
     A name on the way, such as that of an oil, becomes the table with this name.
-
-    Raises
-    ------
-    ValueError
-        If the path goes through a number or a list.
     """
     key, _, deeper = (part.strip() for part in path.partition("."))
     after = dict(tables)

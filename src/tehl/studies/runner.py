@@ -245,13 +245,7 @@ class _Run:
         return path(case).absolute(), None if guess is None else path(guess).absolute()
 
     def _take(self, engine: Engine) -> None:
-        """Wait for tasks; keep their rows.
-
-        Raises
-        ------
-        OSError, InputError
-            If fields could not be written, or the cluster is gone.
-        """
+        """Wait for tasks; keep their rows. Fields that were not written end the run afterwards."""
         errors = []
         for cases, found in engine.take():
             self.submitted -= 1

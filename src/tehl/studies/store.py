@@ -123,26 +123,14 @@ class Store:
         return rows
 
     def result(self, case: Case) -> Result | None:
-        """Return the result of a case with all its fields, None when they are not kept.
-
-        Raises
-        ------
-        FileFormatError
-            If the file is damaged.
-        """
+        """Return the result of a case with all its fields, None when they are not kept."""
         from tehl.io.store import load_as  # noqa: PLC0415 (rows do without HDF5)
 
         path = self.fields_path(case)
         return load_as(Result, path) if path.is_file() else None
 
     def put(self, *rows: Row) -> None:
-        """Keep rows, all or none; they replace older ones of the same keys.
-
-        Raises
-        ------
-        OSError
-            If they cannot be written: a full disk, a quota.
-        """
+        """Keep rows, all or none; they replace older ones of the same keys."""
         lines = [_line(row) for row in rows]
         self.prepare()
         with self._connected() as connection, connection:
