@@ -3,8 +3,9 @@
 import sys
 import time
 from collections import deque
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import typer
@@ -20,30 +21,30 @@ if TYPE_CHECKING:
     from tehl.studies import Case, Row, StudyMonitor
     from tehl.transient_result import StepReport
 
-Columns = dict[str, int]
-"""Widths by heading."""
-_CYCLE: Columns = {
-    "grid": 11,
-    "cycle": 5,
-    "residual": 8,
-    "change": 8,
-    "load err": 8,
-    "H cent": 8,
-    "H min": 8,
-    "dT [K]": 8,
-    "sweeps": 7,
-}
+Columns = dict[str, tuple[int, str]]
+"""By heading: the width, and the words, a template for a report and other numbers."""
 _HEAT = "dT [K]"
 """Column of heated films: the largest change of the temperature in a cycle."""
+_CYCLE: Columns = {
+    "grid": (11, "{0.points[0]} x {0.points[1]}"),
+    "cycle": (5, "{0.cycle}"),
+    "residual": (8, "{0.residual:.2e}"),
+    "change": (8, "{0.change:.2e}"),
+    "load err": (8, "{0.load_error:.1e}"),
+    "H cent": (8, "{0.film_central:.6f}"),
+    "H min": (8, "{0.film_minimum:.6f}"),
+    _HEAT: (8, "{0.temperature_change:.2e}"),
+    "sweeps": (7, "{0.smoother}"),
+}
 _STEP: Columns = {
-    "step": 9,
-    "time [us]": 9,
-    "cycles": 6,
-    "change": 7,
-    "h min [nm]": 10,
-    "h cent [nm]": 11,
-    "p max [GPa]": 11,
-    "left [s]": 8,
+    "step": (9, "{0.step}/{0.steps}"),
+    "time [us]": (9, "{time:.1f}"),
+    "cycles": (6, "{0.cycles}"),
+    "change": (7, "{0.change:.1e}"),
+    "h min [nm]": (10, "{minimum:.1f}"),
+    "h cent [nm]": (11, "{central:.1f}"),
+    "p max [GPa]": (11, "{pressure:.4f}"),
+    "left [s]": (8, "{left}"),
 }
 _COMPILE_SECONDS = 60
 """Typical time to compile the kernels."""
@@ -55,9 +56,10 @@ SHOWN = 20
 """Failed cases that are named."""
 
 
-@contextmanager
-def progress(*, quiet: bool, thermal: bool = False, coupled: bool = False) -> Iterator["Monitor"]:
-    """Yield the monitor of a steady solve: a row per cycle.
+def progress(
+    *, quiet: bool, thermal: bool = False, coupled: bool = False
+) -> AbstractContextManager["Monitor"]:
+    """Return the monitor of a steady solve: a row per cycle.
 
     Parameters
     ----------
@@ -68,39 +70,42 @@ def progress(*, quiet: bool, thermal: bool = False, coupled: bool = False) -> It
     coupled : bool
         The film is heated or thins in shear, which takes more kernels.
     """
-    from tehl.solver.monitor import SILENT
-
-    if quiet:
-        yield SILENT
-        return
-    _announce_compiling(coupled=coupled)
-    with _terminal() as live:
-        yield CycleProgress(live, thermal=thermal)
+    return _monitor(partial(CycleProgress, thermal=thermal), quiet=quiet, coupled=coupled)
 
 
-@contextmanager
 def step_progress(
     units: "Scales", *, quiet: bool, coupled: bool = False
-) -> Iterator["StepMonitor"]:
-    """Yield the monitor of a transient run: a row per time step.
+) -> AbstractContextManager["StepMonitor"]:
+    """Return the monitor of a transient run: a row per time step.
 
     Parameters
     ----------
     units : Scales
         Of the film and the pressure.
-    quiet : bool
-        Show nothing.
-    coupled : bool
-        The film thins in shear, which takes more kernels.
+    quiet, coupled : bool
+        As in :func:`progress`.
     """
+    return _monitor(partial(StepProgress, units=units), quiet=quiet, coupled=coupled)
+
+
+@contextmanager
+def _monitor(shown: Callable[..., Any], *, quiet: bool, coupled: bool) -> Iterator[Any]:
+    """Yield a monitor with a live view on a terminal, with None elsewhere."""
     from tehl.solver.monitor import SILENT
 
     if quiet:
         yield SILENT
         return
     _announce_compiling(coupled=coupled)
-    with _terminal() as live:
-        yield StepProgress(live, units)
+    if not _is_terminal():
+        yield shown(None)
+        return
+    from rich.console import Console
+    from rich.live import Live
+
+    console = Console(stderr=True)
+    with Live(console=console, auto_refresh=False, vertical_overflow="visible") as live:
+        yield shown(live)
 
 
 @contextmanager
@@ -132,25 +137,11 @@ def _is_terminal() -> bool:
     return sys.stderr is not None and sys.stderr.isatty()
 
 
-@contextmanager
-def _terminal() -> Iterator["Live | None"]:
-    """Yield a live view on a terminal, None elsewhere."""
-    if not _is_terminal():
-        yield None
-        return
-    from rich.console import Console
-    from rich.live import Live
-
-    console = Console(stderr=True)
-    with Live(console=console, auto_refresh=False, vertical_overflow="visible") as live:
-        yield live
-
-
 class _Shown:
     """Messages and rows on stderr: in a live view if there is one, else as plain lines."""
 
-    def __init__(self, view: Any) -> None:  # Live, Progress or None
-        self._view = view
+    def __init__(self, view: Any, columns: Columns) -> None:  # of rich, or None
+        self._view, self._columns = view, columns
 
     def message(self, text: str) -> None:
         """Show a message, above the live view."""
@@ -159,43 +150,43 @@ class _Shown:
         else:
             self._view.console.print(text, markup=False)
 
-    def _line(self, cells: tuple[str, ...], columns: Columns) -> None:
-        widths = columns.values()
+    def _cells(self, *reports: object, **numbers: object) -> list[str]:
+        return [words.format(*reports, **numbers) for _, words in self._columns.values()]
+
+    def _line(self, cells: Iterable[str]) -> None:
+        widths = (width for width, _ in self._columns.values())
         self.message(" ".join(f"{c:>{width}}" for c, width in zip(cells, widths, strict=True)))
+
+    def _table(self) -> "Table":
+        from rich import box
+        from rich.markup import escape
+        from rich.table import Table
+
+        table = Table(box=box.SIMPLE_HEAD, padding=0, show_edge=False)
+        for name, (width, _) in self._columns.items():
+            table.add_column(escape(name), justify="right", min_width=width)
+        return table
 
 
 class CycleProgress(_Shown):
     """The monitor of a steady solve."""
 
     def __init__(self, live: "Live | None", *, thermal: bool = False) -> None:
-        super().__init__(live)
-        self._columns = {name: _CYCLE[name] for name in _CYCLE if thermal or name != _HEAT}
-        self._table = None if live is None else _table(self._columns)
+        super().__init__(live, {k: v for k, v in _CYCLE.items() if thermal or k != _HEAT})
+        self._rows = None if live is None else self._table()
         self._grid: tuple[int, int] | None = None
 
     def cycle(self, report: "CycleReport") -> None:
         """Show a cycle: below a heading if it is the first, a rule if the grid is another."""
-        heat = (f"{report.temperature_change:.2e}",) if _HEAT in self._columns else ()
-        cells = (
-            "{} x {}".format(*report.points),
-            str(report.cycle),
-            f"{report.residual:.2e}",
-            f"{report.change:.2e}",
-            f"{report.load_error:.1e}",
-            f"{report.film_central:.6f}",
-            f"{report.film_minimum:.6f}",
-            *heat,
-            report.smoother,
-        )
-        if self._table is None:
+        if self._rows is None:
             if self._grid is None:
-                self._line(tuple(self._columns), self._columns)
-            self._line(cells, self._columns)
+                self._line(self._columns)
+            self._line(self._cells(report))
         else:
             if self._grid not in (None, report.points):
-                self._table.add_section()
-            self._table.add_row(*cells)
-            self._view.update(self._table, refresh=True)
+                self._rows.add_section()
+            self._rows.add_row(*self._cells(report))
+            self._view.update(self._rows, refresh=True)
         self._grid = report.points
 
 
@@ -203,9 +194,9 @@ class StepProgress(_Shown):
     """The monitor of a transient run."""
 
     def __init__(self, live: "Live | None", units: "Scales") -> None:
-        super().__init__(live)
+        super().__init__(live, _STEP)
         self._units = units
-        self._rows: deque[tuple[str, ...]] = deque(maxlen=_ROWS)
+        self._rows: deque[list[str]] = deque(maxlen=_ROWS)
         self._first: tuple[int, float] | None = None
         self._part: int | None = None
         self._steady = False
@@ -213,50 +204,42 @@ class StepProgress(_Shown):
     def cycle(self, report: "CycleReport") -> None:
         """Show that the steady film at time zero is being found."""
         if self._view is not None:
-            state = "{} x {}".format(*report.points)
-            state = f"{state}, cycle {report.cycle}, {report.residual:.1e}"
-            self._view.update(f"steady film at time zero: {state}", refresh=True)
+            state = "{0.points[0]} x {0.points[1]}, cycle {0.cycle}, {0.residual:.1e}"
+            self._view.update(f"steady film at time zero: {state.format(report)}", refresh=True)
         elif not self._steady:
             self.message("the steady film at time zero")
         self._steady = True
 
     def step(self, report: "StepReport") -> None:
         """Show a step; as a plain line only if the last one is a twentieth of the run behind."""
-        cells = self._cells(report)
+        film, left = self._units.film_thickness * 1e9, self._left(report)
+        cells = self._cells(
+            report,
+            time=report.time * 1e6,
+            minimum=report.film_minimum * film,
+            central=report.film_central * film,
+            pressure=report.pressure_max * self._units.hertz_pressure * 1e-9,
+            left="" if left is None else f"{left:.0f}",
+        )
+        part = report.step * _LINES // report.steps
         if self._view is not None:
             self._rows.append(cells)
             self._show(report)
-            return
-        part = report.step * _LINES // report.steps
-        if self._part is None:
-            self._line(tuple(_STEP), _STEP)
-        if part != self._part:
-            self._line(cells, _STEP)
+        elif part != self._part:
+            if self._part is None:
+                self._line(self._columns)
+            self._line(cells)
         self._part = part
 
     def _show(self, report: "StepReport") -> None:
         from rich.console import Group
         from rich.progress_bar import ProgressBar
 
-        table = _table(_STEP)
+        table = self._table()
         for row in self._rows:
             table.add_row(*row)
         bar = ProgressBar(total=report.steps, completed=report.step, width=60)
         self._view.update(Group(table, bar), refresh=True)
-
-    def _cells(self, report: "StepReport") -> tuple[str, ...]:
-        film, pressure = self._units.film_thickness * 1e9, self._units.hertz_pressure * 1e-9
-        left = self._left(report)
-        return (
-            f"{report.step}/{report.steps}",
-            f"{report.time * 1e6:.1f}",
-            str(report.cycles),
-            f"{report.change:.1e}",
-            f"{report.film_minimum * film:.1f}",
-            f"{report.film_central * film:.1f}",
-            f"{report.pressure_max * pressure:.4f}",
-            "" if left is None else f"{left:.0f}",
-        )
 
     def _left(self, report: "StepReport") -> float | None:
         """Return the seconds that are left, from the steps since the first; None at that one."""
@@ -266,17 +249,6 @@ class StepProgress(_Shown):
             return None
         step, then = self._first
         return (now - then) / (report.step - step) * (report.steps - report.step)
-
-
-def _table(columns: Columns) -> "Table":
-    from rich import box
-    from rich.markup import escape
-    from rich.table import Table
-
-    table = Table(box=box.SIMPLE_HEAD, padding=0, show_edge=False)
-    for name, width in columns.items():
-        table.add_column(escape(name), justify="right", min_width=width)
-    return table
 
 
 class StudyProgress(_Shown):
@@ -289,7 +261,7 @@ class StudyProgress(_Shown):
     """
 
     def __init__(self, bar: "Progress | None", clock: Callable[[], float] = time.monotonic) -> None:
-        super().__init__(bar)
+        super().__init__(bar, {})
         self.total = self.reused = self.done = self.failed = 0
         self._clock = clock
         self._start = self._last = clock()

@@ -135,41 +135,27 @@ class Row:
 
 def row_of(key: str, result: Result) -> Row:
     """Return the row of a result, converged or not."""
-    status = result.status
-    blocks = {name: block for name, block in result.summary().items() if block is not None}
+    status, summary = result.status, result.summary()
+    numbers = {k: v for k, v in summary.items() if v is not None and k not in _NOT_NUMBERS}
     return Row(
         key=key,
         status=status.kind,
         cause=status.cause,
         message=status.message,
         hint=status.hint,
-        summary=dict(flat(blocks, skip=_NOT_NUMBERS)),
+        summary=dict(flat(numbers)),
         cost=result.cost,
     )
 
 
-def flat(
-    tree: Mapping[Any, Any], prefix: str = "", skip: tuple[str, ...] = ()
-) -> Iterator[tuple[str, Scalar]]:
-    """Yield the scalars of nested tables and lists by dotted names, in order.
-
-    Parameters
-    ----------
-    tree : mapping
-        Tables of tables, lists and scalars.
-    prefix : str
-        Begins each name.
-    skip : tuple of str
-        Keys of the outermost table to leave out.
-    """
+def flat(tree: Mapping[Any, Any]) -> Iterator[tuple[str, Scalar]]:
+    """Yield the scalars of nested tables and lists by dotted names, in order."""
     for key, value in tree.items():
-        if key in skip:
-            continue
         inside = dict(enumerate(value)) if isinstance(value, list | tuple) else value
         if isinstance(inside, Mapping):
-            yield from flat(inside, f"{prefix}{key}.")
+            yield from ((f"{key}.{name}", scalar) for name, scalar in flat(inside))
         else:
-            yield f"{prefix}{key}", value
+            yield str(key), value
 
 
 def unit_of(name: str) -> str:

@@ -24,8 +24,8 @@ from tehl.studies.worker import attempt, serve
 Ticket = Any
 Finished = list[tuple[Ticket, Any]]
 
-_ONE = ("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-ENVIRONMENT = dict.fromkeys((*_ONE, "PYTHONSAFEPATH"), "1")
+_THREADS = ("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+_ENVIRONMENT = dict.fromkeys((*_THREADS, "PYTHONSAFEPATH"), "1")
 """Of workers: one thread; a random.py in the current folder does not shadow the library's."""
 _STARTS, _PAUSE = 3, 0.1
 """Attempts to start workers, and seconds between them, for a dying fork server to end."""
@@ -196,16 +196,18 @@ def _end(workers: list[_Worker]) -> None:
 
 @contextmanager
 def _undisturbed() -> Iterator[None]:
-    """Start processes with the environment of workers, and out of reach of Ctrl-C."""
-    before = {name: os.environ[name] for name in ENVIRONMENT if name in os.environ}
-    os.environ.update(ENVIRONMENT)
-    resource_tracker.ensure_running()  # unblocks the signal when it starts
-    mask = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+    """Give the environment of workers to what is started, and keep Ctrl-C from it."""
+    before = {name: os.environ[name] for name in _ENVIRONMENT if name in os.environ}
+    os.environ.update(_ENVIRONMENT)
+    if sys.platform != "win32":
+        resource_tracker.ensure_running()  # unblocks the signal when it starts
+        mask = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
     try:
         yield
     finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
-        for name in ENVIRONMENT:
+        if sys.platform != "win32":
+            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        for name in _ENVIRONMENT:
             del os.environ[name]
         os.environ.update(before)
 

@@ -1,6 +1,7 @@
 """What runs in a worker: serve a connection, solve the cases of a task, return their rows."""
 
 import os
+import signal
 import time
 from collections.abc import Callable
 from contextlib import suppress
@@ -21,6 +22,7 @@ Solve = Callable[[Case, Path | None, Path | None], Row]
 
 def serve(connection: Connection) -> None:
     """Report that the process is ready; then call what comes and send back what it gave."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the parent, which ends this one
     Thread(target=_end_with_parent, daemon=True).start()
     with suppress(EOFError, ConnectionError):  # the parent is gone or has closed
         connection.send("ready")
