@@ -1,5 +1,5 @@
 # ruff: noqa: ARG001 (fixtures that prepare and are not read)
-"""``tehl study``: what it writes, prints and returns, with work that answers at once."""
+"""``tehl study``: what it writes, prints and returns, with work that returns at once."""
 
 import json
 import os
@@ -45,7 +45,7 @@ density = { law = "dowson-higginson", rho_0 = "890 kg/m^3" }
 """
 
 
-def answer(case, fields=None, guess=None):
+def solved(case, fields=None, guess=None):
     """Return a row whose film grows with the load; a ball that slides fails at 80 N."""
     del fields, guess
     load, slides = case.labels["contact.load"], case.labels.get("contact.slide_roll_ratio", 0) > 0
@@ -61,7 +61,7 @@ def answer(case, fields=None, guess=None):
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(runner, "work", answer)
+    monkeypatch.setattr(runner, "work", solved)
     (tmp_path / "ball.toml").write_text(CASE)
     (tmp_path / "loads.toml").write_text(STUDY)
     return tmp_path
@@ -85,7 +85,7 @@ def names(folder) -> list[str]:
 
 def test_the_table_has_a_row_per_case_and_units_beside_it(folder, run):
     done = run("loads.toml", "-o", "out", "--jobs", "1")
-    assert done.code == 1  # one case has no answer
+    assert done.code == 1  # one case fails
     assert "slide_roll_ratio = 0.5: It is too coarse." in done.out
     assert "hint: Take 513." in done.out
     frame = pd.read_csv("out/table.csv")
@@ -157,7 +157,7 @@ def test_a_picture_that_cannot_be_drawn_is_a_warning_beside_the_table(folder, ru
     done = run("drawn.toml", "-o", "out", "--jobs", "1", "--json")
     again = run("out", "--table", "--json")
     for one in (done, again):
-        assert one.code == 1  # as one case has no answer
+        assert one.code == 1  # as one case fails
         assert "picture film_rise_max_k_over_load: the table has no column" in one.err
         assert one.out.count("\n") == 1
     assert json.loads(again.out)["files"][-1] == "out/h_min_m_over_load.png"
@@ -290,7 +290,7 @@ def test_a_table_of_an_unfinished_study_says_what_is_open(folder, run, monkeypat
     def stopped(case, *files):
         if case.labels["contact.load"] == 60:
             raise KeyboardInterrupt
-        return answer(case, *files)
+        return solved(case, *files)
 
     monkeypatch.setattr(runner, "work", stopped)
     done = run("loads.toml", "-o", "out", "--jobs", "1")
@@ -298,11 +298,11 @@ def test_a_table_of_an_unfinished_study_says_what_is_open(folder, run, monkeypat
     assert "continue with: tehl study out" in done.err
     found = json.loads(run("out", "--table", "--json").out)
     assert found["status"] == {"converged": 4, "open": 4}
-    monkeypatch.setattr(runner, "work", answer)
+    monkeypatch.setattr(runner, "work", solved)
     assert json.loads(run("out", "--jobs", "1", "--json").out)["reused"] == 4
 
 
-def test_a_full_disk_is_told_with_the_way_to_go_on(folder, run, monkeypatch):
+def test_a_full_disk_is_reported_with_the_way_to_continue(folder, run, monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device", "out/fields/x.nc")
 
@@ -420,7 +420,7 @@ def test_the_lines_of_a_list_are_counted_as_an_editor_does(folder, run):
     assert "list.csv: line 6 has 2 cells, but the first has 1" in done.err
 
 
-def test_a_hint_of_many_cases_is_told_once(folder, run, monkeypatch):
+def test_a_hint_of_many_cases_is_shown_once(folder, run, monkeypatch):
     def hopeless(case, *_):
         words = {"cause": "stalled", "message": "It stalls.", "hint": "Take 513."}
         return Row(key=case.key, status="stalled", **words)
@@ -432,7 +432,7 @@ def test_a_hint_of_many_cases_is_told_once(folder, run, monkeypatch):
     assert "hint for 8 of them: Take 513." in done.out
 
 
-def test_a_column_of_a_list_may_be_no_key_of_another_axis(folder, run):
+def test_a_column_of_a_list_may_not_be_a_key_of_another_axis(folder, run):
     (folder / "list.csv").write_text("contact,contact.moes_load\n1,2\n")
     (folder / "overlap.toml").write_text('case = "ball.toml"\ncases = "list.csv"\n')
     done = run("overlap.toml", "--dry-run")
@@ -456,7 +456,7 @@ def test_many_cases_can_be_meant(folder, run):
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "message"),
     [
         (["nowhere.toml"], "study file does not exist"),
         (["out", "--set", "a.b=1"], "is planned already"),
@@ -471,13 +471,13 @@ def test_many_cases_can_be_meant(folder, run):
         (["loads.toml", "-o", "fresh", "--table"], "no case of the study is finished"),
     ],
 )
-def test_a_wrong_command_is_one_sentence(folder, run, words, told):
+def test_a_wrong_command_is_one_sentence(folder, run, words, message):
     (folder / "empty").mkdir()
     if words[0] == "out":
         run("loads.toml", "-o", "out", "--jobs", "1")
     done = run(*words)
     assert done.code == 2
-    assert told in done.err
+    assert message in done.err
     assert done.err.count("\n") == 1
 
 

@@ -71,7 +71,7 @@ def test_an_axis_comes_before_a_number_of_the_same_name(table):
         ("load", "laws.shear", "does not hold numbers"),
     ],
 )
-def test_columns_that_cannot_be_drawn_are_told(table, x, y, words):
+def test_columns_that_cannot_be_drawn_are_refused(table, x, y, words):
     with pytest.raises(InputError, match=words):
         curves(table, x, y)
 
@@ -81,7 +81,7 @@ def test_a_column_that_is_nearly_right_is_suggested(table):
         curves(table, "load", "h_min")
 
 
-def test_a_table_without_answers_has_no_picture(table):
+def test_a_table_without_converged_cases_has_no_picture(table):
     table["status"] = "stalled"
     with pytest.raises(InputError, match="no case that converged"):
         curves(table, "load", "film.h_min_m")
@@ -113,7 +113,7 @@ def test_measured_points_are_converted_to_the_units_of_the_picture(table, tmp_pa
         ("", "cannot be read"),
     ],
 )
-def test_wrong_measured_points_are_told(table, tmp_path, text, words):
+def test_wrong_measured_points_are_refused(table, tmp_path, text, words):
     path = tmp_path / "lab.csv"
     path.write_text(text)
     with pytest.raises(InputError, match=words):
@@ -122,7 +122,7 @@ def test_wrong_measured_points_are_told(table, tmp_path, text, words):
 
 @pytest.fixture
 def films() -> pd.DataFrame:
-    """Films of a power law over M and L, one of them without an answer."""
+    """Films of a power law over M and L, one of them failed."""
     lines = []
     for load in (10.0, 100.0, 1000.0):
         for speed in (1.0, 5.0, 20.0):

@@ -1,7 +1,7 @@
 """Work that goes wrong on purpose, in the place of that of the solver; and a program that runs it.
 
-``python tests/study/mishaps.py DIR JOBS COUNT [forked]`` is a study of quick rows; it asks for this
-project in PYTHONPATH.
+``python tests/study/mishaps.py DIR JOBS COUNT [forked]`` is a study of quick rows; PYTHONPATH has
+to hold this project.
 """
 
 import os

@@ -152,7 +152,7 @@ def test_a_change_is_found_where_it_was_made(path, value):
         ({"surface_1.material.young_modulus.x": [1]}, "goes through young_modulus"),
     ],
 )
-def test_wrong_axes_are_told_in_a_sentence(axes, words):
-    with pytest.raises(InputError, match=words.replace("(", r"\(")) as told:
+def test_a_wrong_axis_is_one_sentence(axes, words):
+    with pytest.raises(InputError, match=words.replace("(", r"\(")) as error:
         cases_of(problem(), axes, QUICK)
-    assert "\n" not in str(told.value)
+    assert "\n" not in str(error.value)

@@ -1,4 +1,4 @@
-"""The key of a case: all that the answer depends on, and nothing else."""
+"""The key of a case: all that the result depends on, and nothing else."""
 
 from dataclasses import replace
 
@@ -29,7 +29,7 @@ def test_a_key_has_64_hexadecimal_digits():
 @settings(deadline=None)
 @given(name=st.text(max_size=20), labels=st.dictionaries(st.text(max_size=5), st.floats()))
 def test_name_and_labels_do_not_count(name, labels):
-    assert Case(name, problem(), QUICK, labels).key == CASE.key
+    assert Case(name, CASE.problem, QUICK, labels).key == CASE.key
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ COUNT = 6
 @pytest.fixture(scope="module")
 def cluster():
     options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": None}
+    options["scheduler_kwargs"] = {"allowed_failures": 0}  # a lost worker takes its tasks along
     with distributed.LocalCluster(processes=True, silence_logs=50, **options) as found:
         yield found.scheduler_address
 
@@ -38,7 +39,7 @@ def test_a_case_that_kills_its_workers_costs_itself_only(cluster, tmp_path, monk
     assert [(c.labels["M"], r.cause) for c, r in outcome.failed] == [(5.5, "worker_died")]
 
 
-def test_an_address_without_a_scheduler_is_told(tmp_path, monkeypatch):
+def test_an_address_without_a_scheduler_is_an_error(tmp_path, monkeypatch):
     monkeypatch.setattr("tehl.studies.engines._CONNECT", 1.0)
     with pytest.raises(OSError, match="no dask scheduler replies at tcp"):
         run(cases(1), Store(tmp_path), scheduler="tcp://127.0.0.1:1")

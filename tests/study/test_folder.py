@@ -48,7 +48,7 @@ def test_a_plan_comes_back_from_its_folder(tmp_path):
 
 
 @pytest.mark.parametrize("text", ["", "{}", '{"tehl_study": 9}', '{"tehl_study": 1, "plan": {}}'])
-def test_a_damaged_plan_is_told(tmp_path, text):
+def test_a_damaged_plan_is_refused(tmp_path, text):
     (tmp_path / "study.json").write_text(text)
     with pytest.raises(FileFormatError, match=r"study\.json"):
         load_plan(tmp_path)

@@ -15,7 +15,7 @@ import pytest
 
 from tehl.errors import FileFormatError
 from tehl.studies import Store, run, runner, table
-from tehl.studies.engines import engine_of
+from tehl.studies.engines import WorkerDied, engine_of
 from tests.study import mishaps
 from tests.study.contacts import Notes, cases
 
@@ -102,6 +102,23 @@ def test_workers_have_one_thread_and_forked_ones_begin_with_the_solver(forked):
             assert engine.take() == [("threads of server", 1)]
 
 
+def test_a_dead_worker_takes_no_other_task_along():
+    with engine_of(2, 2) as engine:
+        engine.submit("dies", os._exit, 3)
+        engine.submit("stays", time.sleep, 0.3)
+        first, second = engine.take(), engine.take()
+        assert isinstance(dict(first)["dies"], WorkerDied)
+        assert second == [("stays", None)]
+        (idle,) = engine._idle
+        os.kill(idle.process.pid, signal.SIGKILL)
+        idle.process.join()
+        engine.submit("given to a dead one", os.getpid)
+        ((_, died),) = engine.take()
+        assert isinstance(died, WorkerDied)
+        engine.submit("given to a fresh one", abs, -1)
+        assert engine.take() == [("given to a fresh one", 1)]
+
+
 def program(*words: str, **options) -> subprocess.Popen:
     command = [sys.executable, mishaps.__file__, *words]
     environment = os.environ | {"PYTHONPATH": str(Path(__file__).parents[2])}
@@ -127,8 +144,16 @@ def finished(folder: Path) -> int:
     return len(Store(folder).rows(cases(60)))
 
 
-@pytest.mark.parametrize("forked", ["", "forked"])
-@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
+@pytest.mark.parametrize(
+    ("how", "forked"),
+    [
+        (signal.SIGKILL, ""),
+        (signal.SIGKILL, "forked"),
+        (signal.SIGTERM, "forked"),
+        (signal.SIGINT, ""),
+        (signal.SIGINT, "forked"),
+    ],
+)
 def test_a_program_that_is_killed_goes_on_where_it_stopped(tmp_path, undisturbed, how, forked):
     process = program(str(tmp_path), "2", "60", forked, stderr=subprocess.DEVNULL)
     wait_for(lambda: (tmp_path / "rows.sqlite").exists() and finished(tmp_path) >= 4)
@@ -160,7 +185,7 @@ axes = [{ path = "contact.load", linspace = [20, 40, 600] }]
 
 
 @pytest.mark.parametrize("wait", [0.0, 0.3, 1.0])
-def test_ctrl_c_while_workers_begin_is_told_in_one_line(tmp_path, wait):
+def test_ctrl_c_while_workers_start_is_one_line(tmp_path, wait):
     (tmp_path / "s.toml").write_text(STUDY)
     command = [sys.executable, "-m", "tehl", "study", "s.toml", "-o", "out", "--jobs", "2"]
     with subprocess.Popen(
@@ -169,11 +194,11 @@ def test_ctrl_c_while_workers_begin_is_told_in_one_line(tmp_path, wait):
         first = process.stderr.readline()
         time.sleep(wait)
         os.killpg(process.pid, signal.SIGINT)
-        told = process.stderr.read()  # until the last of its processes is gone
+        shown = process.stderr.read()  # until the last of its processes is gone
     assert "600 cases" in first
     assert process.returncode == 130
-    assert told.splitlines()[-1] == "tehl: interrupted"
-    assert "Traceback" not in told
+    assert shown.splitlines()[-1] == "tehl: interrupted"
+    assert "Traceback" not in shown
 
 
 def test_a_full_disk_under_the_rows_ends_the_study_and_keeps_what_is_finished(
@@ -183,9 +208,9 @@ def test_a_full_disk_under_the_rows_ends_the_study_and_keeps_what_is_finished(
         resource.setrlimit(resource.RLIMIT_FSIZE, (40_000, 40_000))
 
     process = program(str(tmp_path), "1", "60", preexec_fn=cramped, stderr=subprocess.PIPE)
-    _, told = process.communicate(timeout=60)
+    _, shown = process.communicate(timeout=60)
     assert process.returncode != 0
-    assert b"OSError" in told
+    assert b"OSError" in shown
     store = Store(tmp_path)
     kept = store.rows(cases(60))
     assert 0 < len(kept) < 60
@@ -196,7 +221,7 @@ def test_a_full_disk_under_the_rows_ends_the_study_and_keeps_what_is_finished(
 
 
 @pytest.mark.parametrize("jobs", [1, 2])
-def test_a_full_disk_under_the_fields_is_no_fault_of_the_case(
+def test_a_full_disk_under_the_fields_does_not_fail_the_case(
     tmp_path, monkeypatch, undisturbed, jobs
 ):
     monkeypatch.setattr(runner, "work", mishaps.full)
@@ -222,7 +247,7 @@ def test_what_killed_workers_left_of_their_files_goes_away(tmp_path, monkeypatch
     assert other.exists()
 
 
-def test_a_script_without_a_guard_is_told_so(tmp_path):
+def test_a_script_without_a_guard_gets_a_hint(tmp_path):
     script = tmp_path / "bare.py"
     script.write_text(
         "from tehl.studies import Store, run\n"
@@ -240,8 +265,8 @@ def test_a_script_without_a_guard_is_told_so(tmp_path):
         check=False,
     )
     assert done.returncode == 1
-    *_, told = (line for line in done.stderr.splitlines() if "Error: " in line)  # workers may
-    assert 'if __name__ == "__main__":' in told  # complain after it of what they leave behind
+    *_, shown = (line for line in done.stderr.splitlines() if "Error: " in line)  # workers may
+    assert 'if __name__ == "__main__":' in shown  # print more after it
 
 
 @ON_LINUX
@@ -254,7 +279,7 @@ def test_a_file_of_the_current_folder_is_not_taken_for_a_library(tmp_path):
 
 
 @pytest.mark.parametrize("content", [b"", b"no store at all, but more than a hundred bytes " * 5])
-def test_a_file_that_is_no_store_is_refused(tmp_path, content):
+def test_a_file_that_is_not_a_store_is_refused(tmp_path, content):
     (tmp_path / "rows.sqlite").write_bytes(content)
     if not content:
         assert Store(tmp_path).rows(cases(1)) == {}  # as SQLite makes it, before anything is in

@@ -37,6 +37,6 @@ def test_the_module_has_the_parts():
         _ = tehl.studies.nonsense
 
 
-def test_an_axis_without_values_is_told():
+def test_an_axis_without_values_is_refused():
     with pytest.raises(InputError, match="empty list"):
         tehl.study(problem(), {"contact.moes_load": []}, QUICK)

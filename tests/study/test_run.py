@@ -208,7 +208,7 @@ def test_numbers_of_heat_and_roughness_are_columns_that_are_known_before(kind, r
 
 
 def test_a_task_keeps_what_is_done_before_its_time_is_over_or_a_file_fails() -> None:
-    """The first case is always solved, or told; the others come back undone."""
+    """The first case is solved, or its error raised; the others come back."""
     task = [(case, (None, None)) for case in cases(3)]
     full = OSError(28, "No space left on device")
 

@@ -1,4 +1,4 @@
-"""Starts from another film: the same answer to the tolerance, and less work where it is near."""
+"""Starts from another film: the same result to the tolerance, and less work where it is near."""
 
 import numpy as np
 import pytest
@@ -24,7 +24,7 @@ def cycles(result) -> int:
 
 
 @pytest.mark.parametrize("load", [20.0, 21.0, 40.0])
-def test_a_guess_changes_the_answer_by_less_than_the_tolerance(load):
+def test_a_guess_changes_the_result_by_less_than_the_tolerance(load):
     first = solve(sliding(0.0), TIGHT)
     cold = solve(sliding(0.1, load), TIGHT)
     warm = solve(sliding(0.1, load), TIGHT, guess=first)

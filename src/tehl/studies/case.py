@@ -103,8 +103,8 @@ class Row:
     key : str
         Of the case.
     status : str
-        As of a result, or ``"bad_input"`` where the solver refused it, or ``"failed"`` where there
-        is no result.
+        As of a result; ``"bad_input"`` where the solver refused the case, ``"failed"`` where it
+        returned nothing.
     cause, message, hint : str or None
         Why it failed, as a word and in sentences; message and hint also of a converged case whose
         minimum film is uncertain.

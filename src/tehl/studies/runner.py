@@ -93,7 +93,7 @@ def run(  # noqa: PLR0913 (keywords with defaults)
     """Solve the cases that the store does not have yet; keep them as tasks are finished.
 
     A task is one case, or several quick ones: 0.2 seconds of solving, on a cluster one second. A
-    failed case is a row with its cause; it is not retried unless asked for.
+    failed case is a row with its cause; it is retried on request only.
 
     Parameters
     ----------
