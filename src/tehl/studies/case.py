@@ -3,6 +3,7 @@
 import hashlib
 import json
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -74,17 +75,11 @@ def _with_contents(value: Any) -> Any:
         return value
     inside = {key: _with_contents(item) for key, item in value.items()}
     if value.get("type") == "map" and isinstance(value.get("file"), str):
-        inside["file"] = _fingerprint(Path(value["file"]).expanduser()) or value["file"]
+        file = Path(value["file"]).expanduser()
+        with suppress(OSError):  # the solver reports a file that cannot be read
+            state = file.stat()
+            inside["file"] = _digest(file, state.st_size, state.st_mtime_ns)
     return inside
-
-
-def _fingerprint(file: Path) -> str | None:
-    """Return the hash of a file, None if it cannot be read."""
-    try:
-        state = file.stat()
-        return _digest(file, state.st_size, state.st_mtime_ns)
-    except OSError:
-        return None
 
 
 @lru_cache(maxsize=256)

@@ -90,15 +90,6 @@ def engine_of(
         Address of a dask scheduler, ``"tcp://host:8786"``; overrides ``jobs``.
     forked : bool
         As in :func:`tehl.studies.run`.
-
-    Raises
-    ------
-    InputError
-        If ``jobs`` is less than one.
-    OSError
-        If no scheduler replies, or its workers have another version of this package.
-    ModuleNotFoundError
-        If dask is not installed.
     """
     if scheduler is not None:
         with _client(scheduler) as client, closing(Cluster(client)) as cluster:

@@ -105,7 +105,7 @@ def plan_of(
     _check_keys(stated, count, unlimited=unlimited)
     blocks = (*listed, *(block_of(group, stated.sample) for group in groups))
     check_axes(blocks)
-    pictures = checked_pictures(stated.pictures, blocks)
+    pictures = checked_pictures(stated.pictures, blocks, folder)
     base, place = _base(stated, folder, overrides)
     return Plan(
         title=stated.title or str(base.get("title", "")),
@@ -116,7 +116,7 @@ def plan_of(
         keep=stated.keep,
         warm_start=stated.warm_start,
         store=None if stated.store is None else folder / stated.store,
-        pictures=tuple(_placed(picture, folder) for picture in pictures),
+        pictures=pictures,
     )
 
 
@@ -149,13 +149,6 @@ def _base(stated: StudyFile, folder: Path, overrides: Sequence[str]) -> tuple[di
     return base, place
 
 
-def _placed(picture: Picture, folder: Path) -> Picture:
-    """Return a picture whose file of measured points lies beside the study."""
-    if picture.overlay is None:
-        return picture
-    return picture.model_copy(update={"overlay": str(folder / picture.overlay)})
-
-
 # ---- messages
 
 _WANTED = {
@@ -166,15 +159,7 @@ _WANTED = {
 
 
 def first_mistake(error: ValidationError, tables: Mapping[str, Any]) -> str:
-    """Return the first mistake of a study in one sentence.
-
-    Parameters
-    ----------
-    error : ValidationError
-        What pydantic found.
-    tables : mapping
-        The study as it was read.
-    """
+    """Return the first mistake that pydantic found in the tables of a study, in one sentence."""
     first = min(error.errors(include_url=False), key=lambda one: one["type"] != "extra_forbidden")
     where = [part for part in first["loc"] if part not in ("str", "dict[str,any]")]
     name, kind = _name(where, tables), first["type"]

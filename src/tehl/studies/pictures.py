@@ -73,8 +73,13 @@ def picture_of(words: str) -> Picture:
         ) from None
 
 
-def checked_pictures(pictures: Sequence[Picture], blocks: Sequence[Block]) -> tuple[Picture, ...]:
-    """Return the pictures, identical ones once; refuse missing columns and files of two."""
+def checked_pictures(
+    pictures: Sequence[Picture], blocks: Sequence[Block], folder: Path
+) -> tuple[Picture, ...]:
+    """Return the pictures of a study, identical ones once, with overlays in its folder.
+
+    Refuses a column that the table will not have, and two pictures with one file.
+    """
     labels = [name for block in blocks for name in block.names]
     numbers: dict[str, int] = {}
     different = tuple(dict.fromkeys(pictures))
@@ -91,7 +96,10 @@ def checked_pictures(pictures: Sequence[Picture], blocks: Sequence[Block]) -> tu
                 'of them a name of its own, file = "other"'
             )
         numbers[file] = number
-    return different
+    return tuple(
+        one.model_copy(update={"overlay": one.overlay and str(folder / one.overlay)})
+        for one in different
+    )
 
 
 def draw(picture: Picture, table: "pd.DataFrame") -> "Figure":

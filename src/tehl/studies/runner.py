@@ -255,7 +255,8 @@ class _Run:
             elif not isinstance(found, WorkerDied):
                 errors.append(found)
             elif self.alone:
-                self._keep(cases, [_died(case) for case in cases])
+                died = Row(key="", status="failed", cause="worker_died", message=_DIED)
+                self._keep(cases, [replace(died, key=case.key) for case in cases])
             else:
                 self.suspects.extend(cases)
         for error in errors:
@@ -272,10 +273,6 @@ class _Run:
             if self.neighbours is not None and row.converged:
                 self.neighbours.add(case)
             self.monitor.finished(case, row)
-
-
-def _died(case: Case) -> Row:
-    return Row(key=case.key, status="failed", cause="worker_died", message=_DIED)
 
 
 def _compile_once(cases: Iterable[Case], monitor: StudyMonitor) -> None:

@@ -15,6 +15,7 @@ from typing import Literal, get_args
 
 from tehl.errors import FileFormatError, InputError
 from tehl.io.atomic import check_place
+from tehl.io.store import load_as
 from tehl.result import Cost, Result
 from tehl.studies.case import Case, Row
 
@@ -124,8 +125,6 @@ class Store:
 
     def result(self, case: Case) -> Result | None:
         """Return the result of a case with all its fields, None when they are not kept."""
-        from tehl.io.store import load_as  # noqa: PLC0415 (rows do without HDF5)
-
         path = self.fields_path(case)
         return load_as(Result, path) if path.is_file() else None
 

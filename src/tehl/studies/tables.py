@@ -105,14 +105,9 @@ def is_number(name: str) -> bool:
 
 
 def missing_column(labels: Iterable[str], name: str) -> str | None:
-    """Return why a table cannot have a column, None where it can.
+    """Return why a table with these axes cannot have a column, None where it can.
 
-    Parameters
-    ----------
-    labels : iterable of str
-        Names of the axes.
-    name : str
-        Of the column as a picture names it: in full or its last part, a minus before it.
+    A picture names the column in full or by its last part, optionally with a minus before it.
     """
     wanted = name.removeprefix("-")
     known = [*labels, *_BUILT_IN, *_NUMBERS]

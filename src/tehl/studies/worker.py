@@ -5,6 +5,7 @@ import signal
 import time
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import replace
 from multiprocessing import parent_process
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
@@ -12,6 +13,7 @@ from threading import Thread
 from typing import Any
 
 from tehl.errors import ConvergenceError, InputError, TehlError
+from tehl.io.store import load
 from tehl.result import Cost, Result
 from tehl.studies.case import Case, Row, row_of
 
@@ -82,47 +84,38 @@ def work(case: Case, fields: Path | None, guess: Path | None = None) -> Row:
     OSError, InputError
         If the fields cannot be written, which is not a fault of the case.
     """
-    start = time.perf_counter(), time.process_time()
+    wall, cpu = time.perf_counter(), time.process_time()
     try:
         result = _solved(case, guess)
         row = row_of(case.key, result)
-    except InputError as error:
-        return _failed(case, start, "bad_input", "bad_input", str(error))
-    except MemoryError:
-        words = "not enough memory: take fewer points or fewer jobs"
-        return _failed(case, start, "failed", "out_of_memory", words)
     except Exception as error:  # an error in one case must not end a thousand
-        return _failed(case, start, "failed", "error", f"{type(error).__name__}: {error}")
+        cost = Cost(cpu_seconds=time.process_time() - cpu, wall_seconds=time.perf_counter() - wall)
+        return replace(_failed(case, error), cost=cost)
     if fields is not None:
         result.save(fields)
     return row
 
 
+def _failed(case: Case, error: Exception) -> Row:
+    status, cause, message = "failed", "error", f"{type(error).__name__}: {error}"
+    if isinstance(error, InputError):
+        status, cause, message = "bad_input", "bad_input", str(error)
+    elif isinstance(error, MemoryError):
+        cause, message = "out_of_memory", "not enough memory: take fewer points or fewer jobs"
+    return Row(key=case.key, status=status, cause=cause, message=" ".join(message.split()))
+
+
 def _solved(case: Case, guess: Path | None) -> Result:
-    """Return the result, converged or not."""
+    """Return the result, converged or not; a guess that cannot be read is ignored."""
     from tehl import solver  # noqa: PLC0415 (reading a store compiles nothing)
 
+    known = None
+    if guess is not None:
+        with suppress(TehlError):
+            known = load(guess)
     try:
         if case.certify:
             return solver.certify(case.problem, case.options)
-        known = None if guess is None else _loaded(guess)
         return solver.solve(case.problem, case.options, guess=known)
     except ConvergenceError as error:
         return error.result
-
-
-def _loaded(guess: Path) -> Result | None:
-    """Return a result to start from, None if its file cannot be read."""
-    from tehl.io.store import load  # noqa: PLC0415 (HDF5, for warm starts only)
-
-    try:
-        return load(guess)
-    except TehlError:
-        return None
-
-
-def _failed(case: Case, start: tuple[float, float], status: str, cause: str, message: str) -> Row:
-    wall, cpu = start
-    cost = Cost(cpu_seconds=time.process_time() - cpu, wall_seconds=time.perf_counter() - wall)
-    message = " ".join(message.split())
-    return Row(key=case.key, status=status, cause=cause, message=message, cost=cost)
