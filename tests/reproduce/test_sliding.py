@@ -5,7 +5,7 @@ import pytest
 from tehl.reproduce.propositions import PROPOSITIONS
 from tehl.reproduce.series import runs_of, series
 from tehl.reproduce.tables import TABLES, asymmetry
-from tehl.studies.work import work
+from tehl.studies.worker import work
 
 
 def film_of(name, treatment, heat, ratio):
