@@ -331,7 +331,7 @@ WRONG = {
         STUDY.replace("ball.toml", "bell.toml"),
         "bell.toml: case file does not exist",
     ),
-    "no case": (STUDY.replace('case = "ball.toml"', ""), "case is missing: give the base case"),
+    "no case": (STUDY.replace('case = "ball.toml"', ""), "case is missing; give the base case"),
     "unknown path": (
         STUDY.replace("contact.load", "contact.lod"),
         "contact.lod is not a known key",
@@ -346,11 +346,11 @@ WRONG = {
     "two ways": (STUDY + "linspace = [0, 1, 3]", "states values and linspace"),
     "unknown key": (
         STUDY + "valeus = [1]",
-        "axes[2].valeus (contact.slide_roll_ratio) is not a key",
+        "axes[2].valeus (contact.slide_roll_ratio) is not a known key",
     ),
     "typo on top": (
         "certfy = true\n" + STUDY,
-        "certfy is not a key of a study: did you mean certify",
+        "certfy is not a known key; did you mean certify",
     ),
     "twice": (STUDY.replace("slide_roll_ratio", "load"), "two axes with the path contact.load"),
     "no sample": (STUDY.replace("values = [0.0", "uniform = [0.0"), "is sampled, but there is no"),
@@ -368,7 +368,7 @@ WRONG = {
     "impossible": (STUDY.replace("20 N", "-20 N"), "must be positive"),
     "no toml": ("case = ", "is not valid TOML"),
     "a picture": (STUDY + '[[pictures]]\nx = "load"', "pictures[1] needs x and y, or map"),
-    "a case": (CASE, "is a case file: tehl solve takes it"),
+    "a case": (CASE, "is a case file: solve it with tehl solve"),
     "a table and its key": (
         STUDY.replace("contact.slide_roll_ratio", "contact").replace("[0.0, 0.5]", "[{}]"),
         "has an axis contact and an axis contact.load, which is a key of it",
@@ -390,8 +390,8 @@ WRONG = {
     ),
     "one bracket": ('case = "ball.toml"\n[axes]\npath = "contact.load"', "write [[axes]], with"),
     "one bracket twice": (STUDY.replace("[[axes]]", "[axes]"), "twice: write [[axes]], with two"),
-    "a word for true": ('certify = "yes"\n' + STUDY, "certify = 'yes' must be true or false"),
-    "a number for true": ("certify = 1\n" + STUDY, "certify = 1 must be true or false"),
+    "a word for true": ('certify = "yes"\n' + STUDY, 'certify = "yes": must be true or false'),
+    "a number for true": ("certify = 1\n" + STUDY, "certify = 1: must be true or false"),
     "a value twice": (STUDY.replace("[0.0,", "[0.5,"), "has the value 0.5 twice: give each once"),
     "one value often": (STUDY.replace("80 N", "20 N"), "has the value 20 N 4 times: give two"),
     "a name twice": (STUDY + 'names = ["a", "a"]', 'has the name "a" twice: give each once'),

@@ -9,12 +9,15 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import typer
+from rich import box
+from rich.console import Console, Group
+from rich.live import Live
+from rich.markup import escape
+from rich.progress import BarColumn, Progress, TextColumn
+from rich.progress_bar import ProgressBar
+from rich.table import Table
 
 if TYPE_CHECKING:
-    from rich.live import Live
-    from rich.progress import Progress
-    from rich.table import Table
-
     from tehl.result import CycleReport
     from tehl.scaling import Scales
     from tehl.solver.monitor import Monitor, StepMonitor
@@ -100,9 +103,6 @@ def _monitor(shown: Callable[..., Any], *, quiet: bool, coupled: bool) -> Iterat
     if not _is_terminal():
         yield shown(None)
         return
-    from rich.console import Console
-    from rich.live import Live
-
     console = Console(stderr=True)
     with Live(console=console, auto_refresh=False, vertical_overflow="visible") as live:
         yield shown(live)
@@ -118,9 +118,6 @@ def study_progress(*, quiet: bool) -> Iterator["StudyMonitor"]:
     elif not _is_terminal():
         yield StudyProgress(None)
     else:
-        from rich.console import Console
-        from rich.progress import BarColumn, Progress, TextColumn
-
         columns = (BarColumn(bar_width=20), TextColumn("{task.description}"))
         with Progress(*columns, console=Console(stderr=True), refresh_per_second=4) as bar:
             yield StudyProgress(bar)
@@ -157,11 +154,7 @@ class _Shown:
         widths = (width for width, _ in self._columns.values())
         self.message(" ".join(f"{c:>{width}}" for c, width in zip(cells, widths, strict=True)))
 
-    def _table(self) -> "Table":
-        from rich import box
-        from rich.markup import escape
-        from rich.table import Table
-
+    def _table(self) -> Table:
         table = Table(box=box.SIMPLE_HEAD, padding=0, show_edge=False)
         for name, (width, _) in self._columns.items():
             table.add_column(escape(name), justify="right", min_width=width)
@@ -171,7 +164,7 @@ class _Shown:
 class CycleProgress(_Shown):
     """The monitor of a steady solve."""
 
-    def __init__(self, live: "Live | None", *, thermal: bool = False) -> None:
+    def __init__(self, live: Live | None, *, thermal: bool = False) -> None:
         super().__init__(live, {k: v for k, v in _CYCLE.items() if thermal or k != _HEAT})
         self._rows = None if live is None else self._table()
         self._grid: tuple[int, int] | None = None
@@ -193,7 +186,7 @@ class CycleProgress(_Shown):
 class StepProgress(_Shown):
     """The monitor of a transient run."""
 
-    def __init__(self, live: "Live | None", units: "Scales") -> None:
+    def __init__(self, live: Live | None, units: "Scales") -> None:
         super().__init__(live, _STEP)
         self._units = units
         self._rows: deque[list[str]] = deque(maxlen=_ROWS)
@@ -232,9 +225,6 @@ class StepProgress(_Shown):
         self._part = part
 
     def _show(self, report: "StepReport") -> None:
-        from rich.console import Group
-        from rich.progress_bar import ProgressBar
-
         table = self._table()
         for row in self._rows:
             table.add_row(*row)
@@ -260,7 +250,7 @@ class StudyProgress(_Shown):
         Cases: all, finished before, finished now, and failed now.
     """
 
-    def __init__(self, bar: "Progress | None", clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(self, bar: Progress | None, clock: Callable[[], float] = time.monotonic) -> None:
         super().__init__(bar, {})
         self.total = self.reused = self.done = self.failed = 0
         self._clock = clock

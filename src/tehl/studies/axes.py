@@ -57,7 +57,7 @@ class Axis(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    path: Annotated[str, Field(min_length=1)]
+    path: str
     name: str | None = None
     values: list[Any] | None = None
     names: list[str] | None = None
@@ -85,7 +85,7 @@ class Axis(BaseModel):
             self.settings(np.zeros(0))
         except ValueError as error:
             kind = stated[0]
-            raise ValueError(f"{kind} = {list(getattr(self, kind))} {error}") from None
+            raise ValueError(f"{kind} = {list(getattr(self, kind))}: {error}") from None
         if self.zip is None:  # zipped values may repeat, beside others
             self._check_repeated()
         return self

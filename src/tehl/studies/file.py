@@ -1,7 +1,6 @@
 """Study files: TOML in, a plan out; every mistake is one sentence before any work."""
 
 import copy
-import difflib
 import math
 import re
 from collections.abc import Mapping, Sequence
@@ -13,6 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field, StrictBool, ValidationError
 from tehl.errors import InputError
 from tehl.io.atomic import shortened
 from tehl.io.case import change, toml_tables
+from tehl.io.mistakes import describe, short
 from tehl.studies.axes import Axis, Sample
 from tehl.studies.blocks import block_of, block_of_file, check_axes, count_of, groups_of
 from tehl.studies.pictures import Picture, checked_pictures
@@ -70,13 +70,23 @@ def read_study(path: str | Path, overrides: Sequence[str] = (), *, unlimited: bo
 
 
 def _study_tables(path: Path) -> dict[str, Any]:
+    """Return the tables of a file; explain one bracket for two, and a case for a study."""
     try:
-        return toml_tables(path)
+        tables = toml_tables(path)
     except InputError as error:
         message = str(error).replace("case file", "study file")
-        again = re.search(r"Cannot declare \('(axes|pictures)',\) twice", message)
-        hint = f": write [[{again[1]}]], with two brackets" if again else ""
-        raise InputError(f"{message}{hint}") from None
+        once = re.search(r"Cannot declare \('(axes|pictures)',\) twice", message)
+        raise InputError(message + (f": {_brackets(once[1])}" if once else "")) from None
+    for key in ("axes", "pictures"):
+        if isinstance(tables.get(key), dict):
+            raise InputError(f"{key} must be a list of tables: {_brackets(key)}")
+    if "contact" in tables:
+        raise InputError("is a case file: solve it with tehl solve, or name it as case = ...")
+    return tables
+
+
+def _brackets(key: str) -> str:
+    return f"write [[{key}]], with two brackets"
 
 
 def plan_of(
@@ -149,52 +159,25 @@ def _base(stated: StudyFile, folder: Path, overrides: Sequence[str]) -> tuple[di
     return base, place
 
 
-# ---- messages
-
-_WANTED = {
-    "case": ': give the base case, case = "case.toml" or a table [case]',
-    "path": ': give the path of the case that the axis varies, path = "contact.load"',
-    "number": ": give the number of points, number = 100",
+_NEEDED = {
+    "case": '; give the base case, case = "case.toml" or a table [case]',
+    "path": '; give the path of the case that the axis varies, path = "contact.load"',
+    "number": "; give the number of points, number = 100",
 }
+"""What to give for a key that is missing."""
 
 
 def first_mistake(error: ValidationError, tables: Mapping[str, Any]) -> str:
     """Return the first mistake that pydantic found in the tables of a study, in one sentence."""
-    first = min(error.errors(include_url=False), key=lambda one: one["type"] != "extra_forbidden")
-    where = [part for part in first["loc"] if part not in ("str", "dict[str,any]")]
-    name, kind = _name(where, tables), first["type"]
-    if kind == "extra_forbidden":
-        if where == ["contact"]:
-            return "is a case file: tehl solve takes it; a study has it as its base, case = ..."
-        return f"{name} is not a key of a study: {_near(where)}"
-    if kind == "missing":
-        return f"{name} is missing{_WANTED.get(str(where[-1]), '')}"
-    message = first["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
-    if kind == "value_error":
-        return f"{name} {message}"
-    if kind == "list_type" and where in (["axes"], ["pictures"]):
-        return f"{name} must be a list of tables: write [[{name}]], with two brackets"
-    if kind == "bool_type":
-        message = "must be true or false"
-    shown = repr(first["input"])
-    return f"{name} = {shown if len(shown) <= 60 else f'{shown[:57]}...'} {message}"
-
-
-def _name(where: Sequence[int | str], tables: Mapping[str, Any]) -> str:
-    """Return a key path, counted from 1, with the path of the axis that it belongs to."""
-    words = [f"[{part + 1}]" if isinstance(part, int) else f".{part}" for part in where]
-    name = "".join(words).lstrip(".")
-    axes = tables.get("axes")
-    if isinstance(axes, list) and len(where) > 1 and where[0] == "axes":
-        axis = axes[int(where[1])]
-        if isinstance(axis, Mapping) and isinstance(axis.get("path"), str):
-            return f"{name} ({axis['path'][:60]})"
-    return name
-
-
-def _near(where: Sequence[int | str]) -> str:
-    models: dict[str, type[BaseModel]] = {"axes": Axis, "sample": Sample, "pictures": Picture}
-    model = models.get(str(where[0]), StudyFile) if len(where) > 1 else StudyFile
-    known = list(model.model_fields)
-    close = difflib.get_close_matches(str(where[-1]), known, n=1, cutoff=0.55)
-    return f"did you mean {close[0]}?" if close else f"known are {', '.join(known)}"
+    sentence = describe(error, tables, StudyFile).replace("a boolean", "true or false")
+    missing = [key for key in _NEEDED if sentence.endswith(f"{key} is missing")]
+    place = re.match(r"(axes|pictures)\.(\d+)(\S*)", sentence)
+    if place is None:
+        return sentence + "".join(_NEEDED[key] for key in missing)
+    kind, number, rest = place[1], int(place[2]), sentence[place.end() :]
+    table = tables[kind][number]
+    path = table.get("path") if isinstance(table, Mapping) else None
+    if "space" in place[3]:
+        rest = rest.replace("two numbers", "first, last and number")
+    name = f"{kind}[{number + 1}]{place[3]}{f' ({short(str(path))})' if path else ''}"
+    return name + rest + "".join(_NEEDED[key] for key in missing)

@@ -13,7 +13,7 @@ from threading import Thread
 from typing import Any
 
 from tehl.errors import ConvergenceError, InputError, TehlError
-from tehl.io.store import load
+from tehl.io.store import load_as
 from tehl.result import Cost, Result
 from tehl.studies.case import Case, Row, row_of
 
@@ -112,7 +112,7 @@ def _solved(case: Case, guess: Path | None) -> Result:
     known = None
     if guess is not None:
         with suppress(TehlError):
-            known = load(guess)
+            known = load_as(Result, guess)
     try:
         if case.certify:
             return solver.certify(case.problem, case.options)

@@ -1,0 +1,284 @@
+"""One job of ``tehl study``: the forecast, the run, what is written and printed."""
+
+import json
+import logging
+import os
+import shlex
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from contextlib import closing, contextmanager, suppress
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import typer
+
+from tehl.cli.progress import SHOWN, duration, study_progress
+from tehl.errors import InputError
+from tehl.io.atomic import check_place, shortened
+from tehl.studies.case import Row
+from tehl.studies.file import read_study
+from tehl.studies.folder import (
+    LOCK,
+    PLAN,
+    TABLE,
+    check_can_write,
+    check_same,
+    load_plan,
+    locked,
+    remove_outcome,
+    save_plan,
+    store_of,
+    write_table,
+)
+from tehl.studies.forecast import check_memory_of, forecast
+from tehl.studies.pictures import Picture, picture_of, save
+from tehl.studies.plan import Plan, Study, study_of
+from tehl.studies.runner import Outcome
+from tehl.studies.runner import run as solve
+from tehl.studies.tables import OPEN, table
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Written = dict[str, list[str]]
+"""Names of files by their kind."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class StudyJob:
+    """Arguments of the command."""
+
+    source: Path
+    output: Path | None
+    jobs: str | None
+    scheduler: str | None
+    overrides: list[str]
+    dry_run: bool
+    retry_failed: bool
+    replace: bool
+    table_only: bool
+    plots: list[str]
+    unlimited: bool
+    as_json: bool
+    quiet: bool
+
+
+def run(job: StudyJob) -> bool:
+    """Do what the arguments state; return whether no case failed.
+
+    Raises
+    ------
+    InputError
+        If study, folder or arguments are invalid; nothing is solved then.
+    OSError
+        If the folder is in use or not writable, or no worker starts; finished cases are kept.
+    """
+    workers, pictures = _workers(job.jobs), [picture_of(words) for words in job.plots]
+    plan, folder = _plan(job)
+    _check_folder(folder, job.source)
+    study = _study(plan, job.source)
+    show_only = job.table_only or bool(pictures)
+    if show_only or not job.replace:
+        check_same(plan, folder)
+    if job.dry_run:
+        _show_forecast(study, folder, workers, as_json=job.as_json)
+        return True
+    if show_only:
+        return _show_finished(study, folder, pictures, job)
+    with _locked(folder):
+        outcome = _solved(study, folder, workers, job)
+        written = _write(_table(study, folder), folder, plan.pictures)
+    _show_outcome(outcome, written, as_json=job.as_json)
+    return not outcome.failed
+
+
+def _workers(jobs: str | None) -> int:
+    """Return the number of processes: as stated, or one per core of this process."""
+    if jobs is not None:
+        number = int(jobs) if jobs.isascii() and jobs.isdigit() and len(jobs) < 7 else 0
+        if number < 1:
+            raise InputError(f"--jobs {jobs[:40]} must be a whole number of processes, 1 or more")
+        return number
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    return max(1, cores or 1)
+
+
+def _plan(job: StudyJob) -> tuple[Plan, Path]:
+    """Return the plan and the folder of the study."""
+    source, output = job.source, job.output
+    if not source.is_dir():
+        folder = Path(source.stem) if output is None else output
+        return read_study(source, job.overrides, unlimited=job.unlimited), folder
+    if output is not None or job.overrides:
+        raise InputError(
+            f"{source} is the folder of a study that is planned already: -o and --set go with a "
+            "study file"
+        )
+    return load_plan(source), source
+
+
+def _study(plan: Plan, source: Path) -> Study:
+    """Return all cases, checked."""
+    try:
+        return study_of(plan)
+    except InputError as error:
+        raise InputError(f"{shortened(source)}: {error}") from None
+
+
+def _check_folder(folder: Path, source: Path) -> None:
+    """Refuse a folder with a table or fields of something else."""
+    check_place(folder)
+    if folder.is_dir() and not (folder / PLAN).exists() and folder != source:
+        foreign = [path.name for path in folder.iterdir() if path.name in (TABLE, "fields")]
+        if foreign:
+            raise InputError(
+                f"the folder {folder} has a {foreign[0]} that is not of a study: take another -o"
+            )
+
+
+@contextmanager
+def _locked(folder: Path) -> Iterator[None]:
+    """Make the folder and keep other runs out of it; remove it if nothing came of it."""
+    check_can_write(folder)
+    missing = [place for place in (folder, *folder.parents) if not place.exists()]
+    folder.mkdir(parents=True, exist_ok=True)
+    with locked(folder):
+        try:
+            yield
+        finally:
+            if missing and {path.name for path in folder.iterdir()} <= {LOCK}:
+                (folder / LOCK).unlink(missing_ok=True)
+                for place in missing:
+                    with suppress(OSError):
+                        place.rmdir()
+
+
+def _solved(study: Study, folder: Path, workers: int, job: StudyJob) -> Outcome:
+    """Solve what is not finished; on an interrupt show how to continue."""
+    plan = study.plan
+    with closing(store_of(plan, folder)) as store:
+        _check_resources(study, store.finished(study.cases), workers, job.scheduler)
+        if job.replace:
+            remove_outcome(folder)
+        else:
+            check_same(plan, folder)  # again, now that the folder is locked
+        is_new = save_plan(plan, folder)
+        try:
+            with study_progress(quiet=job.quiet) as monitor:
+                return solve(
+                    study.cases,
+                    store,
+                    jobs=workers,
+                    scheduler=job.scheduler,
+                    retry_failed=job.retry_failed,
+                    warm_start=plan.warm_start,
+                    forked=True,
+                    monitor=monitor,
+                )
+        except (KeyboardInterrupt, SystemExit, OSError):
+            if store.exists:
+                scheduler = () if job.scheduler is None else ("--scheduler", job.scheduler)
+                again = shlex.join(["tehl", "study", str(folder), *scheduler])
+                typer.echo(f"tehl: finished cases are kept; continue with: {again}", err=True)
+            elif is_new:
+                (folder / PLAN).unlink()
+            raise
+
+
+def _check_resources(
+    study: Study, finished: Mapping[str, Row], workers: int, scheduler: str | None
+) -> None:
+    """Refuse workers that do not fit into the memory of this machine."""
+    if scheduler is None:
+        check_memory_of(forecast(study.cases, finished, jobs=workers, fields=False), workers)
+    else:
+        logging.disable()  # dask's own reports of a lost scheduler; ours is one sentence
+
+
+def _table(study: Study, folder: Path) -> "pd.DataFrame":
+    """Return the table of what is finished."""
+    with closing(store_of(study.plan, folder)) as store:
+        return table(study.cases, store, study.units)
+
+
+def _write(frame: "pd.DataFrame", folder: Path, pictures: tuple[Picture, ...]) -> Written:
+    """Write table and pictures; return the files by kind. A picture that fails is a warning."""
+    written: Written = {"table": [str(path) for path in write_table(frame, folder)], "pictures": []}
+    for picture in pictures:
+        try:
+            written["pictures"].append(str(save(picture, frame, folder)))
+        except InputError as error:
+            typer.echo(f"tehl: picture {Path(picture.file_name).stem}: {error}", err=True)
+    return written
+
+
+def _show_finished(study: Study, folder: Path, pictures: list[Picture], job: StudyJob) -> bool:
+    """Draw pictures of what is finished, write its table if stated; return whether none failed."""
+    frame = _table(study, folder)
+    if (frame["status"] == OPEN).all():
+        raise InputError(f"no case of the study is finished yet in {folder}")
+    check_can_write(folder)
+    files = [str(save(one, frame, folder)) for one in pictures]
+    if job.table_only:
+        written = _write(frame, folder, study.plan.pictures)
+        files += [*written["table"], *written["pictures"]]
+    counts = {str(key): int(n) for key, n in frame["status"].value_counts().items()}
+    found = {"cases": len(frame), "status": counts, "files": files}
+    typer.echo(json.dumps(found) if job.as_json else "\n".join(files))
+    return not (job.table_only and counts.keys() - {"converged", OPEN})
+
+
+def _show_forecast(study: Study, folder: Path, workers: int, *, as_json: bool) -> None:
+    cases, plan = study.cases, study.plan
+    with closing(store_of(plan, folder)) as store:
+        finished = store.finished(cases)
+    found = forecast(cases, finished, jobs=workers, fields=plan.keep == "fields")
+    if as_json:
+        typer.echo(json.dumps(asdict(found) | {"jobs": workers}))
+        return
+    cpu, wall = duration(found.cpu_seconds), duration(found.wall_seconds)
+    typer.echo(plan.title or "Study")
+    typer.echo(f"  cases         {found.cases}, from {cases[0].name} to {cases[-1].name}")
+    typer.echo(f"  to be solved  {found.open}")
+    typer.echo(f"  time          about {wall} on {workers} cores, {cpu} of computing")
+    typer.echo(f"  disk          about {found.disk_bytes / 1e6:.3g} MB in {folder}")
+    typer.echo(f"  memory        about {found.memory_bytes / 1e6:.3g} MB besides the program")
+
+
+def _show_outcome(outcome: Outcome, written: Written, *, as_json: bool) -> None:
+    if as_json:
+        words = ("status", "cause", "message", "hint")
+        failed = [
+            {"name": case.name} | {key: getattr(row, key) for key in words}
+            for case, row in outcome.failed
+        ]
+        found = {
+            "status": "not_converged" if failed else "converged",
+            "cases": outcome.total,
+            "reused": outcome.reused,
+            "converged": outcome.converged,
+            "failed": failed,
+            "cpu_seconds": outcome.cpu_seconds,
+            "wall_seconds": outcome.wall_seconds,
+        }
+        typer.echo(json.dumps(found | written))
+        return
+    typer.echo(
+        f"{outcome.converged} of {outcome.total} cases converged, {outcome.reused} were finished "
+        f"before; {duration(outcome.wall_seconds)}"
+    )
+    if outcome.uncertain:
+        typer.echo(
+            f"  {outcome.uncertain} of them with an uncertain minimum film: see the messages in "
+            "the table"
+        )
+    for case, row in outcome.failed[:SHOWN]:
+        typer.echo(f"  failed: {case.name}: {row.message or row.cause}")
+    if len(outcome.failed) > SHOWN:
+        typer.echo(f"  and {len(outcome.failed) - SHOWN} more, see the table")
+    hints = Counter(row.hint for _, row in outcome.failed if row.hint)
+    for hint, count in hints.most_common(SHOWN):
+        typer.echo(f"  hint: {hint}" if count == 1 else f"  hint for {count} of them: {hint}")
+    for path in (*written["table"], *written["pictures"]):
+        typer.echo(f"written: {path}", err=True)
