@@ -89,7 +89,10 @@ def run(job: StudyJob) -> bool:
     with _locked(folder):
         outcome = _solved(study, folder, workers, job)
         written = _write(_table(study, folder), folder, plan.pictures)
-    _show_outcome(outcome, written, as_json=job.as_json)
+    if job.as_json:
+        typer.echo(_outcome_as_json(outcome, written))
+    else:
+        _show_outcome(outcome, written)
     return not outcome.failed
 
 
@@ -246,24 +249,25 @@ def _show_forecast(study: Study, folder: Path, workers: int, *, as_json: bool) -
     typer.echo(f"  memory        about {found.memory_bytes / 1e6:.3g} MB besides the program")
 
 
-def _show_outcome(outcome: Outcome, written: Written, *, as_json: bool) -> None:
-    if as_json:
-        words = ("status", "cause", "message", "hint")
-        failed = [
-            {"name": case.name} | {key: getattr(row, key) for key in words}
-            for case, row in outcome.failed
-        ]
-        found = {
-            "status": "not_converged" if failed else "converged",
-            "cases": outcome.total,
-            "reused": outcome.reused,
-            "converged": outcome.converged,
-            "failed": failed,
-            "cpu_seconds": outcome.cpu_seconds,
-            "wall_seconds": outcome.wall_seconds,
-        }
-        typer.echo(json.dumps(found | written))
-        return
+def _outcome_as_json(outcome: Outcome, written: Written) -> str:
+    words = ("status", "cause", "message", "hint")
+    failed = [
+        {"name": case.name} | {key: getattr(row, key) for key in words}
+        for case, row in outcome.failed
+    ]
+    found = {
+        "status": "not_converged" if failed else "converged",
+        "cases": outcome.total,
+        "reused": outcome.reused,
+        "converged": outcome.converged,
+        "failed": failed,
+        "cpu_seconds": outcome.cpu_seconds,
+        "wall_seconds": outcome.wall_seconds,
+    }
+    return json.dumps(found | written)
+
+
+def _show_outcome(outcome: Outcome, written: Written) -> None:
     typer.echo(
         f"{outcome.converged} of {outcome.total} cases converged, {outcome.reused} were finished "
         f"before; {duration(outcome.wall_seconds)}"
