@@ -395,7 +395,7 @@ WRONG = {
     "a value twice": (STUDY.replace("[0.0,", "[0.5,"), "has the value 0.5 twice: give each once"),
     "one value often": (STUDY.replace("80 N", "20 N"), "has the value 20 N 4 times: give two"),
     "a name twice": (STUDY + 'names = ["a", "a"]', 'has the name "a" twice: give each once'),
-    "no list": ('cases = "none.csv"\ncase = "ball.toml"', "there is no list of cases none.csv"),
+    "no list": ('cases = "none.csv"\ncase = "ball.toml"', "list of cases none.csv does not exist"),
 }
 
 
@@ -467,7 +467,10 @@ def test_many_cases_can_be_meant(folder, run):
         (["out", "--plot", "x=load"], "is not a picture"),
         (["out", "--plot", "x=load,y=h_mn_m"], "has no column h_mn_m"),
         (["out", "--plot", "color=load"], "is not part of a picture"),
-        (["out", "--plot", "x=load,y=h_min_m,overlay=no.csv"], "no file of measured points"),
+        (
+            ["out", "--plot", "x=load,y=h_min_m,overlay=no.csv"],
+            "file of measured points no.csv does not exist",
+        ),
         (["loads.toml", "-o", "fresh", "--table"], "no case of the study is finished"),
     ],
 )

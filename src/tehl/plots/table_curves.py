@@ -172,7 +172,7 @@ def _points(path: Path) -> "pd.DataFrame":
             raise InputError(f"{path} is larger than 10 MB, so not a list of measured points")
         points = pd.read_csv(path, skipinitialspace=True)
     except FileNotFoundError:
-        raise InputError(f"there is no file of measured points {path}") from None
+        raise InputError(f"file of measured points {path} does not exist") from None
     except (OSError, ValueError) as error:
         reason = str(error).partition("\n")[0]
         raise InputError(f"{path} cannot be read as measured points: {reason}") from None

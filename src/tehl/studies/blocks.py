@@ -116,7 +116,7 @@ def _lines(path: Path, shown: str) -> list[list[str]]:
             reader = csv.reader(file)
             lines = [(reader.line_num, [cell.strip() for cell in line]) for line in reader]
     except FileNotFoundError:
-        raise InputError(f"there is no list of cases {shown}") from None
+        raise InputError(f"list of cases {shown} does not exist") from None
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{shown} cannot be read as a list of cases: {error}") from None
     lines = [(number, line) for number, line in lines if any(line)]

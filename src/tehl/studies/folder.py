@@ -69,7 +69,7 @@ def save_plan(plan: Plan, folder: Path) -> bool:
     content = {"tehl_study": _FORMAT, "plan": TypeAdapter(Plan).dump_python(plan, mode="json")}
     path, text = folder / PLAN, json.dumps(content, default=str, indent=1)
     is_first = not path.is_file()
-    if is_first or path.read_bytes() != text.encode():  # a study goes on in a full folder
+    if is_first or path.read_bytes() != text.encode():  # a study continues in a full folder
         with replacing(path) as temporary:
             temporary.write_text(text, encoding="utf-8")
     return is_first
