@@ -18,7 +18,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 import tehl
-from tehl.film_formulas import thermal_loading
+from tehl.inlet_heating import thermal_loading
 from tehl.post.thermal_effect import ThermalEffect, isothermal_reference, thermal_effect
 
 SPEEDS = (1.0, 2.0, 4.0, 8.0, 16.0)

@@ -1,4 +1,4 @@
-"""Domain and points: what is proposed, and what is refused."""
+"""Domain and grid: proposed values, and invalid ones."""
 
 import pytest
 from hypothesis import given
@@ -19,31 +19,31 @@ from tests.reference import moes_contact
         ((-4.5, 1.5), (-3.0, 0.5)),
     ],
 )
-def test_a_domain_that_cuts_the_contact_is_refused(x, y):
+def test_a_domain_that_cuts_the_contact_is_rejected(x, y):
     with pytest.raises(ValidationError, match="cuts the contact"):
         Domain(x=x, y=y)
 
 
 @pytest.mark.parametrize("edge", [float("nan"), float("inf")])
-def test_a_domain_without_end_is_refused(edge):
+def test_an_infinite_domain_is_rejected(edge):
     with pytest.raises(ValidationError, match="two finite numbers"):
         Domain(x=(-4.5, edge), y=(-3.0, 3.0))
 
 
 @pytest.mark.parametrize("points", [67, 130, 200, (129, 131)])
-def test_points_that_cannot_be_coarsened_are_refused_with_two_that_can(points):
+def test_points_that_cannot_be_coarsened_are_rejected_with_two_that_can(points):
     with pytest.raises(ValidationError, match=r"such as (\d+) or (\d+) nodes"):
         Options(points=points)
 
 
 @pytest.mark.parametrize("points", [0, -129, 16, 100_001])
-def test_points_out_of_range_are_refused(points):
+def test_points_out_of_range_are_rejected(points):
     with pytest.raises(ValidationError):
         Options(points=points)
 
 
 @given(st.integers(17, 5000))
-def test_the_nodes_proposed_in_place_of_others_can_be_coarsened(nodes):
+def test_the_proposed_nodes_can_be_coarsened(nodes):
     fewer, more = coarsenable(nodes)
     assert fewer <= max(nodes, 33) < more
     assert coarsenings(fewer) >= 1
@@ -51,7 +51,7 @@ def test_the_nodes_proposed_in_place_of_others_can_be_coarsened(nodes):
 
 
 @pytest.mark.parametrize("load", [0.5, 5.0, 20.0, 200.0, 2000.0])
-def test_the_proposed_domain_has_the_centre_on_every_grid(load):
+def test_the_centre_is_a_node_of_every_grid_of_the_proposed_domain(load):
     domain = recommended_domain(groups(moes_contact(load, 10.0)))
     (left, right), (south, north) = domain.x, domain.y
     assert -left / (right - left) * 16 == pytest.approx(round(-left / (right - left) * 16))

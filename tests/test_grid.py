@@ -38,7 +38,7 @@ def test_each_grid_keeps_every_second_node_of_the_finer_one(nx, ny):
 
 
 @given(COARSENABLE, COARSENABLE)
-def test_a_mirrored_hierarchy_has_a_row_on_the_axis_everywhere(nx, ny):
+def test_every_mirrored_grid_has_a_row_on_the_axis(nx, ny):
     for level in hierarchy(grid(nx, ny)):
         assert (level.ny - 1) % 2 == 0
         assert level.shape[0] == (level.ny - 1) // 2 + 1

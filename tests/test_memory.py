@@ -1,4 +1,4 @@
-"""Memory of a solve against memory that there is."""
+"""Memory that a solve needs against memory that is available."""
 
 import pytest
 
@@ -7,7 +7,7 @@ from tehl.memory import available_memory, check_memory, needed_memory
 from tehl.options import Options
 
 
-def test_the_machine_tells_its_memory():
+def test_the_memory_of_the_machine_is_found():
     available = available_memory()
     assert available is not None
     assert 1e7 < available < 1e15
@@ -19,30 +19,30 @@ def test_needed_memory_grows_with_the_nodes():
 
 
 @pytest.mark.parametrize("available", [None, 1e12])
-def test_a_grid_that_fits_or_may_fit_is_let_run(monkeypatch, available):
+def test_a_grid_that_fits_or_may_fit_is_accepted(monkeypatch, available):
     monkeypatch.setattr("tehl.memory.available_memory", lambda: available)
     check_memory(Options(points=16385))
 
 
-def test_a_grid_that_cannot_fit_is_refused_with_one_that_does(monkeypatch):
+def test_a_grid_that_does_not_fit_is_rejected_with_one_that_does(monkeypatch):
     monkeypatch.setattr("tehl.memory.available_memory", lambda: 2e9)
-    with pytest.raises(InputError, match=r"points = 16385 x 16385 .* 48 GB .* take 3329 or fewer"):
+    with pytest.raises(InputError, match=r"points = 16385 x 16385: .* 48 GB .* take 3329 or fewer"):
         check_memory(Options(points=16385))
     check_memory(Options(points=3329))
 
 
-def test_without_any_memory_no_grid_is_proposed(monkeypatch):
+def test_no_grid_is_proposed_if_none_fits(monkeypatch):
     monkeypatch.setattr("tehl.memory.available_memory", lambda: 1e4)
     with pytest.raises(InputError, match=r"are available$"):
         check_memory(Options(points=513))
 
 
-def test_small_grids_do_not_ask(monkeypatch):
-    monkeypatch.setattr("tehl.memory.available_memory", lambda: pytest.fail("asked"))
+def test_small_grids_are_not_checked(monkeypatch):
+    monkeypatch.setattr("tehl.memory.available_memory", lambda: pytest.fail("checked"))
     check_memory(Options(points=257))
 
 
-def test_limits_of_a_container_count(monkeypatch, tmp_path):
+def test_the_limit_of_a_container_counts(monkeypatch, tmp_path):
     (tmp_path / "max").write_text("1000000\n")
     monkeypatch.setattr("tehl.memory._LIMITS", (str(tmp_path / "max"), str(tmp_path / "none")))
     assert available_memory() == 1e6

@@ -13,29 +13,29 @@ from tehl.scaling import ScaledProblem, Scales
 from tehl.transient import Transient
 
 MOST_STEPS = 20_000
-"""Steps that nobody asks for by accident."""
+"""Number of steps beyond which a stated duration is taken for a mistake."""
 BEYOND = 1.5
-"""How far downstream of the centre the middle of what is passing has passed [a_x]."""
+"""Distance downstream of the centre at which the middle of a feature has passed [a_x]."""
 PERIODS = 2.5
-"""Wavelengths of a harmonic surface that pass the centre, so that a fit in time has two of them."""
+"""Wavelengths of a harmonic surface that pass the centre, so that a fit over time has two."""
 LONGEST = 6.0
-"""Longest wave along x that is waited for [a_x]: longer ones tilt the surfaces as a whole."""
+"""Longest wave along x that a run waits for [a_x]: longer ones tilt the surfaces as a whole."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Part:
-    """One of the things that a surface carries.
+    """A rough component of a surface, and its motion.
 
     Attributes
     ----------
     surface : {"surface_1", "surface_2"}
-        Whose it is.
+        The surface that carries it.
     roughness : Roughness
         Its heights.
     speed : float
         [m/s].
     extent : ((float, float), (float, float))
-        Where it is along x and y at time zero, between y = -a_y and a_y [m].
+        Its edges along x and y at time zero, between y = -a_y and a_y [m].
     """
 
     surface: str
@@ -45,46 +45,53 @@ class Part:
 
     @property
     def is_endless(self) -> bool:
-        """Whether it is rough wherever one goes along x: it has to come in at the inlet."""
+        """Whether it extends without end along x, and so enters at the inlet."""
         return math.isinf(self.extent[0][0])
 
     @property
     def ends(self) -> tuple[float, float]:
-        """Return how far its ends are downstream of the centre, hind and front one [m].
-
-        Downstream is where the part goes.
-        """
+        """Rear and front end along its own motion, from the centre of the contact [m]."""
         first, last = self.extent[0]
         return (first, last) if self.speed >= 0 else (-last, -first)
 
-    def passing(self, units: Scales, transient: Transient) -> float:
-        """Return how long it takes to come, pass and be gone [s]; what it lets in passes too."""
+    def passing_time(self, units: Scales, transient: Transient) -> float:
+        """Return the time in which it, and the film that it lets in, pass the contact [s]."""
         width = units.half_width_x
         distance = max(transient.entrance + BEYOND, self._waves(width, transient)) * width
         if not self.is_endless:
             distance = max(distance, width - self.ends[0])
-        # what a surface lets in at the inlet travels at the mean speed, however fast the surface is
+        # the film that a surface lets in at the inlet travels at the mean speed
         return distance / min(abs(self.speed), units.speed)
 
     def _waves(self, width: float, transient: Transient) -> float:
-        """Return how far a harmonic surface goes until whole waves have passed the centre [a_x]."""
+        """Return the distance in which `PERIODS` of a harmonic surface pass the centre [a_x]."""
         if not isinstance(self.roughness, HarmonicModel):
             return 0.0
         wave = self.roughness.shortest_wavelengths[0] / width
         if not wave <= LONGEST:
             return 0.0
         front = transient.entrance if transient.start == "smooth" else 0.0
-        return front + min(wave, 0.5 * front) + PERIODS * wave  # it fades in over the second
+        return front + min(wave, 0.5 * front) + PERIODS * wave  # the second term is its fade-in
 
     def is_in_contact(self, units: Scales, seconds: float, entrance: float | None) -> bool:
-        """Whether some of it is in the contact within ``seconds``, come in from the entrance."""
+        """Whether some of it is in the contact within ``seconds``.
+
+        Parameters
+        ----------
+        units : Scales
+            Half-widths of the contact.
+        seconds : float
+            Time since the start [s].
+        entrance : float or None
+            Distance upstream at which endless parts start [a_x]; None if they start everywhere.
+        """
         first, last = self.extent[1]
         beside = first > units.half_width_y or last < -units.half_width_y
-        hind, front = self.ends
+        rear, front = self.ends
         if self.is_endless and entrance is not None:
             front = -entrance * units.half_width_x
         width = units.half_width_x
-        return not beside and hind < width and front + abs(self.speed) * seconds > -width
+        return not beside and rear < width and front + abs(self.speed) * seconds > -width
 
 
 def parts_of(scaled: ScaledProblem) -> Iterator[Part]:
@@ -99,20 +106,15 @@ def parts_of(scaled: ScaledProblem) -> Iterator[Part]:
 
 
 def components(roughness: OneRoughness | Sum) -> tuple[OneRoughness, ...]:
-    """Return what a surface is the sum of, without what is smooth."""
+    """Return the rough terms of a sum of surfaces."""
     parts = roughness.parts if isinstance(roughness, Sum) else (roughness,)
     return tuple(part for part in parts if not part.is_smooth)
 
 
 def misplaced(scaled: ScaledProblem, seconds: float) -> str | None:
-    """Return why roughness cannot come into the contact as stated, None if it can.
+    """Return why the roughness never enters the contact, or starts inside it; None if it is fine.
 
-    Parameters
-    ----------
-    scaled : ScaledProblem
-        With a ``transient`` table.
-    seconds : float
-        Duration of the run [s].
+    ``seconds`` is the duration of the run [s].
     """
     problem, units = scaled.problem, scaled.scales
     transient = problem.transient
@@ -123,64 +125,64 @@ def misplaced(scaled: ScaledProblem, seconds: float) -> str | None:
     for part in parts if entrance is not None else ():
         if part.is_endless and part.speed == 0:
             return (
-                f"{part.surface} stands still, so its roughness never comes in: let "
-                'transient.start be "standing"'
+                f"{part.surface}.roughness: never enters the contact, as the surface stands still; "
+                'set transient.start = "standing"'
             )
         if not part.is_endless and part.is_in_contact(units, 0.0, entrance):
-            return _there_already(part, units)
+            return _starts_inside(part, units)
     if any(part.is_in_contact(units, seconds, entrance) for part in parts):
         return None
     return (
-        f"the roughness of the surfaces does not come into the contact within {seconds:.3g} s: "
-        f"look at its place (x, y){_and_duration(problem)}"
+        f"roughness: does not enter the contact within {seconds:.3g} s; check its position "
+        f"(x, y){_and_duration(problem)}"
     )
 
 
 def _and_duration(problem: ContactProblem) -> str:
     stated = problem.transient is not None and problem.transient.duration is not None
-    return " and at transient.duration" if stated else ""
+    return " and transient.duration" if stated else ""
 
 
-def _there_already(part: Part, units: Scales) -> str:
-    """Return the sentence on a feature that would appear in the contact at once."""
+def _starts_inside(part: Part, units: Scales) -> str:
+    """Return the message on a feature that would appear in the contact at once."""
     kind = getattr(part.roughness, "type", "roughness")
-    remedy = 'let transient.start be "standing"'
+    remedy = 'set transient.start = "standing"'
     if part.speed != 0:
         back = math.copysign(1.001 * (part.ends[1] + units.half_width_x), part.speed)
         place = 1e6 * (getattr(part.roughness, "x", 0.0) - back)
-        remedy += f", or put it upstream, at x = {place:.4g} um or farther"
+        remedy += f", or place it upstream, at x = {place:.4g} um or farther"
     return (
-        f"the {kind} of {part.surface} is in the contact at time zero, where the film is still "
-        f"that of smooth surfaces: {remedy}"
+        f"{part.surface}.roughness: the {kind} is in the contact at time zero, where the film is "
+        f"still that of smooth surfaces; {remedy}"
     )
 
 
 def duration_of(scaled: ScaledProblem) -> float:
-    """Return how long the run lasts [s]: as stated, or until what moves has passed the contact."""
+    """Return the duration of the run [s]: as stated, or until all that moves has passed."""
     transient, units = scaled.problem.transient, scaled.scales
     if transient is None:
         return 0.0
     if transient.duration is not None:
         return transient.duration
     moving = (part for part in parts_of(scaled) if part.speed != 0)
-    passing = max((part.passing(units, transient) for part in moving), default=0.0)
+    passing = max((part.passing_time(units, transient) for part in moving), default=0.0)
     loaded = max((time for time, _ in transient.load), default=0.0)
     return max(passing, loaded, units.half_width_x / units.speed)
 
 
 def number_of_steps(scaled: ScaledProblem, seconds: float) -> int:
-    """Return the steps of ``seconds`` until the end of the question.
+    """Return the number of time steps of ``seconds`` in the run.
 
     Raises
     ------
     InputError
-        If there are more than anybody wants.
+        If it exceeds `MOST_STEPS`.
     """
     duration = duration_of(scaled)
     steps = duration / seconds
     if not steps <= MOST_STEPS:
         raise InputError(
-            f"transient.duration = {duration:g} s takes {steps:.6g} steps of {seconds:.3g} s, more "
-            f"than {MOST_STEPS}: give a shorter one, or a larger transient.stride"
+            f"transient.duration = {duration:g} s: takes {steps:.6g} steps of {seconds:.3g} s, "
+            f"more than {MOST_STEPS}; give a shorter one, or a larger transient.stride"
         )
     return math.ceil(steps * (1.0 - 1e-9))

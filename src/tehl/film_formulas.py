@@ -1,7 +1,7 @@
-"""Film thickness by published formulas: the first guess of the solver and the check of its answer.
+"""Film thickness by published formulas: initial guess of the solver, comparison with its result.
 
-All take the groups of :mod:`tehl.scaling`: mean speed in U, both built on R_x. A film is given as
-``H = h R_x / a_x^2`` and in metres.
+All take the groups of :mod:`tehl.scaling`, with the mean speed in U and R_x in both U and W. Films
+are ``H = h R_x / a_x^2`` and metres.
 
 References
 ----------
@@ -9,18 +9,13 @@ References
 .. [2] R. J. Chittenden, D. Dowson, J. F. Dunn and C. M. Taylor, Proc. R. Soc. A 397 (1985),
    245-294.
 .. [3] G. Nijenbanning, C. H. Venner and H. Moes, Wear 176 (1994), 217-229.
-.. [4] W. R. D. Wilson and S. Sheu, J. Lubrication Technology 105 (1983), 187-188.
-.. [5] L. E. Murch and W. R. D. Wilson, J. Lubrication Technology 97 (1975), 212-216.
-.. [6] P. K. Gupta, H. S. Cheng, D. Zhu, N. H. Forster and J. B. Schrand, Tribology Transactions 35
-   (1992), 621-626.
 """
 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
-from tehl.problem import ContactProblem
 from tehl.scaling import Groups, ScaledProblem, Scales
 
 Regime = Literal[
@@ -29,44 +24,19 @@ Regime = Literal[
 
 
 WIDE, SLENDER = 0.7, 1.4
-"""R_x/R_y up to and from which a contact is no circle to the formulas for the minimum film.
+"""R_x/R_y below and above which the formulas for the minimum film lose accuracy.
 
-Against solves at L = 10 (mineral oil, steel) both are 0 to 5 % off at R_x/R_y = 0.2 and M = 50 to
-150, 13 % too thick at 0.4 and M = 300, and up to 6 % too thin for an incompressible Barus liquid at
-0.5 and M = 50. At R_x/R_y = 2 and M = 150 they are 50 % too thick.
+Compared with solves at L = 10 (mineral oil, steel) they are within 0 to 5 % at R_x/R_y = 0.2 and
+M = 50 to 150, 13 % too thick at 0.4 and M = 300, up to 6 % too thin for an incompressible Barus
+liquid at 0.5 and M = 50, and 50 % too thick at R_x/R_y = 2 and M = 150.
 """
-
 ROLLING = 0.05
 """Slide-roll ratio up to which a contact counts as pure rolling."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Range:
-    """Range of one group over which a formula holds, or over which it was compared with solves.
-
-    Attributes
-    ----------
-    group : str
-        Field of :class:`tehl.scaling.Groups`.
-    low, high : float
-        Limits, both included.
-    """
-
-    group: str
-    low: float
-    high: float
-
-    def remark(self, groups: Groups) -> str | None:
-        """Return what is wrong in a sentence, None inside the range."""
-        value = getattr(groups, self.group)
-        if self.low * (1 - 1e-9) <= value <= self.high * (1 + 1e-9):
-            return None
-        return f"{self.group} = {value:.4g} is outside {self.low:g} to {self.high:g}"
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
 class FilmRatio:
-    """What a formula gives: film over R_x; ``minimum`` None where the formula has none."""
+    """Film over R_x by a formula; ``minimum`` is None if the formula has none."""
 
     central: float
     minimum: float | None
@@ -74,28 +44,27 @@ class FilmRatio:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Formula:
-    """A film formula with where it holds.
+    """A film formula and its range of validity.
 
     Attributes
     ----------
     name, source : str
-        Authors, and where it was published.
+        Authors, and publication.
     film : callable
         From groups to :class:`FilmRatio`.
+    limits : (str, float, float)
+        Field of :class:`tehl.scaling.Groups`, its least and its largest value.
     regimes : tuple of str
-        Regimes it was made for.
-    ranges : tuple of Range
-        Groups it was made for.
+        Regimes for which it was derived.
     minimum_limit : float
-        Moes load above which its minimum film is known to be too thick, for contacts that are not
-        wide.
+        Moes load above which its minimum film is known to be too thick, except in wide contacts.
     """
 
     name: str
     source: str
     film: Callable[[Groups], FilmRatio]
-    regimes: tuple[Regime, ...]
-    ranges: tuple[Range, ...]
+    limits: tuple[str, float, float]
+    regimes: tuple[Regime, ...] = ("elastic-piezoviscous",)
     minimum_limit: float = math.inf
 
 
@@ -106,15 +75,15 @@ class FilmEstimate:
     Attributes
     ----------
     formula, source : str
-        Which.
+        Authors, and publication.
     central, minimum : float
-        H [-]; ``minimum`` is None where the formula has none.
+        H [-]; ``minimum`` is None if the formula has none.
     central_m, minimum_m : float
         The same in metres.
     remarks : tuple of str
-        Why both values may be off; empty inside the range of the formula.
+        Limits of validity that the contact exceeds.
     minimum_remark : str or None
-        Why the minimum may be off though the central film is not.
+        Limit of the minimum film only.
     """
 
     formula: str
@@ -128,7 +97,7 @@ class FilmEstimate:
 
     @property
     def valid(self) -> bool:
-        """Whether the formula was made for this contact."""
+        """Whether the contact is within the range of the formula."""
         return not self.remarks
 
 
@@ -174,7 +143,7 @@ def chittenden(groups: Groups) -> FilmRatio:
 
 
 def asymptotes(groups: Groups) -> Asymptotes:
-    """Return the four limits of [3]_, and the film without load."""
+    """Return the four limits of Nijenbanning, Venner and Moes [3]_, and the film without load."""
     load, speed, d = groups.M, groups.L, groups.radius_ratio
     shape = 1.0 + 0.006 * math.log(d) + 0.63 * d ** (4 / 7)
     return Asymptotes(
@@ -191,7 +160,7 @@ def asymptotes(groups: Groups) -> Asymptotes:
 
 
 def nijenbanning_venner_moes(groups: Groups) -> FilmRatio:
-    """Return the central film of Nijenbanning, Venner and Moes [3]_, which spans all regimes."""
+    """Return the central film of Nijenbanning, Venner and Moes [3]_, which covers all regimes."""
     limits = asymptotes(groups)
     isoviscous, piezoviscous = _isoviscous(limits), _piezoviscous(limits)
     s = 1.5
@@ -216,7 +185,7 @@ def _piezoviscous(limits: Asymptotes) -> float:
 
 
 def expected_central_film(groups: Groups) -> float:
-    """Return the central film H to expect, from Nijenbanning, Venner and Moes [-]."""
+    """Return the central film H by the formula of Nijenbanning, Venner and Moes [3]_ [-]."""
     return nijenbanning_venner_moes(groups).central / hertz_ratio_squared(groups)
 
 
@@ -243,35 +212,28 @@ FORMULAS = (
         name="Nijenbanning-Venner-Moes",
         source="Wear 176 (1994) 217-229",
         film=nijenbanning_venner_moes,
-        regimes=(
-            "rigid-isoviscous",
-            "elastic-isoviscous",
-            "rigid-piezoviscous",
-            "elastic-piezoviscous",
-        ),
-        ranges=(Range(group="radius_ratio", low=0.04, high=1.0),),
+        limits=("radius_ratio", 0.04, 1.0),
+        regimes=get_args(Regime),
     ),
     Formula(
         name="Hamrock-Dowson",
         source="J. Lubrication Technology 99 (1977) 264-276",
         film=hamrock_dowson,
-        regimes=("elastic-piezoviscous",),
-        ranges=(Range(group="ellipticity", low=1.0, high=8.0),),
+        limits=("ellipticity", 1.0, 8.0),
         minimum_limit=100.0,
     ),
     Formula(
         name="Chittenden",
         source="Proc. R. Soc. A 397 (1985) 245-294",
         film=chittenden,
-        regimes=("elastic-piezoviscous",),
-        ranges=(Range(group="radius_ratio", low=0.1, high=10.0),),
+        limits=("radius_ratio", 0.1, 10.0),
         minimum_limit=100.0,
     ),
 )
 
 
 def film_estimates(groups: Groups, scales: Scales) -> tuple[FilmEstimate, ...]:
-    """Return what each formula gives for a contact, with what speaks against believing it."""
+    """Return the film of a contact by each formula, with remarks on its validity."""
     return tuple(_estimate(formula, groups, scales) for formula in FORMULAS)
 
 
@@ -292,10 +254,12 @@ def _estimate(formula: Formula, groups: Groups, scales: Scales) -> FilmEstimate:
 
 
 def _remarks(formula: Formula, groups: Groups) -> tuple[str, ...]:
-    remarks = [remark for limits in formula.ranges if (remark := limits.remark(groups))]
-    here = regime(groups)
+    (name, low, high), here, remarks = formula.limits, regime(groups), []
+    value = getattr(groups, name)
+    if not low * (1 - 1e-9) <= value <= high * (1 + 1e-9):
+        remarks.append(f"{name} = {value:.4g} is outside {low:g} to {high:g}")
     if here not in formula.regimes:
-        remarks.append(f"made for {' and '.join(formula.regimes)}, this contact is {here}")
+        remarks.append(f"valid for {' and '.join(formula.regimes)}, this contact is {here}")
     return tuple(remarks)
 
 
@@ -303,105 +267,8 @@ def _minimum_remark(formula: Formula, groups: Groups) -> str | None:
     if math.isinf(formula.minimum_limit):
         return None
     if groups.radius_ratio < WIDE:
-        return "the minimum may be wrong by several percent, either way, in so wide a contact"
+        return "the minimum may be several percent too thick or too thin in a contact this wide"
     if not formula.minimum_limit < groups.M:
         return None
     how = " and much too thick in slender contacts" if groups.radius_ratio > SLENDER else ""
     return f"the minimum is too thick for M above {formula.minimum_limit:g}{how}"
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class InletFactor:
-    """By how much shear heating of the inlet thins the film, by one formula.
-
-    Attributes
-    ----------
-    formula, source : str
-        Which.
-    factor : float
-        Film over the isothermal film [-].
-    remarks : tuple of str
-        Why it may be off; empty where the formula was made for.
-    """
-
-    formula: str
-    source: str
-    factor: float
-    remarks: tuple[str, ...]
-
-
-def thermal_loading(problem: ContactProblem) -> float | None:
-    """Return the thermal loading parameter ``eta_0 b u_m^2 / k`` [-], at the inlet.
-
-    Returns
-    -------
-    float or None
-        With b the fall of ln eta with temperature; None where the case states no conductivity or
-        no temperature coefficient of the oil.
-    """
-    coefficient, conductivity = (
-        problem.temperature_coefficient,
-        problem.lubricant.ambient_conductivity,
-    )
-    if conductivity is None or not coefficient > 0:
-        return None
-    return problem.ambient_viscosity * coefficient * problem.entrainment_speed**2 / conductivity
-
-
-def murch_wilson(loading: float) -> float:
-    """Return the factor of Murch and Wilson [5]_ on the film of pure rolling [-]."""
-    return 1.0 / (1.0 + 0.254 * loading**0.62)
-
-
-def wilson_sheu(loading: float, slide_roll_ratio: float) -> float:
-    """Return the factor of Wilson and Sheu [4]_ on the film of rolling and sliding [-]."""
-    slip = 0.5 * abs(slide_roll_ratio)
-    return 1.0 / (1.0 + 0.241 * (1.0 + 14.8 * slip**0.83) * loading**0.64)
-
-
-def gupta(loading: float, slide_roll_ratio: float, relative_pressure: float) -> float:
-    """Return the factor of Gupta and others [6]_ [-], with p_h / E' as ``relative_pressure``."""
-    compressed = max(1.0 - 13.2 * relative_pressure * loading**0.42, 0.0)
-    sliding = 1.0 + 2.23 * abs(slide_roll_ratio) ** 0.83
-    return compressed / (1.0 + 0.213 * sliding * loading**0.64)
-
-
-def inlet_factors(problem: ContactProblem) -> tuple[InletFactor, ...]:
-    """Return what each formula says of the heat of the inlet; nothing where they lack a property.
-
-    They are fits to rolling contacts with moderate sliding; 10 to 15 % is all they promise.
-    """
-    loading = thermal_loading(problem)
-    if loading is None:
-        return ()
-    slip = problem.slide_roll_ratio
-    squeezed = problem.hertz.pressure / problem.reduced_modulus
-    sliding = "made for pure rolling" if abs(slip) > ROLLING else ""
-    opposite = "made for surfaces that move in one direction" if abs(slip) > 2 else ""
-    much = f"the part 13.2 p_h/E' L^0.42 = {13.2 * squeezed * loading**0.42:.2g} is no small one"
-    large = much if 13.2 * squeezed * loading**0.42 > 0.5 else ""
-    found = (
-        ("Murch-Wilson", "J. Lubrication Technology 97 (1975) 212-216", murch_wilson(loading)),
-        ("Wilson-Sheu", "J. Lubrication Technology 105 (1983) 187-188", wilson_sheu(loading, slip)),
-        ("Gupta", "Tribology Transactions 35 (1992) 621-626", gupta(loading, slip, squeezed)),
-    )
-    doubts = ((sliding,), (opposite,), (opposite, large))
-    return tuple(
-        InletFactor(formula=name, source=source, factor=factor, remarks=tuple(filter(None, doubt)))
-        for (name, source, factor), doubt in zip(found, doubts, strict=True)
-    )
-
-
-def inlet_heating_factor(problem: ContactProblem) -> float | None:
-    """Return by how much shear heating of the inlet thins the film, after Wilson and Sheu [4]_.
-
-    Returns
-    -------
-    float or None
-        Factor on the isothermal film [-]; None where the case states no conductivity or no
-        temperature coefficient of the oil, or surfaces that move in opposite directions.
-    """
-    loading = thermal_loading(problem)
-    if loading is None or abs(problem.slide_roll_ratio) > 2.0:
-        return None
-    return wilson_sheu(loading, problem.slide_roll_ratio)

@@ -1,4 +1,4 @@
-"""Grids: nodes on a rectangle, the last index along x; a hierarchy by halving."""
+"""Uniform grids, axis 0 along y and axis 1 along x, and their hierarchy by halving."""
 
 from dataclasses import dataclass, replace
 
@@ -10,7 +10,7 @@ from tehl.typing import Array
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Grid:
-    """Uniform nodes on a rectangle, or on its upper half when the contact is symmetric in y.
+    """Uniform nodes on a rectangle, or on its upper half if the contact is symmetric in y.
 
     Attributes
     ----------
@@ -19,7 +19,7 @@ class Grid:
     domain : Domain
         In Hertz half-widths.
     mirror : bool
-        Only y >= 0 is held; row 0 is the symmetry line.
+        Only y >= 0 is stored; row 0 is the symmetry line.
     """
 
     nx: int
@@ -39,7 +39,7 @@ class Grid:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Rows and columns that are held."""
+        """Stored rows and columns."""
         return (self.ny // 2 + 1 if self.mirror else self.ny), self.nx
 
     @property
@@ -49,7 +49,7 @@ class Grid:
 
     @property
     def y(self) -> Array:
-        """Coordinates of the rows that are held."""
+        """Coordinates of the stored rows."""
         start = 0.0 if self.mirror else self.domain.y[0]
         return start + self.dy * np.arange(float(self.shape[0]))
 
@@ -62,14 +62,17 @@ class Grid:
         return replace(self, nx=self.nx // 2 + 1, ny=self.ny // 2 + 1)
 
     def can_coarsen(self) -> bool:
-        """Whether both directions halve to 16 intervals or more, and the halves still mirror."""
+        """Whether both directions halve to 16 intervals or more, and the half domain still can."""
         intervals = (self.nx - 1, self.ny - 1)
         even = all(n % 2 == 0 and n // 2 >= 16 for n in intervals)
         return even and not (self.mirror and (self.ny - 1) // 2 % 2)
 
 
 def can_mirror(shape: tuple[int, int], domain: Domain) -> bool:
-    """Whether the upper half alone can be held on every grid down to the coarsest."""
+    """Whether every grid of the hierarchy can store the upper half of ``domain`` only.
+
+    ``shape`` is (ny, nx) of the finest grid; y = 0 must be a row of the coarsest one too.
+    """
     ny, nx = shape
     while (ny - 1) % 2 == 0 and (nx - 1) % 2 == 0 and min(nx, ny) - 1 >= 32:
         nx, ny = nx // 2 + 1, ny // 2 + 1

@@ -1,4 +1,4 @@
-"""Memory that a solve takes, and memory that there is."""
+"""Memory that a solve needs, and memory that is available."""
 
 import os
 from pathlib import Path
@@ -8,17 +8,15 @@ from tehl.options import Options, coarsenable
 from tehl.problem import ContactProblem
 
 BYTES_PER_NODE = 180
-"""Peak memory of a solve by node of the finest full grid, measured; a guide."""
+"""Measured peak memory of an isothermal Newtonian solve per node of the finest full grid."""
+BYTES_COUPLED, BYTES_PER_LAYER = 270, 10
+"""Added by heat or shear thinning: per node, and per node and layer across the film."""
+USUAL_LAYERS = 9
+NEGLIGIBLE = 16e6
+"""Need that any machine running Python can satisfy [byte]: available memory is not checked."""
 
 _LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
-"""Where a container says how much it may take; what it uses holds caches, so it tells nothing."""
-
-
-BYTES_PER_LAYER, BYTES_COUPLED = 10, 270
-"""More of them in a heated or shear-thinning film: per node and layer, and per node."""
-USUAL_LAYERS = 9
-ANYWHERE = 16e6
-"""What a machine that runs Python at all has to spare [byte]; no need to ask it."""
+"""Memory limit of a container. Its usage is not read: it counts caches that can be dropped."""
 
 
 def needed_memory(options: Options, problem: ContactProblem | None = None) -> float:
@@ -35,42 +33,34 @@ def _bytes_per_node(problem: ContactProblem | None) -> float:
 
 
 def available_memory() -> float | None:
-    """Return the memory that can still be taken [byte], None where the system does not tell."""
+    """Return the memory available to this process [byte], None where the system does not say."""
     known = [number for number in (_of_machine(), *map(_of_container, _LIMITS)) if number]
     return min(known, default=None)
 
 
 def check_memory(options: Options, problem: ContactProblem | None = None) -> None:
-    """Refuse a grid that cannot fit into the memory.
-
-    Parameters
-    ----------
-    options : Options
-        With the nodes of the finest grid.
-    problem : ContactProblem or None
-        What is solved; None for an isothermal film.
+    """Check that the finest grid fits into the available memory.
 
     Raises
     ------
     InputError
-        If the estimate exceeds what any machine has and the memory that there is; the message names
-        a grid that fits.
+        If the estimated need exceeds the available memory; the message names a grid that fits.
     """
     needed = needed_memory(options, problem)
-    available = available_memory() if needed > ANYWHERE else None
+    available = available_memory() if needed > NEGLIGIBLE else None
     if available is None or needed <= available:
         return
     largest = int((available / _bytes_per_node(problem)) ** 0.5)
-    fitting = f": take {coarsenable(largest)[0]} or fewer" if largest > 33 else ""
+    fitting = f"; take {coarsenable(largest)[0]} or fewer" if largest > 33 else ""
     nodes_y, nodes_x = options.shape
     raise InputError(
-        f"numerics.points = {nodes_x} x {nodes_y} nodes takes about {needed / 1e9:.2g} GB of "
-        f"memory, and {available / 1e9:.2g} GB are available{fitting}"
+        f"numerics.points = {nodes_x} x {nodes_y}: needs about {needed / 1e9:.2g} GB of memory, "
+        f"but {available / 1e9:.2g} GB are available{fitting}"
     )
 
 
 def _of_machine() -> float | None:
-    """Return the memory that no process holds, caches counted as free [byte]."""
+    """Return the free memory of the machine, caches counted as free [byte]."""
     try:
         lines = Path("/proc/meminfo").read_text(encoding="ascii").splitlines()
         facts = dict(line.split(":", 1) for line in lines if ":" in line)

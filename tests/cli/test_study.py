@@ -386,7 +386,7 @@ WRONG = {
     ),
     "too few to certify": (
         "certify = true\n" + STUDY + '[[axes]]\npath = "numerics.points"\nvalues = [129, 65]',
-        "case 2 of 16: points = 65 is too few to certify",
+        "case 2 of 16: numerics.points = 65: too few to certify",
     ),
     "one bracket": ('case = "ball.toml"\n[axes]\npath = "contact.load"', "write [[axes]], with"),
     "one bracket twice": (STUDY.replace("[[axes]]", "[axes]"), "twice: write [[axes]], with two"),

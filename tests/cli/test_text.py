@@ -5,8 +5,8 @@ from dataclasses import replace
 
 from tehl.cli.reference_runs import Comparisons
 from tehl.cli.text import as_text, failure_text
-from tehl.film_formulas import InletFactor
 from tehl.heat import Thermal
+from tehl.inlet_heating import InletFactor
 from tehl.post.micro_film import roughness_effect
 from tehl.post.roughness import rough_film
 from tehl.post.thermal_effect import ThermalEffect

@@ -5,7 +5,8 @@ from typing import Any
 
 import pytest
 
-from tehl.film_formulas import expected_film, inlet_heating_factor
+from tehl.film_formulas import expected_film
+from tehl.inlet_heating import inlet_heating_factor
 from tehl.problem import ContactProblem
 from tehl.report.expected_heat import (
     ASSUMED_TRACTION,

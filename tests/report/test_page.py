@@ -5,7 +5,7 @@ from html.parser import HTMLParser
 
 import pytest
 
-from tehl.film_formulas import InletFactor
+from tehl.inlet_heating import InletFactor
 from tehl.post.micro_film import roughness_effect
 from tehl.post.passing_wave import passing_wave
 from tehl.post.thermal_effect import ThermalEffect

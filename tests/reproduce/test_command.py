@@ -22,7 +22,7 @@ def told(*arguments, folder):
     [
         (["--only", "T9"], "T9 is no table, figure or statement"),
         (["--only", "T2,Z1"], "Z1 is no table, figure or statement"),
-        (["--points", "66", "--only", "T1"], "points = 66 cannot be coarsened"),
+        (["--points", "66", "--only", "T1"], "points = 66: cannot be coarsened"),
     ],
 )
 def test_bad_input_is_one_sentence_and_writes_nothing(tmp_path, arguments, words):

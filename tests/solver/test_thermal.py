@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tehl.fields import FilmHeat
-from tehl.film_formulas import inlet_factors
+from tehl.inlet_heating import inlet_factors
 from tehl.problem import ContactProblem
 from tehl.result import Result
 from tehl.solver import solve

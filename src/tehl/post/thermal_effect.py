@@ -5,7 +5,7 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 from tehl.errors import InputError
-from tehl.film_formulas import InletFactor, inlet_factors
+from tehl.inlet_heating import InletFactor, inlet_factors
 from tehl.problem import ContactProblem
 
 if TYPE_CHECKING:

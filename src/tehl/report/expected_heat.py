@@ -25,8 +25,9 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from tehl.film_formulas import expected_film, inlet_heating_factor
+from tehl.film_formulas import expected_film
 from tehl.heat import FilmEnergy
+from tehl.inlet_heating import inlet_heating_factor
 from tehl.post.thermal_effect import isothermal_reference
 from tehl.problem import ContactProblem
 from tehl.scaling import Groups, ScaledProblem

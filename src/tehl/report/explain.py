@@ -7,16 +7,13 @@ from typing import Any
 from tehl.domain import needed_points, recommended_domain
 from tehl.film_formulas import (
     FilmEstimate,
-    InletFactor,
     Regime,
     expected_film,
     film_estimates,
-    inlet_factors,
-    inlet_heating_factor,
     regime,
-    thermal_loading,
 )
 from tehl.heat import FilmEnergy, source_form
+from tehl.inlet_heating import InletFactor, inlet_factors, inlet_heating_factor, thermal_loading
 from tehl.memory import needed_memory
 from tehl.options import Domain, Options, coarsenable
 from tehl.problem import ContactProblem

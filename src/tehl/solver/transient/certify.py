@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tehl.errors import ConvergenceError, InputError
-from tehl.options import Options, can_be_halved, check_certifiable_transient
+from tehl.options import Options, can_be_halved, check_certifiable
 from tehl.problem import ContactProblem
 from tehl.result import Cost, Estimate, Status
 from tehl.solver.certify import (
@@ -62,7 +62,7 @@ def certify_transient(
         When the question cannot be followed in time, or the grid cannot be halved.
     """
     options = options or Options()
-    check_certifiable_transient(options)
+    check_certifiable(options, transient=True)
     monitor.message(f"certify: {nodes_of(options)} nodes, as asked")
     # first, as only this run tells whether the question can be answered at all
     finest = solve_transient(problem, options, monitor=monitor)
