@@ -1,4 +1,4 @@
-"""Deflection: FFT and multilevel sum against the sum by definition, and against Hertz."""
+"""Deflection by FFT, lines and multilevel sum against the direct sum, and against Hertz."""
 
 import numpy as np
 import pytest
@@ -22,8 +22,8 @@ from tests.reference import DOMAIN, read
 
 WIDE = Domain(x=(-4.0, 4.0), y=(-4.0, 4.0))
 MULTILEVEL_ERROR = 3e-4
-"""Of the largest deflection, everywhere and on any grid; the discretisation error of a film of 0.1
-is above 1e-3 on grids as coarse as these. Patches of 8 x 2 leave 2e-5 (257^2) to 2e-4 (49 x 33)."""
+"""Largest error over the largest deflection; the discretisation error of a film of 0.1 exceeds 1e-3
+on these coarse grids. Patches of 8 x 2 leave 2e-5 (257^2) to 2e-4 (49 x 33)."""
 SHAPES = [(33, 33), (49, 33), (33, 65), (41, 57)]
 
 
@@ -50,7 +50,7 @@ def zero_on_edges(field: Array, *, mirror: bool) -> Array:
 @pytest.mark.parametrize("ratio", [1.0, 3.0])
 @pytest.mark.parametrize("mirror", [True, False])
 @pytest.mark.parametrize(("nx", "ny"), SHAPES)
-def test_a_transform_is_the_sum_by_definition(nx, ny, mirror, ratio, name):
+def test_a_sum_by_transforms_equals_the_direct_sum(nx, ny, mirror, ratio, name):
     grid = grid_of(nx, ny, mirror=mirror)
     pressure = zero_on_edges(np.random.default_rng(nx + ny).random(grid.shape), mirror=mirror)
     exact = deflection("direct", grid, pressure, ratio)
@@ -61,7 +61,7 @@ def test_a_transform_is_the_sum_by_definition(nx, ny, mirror, ratio, name):
 @pytest.mark.parametrize("ratio", [0.1, 0.5, 1.0, 3.0, 100.0])
 @pytest.mark.parametrize("mirror", [True, False])
 @pytest.mark.parametrize(("nx", "ny"), SHAPES)
-def test_the_multilevel_sum_of_hertz_pressure_is_close_to_the_exact_one(nx, ny, mirror, ratio):
+def test_the_multilevel_sum_of_the_hertz_pressure_is_close_to_the_direct_sum(nx, ny, mirror, ratio):
     grid = grid_of(nx, ny, mirror=mirror)
     pressure = hertz_pressure(grid)
     exact = deflection("direct", grid, pressure, ratio)
@@ -71,7 +71,7 @@ def test_the_multilevel_sum_of_hertz_pressure_is_close_to_the_exact_one(nx, ny, 
 
 @settings(max_examples=20, deadline=None)
 @given(st.integers(0, 2**32 - 1), st.booleans())
-def test_the_multilevel_sum_of_any_pressure_is_close_to_the_exact_one(seed, mirror):
+def test_the_multilevel_sum_of_any_pressure_is_close_to_the_exact_sum(seed, mirror):
     grid = grid_of(41, 41, mirror=mirror)
     pressure = zero_on_edges(np.random.default_rng(seed).random(grid.shape), mirror=mirror)
     exact = deflection("fft", grid, pressure)
@@ -79,13 +79,13 @@ def test_the_multilevel_sum_of_any_pressure_is_close_to_the_exact_one(seed, mirr
     assert error < MULTILEVEL_ERROR * exact.max()
 
 
-def test_the_multilevel_sum_stays_as_good_on_a_fine_grid():
+def test_the_multilevel_sum_is_as_accurate_on_a_fine_grid():
     grid = grid_of(257, 257, mirror=True, domain=DOMAIN)
     pressure = hertz_pressure(grid)
     exact = deflection("fft", grid, pressure)
     error = deflection("mlmi", grid, pressure) - exact
     inside = grid.x[None, :] ** 2 + grid.y[:, None] ** 2 < 1.0
-    # the film of M = 100, L = 12 is off by 1e-3 on this grid: a tenth of that would do
+    # the film of M = 100, L = 12 has an error of 1e-3 on this grid; a tenth of that suffices
     assert np.sqrt(np.mean(error[inside] ** 2)) < 2e-5
     assert np.abs(error).max() < 5e-5
 
@@ -145,11 +145,11 @@ def test_the_dry_gap_vanishes_in_a_contact_of_any_ellipticity(ratio):
         (257, False, MultilevelDeformation),
     ],
 )
-def test_auto_sums_by_lines_where_there_are_few_of_them(across, mirror, method):
+def test_auto_sums_by_lines_on_few_lines(across, mirror, method):
     assert isinstance(choose("auto", grid_of(257, across, mirror=mirror), contact_groups()), method)
 
 
-def test_auto_does_not_trust_the_multilevel_sum_on_long_cells():
+def test_auto_does_not_take_the_multilevel_sum_on_long_cells():
     wide = contact_groups(100.0)
     assert isinstance(choose("auto", grid_of(257, 257, mirror=True), wide), FftDeformation)
     assert isinstance(choose("auto", grid_of(65, 257, mirror=True), wide), LineDeformation)

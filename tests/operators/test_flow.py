@@ -1,4 +1,4 @@
-"""Tabulated flow properties against the laws themselves."""
+"""Tabulated mobility and density against the lubricant laws."""
 
 import numpy as np
 import pytest
@@ -28,7 +28,7 @@ def properties(pressure: float, film: float, floor: float = 0.0) -> tuple[float,
 
 @settings(deadline=None)  # the first example may compile
 @given(st.floats(0.0, 3.0))
-def test_conductance_and_density_are_those_of_the_laws(pressure):
+def test_conductance_and_density_follow_the_laws(pressure):
     si, laws = pressure * SCALES.hertz_pressure, PROBLEM.lubricant
     rho = float(laws.density.density(np.float64(si), SCALES.temperature)) / SCALES.density
     eta = float(laws.viscosity.viscosity(np.float64(si), SCALES.temperature)) / SCALES.viscosity

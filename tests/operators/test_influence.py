@@ -21,7 +21,7 @@ def test_a_square_cell_deflects_its_own_centre_by_four_d_asinh_one():
     assert float(Influence(side, side, 1.0)(0, 0)) == pytest.approx(expected, rel=1e-14)
 
 
-def test_the_cited_value_for_a_square_is_met():
+def test_a_square_cell_has_the_published_deflection():
     cited = read("exact")["square_cell"]["centre_over_half_side"]
     assert float(Influence(2.0, 2.0, 1.0)(0, 0)) == pytest.approx(cited, abs=5e-9)  # its digits
 
@@ -44,14 +44,14 @@ def test_far_away_a_cell_acts_like_a_point_load(dx, dy, dj, di):
 
 
 @given(SIDES, SIDES)
-def test_turning_the_axes_turns_the_influence(dx, dy):
+def test_exchanging_the_axes_transposes_the_influence(dx, dy):
     offsets = np.arange(6)
     one = Influence(dx, dy, 1.0)(offsets[:, None], offsets[None, :])
     other = Influence(dy, dx, 1.0)(offsets[:, None], offsets[None, :])
     np.testing.assert_allclose(one, other.T, rtol=ROUNDING, atol=ROUNDING * one.max())
 
 
-def test_four_cells_make_one_of_twice_the_sides():
+def test_four_cells_add_up_to_one_of_twice_the_sides():
     fine, coarse = Influence(0.1, 0.07, 1.0), Influence(0.2, 0.14, 1.0)
     # seen from two coarse cells away: fine cells lie 3.5 and 4.5 of their sides off
     parts = sum(float(fine(dj, di)) for dj in (3.5, 4.5) for di in (3.5, 4.5))
@@ -72,7 +72,7 @@ def test_the_dense_matrix_of_half_a_domain_acts_like_the_full_one():
 
 
 @given(SIDES, SIDES)
-def test_a_table_is_what_the_calls_say(dx, dy):
+def test_a_table_equals_single_evaluations(dx, dy):
     influence = Influence(dx, dy, 1.3)
     called = influence(np.arange(7)[:, None], np.arange(9)[None, :])
     np.testing.assert_allclose(influence.table(7, 9), called, rtol=0, atol=ROUNDING * called.max())

@@ -67,7 +67,7 @@ def wedge_error(points: int, wedge: int) -> float:
 
 
 @pytest.mark.parametrize("wedge", [1, 2])
-def test_the_wedge_term_has_the_order_that_was_asked_for(wedge):
+def test_the_wedge_term_has_the_chosen_order(wedge):
     assert order(lambda n: wedge_error(n, wedge)) == pytest.approx(wedge, abs=0.1)
 
 
@@ -93,7 +93,7 @@ def sommerfeld_residual(points: int) -> float:
     return float(np.abs(out[:-1, 2:-1]).max())
 
 
-def test_the_exact_full_film_between_paraboloids_is_met_to_second_order():
+def test_the_exact_film_between_paraboloids_has_a_residual_of_second_order():
     assert order(sommerfeld_residual, 65, 257) == pytest.approx(2.0, abs=0.15)
     assert sommerfeld_residual(257) < 5e-3  # (h/h_0)^2 = 1e-3 times a few of the largest slope 1
 
@@ -107,7 +107,7 @@ def test_half_a_domain_and_the_full_one_have_the_same_operator():
     np.testing.assert_allclose(by_half, by_full[8:], rtol=1e-12, atol=1e-9)
 
 
-def test_a_dipole_moves_the_film_near_itself_only():
+def test_a_dipole_changes_the_film_locally():
     grid = grid_of(65, 65, mirror=True, domain=BOX)
     point, dipole = line_influence(influence_of(grid, contact_groups()))
     assert point[0] == point.max()

@@ -1,4 +1,7 @@
-"""Elastic deflection of two half-spaces: direct sum, two with FFT, multilevel; one interface."""
+"""Elastic deflection K P of two half-spaces: direct sum, two sums by FFT, multilevel sum.
+
+All four evaluate  w_m = sum_k K_(m-k) P_k  with the cell influence K of `tehl.operators.influence`.
+"""
 
 from typing import Protocol
 
@@ -13,15 +16,16 @@ from tehl.scaling import Groups
 from tehl.typing import Array
 
 LINES_UP_TO = {True: 200, False: 160}
-"""Intervals of the full domain, in the direction that has fewer, up to which the sum by lines is
-the cheapest: where half of it (True) or all of it is computed. Beyond it is the multilevel sum, at
-an error that does not count."""
+"""Intervals of the full domain, in the direction with fewer, up to which the sum by lines is the
+cheapest: on a half domain (True) and on a full one. Beyond it is the multilevel sum, whose error is
+negligible beside that of the discretisation (``python -m benchmarks deformation``)."""
 LARGEST_ASPECT = 4.0
-"""Ratio of the cell sides beyond which the patches of the multilevel sum are no longer enough."""
+"""Ratio of the cell sides beyond which the correction patches of the multilevel sum are too small.
+"""
 
 
 class Deformation(Protocol):
-    """What the film equation asks of a deflection."""
+    """Elastic deflection on one grid, as the film equation needs it."""
 
     def deflect(self, pressure: Array, out: Array) -> None:
         """Write the deflection under ``pressure`` to ``out``, both of the grid's shape."""
@@ -29,7 +33,7 @@ class Deformation(Protocol):
 
 
 class DirectDeformation:
-    """Sum by definition, O(n^2): the reference of the tests."""
+    """Direct sum in O(n^2) operations for n nodes: the reference of the tests."""
 
     def __init__(self, grid: Grid, groups: Groups) -> None:
         self.matrix = dense_matrix(grid.shape, grid.mirror, influence_of(grid, groups))
@@ -40,9 +44,9 @@ class DirectDeformation:
 
 
 class FftDeformation:
-    """Exact convolution by zero-padded FFT, O(n log n): no periodic image, no truncation.
+    """Exact convolution by zero-padded FFT in O(n log n) operations, without periodic images.
 
-    A pressure that vanishes on the edges needs a period of twice the intervals only.
+    As the pressure vanishes on the edges, a period of twice the intervals suffices.
     """
 
     def __init__(self, grid: Grid, groups: Groups) -> None:
@@ -68,7 +72,7 @@ class FftDeformation:
 
 
 class LineDeformation:
-    """Exact convolution by FFT along x and a sum across the lines: the quickest on few of them."""
+    """Exact convolution by FFT along x and direct sum across lines: the fastest with few lines."""
 
     def __init__(self, grid: Grid, groups: Groups) -> None:
         ny, nx = grid.shape
@@ -94,14 +98,14 @@ class LineDeformation:
 
 
 def choose(name: str, grid: Grid, groups: Groups) -> Deformation:
-    """Return the deformation called ``name``; ``"auto"`` is the cheapest at equal accuracy.
+    """Return the deflection operator ``name``; ``"auto"`` is the cheapest at equal accuracy.
 
     Parameters
     ----------
     name : {"auto", "mlmi", "fft", "lines", "direct"}
         As in `tehl.options.Options`.
     grid : Grid
-        Where the pressure lives.
+        Grid of the pressure.
     groups : Groups
         Ellipticity and deflection factor.
     """

@@ -1,4 +1,4 @@
-"""Film thickness equation: H = H00 + gap + elastic deflection."""
+"""Film equation H = H00 + gap + K P (docs/theory/model.md): undeformed gap and Hertz pressure."""
 
 import numpy as np
 

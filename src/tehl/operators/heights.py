@@ -1,4 +1,7 @@
-"""Heights of both surfaces together on a hierarchy of grids, and how well each resolves them."""
+"""Heights of rough surfaces on a hierarchy of grids, standing or moving, and their resolution.
+
+Theory in docs/theory/roughness.md and numerics.md ("Rough surfaces").
+"""
 
 import math
 from collections.abc import Iterable
@@ -16,18 +19,25 @@ from tehl.roughness.waves import HarmonicModel
 from tehl.scaling import ScaledProblem
 from tehl.typing import Array
 
+LEAST_NODES = 4.0
+"""Nodes per wavelength below which a wave is aliased."""
+
+
+class UnresolvedError(InputError):
+    """The grid has too few nodes for the roughness."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Heights:
-    """Heights on the finest grid, positive outwards: the film is the smooth one less these.
+    """Heights on the finest grid, positive outwards: they are subtracted from the film.
 
     Attributes
     ----------
-    surface_1, surface_2 : (ny, nx) array
-        Heights of each surface at the nodes that the grid holds, over a_x^2/R_x [-].
+    surface_1, surface_2 : array of ``grid.shape``
+        Heights of each surface over a_x^2/R_x [-].
     wavelengths : (float, float)
-        Shortest wavelengths along x (in a_x) and y (in a_y) that matter; ``inf`` along a direction
-        in which nothing changes [-].
+        Shortest wavelengths along x (in a_x) and y (in a_y); ``inf`` along a direction in which
+        nothing changes [-].
     """
 
     surface_1: Array
@@ -36,18 +46,17 @@ class Heights:
 
     @property
     def together(self) -> Array:
-        """Return what both surfaces take off the film, (ny, nx) [-]."""
+        """Sum of both heights, ``grid.shape`` [-]."""
         return self.surface_1 + self.surface_2
 
     def points_per_wave(self, grid: Grid) -> float:
-        """Return how many nodes of ``grid`` fall on the shortest wave."""
+        """Return the nodes of ``grid`` per shortest wavelength."""
         return min(self.wavelengths[0] / grid.dx, self.wavelengths[1] / grid.dy)
 
     def on(self, grids: list[Grid]) -> list[Array]:
-        """Return the heights on each of ``grids``, coarsest first, from the finest downwards.
+        """Return the heights on each of ``grids``, coarsest first, by repeated full weighting.
 
-        Each coarser grid gets weighted means of the next finer one, never values of its own nodes:
-        what it cannot carry must fade on it and not turn into another wave.
+        Heights evaluated at the nodes of a coarse grid would be aliased; weighted means fade.
         """
         fields = [self.together]
         for grid in reversed(grids[:-1]):
@@ -56,7 +65,7 @@ class Heights:
 
 
 def full_weighting(fine: Array, *, mirror: bool) -> Array:
-    """Return the 1-2-1 means of ``fine`` at every other node; the edges continue evenly."""
+    """Return the 1-2-1 means of ``fine`` at every other node; constant beyond the edges."""
     padded = np.pad(fine, ((1, 1), (1, 1)), mode="edge")
     if mirror:
         padded[0] = padded[2]
@@ -65,12 +74,14 @@ def full_weighting(fine: Array, *, mirror: bool) -> Array:
 
 
 def heights_of(scaled: ScaledProblem, grid: Grid) -> Heights | None:
-    """Return the heights of both surfaces as they stand on ``grid``, None where both are smooth.
+    """Return the heights of both surfaces on ``grid`` at time zero, None if both are smooth.
 
     Raises
     ------
     InputError
-        If a measured surface cannot be read, or the grid has too few nodes for a wave.
+        If a measured surface cannot be read.
+    UnresolvedError
+        If a wave of a formula has too few nodes.
     """
     problem, scales = scaled.problem, scaled.scales
     if not problem.is_rough:
@@ -95,47 +106,53 @@ def heights_of(scaled: ScaledProblem, grid: Grid) -> Heights | None:
 
 
 def shortest_of_formulas(parts: Iterable[Roughness]) -> tuple[float, float]:
-    """Return the shortest wavelengths along x and y [m] of what a formula gives.
+    """Return the shortest wavelengths along x and y [m] of the parts given by a formula.
 
-    Sampled surfaces do not count: they have lost what is too short.
+    Sampled surfaces do not count: their short waves have been filtered.
     """
     pairs = [one.shortest_wavelengths for one in parts if isinstance(one, RoughnessModel)]
     along, across = zip(*pairs, strict=True) if pairs else ((), ())
     return min(along, default=math.inf), min(across, default=math.inf)
 
 
-LEAST_NODES = 4.0
-"""Nodes on a wave below which a grid takes it for another one."""
-
-
-class UnresolvedError(InputError):
-    """The grid has too few nodes for the surfaces."""
-
-
 def check_nodes(nodes: float) -> None:
-    """Refuse ``nodes`` on the shortest wave if they are too few.
+    """Check the number of nodes per shortest wavelength.
 
     Raises
     ------
     UnresolvedError
-        If the grid would take it for another one.
+        If it is below `LEAST_NODES`.
     """
     if nodes < LEAST_NODES * (1.0 - 1e-9):
+        factor = LEAST_NODES / nodes
         raise UnresolvedError(
-            f"the shortest wave of the surfaces has {nodes:.2g} nodes of the grid, which would "
-            f"take it for another one: numerics.points must be {rounded_up(LEAST_NODES / nodes)} "
-            "times as many at least, and four times that for a good answer"
+            f"roughness: the shortest wave has {nodes:.2g} nodes per wavelength and would be "
+            f"aliased; increase numerics.points by a factor of at least {rounded_up(factor)}, and "
+            f"of {rounded_up(4.0 * factor)} for an accurate film"
         )
 
 
 def rounded_up(factor: float) -> str:
-    """Return a factor in words that is enough: two digits, rounded up."""
+    """Return ``factor`` rounded up to two digits."""
     step = 10.0 ** (math.floor(math.log10(factor)) - 1)
     return f"{math.ceil(factor / step * (1.0 - 1e-9)) * step:.2g}"
 
 
+@dataclass(frozen=True, slots=True)
+class _Moving:
+    """Speed of a surface [m/s], and its parts with the lengths of their fade-in [m]."""
+
+    speed: float
+    parts: tuple[tuple[Roughness, float], ...]
+
+    @property
+    def wavelengths(self) -> tuple[float, float]:
+        """Shortest wavelengths of formulas along x and y [m]."""
+        return shortest_of_formulas(part for part, _ in self.parts)
+
+
 class MovingHeights:
-    """Heights of both surfaces that move along, on one grid.
+    """Heights of both surfaces that move with them, on one grid.
 
     Parameters
     ----------
@@ -144,9 +161,9 @@ class MovingHeights:
     grid : Grid
         The nodes.
     entrance : float or None
-        What is rough without end along x begins so far upstream at time zero, and comes in [a_x];
-        None has it rough everywhere from the beginning. Features and maps with flat surroundings
-        are where they are stated.
+        Distance upstream at which roughness without end along x starts at time zero, and from which
+        it moves in [a_x]; None starts it everywhere. Features, and maps with flat surroundings,
+        start at their stated positions.
 
     Raises
     ------
@@ -174,37 +191,37 @@ class MovingHeights:
     def _parts(
         self, roughness: OneRoughness | Sum, grid: Grid, shift: float
     ) -> tuple[tuple[Roughness, float], ...]:
-        """Return what grid and steps resolve of each part of a surface, and how it begins.
+        """Return each part of a surface as grid and time steps resolve it, with its fade-in.
 
-        ``shift``: mesh widths that the surface moves by in a step. A sampled surface loses what the
-        steps would take for other waves, too. With each part its length of beginning, none for one
-        that does not come in.
+        ``shift`` is the number of mesh widths that the surface moves per step. The waves of a
+        sampled surface that the steps would alias are filtered. The fade-in is zero for a part that
+        does not enter at the inlet.
         """
         width, length = self.widths
         along = grid.dx * width * max(shift, 1.0)
         resolved = []
         for part in components(roughness):
             shown = part.resolved_on(along, grid.dy * length)
-            comes_in = self.front is not None and math.isinf(part.extent(length)[0][0])
+            enters = self.front is not None and math.isinf(part.extent(length)[0][0])
             least = 0.0 if isinstance(part, HarmonicModel) else 8.0 * grid.dx * width
-            resolved.append((shown, self._fade(shown, least) if comes_in else 0.0))
+            resolved.append((shown, self._fade(shown, least) if enters else 0.0))
         return tuple(resolved)
 
     def _fade(self, surface: Roughness, least: float) -> float:
-        """Return over what length a surface that comes in begins [m], if it can ``least``."""
+        """Return the length of the fade-in of a surface that enters, at least ``least`` [m]."""
         along = surface.shortest_wavelengths[0]
         return min(max(along, least), 0.5 * (self.front or math.inf))
 
     @property
     def wavelengths(self) -> tuple[float, float]:
-        """Return the shortest wavelengths of formulas along x [a_x] and y [a_y]."""
+        """Shortest wavelengths of formulas along x [a_x] and y [a_y]."""
         pairs = [one.wavelengths for one in self.surfaces]
         along, across = (min(pair) for pair in zip(*pairs, strict=True))
         return along / self.widths[0], across / self.widths[1]
 
     @property
     def waves_per_step(self) -> tuple[float, float]:
-        """Return what part of its shortest wave each surface passes while the mean moves on by a_x.
+        """Shortest waves that each surface moves by while the mean motion advances by a_x.
 
         Zero for a surface whose formulas have no waves along x.
         """
@@ -215,11 +232,11 @@ class MovingHeights:
         return first, second
 
     def at(self, time: float) -> tuple[Array, Array]:
-        """Return the heights of both surfaces at ``time`` [s], (ny, nx) each [-]."""
+        """Return the heights of both surfaces at ``time`` [s], ``grid.shape`` each [-]."""
         first, second = (self._one(surface, time) for surface in self.surfaces)
         return first, second
 
-    def _one(self, surface: "_Moving", time: float) -> Array:
+    def _one(self, surface: _Moving, time: float) -> Array:
         """Return the heights of one surface."""
         total = np.zeros(self.shape)
         for part, fade in surface.parts:
@@ -230,16 +247,3 @@ class MovingHeights:
                 height = height * (0.5 - 0.5 * np.cos(math.pi * inside))
             total += height
         return total
-
-
-@dataclass(frozen=True, slots=True)
-class _Moving:
-    """A surface's speed [m/s], and its parts with the lengths over which they begin [m]."""
-
-    speed: float
-    parts: tuple[tuple[Roughness, float], ...]
-
-    @property
-    def wavelengths(self) -> tuple[float, float]:
-        """Return the shortest wavelengths of formulas along x and y [m]."""
-        return shortest_of_formulas(part for part, _ in self.parts)

@@ -1,7 +1,7 @@
-"""Influence of a uniformly loaded cell: exact kernel of the elastic half-space.
+"""Deflection of the elastic half-space by a uniform pressure on one mesh cell, in closed form.
 
-Each node carries a uniform pressure over its own mesh cell, whose deflection is known in closed
-form (Love 1929; Johnson 1985, Contact Mechanics, eq. 3.25).
+Love 1929; Johnson 1985, Contact Mechanics, eq. 3.25. Each node carries a uniform pressure over its
+own cell, so the only error of the discrete deflection is that of the stepped pressure.
 """
 
 from typing import TYPE_CHECKING
@@ -22,9 +22,9 @@ class Influence:
     Parameters
     ----------
     dx, dy : float
-        Cell sides in one unit of length, a_x.
+        Cell sides [a_x].
     factor : float
-        2 Pi / pi, the factor before the kernel sum.
+        2 Pi / pi, the factor of the integral in the film equation (docs/theory/model.md) [-].
     """
 
     def __init__(self, dx: float, dy: float, factor: float) -> None:
@@ -32,7 +32,7 @@ class Influence:
         self.self_film = float(self(0, 0))
 
     def __call__(self, dj: "ArrayLike | slice", di: "ArrayLike | slice") -> Array:
-        """Return the influence at rows ``dj`` and columns ``di`` away; slices count nodes."""
+        """Return the influence at offsets of ``dj`` rows and ``di`` columns; slices are ranges."""
         rows, columns = _offsets(dj), _offsets(di)
         x, y = np.broadcast_arrays(self.dx * columns, self.dy * rows)
         east, west = x + 0.5 * self.dx, x - 0.5 * self.dx
@@ -44,7 +44,7 @@ class Influence:
     def table(self, rows: int, columns: int) -> Array:
         """Return the influence at offsets 0 to ``rows`` - 1 and 0 to ``columns`` - 1.
 
-        The same as a call, from one value per corner of the cells.
+        The same as a call, but with one evaluation per corner, which four cells share.
         """
         u = self.dx * (np.arange(columns + 1.0) - 0.5)
         v = self.dy * (np.arange(rows + 1.0) - 0.5)[:, None]
@@ -59,7 +59,7 @@ def _offsets(nodes: "ArrayLike | slice") -> Array:
 
 
 def _corner(u: Array, v: Array) -> Array:
-    """Antiderivative of 1/r over both coordinates; no corner lies on an axis."""
+    """Antiderivative of 1/r over both coordinates; u, v are not zero, as corners lie off axes."""
     return u * np.arcsinh(v / np.abs(u)) + v * np.arcsinh(u / np.abs(v))
 
 
@@ -78,17 +78,17 @@ def dense_matrix(
     shape : (int, int)
         Rows and columns of nodes.
     mirror : bool
-        Row 0 is a symmetry line: the image of each node counts too.
+        Row 0 is a symmetry line; the mirror image of each node is included.
     influence : Influence
         Influence at node offsets.
     stride : (int, int)
-        Nodes of ``influence`` from row to row and from column to column.
+        Rows and columns of ``influence`` per row and column of the nodes.
     """
     ny, nx = shape
     rows, columns = np.arange(2 * ny - 1)[:, None], np.arange(nx)[None, :]
     table = influence(stride[0] * rows, stride[1] * columns)
     i, j = np.arange(nx), np.arange(ny)
-    lines = table[:, np.abs(i[:, None] - i)]  # of a line on one so many rows away
+    lines = table[:, np.abs(i[:, None] - i)]  # of one line on another, by distance
     matrix = lines[np.abs(j[:, None] - j)]
     if mirror:
         matrix[:, 1:] += lines[j[:, None] + j[1:]]

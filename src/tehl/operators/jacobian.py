@@ -1,11 +1,11 @@
 """Jacobian of the discrete Reynolds operator as sparse matrices, nodes numbered row by row.
 
-A change v of the pressure changes the film by D v + c, with the elastic deflection D and the change
-c of the rigid approach, and so the operator L of `tehl.kernels.reynolds` by
+Changes v of the pressures and c of the rigid approach change the film by K v + c, with the elastic
+deflection K, and the operator L of `tehl.kernels.reynolds` by
 
-    by_pressure v + by_film (D v + c).
+    L_P v + L_H (K v + c)                              (docs/theory/numerics.md, Newton's method).
 
-D couples all nodes and is applied, never written down.
+L_P and L_H are sparse; K couples all nodes and is applied, never assembled.
 """
 
 from typing import NamedTuple
@@ -19,9 +19,9 @@ from tehl.typing import Array, BoolArray
 
 
 class Stencil(NamedTuple):
-    """Matrices that pick a neighbour of each inner node; the rows of the others are zero.
+    """Matrices that select a neighbour of each inner node; rows of edge nodes are zero.
 
-    ``upstream`` is the difference of the wedge.
+    ``upstream`` is the upstream difference of the wedge.
     """
 
     here: csr_matrix
@@ -35,7 +35,19 @@ class Stencil(NamedTuple):
 def neighbour(
     grid: Grid, inner: BoolArray, rows: int, columns: int, weight: float = 1.0
 ) -> csr_matrix:
-    """Return the matrix that picks the node ``rows, columns`` away of the nodes ``inner`` marks."""
+    """Return the matrix that selects a neighbour of each inner node, times ``weight``.
+
+    Parameters
+    ----------
+    grid : Grid
+        The nodes.
+    inner : array of bool, ``grid.shape``
+        Nodes that are not on an edge.
+    rows, columns : int
+        Offset of the neighbour.
+    weight : float
+        Factor on all entries.
+    """
     ny, nx = grid.shape
     j, i = np.nonzero(inner)
     there = np.abs(j + rows) if grid.mirror else j + rows
@@ -47,7 +59,10 @@ def neighbour(
 
 
 def stencil_of(grid: Grid, mesh: Mesh) -> Stencil:
-    """Return the neighbours of the inner nodes; node 1 of a line continues rho h linearly."""
+    """Return the neighbours of the inner nodes.
+
+    The second-order wedge of node 1 needs a node before the first: rho H continues linearly there.
+    """
     inner = np.zeros(grid.shape, bool)
     inner[(0 if grid.mirror else 1) : -1, 1:-1] = True
     first = inner.copy()
@@ -75,18 +90,18 @@ def stencil_of(grid: Grid, mesh: Mesh) -> Stencil:
 def jacobian(
     film: Film, mesh: Mesh, stencil: Stencil, by_pressure: Array, by_film: Array
 ) -> tuple[csr_matrix, csr_matrix]:
-    """Return the derivatives of L by the pressures, and by the films, of all nodes.
+    """Return L_P and L_H, the derivatives of L by the pressures and by the films of all nodes.
 
     Parameters
     ----------
     film : Film
-        The state, its properties up to date.
+        Present state, with conductance and density up to date.
     mesh : Mesh
         Weights of the operator.
     stencil : Stencil
         Of `stencil_of`.
     by_pressure, by_film : (ny, nx) array
-        Derivatives of the conductance.
+        Derivatives of the conductance eps.
     """
     n, (p, eps_x, eps_y) = stencil, (field.ravel() for field in (film.p, film.eps_x, film.eps_y))
     half_x, half_y = 0.5 * mesh.cx, 0.5 * mesh.cy
@@ -104,18 +119,18 @@ def jacobian(
 
 
 def rows(weights: Array) -> csr_matrix:
-    """Return the matrix that multiplies each value by a weight of its own."""
+    """Return the diagonal matrix of ``weights``."""
     return diags(weights, format="csr")
 
 
 def interpolation(fine: Grid, coarse: Grid) -> csr_matrix:
-    """Return the bilinear interpolation from a coarser grid of the same domain."""
+    """Return the matrix of bilinear interpolation from a coarser grid of the same domain."""
     lines = (between(nf, nc) for nf, nc in zip(fine.shape, coarse.shape, strict=True))
     return csr_matrix(kron(*lines))
 
 
 def between(fine: int, coarse: int) -> csr_matrix:
-    """Return the linear interpolation from ``coarse`` to ``fine`` nodes of a line."""
+    """Return the matrix of linear interpolation from ``coarse`` to ``fine`` nodes of a line."""
     place = np.arange(fine) * ((coarse - 1) / (fine - 1))
     low = np.minimum(place.astype(int), coarse - 2)
     part, node = place - low, np.arange(fine)

@@ -1,4 +1,4 @@
-"""Load balance: the pressure carries the load, which fixes the rigid approach."""
+"""Load balance, sum(P) dx dy = 2 pi / 3 (docs/theory/model.md), which fixes the rigid approach."""
 
 import numpy as np
 
@@ -6,11 +6,11 @@ from tehl.grid import Grid
 from tehl.typing import Array
 
 TARGET = 2.0 * np.pi / 3.0
-"""Integral of P over X, Y for a Hertz contact of any ellipticity."""
+"""Integral of the Hertz pressure over X, Y, for any ellipticity."""
 
 
 class Load:
-    """Integral of a field over the full domain, from the rows that are held."""
+    """Integral of a field over the full domain, from the stored rows of ``grid``."""
 
     def __init__(self, grid: Grid) -> None:
         self.area = grid.dx * grid.dy

@@ -1,10 +1,13 @@
-"""Multilevel multi-integration of the deflection: O(n log n) with local corrections.
+"""Multilevel multi-integration (MLMI) of the elastic deflection in O(n log n) operations.
 
-The sum is done on ever coarser grids, halving one axis at a time; sources go down by the transpose
-of sixth-order interpolation, sums come back by interpolation, and a patch of sources around each
-node puts right what interpolation of the kernel gets wrong near its singularity (Brandt and
-Lubrecht, J. Comput. Phys. 90, 1990). The patch grows on coarser grids, because an error made there
-weighs as much as one made on the finest.
+Brandt and Lubrecht, J. Comput. Phys. 90, 1990. The kernel is smooth except near its singularity, so
+the sum  w = K P  is evaluated on a coarser grid and corrected locally:
+
+    P_c = I^T P,   w_c = K_c P_c,   w = I w_c + (K - I K_c I^T) P,
+
+with sixth-order interpolation I along one axis at a time, K_c the kernel at the coarse nodes, and
+the correction K - I K_c I^T restricted to a patch around each node. The patch grows on coarser
+grids, because an error made there contributes as much as one made on the finest.
 """
 
 from dataclasses import dataclass
@@ -20,15 +23,17 @@ from tehl.typing import Array
 ALONG, ACROSS = 8, 2
 """Patch half-widths on the finest grid, along the axis that is halved and across it."""
 SMALLEST = 400
-"""Nodes at which the sum is done by definition."""
+"""Nodes at or below which the sum is direct."""
 PAD = 24
+"""Ghost rows and columns of the work arrays on each side."""
 STEPS = (1, 3, 5)
 WEIGHTS = (150.0 / 256.0, -25.0 / 256.0, 3.0 / 256.0)
+"""Sixth-order interpolation of a midpoint: offsets to both sides, in fine mesh widths, weights."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Stage:
-    """One grid of the summation: where its nodes lie, its sources and its sums."""
+    """One grid of the summation: range of its nodes, sources, and sums."""
 
     box: Box
     source: Array
@@ -37,7 +42,7 @@ class Stage:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Halving:
-    """One step to a coarser grid: the axis (0: rows, 1: columns) and the patch corrections."""
+    """One coarsening: halved axis (0: rows, 1: columns), patch corrections, work arrays."""
 
     axis: int
     patch: Array
@@ -46,12 +51,12 @@ class Halving:
 
 
 class MultilevelDeformation:
-    """Deflection by multilevel multi-integration.
+    """Elastic deflection by multilevel multi-integration.
 
     Parameters
     ----------
     grid : Grid
-        Where the pressure lives.
+        Grid of the pressure.
     influence : Influence
         Influence at (row, column) offsets of the finest grid.
     """
@@ -92,16 +97,16 @@ class MultilevelDeformation:
 
 
 def finer_axis(influence: Influence, stride: list[int]) -> int:
-    """Return the axis to halve: that of the smaller mesh width, so that the patch covers enough.
+    """Return the axis with the smaller mesh width, which is halved next.
 
-    What interpolation along an axis misses falls off with the distance in mesh widths of that
-    axis; across it the patch then needs no more nodes.
+    The interpolation error along an axis decays with the distance in mesh widths of that axis; this
+    choice keeps the patch narrow across it.
     """
     return int(influence.dy * stride[0] > 1.001 * influence.dx * stride[1])
 
 
 def gather(halving: Halving, fine: Stage, coarse: Stage) -> None:
-    """Send the sources of ``fine`` to ``coarse``."""
+    """Restrict the sources: P_c = I^T P."""
     if halving.axis == 0:
         summation.gather_rows(fine.source, fine.box, coarse.source, coarse.box)
         return
@@ -110,7 +115,7 @@ def gather(halving: Halving, fine: Stage, coarse: Stage) -> None:
 
 
 def spread(halving: Halving, fine: Stage, coarse: Stage) -> None:
-    """Bring the sums of ``coarse`` back to ``fine``, corrected near each node."""
+    """Interpolate the sums and add the patch corrections: w = I w_c + (K - I K_c I^T) P."""
     if halving.axis == 0:
         summation.spread_rows(
             fine.source, halving.patch, fine.box, coarse.total, coarse.box, fine.total
@@ -129,7 +134,7 @@ def stage(j0: int, j1: int, i0: int, i1: int, mirror: bool) -> Stage:
 
 
 def coarser(box: Box, axis: int) -> Stage:
-    """Return the grid with ``axis`` halved, wide enough to interpolate every node of ``box``."""
+    """Return the grid with ``axis`` halved, large enough to interpolate every node of ``box``."""
     if axis == 1:
         return stage(box.j0, box.j1, *_halved(box.i0, box.i1), mirror=bool(box.mirror))
     first, last = _halved(box.j0, box.j1)
@@ -137,7 +142,7 @@ def coarser(box: Box, axis: int) -> Stage:
 
 
 def _halved(first: int, last: int) -> tuple[int, int]:
-    """Coarse nodes that the odd nodes of first..last are interpolated from."""
+    """Return the range of coarse nodes from which the odd nodes of first..last are interpolated."""
     lowest_odd, highest_odd = first + (first + 1) % 2, last - (last + 1) % 2
     return min((lowest_odd - 5) // 2, -(-first // 2)), max((highest_odd + 5) // 2, last // 2)
 
@@ -147,7 +152,7 @@ def _count(box: Box) -> int:
 
 
 def patch_corrections(influence: Influence, step: tuple[int, int, int], growth: int) -> Array:
-    """Return what the interpolated kernel misses at distance d along and q across the axis.
+    """Return the kernel less its interpolation at offsets along and across the halved axis.
 
     Parameters
     ----------
@@ -157,6 +162,11 @@ def patch_corrections(influence: Influence, step: tuple[int, int, int], growth: 
         The axis that is halved and the strides of this grid on the finest one.
     growth : int
         Nodes added to both half-widths of the patch.
+
+    Returns
+    -------
+    (1 + along, 1 + across) array
+        Corrections by the two half-widths of the patch.
     """
     axis, row_stride, column_stride = step
     nodes = np.arange(ALONG + growth + 1)

@@ -1,4 +1,7 @@
-"""Reynolds equation on one grid: the stencil and what the line relaxation needs of the kernel."""
+"""Discrete Reynolds equation: weights of the stencil, steady and in a time step (numerics.md).
+
+(eps P_x)_x + (eps P_y)_y / kappa^2 - (rho H)_x - (rho H)_t = 0,  x, y, t in a_x, a_y, a_x/u_m.
+"""
 
 import numpy as np
 
@@ -9,13 +12,20 @@ from tehl.scaling import Groups
 from tehl.typing import Array
 
 REACH = 8
+"""Nodes along a line at which the line relaxation knows the influence of one node."""
 
 
 def stencil(grid: Grid, groups: Groups, wedge_order: int) -> Mesh:
-    """Return the weights of the discrete Reynolds operator.
+    """Return the weights of the steady operator: central Poiseuille term, upstream wedge.
 
-    The Poiseuille term is central, of order two; the wedge is taken upstream to order
-    ``wedge_order`` (1 or 2).
+    Parameters
+    ----------
+    grid : Grid
+        The nodes.
+    groups : Groups
+        The ellipticity scales the differences along y.
+    wedge_order : {1, 2}
+        Order of the upstream difference: (1, -1) or (3/2, -2, 1/2) over dx.
     """
     weights = {1: (1.0, -1.0, 0.0), 2: (1.5, -2.0, 0.5)}[wedge_order]
     w0, w1, w2 = (w / grid.dx for w in weights)
@@ -30,32 +40,18 @@ def stencil(grid: Grid, groups: Groups, wedge_order: int) -> Mesh:
 
 
 def step_stencil(mesh: Mesh, time_step: float) -> Mesh:
-    """Return the weights of a step of time.
+    """Return the weights of ``mesh`` in a time step of ``time_step`` [a_x / u_m].
 
-    Wedge and squeeze are one derivative along the mean motion of both surfaces, backward of order
-    two: three halves of rho h here and now, less what was upstream one and two steps ago. Of that
-    only the first is unknown. On coarser grids it keeps its weight, as the step keeps its length.
-
-    Parameters
-    ----------
-    mesh : Mesh
-        The weights of the steady operator.
-    time_step : float
-        In units of a_x / u_m [-].
+    Wedge and squeeze are one derivative of rho H along the mean motion, second-order backward:
+    3/2 of rho H here and now, -2 and 1/2 of it one and two steps before at the nodes upstream
+    (docs/theory/numerics.md). Only the first is unknown. Its weight is the same on all grids of the
+    hierarchy, which take the same time step.
     """
     return mesh._replace(w0=1.5 / time_step, w1=0.0, w2=0.0)
 
 
 def upstream(field: Array, nodes: int) -> Array:
-    """Return the values ``nodes`` upstream of each node; before the first one it goes on linearly.
-
-    Parameters
-    ----------
-    field : (ny, nx) array
-        Mass rho h of a film [-].
-    nodes : int
-        Mesh widths along x.
-    """
+    """Return ``field``, (ny, nx), ``nodes`` upstream of each node; linear before the first node."""
     shifted = np.empty_like(field)
     shifted[:, nodes:] = field[:, :-nodes]
     before = np.arange(-nodes, 0.0)
@@ -64,17 +60,27 @@ def upstream(field: Array, nodes: int) -> Array:
 
 
 def steady_wedge(mass: Array, spacing: float, order: int) -> Array:
-    """Return the upstream difference of a mass rho h along x, of the order of the steady film."""
+    """Return the upstream difference of the mass rho H along x, as the steady stencil takes it.
+
+    Parameters
+    ----------
+    mass : (ny, nx) array
+        rho H [-].
+    spacing : float
+        Mesh width along x [a_x].
+    order : {1, 2}
+        Order of the difference.
+    """
     if order == 1:
         return (mass - upstream(mass, 1)) / spacing
     return (1.5 * mass - 2.0 * upstream(mass, 1) + 0.5 * upstream(mass, 2)) / spacing
 
 
 def line_influence(influence: Influence) -> tuple[Array, Array]:
-    """Return the film along a line per unit change of one node, and of a dipole.
+    """Return the film along a line per unit change of one node, and of a dipole, (`REACH`,) each.
 
-    A dipole raises one node and lowers its four neighbours by a quarter, so that its far field
-    falls off fast: the change of film stays local.
+    A dipole raises one node and lowers its four neighbours by a quarter: its far field decays fast,
+    so that it changes the film locally (Venner and Lubrecht 2000, chapter 6).
     """
     line = influence(0, slice(0, REACH + 1))
     beside = influence(1, slice(0, REACH))

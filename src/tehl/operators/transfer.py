@@ -1,4 +1,4 @@
-"""Interpolation of a converged pressure to the next finer grid of the full multigrid."""
+"""Interpolation to the next finer grid: cubic for pressures, linear for lubricant factors."""
 
 import numpy as np
 
@@ -7,7 +7,11 @@ from tehl.typing import Array
 
 
 def refine(pressure: Array, fine: Grid) -> Array:
-    """Return ``pressure`` interpolated to ``fine``: cubic, not negative, zero on the edges."""
+    """Return ``pressure`` interpolated to ``fine``: cubic, not negative, zero on the edges.
+
+    Full multigrid needs an interpolation of higher order than the second-order discretisation
+    (Trottenberg, Oosterlee and Schüller 2001, section 2.6).
+    """
     rows = _cubic_along_x(pressure)
     if fine.mirror:
         rows = np.concatenate([rows[2:0:-1], rows])
@@ -22,7 +26,7 @@ def refine(pressure: Array, fine: Grid) -> Array:
 
 
 def _cubic_along_x(values: Array) -> Array:
-    """Insert midpoints along the last axis: cubic inside, linear at the ends."""
+    """Insert midpoints along the last axis: (-1, 9, 9, -1)/16 inside, linear at the ends."""
     fine = np.empty((*values.shape[:-1], 2 * values.shape[-1] - 1))
     fine[..., ::2] = values
     inner = 9.0 * (values[..., 1:-2] + values[..., 2:-1]) - values[..., :-3] - values[..., 3:]
