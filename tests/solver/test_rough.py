@@ -162,7 +162,7 @@ def test_waves_that_the_grid_takes_for_others_are_refused(wavelength):
 def test_a_dent_between_the_nodes_is_refused():
     case = moes_contact(57.21, 10.52).model_dump(exclude_none=True)
     case["surface_1"]["roughness"] = {"type": "bump", "amplitude": -1e-8, "radius": 1e-6}
-    with pytest.raises(InputError, match=r"numerics\.points must be"):
+    with pytest.raises(InputError, match=r"increase numerics\.points"):
         solve(ContactProblem.model_validate(case), options(65))
 
 
