@@ -41,7 +41,7 @@ def errors_by_cycle(problem: ContactProblem, points: int) -> list[float]:
     error is against the converged solution of the same grid.
     """
     run = multigrid(problem, Options(points=points, domain=DOMAIN, max_cycles=2))
-    run.solve(patient=True)
+    run.solve(force=True)
     films = [film_inside(run), *(one_cycle(run) for _ in range(CYCLES))]
     for _ in range(MORE_CYCLES):
         converged = one_cycle(run)

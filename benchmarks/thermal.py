@@ -8,7 +8,7 @@ import multiprocessing
 import statistics
 import time
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
@@ -22,9 +22,9 @@ from tehl.operators.energy import FilmState
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import Result
-from tehl.solver import solve
-from tehl.solver.film_solver import Cycles
-from tehl.solver.work import with_work
+from tehl.solver import solve, with_work
+from tehl.solver.hierarchy import Hierarchy
+from tehl.solver.level import Level
 
 EYRING = {"law": "eyring", "stress": 10e6}
 LAWS: dict[str, dict[str, Any] | None] = {
@@ -57,7 +57,7 @@ class Clock:
 @contextmanager
 def timed_parts(points: int) -> Iterator[Clock]:
     """Time energy sweeps and multigrid cycles inside the block."""
-    clock, sweep, step = Clock(), FilmState.sweep, Cycles.step
+    clock, sweep, cycle = Clock(), FilmState.sweep, Hierarchy.cycle
 
     def timed_sweep(self: FilmState, *args: Any, **names: Any) -> float:
         start = time.process_time()
@@ -67,19 +67,19 @@ def timed_parts(points: int) -> Iterator[Clock]:
         clock.finest_sweeps += seconds if self.grid.nx == points else 0.0
         return change
 
-    def timed_step(self: Cycles) -> None:
+    def timed_cycle(self: Hierarchy, levels: Sequence[Level]) -> None:
         start = time.process_time()
-        step(self)
-        if self.levels[-1].grid.nx == points:
+        cycle(self, levels)
+        if levels[-1].grid.nx == points:
             clock.finest_cycles += time.process_time() - start
 
     FilmState.sweep = timed_sweep  # type: ignore[method-assign]
-    Cycles.step = timed_step  # type: ignore[method-assign]
+    Hierarchy.cycle = timed_cycle  # type: ignore[method-assign]
     try:
         yield clock
     finally:
         FilmState.sweep = sweep  # type: ignore[method-assign]
-        Cycles.step = step  # type: ignore[method-assign]
+        Hierarchy.cycle = cycle  # type: ignore[method-assign]
 
 
 def speed_contact(reynolds: str | None, shear: dict[str, Any] | None) -> ContactProblem:

@@ -15,8 +15,9 @@ from tehl.operators.reynolds import line_influence
 from tehl.post.waviness import WaveResponse, wave_responses
 from tehl.roughness import Wave
 from tehl.scaling import ScaledProblem
+from tehl.solver.equations import Equations
 from tehl.solver.fas import Cycle, cycle
-from tehl.solver.level import Equations, Level
+from tehl.solver.level import Level
 from tehl.solver.relaxation import FAST, LineSmoother
 from tehl.solver.steady import finest_grid
 

@@ -1,4 +1,4 @@
-"""Runs of the solver that many tests look at, each done once."""
+"""Runs of the solver that several tests share, each done once."""
 
 from functools import cache
 

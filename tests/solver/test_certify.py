@@ -1,4 +1,4 @@
-"""Richardson values with error bars, and the bars of a single run."""
+"""Richardson extrapolation with error bars, and the error bars of a single run."""
 
 import sys
 from dataclasses import replace
@@ -35,7 +35,7 @@ def test_an_exact_second_order_sequence_gives_its_limit(limit, coefficient):
 
 
 @given(LIMITS, COEFFICIENTS, st.floats(1.5, 2.7))
-def test_the_bar_holds_the_limit_of_nearly_second_order(limit, coefficient, order):
+def test_the_bar_contains_the_limit_of_nearly_second_order(limit, coefficient, order):
     found = estimate(sequence(limit, coefficient, order), domain=0.0)
     assert abs(found.value - limit) <= found.uncertainty * (1 + 1e-6)
 
@@ -49,7 +49,7 @@ def test_a_sequence_without_order_gives_the_finest_value_and_the_whole_change(li
     assert found.observed_order is None
 
 
-def test_a_sequence_that_stands_still_has_no_bar_but_that_of_the_domain():
+def test_a_constant_sequence_has_the_bar_of_the_domain_only():
     found = estimate((0.3, 0.3, 0.3), domain=0.01)
     assert (found.value, found.uncertainty) == (0.3, 0.01)
 
@@ -73,7 +73,7 @@ def test_the_bar_without_an_order_is_the_whole_change(limit, coefficient):
     assert discretisation_bar(values) == pytest.approx(abs(values[1] - values[0]))
 
 
-def test_an_order_seen_while_the_value_still_changes_by_half_is_not_believed():
+def test_an_order_is_not_used_while_the_value_still_changes_by_half():
     values = [0.4, 0.52, 0.55]  # last change 5 %, ratio 4
     assert discretisation_bar(values) == pytest.approx(SAFETY * 0.01)
     values = [3.0, 1.4, 1.0]  # ratio 4 as well, but the last change is 40 %
@@ -89,7 +89,7 @@ def test_an_order_seen_while_the_value_still_changes_by_half_is_not_believed():
         ([0.2, 0.0555, 0.0554], 0.0001),  # the first grid says nothing
     ],
 )
-def test_two_grids_that_agree_by_chance_do_not_make_a_narrow_bar(values, bar):
+def test_two_grids_that_agree_by_chance_do_not_give_a_narrow_bar(values, bar):
     assert discretisation_bar(values) == pytest.approx(bar)
 
 
@@ -98,12 +98,12 @@ def test_the_bar_is_never_less_than_a_third_of_the_last_change(values):
     assert discretisation_bar(values) >= abs(values[-1] - values[-2]) / 3.0
 
 
-def test_a_grid_that_cannot_be_halved_twice_is_refused():
+def test_a_grid_that_cannot_be_halved_twice_is_rejected():
     with pytest.raises(InputError, match="129 nodes"):
         certify(moes_contact(20.0, 10.0), Options(points=65))
 
 
-def test_a_certified_run_carries_bars_for_film_and_pressure():
+def test_a_certified_run_has_bars_for_film_and_pressure():
     result = certify(moes_contact(20.0, 10.0), Options(points=129, domain=DOMAIN))
     assert set(result.uncertainty) == {"film_central", "film_minimum", "pressure_max"}
     central = result.uncertainty["film_central"]
@@ -120,7 +120,7 @@ def test_two_values_give_the_finer_one_with_the_whole_change_as_its_bar():
     assert found.uncertainty == pytest.approx(0.1)
 
 
-def test_a_coarsest_grid_without_a_film_is_left_out_and_told():
+def test_a_coarsest_grid_without_a_film_is_left_out_and_reported():
     result = certify(moes_contact(700.0, 8.0), Options(points=257))
     central = result.uncertainty["film_central"]
     assert len(central.values) == 2
@@ -130,13 +130,13 @@ def test_a_coarsest_grid_without_a_film_is_left_out_and_told():
     assert all(value > 0 for bar in result.uncertainty.values() for value in bar.values)
 
 
-def test_a_grid_with_too_few_nodes_for_the_waves_is_left_out_and_told():
+def test_a_grid_with_too_few_nodes_for_the_waves_is_left_out_and_reported():
     """A wave of eight nodes on 129 x 129, which would be a flat surface on 33 x 33."""
     case = wavy(8.0 * 6.0 / 128.0)
     result = certify(case, Options(points=129, domain=DOMAIN))
-    assert "33 x 33 too coarse for the surfaces" in result.status.message
+    assert "33 x 33 too coarse for the roughness" in result.status.message
     assert all(len(bar.values) == 2 for bar in result.uncertainty.values())
-    with pytest.raises(ConvergenceError, match="65 x 65 too coarse for the surfaces"):
+    with pytest.raises(ConvergenceError, match="65 x 65 too coarse for the roughness"):
         certify(wavy(4.5 * 6.0 / 128.0), Options(points=129, domain=DOMAIN))
 
 
@@ -152,7 +152,7 @@ def wavy(wavelength: float) -> ContactProblem:
     return ContactProblem.model_validate(given)
 
 
-def test_without_the_grid_before_it_the_finest_is_returned_without_a_bar(monkeypatch):
+def test_the_finest_result_has_no_bar_if_the_next_coarser_grid_fails(monkeypatch):
     module = sys.modules["tehl.solver.certify"]
 
     def failing(problem, options, **others):

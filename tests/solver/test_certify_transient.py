@@ -1,4 +1,4 @@
-"""Transient runs with error bars: what they hold, and what is told where there are none."""
+"""Transient runs with error bars: what they contain, and the status without them."""
 
 import re
 import sys
@@ -27,7 +27,7 @@ MODULE = "tehl.solver.transient.certify"
 
 
 def passing(load: float = M, *, wavelength: float = 0.0, **transient: object) -> ContactProblem:
-    """A dent of surface 1, or a wave, passes at SRR 0.5; lengths in half-widths."""
+    """Return a dent, or a wave, of surface 1 that passes at SRR 0.5; lengths in half-widths."""
     case = moes_contact(load, L)
     units, given = scales(case), case.model_dump(exclude_none=True)
     given["contact"]["slide_roll_ratio"] = 0.5
@@ -49,14 +49,14 @@ def certified(points: int = 129) -> TransientResult:
 
 
 @pytest.mark.parametrize("points", [65, 129])
-def test_the_run_on_a_twice_finer_grid_lies_in_the_bars(points):
+def test_the_run_on_a_twice_finer_grid_is_within_the_bars(points):
     run, finer = certified(points), solve_transient(passing(), options(2 * points - 1))
-    told = finer.history
+    history = finer.history
     extremes = {
-        "film_minimum": told.film_minimum.min(),
-        "film_central_least": told.film_central.min(),
-        "film_central_largest": told.film_central.max(),
-        "pressure_max": told.pressure_max.max(),
+        "film_minimum": history.film_minimum.min(),
+        "film_central_least": history.film_central.min(),
+        "film_central_largest": history.film_central.max(),
+        "pressure_max": history.pressure_max.max(),
     }
     assert set(run.uncertainty) == set(extremes)
     for name, value in extremes.items():
@@ -65,7 +65,7 @@ def test_the_run_on_a_twice_finer_grid_lies_in_the_bars(points):
     steps = np.searchsorted(run.history.time, run.bars.time)
     np.testing.assert_array_equal(run.history.time[steps], run.bars.time)
     for name in ("film_central", "film_minimum", "pressure_max"):
-        later = np.interp(run.bars.time, told.time, getattr(told, name))
+        later = np.interp(run.bars.time, history.time, getattr(history, name))
         error = np.abs(later - getattr(run.history, name)[steps])
         assert (error <= getattr(run.bars, name)).all()
 
@@ -86,7 +86,7 @@ def test_three_grids_show_the_order_and_narrow_the_bar():
     assert run.cost.cpu_seconds > solve_transient(passing(), options(65)).cost.cpu_seconds
 
 
-def test_two_grids_give_the_whole_change():
+def test_the_bars_of_two_grids_are_the_whole_change():
     run = certified(65)
     for name in FILMS:
         bar = run.uncertainty[name]
@@ -98,21 +98,25 @@ def test_two_grids_give_the_whole_change():
     assert len(run.bars.time) == (len(run.history.time) - 1) // 2 + 1
 
 
-def test_a_quarter_that_is_refused_is_left_out_and_named():
+def test_a_rejected_run_on_a_quarter_of_the_intervals_is_left_out_and_named():
     run = certify_transient(passing(wavelength=0.7), options(129))
     assert run.status.converged
-    assert "33 x 33 refused, as the shortest wave" in run.status.message
+    assert "33 x 33 not possible (roughness: the shortest wave" in run.status.message
     assert all(len(run.uncertainty[name].values) == 2 for name in FILMS)
 
 
-REFUSED = [
-    (passing(stride=8), 129, r"half the intervals failed \(65 x 65 refused, as transient.stride"),
+FAILED = [
+    (
+        passing(stride=8),
+        129,
+        r"half the intervals failed \(65 x 65 not possible \(transient.str",
+    ),
     (passing(50.0), 65, r"failed \(33 x 33 at time zero not converged: grid too coarse\)"),
 ]
 
 
-@pytest.mark.parametrize(("case", "points", "words"), REFUSED)
-def test_without_half_the_intervals_the_run_is_kept_and_told_why(case, points, words):
+@pytest.mark.parametrize(("case", "points", "words"), FAILED)
+def test_the_finest_run_is_returned_if_that_on_half_the_intervals_fails(case, points, words):
     run = certify_transient(case, options(points))
     assert run.status.cause == "not_certified"
     assert not run.status.converged
@@ -122,21 +126,21 @@ def test_without_half_the_intervals_the_run_is_kept_and_told_why(case, points, w
     assert (run.uncertainty, run.bars) == ({}, None)
 
 
-def test_a_grid_that_cannot_be_halved_is_refused_before_any_work():
+def test_a_grid_that_cannot_be_halved_is_rejected_before_any_run():
     with pytest.raises(InputError, match="65 nodes or more"):
         certify_transient(passing(), options(33))
 
 
 class Replayed:
-    """Stands for the runs: finest, half, larger domain, quarter; notes what it was asked."""
+    """Replaces the runs (finest, half, larger domain, quarter) and records their arguments."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, *outcomes: object) -> None:
-        self.outcomes, self.asked = list(outcomes), []
+        self.outcomes, self.calls = list(outcomes), []
         monkeypatch.setattr(sys.modules[MODULE], "solve_transient", self)
 
-    def __call__(self, problem, asked, *, monitor):
+    def __call__(self, problem, options, *, monitor):
         del monitor
-        self.asked.append((asked.points, problem.transient))
+        self.calls.append((options.points, problem.transient))
         outcome = self.outcomes.pop(0)
         if isinstance(outcome, Exception):
             raise outcome
@@ -146,22 +150,22 @@ class Replayed:
 STALLED = Status(kind="stalled", cause="step_not_settled", message="it did not settle")
 
 
-def test_a_finest_run_without_an_end_is_returned_as_it_is(monkeypatch):
+def test_a_finest_run_that_fails_is_returned_as_it_is(monkeypatch):
     run = replace(make_transient(), status=STALLED)
     replayed = Replayed(monkeypatch, run)
     assert certify_transient(passing(), options(129)) is run
-    assert len(replayed.asked) == 1
+    assert len(replayed.calls) == 1
 
 
-def test_the_other_runs_have_the_stride_and_keep_no_fields(monkeypatch):
+def test_the_other_runs_have_the_same_stride_and_store_no_fields(monkeypatch):
     replayed = Replayed(monkeypatch, *[every(step) for step in (1, 2, 2, 4)])
     certify_transient(passing(stride=2), options(129))
-    assert [points for points, _ in replayed.asked] == [129, (65, 65), 129, (33, 33)]
-    assert [asked.frames for _, asked in replayed.asked] == [3, 0, 0, 0]
-    assert {asked.stride for _, asked in replayed.asked} == {2}
+    assert [points for points, _ in replayed.calls] == [129, (65, 65), 129, (33, 33)]
+    assert [transient.frames for _, transient in replayed.calls] == [3, 0, 0, 0]
+    assert {transient.stride for _, transient in replayed.calls} == {2}
 
 
-def test_a_larger_domain_that_fails_leaves_no_bar(monkeypatch):
+def test_there_is_no_bar_if_the_larger_domain_fails(monkeypatch):
     Replayed(monkeypatch, every(1), every(2), replace(every(2), status=STALLED))
     run = certify_transient(passing(), options(129))
     assert run.status.cause == "not_certified"
@@ -169,7 +173,7 @@ def test_a_larger_domain_that_fails_leaves_no_bar(monkeypatch):
     assert run.cost.cpu_seconds == pytest.approx(3 * make_transient().cost.cpu_seconds)
 
 
-def test_a_quarter_that_fails_is_left_out(monkeypatch):
+def test_a_failed_run_on_a_quarter_of_the_intervals_is_left_out(monkeypatch):
     stalled = Status(kind="stalled", cause="stalled", message="stalled")
     error = ConvergenceError("no", replace(make_result(33), status=stalled))
     Replayed(monkeypatch, every(1), every(2), every(2), error)
@@ -179,7 +183,7 @@ def test_a_quarter_that_fails_is_left_out(monkeypatch):
     assert len(run.uncertainty["film_minimum"].values) == 2
 
 
-def test_bars_that_say_nothing_are_a_grid_too_coarse(monkeypatch):
+def test_bars_that_are_too_wide_mean_too_coarse_a_grid(monkeypatch):
     Replayed(monkeypatch, every(1), every(2, error=0.6), every(2), every(4))
     run = certify_transient(passing(), options(129))
     assert run.status.cause == "grid_too_coarse"
@@ -187,7 +191,7 @@ def test_bars_that_say_nothing_are_a_grid_too_coarse(monkeypatch):
 
 
 def every(step: int, *, error: float = 0.0, steps: int = 57) -> TransientResult:
-    """A run whose film and pressure grow to the end, with every so many of ``steps`` steps."""
+    """Return a run whose film and pressure grow to the end, with every ``step``-th step."""
     whole = make_transient()
     count = -(-steps // step) + 1
     time = step * whole.time_step * np.arange(count)
@@ -210,7 +214,7 @@ def every(step: int, *, error: float = 0.0, steps: int = 57) -> TransientResult:
 
 
 def test_runs_of_other_durations_are_compared_until_the_end_of_the_finest():
-    """57 steps are not 29 of twice the length: what grows until the end has no error by that."""
+    """57 steps are shorter than 29 of twice the length, which must not count as an error."""
     runs = (every(4), every(2), every(1))
     found = estimates(runs, every(2))
     assert found["film_central_largest"].value == pytest.approx(1.57e-7, rel=1e-12)
@@ -220,13 +224,13 @@ def test_runs_of_other_durations_are_compared_until_the_end_of_the_finest():
     assert bars.film_central.max() < 1e-12 * 1e-7
 
 
-def test_what_the_larger_domain_changed_is_a_part_of_the_bars():
+def test_the_change_by_the_larger_domain_is_part_of_the_bars():
     runs, wide = (every(4), every(2), every(1)), every(2, error=0.02)
     assert estimates(runs, wide)["film_minimum"].uncertainty == pytest.approx(0.02 * 5e-8)
     np.testing.assert_allclose(history_bars(runs, wide).film_central, 0.02 * 1e-7, rtol=1e-9)
 
 
-def test_a_pressure_that_grows_without_order_may_grow_on():
+def test_the_bar_of_a_pressure_without_order_allows_for_further_growth():
     runs = (every(4, error=-0.02), every(2, error=-0.01), every(1))
     highest = estimates(runs, every(2, error=-0.01))["pressure_max"]
     assert highest.value == pytest.approx(1.57e9)  # at the end, which only the finest run has
@@ -236,7 +240,7 @@ def test_a_pressure_that_grows_without_order_may_grow_on():
 
 
 def with_spike(run: TransientResult, height: float) -> TransientResult:
-    """Give the steady beginning a spike of so many Hertz pressures, below the largest pressure."""
+    """Add a spike, in Hertz pressures, to the steady film; it is below the largest pressure."""
     start = run.start
     pressure = np.where(start.scaled.x > 0.5, 0.0, start.scaled.pressure)
     pressure[16, start.scaled.x > 0.8] = height
@@ -248,7 +252,7 @@ def with_spike(run: TransientResult, height: float) -> TransientResult:
     )
 
 
-def test_a_spike_that_may_overtake_the_largest_pressure_widens_its_bar():
+def test_a_spike_that_may_exceed_the_largest_pressure_widens_its_bar():
     heights = {4: 0.86, 2: 0.9, 1: 0.98}
     runs = tuple(with_spike(every(step), height) for step, height in heights.items())
     unit = runs[0].start.scales.hertz_pressure
@@ -260,7 +264,7 @@ TIME = np.linspace(0.0, 1.0, 21)
 
 
 @pytest.mark.parametrize(("order", "divisor"), [(1.5, 2**1.5 - 1), (2.0, 3.0), (2.6, 3.0)])
-def test_a_history_near_second_order_has_the_error_that_its_order_says(order, divisor):
+def test_the_bar_of_a_history_near_second_order_follows_from_its_order(order, divisor):
     change = 1.0 + TIME
     series = [1.0 + change * 2.0 ** (-order * k) for k in range(3)]
     last = np.abs(series[2] - series[1])
@@ -270,7 +274,7 @@ def test_a_history_near_second_order_has_the_error_that_its_order_says(order, di
 
 
 @pytest.mark.parametrize("order", [0.5, 3.5, None])
-def test_a_history_without_order_has_the_whole_change(order):
+def test_the_bar_of_a_history_without_order_is_the_whole_change(order):
     change = 1.0 + TIME
     series = [1.0 + change * 2.0 ** (-(order or 1.0) * k) for k in range(3)]
     if order is None:
@@ -280,7 +284,7 @@ def test_a_history_without_order_has_the_whole_change(order):
     assert (grid_bar(series) <= 1.1 * last).all()
 
 
-def test_a_change_through_zero_leaves_a_bar():
+def test_the_bar_does_not_vanish_where_the_change_passes_through_zero():
     series = [4.0 * (TIME - 0.5), 1.0 * (TIME - 0.5), 0.25 * (TIME - 0.5)]
     assert grid_bar(series).min() > 0.2 * grid_bar(series).mean() * 0.9
 

@@ -18,13 +18,13 @@ def test_cycles_end_when_one_changes_the_pressure_by_a_ten_thousandth():
     assert result.status.converged
 
 
-def test_it_goes_on_where_the_film_is_already_better_than_its_grid():
+def test_it_takes_more_cycles_than_the_discretisation_error_needs():
     usual = CHANGE.model_copy(update={"accuracy": "discretisation"})
     problem = moes_problem(40.0, 10.0)
     assert solve(problem, usual).history[-1].cycle < solve(problem, CHANGE).history[-1].cycle
 
 
-def test_a_small_change_is_no_verdict():
+def test_too_few_cycles_are_reported_at_this_accuracy_too():
     options = CHANGE.model_copy(update={"max_cycles": 1})
     with pytest.raises(ConvergenceError) as caught:
         solve(moes_problem(40.0, 10.0), options)

@@ -1,36 +1,36 @@
-"""When cycles may end: what they would still change, where the flow follows heat by parts."""
+"""Estimated iteration errors of damped cycles, error bars between rough surfaces, damping."""
 
 import numpy as np
 import pytest
 
 from tehl.kernels.reynolds import Factors
 from tehl.solver.convergence import GridTrace, error_estimate
-from tehl.solver.thermal import between
+from tehl.solver.thermal import damped
 
 
-@pytest.mark.parametrize("follow", [0.3, 0.5])
-def test_a_damped_cycle_knows_how_far_it_is_from_the_end(follow: float) -> None:
-    """The film goes a part of what is left per cycle: the estimate is what is left, or more."""
+@pytest.mark.parametrize("damping", [0.3, 0.5])
+def test_the_iteration_error_of_a_damped_cycle_is_not_underestimated(damping: float) -> None:
+    """The film changes by a constant part of its error per cycle."""
     trace, left = GridTrace(), [1.0]
-    trace.damp(follow)
+    trace.damp(damping)
     for _ in range(6):
         trace.central.values.append(0.3 + left[-1])
-        left.append((1.0 - follow) * left[-1])
+        left.append((1.0 - damping) * left[-1])
         if len(trace.central.values) > 1:
             assert trace.central.iteration_error() >= 0.999 * left[-2]
 
 
-def test_cycles_that_follow_at_once_are_judged_as_ever() -> None:
+def test_a_damping_factor_of_one_changes_nothing() -> None:
     trace, same = GridTrace(), GridTrace()
     trace.damp(1.0)
     assert trace == same
 
 
 @pytest.mark.parametrize(("coarse", "bar"), [(0.010, 0.35), (0.0, 0.70), (-0.020, 2.0)])
-def test_a_rough_minimum_far_from_its_limit_is_uncertain_by_its_whole_change(
+def test_the_bar_of_a_rough_minimum_far_from_its_limit_is_its_whole_change(
     coarse: float, bar: float
 ) -> None:
-    """Near it by seven tenths of the change between two grids that have the heights."""
+    """Near the limit it is seven tenths of the change between two grids that have the heights."""
     traces = [GridTrace(), GridTrace()]
     for trace, minimum in zip(traces, (coarse, 0.020), strict=True):
         trace.note(0.1, minimum)
@@ -39,12 +39,12 @@ def test_a_rough_minimum_far_from_its_limit_is_uncertain_by_its_whole_change(
     assert estimate.discretisation_central == 0.0
 
 
-def test_factors_go_a_part_of_the_way_and_arrive() -> None:
-    """In logarithms; the rest of the mobility may vanish."""
+def test_damped_factors_converge_to_the_new_ones() -> None:
+    """Damped in their logarithms, except for the rest of the mobility, which may vanish."""
     old = Factors(*(np.array([value]) for value in (0.0, 1.0, 1.0, 1.0, 2.0)))
     new = Factors(*(np.array([value]) for value in (0.5, 100.0, 0.9, 16.0, 2.0)))
-    half = between(old, new, 0.5)
+    half = damped(old, new, 0.5)
     np.testing.assert_allclose(np.ravel(half), [0.25, 10.0, 0.9**0.5, 4.0, 2.0])
     for _ in range(60):
-        old = between(old, new, 0.3)
+        old = damped(old, new, 0.3)
     np.testing.assert_allclose(np.ravel(old), np.ravel(new), rtol=1e-8)

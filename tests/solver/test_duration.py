@@ -124,7 +124,7 @@ def test_a_wave_that_the_time_steps_would_alias_is_rejected():
     """Sixteen nodes long, on a surface that moves by sixteen in a step."""
     long = wave(wavelength=1.5)
     case = in_time(4.0, slide=2.0, surface_1=long, transient={"stride": 4})
-    with pytest.raises(InputError, match=r"surface_1 moves by 0.5 of its shortest wave in a step"):
+    with pytest.raises(InputError, match="moves by 0.5 of its shortest wave per time step"):
         solve_transient(case, OPTIONS)
 
 
@@ -179,5 +179,5 @@ def test_a_duration_that_overflows_is_rejected():
 def test_fields_are_stored_at_chosen_instants():
     chosen = Transient(frames=(0.0, 0.31, 0.5))
     assert kept_steps(chosen, 10, 0.1) == {0, 3, 5}
-    with pytest.raises(InputError, match="2 s is after the end of the run, 1 s"):
+    with pytest.raises(InputError, match="2 s: after the end of the run at 1 s"):
         kept_steps(Transient(frames=(2.0,)), 10, 0.1)

@@ -1,4 +1,4 @@
-"""Failing honestly: a named cause, a hint, and the last state."""
+"""A failed solve has a named cause, a hint, and the last state."""
 
 import warnings
 
@@ -20,7 +20,7 @@ def failure(load: float, speed: float, **options: object):
     return caught.value.result
 
 
-def test_plain_gauss_seidel_fails_at_load_and_says_so():
+def test_plain_gauss_seidel_fails_in_a_loaded_contact_with_a_message():
     result = failure(200.0, 10.0, smoother="gauss-seidel", accuracy="tight", max_cycles=15)
     assert result.status.kind in ("diverged", "stalled", "not_converged")
     assert result.status.cause
@@ -42,7 +42,7 @@ def test_an_inlet_that_starves_the_contact_is_named():
     assert "-1.5" in result.status.message
 
 
-def test_too_few_cycles_are_named_with_what_was_reached():
+def test_too_few_cycles_are_named():
     result = failure(20.0, 10.0, accuracy="tight", max_cycles=1)
     assert result.status.cause == "too_few_cycles"
     assert "max_cycles" in result.status.hint
@@ -57,7 +57,7 @@ def test_a_failed_run_still_gives_fields_of_the_grid():
 
 
 @pytest.mark.parametrize("speed", [1.0, 15.0, 20.0])
-def test_hopeless_runs_end_in_a_verdict_and_not_in_warnings(speed):
+def test_diverging_runs_end_in_a_status_without_warnings(speed):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         result = failure(2000.0, speed, points=33)
@@ -65,6 +65,6 @@ def test_hopeless_runs_end_in_a_verdict_and_not_in_warnings(speed):
     assert np.isfinite(result.scaled.film).all()
 
 
-def test_a_tolerance_below_rounding_is_not_claimed():
+def test_a_tolerance_below_round_off_is_not_reached():
     result = failure(20.0, 10.0, points=33, accuracy="tight", tolerance=1e-18)
     assert result.status.kind in ("stalled", "not_converged")

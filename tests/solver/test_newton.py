@@ -1,4 +1,4 @@
-"""Newton's method: its Jacobian, its rate, and the films that only it finds."""
+"""Newton's method: Jacobian, rate of convergence, and films on which no cycle converges."""
 
 from dataclasses import replace
 from typing import Any
@@ -15,8 +15,10 @@ from tehl.result import Status
 from tehl.scaling import ScaledProblem
 from tehl.solver import film_solver, steady
 from tehl.solver.continuation import MOST_STEPS, RAISED, raise_by_newton
+from tehl.solver.convergence import DivergedError
+from tehl.solver.equations import Equations
 from tehl.solver.ladder import BETWEEN_ROUGH, Strategy
-from tehl.solver.level import Equations, Level
+from tehl.solver.level import Level
 from tehl.solver.newton import (
     ACCURACY,
     EXACT,
@@ -26,7 +28,6 @@ from tehl.solver.newton import (
     limited,
 )
 from tehl.solver.relaxation import ROUGH
-from tehl.solver.state import DivergedError, state_of, take_state
 from tests.reference import DOMAIN, moes_contact
 from tests.solver.rough import wavy
 
@@ -48,7 +49,7 @@ def level(mirror: bool = True, points: int = POINTS) -> Level:
 
 
 @pytest.mark.parametrize("mirror", [True, False])
-def test_jacobian_is_the_change_of_the_operator(mirror: bool) -> None:
+def test_the_jacobian_is_the_derivative_of_the_operator(mirror: bool) -> None:
     """Products with the Jacobian are the difference of L between two states, to second order."""
     fine = level(mirror)
     shape = fine.film.p.shape
@@ -75,16 +76,16 @@ def test_jacobian_is_the_change_of_the_operator(mirror: bool) -> None:
     assert errors[1] < 0.1 * errors[0] + 1e-6
 
 
-def test_interpolation_keeps_planes() -> None:
-    """Bilinear interpolation from a coarser grid."""
+def test_bilinear_interpolation_is_exact_for_planes() -> None:
+    """From a coarser grid."""
     fine, coarse = (Grid(nx=n, ny=n, domain=DOMAIN, mirror=False) for n in (33, 9))
     matrix = interpolation(fine, coarse)
     planes = [np.add.outer(2.0 * g.y, -3.0 * g.x).ravel() + 1.0 for g in (fine, coarse)]
     np.testing.assert_allclose(matrix @ planes[1], planes[0], atol=1e-12)
 
 
-def test_converges_quadratically_to_the_film_of_the_cycles() -> None:
-    """From a disturbed film, with load balance: the same film, and the error squares."""
+def test_newton_converges_quadratically_to_the_film_of_the_cycles() -> None:
+    """From a perturbed film, with the load balance."""
     fine = level()
     newton = Newton(fine, Grid(nx=17, ny=17, domain=DOMAIN, mirror=True))
     central = fine.film.h[0, fine.grid.nx // 2]
@@ -99,22 +100,22 @@ def test_converges_quadratically_to_the_film_of_the_cycles() -> None:
     assert fine.film.h[0, fine.grid.nx // 2] == pytest.approx(central, rel=2e-3)
 
 
-def test_no_step_downhill_is_told() -> None:
-    """A state that no step improves ends the level, and is left as it was."""
+def test_a_step_that_does_not_reduce_the_residual_is_undone_and_raises() -> None:
+    """The level has the same state as before."""
     fine = level()
     newton = Newton(fine, Grid(nx=17, ny=17, domain=DOMAIN, mirror=True))
     fine.set_state(1.05 * fine.film.p, fine.rigid_approach)
     fine.update()
-    before = state_of(fine)
+    before = fine.unknowns()
     with pytest.raises(DivergedError):
-        newton.walk(np.append(np.ones(before.size - 1), 1.0))
-    np.testing.assert_array_equal(state_of(fine), before)
+        newton.line_search(np.append(np.ones(before.size - 1), 1.0))
+    np.testing.assert_array_equal(fine.unknowns(), before)
 
 
-def test_a_step_that_leads_nowhere_is_taken_again_from_exact_equations(
+def test_a_step_that_fails_is_repeated_with_more_accurate_linear_equations(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """A rough solution of the linear equations may not lead downhill where a good one does."""
+    """An inaccurate solution of the linear equations need not reduce the residual."""
     fine, accuracies = level(), list[float]()
     newton = Newton(fine, Grid(nx=17, ny=17, domain=DOMAIN, mirror=True))
     disturbed = fine.film.p * (1.0 + 0.05 * np.cos(3.0 * fine.grid.x))
@@ -133,8 +134,8 @@ def test_a_step_that_leads_nowhere_is_taken_again_from_exact_equations(
     assert fine.evaluate_residual() < 0.5 * before
 
 
-def test_single_nodes_do_not_hold_a_step_back() -> None:
-    """Few that would go far are held back alone; many shorten the step of all."""
+def test_single_large_changes_are_clipped_without_shortening_the_step() -> None:
+    """A few are clipped; many shorten the whole step."""
     change = np.append(np.full(4000, 0.5), 2.0)
     change[7] = -300.0
     step, share = limited(change)
@@ -147,8 +148,8 @@ def test_single_nodes_do_not_hold_a_step_back() -> None:
     np.testing.assert_array_equal(limited(0.01 * change)[0], 0.01 * change)
 
 
-def test_no_residual_is_negative() -> None:
-    """Where the film is far below zero the density makes the diagonal negative, not the norm."""
+def test_the_norm_of_the_residual_is_positive_even_with_a_negative_diagonal() -> None:
+    """Where the film is far below zero the density makes the diagonal negative."""
     fine = level()
     fine.set_state(fine.film.p, fine.rigid_approach - 50.0)
     fine.update()
@@ -160,29 +161,29 @@ def test_no_residual_is_negative() -> None:
 
 @pytest.mark.filterwarnings("ignore:invalid value encountered:RuntimeWarning")
 def test_the_coarse_equations_are_not_singular_where_few_nodes_are_wet() -> None:
-    """A wet line between two coarse lines: either of them would move it alike."""
+    """A wet line between two coarse lines, of which either would have the same effect."""
     fine = level()
     middle = fine.grid.nx // 2
     wet = np.zeros(fine.grid.shape, bool)
     wet[:, 1:middle] = fine.film.p[:, 1:middle] > 0.0
     wet[:-1, middle + 9] = True
     fine.set_state(np.where(wet, np.maximum(fine.film.p, 0.1), 0.0), fine.rigid_approach)
-    fine.sources.reynolds[:] = np.where(wet, 0.0, 1e3)  # nowhere else ought to be wet
+    fine.sources.reynolds[:] = np.where(wet, 0.0, 1e3)  # all other nodes stay dry
     fine.update()
     newton = Newton(fine, fine.grid.coarser())
     matrix = Preconditioner(System(newton)).coarse_matrix(System(newton))
     assert np.linalg.cond(matrix) < 1e6
 
 
-def test_state_goes_back_and_forth() -> None:
-    """Pressure and approach as one array."""
+def test_the_vector_of_unknowns_restores_pressure_and_approach() -> None:
+    """As one array."""
     fine = level()
-    before = state_of(fine)
+    before = fine.unknowns()
     film = fine.film.h.copy()
     fine.set_state(np.zeros_like(fine.film.p), 7.0)
     fine.update()
-    take_state(fine, before)
-    np.testing.assert_allclose(state_of(fine), before, rtol=1e-15)
+    fine.set_unknowns(before)
+    np.testing.assert_allclose(fine.unknowns(), before, rtol=1e-15)
     fine.update()
     np.testing.assert_allclose(fine.film.h, film, atol=1e-14)
 
@@ -191,7 +192,7 @@ NEWTON = BETWEEN_ROUGH[-1]
 
 
 @pytest.mark.parametrize("strategy", [BETWEEN_ROUGH[0], NEWTON], ids=["cycles", "newton"])
-def test_finds_the_film_of_the_cycles_between_waves(
+def test_newton_and_cycles_find_the_same_film_between_waves(
     strategy: Strategy, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A wave three times as high as the smooth film, by either method."""
@@ -202,28 +203,28 @@ def test_finds_the_film_of_the_cycles_between_waves(
     assert run.film_scaled.minimum == pytest.approx(0.0106, abs=2e-4)
 
 
-def test_heights_are_raised_on_the_finest_grid_where_the_coarser_film_is_no_start(
+def test_heights_are_raised_on_the_finest_grid_if_the_start_from_the_coarser_film_fails(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """The film is the same whether they are raised on 65 nodes or before."""
+    """The film is the same whether they are raised on 65 nodes or on the coarser grid."""
     monkeypatch.setattr(steady, "ladder", lambda *_, **__: (NEWTON,))
     problem, options = wavy((57.21, 10.52), (0.2, 1.0, 0.0)), Options(points=65, domain=DOMAIN)
     raised: list[tuple[int, bool]] = []
-    walk = Newton.walk
+    search = Newton.line_search
 
     def noted(level: Level, iterate: Any, refresh: Any, *, finest: bool) -> None:
         raised.append((level.grid.nx, finest))
         raise_by_newton(level, iterate, refresh, finest=finest)
 
-    def stumbling(self: Newton, change: Any) -> float:
+    def failing(self: Newton, change: Any) -> float:
         if self.level.grid.nx == 65 and raised[-1][0] < 65:
             raise DivergedError
-        return walk(self, change)
+        return search(self, change)
 
     monkeypatch.setattr(film_solver, "raise_by_newton", noted)
     plain = finished(problem, options)
     assert raised == [(33, False)]
-    monkeypatch.setattr(Newton, "walk", stumbling)
+    monkeypatch.setattr(Newton, "line_search", failing)
     again = finished(problem, options)
     assert raised == [(33, False), (33, False), (65, True)]
     assert plain.history[-1].residual < RAISED
@@ -231,10 +232,10 @@ def test_heights_are_raised_on_the_finest_grid_where_the_coarser_film_is_no_star
     assert again.film_scaled.central == pytest.approx(plain.film_scaled.central, rel=1e-4)
 
 
-def test_a_coarser_grid_raises_all_heights_even_where_its_film_fails(
+def test_a_coarser_grid_raises_all_heights_even_if_its_film_is_negative(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """The finest one has the last word."""
+    """The finest grid decides."""
     monkeypatch.setattr(steady, "ladder", lambda *_, **__: (NEWTON,))
     run = finished(wavy((20.0, 10.0), (3.0, 2.0, 0.0)), Options(points=65, domain=DOMAIN))
     assert {report.points[0] for report in run.history} == {33, 65}
@@ -242,10 +243,10 @@ def test_a_coarser_grid_raises_all_heights_even_where_its_film_fails(
     assert run.film_scaled.minimum <= 0.0
 
 
-def test_heights_are_not_raised_again_where_the_coarser_film_is_none(
+def test_heights_are_not_raised_again_if_the_coarser_film_is_negative(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """They would end the same way; what is known of the coarser film is told."""
+    """They would fail again; the status reports the coarser film."""
     monkeypatch.setattr(steady, "ladder", lambda *_, **__: (NEWTON,))
     run = finished(wavy((57.21, 10.52), (1.0, 1.0, 0.0)), Options(points=65, domain=DOMAIN))
     assert (run.status.kind, run.status.cause) == ("diverged", "grid_too_coarse")
@@ -255,8 +256,8 @@ def test_heights_are_not_raised_again_where_the_coarser_film_is_none(
 
 
 @pytest.mark.slow
-def test_newton_finishes_what_no_cycle_does() -> None:
-    """Waves of six smooth films: all cycles stall, Newton's method ends where the film does."""
+def test_newton_converges_where_all_cycles_stall() -> None:
+    """Waves six times as high as the smooth film: Newton's method ends where the film vanishes."""
     run = finished(wavy((126.0, 12.34), (0.4, 0.5, 0.0)), Options(points=129, domain=DOMAIN))
     assert run.history[-1].smoother == "newton"
     assert run.status.cause == "grid_too_coarse"
@@ -265,8 +266,8 @@ def test_newton_finishes_what_no_cycle_does() -> None:
 
 
 @pytest.mark.slow
-def test_newton_finds_a_film_that_diverges_otherwise() -> None:
-    """M = 200, A = 0.2, wavelength 0.5 on 257 nodes: positive, if not known to within itself."""
+def test_newton_converges_where_all_cycles_diverge() -> None:
+    """M = 200, A = 0.2, wavelength 0.5 on 257 nodes: positive, though the grid is too coarse."""
     run = finished(wavy((200.0, 10.0), (0.2, 0.5, 0.0)), Options(points=257, domain=DOMAIN))
     assert run.status.converged or run.status.cause == "grid_too_coarse"
     assert run.history[-1].residual < 1e-5
@@ -284,10 +285,10 @@ def finished(problem: ContactProblem, options: Options) -> Result:
         return error.result
 
 
-def test_a_film_that_fails_on_the_way_is_told_with_the_part_of_the_heights(
+def test_a_film_that_vanishes_during_the_continuation_is_reported_with_the_part_of_the_heights(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Ridges far too high: the climb ends where the film is not positive any more."""
+    """Ridges far too high: the continuation ends where the film is not positive."""
     monkeypatch.setattr(steady, "ladder", lambda *_, **__: (NEWTON,))
     run = finished(wavy((20.0, 10.0), (3.0, 2.0, 0.0)), Options(points=33, domain=DOMAIN))
     assert run.status.cause in ("asperity_contact", "grid_too_coarse")
@@ -296,16 +297,16 @@ def test_a_film_that_fails_on_the_way_is_told_with_the_part_of_the_heights(
     assert run.film_scaled.minimum <= 0.0
 
 
-def test_the_last_relaxation_goes_to_the_end_before_newton(
+def test_the_last_relaxation_before_newton_continues_to_the_finest_grid(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Grids in disorder do not stop it; with heat it is the last setting of all."""
+    """Even if coarser grids are not converging; with heat it is the last strategy."""
     seen: list[tuple[str, bool]] = []
     run = steady._attempt
 
-    def noted(*args: Any, patient: bool) -> Any:
-        seen.append((args[0].strategy.name, patient))
-        return replace(run(*args, patient=patient), status=Status(kind="stalled", cause="stalled"))
+    def noted(*args: Any, force: bool) -> Any:
+        seen.append((args[0].strategy.name, force))
+        return replace(run(*args, force=force), status=Status(kind="stalled", cause="stalled"))
 
     monkeypatch.setattr(steady, "_attempt", noted)
     smooth = wavy((20.0, 10.0), (0.01, 2.0, 0.0))

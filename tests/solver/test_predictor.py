@@ -1,4 +1,4 @@
-"""The start of a step in time: what moves steadily is told, whatever its speed."""
+"""Predictor of the pressure in a time step: exact for growth and for motion at any speed."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ def bump(centre: float) -> np.ndarray:
 
 
 def error(at, stride: int = 1, steps: int = 5) -> float:
-    """Return the error of the prediction of step ``steps`` where ``at(n)`` is added at step n."""
+    """Return the error of the prediction of step ``steps`` if ``at(n)`` is added at step n."""
     predictor = Predictor(STEADY, stride)
     for step in range(1, steps):
         predictor.note(STEADY + at(step))
@@ -26,27 +26,27 @@ def error(at, stride: int = 1, steps: int = 5) -> float:
 
 
 def straight(at) -> float:
-    """Return the error of a straight line in time."""
+    """Return the error of linear extrapolation in time."""
     return float(np.abs(2 * at(4) - at(3) - at(5)).max())
 
 
-def test_what_does_not_change_stays_as_it_is():
+def test_a_constant_pressure_is_predicted_exactly():
     assert error(lambda n: 0.0 * n) == 0.0
 
 
 def moving(speed: float):
-    """Return a bump that moves by so many nodes in a step."""
+    """Return a bump that moves by ``speed`` nodes per step."""
     return lambda step: bump(-1.0 + step * speed * SPACING)
 
 
 @pytest.mark.parametrize("shape", [moving(0.0), moving(1.0)])
 @pytest.mark.parametrize("rate", [0.8, 1.25])
-def test_what_grows_or_decays_at_a_rate_is_told(shape, rate):
+def test_exponential_growth_and_decay_are_predicted_exactly(shape, rate):
     assert error(lambda n: rate**n * shape(n)) < 1e-10
 
 
 @pytest.mark.parametrize("shape", [moving(0.0), moving(1.0)])
-def test_what_grows_as_a_parabola_is_told_better_than_by_a_straight_line(shape):
+def test_quadratic_growth_is_predicted_better_than_by_linear_extrapolation(shape):
     def at(n):
         return (1.0 + 0.3 * n + 0.1 * n**2) * shape(n)
 
@@ -54,14 +54,14 @@ def test_what_grows_as_a_parabola_is_told_better_than_by_a_straight_line(shape):
 
 
 @given(speed=st.floats(0.0, 2.0), stride=st.sampled_from([1, 2]))
-def test_a_feature_of_any_speed_is_told_far_better_than_by_a_straight_line(speed, stride):
+def test_a_feature_of_any_speed_is_predicted_better_than_by_linear_extrapolation(speed, stride):
     def at(n):
         return bump(-1.0 + n * speed * stride * SPACING)
 
     assert error(at, stride) <= max(0.02 * straight(at), 2e-6)
 
 
-def test_two_features_of_different_speeds_are_told_together():
+def test_two_features_of_different_speeds_are_predicted_together():
     def at(n):
         return bump(-1.0 + 1.25 * n * SPACING) - 0.5 * bump(1.0 + n * SPACING)
 
@@ -69,7 +69,7 @@ def test_two_features_of_different_speeds_are_told_together():
 
 
 @pytest.mark.parametrize("steps", [2, 3])
-def test_a_straight_line_has_to_do_while_little_is_known(steps):
+def test_the_first_steps_are_predicted_by_linear_extrapolation(steps):
     assert error(lambda n: 0.1 * n * bump(0.0), steps=steps) < 1e-12
 
 
@@ -85,7 +85,7 @@ def test_cavities_stay_and_no_pressure_is_negative():
     assert np.all(onward[pressure == 0.0] == 0.0)
 
 
-def test_a_grid_of_fewer_nodes_than_the_furthest_term_is_told_too():
+def test_a_grid_with_fewer_nodes_than_the_furthest_shift_is_predicted_too():
     predictor = Predictor(STEADY[:, :5], 8)
     for step in range(1, 6):
         predictor.note(STEADY[:, :5] + 0.1 * step)
@@ -93,7 +93,7 @@ def test_a_grid_of_fewer_nodes_than_the_furthest_term_is_told_too():
 
 
 @pytest.mark.parametrize("kind", ["random", "smooth"])
-def test_what_begins_after_quiet_steps_is_told_by_a_straight_line(kind):
+def test_a_sudden_change_after_quiet_steps_is_predicted_by_linear_extrapolation(kind):
     random = np.random.default_rng(5)
 
     def residue(n):

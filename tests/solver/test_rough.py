@@ -1,4 +1,4 @@
-"""Surfaces that are rough and stand still: what the cycles reach, and what the verdict says."""
+"""Rough surfaces at rest: convergence of the cycles, and the status of the result."""
 
 import numpy as np
 import pytest
@@ -33,7 +33,7 @@ def test_heights_fade_on_coarser_grids_and_keep_their_mean():
     assert heights.points_per_wave(grid.coarser()) == pytest.approx(4.0)
 
 
-def test_the_mirror_row_is_weighed_with_its_image():
+def test_the_mirror_row_is_weighted_with_its_image():
     half = np.arange(25.0).reshape(5, 5) ** 2
     whole = np.concatenate([half[:0:-1], half])
     assert full_weighting(half, mirror=True) == pytest.approx(
@@ -69,7 +69,7 @@ def test_a_strong_wave_falls_back_to_the_accelerated_cycles():
     assert result.scaled.film.min() > 0.0
 
 
-def test_a_default_run_is_near_the_tight_one():
+def test_a_default_run_is_close_to_the_tight_one():
     default, exact = (
         rough_film((57.21, 10.52), o, (0.1, 1.0, 45.0))
         for o in (options(129, **FULL), tight(129, **FULL))
@@ -90,7 +90,7 @@ def test_a_dent_and_a_bump_change_the_film_where_they_are(height):
     assert abs(result.film_scaled.central - smooth.film_scaled.central) < 0.5 * abs(height)
 
 
-def test_asperities_that_would_touch_are_named_with_their_place():
+def test_asperities_that_would_touch_are_reported():
     with pytest.raises(ConvergenceError) as caught:
         rough_film((500.0, 10.0), options(65), (0.2, 1.5, 90.0))
     status = caught.value.result.status
@@ -98,13 +98,13 @@ def test_asperities_that_would_touch_are_named_with_their_place():
     assert caught.value.result.scaled.pressure.shape == (65, 65)
 
 
-def test_a_minimum_that_is_not_known_to_within_itself_is_told_and_holds():
-    """Ridges of nearly twice the smooth film: one spot is thin, the rest of the film is known."""
+def test_a_minimum_with_an_error_above_100_percent_is_reported_and_bounded():
+    """Ridges of nearly twice the smooth film: one spot is thin, the rest is accurate."""
     contact, shape = (57.21, 10.52), (0.2, 1.0, 90.0)
     coarse, fine = (rough_film(contact, options(points), shape) for points in (65, 129))
     assert coarse.status.converged
     assert coarse.status.cause is None
-    assert "times itself" in (coarse.status.message or "")
+    assert "its value is not known" in (coarse.status.message or "")
     assert "numerics.points = 257" in (coarse.status.hint or "")
     assert coarse.errors is not None
     assert coarse.errors.discretisation_minimum > 1.0
@@ -115,10 +115,10 @@ def test_a_minimum_that_is_not_known_to_within_itself_is_told_and_holds():
     assert fine.status.message is None
     text = as_text(coarse)
     assert "uncertain        The minimum film" in text
-    assert "hint             Take a finer grid" in text
+    assert "hint             If the minimum matters" in text
 
 
-def test_a_film_that_is_not_positive_is_refused_with_its_place():
+def test_a_film_that_is_not_positive_is_reported_with_its_place():
     with pytest.raises(ConvergenceError) as caught:
         rough_film((126.0, 12.34), options(65), (0.2, 1.0, 90.0))
     status = caught.value.result.status
@@ -127,7 +127,7 @@ def test_a_film_that_is_not_positive_is_refused_with_its_place():
 
 
 def test_anderson_takes_the_combination_that_changes_least():
-    """By least squares of another kind, also where one change is nearly another."""
+    """Compared with a library least-squares solution, with two nearly parallel changes."""
     generator = np.random.default_rng(2)
     befores, afters = generator.standard_normal((2, 4, 50))
     afters[2] = befores[2] + (afters[1] - befores[1]) * (1.0 + 1e-5 * befores[0])
@@ -153,21 +153,21 @@ def test_anderson_solves_a_linear_iteration_that_diverges():
 
 
 @pytest.mark.parametrize("wavelength", [0.01, 0.09375, 0.3], ids=["short", "mesh", "few"])
-def test_waves_that_the_grid_takes_for_others_are_refused(wavelength):
-    """The mesh is 0.09375 wide; a wave of that length would be a flat surface."""
+def test_waves_that_the_grid_would_alias_are_rejected(wavelength):
+    """The mesh width is 0.09375; a wave of that length would be a flat surface."""
     with pytest.raises(InputError, match=r"the shortest wave has .* nodes per wavelength"):
         rough_film((57.21, 10.52), options(65), (0.01, wavelength, 0.0))
 
 
-def test_a_dent_between_the_nodes_is_refused():
+def test_a_dent_between_the_nodes_is_rejected():
     case = moes_contact(57.21, 10.52).model_dump(exclude_none=True)
     case["surface_1"]["roughness"] = {"type": "bump", "amplitude": -1e-8, "radius": 1e-6}
     with pytest.raises(InputError, match=r"increase numerics\.points"):
         solve(ContactProblem.model_validate(case), options(65))
 
 
-def test_a_map_that_the_grid_does_not_carry_is_filtered_and_not_refused(tmp_path):
-    """Blue noise: what is left of it has waves of less than four nodes."""
+def test_the_short_waves_of_a_map_are_filtered_and_not_rejected(tmp_path):
+    """Blue noise: even the waves that remain have fewer than four nodes."""
     smooth = moes_contact(57.21, 10.52)
     case, units = smooth.model_dump(exclude_none=True), scales(smooth)
     noise = np.random.default_rng(5).standard_normal((96, 96))

@@ -1,4 +1,4 @@
-"""What every solution must satisfy: balance, complementarity, symmetry, invariance."""
+"""Properties of every solution: balance, complementarity, symmetry, invariance."""
 
 import numpy as np
 import pytest
@@ -44,7 +44,7 @@ def test_the_film_is_positive_and_least_near_the_outlet_or_the_sides(run):
     assert film.minimum_at[1] >= 0.0
 
 
-def test_where_the_film_cavitates_it_does_not_lack_oil(run):
+def test_pressure_and_residual_are_complementary(run):
     """P > 0 with zero residual, or P = 0 with residual L(P) <= 0."""
     level = multigrid(run.problem, run.options).finest
     rows = run.scaled.pressure.shape[0] - level.grid.shape[0]
@@ -53,7 +53,7 @@ def test_where_the_film_cavitates_it_does_not_lack_oil(run):
     level.pose_problem()
     level.update()
     np.testing.assert_allclose(level.film.h, run.scaled.film[rows:], rtol=0, atol=1e-9)
-    assert level.evaluate_residual() <= run.options.tolerance  # wet or lacking oil
+    assert level.evaluate_residual() <= run.options.tolerance  # zero where wet
 
 
 def test_the_film_is_symmetric(run):
@@ -140,19 +140,19 @@ def test_sliding_does_not_change_an_isothermal_newtonian_film(slide_roll_ratio):
 
 
 @pytest.mark.parametrize("change", [{"cycle": "W"}, {"cycle": "F"}, {"deformation": "fft"}])
-def test_cycle_and_deformation_change_the_film_by_their_tolerance_only(change):
+def test_cycle_and_deformation_change_the_film_within_the_tolerance(change):
     base, other = film_of(50.0, 8.0, tight(65)), film_of(50.0, 8.0, tight(65, **change))
-    # the multilevel sum is off by 1e-4 on this grid, and the rigid approach takes up most of it
+    # the multilevel sum has an error of 1e-4 on this grid, mostly absorbed by the rigid approach
     limit = 2e-4 if "deformation" in change else CLOSE
     np.testing.assert_allclose(other.scaled.film, base.scaled.film, rtol=0, atol=limit)
 
 
-def test_the_sum_by_definition_gives_the_film_of_the_fft():
+def test_the_direct_sum_gives_the_film_of_the_fft():
     fft, direct = (film_of(20.0, 10.0, tight(65, deformation=d)) for d in ("fft", "direct"))
     np.testing.assert_allclose(direct.scaled.film, fft.scaled.film, rtol=0, atol=CLOSE)
 
 
-def test_the_orders_of_the_wedge_agree_to_their_order():
+def test_the_wedges_of_first_and_second_order_converge_to_the_same_film():
     first, second = (
         [film_of(20.0, 10.0, tight(n, wedge_order=order)).film_scaled.central for n in (65, 129)]
         for order in (1, 2)

@@ -1,4 +1,4 @@
-"""What every heated or thinning film must satisfy: invariance, symmetry, limits."""
+"""Properties of every heated or shear-thinning film: invariance, symmetry, limits."""
 
 from functools import cache
 from typing import Any
@@ -23,7 +23,7 @@ CLOSE = 1e-5
 def heated(
     slide_roll_ratio: float, law: str = "newtonian", points: int = 65, sources: str = "line"
 ) -> Result:
-    """The film of the heated reference contact."""
+    """Return the film of the heated reference contact."""
     shear = EYRING if law == "eyring" else None
     problem = heated_contact(slide_roll_ratio, shear=shear, sources=sources)
     return solve(problem, tight(points))
@@ -38,7 +38,7 @@ def heat_of(run: Result) -> FilmHeat:
     ("slide", "law", "sources"),
     [(0.5, "newtonian", "line"), (0.5, "eyring", "line"), (1.9, "eyring", "auto")],
 )
-def test_equal_solids_do_not_know_which_of_them_is_the_faster(slide, law, sources):
+def test_exchanging_the_speeds_of_equal_solids_mirrors_the_film(slide, law, sources):
     ahead, behind = (heated(sign * slide, law, sources=sources) for sign in (1.0, -1.0))
     for name in ("film", "pressure"):
         one, other = getattr(ahead.scaled, name), getattr(behind.scaled, name)
@@ -102,7 +102,7 @@ def scaled_copy(problem: ContactProblem, size: float, modulus: float) -> Contact
 
 
 def barus(problem: ContactProblem) -> ContactProblem:
-    """The same contact with a law that holds no pressure of its own."""
+    """Return the same contact with a law that has no pressure scale of its own."""
     tables: dict[str, Any] = problem.model_dump(mode="python", exclude_none=True)
     tables["lubricant"]["viscosity"] = {
         "law": "barus", "eta_0": 0.04, "alpha": 14e-9, "gamma": 0.042,
@@ -143,22 +143,22 @@ def test_an_eyring_film_of_huge_stress_is_newtonian():
     np.testing.assert_allclose(thinning.shear.thinning, 1.0, rtol=1e-6)
 
 
-def test_a_rolling_film_is_thinner_by_what_the_inlet_is_heated():
+def test_inlet_heating_thins_a_rolling_film_as_the_formulas_predict():
     warm = heated(0.0, points=129)
     cold = solve(heated_contact(0.0, reynolds=None), tight(129))
     ratio = warm.film_scaled.central / cold.film_scaled.central
     factors = [found.factor for found in inlet_factors(warm.problem)]
     assert 0.9 < ratio < 1.0
-    # correlations of pure rolling, good to some per cent
+    # correlations for pure rolling, accurate to a few per cent
     assert min(factors) - 0.03 < ratio < max(factors) + 0.03
-    # heat flows into both solids alike, and hardly any is made in the contact
+    # both solids take the same heat, and little is generated in the contact
     heat = heat_of(warm)
     np.testing.assert_allclose(heat.flux_1, heat.flux_2, rtol=0, atol=1e-8 * heat.flux_1.max())
     assert warm.temperature is not None
     assert warm.temperature.mid_film_rise_central < 1.0
 
 
-def test_sliding_makes_the_film_warmer_and_the_traction_less_than_isothermal():
+def test_sliding_heats_the_film_and_reduces_the_traction():
     rises = [heated(slide).temperature for slide in (0.0, 0.5)]
     central = [rise.mid_film_rise_central for rise in rises if rise is not None]
     assert 0.0 < central[0] < 1.0
@@ -170,7 +170,7 @@ def test_sliding_makes_the_film_warmer_and_the_traction_less_than_isothermal():
     assert abs(warm.mid_film) < 0.5 * abs(cold.mid_film)
 
 
-def test_thinning_takes_heat_out_of_the_film():
+def test_shear_thinning_reduces_the_heat_of_the_film():
     newtonian, thinning = heated(0.5), heated(0.5, "eyring")
     for run in (newtonian, thinning):
         assert abs(heat_of(run).balance.error) < 0.01
@@ -181,7 +181,7 @@ def test_thinning_takes_heat_out_of_the_film():
 
 
 def test_the_heat_balance_closes_with_mesh_and_nodes():
-    """Measured 0.058, 0.031 and, on 257 nodes with 17 across, 0.017 per cent."""
+    """Measured 0.058, 0.031 and, on 257 nodes with 17 layers, 0.017 per cent."""
     missing = []
     for points, layers in ((65, 9), (129, 13)):
         problem = heated_contact(0.5, sources="auto", layers=layers)
@@ -191,15 +191,15 @@ def test_the_heat_balance_closes_with_mesh_and_nodes():
     assert missing[1] < 0.6 * missing[0]
 
 
-def test_what_flows_sideways_and_back_settles_with_the_film():
-    """In pure rolling the inlet has most of the heat, and the oil hardly moves on there."""
+def test_heat_of_sideways_and_backward_flow_converges_with_the_film():
+    """In pure rolling most of the heat is in the inlet, where the oil hardly advances."""
     run = solve(heated_contact(0.0), tight(65, tolerance=1e-5))
     assert abs(heat_of(run).balance.error) < 1e-3
     assert run.history[-1].cycle < 15
 
 
-def test_friction_power_is_what_shear_and_flow_make_of_it():
-    """What the surfaces spend is the shear heat and the work of the pressure on the flow."""
+def test_friction_power_is_the_shear_heat_and_the_work_on_the_flow():
+    """The surfaces supply the shear heat and the work of the pressure on the flow."""
     run = heated(0.5, points=129)
     assert run.traction is not None
     shear = heat_of(run).balance.shear

@@ -1,4 +1,4 @@
-"""Transient runs: what a film must do when nothing changes, and when waves pass."""
+"""Transient runs: films without a change, passing waves, loads, snapshots, failures."""
 
 from functools import cache
 
@@ -10,7 +10,7 @@ from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.scaling import scales
 from tehl.solver.monitor import SILENT
-from tehl.solver.transient.checks import failed
+from tehl.solver.statuses import step_not_settled
 from tehl.solver.transient.run import Run
 from tehl.solver.transient.snapshot import pack, unpack
 from tehl.solver.transient.step import StepError
@@ -22,7 +22,7 @@ OPTIONS = Options(points=65, domain=DOMAIN)
 
 
 def in_time(distance: float, *, slide: float = 0.0, **tables: object) -> ContactProblem:
-    """M = 50, L = 10 while the mean of both surfaces moves on by ``distance`` half-widths."""
+    """Return M = 50, L = 10 while the mean motion advances by ``distance`` half-widths."""
     case = moes_contact(M, L)
     units = scales(case)
     given = case.model_dump(exclude_none=True)
@@ -34,7 +34,7 @@ def in_time(distance: float, *, slide: float = 0.0, **tables: object) -> Contact
 
 
 def wave(amplitude: float = 0.01, wavelength: float = 1.5, phase: float = 0.0) -> dict:
-    """A transverse wave as a table, in units of a^2/R and a."""
+    """Return a transverse wave as a table, in units of a^2/R and a."""
     units = scales(moes_contact(M, L))
     return {
         "roughness": {
@@ -48,11 +48,11 @@ def wave(amplitude: float = 0.01, wavelength: float = 1.5, phase: float = 0.0) -
 
 @cache
 def rolling(phase: float = 0.0) -> TransientResult:
-    """Pure rolling, a wave on surface 1 passes."""
+    """Return a run in pure rolling in which a wave on surface 1 passes."""
     return solve_transient(in_time(7.5, surface_1=wave(phase=phase)), OPTIONS)
 
 
-def test_a_film_without_roughness_stays_the_steady_one():
+def test_a_film_without_roughness_stays_steady():
     run = solve_transient(in_time(1.0), OPTIONS)
     start, history = run.start, run.history
     assert run.status.converged
@@ -63,15 +63,15 @@ def test_a_film_without_roughness_stays_the_steady_one():
     np.testing.assert_allclose(run.frames.pressure[-1], start.pressure, rtol=0, atol=1e-6 * largest)
 
 
-def test_the_beginning_is_the_steady_film():
+def test_the_film_at_time_zero_is_the_steady_film():
     run = rolling()
     steady = solve(moes_contact(M, L), Options(points=65, domain=DOMAIN, accuracy="tight"))
     assert run.history.film_central[0] == pytest.approx(steady.film.central, rel=1e-6)
     assert run.history.cycles[0] == 0
 
 
-def test_the_least_film_of_the_history_is_that_of_the_steady_film():
-    """Between the nodes, the least of which lies 2.1 % above it here, and 1.0 % at the end."""
+def test_the_minimum_film_of_the_history_lies_between_the_nodes():
+    """The smallest node is 2.1 % above it at time zero, and 1.0 % at the end."""
     run = rolling()
     assert run.history.film_minimum[0] == pytest.approx(run.start.film.minimum, rel=1e-12)
     assert run.history.film_minimum[-1] < 0.998 * float(run.frames.film[-1].min())
@@ -87,7 +87,7 @@ def test_a_wave_is_flattened_but_keeps_its_length():
     last = run.history.time > run.history.time[-1] - period * (1 + 1e-9)
     film = run.profiles.film[last, centre] / units.film_thickness
     assert 0.3 < 0.5 * np.ptp(film) / 0.01 < 0.9
-    # the film at one place repeats after the time in which the surfaces move on by a wavelength
+    # the film at one place repeats after the surfaces have moved by a wavelength
     earlier = np.interp(
         run.history.time[last] - period, run.history.time, run.profiles.film[:, centre]
     )
@@ -101,7 +101,7 @@ def test_a_wave_on_either_surface_is_the_same_in_pure_rolling():
     )
 
 
-def test_a_wave_turned_by_half_a_period_makes_the_opposite_ripple():
+def test_a_wave_shifted_by_half_a_period_gives_the_opposite_ripple():
     """Small waves are linear: the mean of both films is the smooth one, to second order."""
     one, other = rolling(), rolling(np.pi)
     mean = 0.5 * (one.profiles.film + other.profiles.film)
@@ -111,7 +111,7 @@ def test_a_wave_turned_by_half_a_period_makes_the_opposite_ripple():
 
 
 def test_mass_travels_through_the_contact_at_the_mean_speed():
-    """Under high pressure nothing but the surfaces moves the oil: rho h is carried along whole."""
+    """Under high pressure only the surfaces move the oil: rho h travels unchanged."""
     case = moes_contact(300.0, L)
     units = scales(case)
     given = case.model_dump(exclude_none=True)
@@ -138,7 +138,7 @@ def test_mass_travels_through_the_contact_at_the_mean_speed():
 
 
 class Smoothers:
-    """Notes what each step was relaxed with."""
+    """Records the relaxation of each step."""
 
     def __init__(self) -> None:
         self.names: list[str] = []
@@ -150,7 +150,7 @@ class Smoothers:
         self.names.append(report.smoother)
 
 
-def test_a_load_that_begins_to_rise_on_the_way_asks_for_no_other_setting():
+def test_a_load_that_rises_during_the_run_needs_no_slower_relaxation():
     end = in_time(1.5).transient.duration
     load = [[0.0, 1.0], [0.4 * end, 1.0], [end, 1.3]]
     monitor = Smoothers()
@@ -173,7 +173,7 @@ def test_the_load_follows_its_table():
     assert run.history.pressure_max[-1] > 1.05 * run.history.pressure_max[0]
 
 
-def test_a_snapshot_goes_on_bit_by_bit():
+def test_a_resumed_run_is_equal_bit_by_bit():
     case = in_time(1.0, slide=0.5, surface_1=wave(), transient={"entrance": 0.6})
     kept = []
 
@@ -189,7 +189,7 @@ def test_a_snapshot_goes_on_bit_by_bit():
     assert (whole.history.rigid_approach == again.history.rigid_approach).all()
 
 
-def test_a_surface_that_stands_still_never_brings_its_roughness_in():
+def test_roughness_of_a_surface_at_rest_is_rejected():
     case = in_time(1.0, slide=-2.0, surface_1=wave())
     with pytest.raises(InputError, match="as the surface stands still"):
         solve_transient(case, OPTIONS)
@@ -211,61 +211,61 @@ def test_a_longer_step_keeps_the_steady_film_and_carries_a_wave(stride):
 
 
 FAR = {"type": "bump", "amplitude": 1e-8, "radius": 1e-4, "x": -1.0}
-REFUSED = [
+INVALID = [
     ({"transient": {"stride": 8}}, r"take 4 or less"),
     ({"surface_1": wave(wavelength=0.2)}, "shortest wave has 2.1 nodes"),
     ({"surface_1": {"roughness": FAR}}, "does not enter the contact"),
 ]
 
 
-@pytest.mark.parametrize(("tables", "words"), REFUSED)
-def test_a_run_that_would_say_nothing_is_refused(tables, words):
+@pytest.mark.parametrize(("tables", "words"), INVALID)
+def test_an_invalid_transient_problem_is_rejected(tables, words):
     with pytest.raises(InputError, match=words):
         solve_transient(in_time(4.0, **tables), OPTIONS)
 
 
-def test_too_many_steps_are_refused_before_any_work():
+def test_too_many_steps_are_rejected_before_any_work():
     with pytest.raises(InputError, match=r"give a shorter one, or a larger transient\.stride"):
         solve_transient(in_time(1e6), OPTIONS)
 
 
-def test_solving_a_question_with_time_as_a_steady_one_is_refused():
+def test_solving_a_transient_problem_as_a_steady_one_is_rejected():
     with pytest.raises(InputError, match=r"tehl\.solve_transient"):
         solve(in_time(1.0), OPTIONS)
 
 
-def test_a_steady_question_has_no_time():
-    with pytest.raises(InputError, match=r"no \[transient\] table"):
+def test_solving_a_steady_problem_as_a_transient_one_is_rejected():
+    with pytest.raises(InputError, match="transient: missing from the case"):
         solve_transient(moes_contact(M, L), OPTIONS)
 
 
 @pytest.mark.parametrize("failure", [StepError("diverged", np.nan), ZeroDivisionError()])
-def test_a_setting_that_runs_away_leaves_nothing_to_the_next_one(failure):
-    """A step whose pressure is no number any more is taken again from the last sound film."""
+def test_a_relaxation_that_diverges_does_not_affect_the_next_one(failure):
+    """A step whose pressure is NaN is repeated from the last valid film."""
     case = in_time(1.0, surface_1=wave(), transient={"entrance": 0.6})
     assert case.transient is not None
     run = Run(case, OPTIONS, case.transient, SILENT)
     stepper, level = run.stepper, run.level
-    settle, calls = stepper._settle, []
+    solve_step, calls = stepper._solve, []
 
-    def run_away_once(name: str) -> object:
+    def diverge_once(name: str) -> object:
         calls.append(name)
         if len(calls) > 1:
-            return settle(name)
+            return solve_step(name)
         level.set_state(np.full_like(level.film.p, np.nan), np.nan)
         raise failure
 
-    stepper._settle = run_away_once
-    assert run.go(SILENT).converged
+    stepper._solve = diverge_once
+    assert run.advance(SILENT).converged
     assert calls[1] != calls[0]
-    sound = solve_transient(case, OPTIONS)
+    undisturbed = solve_transient(case, OPTIONS)
     film = run.record.lines(run.scales).film
     # both within the tolerance of a step, 1e-3 of the pressure
-    np.testing.assert_allclose(film, sound.profiles.film, rtol=2e-3)
+    np.testing.assert_allclose(film, undisturbed.profiles.film, rtol=2e-3)
 
 
 @pytest.mark.parametrize("harm", ["lost", "cut", "more"])
-def test_a_snapshot_that_is_not_whole_is_refused(harm):
+def test_a_damaged_snapshot_is_rejected(harm):
     case, kept = in_time(0.2), []
     solve_transient(case, OPTIONS, keep=lambda snapshot: kept.append(snapshot.copy()))
     fields = kept[0].fields
@@ -275,13 +275,13 @@ def test_a_snapshot_that_is_not_whole_is_refused(harm):
         fields["pressure_changes"] = fields["pressure_changes"][:2]
     else:
         fields["temperature"] = fields["mass"]
-    with pytest.raises(InputError, match="or not whole"):
+    with pytest.raises(InputError, match="or is damaged"):
         solve_transient(case, OPTIONS, resume=kept[0])
 
 
 @pytest.fixture(scope="module")
 def packed() -> dict:
-    """The arrays of a run of four steps after the third, two frames in it."""
+    """Return the arrays of a run of four steps after the third, with two frames."""
     kept = []
     solve_transient(in_time(0.3), OPTIONS, keep=lambda snapshot: kept.append(snapshot.copy()))
     return pack(kept[2])
@@ -306,12 +306,12 @@ def packed() -> dict:
         ("cost", lambda cost: -cost),
     ],
 )
-def test_a_checkpoint_whose_arrays_do_not_fit_each_other_is_refused(packed, name, harm):
-    with pytest.raises(InputError, match=r"the checkpoint is not whole: .*begins anew"):
+def test_a_checkpoint_with_inconsistent_arrays_is_rejected(packed, name, harm):
+    with pytest.raises(InputError, match=r"the checkpoint is damaged: .*starts anew"):
         unpack(packed | {name: harm(packed[name])})
 
 
-def test_a_checkpoint_of_older_steps_than_its_film_is_refused(packed):
+def test_a_checkpoint_with_a_film_newer_than_its_steps_is_rejected(packed):
     older = {name: packed[name][:2] for name in ("rows", "profiles")}
     older |= {name: packed[name][:1] for name in ("frames", "frame_steps")}
     with pytest.raises(InputError, match="its pressure is not that of its last step"):
@@ -330,13 +330,13 @@ def test_a_checkpoint_of_older_steps_than_its_film_is_refused(packed):
         ("field_mass", lambda mass: mass.astype(np.float32)),
     ],
 )
-def test_a_checkpoint_that_does_not_fit_the_case_is_refused(packed, name, harm):
+def test_a_checkpoint_of_another_case_is_rejected(packed, name, harm):
     state = unpack(packed | {name: harm(packed[name])})
     with pytest.raises(InputError, match="than the case, or"):
         solve_transient(in_time(0.3), OPTIONS, resume=state)
 
 
-def test_the_cost_of_a_run_that_goes_on_is_that_of_all_its_parts(packed):
+def test_the_cost_of_a_resumed_run_is_that_of_all_its_parts(packed):
     cost = np.array([1000.0, 2000.0])
     again = solve_transient(in_time(0.3), OPTIONS, resume=unpack(packed | {"cost": cost}))
     assert packed["cost"].min() > 0.0
@@ -345,7 +345,7 @@ def test_the_cost_of_a_run_that_goes_on_is_that_of_all_its_parts(packed):
 
 
 @pytest.mark.parametrize(("place", "value"), [("p", np.nan), ("h", np.nan), ("h", np.inf)])
-def test_a_step_that_is_no_number_does_not_settle(place, value):
+def test_a_step_with_a_film_that_is_not_finite_fails(place, value):
     case = in_time(0.3)
     run = Run(case, OPTIONS, case.transient, SILENT)
     update = run.level.update
@@ -355,28 +355,28 @@ def test_a_step_that_is_no_number_does_not_settle(place, value):
         getattr(run.level.film, place)[3, 3] = value
 
     run.level.update = poisoned
-    assert run.go(SILENT, None).cause == "step_not_settled"
+    assert run.advance(SILENT, None).cause == "step_not_settled"
     assert len(run.record.rows) == 1
 
 
-def test_a_tolerance_that_no_step_reaches_is_named():
+def test_an_unreachable_tolerance_is_reported():
     run = solve_transient(in_time(0.3, transient={"tolerance": 1e-300, "max_cycles": 5}), OPTIONS)
     assert run.status.cause == "step_not_settled"
-    assert "let transient.tolerance (now 1e-300) be 1e-06 or more" in str(run.status.hint)
+    assert "Set transient.tolerance = 1e-06 or more (now 1e-300)" in str(run.status.hint)
     assert "asperities" not in str(run.status.hint)
 
 
 @pytest.mark.parametrize(("cause", "change"), [("stalled", 1e-3), ("diverged", 1e-9)])
-def test_a_step_that_does_not_settle_blames_its_surfaces(cause, change):
+def test_the_hint_of_a_step_that_does_not_converge_names_the_asperities(cause, change):
     case = in_time(0.3, transient={"tolerance": 1e-12})
-    level = Run(case, OPTIONS, case.transient, SILENT).level
-    status = failed(StepError(cause, change), 0.0, level, case.transient)
+    grid = Run(case, OPTIONS, case.transient, SILENT).level.grid
+    status = step_not_settled(cause, change, 0.0, grid, case.transient)
     assert "asperities" in str(status.hint)
 
 
 @pytest.mark.slow
 def test_a_dent_passes_on_a_fine_grid_as_on_a_coarse_one():
-    """On 513 nodes points with the threshold of steady films drift away, and seem settled at it."""
+    """With the dipole threshold of steady films it drifts away on 513 nodes."""
     case = moes_contact(50.0, 5.0)
     units, given = scales(case), case.model_dump(exclude_none=True)
     width, height = units.half_width_x, units.film_thickness

@@ -15,12 +15,12 @@ from tests.reference import DOMAIN, heated_contact
 
 OPTIONS = Options(points=65, domain=DOMAIN)
 SMALL = 1e-3
-"""Rise [K] that leaves the density as it is."""
+"""Rise [K] that hardly changes the density."""
 WAVE = {"amplitude": 0.02, "wavelength": 1.0}
 
 
 def hot(distance: float, slide: float = 0.5, *, wavy: bool = False, **tables) -> ContactProblem:
-    """The heated reference contact while its surfaces move on by ``distance`` half-widths."""
+    """Return the heated reference contact while it advances by ``distance`` half-widths."""
     case = heated_contact(slide, shear=tables.pop("shear", None))
     units, given = scales(case), case.model_dump(exclude_none=True)
     if wavy:
@@ -34,7 +34,7 @@ def hot(distance: float, slide: float = 0.5, *, wavy: bool = False, **tables) ->
     return ContactProblem.model_validate(given | tables)
 
 
-def test_a_heated_film_without_roughness_stays_the_steady_one():
+def test_a_heated_film_without_roughness_stays_steady():
     run = solve_transient(hot(1.0), OPTIONS)
     assert run.status.converged
     film, rise = run.history.film_central, run.history.temperature_rise
@@ -44,7 +44,7 @@ def test_a_heated_film_without_roughness_stays_the_steady_one():
 
 
 def breathing(slide: float) -> ContactProblem:
-    """Glass on steel, whose film is stiff on one side, under a load that goes up and down."""
+    """Return glass on steel, whose film is stiff on one side, under an oscillating load."""
     unit = scales(heated_contact(slide))
     period = unit.half_width_x / unit.speed
     load = [(0.0625 * n * period, 1.0 + 0.05 * np.sin(0.125 * np.pi * n)) for n in range(48)]
@@ -53,24 +53,24 @@ def breathing(slide: float) -> ContactProblem:
 
 
 @pytest.mark.parametrize("slide", [0.5, -0.5], ids=["slower", "faster"])
-def test_what_flows_in_is_what_the_heated_film_holds(slide):
+def test_the_heated_film_conserves_mass(slide):
     """On the line y = 0 in the contact, by central differences, which the solver does not use.
 
-    The film holds rho_e H and carries rho* H; taken for each other, they would miss an eighth.
+    The film stores rho_e H and carries rho* H; exchanging them would be wrong by an eighth.
     """
     problem = breathing(slide)
     run = Run(problem, Options(points=129, domain=DOMAIN), problem.transient, SILENT)
-    carried, held, pressed = [], [], []
+    carried, stored, pressed = [], [], []
 
     def note(_):
         film, excess = run.level.film, run.stepper.run.coupling.excess()
         mass = film.rho[0] * film.h[0]
         carried.append(mass)
-        held.append((1.0 - excess[0]) * mass)
+        stored.append((1.0 - excess[0]) * mass)
         pressed.append(film.eps_x[0] * np.gradient(film.p[0], run.level.grid.dx))
 
-    assert run.go(SILENT, note).converged
-    moving, there, flow = (np.array(one) for one in (carried, held, pressed))
+    assert run.advance(SILENT, note).converged
+    moving, there, flow = (np.array(one) for one in (carried, stored, pressed))
     along = np.gradient(moving - flow, run.level.grid.dx, axis=1)[1:-1]
     opening, wrong = (
         (mass[2:] - mass[:-2]) / (2.0 * run.stepper.time_step) for mass in (there, moving)
@@ -83,8 +83,8 @@ def test_what_flows_in_is_what_the_heated_film_holds(slide):
     assert mistaken > 0.1 * scale
 
 
-def test_a_film_at_rest_cools_by_conduction_as_it_must():
-    """Between walls that keep their temperature sin(pi zeta) decays with the diffusion time."""
+def test_a_film_at_rest_cools_by_conduction_as_the_exact_solution():
+    """Between walls of constant temperature sin(pi zeta) decays with the diffusion time."""
     problem = heated_contact(0.0)
     grid = Grid(nx=17, ny=17, domain=DOMAIN, mirror=True)
     film = HeatedFilm(ScaledProblem.of(problem))
@@ -115,7 +115,7 @@ def test_a_film_at_rest_cools_by_conduction_as_it_must():
     assert errors[1] < 0.3 * errors[0]
 
 
-def test_waves_make_the_temperature_swing_and_keep_the_film():
+def test_waves_make_the_temperature_oscillate():
     run = solve_transient(hot(5.5, wavy=True), OPTIONS)
     assert run.status.converged
     rise = run.history.temperature_rise
@@ -124,7 +124,7 @@ def test_waves_make_the_temperature_swing_and_keep_the_film():
     assert 0.5 * rise[0] < rise.min() < rise.max() < 2.0 * rise[0]
 
 
-def test_equal_solids_do_not_know_which_of_them_has_the_wave():
+def test_a_wave_on_either_of_equal_solids_gives_the_mirrored_film():
     ahead = solve_transient(hot(2.5, 0.5, wavy=True), OPTIONS)
     other = hot(2.5, -0.5, wavy=True).model_dump(exclude_none=True)
     other["surface_2"]["roughness"] = other["surface_1"].pop("roughness")
@@ -138,7 +138,7 @@ def test_equal_solids_do_not_know_which_of_them_has_the_wave():
 
 
 @pytest.mark.parametrize("shear", [None, {"law": "eyring", "stress": "5 MPa"}])
-def test_a_heated_run_goes_on_bit_by_bit(shear):
+def test_a_resumed_heated_run_is_equal_bit_by_bit(shear):
     case, kept = hot(0.8, wavy=True, shear=shear, transient={"entrance": 0.6}), []
 
     def keep(snapshot):
@@ -151,12 +151,12 @@ def test_a_heated_run_goes_on_bit_by_bit(shear):
     assert (whole.history.temperature_rise == again.history.temperature_rise).all()
 
 
-def test_a_surface_too_slow_for_heat_in_time_is_refused():
+def test_a_surface_too_slow_for_transient_heat_is_rejected():
     with pytest.raises(ValueError, match="too slow for heat in a transient"):
         hot(1.0, 1.5)
 
 
-def test_a_longer_stride_serves_slower_surfaces():
+def test_a_longer_stride_allows_slower_surfaces():
     run = solve_transient(hot(1.0, 1.4, transient={"stride": 2}), OPTIONS)
     assert run.status.converged
     with pytest.raises(ValueError, match=r"thermal\.sources"):

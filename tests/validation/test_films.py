@@ -45,7 +45,7 @@ def test_the_discrete_film_on_129_nodes_is_that_of_the_independent_solver(case):
     assert run.film_scaled.central == pytest.approx(there["h_central"], rel=1e-6)
     node = run.scaled.y.size // 2, int(np.argmin(np.abs(run.scaled.x)))
     assert run.scaled.pressure[node] == pytest.approx(there["p_central"], rel=1e-6)
-    # both minima are of cubic splines, but through other neighbours
+    # both minima are of cubic splines, but through different neighbours
     assert run.film_scaled.minimum == pytest.approx(there["h_minimum"], rel=2e-4)
 
 

@@ -1,4 +1,4 @@
-"""Standing asperities: an independent solver, the linear theory, and strong waves."""
+"""Standing waves against an independent solver and linear theory, and strong waves."""
 
 import numpy as np
 import pytest
@@ -19,7 +19,7 @@ INDEPENDENT = {"central": (0.203230, 2e-4), "minimum": (0.109946, 1e-3)}
 own uncertainty is 3e-4 and 6e-4."""
 
 
-def test_the_film_between_a_standing_wave_is_that_of_an_independent_solver():
+def test_the_film_of_a_standing_wave_is_that_of_an_independent_solver():
     contact, shape = WAVE
     coarse, fine = (
         rough_film(contact, tight(n, half_domain="never"), shape).film_scaled for n in (257, 513)
@@ -38,7 +38,7 @@ def compression(smooth: Result, length: float) -> np.ndarray:
 
 
 def ripple(field: np.ndarray, expected: np.ndarray, basis: list[np.ndarray]) -> float:
-    """Return the part of ``expected`` in ``field`` by least squares, beside those of ``basis``."""
+    """Return the least-squares part of ``expected`` in ``field``, beside ``basis``."""
     columns = np.stack([expected, *basis], axis=1)
     return float(np.linalg.lstsq(columns, field, rcond=None)[0][0])
 
@@ -54,7 +54,7 @@ def test_the_ripples_of_a_standing_wave_are_those_of_linear_theory(length, degre
     inside = (np.abs(x) < 0.4) & (np.abs(y) < 0.4)
     along, across = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
     wave = 2.0 * np.pi * (x * along - y * across) / length
-    streaks = 2.0 * np.pi * y * across / length  # what the inlet lets in is carried along x
+    streaks = 2.0 * np.pi * y * across / length  # the film of the inlet, carried along x
     shapes = [np.sin(wave), np.ones_like(x), x, y, x**2, y**2]
     shapes += [np.cos(streaks), np.sin(streaks)] if across > 0.0 else []
     basis = [shape[inside] for shape in shapes]

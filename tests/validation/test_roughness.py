@@ -2,7 +2,7 @@
 
 Ripples are fitted where |X|, |Y| < 0.4, after the smooth film was subtracted. The film there is not
 quite flat, its pressure falls by a sixth from the middle to the corners, and theory is linear in
-the amplitude: that makes one to two per cent.
+the amplitude, which explains one to two per cent.
 """
 
 from functools import cache
@@ -22,7 +22,7 @@ KEPT = {
     (200.0, 0.15): 0.866, (200.0, 0.25): 0.748, (200.0, 0.35): 0.640, (200.0, 0.5): 0.458,
     (500.0, 0.15): 0.724, (500.0, 0.25): 0.574, (500.0, 0.35): 0.461, (500.0, 0.5): 0.295,
 }  # fmt: skip
-"""What is left of longitudinal waves, by this package: nobody published it."""
+"""Film amplitude of longitudinal waves, computed with this package; there is no published value."""
 
 
 @cache
@@ -69,6 +69,6 @@ def test_longitudinal_waves_keep_much_of_their_amplitude(groups, wavelength):
     found = response(groups, wavelength, 90.0, 0.004, 513)
     assert found.theory.pressure == 0.0
     assert found.film_ratio == pytest.approx(KEPT[groups[0], wavelength], rel=0.01)
-    # what the film does not keep, the pressure flattens: h = s - 4 p / (E' kappa)
+    # the pressure flattens the rest: h = s - 4 p / (E' kappa)
     flattened = found.pressure_amplitude / found.theory.elastic_pressure
     assert found.film_ratio + flattened == pytest.approx(1.0, abs=0.05)

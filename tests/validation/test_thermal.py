@@ -14,7 +14,7 @@ HEATED = read("thermal")
 INDEPENDENT = HEATED["independent"]["case"]
 GRIDS = (129, 257, 513)
 TOLERANCE = 1e-5
-"""Where a rolling film flows back in the inlet, its heat settles slowly: worth 1e-6 of H."""
+"""Heat of the backflow in the inlet converges slowly in pure rolling; it changes H by 1e-6."""
 
 
 def name(case: dict) -> str:
@@ -90,5 +90,5 @@ def test_three_grids_extrapolate_to_the_heated_film(case, quantity, tolerance, a
 def test_the_heat_is_balanced(case, points):
     heat = film_of(case, points).heat
     assert heat is not None
-    # 3e-4 of it is the walls' share of nine nodes, which does not fall with the mesh width
+    # 3e-4 is the error of nine layers at the walls, which does not decrease with the mesh width
     assert abs(heat.balance.error) < 2e-3

@@ -26,7 +26,7 @@ def reduction(
 ) -> float:
     """Return the amplitude of the film at the centre over that of the surface.
 
-    ``place``: the domain, and how far upstream the wave begins.
+    ``place``: the domain, and the distance upstream at which the wave starts.
     """
     domain, entrance = place
     case = moes_contact(*contact)

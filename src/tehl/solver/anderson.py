@@ -1,4 +1,4 @@
-"""Anderson acceleration of the multigrid cycle: a step combined of what earlier cycles did."""
+"""Anderson acceleration of the multigrid cycle by the changes of earlier cycles."""
 
 import math
 
@@ -7,21 +7,23 @@ import numpy as np
 from tehl.typing import Array
 
 WORSE = 3.0
-"""Change by a cycle, over the least one remembered, at which the memory is of another state."""
+"""Change by a cycle over the smallest one in memory, beyond which the memory is dropped, because it
+belongs to another state."""
 INDEPENDENT = 1e-6
-"""Relative size of a combination of changes below which it says nothing."""
+"""Relative size of a combination of changes below which it is rounding error."""
 
 
 class Anderson:
-    """The minimiser of the change by a cycle among the combinations of the last cycles.
+    """Affine combination of the last states whose change by a cycle is least.
 
-    A cycle that is unstable in a few modes, because a coarse grid sees rough surfaces of another
-    shape, converges with it (D. G. Anderson 1965; as a Krylov method, Walker and Ni 2011).
+    It makes a cycle converge that is unstable in a few modes, as between rough surfaces, which a
+    coarse grid represents with another shape (D. G. Anderson 1965; as a Krylov method, Walker and
+    Ni 2011).
 
     Parameters
     ----------
     memory : int
-        Cycles to remember besides the last.
+        Number of earlier cycles to combine with the last one.
     """
 
     def __init__(self, memory: int) -> None:
@@ -30,12 +32,12 @@ class Anderson:
         self.changes: list[Array] = []
 
     def combine(self, before: Array, after: Array) -> Array:
-        """Return the state to go on from.
+        """Return the state from which the next cycle starts.
 
         Parameters
         ----------
         before, after : (n,) array
-            The state that the last cycle began with and the one it ended with.
+            States at the start and at the end of the last cycle.
         """
         change = after - before
         if self.changes and not _size(change) <= WORSE * min(map(_size, self.changes)):
@@ -58,14 +60,15 @@ def _size(vector: Array) -> float:
 
 
 def _product(one: Array, other: Array) -> float:
-    """Return the scalar product, without BLAS, whose threads cost more than they save here."""
+    """Return the scalar product, without BLAS: its threads cost more than they save here."""
     return float(np.einsum("i,i->", one, other))
 
 
 def _weights(rows: Array, target: Array) -> Array:
-    """Return the combination of ``rows`` (k, n) nearest to ``target`` (n,): QR by Gram and Schmidt.
+    """Return the least-squares weights of ``rows``, (k, n), for ``target``, (n,).
 
-    Modified, and with the target orthogonalised like the rows, it is backward stable (Björck 1967).
+    By modified Gram-Schmidt, which is backward stable if the target is orthogonalised like the rows
+    (Björck 1967).
     """
     basis, rest = rows.copy(), target.copy()
     triangle, moments = np.zeros((len(rows), len(rows))), np.zeros(len(rows))

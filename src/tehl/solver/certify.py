@@ -1,4 +1,8 @@
-"""A solve with error bars: three grids and one larger domain."""
+"""Error bars of a steady result, from three grids and one larger domain.
+
+Values of a second-order scheme on grids halved each time extrapolate to
+h = h_3 + (h_3 - h_2)/3 (docs/theory/numerics.md, "When to stop, and what is left").
+"""
 
 import math
 from dataclasses import dataclass, replace
@@ -7,21 +11,24 @@ from tehl.errors import ConvergenceError
 from tehl.operators.heights import UnresolvedError
 from tehl.options import Domain, Options, check_certifiable
 from tehl.problem import ContactProblem
-from tehl.result import Cost, Estimate, Result
+from tehl.result import Estimate, Result
+from tehl.solver.cost import total
 from tehl.solver.monitor import SILENT, Monitor
+from tehl.solver.statuses import not_certified, too_coarse_to_certify
 from tehl.solver.steady import solve
-from tehl.solver.verdict import LARGEST_BAR, not_certified, too_coarse
+from tehl.solver.verdict import LARGEST_BAR
 
 WIDER = 2
-"""Factor between the domain and the larger one that shows its part of the error."""
+"""Size of the larger domain over that of the result."""
 ORDERS = (1.4, 2.8)
-"""Observed orders that are taken for the second order of the scheme."""
+"""Observed orders that count as second order."""
 OUTLET_HALF = 0.5
-"""X beyond which the pressure spike is looked for, in Hertz half-widths."""
+"""X downstream of which the pressure spike is searched, in Hertz half-widths."""
 JUDGED = ("film_central", "film_minimum", "pressure_max")
-"""What must be known well enough, else the grid is too coarse; small temperatures need not be."""
+"""Values whose error bars decide whether the grid is too coarse; small temperatures do not."""
 RESIDUE = 0.25
-"""Part of the extrapolated step that stays in the error bar, at least."""
+"""Least error bar over the extrapolated change."""
+WITHOUT_FIRST = "The first grid is left out: each bar is the full change between the other two."
 
 
 def certify(
@@ -34,21 +41,21 @@ def certify(
     problem : ContactProblem
         The contact in SI.
     options : Options
-        Of the finest grid; the two others have a half and a quarter of its intervals. All are
-        iterated to ``options.tolerance``, so that only the grids differ.
+        Of the finest grid; the two others have a half and a quarter of its intervals. All converge
+        to ``options.tolerance``, so that only the discretisation differs.
     monitor : Monitor
-        Told of each cycle.
+        Receives the report of each cycle.
 
     Returns
     -------
     Result
-        That of the finest grid, with ``uncertainty`` filled.
+        Of the finest grid, with ``uncertainty``.
 
     Raises
     ------
     ConvergenceError
-        When the finest grid did not converge, or no error bar follows from the others: the
-        result is that of the finest grid.
+        When the finest grid or one that its error bars need did not converge, or when the bars are
+        too wide. Its ``result`` is that of the finest grid.
     InputError
         When the grid cannot be halved twice.
     """
@@ -67,9 +74,9 @@ def certify(
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class _Grid:
-    """A run of the certification; ``used`` is false when nothing follows from it.
+    """A run of the certification; ``used``: whether the error bars may take it.
 
-    There is no result on a grid that does not carry the waves of the surfaces.
+    A grid that does not resolve the roughness has no result.
     """
 
     name: str
@@ -78,22 +85,22 @@ class _Grid:
 
     @property
     def ending(self) -> str:
-        """Return its nodes and how it ended."""
+        """Its nodes and how it ended."""
         if self.result is None:
-            return f"{self.name} too coarse for the surfaces"
+            return f"{self.name} too coarse for the roughness"
         status = self.result.status
         coarse = status.is_vague or status.cause in ("grid_too_coarse", "film_not_positive")
         return f"{self.name} {'too coarse for the film' if coarse else status.outcome}"
 
 
 def nodes_of(options: Options) -> str:
-    """Return the nodes of the finest grid in words."""
+    """Return the nodes of the finest grid as text."""
     ny, nx = options.shape
     return f"{nx} x {ny}"
 
 
 def _coarser(problem: ContactProblem, options: Options, monitor: Monitor) -> _Grid:
-    """Solve; a coarser grid need not resolve the film, it only has to be iterated to the end."""
+    """Solve on a coarser grid, which need not resolve the film but must converge."""
     name = nodes_of(options)
     try:
         return _Grid(name=name, result=solve(problem, options, monitor=monitor))
@@ -103,12 +110,13 @@ def _coarser(problem: ContactProblem, options: Options, monitor: Monitor) -> _Gr
     except ConvergenceError as error:
         monitor.message(f"certify: {error.result.status.message}")
         film = error.result.film_scaled.minimum
-        return _Grid(name=name, result=error.result, used=film > 0 and _iterated(error.result))
+        return _Grid(name=name, result=error.result, used=film > 0 and _has_converged(error.result))
 
 
 def _certified(coarser: list[_Grid], finest: Result, wide: _Grid) -> Result:
-    """Return the result of the last grid with error bars; raise when there are none of use."""
-    finest = replace(finest, cost=_cost(finest, [*coarser, wide]))
+    """Return the result of the finest grid with error bars; raise if a bar is too wide."""
+    others = (grid.result for grid in (*coarser, wide) if grid.result is not None)
+    finest = replace(finest, cost=total(finest.cost, *(other.cost for other in others)))
     first, middle = coarser
     before, larger = _check_used(finest, middle, wide)
     last = _Grid(name=nodes_of(finest.options), result=finest)
@@ -124,24 +132,15 @@ def _certified(coarser: list[_Grid], finest: Result, wide: _Grid) -> Result:
     result = replace(finest, uncertainty=uncertainty, status=status)
     worst = max(abs(uncertainty[name].uncertainty / uncertainty[name].value) for name in JUDGED)
     if worst > LARGEST_BAR:
-        status = too_coarse(result, worst)
+        status = too_coarse_to_certify(result, worst)
         raise ConvergenceError(str(status.message), replace(result, status=status))
     return result
 
 
-def _cost(finest: Result, others: list[_Grid]) -> Cost:
-    """Return what all runs have cost together."""
-    costs = [finest.cost, *(grid.result.cost for grid in others if grid.result is not None)]
-    return Cost(
-        cpu_seconds=sum(cost.cpu_seconds for cost in costs),
-        wall_seconds=sum(cost.wall_seconds for cost in costs),
-    )
-
-
 def _check_used(finest: Result, middle: _Grid, wide: _Grid) -> tuple[Result, Result]:
-    """Refuse to certify from runs that failed: the finest grid stays, without error bars."""
+    """Return the results that the bars need; raise with the finest result if one is missing."""
     found = []
-    for grid, what in ((middle, "the grid before the finest"), (wide, "the larger domain")):
+    for grid, what in ((middle, "the next coarser grid"), (wide, "the larger domain")):
         if grid.result is None or not grid.used:
             status = not_certified(finest, f"{what} failed ({grid.ending}).")
             raise ConvergenceError(str(status.message), replace(finest, status=status))
@@ -150,22 +149,22 @@ def _check_used(finest: Result, middle: _Grid, wide: _Grid) -> tuple[Result, Res
 
 
 def _endings(grids: list[_Grid], wide: _Grid) -> str:
-    """Return how each grid ended, and what that does to the bars."""
+    """Return how each grid ended, and what follows for the bars."""
     endings = ", ".join(grid.ending for grid in grids)
-    told = f"Grids of the error bars: {endings}; larger domain: {wide.ending}."
+    message = f"Grids of the error bars: {endings}; larger domain: {wide.ending}."
     if not grids[0].used:
-        return f"{told} The first is left out: each bar is the whole change between the other two."
+        return f"{message} {WITHOUT_FIRST}"
     first = grids[0].result
     if first is not None and (first.status.is_vague or not first.status.converged):
         return (
-            f"{told} Where the first hides the order of the scheme, a bar is the whole change "
-            "between the other two."
+            f"{message} Where the first grid hides the order of the scheme, a bar is the full "
+            "change between the other two."
         )
-    return told
+    return message
 
 
-def _iterated(result: Result) -> bool:
-    """Whether only the grid stands between this result and an answer."""
+def _has_converged(result: Result) -> bool:
+    """Whether the cycles converged and only the grid is too coarse."""
     if result.status.cause != "grid_too_coarse" or result.status.kind == "diverged":
         return False
     last = result.history[-1]
@@ -174,21 +173,13 @@ def _iterated(result: Result) -> bool:
 
 
 def halved(options: Options, times: int) -> Options:
-    """Return options of a grid whose intervals are halved so many times."""
+    """Return options of the grid with its intervals halved ``times`` times."""
     ny, nx = ((n - 1) // 2**times + 1 for n in options.shape)
     return options.model_copy(update={"points": (nx, ny)})
 
 
 def widened(options: Options, finest: Result) -> Options:
-    """Return options of the finest grid on the larger domain: the mesh of the grid before it.
-
-    Parameters
-    ----------
-    options : Options
-        Of the finest grid.
-    finest : Result
-        On it, which says how large its domain is.
-    """
+    """Return options of the larger domain: the nodes of ``finest``, twice its mesh width."""
     x, y = finest.scaled.x, finest.scaled.y
     domain = Domain(
         x=(WIDER * float(x[0]), WIDER * float(x[-1])), y=(WIDER * float(y[0]), WIDER * float(y[-1]))
@@ -206,7 +197,7 @@ def _quantities(result: Result) -> dict[str, float]:
 
 
 def _heat_quantities(result: Result) -> dict[str, float]:
-    """Return what a heated film is asked for besides; the traction of any that slides."""
+    """Return the temperature rise of a heated film, and the traction of a sliding one."""
     quantities = {}
     if (temperature := result.temperature) is not None:
         quantities["mid_film_rise_central"] = temperature.mid_film_rise_central
@@ -217,22 +208,22 @@ def _heat_quantities(result: Result) -> dict[str, float]:
 
 
 def spike(result: Result) -> float:
-    """Return the largest pressure of the outlet half, beyond X = 0.5 [-]."""
+    """Return the largest pressure downstream of X = 0.5 [-]."""
     return float(result.scaled.pressure[:, result.scaled.x > OUTLET_HALF].max())
 
 
 def with_growing_spike(highest: Estimate, middle: float, finest: float) -> Estimate:
-    """Widen the bar of the largest pressure to where a spike may still grow.
+    """Widen the error bar of the largest pressure by the growth of the spike.
 
-    The spike gets higher on each finer grid and may overtake the centre only there; once it has,
-    its first-order growth goes on for as much again.
+    The spike grows with each finer grid, to first order, and may exceed the central pressure on
+    finer grids only: it may still grow by twice its last change.
 
     Parameters
     ----------
     highest : Estimate
-        Of the largest pressure [-].
+        Estimate of the largest pressure [-].
     middle, finest : float
-        Largest pressure of the outlet half on the last two grids [-].
+        Pressure of the spike on the last two grids [-].
     """
     reach = finest + 2.0 * max(finest - middle, 0.0) - highest.value
     bar = max(highest.discretisation, reach)
@@ -240,18 +231,18 @@ def with_growing_spike(highest: Estimate, middle: float, finest: float) -> Estim
 
 
 def estimate(values: tuple[float, ...], domain: float) -> Estimate:
-    """Return the Richardson value of two or three grids halved each time, with its error bar.
+    """Return the Richardson extrapolation of two or three grids with its error bar.
 
-    Second order is used where the grids show it; the bar is what the observed order would change,
-    and at least a quarter of the extrapolated step. Where they do not show it, the finest value
-    is given with the whole last change as its bar.
+    If the grids show second order, the extrapolated value is h_3 + (h_3 - h_2)/3, and the bar its
+    difference to that with the observed order, at least a quarter of (h_3 - h_2)/3. If not, the
+    value is h_3 and the bar |h_3 - h_2|.
 
     Parameters
     ----------
     values : tuple of float
-        Coarse to fine.
+        h_1, h_2, h_3 or h_2, h_3 on grids halved each time.
     domain : float
-        What the larger domain changed.
+        Change by the larger domain.
     """
     last = values[-1] - values[-2]
     first = values[1] - values[0] if len(values) == 3 else 0.0

@@ -1,8 +1,9 @@
-"""Continuation: from the smooth film to the rough one, in parts of the heights.
+"""Continuation in the roughness amplitude, from the smooth film to the rough one.
 
-Full multigrid needs on each grid a start that is near the solution. Coarse grids do not resolve the
+Full multigrid needs a start near the solution on each grid. Coarse grids do not resolve the
 roughness, so their film is that of smooth surfaces; the first grid that resolves it gets the
-heights in parts, and finer grids start from the rough film of the grid before.
+heights in parts, and finer grids start from the rough film of the next coarser grid
+(docs/theory/numerics.md, "Rough surfaces").
 """
 
 from collections.abc import Callable, Sequence
@@ -12,23 +13,31 @@ import numpy as np
 
 from tehl.operators.heights import Heights
 from tehl.operators.transfer import refine
+from tehl.solver.convergence import DivergedError
 from tehl.solver.level import Correction, Level
-from tehl.solver.state import DivergedError, TouchingError, state_of, take_state
 from tehl.typing import Array
 
 SMOOTH_CYCLES = 2
-"""Cycles without heights on the first grid that gets them."""
+"""Cycles without heights on the first grid that has them."""
 BLURRED = 12.0
-"""Nodes per wave below which a grid does not resolve it well enough for its whole correction."""
+"""Nodes per wave below which the full correction of a grid would overshoot."""
 COMPARABLE = 8.0
 """Nodes per wave from which the film of a grid is comparable with that of the next finer one."""
 RAISED = 1e-4
-"""Residual at which Newton's method goes on to the next part of the heights."""
+"""Residual at which Newton's method continues with the next part of the heights."""
 FIRST_PART, LEAST_PART = 0.25, 0.02
-"""First part of the heights for Newton's method, and the least one before the grid is given up."""
+"""First increment of the heights in Newton's method, and the smallest one before it fails."""
 MOST_STEPS, QUICK, SLUGGISH, SMALLER = 12, 6, 9, 0.25
-"""Newton steps for one part; those up to which the next part is larger, and from which smaller; and
-what is left of a part that failed."""
+"""Most Newton steps per increment, steps up to which the next increment is larger and beyond which
+it is smaller, and the factor on an increment that failed."""
+
+
+class TouchingError(DivergedError):
+    """The film is not positive with only ``part`` of the heights."""
+
+    def __init__(self, part: float) -> None:
+        super().__init__(part)
+        self.part = part
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -38,9 +47,9 @@ class Continuation:
     Attributes
     ----------
     correction : float
-        Part of its correction that the finest grid that does not resolve the heights gives [-].
+        Factor on the correction of the finest grid that does not resolve the heights [-].
     limit : float
-        Largest change of a pressure by that correction and those above it, over the pressure [-].
+        Largest change of a pressure by that correction and the finer ones, over the pressure [-].
     ramp : int
         Cycles over which the heights are raised on the first grid that has them.
     points : float
@@ -54,18 +63,7 @@ class Continuation:
 
 
 class Roughness:
-    """The heights on a hierarchy of levels, and the smooth film to start them from.
-
-    Attributes
-    ----------
-    first : int
-        Number of the first level that has the heights; that of levels if surfaces are smooth.
-    first_comparable : int
-        Number of the first level whose film is comparable with that of the next finer one.
-    smooth : (int, array, float) or None
-        Level, pressure and rigid approach of the smooth film before the heights were raised.
-    points, amplitude : float
-        Nodes per wave on the finest level, and half the range of the heights in the contact [-].
+    """The heights on a hierarchy of levels, and the smooth film from which they are raised.
 
     Parameters
     ----------
@@ -75,6 +73,17 @@ class Roughness:
         On the finest grid; None for smooth surfaces.
     settings : Continuation
         Settings.
+
+    Attributes
+    ----------
+    first : int
+        Number of the first level that has the heights; ``len(levels)`` if surfaces are smooth.
+    first_comparable : int
+        Number of the first level whose film is comparable with that of the next finer one.
+    smooth : (int, array, float) or None
+        Level, pressure and rigid approach of the smooth film before the heights were raised.
+    points, amplitude : float
+        Nodes per wave on the finest level, and half the range of the heights in the contact [-].
     """
 
     def __init__(
@@ -88,10 +97,10 @@ class Roughness:
             self._distribute(heights)
 
     def _distribute(self, heights: Heights) -> None:
-        """Give the heights to the levels that resolve them.
+        """Set the heights of the levels that resolve them.
 
-        The finest level that does not resolve them well has its correction damped: it represents
-        waves of another shape, and its whole correction would overshoot.
+        The correction of the finest level with fewer than `BLURRED` nodes per wave is damped: it
+        represents waves of another shape, and its full correction would overshoot.
         """
         levels, last = self.levels, len(self.levels) - 1
         fields = heights.on([level.grid for level in levels])
@@ -124,9 +133,9 @@ class Roughness:
         return len(levels) - 1 == self.first
 
     def restart(self, number: int, expected_film: float) -> bool:
-        """Start level ``number`` from the smooth film and raise the heights there once more.
+        """Restart level ``number`` from the smooth film; the heights are raised there again.
 
-        Return whether a smooth film was known; else the level starts from the Hertz pressure.
+        Return whether a smooth film is available; if not, the level starts from the Hertz pressure.
         """
         self.first = number
         self.first_comparable = max(self.first_comparable, number)
@@ -140,13 +149,23 @@ class Roughness:
         return True
 
     def remember_smooth_film(self, levels: Sequence[Level]) -> None:
-        """Keep the film of the last of ``levels``, which does not have its heights yet."""
+        """Store the film of the last of ``levels``, before its heights are raised."""
         fine = levels[-1]
         self.smooth = (len(levels) - 1, fine.film.p.copy(), fine.rigid_approach)
 
 
 def raise_by_cycles(level: Level, ramp: int, iterate: Callable[[], float]) -> None:
-    """Raise the heights of ``level`` in ``ramp`` equal parts, one iteration each but the last."""
+    """Raise the heights of ``level`` in ``ramp`` equal parts, with one iteration between them.
+
+    Parameters
+    ----------
+    level : Level
+        Starts from the smooth film.
+    ramp : int
+        Number of parts.
+    iterate : callable
+        Performs and reports a cycle.
+    """
     for number in range(1, ramp):
         level.apply_heights(number / ramp)
         iterate()
@@ -155,40 +174,41 @@ def raise_by_cycles(level: Level, ramp: int, iterate: Callable[[], float]) -> No
 def raise_by_newton(
     level: Level, iterate: Callable[[], float], refresh: Callable[[], None], *, finest: bool
 ) -> None:
-    """Raise the heights of ``level`` from none to all, in parts as large as Newton's method takes.
+    """Raise the heights of ``level`` by increments, each solved by Newton's method.
 
-    Each part starts on the line through the films of the last two.
+    The increment adapts to the number of Newton steps. Each solve starts from a linear
+    extrapolation of the last two films in the amplitude (a secant predictor).
 
     Parameters
     ----------
     level : Level
         Starts from the smooth film.
     iterate : callable
-        Performs and reports a Newton step and returns the residual.
+        Performs and reports a Newton step; returns the residual.
     refresh : callable
-        Makes the next step set up its preconditioner anew.
+        Discards the preconditioner, so that the next step computes a new one.
     finest : bool
-        Whether this is the finest level. A film that is not positive on a coarser one is a start
-        for the next, where it may be.
+        Whether this is the finest level. On a coarser one a film that is not positive is accepted:
+        it may be positive on the next.
 
     Raises
     ------
     TouchingError
-        When the film of the finest level is not positive with a part of the heights.
+        When the film of the finest level is not positive with part of the heights.
     DivergedError
-        When even a small part more does not converge.
+        When an increment of `LEAST_PART` does not converge.
     """
-    before, known, size = None, (0.0, state_of(level)), FIRST_PART
+    before, known, size = None, (0.0, level.unknowns()), FIRST_PART
     while known[0] < 1.0:
         part = min(known[0] + size, 1.0)
         level.apply_heights(part)
-        take_state(level, known[1] if before is None else _extrapolate(before, known, part))
+        level.set_unknowns(known[1] if before is None else _extrapolate(before, known, part))
         steps = _steps_to(RAISED, iterate)
         if steps is None:
             refresh()
             size *= SMALLER
         else:
-            before, known = known, (part, state_of(level))
+            before, known = known, (part, level.unknowns())
             size *= 1.5 if steps <= QUICK else 0.7 if steps > SLUGGISH else 1.0
             if finest and part < 1.0 and not level.film.h.min() > 0.0:
                 raise TouchingError(part)
@@ -197,7 +217,7 @@ def raise_by_newton(
 
 
 def _steps_to(residual: float, iterate: Callable[[], float]) -> int | None:
-    """Iterate down to a residual; return the number of steps, None if it is not reached."""
+    """Iterate until ``residual`` is reached; return the number of steps, None on failure."""
     for number in range(1, MOST_STEPS + 1):
         try:
             if iterate() < residual:
@@ -208,7 +228,7 @@ def _steps_to(residual: float, iterate: Callable[[], float]) -> int | None:
 
 
 def _extrapolate(before: tuple[float, Array], known: tuple[float, Array], part: float) -> Array:
-    """Return the state at ``part`` on the line through two others; cavities stay."""
+    """Return the unknowns at ``part`` by linear extrapolation; cavities stay."""
     slope = (known[1] - before[1]) / (known[0] - before[0])
     onward = known[1] + (part - known[0]) * slope
     return np.where(known[1] == 0.0, 0.0, onward)

@@ -1,60 +1,89 @@
-"""When to stop: estimated iteration and discretisation errors of the film, stall, divergence."""
+"""Stopping criteria of the cycles, and estimated errors of the film.
+
+Full multigrid has solved the coarser grids anyway, so the discretisation error follows from the
+difference of two grids, and cycles below it are wasted (Brandt 1977; docs/theory/numerics.md, "When
+to stop, and what is left").
+"""
 
 import math
 from dataclasses import dataclass, field
 from itertools import pairwise
+
+import numpy as np
 
 from tehl.options import Options
 from tehl.result import CycleReport, ErrorEstimate
 
 LEAST_CYCLES = 2
 LEAST_RATE, GUESSED_RATE, LARGEST_RATE = 0.2, 0.3, 0.8
-"""Convergence rates per cycle that iteration errors are estimated with."""
+"""Bounds on the convergence rate per cycle in iteration errors, and its value from one change."""
 SAFETY = 2.0
-"""Factor on the discretisation error where three grids show its order: the coarser ones are not
-iterated to the end."""
+"""Factor on a discretisation error from three grids: the coarser ones are not fully converged."""
 ROUGH_PART = 0.7
-"""Error over the last change of the film between grids that all resolve the heights: a third if of
+"""Error over the last change of the film between grids that resolve the heights: a third if of
 second order; measured up to 0.65 for the minimum film between waves (87 of them, 257 and 513
 nodes)."""
 SMOOTH_PART, WAVE_PART = 1.7, 20.0
-"""Factors of the two parts of `single_grid_estimate`."""
+"""Factors of the two terms of `single_grid_estimate`."""
 SHARED = 0.25
-"""Least part of the change of the central film that a minimum is uncertain by: two coarse grids may
-agree on a thin minimum by chance."""
+"""Part of the change of the central film below which the error of the minimum is not estimated: two
+coarse grids may agree on a thin minimum by chance."""
 LARGEST_LOAD_ERROR = 1e-3
-"""Load error at which the film is taken for balanced; it changes by a tenth of this, relatively."""
+"""Load error accepted as balance; it changes the film by a tenth of this, relatively."""
 LARGEST_CHANGE = 0.2
-"""Change of pressure per cycle, in Hertz pressures, beyond which a grid is in disorder: a spike
-that shifts by a node changes by less."""
+"""Change of pressure per cycle, in Hertz pressures, beyond which a grid is not converging. A spike
+that moves by one node changes by less."""
 LARGEST_ROUGH_CHANGE = 0.05
-"""The same between rough surfaces: asperities carry steep pressures of their own, and central and
-minimum film say little of the others."""
-RESTLESS = 0.1
-"""Change of temperature per cycle, at any node and over the largest rise, beyond which a film is
-not heated yet, whatever the rise does: nodes at the spike change most, and matter least."""
-HEATED = 0.005
-"""Iteration error of the largest rise, relatively, that never counts."""
+"""The same between rough surfaces, where asperities have steep pressures of their own that central
+and minimum film do not show."""
+LARGEST_KELVIN_CHANGE = 0.1
+"""Change of temperature per cycle at any node, over the largest rise, beyond which the temperature
+is not converged. Nodes at the spike change most, and matter least."""
+RISE_ERROR = 0.005
+"""Relative iteration error of the largest rise that is always accepted."""
 LEAST_KELVIN = 0.02
-"""Change of temperature [K] that never counts."""
+"""Change of temperature [K] that is always accepted."""
 TIGHTER = 100.0
-"""Factor between the tolerance of the film and that of the temperature rise, which follows it."""
+"""Tolerance of the temperature over that of the film, which the temperature follows."""
 MEAN_CHANGE, KELVIN_CHANGE = 1e-4, 3e-3
-"""Sum of the changes of pressure by a cycle over the sum of pressures, and largest change of
+"""Sum of the pressure changes in a cycle over the sum of pressures, and largest change of
 temperature [K], at which ``accuracy = "change"`` stops; 3 mK are 1e-5 of the inlet temperature."""
-STALL_CYCLES = 8
-STALL_FACTOR = 0.5
+RUNAWAY = 100.0
+"""Load error and central film beyond which no iteration recovers (H of a contact is below 2)."""
+LARGEST_ROUGH_STEP = 10.0
+"""Change of pressure per cycle beyond which no iteration between rough surfaces recovers."""
+STALL_CYCLES, STALL_FACTOR = 8, 0.5
+"""Cycles in which the residual must fall by this factor, else the iteration has stalled."""
+
+
+class DivergedError(ArithmeticError):
+    """The unknowns are not finite or grow without bound."""
+
+
+def check_divergence(report: CycleReport, *, rough: bool) -> None:
+    """Check that an iteration may still converge.
+
+    Raises
+    ------
+    DivergedError
+        When residual, load error, film or, between rough surfaces, change are too large or NaN.
+    """
+    numbers = abs(report.load_error) < RUNAWAY and report.film_central < RUNAWAY
+    if not (np.isfinite(report.residual) and numbers):
+        raise DivergedError
+    if rough and not report.change < LARGEST_ROUGH_STEP:
+        raise DivergedError
 
 
 @dataclass(slots=True)
 class Trace:
-    """A film number as it changes from cycle to cycle on one grid."""
+    """One film number over the cycles on one grid."""
 
     values: list[float] = field(default_factory=list)
     least_rate: float = LEAST_RATE
 
     def iteration_error(self) -> float:
-        """Estimate what further cycles would still change, from the last two changes."""
+        """Estimate the change by all further cycles: d q / (1 - q), last change d, rate q."""
         if len(self.values) < 2:
             return float("inf")
         last = abs(self.values[-1] - self.values[-2])
@@ -67,7 +96,10 @@ class Trace:
 
 @dataclass(slots=True)
 class GridTrace:
-    """Film and temperature rise on one grid, cycle by cycle, and the reports of the cycles."""
+    """Film and temperature rise over the cycles on one grid, with the reports of the cycles.
+
+    ``damping`` is the damping factor of heat and thinning between rough surfaces; 1 is undamped.
+    """
 
     central: Trace = field(default_factory=Trace)
     minimum: Trace = field(default_factory=Trace)
@@ -75,14 +107,14 @@ class GridTrace:
     reports: list[CycleReport] = field(default_factory=list)
     largest_change: float = LARGEST_CHANGE
     least_cycles: int = LEAST_CYCLES
-    follow: float = 1.0
+    damping: float = 1.0
 
-    def damp(self, follow: float) -> None:
-        """Take into account that heat and thinning act on the flow by a part per cycle only."""
-        self.follow = follow
-        self.least_cycles = max(LEAST_CYCLES, math.ceil(1.0 / follow))
+    def damp(self, damping: float) -> None:
+        """Account for a damping factor of heat and thinning: no rate is below 1 - damping."""
+        self.damping = damping
+        self.least_cycles = max(LEAST_CYCLES, math.ceil(1.0 / damping))
         for trace in (self.central, self.minimum, self.rise):
-            trace.least_rate = max(LEAST_RATE, 1.0 - follow)
+            trace.least_rate = max(LEAST_RATE, 1.0 - damping)
 
     def note(self, central: float, minimum: float) -> None:
         """Append the film before the first cycle."""
@@ -96,52 +128,73 @@ class GridTrace:
         self.rise.values.append(report.temperature_rise)
 
 
-def ended(now: GridTrace, coarser: GridTrace | None, options: Options) -> bool:
-    """Whether the options stop the cycles on this grid here, converged or not."""
+def must_stop(now: GridTrace, coarser: GridTrace | None, options: Options) -> bool:
+    """Whether ``options.accuracy`` ends the cycles on this grid, converged or not.
+
+    Parameters
+    ----------
+    now, coarser : GridTrace
+        This grid, and the next coarser one if its film is comparable, else None.
+    options : Options
+        Accuracy and tolerance.
+    """
     if options.accuracy != "change":
         return converged(now, coarser, options)
     last = now.reports[-1]
-    if len(now.reports) < now.least_cycles and now.follow < 1.0:
+    if len(now.reports) < now.least_cycles and now.damping < 1.0:
         return False
-    return last.mean_change <= now.follow * MEAN_CHANGE and last.temperature_change <= KELVIN_CHANGE
+    small = last.mean_change <= now.damping * MEAN_CHANGE
+    return small and last.temperature_change <= KELVIN_CHANGE
 
 
 def converged(now: GridTrace, coarser: GridTrace | None, options: Options) -> bool:
-    """Whether the cycles on this grid have done what the options ask for."""
+    """Whether the cycles on this grid have reached the accuracy of the options.
+
+    Parameters
+    ----------
+    now, coarser : GridTrace
+        This grid, and the next coarser one if its film is comparable, else None.
+    options : Options
+        Accuracy and tolerance.
+    """
     if len(now.reports) < now.least_cycles:
         return False
     if options.accuracy == "tight":
         last = now.reports[-1]
-        change = max(last.residual, last.change, abs(last.load_error)) / now.follow
-        settled = change <= options.tolerance
+        change = max(last.residual, last.change, abs(last.load_error)) / now.damping
         kelvin = max(last.temperature_rise, 1.0) * TIGHTER * options.tolerance
-        return settled and last.temperature_change <= kelvin
-    return iterated_enough(now, coarser) and heated_enough(now, coarser)
+        return change <= options.tolerance and last.temperature_change <= kelvin
+    return film_converged(now, coarser) and temperature_converged(now, coarser)
 
 
-def heated_enough(now: GridTrace, coarser: GridTrace | None) -> bool:
-    """Whether the largest rise of the temperature is as well known as the film, or well enough."""
+def temperature_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
+    """Whether the iteration error of the largest rise is a third of its discretisation error.
+
+    Or below `RISE_ERROR`, or below `LEAST_KELVIN`.
+    """
     last = now.reports[-1]
-    if last.temperature_change > max(RESTLESS * last.temperature_rise, LEAST_KELVIN):
+    largest = LARGEST_KELVIN_CHANGE * last.temperature_rise
+    if last.temperature_change > max(largest, LEAST_KELVIN):
         return False
     before = coarser.rise.values[-1:] if coarser else []
     discretisation = abs(last.temperature_rise - before[0]) / 3.0 if before else 0.0
-    limit = max(discretisation / 3.0, HEATED * last.temperature_rise, LEAST_KELVIN)
+    limit = max(discretisation / 3.0, RISE_ERROR * last.temperature_rise, LEAST_KELVIN)
     return now.rise.iteration_error() <= limit
 
 
-def iterated_enough(now: GridTrace, coarser: GridTrace | None) -> bool:
-    """Whether the iteration error is below a third of the discretisation error."""
+def film_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
+    """Whether the iteration error of the film is below a third of its discretisation error."""
     if len(now.reports) < now.least_cycles:
         return False
-    if coarser is None:
-        return now.reports[-1].change < now.follow * 1e-3
-    pairs = ((now.central, coarser.central), (now.minimum, coarser.minimum))
     last = now.reports[-1]
+    if coarser is None:
+        return last.change < now.damping * 1e-3
     if last.residual > now.reports[-2].residual:
         return False
     if abs(last.load_error) > LARGEST_LOAD_ERROR or last.change > now.largest_change:
         return False
+    pairs = ((now.central, coarser.central), (now.minimum, coarser.minimum))
+    # discretisation error of second order: a third of the change from the coarser grid
     limit = max(abs(a.values[-1] - b.values[-1]) / 3.0 for a, b in pairs) / 3.0
     return all(
         a.iteration_error() <= max(abs(a.values[-1] - b.values[-1]) / 9.0, 0.1 * limit)
@@ -150,7 +203,7 @@ def iterated_enough(now: GridTrace, coarser: GridTrace | None) -> bool:
 
 
 def stalled(now: GridTrace, patience: int = 1) -> bool:
-    """Whether the residual has not halved over the last cycles, ``patience`` times as many."""
+    """Whether the residual has not halved over the last 8 ``patience`` cycles."""
     residuals, cycles = [report.residual for report in now.reports], patience * STALL_CYCLES
     if len(residuals) <= cycles:
         return False
@@ -158,59 +211,81 @@ def stalled(now: GridTrace, patience: int = 1) -> bool:
 
 
 def error_estimate(traces: list[GridTrace], order: int, *, rough: bool = False) -> ErrorEstimate:
-    """Return relative errors of the film on the last of two or more grids, for a wedge order."""
-    parts: list[tuple[float, float]] = []
+    """Estimate the relative errors of the film on the last of two or more grids.
+
+    Parameters
+    ----------
+    traces : list of GridTrace
+        Grids halved each time, coarsest first.
+    order : {1, 2}
+        Order of the wedge.
+    rough : bool
+        Whether the grids carry heights of rough surfaces.
+    """
+    bars: list[float] = []
     changes: list[float] = []
     for name in ("central", "minimum"):
-        sequence = [getattr(trace, name) for trace in traces[-3:]]
-        value = abs(sequence[-1].values[-1]) or 1.0
-        values = [trace.values[-1] for trace in sequence]
+        values = [getattr(trace, name).values[-1] for trace in traces[-3:]]
+        film = abs(values[-1]) or 1.0
         bar = (
             discretisation_bar(values, ROUGH_PART if rough else 1.0)
             if order > 1
             else first_order_bar(values)
         )
         changes.append(abs(values[-1] - values[-2]))
-        if rough and changes[-1] > value:  # not near the limit yet
+        if rough and changes[-1] > film:  # far from the limit
             bar = changes[-1]
-        bar = max(bar, SHARED * changes[0])
-        parts.append((bar / value, sequence[-1].iteration_error() / value))
-    return ErrorEstimate(
-        discretisation_central=parts[0][0],
-        discretisation_minimum=parts[1][0],
-        iteration_central=parts[0][1],
-        iteration_minimum=parts[1][1],
-    )
+        bars.append(max(bar, SHARED * changes[0]) / film)
+    return _estimate(traces[-1], *bars)
 
 
 def single_grid_estimate(
     trace: GridTrace, mesh_width: float, points: float, amplitude: float
 ) -> ErrorEstimate:
-    """Return relative errors of the film where no coarser grid has the same heights.
+    """Estimate the relative errors of the film if no coarser grid resolves the heights.
 
-    The part of the smooth film, and a rule for that of a wave of ``points`` nodes and of some
-    ``amplitude``: between ten waves (lengths 0.25 and 0.5, M = 57 to 500) the minimum film changed
-    from 257 to 513 nodes by a third of that to one and a half times as much, mostly by less.
+    By a rule, 1.7 h^2 / H^1.2 of the smooth film plus 20 A / (H n^2) of the waves. For ten waves
+    (lengths 0.25 and 0.5, M = 57 to 500) the change of the minimum film from 257 to 513 nodes was a
+    third to one and a half times the second term, mostly less than it.
+
+    Parameters
+    ----------
+    trace : GridTrace
+        The grid.
+    mesh_width : float
+        h, in Hertz half-widths.
+    points : float
+        n, nodes per shortest wavelength.
+    amplitude : float
+        A, half the range of the heights [-].
     """
-    parts: list[tuple[float, float]] = []
+    bars = []
     for numbers in (trace.central, trace.minimum):
         film = abs(numbers.values[-1]) or 1.0
         smooth = SMOOTH_PART * mesh_width**2 / film**1.2
-        bar = float(smooth + WAVE_PART * amplitude / film / points**2)
-        parts.append((bar, numbers.iteration_error() / film))
+        bars.append(float(smooth + WAVE_PART * amplitude / film / points**2))
+    return _estimate(trace, *bars)
+
+
+def _estimate(trace: GridTrace, central: float, minimum: float) -> ErrorEstimate:
+    """Return relative discretisation errors together with the iteration errors of a trace."""
+    iteration = [
+        numbers.iteration_error() / (abs(numbers.values[-1]) or 1.0)
+        for numbers in (trace.central, trace.minimum)
+    ]
     return ErrorEstimate(
-        discretisation_central=parts[0][0],
-        discretisation_minimum=parts[1][0],
-        iteration_central=parts[0][1],
-        iteration_minimum=parts[1][1],
+        discretisation_central=central,
+        discretisation_minimum=minimum,
+        iteration_central=iteration[0],
+        iteration_minimum=iteration[1],
     )
 
 
 def first_order_bar(values: list[float]) -> float:
     """Return the error bar of a scheme with a first-order wedge: twice the largest change.
 
-    Its error of first order and that of second order have opposite signs and cancel on coarse
-    grids, so that the last change alone says too little.
+    Its errors of first and of second order have opposite signs and cancel on coarse grids, so that
+    the last change alone may be too small.
     """
     return 2.0 * max(abs(b - a) for a, b in pairwise(values))
 
@@ -218,10 +293,10 @@ def first_order_bar(values: list[float]) -> float:
 def discretisation_bar(values: list[float], otherwise: float = 1.0) -> float:
     """Return the error bar of the last of two or three values on grids halved each time.
 
-    A third of the last change, with a safety factor, where the three values show second order;
-    ``otherwise`` times the change where they do not: coarse grids may be far from their limit. If
-    it is less than a quarter of the change before, which second order would leave, two grids
-    agree by chance, and that quarter counts.
+    A third of the last change, times `SAFETY`, if the three values show second order;
+    ``otherwise`` times the change if not, as coarse grids may be far from their limit. If that
+    change is less than a quarter of the one before, which second order would leave, two grids agree
+    by chance, and the quarter counts.
     """
     change = abs(values[-1] - values[-2])
     if len(values) == 3 and min(values) > 0.3 * values[-1] > 0:

@@ -11,17 +11,17 @@ from tehl.grid import Grid
 from tehl.options import Options
 
 UNRESOLVED = 0.5
-"""Mesh width of the coarsest grid, in Hertz half-widths, beyond which it hardly sees the contact.
-One visit then overshoots the load balance (by its own size at M = 5); a second one, through the
-level above it, cures that and costs next to nothing."""
+"""Mesh width of the coarsest grid, in Hertz half-widths, beyond which it does not resolve the
+contact. One visit then overshoots the load balance (by 100 % at M = 5); a second one, through the
+next finer level, corrects this at negligible cost."""
 THICK = 0.25
-"""Expected central film from which that is so: of a thinner one such a grid has no sound discrete
-solution, and going there more often does harm (M = 200 and more on wide domains)."""
+"""Expected central film above which this applies: for a thinner film such a grid has no valid
+discrete solution, and more visits do harm (M = 200 and more on wide domains)."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Cycle:
-    """What one cycle does.
+    """Shape of a multigrid cycle.
 
     Attributes
     ----------
@@ -30,9 +30,9 @@ class Cycle:
     pre_sweeps, post_sweeps : int
         Relaxation sweeps on the finest level of the cycle.
     extra_sweeps : int
-        Sweeps added on coarser levels: a V-cycle leaves error there, and sweeps there are cheap.
+        Sweeps added on coarser levels, where a V-cycle leaves errors and sweeps are cheap.
     twice : bool
-        A V-cycle goes down twice from the level next but one to the coarsest.
+        A V-cycle visits its two coarsest levels twice.
     """
 
     kind: str
@@ -43,7 +43,7 @@ class Cycle:
 
     @classmethod
     def of(cls, options: Options, coarsest: Grid, film: float) -> "Cycle":
-        """Return the cycle that the options ask for, down to ``coarsest``, for an expected film."""
+        """Return the cycle of ``options`` for a coarsest grid and an expected central film."""
         return cls(
             kind=options.cycle,
             pre_sweeps=options.pre_sweeps,
@@ -52,7 +52,7 @@ class Cycle:
         )
 
     def coarse_visits(self, coarser: int) -> tuple["Cycle", ...]:
-        """Return the cycles to run on the next of ``coarser`` levels that are left below."""
+        """Return the cycles on ``coarser`` levels: V for V, two W for W, F and V for F."""
         kinds = {"V": "V", "W": "WW", "F": "FV"}[self.kind]
         if self.kind == "V" and self.twice and coarser == 2:
             kinds = "VV"
@@ -60,10 +60,10 @@ class Cycle:
 
 
 class Level(Protocol):
-    """What the cycle needs of a level."""
+    """Operations of a level in the cycle."""
 
     def relax(self, sweeps: int) -> None:
-        """Smooth the error by some sweeps."""
+        """Smooth the error by relaxation sweeps."""
         ...
 
     def restrict_to(self, coarse: Self) -> None:

@@ -1,4 +1,4 @@
-"""Central and minimum film from the nodes of a grid."""
+"""Central and minimum film, interpolated between the nodes of a grid."""
 
 from functools import cache
 
@@ -9,12 +9,12 @@ from tehl.grid import Grid
 from tehl.typing import Array, IntArray
 
 REACH = 5
-"""Nodes on each side of the smallest one that the spline goes through."""
+"""Nodes on each side of the smallest one in the spline."""
 SPAN = 1.5
-"""How far from the smallest node the minimum is looked for, in mesh widths."""
+"""Distance from the smallest node within which the minimum is searched, in mesh widths."""
 SAMPLES = 121
-"""Places per direction at which the spline is looked at: they miss the minimum by 1e-4 of the
-fall over one mesh width."""
+"""Samples of the spline per direction: the minimum of the samples is above that of the spline by
+1e-4 of the change over one mesh width."""
 
 
 def central_value(grid: Grid, field: Array) -> float:
@@ -27,7 +27,7 @@ def central_value(grid: Grid, field: Array) -> float:
 
 
 def _lagrange(nodes: Array, spacing: float) -> tuple[IntArray, Array]:
-    """Nodes next to 0 and their weights: one where it is a node, else four, to third order."""
+    """Return nodes around 0 and their weights: one if 0 is a node, else four (cubic)."""
     place = -float(nodes[0]) / spacing
     nearest = round(place)
     if abs(place - nearest) < 1e-9:
@@ -41,17 +41,11 @@ def _lagrange(nodes: Array, spacing: float) -> tuple[IntArray, Array]:
 
 
 def film_summary(grid: Grid, film: Array) -> FilmSummary:
-    """Return central and minimum film; the minimum by a bicubic spline around its node.
+    """Return central and minimum film H, the minimum from a bicubic spline around its node.
 
-    The valley of a side lobe is narrow and runs askew to the grid: its floor may lie more than a
-    mesh width from the smallest node, which a quadratic through the neighbours does not see.
-
-    Parameters
-    ----------
-    grid : Grid
-        Where ``film`` lives.
-    film : array of ``grid.shape``
-        H [-].
+    The valley of a side lobe is narrow and oblique to the grid: its minimum may be more than a mesh
+    width from the smallest node, beyond the reach of a quadratic through the neighbours. ``film``
+    has the shape of ``grid`` [-].
     """
     full = grid.unfold(film)
     row = grid.domain.y[0] + grid.dy * np.arange(grid.ny)
@@ -67,16 +61,16 @@ def film_summary(grid: Grid, film: Array) -> FilmSummary:
 
 
 def _patch(full: Array, j: int, i: int) -> Array:
-    """Nodes around (j, i): ``REACH`` on each side, fewer near the edges but as many on both."""
+    """Return the nodes around (j, i): `REACH` on each side, symmetrically fewer near edges."""
     ny, nx = full.shape
     across, along = min(REACH, j, ny - 1 - j), min(REACH, i, nx - 1 - i)
     return full[j - across : j + across + 1, i - along : i + along + 1]
 
 
 def subgrid_minimum(patch: Array) -> tuple[float, tuple[float, float]]:
-    """Return the least value of a bicubic spline through ``patch``, and where it is.
+    """Return the minimum of a bicubic spline through ``patch``, and its place.
 
-    The place is (row, column) from the central node, in mesh widths, at most ``SPAN`` away.
+    The place is (row, column) from the central node in mesh widths, at most `SPAN` each.
     """
     rows, columns = (_sampling(n) for n in patch.shape)
     samples = rows @ patch @ columns.T
@@ -89,7 +83,7 @@ def subgrid_minimum(patch: Array) -> tuple[float, tuple[float, float]]:
 
 @cache
 def _sampling(nodes: int) -> Array:
-    """Weights of a not-a-knot cubic spline through ``nodes`` unit-spaced values, at the samples."""
+    """Return the weights of the samples of a not-a-knot cubic spline of ``nodes`` values."""
     if nodes < 5:
         return np.eye(nodes)[nodes // 2 : nodes // 2 + 1]
     half = nodes // 2

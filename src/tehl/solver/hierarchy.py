@@ -1,20 +1,72 @@
-"""The grids of a contact, coarsest first, on which the multigrid cycles run."""
+"""The grids of a contact, coarsest first, the cycle on them, and the solver of the coarsest one."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from tehl.film_formulas import expected_central_film
 from tehl.grid import Grid, hierarchy
+from tehl.kernels import reynolds
+from tehl.kernels.newton import Coarse, System, newton_step
 from tehl.operators.flow import flow_table
+from tehl.operators.influence import dense_matrix
 from tehl.options import Options
 from tehl.scaling import ScaledProblem
-from tehl.solver.coarsest import CoarsestSolver
+from tehl.solver.convergence import RUNAWAY
+from tehl.solver.equations import Equations
 from tehl.solver.fas import Cycle, cycle
-from tehl.solver.level import Equations, Level
+from tehl.solver.level import Level
 from tehl.solver.relaxation import Relaxation
 
 FLOOR = 0.02
 """Least film in the conductance, over the expected central film."""
+LONGEST_STEP = 0.3
+"""Largest change of pressure in a Newton step on the coarsest grid, in Hertz pressures."""
+
+
+class CoarsestSolver:
+    """Newton's method for pressure and rigid approach together on the coarsest level.
+
+    The equations are L(P, H00 + K P + g) = f at the wet nodes and sum(P) dx dy = w, with the dense
+    matrix K and the derivatives of the conductance by pressure and film. The rigid approach moves
+    all pressures at once, so no local relaxation finds it; here it costs one more unknown.
+    """
+
+    def __init__(self, level: Level) -> None:
+        self.level = level
+        equations = level.equations
+        grid = equations.grid
+        self.influence = dense_matrix(grid.shape, grid.mirror, equations.influence)
+
+    def step(self) -> None:
+        """Perform one Newton step of limited length in place."""
+        level = self.level
+        level.update()
+        residual = np.empty_like(level.residual)
+        reynolds.operator(level.film, level.mesh, residual)
+        np.subtract(level.sources.reynolds, residual, out=residual)
+        system = System(
+            residual=residual,
+            influence=self.influence,
+            frozen=level.smoother.frozen,
+            area=level.equations.load.area,
+            missing_load=level.missing_load(),
+        )
+        change = newton_step(self._linearised(), level.mesh, system, LONGEST_STEP)
+        level.set_state(level.film.p, level.rigid_approach + change)
+
+    def _linearised(self) -> Coarse:
+        """Return film and conductance with the derivatives of the conductance."""
+        film, factors = self.level.film, self.level.factors
+        by_pressure, by_film = self.level.conductance_slopes()
+        ones = np.ones_like(film.p)
+        stretch_x, stretch_y = (
+            (ones, ones) if factors is None else (factors.stretch_x, factors.stretch_y)
+        )
+        return Coarse(
+            *film[:5], eps_p=by_pressure, eps_h=by_film, stretch_x=stretch_x, stretch_y=stretch_y
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +78,7 @@ class Hierarchy:
     scaled : ScaledProblem
         The contact.
     options : Options
-        Numerical choices.
+        Numerical options.
     levels : list of Level
         Coarsest first.
     coarsest : CoarsestSolver
@@ -84,3 +136,20 @@ class Hierarchy:
         """Perform one multigrid cycle on ``levels``."""
         shape = Cycle.of(self.options, levels[0].grid, self.expected_film)
         cycle(levels, self.coarsest.step, shape)
+
+    def salvage(self) -> None:
+        """Interpolate the finest valid state of a coarser grid to the finest grid."""
+        levels = self.levels
+        valid = max((k for k, level in enumerate(levels) if _is_valid(level)), default=0)
+        if not _is_valid(levels[valid]):
+            levels[0].start_from_hertz(self.expected_film)
+        for coarse, fine in zip(levels[valid:], levels[valid + 1 :], strict=False):
+            fine.interpolate_from(coarse)
+        self.finest.pose_problem()
+        self.finest.update()
+
+
+def _is_valid(level: Level) -> bool:
+    """Return whether the pressure of a level is finite and of plausible size."""
+    largest = float(level.film.p.max())
+    return 0.0 < largest < RUNAWAY and bool(np.isfinite(level.rigid_approach))

@@ -1,7 +1,7 @@
-"""The ladder of strategies: which method is tried first, and what to fall back to.
+"""The ladder of strategies: which method is tried first, and its fallbacks.
 
 A strategy is a relaxation with the settings of everything around it. Smooth isothermal films need
-the first rung only, up to M of a thousand and more; the later rungs trade speed for robustness.
+the first rung only, up to M = 1000 and more; later rungs trade speed for robustness.
 """
 
 from dataclasses import dataclass
@@ -35,14 +35,14 @@ class Strategy:
     continuation : Continuation
         Settings of the continuation in the roughness.
     memory : int
-        Earlier cycles that Anderson acceleration combines between rough surfaces; 0 is none.
+        Earlier cycles combined by Anderson acceleration between rough surfaces; 0 is none.
     patience : int
-        Factor on the cycles after which the iteration is given up.
-    follow : float
-        Part of the way, in logarithms, that mobility and density of a rough film follow a sweep of
-        the energy equation [-].
+        Factor on the largest number of cycles.
+    damping : float
+        Damping factor of the logarithms of mobility and density of a rough film, per sweep of the
+        energy equation; 1 is undamped [-].
     newton : bool
-        Newton's method in place of the cycles, on the grids that have the heights.
+        Use Newton's method instead of cycles on the grids that have the heights.
     slide_in_steps : bool
         Raise the sliding speed from zero over the first sweeps of the energy equation.
     """
@@ -51,7 +51,7 @@ class Strategy:
     continuation: Continuation = DIRECT
     memory: int = 0
     patience: int = 1
-    follow: float = 1.0
+    damping: float = 1.0
     newton: bool = False
     slide_in_steps: bool = False
 
@@ -69,8 +69,8 @@ class Strategy:
     def description(self) -> str:
         """The strategy in words."""
         if self.newton:
-            return "Newton's method, which takes a while"
-        steps = ", sliding raised in steps" if self.slide_in_steps else ""
+            return "Newton's method (slow)"
+        steps = ", with continuation in the sliding speed" if self.slide_in_steps else ""
         return f"the {self.name} smoother{steps}"
 
 
@@ -87,14 +87,14 @@ BETWEEN_ROUGH = (
         continuation=Continuation(correction=0.5, limit=0.3, ramp=8),
         memory=8,
         patience=2,
-        follow=0.3,
+        damping=0.3,
     ),
     Strategy(
         relaxation=GENTLE,
         continuation=Continuation(correction=0.15, limit=0.15, ramp=48, points=12.0),
         memory=10,
         patience=3,
-        follow=0.3,
+        damping=0.3,
     ),
     Strategy(relaxation=BESIDE_NEWTON, continuation=Continuation(points=5.0), newton=True),
 )
@@ -102,7 +102,7 @@ STATED = {one.name: Strategy(relaxation=one) for one in (FAST, BROAD, ROBUST, GA
 
 
 def ladder(problem: ContactProblem, options: Options, *, rough: bool) -> tuple[Strategy, ...]:
-    """Return the strategies to try, the fastest first.
+    """Return the strategies to try, fastest first.
 
     Parameters
     ----------
@@ -111,12 +111,12 @@ def ladder(problem: ContactProblem, options: Options, *, rough: bool) -> tuple[S
     options : Options
         A stated ``smoother`` is the only rung.
     rough : bool
-        Whether the film is computed between rough surfaces.
+        Whether the surfaces have heights.
     """
     if options.smoother != "auto":
         return (STATED[options.smoother],)
     if rough:
-        # heat does not follow Newton steps better than cycles, at ten times the cost
+        # with heat, Newton steps converge no better than cycles, at ten times the cost
         cycles = tuple(one for one in BETWEEN_ROUGH if not one.newton)
         return cycles if problem.is_coupled else BETWEEN_ROUGH
     if not problem.is_coupled:

@@ -1,15 +1,13 @@
-"""One grid of the hierarchy: its discrete equations, its unknowns and their right-hand sides.
+"""One grid of the hierarchy: its unknowns, its right-hand sides, and the transfers to other grids.
 
 The unknowns are the pressure P and the rigid approach H00; the film H follows from them. On the
-finest grid the right-hand sides are those of the problem; on a coarser one they carry the full
-approximation scheme (FAS: Brandt 1977; Venner and Lubrecht 2000, chapters 4 and 6) for
+finest grid the right-hand sides f, g, w of `tehl.solver.equations` are those of the problem. On a
+coarser one they carry the full approximation scheme (FAS: Brandt 1977; Venner and Lubrecht 2000,
+chapters 4 and 6): each equation A(u) = b becomes
 
-    L(P, H) = f                       Reynolds: (eps P_x)_x + (eps P_y)_y - (rho H)_x,
-    H - H00 - K P = g                 film, K the elastic deflection of the half-spaces,
-    sum(P) dx dy = w                  load balance,
+    A_c(u_c) = A_c(I u) + I (b - A(u)),
 
-each of them written on the coarse grid as  A_c(u_c) = A_c(I u) + I (b - A(u)),  with the injected
-or weighted fine solution I u.
+with the injected or weighted fine solution I u.
 """
 
 from dataclasses import dataclass
@@ -18,15 +16,10 @@ import numpy as np
 
 from tehl.grid import Grid
 from tehl.kernels import reynolds, transfer
-from tehl.operators.deformation import Deformation, choose
-from tehl.operators.film import gap, hertz_pressure
-from tehl.operators.flow import FlowTable
-from tehl.operators.influence import Influence, influence_of
-from tehl.operators.load import TARGET, Load
-from tehl.operators.reynolds import stencil
+from tehl.operators.film import hertz_pressure
+from tehl.operators.load import TARGET
 from tehl.operators.transfer import refine
-from tehl.options import Options
-from tehl.scaling import Groups
+from tehl.solver.equations import Equations, Sources
 from tehl.solver.film_summary import central_value
 from tehl.solver.relaxation import Relaxation, make_smoother
 from tehl.typing import Array
@@ -34,94 +27,17 @@ from tehl.typing import Array
 PRESSURE_STEP = 1e-6
 """Step of the derivative of the conductance by pressure; its error is of this relative size."""
 FROZEN_BELOW = 1e-3
-"""Pressure below which a coarse node beside a cavity is left to the finer grid."""
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Equations:
-    """The discrete equations on one grid: what does not change while they are solved.
-
-    Attributes
-    ----------
-    grid : Grid
-        The nodes.
-    groups : Groups
-        Dimensionless groups.
-    flow : FlowTable
-        Mobility and density of the lubricant over pressure.
-    mesh : Mesh
-        Weights of the Reynolds operator.
-    influence : Influence
-        Deflection per unit pressure on one cell.
-    deformation : Deformation
-        The sum K P over all cells.
-    load : Load
-        Integral of the pressure.
-    target : float
-        Load that the film carries [-].
-    gap : array of ``grid.shape``
-        Undeformed gap [-].
-    floor : float
-        Least film that the conductance is evaluated with [-]: coarse grids, whose discrete film
-        may not be positive, need it.
-    """
-
-    grid: Grid
-    groups: Groups
-    flow: FlowTable
-    mesh: reynolds.Mesh
-    influence: Influence
-    deformation: Deformation
-    load: Load
-    target: float
-    gap: Array
-    floor: float
-
-    @classmethod
-    def on(
-        cls,
-        grid: Grid,
-        groups: Groups,
-        flow: FlowTable,
-        options: Options,
-        *,
-        load: float = 1.0,
-        floor: float = 0.0,
-    ) -> "Equations":
-        """Discretise a contact on ``grid``; the film carries ``load`` times its load."""
-        return cls(
-            grid=grid,
-            groups=groups,
-            flow=flow,
-            mesh=stencil(grid, groups, options.wedge_order),
-            influence=influence_of(grid, groups),
-            deformation=choose(options.deformation, grid, groups),
-            load=Load(grid),
-            target=load * TARGET,
-            gap=gap(grid, groups),
-            floor=floor,
-        )
-
-
-@dataclass(slots=True)
-class Sources:
-    """Right-hand sides: f of the Reynolds equation, g of the film, w of the load balance.
-
-    ``history`` is what former films contribute to wedge and squeeze in a step of a transient run;
-    f contains it.
-    """
-
-    reynolds: Array
-    film: Array
-    load: float
-    history: Array | None = None
+"""Pressure below which a coarse node beside a cavity keeps its pressure: where the film ends is
+decided on the finest grid alone."""
+APPROACH_WEIGHT = 10.0
+"""Weight of the rigid approach among the pressures in the vector of unknowns."""
 
 
 @dataclass(frozen=True, slots=True)
 class Correction:
-    """How much of its correction a coarse grid may give to the next finer one.
+    """Damping of the correction that a coarse grid gives to the next finer one.
 
-    ``part`` multiplies the correction; ``limit`` bounds the change of a pressure by the pressure.
+    ``part`` multiplies the correction; ``limit`` bounds its relative change of a pressure.
     """
 
     part: float = 1.0
@@ -131,8 +47,8 @@ class Correction:
 class Level:
     """One grid with its unknowns; the only mutable object of the multigrid solver.
 
-    Whoever changes pressure or rigid approach does so through `set_state`; `update` then evaluates
-    film, density and conductance before they are used.
+    A change of pressure or rigid approach, by `set_state`, relaxation or coarse-grid correction,
+    marks the film as stale; `update` evaluates film, density and conductance again.
 
     Parameters
     ----------
@@ -170,13 +86,22 @@ class Level:
     # state
 
     def set_state(self, pressure: Array, rigid_approach: float) -> None:
-        """Set pressure, shape ``grid.shape``, and rigid approach; what depends on them is stale."""
+        """Set pressure, ``grid.shape``, and rigid approach; the film is stale."""
         self.film.p[:] = pressure
         self.rigid_approach = rigid_approach
         self._is_stale = True
 
+    def unknowns(self) -> Array:
+        """Return pressure and weighted rigid approach as one vector, (n + 1,)."""
+        return np.append(self.film.p.ravel(), APPROACH_WEIGHT * self.rigid_approach)
+
+    def set_unknowns(self, vector: Array) -> None:
+        """Set pressure and rigid approach from a vector; negative pressures are clipped."""
+        pressure = np.maximum(vector[:-1].reshape(self.grid.shape), 0.0)
+        self.set_state(pressure, float(vector[-1]) / APPROACH_WEIGHT)
+
     def update(self) -> None:
-        """Evaluate the film H = H00 + K P + g, then conductance and density, if they are stale."""
+        """Evaluate film H = H00 + K P + g, conductance and density if they are stale."""
         if not self._is_stale:
             return
         h = self.film.h
@@ -197,6 +122,10 @@ class Level:
         else:
             reynolds.heated_properties(film, self.factors, flow.table, flow.step, floor)
 
+    def nodal_film(self) -> tuple[float, float]:
+        """Return central and smallest nodal film [-]."""
+        return central_value(self.grid, self.film.h), float(self.film.h.min())
+
     def conductance_slopes(self) -> tuple[Array, Array]:
         """Return d eps/dP and d eps/dH at the present pressure and film, each ``grid.shape``."""
         film, floor = self.film, self.equations.floor
@@ -208,14 +137,14 @@ class Level:
         return by_pressure, by_film
 
     def couple(self, factors: reynolds.Factors) -> None:
-        """Take the factors by which heat and shear thinning change mobility and density."""
+        """Set the factors of heat and shear thinning on mobility and density."""
         if self.factors is None:
             eps_x, eps_y = np.empty(self.grid.shape), np.empty(self.grid.shape)
             self.film = self.film._replace(eps_x=eps_x, eps_y=eps_y)
         self.factors = factors
 
     def uncouple(self) -> None:
-        """Return to an isothermal Newtonian film."""
+        """Reset to an isothermal Newtonian film."""
         self.factors = None
         self.film = self.film._replace(eps_x=self.film.eps, eps_y=self.film.eps)
         self._is_stale = True
@@ -223,19 +152,19 @@ class Level:
     # the problem of the finest level
 
     def pose_problem(self) -> None:
-        """Make this the finest level of a steady problem: f = 0, g = gap less heights."""
+        """Set the right-hand sides of a steady problem: f = 0, g = gap - heights, w the load."""
         self.sources.reynolds[:] = 0.0
         self.sources.load = self.equations.target
         self.apply_heights(1.0)
         self.smoother.frozen[:] = 0
 
     def pose_step(self, history: Array, heights: Array, load: float) -> None:
-        """Make this the finest level of a step of a transient run.
+        """Set the right-hand sides of a time step: f contains the history.
 
         Parameters
         ----------
         history : array of ``grid.shape``
-            Contribution of former films to wedge and squeeze [-].
+            Contribution of previous films to wedge and squeeze [-].
         heights : array of ``grid.shape``
             Heights of both surfaces at the new time [-].
         load : float
@@ -258,16 +187,17 @@ class Level:
     def write_source(self) -> None:
         """Set f of the finest level for the present film.
 
-        The conductances along x and y of a shear-thinning film are those of a small change of the
-        pressure gradient; f takes back what they add at the present pressure, so that the solution
-        is that of the secant conductance. History is subtracted.
+        A shear-thinning film relaxes with tangent conductances along x and y, those of a small
+        change of the pressure gradient. f subtracts their excess over the secant conductance at the
+        present pressure, so that the solution does not depend on them (docs/theory/thermal.md). It
+        subtracts the history too.
         """
         reynolds.tangent_source(self.film, self.mesh, self.sources.reynolds)
         if self.sources.history is not None:
             self.sources.reynolds -= self.sources.history
 
     def start_from_hertz(self, expected_film: float) -> None:
-        """Start from the Hertz pressure, with the rigid approach of an expected central film."""
+        """Start from the Hertz pressure, with the rigid approach of the expected central film."""
         self.pose_problem()
         self.set_state(hertz_pressure(self.grid), 0.0)
         self.update()
@@ -287,7 +217,7 @@ class Level:
         self.smoother.frozen[:] = frozen
 
     def relax(self, sweeps: int) -> None:
-        """Smooth the error of the pressure by some sweeps."""
+        """Smooth the error of the pressure by ``sweeps`` relaxation sweeps."""
         for _ in range(sweeps):
             self.update()
             self.smoother.sweep(self.film, self.mesh, self.sources.reynolds, self.equations.flow)
@@ -323,8 +253,8 @@ class Level:
     def restrict_solution(self, coarse: "Level") -> None:
         """Restrict P by full weighting, beside cavities by injection; H00 is one number.
 
-        Coarse nodes beside a cavity and of low pressure are frozen: the coarse grid would cavitate
-        them again and again (Venner and Lubrecht 2000, chapter 6, restrict there by injection).
+        Coarse nodes of low pressure beside a cavity are frozen: the coarse grid would cavitate them
+        in every cycle (Venner and Lubrecht 2000, chapter 6, restrict there by injection).
         """
         mirror, frozen = self.mesh.mirror, coarse.smoother.frozen
         transfer.restrict_pressure(self.film.p, mirror, coarse.film.p)
@@ -339,7 +269,7 @@ class Level:
     def restrict_film(self, coarse: "Level") -> None:
         """Pose the film equation:  g_c = I H - K_c P_c - H00,  I injection.
 
-        The fine film satisfies its equation exactly, so that no residual is added. Density and
+        The fine film satisfies its equation exactly, so there is no residual to add. Density and
         conductance of the coarse grid follow from the injected film.
         """
         g = coarse.sources.film
@@ -366,7 +296,8 @@ class Level:
     def correct_from(self, coarse: "Level") -> None:
         """Add the change of the coarse grid:  P += I (P_c - I P),  H00 += H00_c - H00.
 
-        Bilinear interpolation, never across the cavitation front.
+        By bilinear interpolation, never across the cavitation front: two grids would move the front
+        back and forth.
         """
         (before, approach), how = coarse.restricted, coarse.correction
         mirror = self.mesh.mirror

@@ -1,4 +1,4 @@
-"""Who is told what while the solver runs."""
+"""Receivers of the reports of a solve: protocols, one that discards, one that records."""
 
 from typing import Protocol
 
@@ -7,36 +7,50 @@ from tehl.transient_result import StepReport
 
 
 class Monitor(Protocol):
-    """What a solve reports to."""
+    """Receives the reports of a steady solve."""
 
     def message(self, text: str) -> None:
-        """Take a remark for people."""
+        """Receive a message for people."""
         ...
 
     def cycle(self, report: CycleReport) -> None:
-        """Take the report of one cycle."""
+        """Receive the report of one cycle."""
         ...
 
 
 class StepMonitor(Monitor, Protocol):
-    """What a transient run reports to."""
+    """Receives the reports of a transient run."""
 
     def step(self, report: StepReport) -> None:
-        """Take the report of one step of time."""
+        """Receive the report of one time step."""
         ...
 
 
 class Silent:
-    """Nobody is told anything."""
+    """Discards all reports."""
 
     def message(self, text: str) -> None:
-        """Drop the remark."""
+        """Discard the message."""
 
     def cycle(self, report: CycleReport) -> None:
-        """Drop the report."""
+        """Discard the report."""
 
     def step(self, report: StepReport) -> None:
-        """Drop the report."""
+        """Discard the report."""
 
 
 SILENT = Silent()
+
+
+class Recorder:
+    """Records the reports of cycles, and passes everything on to ``monitor``."""
+
+    def __init__(self, monitor: Monitor) -> None:
+        self.reports: list[CycleReport] = []
+        self._monitor = monitor
+        self.message = monitor.message
+
+    def cycle(self, report: CycleReport) -> None:
+        """Record the report and pass it on."""
+        self.reports.append(report)
+        self._monitor.cycle(report)

@@ -1,13 +1,17 @@
-"""Newton's method on one level, for films where no relaxation converges.
+"""Newton-Krylov method on one level, for films on which no relaxation converges.
 
-Between steep asperities the conductance changes by orders of magnitude from node to node, and
-faster with pressure and film than any relaxation follows that keeps it meanwhile. Newton's method
-takes all of that into its step. The nodes that may move are those that are wet or ought to be
-(a primal-dual active set, Hintermueller, Ito and Kunisch 2003); the linear equations are solved by
-a Krylov method whose products contain the whole elastic deflection, and whose preconditioner is a
-sparse elimination of the flow, with the deflection of a node by itself alone, after a correction on
-a coarse grid of what distant nodes do. To let it know the deflection by the neighbours too saves no
-products and makes it five times as dear.
+Between steep asperities the conductance changes by orders of magnitude from node to node, and a
+relaxation that freezes it diverges. Newton's method linearises all of it (docs/theory/numerics.md,
+"Rough surfaces"):
+
+    L_P v + L_H (K v + c) = f - L(P),   sum(v) dx dy = w - sum(P) dx dy,
+
+for changes v of the pressures and c of the rigid approach. The free nodes are those that are wet or
+whose residual would wet them (a primal-dual active set, Hintermueller, Ito and Kunisch 2003). The
+Krylov method applies the full elastic deflection K. Its preconditioner is a correction on a coarse
+grid with dense K, then a sparse factorisation of L_P + L_H K_00 with the deflection K_00 of a node
+by itself; with the deflection by the neighbours as well the factorisation costs five times as much
+and saves no products.
 """
 
 import warnings
@@ -22,35 +26,34 @@ from tehl.grid import Grid
 from tehl.kernels import reynolds
 from tehl.operators.influence import dense_matrix, influence_of
 from tehl.operators.jacobian import Stencil, interpolation, jacobian, rows, stencil_of
-from tehl.solver.level import Level
-from tehl.solver.state import APPROACH, DivergedError, state_of, take_state
+from tehl.solver.convergence import DivergedError
+from tehl.solver.level import APPROACH_WEIGHT, Level
 from tehl.typing import Array, BoolArray
 
 ACCURACY, EXACT = 0.03, 0.001
-"""Residual of the linear equations, over its first value, and where that step leads nowhere."""
+"""Relative residual of the linear equations; and in a second solve if that step fails."""
 VECTORS, ROUNDS = 40, 2
-"""Directions of the Krylov method before it starts again, and how often."""
+"""Directions of the Krylov method per restart, and number of restarts."""
 SLOW = 24
-"""Products with the Jacobian, two per direction, after which the next step eliminates anew."""
+"""Products with the Jacobian, two per direction, beyond which the next step factorises again."""
 LARGEST_CHANGE, OUTLIERS = 5.0, 5e-4
-"""Of the pressure of a node in one step, in Hertz pressures, and the part of the nodes that is held
-back alone: single ones would go a hundred, and all others would hardly move with them."""
+"""Largest change of a pressure per step, in Hertz pressures, and the part of the nodes that is
+clipped without shortening the step: single nodes would change by a hundred."""
 DESCENT, SHORTEST = 0.1, 0.02
-"""Part of the fall of the residual that a step must keep of what it promises, and the shortest step
-before the level is given up."""
-SETTLED = 1e-8
-"""Residual at which there is nothing left to gain."""
+"""Sufficient over predicted decrease of the residual, and shortest step of the line search."""
+ROUNDING = 1e-8
+"""Residual that no step can reduce further."""
 
 
 class Newton:
-    """Newton's method for pressure and rigid approach of a level, load balance included.
+    """Newton's method for pressure and rigid approach of a level, with the load balance.
 
     Parameters
     ----------
     level : Level
-        The unknowns, changed in place.
+        Level whose unknowns change in place.
     coarse : Grid
-        A coarser grid, of some hundred nodes.
+        Grid of the coarse correction, of some hundred nodes.
     """
 
     def __init__(self, level: Level, coarse: Grid) -> None:
@@ -60,7 +63,7 @@ class Newton:
         self.to_coarse = csr_matrix(
             rows(1.0 / np.asarray(self.to_fine.sum(0)).ravel()) @ self.to_fine.T
         )
-        self.same = np.asarray(self.to_fine.argmax(axis=0)).ravel()  # the node at each coarse one
+        self.same = np.asarray(self.to_fine.argmax(axis=0)).ravel()  # fine node at each coarse one
         coarse_influence = influence_of(coarse, level.equations.groups)
         self.deflection = dense_matrix(coarse.shape, coarse.mirror, coarse_influence)
         weights = np.full(
@@ -71,59 +74,59 @@ class Newton:
         self.preconditioner: Preconditioner | None = None
 
     def step(self) -> float:
-        """Take one step; return the part of it that was taken.
+        """Perform one step; return the part of the Newton step that was taken.
 
         Raises
         ------
         DivergedError
-            When even a short step does not bring the film nearer to a solution.
+            When no part of the step reduces the residual.
         """
         self.level.update()
         system, old = System(self), self.preconditioner
         try:
-            part = self.solve_and_walk(system, ACCURACY)
+            part = self._damped_step(system, ACCURACY)
         except DivergedError:
             if self.preconditioner is old:
                 self.preconditioner = None
-            part = self.solve_and_walk(system, EXACT)
+            part = self._damped_step(system, EXACT)
         if system.products > SLOW or part < 1.0:
             self.preconditioner = None
         return part
 
-    def solve_and_walk(self, system: "System", accuracy: float) -> float:
-        """Take the step of some equations, solved to a residual; return the part of it."""
+    def _damped_step(self, system: "System", accuracy: float) -> float:
+        """Solve the linear equations to a relative residual and search along the solution."""
         try:
             if self.preconditioner is None:
                 self.preconditioner = Preconditioner(system)
             change = system.solve(self.preconditioner, accuracy)
-        except (RuntimeError, ValueError) as error:  # equations that are singular or not finite
+        except (RuntimeError, ValueError) as error:  # singular or not finite
             raise DivergedError from error
-        return self.walk(change)
+        return self.line_search(change)
 
-    def walk(self, change: Array) -> float:
-        """Go as far along ``change`` as the residual falls; return the part."""
-        level, start = self.level, state_of(self.level)
+    def line_search(self, change: Array) -> float:
+        """Halve the step along ``change`` until the residual decreases; return the part taken."""
+        level, start = self.level, self.level.unknowns()
         residual = level.evaluate_residual()
         (step, share), part = limited(change), 1.0 if np.isfinite(change).all() else 0.0
         while part > SHORTEST:
-            take_state(level, start + part * step)
+            level.set_unknowns(start + part * step)
             level.update()
             if level.evaluate_residual() < (1.0 - DESCENT * part * share) * residual:
                 return part * share
             part *= 0.5
-        take_state(level, start)
+        level.set_unknowns(start)
         level.update()
-        if residual < SETTLED:
+        if residual < ROUNDING:
             return 1.0
         raise DivergedError
 
     def refresh(self) -> None:
-        """Set up the preconditioner anew in the next step."""
+        """Discard the preconditioner, so that the next step computes a new one."""
         self.preconditioner = None
 
 
 class System:
-    """The linear equations of one step, each over the diagonal of the Reynolds operator."""
+    """The linear equations of one step, each scaled by the diagonal of the Reynolds operator."""
 
     def __init__(self, newton: Newton) -> None:
         self.newton, level = newton, newton.level
@@ -144,7 +147,7 @@ class System:
         self.rest = np.append(self.scale * rest.ravel(), level.missing_load())
 
     def product(self, change: Array) -> Array:
-        """Return what a change of pressures and approach makes of the equations."""
+        """Return the Jacobian times a change of pressures and approach, (n + 1,)."""
         self.products += 1
         pressure = np.where(self.free, change[:-1], 0.0)
         film = np.empty(self.shape)
@@ -154,7 +157,7 @@ class System:
         return np.append(kept, self.newton.load_weights @ pressure)
 
     def solve(self, preconditioner: "Preconditioner", accuracy: float) -> Array:
-        """Return the step in the units of `tehl.solver.state`."""
+        """Return the Newton step of `Level.unknowns`, by GCROT to a relative residual."""
         size = self.rest.size
         change, _ = gcrotmk(
             LinearOperator((size, size), matvec=self.product, dtype=float),
@@ -164,17 +167,17 @@ class System:
             m=VECTORS,
             M=LinearOperator((size, size), matvec=partial(preconditioner.solve, self), dtype=float),
         )
-        change[-1] *= APPROACH
+        change[-1] *= APPROACH_WEIGHT
         return np.asarray(change)
 
 
 class Preconditioner:
-    """An approximate inverse: a coarse correction, then a sparse elimination.
+    """Approximate inverse: coarse-grid correction, then sparse factorisation.
 
     Parameters
     ----------
     system : System
-        Of the state at which it is made; it serves for later ones as well.
+        Equations from which it is computed; later steps use it as well.
     """
 
     def __init__(self, system: System) -> None:
@@ -188,7 +191,7 @@ class Preconditioner:
             diag_pivot_thresh=0.01,
             options={"SymmetricMode": True},
         )
-        # one whose own node is cavitated would share its nodes with others: singular equations
+        # a coarse node on a cavitated fine node would share its nodes with others: singular
         self.moving = system.free[newton.same].astype(float)
         self.to_fine = csr_matrix(system.kept @ newton.to_fine @ rows(self.moving))
         self.to_coarse = csr_matrix(rows(self.moving) @ newton.to_coarse)
@@ -196,7 +199,7 @@ class Preconditioner:
             self.coarse = lu_factor(self.coarse_matrix(system))
 
     def coarse_matrix(self, system: System) -> Array:
-        """Return the equations of the coarse grid: pressures, and the approach with the load."""
+        """Return the matrix of the coarse grid: Reynolds equations, then the load balance."""
         newton = system.newton
         by_film = csr_matrix(self.to_coarse @ system.by_film)
         size = newton.deflection.shape[0]
@@ -219,9 +222,9 @@ class Preconditioner:
 
 
 def limited(change: Array) -> tuple[Array, float]:
-    """Return a step that changes no pressure by more than it may, and the part of it that this is.
+    """Return a step limited to `LARGEST_CHANGE` of each pressure, and its part of ``change``.
 
-    The few nodes that are held back alone do not count in that part.
+    The few `OUTLIERS` are clipped and do not shorten the step.
     """
     sizes = np.abs(change[:-1])
     last = sizes.size - 1 - int(OUTLIERS * sizes.size)

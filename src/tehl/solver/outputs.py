@@ -1,4 +1,8 @@
-"""What a finished run says of stress and heat, in SI and on the full domain."""
+"""Shear stress, temperature and heat balance of a finished run, in SI and on the full domain.
+
+Equations in docs/theory/thermal.md; the isothermal Newtonian stress is eta du/dz of Couette and
+Poiseuille flow.
+"""
 
 import numpy as np
 
@@ -11,7 +15,7 @@ from tehl.typing import Array
 
 
 def newtonian_shear(level: Level, scaled: ScaledProblem) -> FilmShear:
-    """Return the shear stress of an isothermal Newtonian film from pressure and film alone."""
+    """Return the shear stress of an isothermal Newtonian film, from pressure and film."""
     grid, groups = level.grid, scaled.groups
     slope_x, _ = pressure_slopes(grid, groups, level.film.p)
     sliding = newtonian_sliding(level, scaled)
@@ -27,7 +31,7 @@ def newtonian_shear(level: Level, scaled: ScaledProblem) -> FilmShear:
 
 
 def newtonian_sliding(level: Level, scaled: ScaledProblem) -> Array:
-    """Return the mid-film stress of an isothermal Newtonian film, ``grid.shape`` [-]."""
+    """Return the mid-film stress -SRR eta/h of an isothermal Newtonian film, ``grid.shape`` [-]."""
     problem, scales = scaled.problem, scaled.scales
     if problem.slide_roll_ratio == 0:
         return np.zeros(level.grid.shape)
@@ -38,7 +42,7 @@ def newtonian_sliding(level: Level, scaled: ScaledProblem) -> Array:
 
 
 def film_shear(state: FilmState) -> FilmShear:
-    """Return the shear stress of a heated or thinning film."""
+    """Return the shear stress of a heated or shear-thinning film."""
     grid, sliding = state.grid, state.view("tau_x")
     unit = stress_unit(state.scales)
     rolling = 0.5 * state.model.terms.poiseuille * state.view("h") * state.view("px")
@@ -52,7 +56,7 @@ def film_shear(state: FilmState) -> FilmShear:
 
 
 def film_heat(state: FilmState) -> FilmHeat | None:
-    """Return the temperatures of a heated film, None of one that keeps the inlet's."""
+    """Return the temperatures of a heated film, None for an isothermal one."""
     if not state.model.terms.heat:
         return None
     grid, temperature = state.grid, state.temperature
@@ -72,10 +76,10 @@ def film_heat(state: FilmState) -> FilmHeat | None:
 
 
 def heat_balance(state: FilmState) -> HeatBalance:
-    """Return the powers of the pressurised film [W].
+    """Return the heat balance of the film under pressure [W].
 
-    The enthalpy that leaves it is the divergence of the enthalpy flux by central differences, which
-    the solver does not use: what is missing tells of the mesh.
+    The enthalpy carried out is the divergence of its flux by central differences, which the solver
+    does not use: the error of the balance measures the discretisation error.
     """
     grid, view, terms = state.grid, state.view, state.model.terms
     inner = (slice(1, -1), slice(1, -1))
@@ -100,7 +104,7 @@ def heat_balance(state: FilmState) -> HeatBalance:
 
 
 def _unfold(grid: Grid, field: Array, *, odd: bool = False) -> Array:
-    """Return a field with y last on the full domain, y first; ``odd`` in y or even."""
+    """Return a field stored with y last on the full domain, (ny, nx); ``odd`` in y or even."""
     field = np.ascontiguousarray(field.T)
     if odd and grid.mirror:
         return np.concatenate([-field[:0:-1], field])

@@ -1,4 +1,10 @@
-"""Relaxation of the pressure on one grid: hybrid line relaxation, and point Gauss-Seidel."""
+"""Relaxation of the pressure on one grid: hybrid line relaxation, and point Gauss-Seidel.
+
+Where the film conducts, the Poiseuille term dominates, and Gauss-Seidel by lines along x smooths
+the error. In the contact the equation is (rho H)_x = 0 and a change at one node moves the film
+everywhere, so nodes change there as dipoles: one up, its four neighbours down by a quarter each
+(Venner and Lubrecht 2000, chapter 6; docs/theory/numerics.md, "Hybrid line relaxation").
+"""
 
 from dataclasses import dataclass
 from typing import Protocol
@@ -17,7 +23,7 @@ from tehl.typing import Array, FlagArray
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Relaxation:
-    """Settings of the hybrid line relaxation (Venner and Lubrecht 2000, chapter 6).
+    """Settings of the hybrid line relaxation.
 
     Attributes
     ----------
@@ -29,7 +35,7 @@ class Relaxation:
         Under-relaxation of points (Gauss-Seidel) and of dipoles (Jacobi) [-].
     lines : int
         Lines to each side that are assumed to move with a line while it is solved. On the steep
-        flank of a ridge along them they do, and together change the film by more than each alone.
+        flank of a ridge along them they do, and together change the film more than each alone.
     stiff : bool
         Add the change of conductance with pressure to the diagonal.
     """
@@ -53,22 +59,39 @@ GAUSS_SEIDEL = Relaxation(name="gauss-seidel", threshold=0.0, point=0.5, dipole=
 
 
 class Smoother(Protocol):
-    """One sweep over the pressure of a level; the film is that of the last evaluation."""
+    """Relaxation of the pressure of one level."""
 
     frozen: FlagArray
     """Nodes that keep their pressure on this level, (ny, nx) of 0 and 1."""
 
     def sweep(self, film: Film, mesh: Mesh, rhs: Array, flow: FlowTable) -> None:
-        """Relax ``film.p`` in place."""
+        """Relax ``film.p`` in place by one sweep; the rest of ``film`` stays as evaluated last.
+
+        Parameters
+        ----------
+        film : Film
+            Pressure, film, conductance and density.
+        mesh : Mesh
+            Weights of the Reynolds operator.
+        rhs : (ny, nx) array
+            Right-hand side f.
+        flow : FlowTable
+            Mobility and density of the lubricant.
+        """
         ...
 
 
 class LineSmoother:
-    """Lines along x in two colours: points where the film conducts, dipoles in the contact."""
+    """Lines along x in two colours: points where the film conducts, dipoles in the contact.
+
+    Each line is a linear complementarity problem, solved by policy iteration
+    (`tehl.kernels.reynolds.relax_lines`).
+    """
 
     def __init__(self, grid: Grid, influence: Influence, relaxation: Relaxation) -> None:
         point, dipole = line_influence(influence)
-        point += 2.0 * neighbours(influence, relaxation.lines, point.size)
+        others = (influence(line + 1, slice(0, point.size)) for line in range(relaxation.lines))
+        point += 2.0 * sum(others, np.zeros(point.size))  # lines on both sides move along
         self.frozen = np.zeros(grid.shape, np.uint8)
         self.steep = np.zeros(grid.shape)
         self.workspace = reynolds.Relaxation(
@@ -92,7 +115,7 @@ class LineSmoother:
 
 
 class PointSmoother:
-    """Plain Gauss-Seidel, node by node: for teaching; it fails when the contact is loaded."""
+    """Plain Gauss-Seidel, node by node: for teaching, as it diverges in loaded contacts."""
 
     def __init__(self, grid: Grid, influence: Influence, relaxation: Relaxation) -> None:
         self.frozen = np.zeros(grid.shape, np.uint8)
@@ -105,16 +128,8 @@ class PointSmoother:
         relax_points(film, mesh, rhs, self.point, self.omega)
 
 
-def neighbours(influence: Influence, lines: int, size: int) -> Array:
-    """Return the film along a line by a unit change of nodes abreast of it on 1 to ``lines``."""
-    total = np.zeros(size)
-    for line in range(1, lines + 1):
-        total += influence(line, slice(0, size))
-    return total
-
-
 def make_smoother(grid: Grid, influence: Influence, relaxation: Relaxation) -> Smoother:
-    """Return the smoother of one grid."""
+    """Return the smoother of one grid: plain Gauss-Seidel if so named, else by lines."""
     if relaxation is GAUSS_SEIDEL:
         return PointSmoother(grid, influence, relaxation)
     return LineSmoother(grid, influence, relaxation)

@@ -1,7 +1,6 @@
 """Solve a steady contact: choose the grid, try the strategies, judge, assemble the result."""
 
 import platform
-import time
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from functools import cache
@@ -19,26 +18,26 @@ from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.result import Cost, CycleReport, Provenance, Result, Status
 from tehl.scaling import ScaledProblem, Scales
+from tehl.solver.continuation import TouchingError
+from tehl.solver.cost import Clock
 from tehl.solver.film_solver import FilmSolver
 from tehl.solver.film_summary import film_summary
 from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.ladder import Strategy, ladder
-from tehl.solver.monitor import SILENT, Monitor
+from tehl.solver.monitor import SILENT, Monitor, Recorder
 from tehl.solver.outputs import film_heat, film_shear, newtonian_shear
-from tehl.solver.rough_verdict import touching
-from tehl.solver.state import TouchingError
 from tehl.solver.thermal import Coupling, FilmCoupling
-from tehl.solver.verdict import diverged, verdict
+from tehl.solver.verdict import diverged, touching, verdict
 from tehl.solver.warmup import warm_up
 
 GRID_CAUSES = ("grid_too_coarse", "domain_too_small", "inlet_too_short", "sides_too_close")
-"""Causes that no other strategy removes."""
+"""Causes of failure that no other strategy removes."""
 PACKAGES = ("tehl", "numpy", "scipy", "numba")
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Attempt:
-    """The outcome of one strategy, and whether its iteration met the stopping criterion."""
+    """One strategy tried: its run, its status, and whether it met the stopping criterion."""
 
     run: FilmSolver
     status: Status
@@ -46,7 +45,7 @@ class Attempt:
 
     @property
     def is_final(self) -> bool:
-        """Whether no other strategy would end differently."""
+        """Whether another strategy would end the same way."""
         touching = self.reached and self.status.cause == "asperity_contact"
         return self.status.converged or self.status.cause in GRID_CAUSES or touching
 
@@ -65,30 +64,30 @@ def solve(
     problem : ContactProblem
         The contact in SI.
     options : Options
-        How hard to try; the defaults if left out.
+        Numerical options; the defaults if left out.
     guess : Result
         The film of a similar contact. The finest grid starts from it if ``options.accuracy`` is
-        "tight" and it is much nearer to the answer than the film of the coarser grid; less exact
-        runs are over before that counts. The answer is the same, to the tolerance.
+        "tight" and its residual is much smaller than that of the interpolated coarser film; at
+        other accuracies it saves nothing. The result is the same, to the tolerance.
     monitor : Monitor
-        Told of each cycle.
+        Receives the report of each cycle.
 
     Returns
     -------
     Result
-        Film, pressure and how well they are known.
+        Film and pressure with estimated errors.
 
     Raises
     ------
     ConvergenceError
-        When the answer was not reached; its ``result`` is the last finite state, marked.
+        When the solver did not converge; its ``result`` is the last finite state.
     InputError
         When the grid does not fit into the memory, or a measured surface cannot be read.
     """
     options = options or Options()
     if problem.transient is not None:
         raise InputError(
-            "the case has a [transient] table: solve it with tehl.solve_transient (the command "
+            "transient: the case is not steady; solve it with tehl.solve_transient (the command "
             "tehl solve does so by itself)"
         )
     check_memory(options, problem)
@@ -114,13 +113,12 @@ def solve_attempt(
     problem, options, monitor, guess
         As in `solve`.
     rough : bool
-        With the roughness of the surfaces as they are at time zero; else they are smooth.
+        Whether the surfaces have their roughness, at time zero; else they are smooth.
     load : float
         Load that the film carries, over that of the contact [-].
     """
     warm_up(coupled=problem.is_coupled)
-    wall, cpu = time.perf_counter(), time.process_time()
-    scaled, history = ScaledProblem.of(problem), _History(monitor)
+    clock, history, scaled = Clock(), Recorder(monitor), ScaledProblem.of(problem)
     grid = finest_grid(scaled, options)
     heights = heights_of(scaled, grid) if rough else None
     start = guess if options.accuracy == "tight" else None
@@ -139,77 +137,71 @@ def solve_attempt(
             guess=start,
         )
         only_newton_left = all(one.newton for one in rungs[number + 1 :])
-        attempts.append(_attempt(run, patient=only_newton_left))
+        attempts.append(_attempt(run, force=only_newton_left))
         if attempts[-1].is_final:
             break
     best = min(attempts, key=_rank)
     surfaces = _surfaces(grid, heights, scaled.scales)
-    cost = Cost(cpu_seconds=time.process_time() - cpu, wall_seconds=time.perf_counter() - wall)
-    return best, _result(best, tuple(history.reports), surfaces, cost)
+    return best, _result(best, tuple(history.reports), surfaces, clock.cost())
 
 
-class _History:
-    """A monitor that keeps the reports and passes them on."""
-
-    def __init__(self, monitor: Monitor) -> None:
-        self.monitor = monitor
-        self.reports: list[CycleReport] = []
-
-    def message(self, text: str) -> None:
-        """Pass the remark on."""
-        self.monitor.message(text)
-
-    def cycle(self, report: CycleReport) -> None:
-        """Keep the report and pass it on."""
-        self.reports.append(report)
-        self.monitor.cycle(report)
-
-
-def _surfaces(grid: Grid, heights: Heights | None, case_scales: Scales) -> SurfaceHeights | None:
+def _surfaces(grid: Grid, heights: Heights | None, scales: Scales) -> SurfaceHeights | None:
     """Return the heights of both surfaces on the full grid [m]."""
     if heights is None:
         return None
     first, second = (
-        grid.unfold(field) * case_scales.film_thickness
+        grid.unfold(field) * scales.film_thickness
         for field in (heights.surface_1, heights.surface_2)
     )
     return SurfaceHeights(surface_1=first, surface_2=second)
 
 
 def _rank(attempt: Attempt) -> tuple[bool, bool, bool]:
-    """Return what puts the best attempt first: final, got there, or at least finite."""
+    """Return the sorting key of an attempt: final ones first, then converged, then finite ones."""
     return not attempt.is_final, not attempt.reached, attempt.status.kind == "diverged"
 
 
-def _attempt(run: FilmSolver, *, patient: bool) -> Attempt:
-    """Run and judge; a value that is not finite ends the run."""
-    with np.errstate(all="ignore"):  # divergence is judged below, not warned of on the way
+def _attempt(run: FilmSolver, *, force: bool) -> Attempt:
+    """Run a strategy and judge its result, finite or not."""
+    with np.errstate(all="ignore"):  # divergence ends in a status, not in warnings
         try:
-            reached = run.solve(patient=patient)
+            reached = run.solve(force=force)
         except TouchingError as error:
             return Attempt(run=run, status=touching(run, error.part), reached=True)
         except ArithmeticError:
-            run.salvage()
+            run.hierarchy.salvage()
             return Attempt(run=run, status=diverged(run), reached=False)
-    return Attempt(run=run, status=verdict(run, not reached, run.errors()), reached=reached)
+    return Attempt(run=run, status=verdict(run, reached, run.errors()), reached=reached)
 
 
 def coupling_of(
     scaled: ScaledProblem, options: Options, strategy: Strategy, *, rough: bool = False
 ) -> Coupling:
-    """Return the effects on the film other than pressure and elasticity."""
+    """Return the coupling of heat and shear thinning with the film, as the strategy damps it.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        The contact; an isothermal Newtonian film has the trivial coupling.
+    options : Options
+        Accuracy, and order of the upstream differences.
+    strategy : Strategy
+        Damping, and continuation in the sliding speed.
+    rough : bool
+        Whether the surfaces have heights; only then is the coupling damped.
+    """
     if not scaled.problem.is_coupled:
         return Coupling()
     return FilmCoupling(
         scaled,
         options,
         slide_in_steps=strategy.slide_in_steps,
-        follow=strategy.follow if rough else 1.0,
+        damping=strategy.damping if rough else 1.0,
     )
 
 
 def finest_grid(scaled: ScaledProblem, options: Options) -> Grid:
-    """Return the grid of the answer: the stated or proposed domain, half of it if symmetric."""
+    """Return the grid of the result: the stated or recommended domain, half of it if symmetric."""
     domain = options.domain
     if not isinstance(domain, Domain):
         domain = recommended_domain(scaled.groups)
@@ -254,7 +246,7 @@ def _result(
 
 
 def _stress_and_heat(attempt: Attempt) -> tuple[FilmShear | None, FilmHeat | None]:
-    """Return shear stresses and temperatures; None where there is no credible film."""
+    """Return shear stresses and temperatures; None without a valid film."""
     run = attempt.run
     if attempt.status.kind == "diverged" or run.finest.film.h.min() <= 0.0:
         return None, None
@@ -267,7 +259,7 @@ def _stress_and_heat(attempt: Attempt) -> tuple[FilmShear | None, FilmHeat | Non
 
 
 def provenance() -> Provenance:
-    """Return the versions at work and the time."""
+    """Return the versions of the software and the time."""
     return Provenance(
         versions=dict(versions()), created=datetime.now(UTC).isoformat(timespec="seconds")
     )
@@ -275,7 +267,7 @@ def provenance() -> Provenance:
 
 @cache
 def versions() -> dict[str, str]:
-    """Return the versions of Python and of the packages at work."""
+    """Return the versions of Python and of the packages."""
     found = {"python": platform.python_version()}
     for package in PACKAGES:
         try:

@@ -1,8 +1,8 @@
 """Coupling of temperature and shear stress with the film: one energy sweep after each cycle.
 
-What heat and shear thinning do to the flow enters the Reynolds equation as two factors on the
-isothermal Newtonian mobility and density. They are kept during a cycle, and injected to the
-coarser grids.
+Heat and shear thinning enter the Reynolds equation as factors on the isothermal Newtonian mobility
+and density, which are constant during a cycle and injected to the coarser grids (docs/theory/
+thermal.md, "Coupling with the film").
 """
 
 from collections.abc import Sequence
@@ -18,74 +18,79 @@ from tehl.solver.level import Level
 from tehl.typing import Array
 
 COUPLED_FROM = 64
-"""Intervals of a grid from which the film is heated: on coarser ones it keeps the inlet's."""
-SOUND = 5.0
-"""Least film, over the floor of the conductance, that is worth heating on a coarser grid."""
+"""Intervals of the coarsest grid that is heated; coarser ones keep the inlet temperature."""
+RESOLVED = 5.0
+"""Least film on a heated coarser grid, over the floor of the conductance."""
 FIRST_SWEEPS = 10
 """Energy sweeps on the first heated grid before its first cycle."""
-MOST_SWEEPS, RESTLESS = 4, 5.0
-"""Most energy sweeps after a cycle, and the change of temperature [K] that asks for another."""
-QUIET, CALM = 0.05, 0.0015
-"""Largest change of the temperature by a sweep, and change of its largest rise since the last one,
-over that rise, below which the next cycle may do without a sweep."""
+MOST_SWEEPS, LARGE_CHANGE = 4, 5.0
+"""Most energy sweeps after a cycle, and change of temperature [K] after which another follows."""
+SMALL_CHANGE, SMALL_RISE_CHANGE = 0.05, 0.0015
+"""Largest change of temperature in a sweep, and change of the largest rise since the last sweep,
+both over that rise, below which the sweep of the next cycle is skipped."""
 LEAST_SWEEPS = 2
-"""Sweeps on a grid before one may be left out."""
+"""Sweeps on a grid before one may be skipped."""
 FIRST_STEPS, STEPS = 40, 3
-"""Newton steps for the shear stress on the first sweep and later."""
+"""Newton steps for the shear stress in the first sweeps and later."""
 RAMP = 24
-"""Sweeps over which sliding is raised from nothing, if it is."""
-UNSETTLED = 100.0
-"""Change of temperature [K] that a sweep before the end of that counts for."""
+"""Sweeps over which the sliding speed is raised from zero in `Strategy.slide_in_steps`."""
+UNFINISHED = 100.0
+"""Change of temperature [K] reported for a sweep below the full sliding speed."""
 CARRIED = ("temperature", "tau_x", "tau_y")
-"""Fields of the film that one sweep takes from the last."""
-SETTLED = 8.0
-"""Change of temperature [K] at which the first sweeps may end."""
+"""Fields of the film that a sweep starts from."""
+FIRST_CHANGE = 8.0
+"""Change of temperature [K] at which the first sweeps end."""
 
 
 class Coupling:
-    """Effects on the film other than pressure and elasticity.
-
-    This one has none: it is that of an isothermal Newtonian film. `FilmCoupling` overrides it.
+    """Effects of heat and shear thinning: none, as in an isothermal Newtonian film.
 
     Attributes
     ----------
-    follow : float
-        Part of the way, in logarithms, that mobility and density follow per sweep [-].
+    damping : float
+        Damping factor of the logarithms of mobility and density per sweep; 1 is undamped [-].
     state : FilmState or None
-        Temperature and shear stress on the finest level; None where there are none.
+        Temperature and shear stress on the last level that was started; None without any.
     """
 
-    follow = 1.0
+    damping = 1.0
     state: FilmState | None = None
 
     def begin(self, levels: Sequence[Level], *, finest: bool, has_film: bool) -> bool:
-        """Start on the last of ``levels`` from the coarser ones; return whether there is an effect.
+        """Start on the last of ``levels``; return whether its flow changes.
 
-        ``has_film``: the film is that of cycles, not just the start from the Hertz pressure.
+        Parameters
+        ----------
+        levels : sequence of Level
+            Coarsest first.
+        finest : bool
+            Whether the last one is the level of the result.
+        has_film : bool
+            Whether its film results from cycles, not directly from the Hertz pressure.
         """
         del levels, finest, has_film
         return False
 
     def update(self, levels: Sequence[Level]) -> tuple[float, float]:
-        """Follow the film on the last of ``levels``; return change and rise of temperature [K]."""
+        """Update after a cycle on ``levels``; return change and rise of the temperature [K]."""
         del levels
         return 0.0, 0.0
 
-    def forget(self, levels: Sequence[Level]) -> None:
-        """Undo the effect on ``levels``: their film is not a start for the next grid."""
+    def reset(self, levels: Sequence[Level]) -> None:
+        """Remove the effect on ``levels``, whose film is not a start for the next grid."""
 
     def begin_transient(self, levels: Sequence[Level], time_step: float) -> None:
-        """Start a transient run from the present state, in steps of ``time_step`` [a_x / u_m]."""
+        """Start a transient run from the present state, with steps ``time_step`` [a_x / u_m]."""
 
     def excess(self) -> Array | None:
-        """Return the part of the mass in motion that the film does not hold, (ny, nx); or None."""
+        """Return (rho* - rho_e)/rho*, (ny, nx): flux less stored mass; None without any."""
         return None
 
     def advance(self, levels: Sequence[Level]) -> None:
-        """Make the present state the past of the next step."""
+        """Accept the present state as the previous one of the next time step."""
 
-    def go_back(self, levels: Sequence[Level]) -> None:
-        """Restore the state of the last step."""
+    def revert(self, levels: Sequence[Level]) -> None:
+        """Restore the state of the last time step."""
 
     def pack(self, levels: Sequence[Level]) -> dict[str, Array]:
         """Return the state as arrays by name, for a checkpoint."""
@@ -97,20 +102,20 @@ class Coupling:
 
 
 class FilmCoupling(Coupling):
-    """Energy equation and shear law of the film.
+    """Effects of the energy equation and the shear law of the film.
 
     Parameters
     ----------
     scaled : ScaledProblem
         Laws, motion and heat.
     options : Options
-        Order of the upstream differences, and how far the answer is iterated.
+        Order of the upstream differences, and accuracy.
     slide_in_steps : bool
         Raise the sliding speed from zero over the first sweeps.
-    follow : float
-        Part of the way that the flow follows each sweep, in logarithms [-]. Between rough surfaces
-        the pressure that drives the oil down a flank may make nearly all of its heat and thinning:
-        a flow that follows at once makes more of both, and the pressure moves too late.
+    damping : float
+        Damping factor of the logarithms of mobility and density per sweep [-]. On rough flanks the
+        pressure gradient may cause nearly all heat and thinning; undamped, the flow increases both
+        before the pressure can fall, and the iteration diverges.
     """
 
     def __init__(
@@ -119,94 +124,92 @@ class FilmCoupling(Coupling):
         options: Options,
         *,
         slide_in_steps: bool = False,
-        follow: float = 1.0,
+        damping: float = 1.0,
     ) -> None:
         self.film = HeatedFilm(scaled)
         self.wedge_order = options.wedge_order
         motion = scaled.problem.motion
         counter_moving = min(motion.speed_1, motion.speed_2) <= 0.0
-        # elsewhere the backflow of the coarser grids is a good one
+        # without counter-moving surfaces the backflow of the coarser grids is accurate enough
         self.thorough = options.accuracy == "tight" or counter_moving
-        self.sweeps_left, self.follow = RAMP if slide_in_steps else 0, follow
+        self.sweeps_left, self.damping = RAMP if slide_in_steps else 0, damping
         self.state: FilmState | None = None
         self.factors: reynolds.Factors | None = None
-        self.change, self.rise, self.quiet = 0.0, 0.0, False
+        self.change, self.rise, self.skip = 0.0, 0.0, False
 
     def begin(self, levels: Sequence[Level], *, finest: bool, has_film: bool) -> bool:
-        """Heat the last of ``levels`` from the temperature of the one before it.
+        """Heat the last of ``levels``, from the temperatures of the next coarser one if there are.
 
-        A coarser grid that does not resolve the film, or has none to start from, is left as it is;
-        return whether it is heated.
+        A coarser grid that does not resolve the film, or has no film yet, stays isothermal.
+        Parameters and return value as in `Coupling.begin`.
         """
         fine, coarser = levels[-1], self.state
         large = min(fine.grid.nx, fine.grid.ny) > COUPLED_FROM
-        sound = has_film and float(fine.film.h.min()) > SOUND * fine.equations.floor
-        if not (finest or coarser is not None or (large and sound)):
+        resolved = has_film and float(fine.film.h.min()) > RESOLVED * fine.equations.floor
+        if not (finest or coarser is not None or (large and resolved)):
             return False
-        self.quiet = False
+        self.skip = False
         state = FilmState(
-            fine.grid,
-            self.film,
-            self.wedge_order,
-            finest=finest,
-            thorough=self.thorough,
+            fine.grid, self.film, self.wedge_order, finest=finest, thorough=self.thorough
         )
         self.state = state
         if coarser is not None:
             state.refine_from(coarser)
             state.set_film(fine.film.p, fine.film.h, fine.equations.floor)
-            if not all(side.marches for side in state.sides):  # a line needs no help to begin
+            if not all(side.marches for side in state.sides):  # line sources march with the sweep
                 state.update_surfaces()
-            self._hand_down(levels, refined(levels[-2]))
+            self._set_factors(levels, refined(levels[-2]))
             return True
         for _ in range(FIRST_SWEEPS):
-            if self._sweep(state, levels, FIRST_STEPS) < SETTLED:
+            if self._sweep(state, levels, FIRST_STEPS) < FIRST_CHANGE:
                 break
         return True
 
     def update(self, levels: Sequence[Level]) -> tuple[float, float]:
         """Sweep; return the largest change and the largest rise of the temperature [K].
 
-        One sweep follows a film that settles; a restless one is swept again, and a quiet one is
-        left alone for a cycle, unless the answer is to be tight.
+        One sweep per cycle; more while the temperature changes by more than `LARGE_CHANGE`. When it
+        hardly changes, the sweep of the next cycle is skipped, unless the accuracy is tight.
         """
         if self.state is None:
             return 0.0, 0.0
-        if self.quiet:
-            self.quiet = False
+        if self.skip:
+            self.skip = False
             return self.change, self.rise
         for _ in range(MOST_SWEEPS):
             self.change = self._sweep(self.state, levels, STEPS)
-            if self.change < RESTLESS or self.sweeps_left:
+            if self.change < LARGE_CHANGE or self.sweeps_left:
                 break
         before, self.rise = self.rise, self._rise(self.state)
-        calm = abs(self.rise - before) < CALM * self.rise
-        settling = self.state.sweeps >= LEAST_SWEEPS and not self.thorough and self.follow == 1.0
-        self.quiet = settling and calm and self.change < QUIET * self.rise
+        steady = abs(self.rise - before) < SMALL_RISE_CHANGE * self.rise
+        may_skip = self.state.sweeps >= LEAST_SWEEPS and not self.thorough and self.damping == 1.0
+        self.skip = may_skip and steady and self.change < SMALL_CHANGE * self.rise
         return self.change, self.rise
 
     def _rise(self, state: FilmState) -> float:
-        """Return the largest temperature over that of the oil at the inlet [K]."""
+        """Return the largest temperature rise over the inlet [K]."""
         return float(state.temperature.max()) - self.film.scaled.scales.temperature
 
-    def forget(self, levels: Sequence[Level]) -> None:
-        """Start again on the next grid, from an isothermal film."""
+    def reset(self, levels: Sequence[Level]) -> None:
+        """Make ``levels`` isothermal again; the next grid starts anew."""
         self.state = None
         for level in levels:
             level.uncouple()
 
     def pack(self, levels: Sequence[Level]) -> dict[str, Array]:
-        """Return temperature, stress and fluxes, and the factors that follow from them."""
+        """Return temperature, stress and fluxes, and the factors on the flow."""
         state, factors = self.state, levels[-1].factors
         if state is None or factors is None:
             return {}
         known = {f"factor_{name}": getattr(factors, name) for name in factors._fields}
         known |= {f"film_{name}": getattr(state.fields, name) for name in CARRIED}
-        known["film_back"] = state.work.back  # how far the march back goes before the next sweep
+        known["film_back"] = (
+            state.work.back
+        )  # extent of the march against the flow in the next sweep
         return known | (state.time.memory() if state.time is not None else {})
 
     def unpack(self, levels: Sequence[Level], fields: dict[str, Array]) -> None:
-        """Take them back."""
+        """Restore the state that `pack` returned."""
         if self.state is None or not fields:
             return
         for name in CARRIED:
@@ -215,20 +218,21 @@ class FilmCoupling(Coupling):
         if self.state.time is not None:
             self.state.time.recall(fields)
         names = reynolds.Factors._fields
-        self._hand_down(levels, reynolds.Factors(*(fields[f"factor_{name}"] for name in names)))
+        self._set_factors(levels, reynolds.Factors(*(fields[f"factor_{name}"] for name in names)))
         self.factors = levels[-1].factors
 
     def begin_transient(self, levels: Sequence[Level], time_step: float) -> None:
-        """Let the temperatures change in time, if there are any."""
+        """Make the energy equation transient, if there is heat."""
         self.factors = levels[-1].factors
         if self.state is not None and self.state.model.terms.heat:
             self.state.begin_time(time_step)
 
     def excess(self) -> Array | None:
-        """Return 1 - rho_e/rho*, by the temperatures of the last sweep, (ny, nx).
+        """Return 1 - rho_e/rho* at the temperatures of the last sweep, (ny, nx).
 
-        Oil that is stiffer on the fast side of the film carries more mass along than the mean speed
-        says: the wedge has the density rho* of that flux, but the squeeze the mean density rho_e.
+        Oil that is stiffer on the fast side of the film carries more mass than the mean speed: the
+        wedge has the density rho* of that flux, the squeeze the mean density rho_e (docs/theory/
+        thermal.md, "In time").
         """
         if self.state is None:
             return None
@@ -236,31 +240,32 @@ class FilmCoupling(Coupling):
         return np.ascontiguousarray(1.0 - held.T)
 
     def advance(self, levels: Sequence[Level]) -> None:
-        """Keep temperatures, stresses and factors."""
+        """Store temperatures, stresses and factors."""
         self.factors = levels[-1].factors
         if self.state is not None and self.state.time is not None:
             self.state.time.advance()
 
-    def go_back(self, levels: Sequence[Level]) -> None:
-        """Take them again."""
+    def revert(self, levels: Sequence[Level]) -> None:
+        """Restore them."""
         if self.state is not None and self.state.time is not None:
             self.state.time.go_back()
         if self.factors is not None:
-            self._hand_down(levels, self.factors)
+            self._set_factors(levels, self.factors)
 
     def _sweep(self, state: FilmState, levels: Sequence[Level], steps: int) -> float:
+        """Sweep the energy equation and update the flow; return the change of temperature [K]."""
         fine = levels[-1]
         self.sweeps_left = max(self.sweeps_left - 1, 0)
         state.slide(1.0 - self.sweeps_left / RAMP)
         state.set_film(fine.film.p, fine.film.h, fine.equations.floor)
         change = state.sweep(steps)
         if self.sweeps_left:
-            change = max(change, UNSETTLED)
+            change = max(change, UNFINISHED)
         self._couple(state, levels)
         return change
 
     def _couple(self, state: FilmState, levels: Sequence[Level]) -> None:
-        """Hand what heat and thinning make of the flow to all of ``levels``."""
+        """Compute the factors of heat and thinning and set them on all of ``levels``."""
         fine, names = levels[-1], reynolds.Heated._fields
         shape = fine.grid.shape
         heated = reynolds.Heated(*(np.ascontiguousarray(state.view(name).T) for name in names))
@@ -269,13 +274,13 @@ class FilmCoupling(Coupling):
         isothermal = reynolds.Film(fine.film.p, np.ones(shape), *np.empty((5, *shape)))
         flow = fine.equations.flow
         reynolds.factors_of(heated, isothermal, flow.table, flow.step, factors)
-        if fine.factors is not None and self.follow < 1.0:
-            factors = between(fine.factors, factors, self.follow)
-        self._hand_down(levels, factors)
+        if fine.factors is not None and self.damping < 1.0:
+            factors = damped(fine.factors, factors, self.damping)
+        self._set_factors(levels, factors)
 
     @staticmethod
-    def _hand_down(levels: Sequence[Level], factors: reynolds.Factors) -> None:
-        """Give the last of ``levels`` these factors, and the coarser ones every other of them."""
+    def _set_factors(levels: Sequence[Level], factors: reynolds.Factors) -> None:
+        """Set the factors of the last of ``levels``, and inject them to the coarser ones."""
         fine = levels[-1]
         for level in reversed(levels):
             level.couple(factors)
@@ -284,18 +289,23 @@ class FilmCoupling(Coupling):
         fine.write_source()
 
 
-def between(old: reynolds.Factors, new: reynolds.Factors, part: float) -> reynolds.Factors:
-    """Return factors some part of the way from old to new ones.
+def damped(old: reynolds.Factors, new: reynolds.Factors, damping: float) -> reynolds.Factors:
+    """Return old factors changed by a part of the way to new ones, in logarithms.
 
-    In logarithms, but for the rest of the mobility, which may vanish.
+    Parameters
+    ----------
+    old, new : Factors
+        Of the last sweep and of this one.
+    damping : float
+        Part of the way [-]. Linear for ``rest`` of the mobility, which may vanish.
     """
-    rest = old.rest + part * (new.rest - old.rest)
-    others = (a * (b / a) ** part for a, b in zip(old[1:], new[1:], strict=True))
+    rest = old.rest + damping * (new.rest - old.rest)
+    others = (a * (b / a) ** damping for a, b in zip(old[1:], new[1:], strict=True))
     return reynolds.Factors(rest, *others)
 
 
 def refined(coarse: Level) -> reynolds.Factors:
-    """Return the factors of a level between its nodes as well."""
+    """Return the factors of a level interpolated to the next finer grid."""
     if coarse.factors is None:
-        raise ValueError("a level that is not coupled has no factors")
+        raise ValueError("the level has no factors of heat and thinning")
     return reynolds.Factors(*(midpoints(array) for array in coarse.factors))

@@ -1,4 +1,4 @@
-"""A start from another film: that of a neighbour in a study."""
+"""Warm start of the finest grid from the film of a similar contact."""
 
 import numpy as np
 
@@ -8,46 +8,29 @@ from tehl.solver.level import Level
 from tehl.typing import Array
 
 NEARER = 0.1
-"""Residual of the guess, over that of the film from the coarser grid, below which it is taken."""
+"""Residual of the guess over that of the interpolated coarser film, below which the guess is taken.
+Full multigrid starts near the solution, which few neighbours of a study beat."""
 
 
-def start_from(level: Level, guess: Result | None) -> bool:
-    """Start the finest level from another film where that is nearer to the answer.
-
-    Full multigrid gives a start that is as good as the next coarser grid, which few neighbours
-    beat: only a film that is much nearer is taken.
-
-    Parameters
-    ----------
-    level : Level
-        With the pressure and approach from the coarser grid.
-    guess : Result or None
-        The other film, on any grid; None is never taken.
-
-    Returns
-    -------
-    bool
-        Whether it was taken.
-    """
+def warm_start(level: Level, guess: Result | None) -> None:
+    """Start the finest level from ``guess`` if its residual is much smaller, else leave it."""
     if guess is None:
-        return False
+        return
     level.pose_problem()
-    known, approach, before = level.film.p.copy(), level.rigid_approach, _distance(level)
+    pressure, approach, before = level.film.p.copy(), level.rigid_approach, _distance(level)
     level.set_state(pressure_on(level.grid, guess), guess.rigid_approach)
-    if _distance(level) < NEARER * before:
-        return True
-    level.set_state(known, approach)
-    return False
+    if not _distance(level) < NEARER * before:
+        level.set_state(pressure, approach)
 
 
 def _distance(level: Level) -> float:
-    """Return how far the present state is from a solution: residual and load error [-]."""
+    """Return residual plus load error of the present state [-]."""
     level.update()
     return level.evaluate_residual() + abs(level.load_error())
 
 
 def pressure_on(grid: Grid, guess: Result) -> Array:
-    """Return the pressure of another film on ``grid``, between its nodes by lines [-]."""
+    """Return the pressure of a result on ``grid``, bilinear between its nodes [-]."""
     x, y, pressure = guess.scaled.x, guess.scaled.y, guess.scaled.pressure
     if not np.array_equal(grid.x, x):
         pressure = np.array([np.interp(grid.x, x, row, left=0.0, right=0.0) for row in pressure])

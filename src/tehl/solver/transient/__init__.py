@@ -1,4 +1,4 @@
-"""Transient films: roughness that moves with its surface, loads that change."""
+"""Transient films: roughness that moves with its surface, varying loads."""
 
 from tehl.solver.transient.certify import certify_transient
 from tehl.solver.transient.run import solve_transient

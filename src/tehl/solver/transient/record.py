@@ -1,4 +1,4 @@
-"""What is noted of a transient run, step by step, and how it becomes arrays in SI."""
+"""Record of a transient run, step by step, and its conversion to arrays in SI."""
 
 from dataclasses import dataclass, field
 
@@ -14,8 +14,8 @@ Heights = tuple[Array, Array]
 
 
 @dataclass(frozen=True, slots=True)
-class Moment:
-    """What belongs to a step besides its film: time [s], load, traction, rise [K], the cycles."""
+class StepNumbers:
+    """Numbers of a step besides its film; time in s, temperature rise in K."""
 
     time: float
     load: float
@@ -27,11 +27,18 @@ class Moment:
 
 @dataclass(slots=True)
 class Record:
-    """Numbers, profiles and fields of the steps so far.
+    """Numbers, profiles and fields of the steps so far, scaled.
 
-    ``rows`` has, per step, the columns of `tehl.transient_result.History`, scaled; ``profiles``
-    pressure, film and both heights along y = 0; ``frames`` pressure, film and height at the steps
-    of ``frame_steps``.
+    Attributes
+    ----------
+    rows : list of tuple
+        Per step, the columns of `tehl.transient_result.History`.
+    profiles : list of (4, nx) array
+        Per step, pressure, film and both heights along y = 0.
+    frame_steps : list of int
+        Steps whose fields are stored.
+    frames : list of (3, ny, nx) array
+        Their pressure, film and height.
     """
 
     rows: list[tuple[float, ...]] = field(default_factory=list)
@@ -39,21 +46,33 @@ class Record:
     frame_steps: list[int] = field(default_factory=list)
     frames: list[Array] = field(default_factory=list)
 
-    def note(self, level: Level, heights: Heights, moment: Moment, *, keep: bool) -> None:
-        """Note a step, its fields too where they are to be kept."""
+    def note(self, level: Level, heights: Heights, step: StepNumbers, *, keep: bool) -> None:
+        """Append a step.
+
+        Parameters
+        ----------
+        level : Level
+            The finest level after the step.
+        heights : (array, array)
+            Heights of both surfaces, ``grid.shape`` [-].
+        step : StepNumbers
+            Its other numbers.
+        keep : bool
+            Whether to store the fields.
+        """
         film = film_summary(level.grid, level.film.h)
         self.rows.append(
             (
-                moment.time,
-                moment.load,
+                step.time,
+                step.load,
                 film.central,
                 film.minimum,
                 float(level.film.p.max()),
-                moment.traction,
+                step.traction,
                 level.rigid_approach,
-                moment.rise,
-                float(moment.cycles),
-                moment.change,
+                step.rise,
+                float(step.cycles),
+                step.change,
             )
         )
         line = 0 if level.grid.mirror else level.grid.shape[0] // 2
@@ -66,7 +85,7 @@ class Record:
             self.frames.append(np.stack(whole).astype(np.float32))
 
     def copy(self) -> "Record":
-        """Return a record that later steps do not change."""
+        """Return a copy that later steps do not change."""
         return Record(
             rows=self.rows.copy(),
             profiles=self.profiles.copy(),
@@ -75,7 +94,7 @@ class Record:
         )
 
     def history(self, scales: Scales) -> History:
-        """Return the numbers of all steps in SI."""
+        """Return the numbers of all steps, in SI."""
         columns = np.array(self.rows).T
         film, pressure = scales.film_thickness, scales.hertz_pressure
         return History(
@@ -92,7 +111,7 @@ class Record:
         )
 
     def lines(self, scales: Scales) -> Profiles:
-        """Return the profiles of all steps in SI."""
+        """Return the profiles of all steps, in SI."""
         pressure, film, first, second = np.moveaxis(np.stack(self.profiles), 1, 0)
         thickness = scales.film_thickness
         return Profiles(
@@ -103,7 +122,7 @@ class Record:
         )
 
     def fields(self, scales: Scales, shape: tuple[int, int]) -> Frames:
-        """Return the kept fields in SI; ``shape`` is that of the full domain."""
+        """Return the stored fields, in SI; ``shape`` is that of the full domain."""
         stack = np.stack(self.frames) if self.frames else np.zeros((0, 3, *shape), np.float32)
         units = (scales.hertz_pressure, scales.film_thickness, scales.film_thickness)
         pressure, film, height = (

@@ -1,4 +1,4 @@
-"""Transient runs: from the steady film, step by step, to the end of the question."""
+"""Transient runs: the steady film at time zero, then step by step to the end."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -14,32 +14,26 @@ from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import Result, Status
 from tehl.scaling import ScaledProblem
+from tehl.solver.cost import Clock
 from tehl.solver.level import Level
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.outputs import newtonian_sliding
 from tehl.solver.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH
+from tehl.solver.statuses import step_not_settled, touching_in_time
 from tehl.solver.steady import Attempt, finest_grid, solve_attempt
-from tehl.solver.transient.checks import (
-    check_load,
-    check_places,
-    check_stride,
-    check_waves,
-    failed,
-    touching,
-)
-from tehl.solver.transient.record import Moment, Record
-from tehl.solver.transient.snapshot import ANEW, Clock, Snapshot, check_whole, pack
-from tehl.solver.transient.step import Settled, StepError, Stepper
+from tehl.solver.transient.checks import check_load, check_places, check_stride, check_waves
+from tehl.solver.transient.record import Record, StepNumbers
+from tehl.solver.transient.snapshot import ANEW, Snapshot, check_consistent, pack
+from tehl.solver.transient.step import StepEnd, StepError, Stepper
 from tehl.solver.warmup import warm_up
 from tehl.transient import Transient
 from tehl.transient_result import StepReport, TransientResult
 from tehl.typing import Array
 
 SETTINGS, COUPLED_SETTINGS = (FAST, ROUGH, CAREFUL), (BROAD, ROBUST, CAREFUL)
-"""Of the relaxation of a step, the fastest first; and where heat or thinning raise the
-conductance."""
+"""Relaxations of a step, fastest first; and those for heated or shear-thinning films."""
 START_TOLERANCE = 1e-7
-"""Tolerance of the steady film at the beginning."""
+"""Tolerance of the steady film at time zero."""
 
 
 def solve_transient(
@@ -50,47 +44,47 @@ def solve_transient(
     resume: Snapshot | None = None,
     keep: Callable[[Snapshot], None] | None = None,
 ) -> TransientResult:
-    """Follow a contact in time.
+    """Solve a transient contact.
 
     Parameters
     ----------
     problem : ContactProblem
-        The question; it has a ``transient`` table.
+        The contact, with a ``transient`` table.
     options : Options
-        How hard to try; the defaults if left out.
+        Numerical options; the defaults if left out.
     monitor : StepMonitor
-        Told of each step.
+        Receives the report of each step.
     resume : Snapshot
-        Where an interrupted run of the same question got to.
+        State of an interrupted run of the same problem.
     keep : callable
-        Given a snapshot after each step, to keep it or not.
+        Called with a snapshot after each step; copies it if it is to be kept.
 
     Returns
     -------
     TransientResult
-        The transient film; its ``status`` says whether it came to the end.
+        The transient film; its ``status`` is that of the last step.
 
     Raises
     ------
     ConvergenceError
-        When the steady film of the beginning was not reached.
+        When the steady film at time zero did not converge.
     InputError
-        When the question cannot be followed in time, or does not fit into the memory.
+        When the transient problem is not valid, or does not fit into the memory.
     """
     options = options or Options()
     transient = problem.transient
     if transient is None:
-        raise InputError("the case has no [transient] table: tehl.solve computes the steady film")
+        raise InputError("transient: missing from the case; solve the steady film with tehl.solve")
     check_memory(options, problem)
     warm_up(coupled=problem.is_coupled)
     run = Run(problem, options, transient, monitor)
     if resume is not None:
-        run.recall(resume)
-    return run.result(run.go(monitor, keep))
+        run.restore(resume)
+    return run.result(run.advance(monitor, keep))
 
 
 class Run:
-    """A transient run: its steady beginning, its stepper, and the record of what has happened."""
+    """A transient run: its steady start, its stepper, and the record of its steps."""
 
     def __init__(
         self,
@@ -113,7 +107,7 @@ class Run:
         check_places(scaled, self.steps * self.seconds)
         check_load(transient, self.seconds)
         self.kept = kept_steps(transient, self.steps, self.seconds)
-        attempt, self.start = begin(problem, options, rough=not smooth, monitor=monitor)
+        attempt, self.start = steady_start(problem, options, rough=not smooth, monitor=monitor)
         settings = COUPLED_SETTINGS if problem.is_coupled else SETTINGS
         self.stepper = Stepper(attempt.run, transient, settings)
         self.record = Record()
@@ -124,39 +118,44 @@ class Run:
         """The finest level."""
         return self.stepper.run.finest
 
-    def go(self, monitor: StepMonitor, keep: Callable[[Snapshot], None] | None = None) -> Status:
-        """Step to the end, or until a step fails; return how it ended."""
+    def advance(
+        self, monitor: StepMonitor, keep: Callable[[Snapshot], None] | None = None
+    ) -> Status:
+        """Advance to the end, or until a step fails; return the status."""
         for step in range(len(self.record.rows), self.steps + 1):
             time_now = step * self.seconds
             heights = self.heights.at(time_now)
             try:
                 load = self.transient.load_at(time_now)
-                settled = self.stepper.step(heights[0] + heights[1], load)
+                end = self.stepper.step(heights[0] + heights[1], load)
             except StepError as error:
-                return failed(error, time_now, self.level, self.transient)
-            self._note(step, heights, settled)
+                return step_not_settled(
+                    error.cause, error.change, time_now, self.level.grid, self.transient
+                )
+            self._note(step, heights, end)
             if not self.level.film.h.min() > self.level.equations.floor:
-                return touching(time_now, self.level, rough=self.problem.is_rough)
-            monitor.step(self._report(step, settled))
+                return touching_in_time(time_now, self.level, rough=self.problem.is_rough)
+            monitor.step(self._report(step, end))
             if keep is not None:
                 keep(self.snapshot())
         return Status(kind="converged")
 
-    def _note(self, step: int, heights: tuple[Array, Array], settled: Settled | None) -> None:
+    def _note(self, step: int, heights: tuple[Array, Array], end: StepEnd | None) -> None:
+        """Record a step; at time zero it has no cycles."""
         time_now = step * self.seconds
         load = self.transient.load_at(time_now)
-        moment = Moment(
+        numbers = StepNumbers(
             time=time_now,
             load=load,
             traction=self._traction(load),
             rise=self._rise(),
-            cycles=settled.cycles if settled else 0,
-            change=settled.change if settled else 0.0,
+            cycles=end.cycles if end else 0,
+            change=end.change if end else 0.0,
         )
-        self.record.note(self.level, heights, moment, keep=step in self.kept)
+        self.record.note(self.level, heights, numbers, keep=step in self.kept)
 
     def _rise(self) -> float:
-        """Return the largest temperature over that of the oil at the inlet [K]."""
+        """Return the largest temperature rise over the inlet [K]."""
         state = self.stepper.run.coupling.state
         if state is None:
             return 0.0
@@ -174,23 +173,23 @@ class Run:
         unit = stress_unit(self.scales) * area / (self.scales.load * load)
         return level.equations.load.integral(wet) * unit
 
-    def _report(self, step: int, settled: Settled) -> StepReport:
+    def _report(self, step: int, end: StepEnd) -> StepReport:
         _, _, central, minimum, *_ = self.record.rows[-1]
         return StepReport(
             step=step,
             steps=self.steps,
             time=step * self.seconds,
-            cycles=settled.cycles,
-            change=settled.change,
-            load_error=settled.load_error,
+            cycles=end.cycles,
+            change=end.change,
+            load_error=end.load_error,
             film_central=central,
             film_minimum=minimum,
             pressure_max=float(self.level.film.p.max()),
-            smoother=settled.smoother,
+            smoother=end.smoother,
         )
 
     def snapshot(self) -> Snapshot:
-        """Return what is needed to go on from here."""
+        """Return the state from which the run resumes; its arrays are those of the run."""
         return Snapshot(
             setting=self.stepper.setting,
             rigid_approach=self.level.rigid_approach,
@@ -206,13 +205,13 @@ class Run:
             cost=self.clock.cost(),
         )
 
-    def recall(self, snapshot: Snapshot) -> None:
-        """Go back to a snapshot of the same question.
+    def restore(self, snapshot: Snapshot) -> None:
+        """Restore a snapshot of the same problem.
 
         Raises
         ------
         InputError
-            If it is of another grid, lacks a field, or has a number that is not finite.
+            If it belongs to another grid, lacks a field, or has values that are not finite.
         """
         level, fields = self.level, dict(snapshot.fields)
         self._check(snapshot)
@@ -225,11 +224,11 @@ class Run:
         self.record, self.clock.before = snapshot.record, snapshot.cost
 
     def _check(self, snapshot: Snapshot) -> None:
-        """Refuse a snapshot that is not whole, or not of this question."""
+        """Check that a snapshot is complete and belongs to this problem."""
         if _shapes(snapshot.fields) != _shapes(self.snapshot().fields):
-            raise InputError(f"the checkpoint is of another grid than the case, or not whole{ANEW}")
+            raise InputError(f"the checkpoint has another grid than the case, or is damaged{ANEW}")
         arrays = pack(snapshot)
-        check_whole(arrays)
+        check_consistent(arrays)
         grid, count = self.level.grid, len(snapshot.record.rows)
         steps = np.arange(count)
         fitting = (
@@ -241,13 +240,13 @@ class Run:
             and arrays["frames"].shape[2:] in {(grid.ny, grid.nx), (0, 0)}
         )
         if not fitting:
-            raise InputError(f"the checkpoint has other steps than the case, or is not whole{ANEW}")
+            raise InputError(f"the checkpoint has other steps than the case, or is damaged{ANEW}")
 
     def result(self, status: Status) -> TransientResult:
-        """Return the answer."""
-        begun = self.start.status
-        if status.converged and begun.is_vague:
-            status = replace(status, message=f"At time zero: {begun.message}", hint=begun.hint)
+        """Return the result; an open minimum of the steady film is reported in its status."""
+        steady = self.start.status
+        if status.converged and steady.is_vague:
+            status = replace(status, message=f"At time zero: {steady.message}", hint=steady.hint)
         full = (self.level.grid.ny, self.level.grid.nx)
         return TransientResult(
             start=self.start,
@@ -265,17 +264,22 @@ def _shapes(fields: dict[str, Array]) -> dict[str, tuple[tuple[int, ...], np.dty
     return {name: (field.shape, field.dtype) for name, field in fields.items()}
 
 
-def begin(
+def steady_start(
     problem: ContactProblem, options: Options, *, rough: bool, monitor: StepMonitor
 ) -> tuple[Attempt, Result]:
-    """Solve for the steady film of the beginning, at the load of that time.
+    """Solve for the steady film at time zero, with the load of that time.
 
-    Its surfaces are smooth, or as they stand then.
+    Parameters
+    ----------
+    problem, options, monitor
+        As in `solve_transient`.
+    rough : bool
+        Whether the surfaces have their roughness at time zero; else they are smooth.
 
     Raises
     ------
     ConvergenceError
-        When it was not reached.
+        When it did not converge.
     """
     tight = options.model_copy(
         update={"accuracy": "tight", "tolerance": min(options.tolerance, START_TOLERANCE)}
@@ -284,19 +288,28 @@ def begin(
     attempt, result = solve_attempt(problem, tight, monitor=monitor, rough=rough, load=load)
     result = replace(result, options=options)
     if not result.status.converged:
-        message = f"The steady film at time zero was not reached: {result.status.message}"
+        message = f"The steady film at time zero did not converge: {result.status.message}"
         status = replace(result.status, message=message)
         raise ConvergenceError(message, replace(result, status=status))
     return attempt, result
 
 
 def kept_steps(transient: Transient, steps: int, seconds: float) -> set[int]:
-    """Return the steps whose fields are kept: at even distances, or nearest to chosen instants.
+    """Return the steps whose fields are stored: evenly spaced, or nearest to stated times.
+
+    Parameters
+    ----------
+    transient : Transient
+        ``frames`` is their number, or their times [s].
+    steps : int
+        Number of steps of the run.
+    seconds : float
+        Time step [s].
 
     Raises
     ------
     InputError
-        If an instant is after the end.
+        If a stated time is after the end.
     """
     if isinstance(transient.frames, int):
         every = steps / max(transient.frames - 1, 1)
@@ -304,6 +317,6 @@ def kept_steps(transient: Transient, steps: int, seconds: float) -> set[int]:
     late = [time for time in transient.frames if time > (steps + 0.5) * seconds]
     if late:
         raise InputError(
-            f"transient.frames = {late[0]:g} s is after the end of the run, {steps * seconds:.4g} s"
+            f"transient.frames = {late[0]:g} s: after the end of the run at {steps * seconds:.4g} s"
         )
     return {min(round(time / seconds), steps) for time in transient.frames}

@@ -1,4 +1,12 @@
-"""One time step: wedge and squeeze along the mean motion, cycles until it has converged."""
+"""One time step: wedge and squeeze along the mean motion, solved by multigrid cycles.
+
+With x in a_x and t in a_x / u_m a step advances by dt = s dx, s the stride, and wedge plus squeeze
+are one derivative of m = rho H along the mean motion, second-order backward:
+
+    (d/dx + d/dt) m = [3/2 m(x, t) - 2 m(x - s dx, t - dt) + 1/2 m(x - 2 s dx, t - 2 dt)] / dt
+
+(docs/theory/numerics.md, "Steps of time"; with heat thermal.md, "In time").
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -6,32 +14,31 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tehl.operators.reynolds import steady_wedge, step_stencil, upstream
-from tehl.solver.convergence import LEAST_KELVIN
+from tehl.solver.convergence import LEAST_KELVIN, RUNAWAY
 from tehl.solver.fas import Cycle, cycle
-from tehl.solver.film_solver import RUNAWAY, FilmSolver
+from tehl.solver.film_solver import FilmSolver
 from tehl.solver.relaxation import Relaxation
 from tehl.solver.transient.predictor import Predictor
 from tehl.transient import Transient
 from tehl.typing import Array
 
 LARGEST_LOAD_ERROR = 1e-4
-"""Load error at which a step is balanced."""
-HEATED = 0.01
+"""Load error accepted in a step."""
+LARGEST_KELVIN_CHANGE = 0.01
 """Change of temperature in the last cycle of a step, over the largest rise."""
 LEAST_CYCLES = 2
 WEIGHT_OF_POINTS = 12.0
-"""Weight of rho h in a step, over the conductance from which nodes relax as points. Smooth errors
-move the film by many times as much as a point does, and grow where the conductance does not
-outweigh it: at three times this value, slowly enough to seem settled (M = 20 to 100, L = 1 to 5).
-"""
+"""Weight of rho H in a step over the conductance from which nodes relax as points. A smooth error
+moves the film more than a point does, and grows where the conductance does not outweigh it: at
+three times this value, slowly enough to seem converged (M = 20 to 100, L = 1 to 5)."""
 SHAPE = Cycle(kind="V", pre_sweeps=2, post_sweeps=1, extra_sweeps=1)
-"""The extra sweep on coarse grids is for the film of long waves: ripples of steps that settle to
-1e-3 are within 0.2 % of those settled to 1e-5 with it, within 0.9 % without."""
+"""The extra sweep on coarse grids is for long waves: ripples of steps converged to 1e-3 are within
+0.2 % of those converged to 1e-5 with it, within 0.9 % without."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Settled:
-    """How a step ended: cycles, change of P and load error of the last one, and the setting."""
+class StepEnd:
+    """End of a converged step: cycles, change of P and load error of the last one, relaxation."""
 
     cycles: int
     change: float
@@ -40,7 +47,7 @@ class Settled:
 
 
 class StepError(ArithmeticError):
-    """No setting made the step settle; ``cause`` says how it ended."""
+    """No relaxation converged; ``cause`` is "diverged" or "stalled"."""
 
     def __init__(self, cause: str, change: float) -> None:
         super().__init__(cause)
@@ -48,16 +55,16 @@ class StepError(ArithmeticError):
 
 
 class Stepper:
-    """Moves the film of a hierarchy of levels on in time.
+    """Advances the film of a hierarchy of levels in time.
 
     Parameters
     ----------
     run : FilmSolver
-        Solved for the steady film that the run begins with.
+        With the steady film at time zero.
     transient : Transient
-        Length of the step, and when it has settled.
+        Stride, tolerance and largest number of cycles.
     settings : sequence of Relaxation
-        Settings of the relaxation to try, the fastest first.
+        Relaxations to try, fastest first.
     """
 
     def __init__(
@@ -73,7 +80,7 @@ class Stepper:
         for one in run.levels:
             mesh = step_stencil(one.mesh, self.time_step)
             one.equations = replace(one.equations, mesh=mesh)
-        run.coupling.follow = 1.0  # steps are small enough to follow at once
+        run.coupling.damping = 1.0  # steps are small: heat and thinning need no damping
         run.coupling.begin_transient(run.levels, self.time_step)
         step = (self.time_step, level.grid.dx, transient.stride)
         excess = run.coupling.excess()
@@ -81,36 +88,36 @@ class Stepper:
         self.setting = 0
         self.choose(0)
 
-    def step(self, heights: Array, load: float) -> Settled:
-        """Go one step on.
+    def step(self, heights: Array, load: float) -> StepEnd:
+        """Advance by one step.
 
         Parameters
         ----------
         heights : (ny, nx) array
-            Of both surfaces at the new time [-].
+            Heights of both surfaces at the new time [-].
         load : float
-            Over that of the contact [-].
+            Load over that of the contact [-].
 
         Raises
         ------
         StepError
-            When no setting makes it settle; pressure and film are those of the last attempt.
+            When no relaxation converges; pressure and film are those of the last attempt.
         """
         level, history = self.run.finest, self._history()
         start = level.film.p.copy(), level.rigid_approach
         first = self.setting
         for number in range(first, len(self.settings)):
             self.choose(number)
-            if number > first:  # before the step is posed: it takes stresses from this film
+            if number > first:  # retry: first restore the film from which stresses follow
                 level.set_state(*start)
                 level.update()
-                self.run.coupling.go_back(self.run.levels)
+                self.run.coupling.revert(self.run.levels)
             else:
                 level.set_state(self.predictor.onward(), level.rigid_approach)
             level.pose_step(history + self.squeeze.onward(), heights, load)
             try:
-                settled = self._settle(self.settings[number].name)
-            except ArithmeticError as error:  # of a kernel too, at a film that is no number
+                end = self._solve(self.settings[number].name)
+            except ArithmeticError as error:  # also from a kernel, if the film is NaN
                 if number < len(self.settings) - 1:
                     continue
                 if isinstance(error, StepError):
@@ -120,14 +127,14 @@ class Stepper:
             self.predictor.note(level.film.p)
             self.squeeze.advance()
             self.run.coupling.advance(self.run.levels)
-            return settled
+            return end
         raise StepError("stalled", np.inf)
 
     def _history(self) -> Array:
-        """Return what is known of wedge and squeeze, (ny, nx).
+        """Return the known terms of wedge and squeeze, (ny, nx).
 
-        The mass of the steady film at the beginning has the wedge of that film, however long the
-        step; only what has changed since is followed along the motion.
+        The mass of the steady film keeps its own wedge, whatever the stride; only the difference to
+        it is differentiated along the motion.
         """
         stride, steady = self.transient.stride, self.steady
         last = 2.0 * upstream(self.now - steady, stride)
@@ -135,17 +142,17 @@ class Stepper:
         return (last - before + 1.5 * steady) / self.time_step - self.wedge
 
     def choose(self, number: int) -> None:
-        """Relax with a setting from now on, its dipoles as far as short steps ask for them."""
+        """Set the relaxation, with at least the threshold of dipoles that the time step needs."""
         self.setting, setting = number, self.settings[number]
         for level in self.run.levels:
             least = level.mesh.w0 / WEIGHT_OF_POINTS
             threshold = max(setting.threshold, least)
             level.set_relaxation(replace(setting, threshold=threshold))
 
-    def _settle(self, name: str) -> Settled:
-        """Cycle until the step has settled."""
+    def _solve(self, name: str) -> StepEnd:
+        """Perform cycles until the step has converged."""
         level, change = self.run.finest, np.inf
-        # a slower setting is given more of them
+        # slower relaxations get more cycles
         for number in range(1, (1 + self.setting) * self.transient.max_cycles + 1):
             before = level.film.p.copy()
             cycle(self.run.levels, self.run.hierarchy.coarsest.step, SHAPE)
@@ -155,48 +162,48 @@ class Stepper:
             np.subtract(level.film.p, before, out=before)
             change = float(max(before.max(), -before.min()))
             error = level.load_error()
-            sound = np.isfinite(change) and np.isfinite(level.film.h).all()
-            if not (sound and abs(error) < RUNAWAY):
+            finite = np.isfinite(change) and np.isfinite(level.film.h).all()
+            if not (finite and abs(error) < RUNAWAY):
                 raise StepError("diverged", change)
-            settled = change <= self.transient.tolerance and abs(error) <= LARGEST_LOAD_ERROR
-            settled = settled and warmer <= max(HEATED * rise, LEAST_KELVIN)
-            if number >= LEAST_CYCLES and settled:
-                return Settled(cycles=number, change=change, load_error=error, smoother=name)
+            done = change <= self.transient.tolerance and abs(error) <= LARGEST_LOAD_ERROR
+            done = done and warmer <= max(LARGEST_KELVIN_CHANGE * rise, LEAST_KELVIN)
+            if number >= LEAST_CYCLES and done:
+                return StepEnd(cycles=number, change=change, load_error=error, smoother=name)
         raise StepError("stalled", change)
 
     def _follow_density(self) -> None:
-        """Let the squeeze follow what the last temperatures make of the density."""
+        """Update the squeeze for the densities at the last temperatures."""
         level, excess = self.run.finest, self.run.coupling.excess()
         history = level.sources.history
         if excess is None or history is None:
             return
-        more = self.squeeze.follow(excess * level.film.rho * level.film.h)
+        more = self.squeeze.update(excess * level.film.rho * level.film.h)
         history += more
         level.sources.reynolds -= more
 
 
 class Squeeze:
-    """Takes dq/dt off the derivative of rho* H along the mean motion, q = (rho* - rho_e) H.
+    """Correction of the squeeze of heated films: subtracts dq/dt with q = (rho* - rho_e) H.
 
-    With it the steps solve
+    A heated film carries rho* H and stores rho_e H (docs/theory/thermal.md, "In time"),
 
         d(rho* H)/dx + d(rho_e H)/dt = Poiseuille flow,
 
-    though wedge and squeeze are discretised together, as one derivative of rho* H. Where layers of
-    the film are stiffer than others, what it lets in moves at rho*/rho_e of the mean speed.
+    but the step differentiates rho* H along the mean motion, which includes d(rho* H)/dt. Where
+    layers of the film are stiffer than others it moves at rho*/rho_e of the mean speed.
 
-    The derivative is backward of order two. In time, at its place, it is stable where the film is
-    slower than the mean motion (q < 0): for what overtakes it, dq/dt is the derivative along the
-    motion less that along x, upstream.
+    The derivative is second-order backward. At a fixed place it is stable if the film is slower
+    than the mean motion (q < 0); for a faster one (q > 0) dq/dt is the derivative along the motion
+    less the upstream derivative along x.
 
     Parameters
     ----------
     mass : (ny, nx) array
         rho* H of the steady film [-].
     excess : (ny, nx) array or None
-        (rho* - rho_e)/rho*; None where there is none ever.
+        (rho* - rho_e)/rho*; None if it is always zero.
     step : (float, float, int)
-        Step of time [a_x / u_m], mesh width along x [a_x], and mesh widths per step.
+        Time step [a_x / u_m], mesh width along x [a_x], and mesh widths per step.
     wedge_order : int
         Order of the upstream difference along x.
     """
@@ -210,30 +217,30 @@ class Squeeze:
         self.now, self.rate = self.steady, np.zeros_like(self.steady)
 
     def onward(self) -> Array | float:
-        """Return the rate to begin a step with: q goes on along a straight line in time."""
+        """Return dq/dt at the start of a step, with q extrapolated linearly in time."""
         if not len(self.steady):
             return 0.0
         self.now = 2.0 * self.past[0] - self.past[1]
         self.rate = self._rate(self.now)
         return self.rate
 
-    def follow(self, excess: Array) -> Array:
-        """Take q of the present film, (ny, nx); return by how much the rate changes."""
+    def update(self, excess: Array) -> Array:
+        """Set q of the present film, (ny, nx); return the change of dq/dt."""
         rate = self._rate(excess)
         more = rate - self.rate
         self.now, self.rate = excess, rate
         return more
 
     def advance(self) -> None:
-        """Let the present be the past of the next step."""
+        """Accept the present q as the previous one of the next step."""
         self.past[1] = self.past[0]
         self.past[0] = self.now
 
     def _rate(self, now: Array) -> Array:
-        """Return dq/dt with the present q."""
+        """Return dq/dt of the present q."""
         last, before = self.past
         slow = 1.5 * _part(now, -1) - 2.0 * _part(last, -1) + 0.5 * _part(before, -1)
-        start = _part(self.steady, 1)  # whose wedge is that of the steady film
+        start = _part(self.steady, 1)  # its wedge is in the steady film
         now, last, before = (_part(q, 1) - start for q in (now, last, before))
         fast = 1.5 * now - 2.0 * upstream(last, self.stride)
         fast += 0.5 * upstream(before, 2 * self.stride)
@@ -242,5 +249,5 @@ class Squeeze:
 
 
 def _part(excess: Array, sign: int) -> Array:
-    """Return what has a sign of it."""
+    """Return the positive or the negative part."""
     return np.maximum(excess, 0.0) if sign > 0 else np.minimum(excess, 0.0)

@@ -1,4 +1,4 @@
-"""What is said of an iteration that ran away or stalled."""
+"""Likely causes of an iteration that diverged or stalled."""
 
 import pytest
 
@@ -6,11 +6,11 @@ from tehl.grid import Grid
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.scaling import ScaledProblem
+from tehl.solver.diagnosis import LikelyCause, likely_cause
 from tehl.solver.film_solver import FilmSolver
 from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.ladder import COUPLED
 from tehl.solver.steady import coupling_of, finest_grid
-from tehl.solver.suspects import Suspect, suspect
 from tehl.solver.verdict import diverged
 from tests.reference import heated_contact, moes_contact
 
@@ -18,53 +18,53 @@ DOMAIN = Domain(x=(-4.5, 1.5), y=(-3.0, 3.0))
 
 
 def changed(part: str, **values: object) -> ContactProblem:
-    """The heated reference contact with some keys of a table replaced."""
+    """Return the heated reference contact with some keys of a table replaced."""
     case = heated_contact(0.5).model_dump(exclude_none=True)
     case[part].update(values)
     return ContactProblem.model_validate(case)
 
 
-def of(problem: ContactProblem, points: int = 257) -> Suspect | None:
+def cause_of(problem: ContactProblem, points: int = 257) -> LikelyCause | None:
     grid = Grid(nx=points, ny=points, domain=DOMAIN, mirror=False)
-    return suspect(grid, ScaledProblem.of(problem))
+    return likely_cause(grid, ScaledProblem.of(problem))
 
 
 @pytest.mark.parametrize(("kelvin", "way"), [(60.0, "above"), (-60.0, "below")])
-def test_a_body_far_from_the_temperature_of_the_oil_is_blamed(kelvin, way):
-    found = of(changed("surface_2", temperature=313.0 + kelvin))
+def test_a_body_far_from_the_temperature_of_the_oil_is_a_likely_cause(kelvin, way):
+    found = cause_of(changed("surface_2", temperature=313.0 + kelvin))
     assert found is not None
     assert found.cause == "body_temperature"
     assert f"60 K {way}" in found.message
     assert "surface_2" in found.hint
 
 
-def test_a_body_near_the_oil_is_not_blamed():
-    assert of(changed("surface_1", temperature=333.0)) is None
+def test_a_body_near_the_temperature_of_the_oil_is_not_a_likely_cause():
+    assert cause_of(changed("surface_1", temperature=333.0)) is None
 
 
-def test_a_stress_that_no_oil_bears_is_blamed_on_the_shear_law():
+def test_a_stress_beyond_what_oils_bear_is_attributed_to_the_shear_law():
     sliding = changed("contact", hertz_pressure=2e9, slide_roll_ratio=1.9)
-    found = of(sliding, 1025)
+    found = cause_of(sliding, 1025)
     assert found is not None
     assert found.cause == "shear_stress"
     assert "lubricant.shear" in found.hint
 
 
-def test_a_film_thinner_than_the_grid_names_the_grid():
-    found = of(moes_contact(1000.0, 5.0), 65)
+def test_a_film_too_thin_for_the_grid_is_attributed_to_the_grid():
+    found = cause_of(moes_contact(1000.0, 5.0), 65)
     assert found is not None
     assert found.cause == "film_below_grid"
     assert "numerics.points = " in found.hint
 
 
-def test_all_that_is_conspicuous_is_told_and_the_first_names_it():
-    found = of(changed("surface_1", temperature=240.0), 33)
+def test_all_likely_causes_are_reported_and_the_first_names_the_cause():
+    found = cause_of(changed("surface_1", temperature=240.0), 33)
     assert found is not None
     assert found.cause == "body_temperature"
     assert "numerics.points = " in found.hint
 
 
-def test_the_status_of_a_run_away_tells_the_likely_cause_and_its_own_hint():
+def test_the_status_of_a_diverged_run_has_the_likely_cause_and_its_hint():
     problem, options = changed("surface_1", temperature=240.0), Options(points=65)
     scaled = ScaledProblem.of(problem)
     first = COUPLED[0]

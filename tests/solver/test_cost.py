@@ -1,4 +1,4 @@
-"""The cost of a result in units of one FFT deformation, and what is loaded before it is taken."""
+"""Cost of a result in units of one FFT deformation, and the warm-up before it is measured."""
 
 import subprocess
 import sys
@@ -8,18 +8,18 @@ import pytest
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.solver import solve, with_work
+from tehl.solver.cost import fft_seconds
 from tehl.solver.warmup import CASE
-from tehl.solver.work import fft_seconds
 
 
 def test_the_unit_of_work_grows_with_the_grid():
     assert 0.0 < fft_seconds(65, 65) < fft_seconds(513, 513)
 
 
-def test_work_is_cost_in_units_of_the_same_grid():
+def test_work_is_the_cost_in_units_of_the_same_grid():
     result = with_work(solve(ContactProblem.model_validate(CASE), Options(points=129)))
     assert result.cost.work is not None
-    # the unit is measured anew: equal up to the noise of a shared machine
+    # the unit is measured twice: equal up to the noise of a shared machine
     again = result.cost.cpu_seconds / fft_seconds(129, 129)
     assert result.cost.work == pytest.approx(again, rel=0.9)
 
@@ -36,7 +36,7 @@ for name in ("energy", "lines", "newton", "reynolds", "summation", "trail", "tra
 
 
 def test_the_warm_up_loads_the_kernels_of_all_grids():
-    """The multilevel sum too, which only finer grids than those of the warm-up take."""
+    """Including the multilevel sum, which only finer grids than those of the warm-up use."""
     done = subprocess.run(
         [sys.executable, "-c", WARMED], capture_output=True, text=True, timeout=300, check=True
     )

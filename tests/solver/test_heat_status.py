@@ -1,4 +1,4 @@
-"""Bodies warmer than the oil, and heat that does not balance."""
+"""Bodies warmer than the oil, and a heat balance that does not close."""
 
 import pytest
 
@@ -12,7 +12,7 @@ from tests.reference import heated_contact
 
 
 def warmer(kelvin: float) -> ContactProblem:
-    """The heated reference contact with a surface 1 above the oil."""
+    """Return the heated reference contact with surface 1 warmer than the oil."""
     case = heated_contact(0.5).model_dump(exclude_none=True)
     case["surface_1"]["temperature"] = 313.0 + kelvin
     return ContactProblem.model_validate(case)
@@ -28,10 +28,10 @@ def test_a_warm_body_warms_the_film_within_bounds_and_thins_it():
     assert abs(warm.heat.balance.error) < 0.15
 
 
-def test_heat_that_does_not_balance_is_no_answer(monkeypatch):
+def test_a_heat_balance_that_does_not_close_is_a_failure(monkeypatch):
     monkeypatch.setattr(judge, "LARGEST_MISSING_HEAT", 1e-9)
-    with pytest.raises(ConvergenceError, match="does not balance") as told:
+    with pytest.raises(ConvergenceError, match="does not balance") as caught:
         solve(heated_contact(0.5), Options(points=65))
-    result = told.value.result
+    result = caught.value.result
     assert isinstance(result, Result)
     assert result.status.cause == "heat_not_balanced"

@@ -1,4 +1,4 @@
-"""What counts as a film between rough surfaces, and how a minimum that is open is passed on."""
+"""What counts as a film between rough surfaces, and how an open minimum is reported."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -11,7 +11,8 @@ from tehl.io.summary import summary
 from tehl.report.page import report_text
 from tehl.result import ErrorEstimate, Result, Status
 from tehl.solver.certify import _Grid
-from tehl.solver.rough_verdict import is_film, no_film
+from tehl.solver.statuses import no_film
+from tehl.solver.verdict import is_film
 from tests.reference import DOMAIN
 
 FLOOR = 0.01
@@ -19,7 +20,7 @@ VAGUE = Status(kind="converged", message="The minimum film is uncertain.", hint=
 
 
 def level(smallest: float, *, valley: bool = False) -> SimpleNamespace:
-    """Return a level with one thin spot; ``valley``: between two nodes that are as thin."""
+    """Return a level with one thin spot; ``valley``: midway between two nodes of equal film."""
     grid = Grid(nx=33, ny=33, domain=DOMAIN, mirror=False)
     centre = 0.5 * grid.dx if valley else 0.0
     there = (grid.x[None, :] + 1.5 - centre) ** 2 + grid.y[:, None] ** 2
@@ -48,23 +49,22 @@ def errors(grid: float) -> ErrorEstimate:
         (0.008, None, False),
         (0.008, errors(0.1), False),  # the floor is beyond its error
         (0.008, errors(0.5), True),
-        (0.004, errors(1e4), False),  # the oil there would flow as another film
+        (0.004, errors(1e4), False),  # too far below the floor of the conductance
     ],
 )
-def test_a_film_is_positive_and_flows_as_it_is_thick(smallest, estimate, held):
+def test_a_film_is_positive_and_within_its_error_above_the_floor(smallest, estimate, held):
     assert is_film(level(smallest), estimate) is held
 
 
-def test_a_film_that_is_negative_between_two_nodes_is_none():
+def test_a_film_that_is_negative_between_two_nodes_is_not_a_film():
     between = level(0.011, valley=True)
     assert between.film.h.min() > FLOOR
     assert not is_film(between, errors(0.1))
-    told = no_film(between)
-    assert "not positive: smallest H = -0." in told
+    assert "not positive: smallest H = -0." in no_film(between)
 
 
-def test_a_film_below_the_floor_is_told_as_what_it_is():
-    assert "thinner than H = 0.01, the least that this grid lets flow" in no_film(level(0.004))
+def test_a_film_below_the_floor_is_reported_as_such():
+    assert "thinner than H = 0.01, the floor of the conductance" in no_film(level(0.004))
 
 
 def test_an_open_minimum_is_reported_everywhere(result: Result, monkeypatch):
@@ -74,8 +74,8 @@ def test_an_open_minimum_is_reported_everywhere(result: Result, monkeypatch):
     assert vague.status.outcome == "converged, minimum film open"
     assert "uncertain        The minimum film is uncertain." in as_text(vague)
     assert "<p>The minimum film is uncertain.</p><p>Take more.</p>" in report_text(vague)
-    told = summary(vague)
-    assert (told["status"], told["message"], told["hint"]) == (
+    found = summary(vague)
+    assert (found["status"], found["message"], found["hint"]) == (
         "converged",
         VAGUE.message,
         VAGUE.hint,

@@ -1,4 +1,4 @@
-"""What a run says of itself: causes, bars and states that must not flatter."""
+"""Status and error bars of a run: causes of failure, and bars that are not too narrow."""
 
 import pickle
 
@@ -35,18 +35,18 @@ def failure(load: float, **numerics) -> ConvergenceError:
     return caught.value
 
 
-def test_a_nearly_rigid_contact_is_told_that_its_domain_is_too_small():
+def test_the_domain_of_a_nearly_rigid_contact_is_reported_as_too_small():
     status = failure(1.0, points=65).result.status
     assert status.cause == "domain_too_small"
     assert "formula" in (status.hint or "")
 
 
-def test_side_edges_beside_the_contact_are_told():
+def test_side_edges_too_close_to_the_contact_are_reported():
     narrow = Domain(x=(-4.5, 1.5), y=(-1.01, 1.01))
     assert failure(100.0, points=(129, 65), domain=narrow).result.status.cause == "sides_too_close"
 
 
-def test_a_domain_twice_as_wide_leaves_out_half_as_much():
+def test_a_domain_twice_as_wide_truncates_half_as_much():
     case = groups(moes(3.0))
     near = recommended_domain(case)
     far = Domain(x=(2 * near.x[0], 2 * near.x[1]), y=(2 * near.y[0], 2 * near.y[1]))
@@ -65,7 +65,7 @@ def test_the_smallest_grid_has_an_error_bar_too():
     assert result.errors.discretisation_minimum > 0.5
 
 
-def test_a_run_away_ends_in_a_finite_state():
+def test_a_diverged_run_ends_in_a_finite_state():
     result = failure(100.0, points=65, domain=Domain(x=(-4.5, 900.0), y=(-3.0, 3.0))).result
     assert np.isfinite(result.scaled.film).all()
     assert np.isfinite(result.scaled.pressure).all()
@@ -81,14 +81,14 @@ def test_a_growing_spike_widens_the_bar_of_the_largest_pressure():
     assert with_growing_spike(flat, 0.8, 1.0).uncertainty > 0.3
 
 
-def test_a_failure_travels_between_processes_whole():
+def test_a_failure_can_be_pickled():
     error = failure(100.0, points=33)
     back = pickle.loads(pickle.dumps(error))
     assert str(back) == str(error)
     np.testing.assert_array_equal(back.result.scaled.film, error.result.scaled.film)
 
 
-def test_the_fields_of_a_result_cannot_be_written():
+def test_the_fields_of_a_result_are_read_only():
     result = solve(moes(20.0), Options(points=65))
     with pytest.raises(ValueError, match="read-only"):
         result.scaled.film[0, 0] = 9.0

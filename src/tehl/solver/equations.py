@@ -1,0 +1,117 @@
+"""The discrete equations on one grid: operators and right-hand sides.
+
+    L(P, H) = f                       Reynolds: (eps P_x)_x + (eps P_y)_y - (rho H)_x,
+    H - H00 - K P = g                 film, K the elastic deflection of the half-spaces,
+    sum(P) dx dy = w                  load balance
+
+(docs/theory/model.md), with P >= 0 and complementarity where the film is cavitated.
+"""
+
+from dataclasses import dataclass
+
+from tehl.grid import Grid
+from tehl.kernels import reynolds
+from tehl.operators.deformation import Deformation, choose
+from tehl.operators.film import gap
+from tehl.operators.flow import FlowTable
+from tehl.operators.influence import Influence, influence_of
+from tehl.operators.load import TARGET, Load
+from tehl.operators.reynolds import stencil
+from tehl.options import Options
+from tehl.scaling import Groups
+from tehl.typing import Array
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Equations:
+    """The operators on one grid, which do not change while the equations are solved.
+
+    Attributes
+    ----------
+    grid : Grid
+        The nodes.
+    groups : Groups
+        Dimensionless groups.
+    flow : FlowTable
+        Mobility and density of the lubricant over pressure.
+    mesh : Mesh
+        Weights of the Reynolds operator.
+    influence : Influence
+        Deflection per unit pressure on one cell.
+    deformation : Deformation
+        The sum K P over all cells.
+    load : Load
+        Integral of the pressure.
+    target : float
+        Integral of P over the domain [-].
+    gap : array of ``grid.shape``
+        Undeformed gap [-].
+    floor : float
+        Least film in the conductance [-]: the discrete film of coarse grids may not be positive.
+    """
+
+    grid: Grid
+    groups: Groups
+    flow: FlowTable
+    mesh: reynolds.Mesh
+    influence: Influence
+    deformation: Deformation
+    load: Load
+    target: float
+    gap: Array
+    floor: float
+
+    @classmethod
+    def on(
+        cls,
+        grid: Grid,
+        groups: Groups,
+        flow: FlowTable,
+        options: Options,
+        *,
+        load: float = 1.0,
+        floor: float = 0.0,
+    ) -> "Equations":
+        """Discretise a contact.
+
+        Parameters
+        ----------
+        grid : Grid
+            The nodes.
+        groups : Groups
+            Dimensionless groups.
+        flow : FlowTable
+            Mobility and density of the lubricant.
+        options : Options
+            Order of the wedge, and method of the deflection.
+        load : float
+            Load that the film carries, over that of the contact [-].
+        floor : float
+            Least film in the conductance [-].
+        """
+        return cls(
+            grid=grid,
+            groups=groups,
+            flow=flow,
+            mesh=stencil(grid, groups, options.wedge_order),
+            influence=influence_of(grid, groups),
+            deformation=choose(options.deformation, grid, groups),
+            load=Load(grid),
+            target=load * TARGET,
+            gap=gap(grid, groups),
+            floor=floor,
+        )
+
+
+@dataclass(slots=True)
+class Sources:
+    """Right-hand sides: f of the Reynolds equation, g of the film equation, w of the load balance.
+
+    ``history`` is the contribution of previous films to wedge and squeeze in a time step; f
+    contains it.
+    """
+
+    reynolds: Array
+    film: Array
+    load: float
+    history: Array | None = None
