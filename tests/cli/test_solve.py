@@ -270,7 +270,7 @@ def test_a_grid_beyond_the_memory_is_refused(folder, solver, run, monkeypatch):
     monkeypatch.setattr("tehl.memory.available_memory", lambda: 1e9)
     answer = run("solve", "ball.toml", "--set", "numerics.points=16385")
     assert answer.code == 2
-    assert "16385 x 16385 nodes takes about 48 GB" in answer.err
+    assert "16385 x 16385: needs about 48 GB" in answer.err
     assert "take 2305 or fewer" in answer.err
     assert solver.calls == []
 

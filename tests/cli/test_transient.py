@@ -224,7 +224,7 @@ def test_a_beginning_that_diverges_is_told_as_a_steady_case_that_does(folder, ru
     ]
     answer = run("solve", "wave.toml", *standing, "--json", "--plot", "pictures")
     assert answer.code == 1
-    assert "not converged (diverged): The steady film at time zero was not reached" in answer.err
+    assert "not converged (diverged): The steady film at time zero did not converge" in answer.err
     assert "hint: Take lower or longer asperities" in answer.err
     told = json.loads(answer.out)
     assert told["status"] == "diverged"
@@ -299,7 +299,7 @@ def test_a_certified_run_cannot_be_resumed_nor_passes_over_a_checkpoint(folder, 
 def test_a_certified_run_of_the_solver_shows_each_of_its_runs(folder, run):
     answer = run("solve", "wave.toml", "--certify", "--set", "contact.moes_load=10")
     assert answer.code == 0
-    assert "certify: 65 x 65 nodes, as asked" in answer.err
+    assert "certify: 65 x 65 nodes, as stated" in answer.err
     assert "certify: 33 x 33 nodes, half the intervals" in answer.err
     assert "17 x 17 has too few nodes" in answer.out
     assert " +- " in answer.out
