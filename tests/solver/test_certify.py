@@ -163,9 +163,9 @@ def test_the_finest_result_has_no_bar_if_the_next_coarser_grid_fails(monkeypatch
         raise ConvergenceError("stalled", replace(found, status=stalled))
 
     monkeypatch.setattr(module, "solve", failing)
-    with pytest.raises(ConvergenceError, match="65 x 65 stalled") as told:
+    with pytest.raises(ConvergenceError, match="65 x 65 stalled") as caught:
         certify(moes_contact(20.0, 10.0), Options(points=129, domain=DOMAIN))
-    result = told.value.result
+    result = caught.value.result
     assert result.scaled.x.size == 129
     assert result.status.cause == "not_certified"
     assert result.film_scaled.minimum > 0

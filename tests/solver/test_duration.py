@@ -124,7 +124,7 @@ def test_a_wave_that_the_time_steps_would_alias_is_rejected():
     """Sixteen nodes long, on a surface that moves by sixteen in a step."""
     long = wave(wavelength=1.5)
     case = in_time(4.0, slide=2.0, surface_1=long, transient={"stride": 4})
-    with pytest.raises(InputError, match="moves by 0.5 of its shortest wave per time step"):
+    with pytest.raises(InputError, match=r"moves by 0\.5 of its shortest wave per time step"):
         solve_transient(case, OPTIONS)
 
 

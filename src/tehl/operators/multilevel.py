@@ -63,7 +63,7 @@ class MultilevelDeformation:
 
     def __init__(self, grid: Grid, influence: Influence) -> None:
         ny, nx = grid.shape
-        self.stages = [stage(0, ny - 1, 0, nx - 1, grid.mirror)]
+        self.stages = [_stage(0, ny - 1, 0, nx - 1, grid.mirror)]
         self.halvings: list[Halving] = []
         stride, halved = [1, 1], [0, 0]
         while _count(self.stages[-1].box) > SMALLEST:
@@ -74,7 +74,7 @@ class MultilevelDeformation:
             self.halvings.append(
                 Halving(axis=axis, patch=patch, even=np.zeros(shape), odd=np.zeros(shape))
             )
-            self.stages.append(coarser(self.stages[-1].box, axis))
+            self.stages.append(_coarser(self.stages[-1].box, axis))
             stride[axis] *= 2
             halved[axis] += 1
         last = self.stages[-1].box
@@ -86,13 +86,13 @@ class MultilevelDeformation:
         stages, halvings = self.stages, self.halvings
         summation.load(pressure, stages[0].source, stages[0].box)
         for halving, fine, coarse in zip(halvings, stages, stages[1:], strict=False):
-            gather(halving, fine, coarse)
+            _gather(halving, fine, coarse)
         last = stages[-1]
         summation.direct(self.matrix, last.source, last.box, last.total)
         for halving, fine, coarse in reversed(
             list(zip(halvings, stages, stages[1:], strict=False))
         ):
-            spread(halving, fine, coarse)
+            _spread(halving, fine, coarse)
         summation.unload(stages[0].total, stages[0].box, out)
 
 
@@ -105,7 +105,7 @@ def finer_axis(influence: Influence, stride: list[int]) -> int:
     return int(influence.dy * stride[0] > 1.001 * influence.dx * stride[1])
 
 
-def gather(halving: Halving, fine: Stage, coarse: Stage) -> None:
+def _gather(halving: Halving, fine: Stage, coarse: Stage) -> None:
     """Restrict the sources: P_c = I^T P."""
     if halving.axis == 0:
         summation.gather_rows(fine.source, fine.box, coarse.source, coarse.box)
@@ -114,7 +114,7 @@ def gather(halving: Halving, fine: Stage, coarse: Stage) -> None:
     summation.gather_columns(halving.even, halving.odd, fine.box, coarse.source, coarse.box)
 
 
-def spread(halving: Halving, fine: Stage, coarse: Stage) -> None:
+def _spread(halving: Halving, fine: Stage, coarse: Stage) -> None:
     """Interpolate the sums and add the patch corrections: w = I w_c + (K - I K_c I^T) P."""
     if halving.axis == 0:
         summation.spread_rows(
@@ -126,19 +126,19 @@ def spread(halving: Halving, fine: Stage, coarse: Stage) -> None:
     )
 
 
-def stage(j0: int, j1: int, i0: int, i1: int, mirror: bool) -> Stage:
+def _stage(j0: int, j1: int, i0: int, i1: int, mirror: bool) -> Stage:
     """Return an empty grid of nodes j0..j1 by i0..i1 in padded arrays."""
     box = Box(j0, j1, i0, i1, PAD - j0, PAD - i0, int(mirror))
     shape = (box.oy + j1 + PAD + 1, box.ox + i1 + PAD + 1)
     return Stage(box=box, source=np.zeros(shape), total=np.zeros(shape))
 
 
-def coarser(box: Box, axis: int) -> Stage:
+def _coarser(box: Box, axis: int) -> Stage:
     """Return the grid with ``axis`` halved, large enough to interpolate every node of ``box``."""
     if axis == 1:
-        return stage(box.j0, box.j1, *_halved(box.i0, box.i1), mirror=bool(box.mirror))
+        return _stage(box.j0, box.j1, *_halved(box.i0, box.i1), mirror=bool(box.mirror))
     first, last = _halved(box.j0, box.j1)
-    return stage(0 if box.mirror else first, last, box.i0, box.i1, mirror=bool(box.mirror))
+    return _stage(0 if box.mirror else first, last, box.i0, box.i1, mirror=bool(box.mirror))
 
 
 def _halved(first: int, last: int) -> tuple[int, int]:

@@ -43,7 +43,17 @@ class Cycle:
 
     @classmethod
     def of(cls, options: Options, coarsest: Grid, film: float) -> "Cycle":
-        """Return the cycle of ``options`` for a coarsest grid and an expected central film."""
+        """Return the cycle for a contact.
+
+        Parameters
+        ----------
+        options : Options
+            Kind of cycle, and sweeps.
+        coarsest : Grid
+            The coarsest grid.
+        film : float
+            Expected central film [-].
+        """
         return cls(
             kind=options.cycle,
             pre_sweeps=options.pre_sweeps,

@@ -76,6 +76,15 @@ class FilmSolver:
         Receives the report of each cycle.
     guess : Result or None
         The film of a similar contact.
+
+    Attributes
+    ----------
+    traces : list of GridTrace
+        Course of the iteration on each grid, coarsest first.
+    accepted : bool
+        Whether the next coarser grid has an acceptable solution.
+    from_hertz : bool
+        Whether the present grid started from the Hertz pressure.
     """
 
     def __init__(
@@ -202,7 +211,7 @@ class FilmSolver:
             self._iterate(self.levels)
         except DivergedError:
             raised_before = self.strategy.newton and roughness.first < last
-            if not raised_before or self.has_no_film_before:
+            if not raised_before or self.coarser_film_is_negative:
                 raise
             self.monitor.message("Newton's method failed: raising the heights on the finest grid")
             self.traces.pop()
@@ -224,9 +233,10 @@ class FilmSolver:
         step = newton.step if newton else partial(self.hierarchy.cycle, levels)
         done = self._raise_heights(levels, newton) if self.roughness.begins_on(levels) else 0
         trace.note(*fine.nodal_film())
-        patience = self.strategy.patience
-        most = patience * self.options.max_cycles
-        for number in range(1, 1 + (most if finest else MOST_STEPS if newton else MOST_CYCLES)):
+        patience, most = self.strategy.patience, MOST_STEPS if newton else MOST_CYCLES
+        if finest:
+            most = patience * self.options.max_cycles
+        for number in range(1, most + 1):
             if number > HERTZ_CYCLES and self.from_hertz and not finest:
                 self.from_hertz = False  # these cycles have made a film that heat can act on
                 self._couple(levels, has_film=True)
@@ -338,7 +348,7 @@ class FilmSolver:
         check_divergence(report, rough=self.roughness.is_rough)
         return report
 
-    # the result
+    # errors of the result
 
     def errors(self) -> ErrorEstimate | None:
         """Return estimated errors of the film; None before the first cycle on the finest grid."""
@@ -354,7 +364,7 @@ class FilmSolver:
         return error_estimate(comparable, self.options.wedge_order, rough=True)
 
     @property
-    def has_no_film_before(self) -> bool:
+    def coarser_film_is_negative(self) -> bool:
         """Whether Newton's method converged on the next coarser grid to a film that is negative."""
         last = len(self.levels) - 1
         if not (self.strategy.newton and self.roughness.first < last <= len(self.traces)):

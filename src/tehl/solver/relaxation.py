@@ -129,7 +129,17 @@ class PointSmoother:
 
 
 def make_smoother(grid: Grid, influence: Influence, relaxation: Relaxation) -> Smoother:
-    """Return the smoother of one grid: plain Gauss-Seidel if so named, else by lines."""
+    """Return the smoother of one grid: plain Gauss-Seidel if so named, else by lines.
+
+    Parameters
+    ----------
+    grid : Grid
+        The nodes.
+    influence : Influence
+        Deflection per unit pressure on one cell.
+    relaxation : Relaxation
+        Settings.
+    """
     if relaxation is GAUSS_SEIDEL:
         return PointSmoother(grid, influence, relaxation)
     return LineSmoother(grid, influence, relaxation)

@@ -31,7 +31,17 @@ def _failed(cause: str, message: str, hint: str) -> Status:
 
 
 def too_coarse(grid: Grid, groups: Groups, error: float) -> Status:
-    """Return ``grid_too_coarse``: the relative ``error`` of the film is too large on ``grid``."""
+    """Return ``grid_too_coarse``: the error of the film is too large.
+
+    Parameters
+    ----------
+    grid : Grid
+        The finest grid.
+    groups : Groups
+        Dimensionless groups.
+    error : float
+        Relative error of the film [-].
+    """
     size = "above 100 %" if error > 1.0 else f"{100 * error:.0f} %"
     return _failed(
         "grid_too_coarse",

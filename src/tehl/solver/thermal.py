@@ -76,6 +76,10 @@ class Coupling:
         del levels
         return 0.0, 0.0
 
+    def temperature_rise(self) -> float:
+        """Return the largest temperature rise over the inlet [K]."""
+        return 0.0
+
     def reset(self, levels: Sequence[Level]) -> None:
         """Remove the effect on ``levels``, whose film is not a start for the next grid."""
 
@@ -83,7 +87,7 @@ class Coupling:
         """Start a transient run from the present state, with steps ``time_step`` [a_x / u_m]."""
 
     def excess(self) -> Array | None:
-        """Return (rho* - rho_e)/rho*, (ny, nx): flux less stored mass; None without any."""
+        """Return (rho* - rho_e)/rho*, the flux beyond the stored mass, (ny, nx); None if zero."""
         return None
 
     def advance(self, levels: Sequence[Level]) -> None:
@@ -180,15 +184,17 @@ class FilmCoupling(Coupling):
             self.change = self._sweep(self.state, levels, STEPS)
             if self.change < LARGE_CHANGE or self.sweeps_left:
                 break
-        before, self.rise = self.rise, self._rise(self.state)
+        before, self.rise = self.rise, self.temperature_rise()
         steady = abs(self.rise - before) < SMALL_RISE_CHANGE * self.rise
         may_skip = self.state.sweeps >= LEAST_SWEEPS and not self.thorough and self.damping == 1.0
         self.skip = may_skip and steady and self.change < SMALL_CHANGE * self.rise
         return self.change, self.rise
 
-    def _rise(self, state: FilmState) -> float:
+    def temperature_rise(self) -> float:
         """Return the largest temperature rise over the inlet [K]."""
-        return float(state.temperature.max()) - self.film.scaled.scales.temperature
+        if self.state is None:
+            return 0.0
+        return float(self.state.temperature.max()) - self.film.scaled.scales.temperature
 
     def reset(self, levels: Sequence[Level]) -> None:
         """Make ``levels`` isothermal again; the next grid starts anew."""

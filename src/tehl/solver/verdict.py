@@ -227,7 +227,7 @@ def _not_reached(run: FilmSolver) -> Status:
 
 def _likely_cause(run: FilmSolver) -> LikelyCause | None:
     """Return the likely cause of a failed run: the coarser film, or the contact."""
-    if not run.has_no_film_before:
+    if not run.coarser_film_is_negative:
         return likely_cause(run.finest.grid, run.hierarchy.scaled)
     level = run.levels[-2]
     smallest, x, y = thinnest(level)

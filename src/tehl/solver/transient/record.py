@@ -1,6 +1,7 @@
 """Record of a transient run, step by step, and its conversion to arrays in SI."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
+from typing import Any
 
 import numpy as np
 
@@ -11,18 +12,7 @@ from tehl.transient_result import Frames, History, Profiles
 from tehl.typing import Array
 
 Heights = tuple[Array, Array]
-
-
-@dataclass(frozen=True, slots=True)
-class StepNumbers:
-    """Numbers of a step besides its film; time in s, temperature rise in K."""
-
-    time: float
-    load: float
-    traction: float
-    rise: float
-    cycles: int
-    change: float
+COLUMNS = tuple(one.name for one in fields(History))
 
 
 @dataclass(slots=True)
@@ -46,7 +36,9 @@ class Record:
     frame_steps: list[int] = field(default_factory=list)
     frames: list[Array] = field(default_factory=list)
 
-    def note(self, level: Level, heights: Heights, step: StepNumbers, *, keep: bool) -> None:
+    def note(
+        self, level: Level, heights: Heights, numbers: dict[str, float], *, keep: bool
+    ) -> None:
         """Append a step.
 
         Parameters
@@ -55,29 +47,22 @@ class Record:
             The finest level after the step.
         heights : (array, array)
             Heights of both surfaces, ``grid.shape`` [-].
-        step : StepNumbers
-            Its other numbers.
+        numbers : dict of str to float
+            Columns of the history besides film, pressure and rigid approach.
         keep : bool
             Whether to store the fields.
         """
         film = film_summary(level.grid, level.film.h)
-        self.rows.append(
-            (
-                step.time,
-                step.load,
-                film.central,
-                film.minimum,
-                float(level.film.p.max()),
-                step.traction,
-                level.rigid_approach,
-                step.rise,
-                float(step.cycles),
-                step.change,
-            )
-        )
+        row = numbers | {
+            "film_central": film.central,
+            "film_minimum": film.minimum,
+            "pressure_max": float(level.film.p.max()),
+            "rigid_approach": level.rigid_approach,
+        }
+        self.rows.append(tuple(float(row[name]) for name in COLUMNS))
         line = 0 if level.grid.mirror else level.grid.shape[0] // 2
-        fields = (level.film.p, level.film.h, *heights)
-        self.profiles.append(np.stack([one[line] for one in fields]))
+        lines = (level.film.p, level.film.h, *heights)
+        self.profiles.append(np.stack([one[line] for one in lines]))
         if keep:
             self.frame_steps.append(len(self.rows) - 1)
             together = heights[0] + heights[1]
@@ -95,20 +80,16 @@ class Record:
 
     def history(self, scales: Scales) -> History:
         """Return the numbers of all steps, in SI."""
-        columns = np.array(self.rows).T
-        film, pressure = scales.film_thickness, scales.hertz_pressure
-        return History(
-            time=columns[0],
-            load=columns[1],
-            film_central=columns[2] * film,
-            film_minimum=columns[3] * film,
-            pressure_max=columns[4] * pressure,
-            traction=columns[5],
-            rigid_approach=columns[6],
-            temperature_rise=columns[7],
-            cycles=columns[8].astype(np.int64),
-            change=columns[9],
-        )
+        units = {
+            "film_central": scales.film_thickness,
+            "film_minimum": scales.film_thickness,
+            "pressure_max": scales.hertz_pressure,
+        }
+        columns: dict[str, Any] = {
+            name: column * units.get(name, 1.0)
+            for name, column in zip(COLUMNS, np.array(self.rows).T, strict=True)
+        }
+        return History(**columns | {"cycles": columns["cycles"].astype(np.int64)})
 
     def lines(self, scales: Scales) -> Profiles:
         """Return the profiles of all steps, in SI."""

@@ -22,7 +22,7 @@ from tehl.solver.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH
 from tehl.solver.statuses import step_not_settled, touching_in_time
 from tehl.solver.steady import Attempt, finest_grid, solve_attempt
 from tehl.solver.transient.checks import check_load, check_places, check_stride, check_waves
-from tehl.solver.transient.record import Record, StepNumbers
+from tehl.solver.transient.record import Record
 from tehl.solver.transient.snapshot import ANEW, Snapshot, check_consistent, pack
 from tehl.solver.transient.step import StepEnd, StepError, Stepper
 from tehl.solver.warmup import warm_up
@@ -144,22 +144,15 @@ class Run:
         """Record a step; at time zero it has no cycles."""
         time_now = step * self.seconds
         load = self.transient.load_at(time_now)
-        numbers = StepNumbers(
-            time=time_now,
-            load=load,
-            traction=self._traction(load),
-            rise=self._rise(),
-            cycles=end.cycles if end else 0,
-            change=end.change if end else 0.0,
-        )
+        numbers = {
+            "time": time_now,
+            "load": load,
+            "traction": self._traction(load),
+            "temperature_rise": self.stepper.run.coupling.temperature_rise(),
+            "cycles": end.cycles if end else 0,
+            "change": end.change if end else 0.0,
+        }
         self.record.note(self.level, heights, numbers, keep=step in self.kept)
-
-    def _rise(self) -> float:
-        """Return the largest temperature rise over the inlet [K]."""
-        state = self.stepper.run.coupling.state
-        if state is None:
-            return 0.0
-        return float(state.temperature.max()) - self.scales.temperature
 
     def _traction(self, load: float) -> float:
         """Return the mid-film traction coefficient."""

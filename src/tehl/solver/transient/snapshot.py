@@ -1,7 +1,7 @@
 """State from which a transient run resumes, and its arrays in a checkpoint."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from tehl.errors import InputError
 from tehl.result import Cost
-from tehl.solver.transient.record import Record
-from tehl.transient_result import History
+from tehl.solver.transient.record import COLUMNS, Record
 from tehl.typing import Array
 
 Arrays = Mapping[str, NDArray[Any]]
@@ -18,7 +17,6 @@ Arrays = Mapping[str, NDArray[Any]]
 ANEW = "; remove it, and the run starts anew"
 """End of the message on an invalid checkpoint."""
 _FIELD = "field_"
-_COLUMNS = tuple(one.name for one in fields(History))
 _LINES, _FRAMES = 4, 3
 """Arrays per step in a profile (pressure, film and both heights), and in a frame."""
 _LAYOUT = {
@@ -137,8 +135,8 @@ def _misfits(arrays: Arrays) -> Iterator[str]:
     """Yield inconsistencies of the record."""
     rows, profiles, frames = arrays["rows"], arrays["profiles"], arrays["frames"]
     steps, kept = len(rows), arrays["frame_steps"]
-    if not steps or rows.shape[1] != len(_COLUMNS):
-        yield f"'rows' has the shape {rows.shape}; expected {len(_COLUMNS)} numbers per step"
+    if not steps or rows.shape[1] != len(COLUMNS):
+        yield f"'rows' has the shape {rows.shape}; expected {len(COLUMNS)} numbers per step"
     if profiles.shape[:2] != (steps, _LINES):
         yield f"'profiles' has the shape {profiles.shape}; expected {_LINES} lines in {steps} steps"
     if len(frames) != len(kept) or (len(kept) and frames.shape[1] != _FRAMES):
@@ -148,7 +146,7 @@ def _misfits(arrays: Arrays) -> Iterator[str]:
         yield f"'frame_steps' are not increasing steps below {steps}"
     if arrays["cost"].shape != (2,) or (arrays["cost"] < 0.0).any():
         yield "'cost' is not two non-negative numbers of seconds"
-    last = dict(zip(_COLUMNS, rows[-1], strict=True))
+    last = dict(zip(COLUMNS, rows[-1], strict=True))
     pressure = arrays.get(f"{_FIELD}pressure", np.zeros(1)).max()
     if (last["rigid_approach"], last["pressure_max"]) != (arrays["rigid_approach"], pressure):
         yield "its pressure is not that of its last step"
