@@ -43,6 +43,7 @@ def recommended_domain(groups: Groups) -> Domain:
     width, outlet = next((w, out) for load, w, out in SIZES if groups.M >= load)
     reach = min(max(groups.ellipticity, 1.0) ** 0.4, LONGEST_REACH)
     needed = (2.0 * width - outlet) * reach
+    # the first inlet that is long enough and has X = 0 at a node of the coarsest grid
     inlets = (outlet * k / (16 - k) for k in SIXTEENTHS)
     inlet = next((x for x in inlets if x > 0.97 * needed), outlet * 15)
     return Domain(x=(-inlet, outlet), y=(-width, width))
@@ -60,16 +61,14 @@ def domain_error(groups: Groups, domain: Domain) -> float:
     stretch = math.sqrt(groups.radius_ratio) * groups.ellipticity
     side = stretch * min(-domain.y[0], domain.y[1])
     inlet = -domain.x[0]
+    # integral of |X| / (X^2 + Y^2)^2 upstream of the contact and outside the rectangle
     beyond = 1.0 / side + math.atan(side / inlet) / inlet
     amplitude = 4.0 * groups.lambda_bar / ((3.0 + 2.0 * groups.radius_ratio) * stretch)
     missing = amplitude * beyond / (2.0 * math.pi / 3.0)
     heavier = replace(groups, M=1.02 * groups.M)
-    slope = math.log(_moes_film(groups) / _moes_film(heavier)) / math.log(1.02)
+    films = [expected_central_film(one) / moes_film_unit(one) for one in (groups, heavier)]
+    slope = math.log(films[0] / films[1]) / math.log(1.02)
     return CAUTION * slope * missing
-
-
-def _moes_film(groups: Groups) -> float:
-    return expected_central_film(groups) / moes_film_unit(groups)
 
 
 def grid_error(groups: Groups, nodes: int) -> float:

@@ -10,7 +10,7 @@ from tehl.solver.diagnosis import LikelyCause, likely_cause
 from tehl.solver.film_solver import FilmSolver
 from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.ladder import COUPLED
-from tehl.solver.steady import coupling_of, finest_grid
+from tehl.solver.steady import finest_grid
 from tehl.solver.verdict import diverged
 from tests.reference import heated_contact, moes_contact
 
@@ -71,7 +71,6 @@ def test_the_status_of_a_diverged_run_has_the_likely_cause_and_its_hint():
     run = FilmSolver(
         Hierarchy.on(finest_grid(scaled, options), scaled, options, first.first_relaxation),
         first,
-        coupling=coupling_of(scaled, options, first),
     )
     status = diverged(run)
     assert (status.kind, status.cause) == ("diverged", "body_temperature")

@@ -52,6 +52,7 @@ class FftDeformation:
     def __init__(self, grid: Grid, groups: Groups) -> None:
         self.mirror = grid.mirror
         self.period = (2 * (grid.ny - 1), 2 * (grid.nx - 1))
+        # the kernel is even: offset n - k equals offset -k
         rows, columns = (np.minimum(np.arange(n), n - np.arange(n)) for n in self.period)
         table = influence_of(grid, groups).table(grid.ny, grid.nx)
         self.spectrum = np.fft.rfft2(table[np.ix_(rows, columns)]).real.copy()
@@ -80,6 +81,7 @@ class LineDeformation:
         columns = np.arange(self.period)
         table = influence_of(grid, groups).table(2 * ny - 1 if grid.mirror else ny, nx)
         spectrum = np.fft.rfft(table[:, np.minimum(columns, self.period - columns)]).real
+        # offsets from -(ny - 1) on; on a half domain up to the mirror images
         kernel = np.concatenate([spectrum[ny - 1 : 0 : -1], spectrum]).T
         self.kernel = np.zeros((nx, kernel.shape[1] + LANES))
         self.kernel[:, : kernel.shape[1]] = kernel

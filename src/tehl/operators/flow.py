@@ -75,6 +75,7 @@ def slope(law: Callable[[Array], Array], pressure: Array, step: float) -> Array:
         Derivative of ``law`` at ``pressure``.
     """
     d = 0.1 * step
+    # central: (8 (f_1 - f_-1) - (f_2 - f_-2)) / (12 d)
     central = 8 * (law(pressure[1:] + d) - law(pressure[1:] - d))
     central -= law(pressure[1:] + 2 * d) - law(pressure[1:] - 2 * d)
     weights = np.array([-25.0, 48.0, -36.0, 16.0, -3.0])

@@ -100,6 +100,7 @@ def heights_of(scaled: ScaledProblem, grid: Grid) -> Heights | None:
     heights = Heights(
         surface_1=values[0], surface_2=values[1], wavelengths=(along / width, across / length)
     )
+    # sampled surfaces are filtered to the grid; a formula would be aliased
     shortest = shortest_of_formulas(parts)
     check_nodes(min(shortest[0] / (grid.dx * width), shortest[1] / (grid.dy * length)))
     return heights
@@ -198,11 +199,12 @@ class MovingHeights:
         does not enter at the inlet.
         """
         width, length = self.widths
-        along = grid.dx * width * max(shift, 1.0)
+        along = grid.dx * width * max(shift, 1.0)  # steps longer than a mesh width sample coarser
         resolved = []
         for part in components(roughness):
             shown = part.resolved_on(along, grid.dy * length)
             enters = self.front is not None and math.isinf(part.extent(length)[0][0])
+            # waves fade in over a wavelength, other surfaces over eight mesh widths at least
             least = 0.0 if isinstance(part, HarmonicModel) else 8.0 * grid.dx * width
             resolved.append((shown, self._fade(shown, least) if enters else 0.0))
         return tuple(resolved)

@@ -108,10 +108,12 @@ def jacobian(
     sides = ((n.east, half_x, eps_x), (n.west, half_x, eps_x),
              (n.north, half_y, eps_y), (n.south, half_y, eps_y))  # fmt: skip
     flow, opening = csr_matrix(n.here.shape), csr_matrix(n.here.shape)
+    # face flow (eps_here + eps_there)/2 (P_there - P_here): derivatives by P, then by eps
     for there, half, conductance in sides:
         step = there - n.here
         flow = flow + rows(half * ((there + n.here) @ conductance)) @ step
         opening = opening + rows(half * (step @ p)) @ (there + n.here)
+    # wedge rho H: rho by the film, drho/dP H by the pressure
     thicker, denser = film.rho.ravel(), (film.drho * film.h).ravel()
     pressed = flow + opening @ rows(by_pressure.ravel()) - n.upstream @ rows(denser)
     opened = opening @ rows(by_film.ravel()) - n.upstream @ rows(thicker)

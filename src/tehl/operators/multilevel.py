@@ -68,6 +68,7 @@ class MultilevelDeformation:
         stride, halved = [1, 1], [0, 0]
         while _count(self.stages[-1].box) > SMALLEST:
             axis = finer_axis(influence, stride)
+            # an error on a coarse grid weighs as much as one on the finest: the patch grows
             patch = patch_corrections(influence, (axis, stride[0], stride[1]), halved[axis])
             columns = self.stages[-1].source.shape[1] // 2 + 2
             shape = (self.stages[-1].source.shape[0], columns) if axis == 1 else (0, 0)

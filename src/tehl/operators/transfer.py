@@ -13,7 +13,7 @@ def refine(pressure: Array, fine: Grid) -> Array:
     (Trottenberg, Oosterlee and Schüller 2001, section 2.6).
     """
     rows = _cubic_along_x(pressure)
-    if fine.mirror:
+    if fine.mirror:  # two mirrored rows make the symmetry line an inner one
         rows = np.concatenate([rows[2:0:-1], rows])
     field = _cubic_along_x(rows.T).T
     if fine.mirror:

@@ -46,6 +46,7 @@ class Anderson:
         self.changes = [*self.changes, change][-self.memory - 1 :]
         if len(self.changes) == 1:
             return after
+        # minimise |change - sum_k w_k (change - change_k)| over the weights w
         by_change = np.stack([change - earlier for earlier in self.changes[:-1]])
         combined = after.copy()
         for weight, state, moved in zip(

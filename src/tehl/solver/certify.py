@@ -122,6 +122,7 @@ def _certified(coarser: list[_Grid], finest: Result, wide: _Grid) -> Result:
     last = _Grid(name=nodes_of(finest.options), result=finest)
     used = [grid.result for grid in (first, middle, last) if grid.used and grid.result is not None]
     runs, wider = [_quantities(run) for run in used], _quantities(larger)
+    # the larger domain has the mesh of the middle grid: their difference is due to the domain
     uncertainty = {
         name: estimate(tuple(run[name] for run in runs), domain=abs(wider[name] - runs[-2][name]))
         for name in wider

@@ -107,6 +107,7 @@ class Roughness:
         points = [heights.points_per_wave(level.grid) for level in levels]
         enough, comparable = self.settings.points, COMPARABLE
         self.first = next((k for k in range(1, last) if points[k] >= enough), last)
+        # error estimates compare grids that resolve the heights
         later = (k for k in range(self.first, last) if points[k] >= comparable)
         self.first_comparable = next(later, last)
         for level, field in zip(levels[self.first :], fields[self.first :], strict=True):
@@ -115,6 +116,7 @@ class Roughness:
         for k, level in enumerate(levels[blurred:last], start=blurred):
             part = self.settings.correction if k == blurred else 1.0
             level.correction = Correction(part=part, limit=self.settings.limit)
+        # size of the waves in the contact, for the error estimate of a single grid
         finest = levels[-1].grid
         inside = np.hypot.outer(finest.y, finest.x) < 1.0
         self.points, self.amplitude = points[-1], 0.5 * float(np.ptp(fields[-1][inside]))
@@ -205,7 +207,7 @@ def raise_by_newton(
         level.set_unknowns(known[1] if before is None else _extrapolate(before, known, part))
         steps = _steps_to(RAISED, iterate)
         if steps is None:
-            refresh()
+            refresh()  # the preconditioner belongs to the film that diverged
             size *= SMALLER
         else:
             before, known = known, (part, level.unknowns())

@@ -148,15 +148,7 @@ def must_stop(now: GridTrace, coarser: GridTrace | None, options: Options) -> bo
 
 
 def converged(now: GridTrace, coarser: GridTrace | None, options: Options) -> bool:
-    """Whether the cycles on this grid have reached the accuracy of the options.
-
-    Parameters
-    ----------
-    now, coarser : GridTrace
-        This grid, and the next coarser one if its film is comparable, else None.
-    options : Options
-        Accuracy and tolerance.
-    """
+    """Whether the cycles reached the accuracy of the options; parameters as in `must_stop`."""
     if len(now.reports) < now.least_cycles:
         return False
     if options.accuracy == "tight":
@@ -177,6 +169,7 @@ def temperature_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
     if last.temperature_change > max(largest, LEAST_KELVIN):
         return False
     before = coarser.rise.values[-1:] if coarser else []
+    # second order: a third of the change from the coarser grid
     discretisation = abs(last.temperature_rise - before[0]) / 3.0 if before else 0.0
     limit = max(discretisation / 3.0, RISE_ERROR * last.temperature_rise, LEAST_KELVIN)
     return now.rise.iteration_error() <= limit
@@ -187,15 +180,16 @@ def film_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
     if len(now.reports) < now.least_cycles:
         return False
     last = now.reports[-1]
-    if coarser is None:
+    if coarser is None:  # without a discretisation error: a change of 1e-3 Hertz pressures
         return last.change < now.damping * 1e-3
-    if last.residual > now.reports[-2].residual:
+    if last.residual > now.reports[-2].residual:  # its changes are not errors yet
         return False
     if abs(last.load_error) > LARGEST_LOAD_ERROR or last.change > now.largest_change:
         return False
     pairs = ((now.central, coarser.central), (now.minimum, coarser.minimum))
     # discretisation error of second order: a third of the change from the coarser grid
     limit = max(abs(a.values[-1] - b.values[-1]) / 3.0 for a, b in pairs) / 3.0
+    # of two numbers the one with the smaller discretisation error may take a tenth of the limit
     return all(
         a.iteration_error() <= max(abs(a.values[-1] - b.values[-1]) / 9.0, 0.1 * limit)
         for a, b in pairs
@@ -302,7 +296,7 @@ def discretisation_bar(values: list[float], otherwise: float = 1.0) -> float:
     if len(values) == 3 and min(values) > 0.3 * values[-1] > 0:
         before = abs(values[1] - values[0])
         ratio = (values[1] - values[0]) / (values[2] - values[1]) if change > 0 else math.inf
-        if change < 0.3 * values[-1] and 3.0 <= ratio <= 5.6:
+        if change < 0.3 * values[-1] and 3.0 <= ratio <= 5.6:  # 4 is second order
             return SAFETY * change / 3.0
         if before < 0.3 * values[-1]:
             return otherwise * max(change, before / 4.0)

@@ -68,8 +68,6 @@ class FilmSolver:
         The levels.
     strategy : Strategy
         Method and settings.
-    coupling : Coupling or None
-        Heat and shear thinning; None for an isothermal Newtonian film.
     heights : Heights or None
         Heights of the surfaces on the finest grid; None for smooth surfaces.
     monitor : Monitor
@@ -92,13 +90,17 @@ class FilmSolver:
         hierarchy: Hierarchy,
         strategy: Strategy,
         *,
-        coupling: Coupling | None = None,
         heights: Heights | None = None,
         monitor: Monitor = SILENT,
         guess: Result | None = None,
     ) -> None:
         self.hierarchy, self.strategy = hierarchy, strategy
-        self.coupling = coupling or Coupling()
+        self.coupling = Coupling(
+            hierarchy.scaled,
+            hierarchy.options,
+            slide_in_steps=strategy.slide_in_steps,
+            damping=strategy.damping if heights is not None else 1.0,
+        )
         self.roughness = Roughness(hierarchy.levels, heights, strategy.continuation)
         self.monitor, self.guess = monitor, guess
         self.traces: list[GridTrace] = []
@@ -193,6 +195,7 @@ class FilmSolver:
     def _is_acceptable(self, trace: GridTrace) -> bool:
         """Return whether a coarser grid was converging, so that the next one may start from it."""
         first, last = trace.reports[0], trace.reports[-1]
+        # fewer cycles than MOST_CYCLES: it converged before
         falling = last.cycle < MOST_CYCLES or last.residual < self.options.tolerance
         if self.strategy.newton:  # it may start so close that its residual cannot halve
             falling = falling or film_converged(trace, self._coarser_trace())
@@ -250,6 +253,7 @@ class FilmSolver:
                 return
             if anderson is not None and before is not None:
                 combined = anderson.combine(before, fine.unknowns())
+                # a combination of states must not wet the nodes that the last cycle cavitated
                 wet = np.append(fine.film.p.ravel() > 0.0, True)
                 fine.set_unknowns(np.where(wet, combined, 0.0))
 
@@ -271,6 +275,7 @@ class FilmSolver:
     def _coarser_trace(self) -> GridTrace | None:
         """Return the trace of the next coarser grid; None if its film is not comparable."""
         number = len(self.traces) - 1
+        # the coarsest grid is too coarse to compare; a film without the heights is another one
         if number < 2 or number == self.roughness.first_comparable:
             return None
         return self.traces[-2]
@@ -296,6 +301,7 @@ class FilmSolver:
         def iterate(step: Callable[[], object]) -> float:
             return self._iteration(levels, step, next(numbers)).residual
 
+        # the smooth film is the start of the continuation, and of a restart on a finer grid
         fine.apply_heights(0.0)
         for _ in range(SMOOTH_CYCLES):
             iterate(cycle)
@@ -357,6 +363,7 @@ class FilmSolver:
             return None
         if not roughness.is_rough:
             return error_estimate(traces, self.options.wedge_order)
+        # grids that resolve the same heights
         comparable = traces[roughness.first_comparable :]
         if len(comparable) < 2:
             dx = self.finest.grid.dx
@@ -371,4 +378,5 @@ class FilmSolver:
             return False
         level, reports = self.levels[-2], self.traces[last - 1].reports
         solved = bool(reports) and reports[-1].residual < RAISED
+        # below -floor: negative beyond doubt
         return solved and float(level.film.h.min()) < -level.equations.floor

@@ -92,6 +92,7 @@ def _sampling(nodes: int) -> Array:
     for k in range(1, nodes - 1):
         system[k, k - 1 : k + 2] = 1.0, 4.0, 1.0
         bend[k, k - 1 : k + 2] = 6.0, -12.0, 6.0
+    # not-a-knot: the third derivative is continuous at the second and the last but one node
     system[0, :3] = system[-1, -3:] = 1.0, -2.0, 1.0
     curvature = np.linalg.solve(system, bend)
     place = half + np.linspace(-SPAN, SPAN, SAMPLES)

@@ -43,6 +43,7 @@ class CoarsestSolver:
         """Perform one Newton step of limited length in place."""
         level = self.level
         level.update()
+        # unlike evaluate_residual, not zero at cavitated nodes: Newton's active set may wet them
         residual = np.empty_like(level.residual)
         reynolds.operator(level.film, level.mesh, residual)
         np.subtract(level.sources.reynolds, residual, out=residual)

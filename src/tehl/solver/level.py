@@ -105,6 +105,7 @@ class Level:
         if not self._is_stale:
             return
         h = self.film.h
+        # the deflection is the largest part of the cost: once per change of the pressure
         self.equations.deformation.deflect(self.film.p, h)
         np.add(h, self.sources.film, out=h)
         np.add(h, self.rigid_approach, out=h)
@@ -133,6 +134,7 @@ class Level:
         shifted = reynolds.Film(film.p + PRESSURE_STEP, film.h, *scratch)
         self._evaluate(shifted)
         by_pressure = (shifted.eps - film.eps) / PRESSURE_STEP
+        # eps grows as H^3 above the floor and is constant below it
         by_film = np.where(film.h > floor, 3.0 * film.eps / np.maximum(film.h, floor), 0.0)
         return by_pressure, by_film
 
@@ -156,7 +158,7 @@ class Level:
         self.sources.reynolds[:] = 0.0
         self.sources.load = self.equations.target
         self.apply_heights(1.0)
-        self.smoother.frozen[:] = 0
+        self.smoother.frozen[:] = 0  # the finest grid decides where the film ends
 
     def pose_step(self, history: Array, heights: Array, load: float) -> None:
         """Set the right-hand sides of a time step: f contains the history.
@@ -248,7 +250,7 @@ class Level:
         self.restrict_film(coarse)
         self.restrict_reynolds(coarse)
         self.restrict_load(coarse)
-        coarse._is_stale = False
+        coarse._is_stale = False  # its film is the injected one, not that of K_c P_c
 
     def restrict_solution(self, coarse: "Level") -> None:
         """Restrict P by full weighting, beside cavities by injection; H00 is one number.
@@ -261,6 +263,7 @@ class Level:
         transfer.freeze(
             self.film.p, self.smoother.frozen, coarse.film.p, mirror, FROZEN_BELOW, frozen
         )
+        # I P and H00: `correct_from` interpolates the change since
         before, _ = coarse.restricted
         before[:] = coarse.film.p
         coarse.restricted = (before, self.rigid_approach)

@@ -69,7 +69,7 @@ class Newton:
         weights = np.full(
             level.grid.shape, level.equations.load.area * (2.0 if level.grid.mirror else 1.0)
         )
-        weights[0] = level.equations.load.area
+        weights[0] = level.equations.load.area  # the symmetry line counts once
         self.load_weights = weights.ravel()
         self.preconditioner: Preconditioner | None = None
 
@@ -85,7 +85,7 @@ class Newton:
         system, old = System(self), self.preconditioner
         try:
             part = self._damped_step(system, ACCURACY)
-        except DivergedError:
+        except DivergedError:  # an inaccurate solution need not reduce the residual
             if self.preconditioner is old:
                 self.preconditioner = None
             part = self._damped_step(system, EXACT)
@@ -135,9 +135,11 @@ class System:
         rest = np.empty(self.shape)
         reynolds.operator(film, mesh, rest)
         np.subtract(level.sources.reynolds, rest, out=rest)
+        # active set: nodes that are wet, and dry ones whose residual would wet them
         inner = newton.stencil.here.diagonal() > 0.0
         self.free: BoolArray = inner & ((film.p > 0.0) | (rest < 0.0)).ravel()
         self.kept = rows(self.free.astype(float))
+        # over the diagonal, nodes of inlet and contact count alike in the norm
         diagonal = np.empty(self.shape)
         reynolds.diagonal(film, mesh, level.equations.influence.self_film, diagonal)
         self.scale = np.where(self.free, 1.0 / np.where(self.free, diagonal.ravel(), 1.0), 0.0)
@@ -153,7 +155,7 @@ class System:
         film = np.empty(self.shape)
         self.newton.level.equations.deformation.deflect(pressure.reshape(self.shape), film)
         flow = self.by_pressure @ pressure + self.by_film @ (film.ravel() + change[-1])
-        kept = np.where(self.free, flow, change[:-1])
+        kept = np.where(self.free, flow, change[:-1])  # identity at the other nodes
         return np.append(kept, self.newton.load_weights @ pressure)
 
     def solve(self, preconditioner: "Preconditioner", accuracy: float) -> Array:
@@ -208,6 +210,7 @@ class Preconditioner:
         matrix[:-1, :-1] += ((by_film @ newton.to_fine) @ newton.deflection) * self.moving
         matrix[:-1, -1] = by_film @ np.ones(system.free.size)
         matrix[-1, :-1] = newton.load_weights @ self.to_fine
+        # coarse nodes without wet fine nodes: identity rows
         empty = np.nonzero(~matrix[:-1, :-1].any(axis=1))[0]
         matrix[empty, empty] = 1.0
         return matrix

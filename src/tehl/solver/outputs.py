@@ -93,7 +93,7 @@ def heat_balance(state: FilmState) -> HeatBalance:
     area[inner] = 2.0 if terms.mirror else 1.0
     if terms.mirror:
         area[1:-1, 0] = 1.0
-    area[pressure <= 0.0] = 0.0
+    area[pressure <= 0.0] = 0.0  # the balance is that of the film under pressure
     scales = state.scales
     area *= grid.dx * grid.dy * scales.half_width_x * scales.half_width_y * state.flux_unit
     powers = (view("shear"), view("work"), *state.fluxes, carried)

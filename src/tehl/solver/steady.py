@@ -23,10 +23,9 @@ from tehl.solver.cost import Clock
 from tehl.solver.film_solver import FilmSolver
 from tehl.solver.film_summary import film_summary
 from tehl.solver.hierarchy import Hierarchy
-from tehl.solver.ladder import Strategy, ladder
+from tehl.solver.ladder import ladder
 from tehl.solver.monitor import SILENT, Monitor, Recorder
 from tehl.solver.outputs import film_heat, film_shear, newtonian_shear
-from tehl.solver.thermal import Coupling, FilmCoupling
 from tehl.solver.verdict import diverged, touching, verdict
 from tehl.solver.warmup import warm_up
 
@@ -121,6 +120,7 @@ def solve_attempt(
     clock, history, scaled = Clock(), Recorder(monitor), ScaledProblem.of(problem)
     grid = finest_grid(scaled, options)
     heights = heights_of(scaled, grid) if rough else None
+    # at other accuracies full multigrid is done before a better start saves a cycle
     start = guess if options.accuracy == "tight" else None
     rungs = ladder(problem, options, rough=heights is not None)
     attempts: list[Attempt] = []
@@ -128,14 +128,8 @@ def solve_attempt(
         if number:
             monitor.message(f"falling back to {strategy.description}")
         hierarchy = Hierarchy.on(grid, scaled, options, strategy.first_relaxation, load)
-        run = FilmSolver(
-            hierarchy,
-            strategy,
-            coupling=coupling_of(scaled, options, strategy, rough=heights is not None),
-            heights=heights,
-            monitor=history,
-            guess=start,
-        )
+        run = FilmSolver(hierarchy, strategy, heights=heights, monitor=history, guess=start)
+        # Newton's method costs so much that the cycles before it are tried to the end
         only_newton_left = all(one.newton for one in rungs[number + 1 :])
         attempts.append(_attempt(run, force=only_newton_left))
         if attempts[-1].is_final:
@@ -172,32 +166,6 @@ def _attempt(run: FilmSolver, *, force: bool) -> Attempt:
             run.hierarchy.salvage()
             return Attempt(run=run, status=diverged(run), reached=False)
     return Attempt(run=run, status=verdict(run, reached, run.errors()), reached=reached)
-
-
-def coupling_of(
-    scaled: ScaledProblem, options: Options, strategy: Strategy, *, rough: bool = False
-) -> Coupling:
-    """Return the coupling of heat and shear thinning with the film, as the strategy damps it.
-
-    Parameters
-    ----------
-    scaled : ScaledProblem
-        The contact; an isothermal Newtonian film has the trivial coupling.
-    options : Options
-        Accuracy, and order of the upstream differences.
-    strategy : Strategy
-        Damping, and continuation in the sliding speed.
-    rough : bool
-        Whether the surfaces have heights; only then is the coupling damped.
-    """
-    if not scaled.problem.is_coupled:
-        return Coupling()
-    return FilmCoupling(
-        scaled,
-        options,
-        slide_in_steps=strategy.slide_in_steps,
-        damping=strategy.damping if rough else 1.0,
-    )
 
 
 def finest_grid(scaled: ScaledProblem, options: Options) -> Grid:

@@ -43,70 +43,7 @@ FIRST_CHANGE = 8.0
 
 
 class Coupling:
-    """Effects of heat and shear thinning: none, as in an isothermal Newtonian film.
-
-    Attributes
-    ----------
-    damping : float
-        Damping factor of the logarithms of mobility and density per sweep; 1 is undamped [-].
-    state : FilmState or None
-        Temperature and shear stress on the last level that was started; None without any.
-    """
-
-    damping = 1.0
-    state: FilmState | None = None
-
-    def begin(self, levels: Sequence[Level], *, finest: bool, has_film: bool) -> bool:
-        """Start on the last of ``levels``; return whether its flow changes.
-
-        Parameters
-        ----------
-        levels : sequence of Level
-            Coarsest first.
-        finest : bool
-            Whether the last one is the level of the result.
-        has_film : bool
-            Whether its film results from cycles, not directly from the Hertz pressure.
-        """
-        del levels, finest, has_film
-        return False
-
-    def update(self, levels: Sequence[Level]) -> tuple[float, float]:
-        """Update after a cycle on ``levels``; return change and rise of the temperature [K]."""
-        del levels
-        return 0.0, 0.0
-
-    def temperature_rise(self) -> float:
-        """Return the largest temperature rise over the inlet [K]."""
-        return 0.0
-
-    def reset(self, levels: Sequence[Level]) -> None:
-        """Remove the effect on ``levels``, whose film is not a start for the next grid."""
-
-    def begin_transient(self, levels: Sequence[Level], time_step: float) -> None:
-        """Start a transient run from the present state, with steps ``time_step`` [a_x / u_m]."""
-
-    def excess(self) -> Array | None:
-        """Return (rho* - rho_e)/rho*, the flux beyond the stored mass, (ny, nx); None if zero."""
-        return None
-
-    def advance(self, levels: Sequence[Level]) -> None:
-        """Accept the present state as the previous one of the next time step."""
-
-    def revert(self, levels: Sequence[Level]) -> None:
-        """Restore the state of the last time step."""
-
-    def pack(self, levels: Sequence[Level]) -> dict[str, Array]:
-        """Return the state as arrays by name, for a checkpoint."""
-        del levels
-        return {}
-
-    def unpack(self, levels: Sequence[Level], fields: dict[str, Array]) -> None:
-        """Restore the state that `pack` returned."""
-
-
-class FilmCoupling(Coupling):
-    """Effects of the energy equation and the shear law of the film.
+    """Effects of heat and shear thinning on the film; none if it is isothermal and Newtonian.
 
     Parameters
     ----------
@@ -117,9 +54,14 @@ class FilmCoupling(Coupling):
     slide_in_steps : bool
         Raise the sliding speed from zero over the first sweeps.
     damping : float
-        Damping factor of the logarithms of mobility and density per sweep [-]. On rough flanks the
-        pressure gradient may cause nearly all heat and thinning; undamped, the flow increases both
-        before the pressure can fall, and the iteration diverges.
+        Damping factor of the logarithms of mobility and density per sweep, 1 is undamped [-]. On
+        rough flanks the pressure gradient may cause nearly all heat and thinning; undamped, the
+        flow increases both before the pressure can fall, and the iteration diverges.
+
+    Attributes
+    ----------
+    state : FilmState or None
+        Temperature and shear stress on the last level that was started.
     """
 
     def __init__(
@@ -130,23 +72,36 @@ class FilmCoupling(Coupling):
         slide_in_steps: bool = False,
         damping: float = 1.0,
     ) -> None:
-        self.film = HeatedFilm(scaled)
+        self.scaled, is_coupled = scaled, scaled.problem.is_coupled
+        self.film = HeatedFilm(scaled) if is_coupled else None
         self.wedge_order = options.wedge_order
         motion = scaled.problem.motion
         counter_moving = min(motion.speed_1, motion.speed_2) <= 0.0
         # without counter-moving surfaces the backflow of the coarser grids is accurate enough
         self.thorough = options.accuracy == "tight" or counter_moving
-        self.sweeps_left, self.damping = RAMP if slide_in_steps else 0, damping
+        self.sweeps_left = RAMP if slide_in_steps else 0
+        self.damping = damping if is_coupled else 1.0
         self.state: FilmState | None = None
         self.factors: reynolds.Factors | None = None
         self.change, self.rise, self.skip = 0.0, 0.0, False
 
     def begin(self, levels: Sequence[Level], *, finest: bool, has_film: bool) -> bool:
-        """Heat the last of ``levels``, from the temperatures of the next coarser one if there are.
+        """Heat the last of ``levels``; return whether it is heated or thinned.
 
-        A coarser grid that does not resolve the film, or has no film yet, stays isothermal.
-        Parameters and return value as in `Coupling.begin`.
+        It starts from the temperatures of the next coarser grid, if there are any. A coarser grid
+        that does not resolve the film, or has no film yet, stays isothermal.
+
+        Parameters
+        ----------
+        levels : sequence of Level
+            Coarsest first.
+        finest : bool
+            Whether the last one is the level of the result.
+        has_film : bool
+            Whether its film results from cycles, not directly from the Hertz pressure.
         """
+        if self.film is None:
+            return False
         fine, coarser = levels[-1], self.state
         large = min(fine.grid.nx, fine.grid.ny) > COUPLED_FROM
         resolved = has_film and float(fine.film.h.min()) > RESOLVED * fine.equations.floor
@@ -164,6 +119,7 @@ class FilmCoupling(Coupling):
                 state.update_surfaces()
             self._set_factors(levels, refined(levels[-2]))
             return True
+        # the first heated grid starts from the inlet temperature everywhere
         for _ in range(FIRST_SWEEPS):
             if self._sweep(state, levels, FIRST_STEPS) < FIRST_CHANGE:
                 break
@@ -194,24 +150,24 @@ class FilmCoupling(Coupling):
         """Return the largest temperature rise over the inlet [K]."""
         if self.state is None:
             return 0.0
-        return float(self.state.temperature.max()) - self.film.scaled.scales.temperature
+        return float(self.state.temperature.max()) - self.scaled.scales.temperature
 
     def reset(self, levels: Sequence[Level]) -> None:
-        """Make ``levels`` isothermal again; the next grid starts anew."""
+        """Make ``levels`` isothermal again: their film is not a start for the next grid."""
+        if self.film is None:
+            return
         self.state = None
         for level in levels:
             level.uncouple()
 
     def pack(self, levels: Sequence[Level]) -> dict[str, Array]:
-        """Return temperature, stress and fluxes, and the factors on the flow."""
+        """Return temperature, stress, fluxes and factors as arrays by name, for a checkpoint."""
         state, factors = self.state, levels[-1].factors
         if state is None or factors is None:
             return {}
         known = {f"factor_{name}": getattr(factors, name) for name in factors._fields}
         known |= {f"film_{name}": getattr(state.fields, name) for name in CARRIED}
-        known["film_back"] = (
-            state.work.back
-        )  # extent of the march against the flow in the next sweep
+        known["film_back"] = state.work.back  # extent of the next march against the flow
         return known | (state.time.memory() if state.time is not None else {})
 
     def unpack(self, levels: Sequence[Level], fields: dict[str, Array]) -> None:
@@ -228,13 +184,13 @@ class FilmCoupling(Coupling):
         self.factors = levels[-1].factors
 
     def begin_transient(self, levels: Sequence[Level], time_step: float) -> None:
-        """Make the energy equation transient, if there is heat."""
+        """Make the energy equation transient, in steps of ``time_step`` [a_x / u_m]."""
         self.factors = levels[-1].factors
         if self.state is not None and self.state.model.terms.heat:
             self.state.begin_time(time_step)
 
     def excess(self) -> Array | None:
-        """Return 1 - rho_e/rho* at the temperatures of the last sweep, (ny, nx).
+        """Return 1 - rho_e/rho* at the temperatures of the last sweep, (ny, nx); None if zero.
 
         Oil that is stiffer on the fast side of the film carries more mass than the mean speed: the
         wedge has the density rho* of that flux, the squeeze the mean density rho_e (docs/theory/
@@ -246,13 +202,13 @@ class FilmCoupling(Coupling):
         return np.ascontiguousarray(1.0 - held.T)
 
     def advance(self, levels: Sequence[Level]) -> None:
-        """Store temperatures, stresses and factors."""
+        """Accept temperatures, stresses and factors as those of the last time step."""
         self.factors = levels[-1].factors
         if self.state is not None and self.state.time is not None:
             self.state.time.advance()
 
     def revert(self, levels: Sequence[Level]) -> None:
-        """Restore them."""
+        """Restore those of the last time step."""
         if self.state is not None and self.state.time is not None:
             self.state.time.go_back()
         if self.factors is not None:
@@ -275,8 +231,9 @@ class FilmCoupling(Coupling):
         fine, names = levels[-1], reynolds.Heated._fields
         shape = fine.grid.shape
         heated = reynolds.Heated(*(np.ascontiguousarray(state.view(name).T) for name in names))
-        heated.mobility[:] /= self.film.scaled.groups.lambda_bar
+        heated.mobility[:] /= self.scaled.groups.lambda_bar
         factors = reynolds.Factors(*np.empty((5, *shape)))
+        # at H = 1 the conductance is the mobility: factors do not depend on the film
         isothermal = reynolds.Film(fine.film.p, np.ones(shape), *np.empty((5, *shape)))
         flow = fine.equations.flow
         reynolds.factors_of(heated, isothermal, flow.table, flow.step, factors)
@@ -290,7 +247,7 @@ class FilmCoupling(Coupling):
         fine = levels[-1]
         for level in reversed(levels):
             level.couple(factors)
-            factors = reynolds.Factors(*(array[::2, ::2].copy() for array in factors))
+            factors = reynolds.Factors(*(array[::2, ::2].copy() for array in factors))  # injected
         fine.update_properties()
         fine.write_source()
 

@@ -60,7 +60,7 @@ def verdict(run: FilmSolver, reached: bool, errors: ErrorEstimate | None) -> Sta
         return diverged(run)
     if not reached and run.roughness.is_rough:  # another strategy may converge on this grid
         return _not_reached(run)
-    found = _film_status(run, errors)
+    found = _film_status(run, errors)  # a grid too coarse explains cycles that do not converge
     if not found.converged:
         return found
     if not reached:

@@ -1,4 +1,7 @@
-"""Checks of a transient problem on its grid and time steps, before the run."""
+"""Checks of a transient problem on its grid and time steps, before the run.
+
+Each raises `InputError` with the key, its value, what is wrong, and what is expected.
+"""
 
 import math
 
@@ -17,13 +20,7 @@ MISSED = 0.25
 
 
 def check_stride(transient: Transient, grid: Grid) -> None:
-    """Check that two time steps pass at most an eighth of the domain.
-
-    Raises
-    ------
-    InputError
-        If the stride is too long.
-    """
+    """Check that two time steps pass at most an eighth of the domain."""
     longest = max((grid.nx - 1) // 16, 1)
     if transient.stride > longest:
         raise InputError(
@@ -43,12 +40,6 @@ def check_waves(heights: MovingHeights, grid: Grid, stride: int) -> None:
         The finest grid.
     stride : int
         Mesh widths that the mean motion passes per step.
-
-    Raises
-    ------
-    InputError
-        If the shortest wave has fewer than `LEAST_NODES` nodes, or fewer than `LEAST_STEPS` steps
-        per period.
     """
     along, across = heights.wavelengths
     check_nodes(min(along / grid.dx, across / grid.dy))
@@ -64,26 +55,14 @@ def check_waves(heights: MovingHeights, grid: Grid, stride: int) -> None:
 
 
 def check_places(scaled: ScaledProblem, seconds: float) -> None:
-    """Check that the roughness enters the contact within ``seconds``, and is not there at once.
-
-    Raises
-    ------
-    InputError
-        If it does not enter, or starts in the contact where the film is that of smooth surfaces.
-    """
+    """Check that the roughness enters the contact within ``seconds``, and is not there at once."""
     message = misplaced(scaled, seconds)
     if message is not None:
         raise InputError(message)
 
 
 def check_load(transient: Transient, seconds: float) -> None:
-    """Check that time steps of ``seconds`` resolve the peaks of the load.
-
-    Raises
-    ------
-    InputError
-        If the load at the step nearest to a peak differs by more than `MISSED` of its whole change.
-    """
+    """Check that time steps of ``seconds`` resolve the peaks of the load."""
     levels = plateaus(transient.load)
     if not levels:
         return

@@ -61,6 +61,7 @@ class Predictor:
         """Return the coefficients that best predict the last step on every second line."""
         lines = slice(None, None, 2)
         terms = self._terms(self.past[1:, lines]).reshape(len(TERMS), -1)
+        # fit what linear extrapolation misses: the smallest such correction is nearest to it
         missed = self.past[0, lines].ravel() - np.einsum("k,kn->n", STRAIGHT, terms)
         gram = np.einsum("in,jn->ij", terms, terms)
         moments = np.einsum("in,n->i", terms, missed)

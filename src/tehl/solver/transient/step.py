@@ -77,6 +77,7 @@ class Stepper:
         self.wedge = steady_wedge(self.steady, level.grid.dx, run.options.wedge_order)
         self.now, self.before = self.steady.copy(), self.steady.copy()
         self.predictor = Predictor(level.film.p, transient.stride)
+        # all levels take the same time step, and so the same weight of rho H
         for one in run.levels:
             mesh = step_stencil(one.mesh, self.time_step)
             one.equations = replace(one.equations, mesh=mesh)
@@ -145,6 +146,7 @@ class Stepper:
         """Set the relaxation, with at least the threshold of dipoles that the time step needs."""
         self.setting, setting = number, self.settings[number]
         for level in self.run.levels:
+            # below this conductance smooth errors grow if nodes relax as points
             least = level.mesh.w0 / WEIGHT_OF_POINTS
             threshold = max(setting.threshold, least)
             level.set_relaxation(replace(setting, threshold=threshold))
@@ -239,7 +241,9 @@ class Squeeze:
     def _rate(self, now: Array) -> Array:
         """Return dq/dt of the present q."""
         last, before = self.past
+        # q < 0: derivative in time at a fixed place
         slow = 1.5 * _part(now, -1) - 2.0 * _part(last, -1) + 0.5 * _part(before, -1)
+        # q > 0: along the motion, less the derivative along x
         start = _part(self.steady, 1)  # its wedge is in the steady film
         now, last, before = (_part(q, 1) - start for q in (now, last, before))
         fast = 1.5 * now - 2.0 * upstream(last, self.stride)
