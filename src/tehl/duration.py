@@ -13,7 +13,7 @@ from tehl.scaling import ScaledProblem, Scales
 from tehl.transient import Transient
 
 MOST_STEPS = 20_000
-"""Number of steps beyond which a stated duration is taken for a mistake."""
+"""Number of steps beyond which a stated duration is considered a mistake."""
 BEYOND = 1.5
 """Distance downstream of the centre at which the middle of a feature has passed [a_x]."""
 PERIODS = 2.5

@@ -12,7 +12,7 @@ from tehl.scaling import Groups
 from tehl.typing import Array
 
 REACH = 8
-"""Nodes along a line at which the line relaxation knows the influence of one node."""
+"""Nodes along a line in the influence of one node, as the line relaxation uses it."""
 
 
 def stencil(grid: Grid, groups: Groups, wedge_order: int) -> Mesh:

@@ -1,7 +1,7 @@
 """Error bars of a steady result, from three grids and one larger domain.
 
 Values of a second-order scheme on grids halved each time extrapolate to
-h = h_3 + (h_3 - h_2)/3 (docs/theory/numerics.md, "When to stop, and what is left").
+h = h_3 + (h_3 - h_2)/3 (docs/theory/numerics.md on stopping and errors).
 """
 
 import math

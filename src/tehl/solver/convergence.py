@@ -1,8 +1,8 @@
 """Stopping criteria of the cycles, and estimated errors of the film.
 
 Full multigrid has solved the coarser grids anyway, so the discretisation error follows from the
-difference of two grids, and cycles below it are wasted (Brandt 1977; docs/theory/numerics.md, "When
-to stop, and what is left").
+difference of two grids, and cycles below it are wasted (Brandt 1977; docs/theory/numerics.md on
+stopping and errors).
 """
 
 import math

@@ -1,8 +1,8 @@
 """Newton-Krylov method on one level, for films on which no relaxation converges.
 
 Between steep asperities the conductance changes by orders of magnitude from node to node, and a
-relaxation that freezes it diverges. Newton's method linearises all of it (docs/theory/numerics.md,
-"Rough surfaces"):
+relaxation that freezes it diverges. Newton's method linearises all of it (docs/theory/numerics.md
+on rough surfaces):
 
     L_P v + L_H (K v + c) = f - L(P),   sum(v) dx dy = w - sum(P) dx dy,
 

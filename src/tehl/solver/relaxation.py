@@ -3,7 +3,7 @@
 Where the film conducts, the Poiseuille term dominates, and Gauss-Seidel by lines along x smooths
 the error. In the contact the equation is (rho H)_x = 0 and a change at one node moves the film
 everywhere, so nodes change there as dipoles: one up, its four neighbours down by a quarter each
-(Venner and Lubrecht 2000, chapter 6; docs/theory/numerics.md, "Hybrid line relaxation").
+(Venner and Lubrecht 2000, chapter 6; docs/theory/numerics.md).
 """
 
 from dataclasses import dataclass

@@ -1,8 +1,8 @@
 """Coupling of temperature and shear stress with the film: one energy sweep after each cycle.
 
 Heat and shear thinning enter the Reynolds equation as factors on the isothermal Newtonian mobility
-and density, which are constant during a cycle and injected to the coarser grids (docs/theory/
-thermal.md, "Coupling with the film").
+and density, which are constant during a cycle and injected to the coarser grids
+(docs/theory/thermal.md on the coupling with the film).
 """
 
 from collections.abc import Sequence
@@ -193,8 +193,8 @@ class Coupling:
         """Return 1 - rho_e/rho* at the temperatures of the last sweep, (ny, nx); None if zero.
 
         Oil that is stiffer on the fast side of the film carries more mass than the mean speed: the
-        wedge has the density rho* of that flux, the squeeze the mean density rho_e (docs/theory/
-        thermal.md, "In time").
+        wedge has the density rho* of that flux, the squeeze the mean density rho_e
+        (docs/theory/thermal.md on transient films).
         """
         if self.state is None:
             return None

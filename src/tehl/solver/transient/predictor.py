@@ -11,7 +11,7 @@ STRAIGHT = np.array([{(0, 0): 2.0, (1, 0): -1.0}.get(term, 0.0) for term in TERM
 """Coefficients of linear extrapolation in time."""
 FARTHEST = 3.0
 """Predicted change over that of the last step, beyond which linear extrapolation is taken: the fit
-does not know what has just begun."""
+does not contain sudden changes."""
 REACH = 1 + max(back for back, _ in TERMS)
 NOISE = 1e-5
 """Singular values of the terms, over the largest, below which they are linearly dependent."""
@@ -24,7 +24,7 @@ class Predictor:
 
         delta(x, t + dt) = sum_k c_k delta(x - s_k dx, t - j_k dt)
 
-    (docs/theory/numerics.md, "Steps of time"), with the coefficients that best fit the last step in
+    (docs/theory/numerics.md on time steps), with the coefficients that best fit the last step in
     the least-squares sense and, among equally good ones, are nearest to linear extrapolation. The
     fit adapts to what stands still and to what moves, at any speed. The normal equations are
     assembled without BLAS, whose threads cost more than they save here.
