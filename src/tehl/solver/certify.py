@@ -74,7 +74,7 @@ def certify(
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class _Grid:
-    """A run of the certification; ``used``: whether the error bars may take it.
+    """A run of the certification; ``used``: whether the error bars use it.
 
     A grid that does not resolve the roughness has no result.
     """
