@@ -30,8 +30,6 @@ Compared with solves at L = 10 (mineral oil, steel) they are within 0 to 5 % at 
 M = 50 to 150, 13 % too thick at 0.4 and M = 300, up to 6 % too thin for an incompressible Barus
 liquid at 0.5 and M = 50, and 50 % too thick at R_x/R_y = 2 and M = 150.
 """
-ROLLING = 0.05
-"""Slide-roll ratio up to which a contact counts as pure rolling."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
