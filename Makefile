@@ -10,7 +10,7 @@ DOCS := $(VENV)/.stamp-docs
 DEMO := out/demo
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test check format bench docs validate clean
+.PHONY: help demo test check format bench paper docs validate clean
 
 help:  ## list the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-10s %s\n", $$1, $$2}'
@@ -52,6 +52,9 @@ format: $(DEV)  ## let ruff write the formatting
 
 bench: $(DEV)  ## one table: time, work, rate, memory, growth with the grid
 	$(BIN)/python -m benchmarks
+
+paper: $(DEV)  ## the paper on which this package is based, recomputed and judged in out/paper
+	$(BIN)/python -m paper -o out/paper
 
 docs: $(DOCS)  ## the documentation as HTML in docs/_build
 	$(BIN)/python -m sphinx -W -b html docs docs/_build

@@ -4,6 +4,7 @@ import pytest
 
 import tehl
 from tehl.errors import InputError
+from tehl.io.templates import template_text
 from tests.study.contacts import QUICK, problem
 
 AXES = {"contact.moes_load": [5.0, 6.0], "contact.moes_speed": [10.0, 12.0]}
@@ -35,6 +36,15 @@ def test_the_module_has_the_parts():
     assert all(getattr(tehl.studies, name) is not None for name in tehl.studies.__all__)
     with pytest.raises(AttributeError, match="nonsense"):
         _ = tehl.studies.nonsense
+
+
+def test_a_study_file_gives_its_cases(tmp_path):
+    (tmp_path / "case.toml").write_text(template_text("moes"), encoding="utf-8")
+    axis = '[[axes]]\npath = "contact.moes_load"\nname = "M"\nvalues = [5, 6]\n'
+    file = tmp_path / "study.toml"
+    file.write_text(f'case = "case.toml"\n{axis}', encoding="utf-8")
+    study = tehl.studies.study_of(tehl.studies.read_study(file))
+    assert [case.labels for case in study.cases] == [{"M": 5.0}, {"M": 6.0}]
 
 
 def test_an_axis_without_values_is_refused():

@@ -12,7 +12,6 @@ COMMANDS = {
     "explain": "case",
     "solve": "solve",
     "study": "study",
-    "reproduce": "reproduce",
     "plot": "results",
     "animate": "results",
     "export": "results",

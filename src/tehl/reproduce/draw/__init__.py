@@ -1,1 +1,0 @@
-"""Pictures of the figures: from stored runs to a matplotlib figure."""
