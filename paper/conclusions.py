@@ -197,7 +197,10 @@ def _dimple(name: str, runs: Runs) -> Conclusion:
         for series, words in (("A", "steel on steel, series A"), *SOLIDS.items())
     ]
     verdict = _decided(name, statements, "only if the solids differ").verdict
-    wedge = [check(runs, "dimple-by-wedge", series, ("thermal",)) for series in ("A", "glass-1")]
+    wedge = [
+        check(runs, "dimple-by-wedge", series, ("thermal",))._replace(text=f"{words}: by the wedge")
+        for series, words in (("A", "steel on steel, series A"), ("glass-1", GLASS["glass-1"]))
+    ]
     return Conclusion(name, verdict, statements + wedge)
 
 

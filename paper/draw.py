@@ -91,10 +91,9 @@ def _title(axes: Any, place: int, name: Any, run: pd.Series, symbol: str) -> Non
     nodes = f", {run.nodes}² nodes" if run.treatment == "coarser" else ""
     axes.set_title(f"({chr(97 + place)})  {symbol} = {_number(value)}, {heat}{nodes}", fontsize=9)
     if not run.ok:
-        put = axes.text2D if hasattr(axes, "text2D") else axes.text
         style = {"ha": "center", "color": "white", "fontsize": 8, "zorder": 20}
         box = {"facecolor": RED, "edgecolor": "none", "pad": 2}
-        put(0.5, 0.02, run.outcome, transform=axes.transAxes, bbox=box, **style)
+        axes.annotate(run.outcome, (0.5, 0.02), xycoords="axes fraction", bbox=box, **style)
 
 
 def _note(axes: Any, text: str) -> None:

@@ -28,19 +28,7 @@ Numbers = dict[str, Any]
 
 
 def numbers(result: Result) -> Numbers:
-    """Return all numbers of a result.
-
-    Parameters
-    ----------
-    result : Result
-        Converged or not.
-
-    Returns
-    -------
-    dict
-        ``ok`` (converged, with a known minimum film), other numbers of the solve, and those of
-        film, pressure and temperature.
-    """
+    """Return all numbers of a result; ``ok``: converged, with a known minimum film."""
     scaled, status, last = result.scaled, result.status, result.history[-1]
     x, y = scaled.x, scaled.y
     return {

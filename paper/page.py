@@ -10,6 +10,7 @@ from pathlib import Path
 from markdown_it import MarkdownIt
 from PIL import Image
 
+import tehl
 from paper.conclusions import Conclusion
 from paper.figures import Figure
 from paper.runs import Runs
@@ -20,6 +21,8 @@ SHOWN = ("F3", "F7", "F19", "X1")
 """Figures that the documentation shows."""
 TITLE = "The paper, recomputed"
 RUNS = """\
+tehl {version}, {seconds:.0f} s of CPU time for all runs.
+
 Residual: mean residual scaled by its diagonal. Change: largest change of pressure in the last
 cycle, in Hertz pressures. Runs on the paper's grid stop by the rule of the paper, which limits
 neither."""
@@ -54,10 +57,11 @@ def pages(report: Report) -> dict[str, str]:
     """Return the pages of the documentation as Markdown, by the name of their file."""
     contents = "```{toctree}\n:maxdepth: 1\n\ntables\nstatements\nfigures\nconclusions\n```"
     shown = [_picture(figure) for figure, _ in report.figures if figure.name in SHOWN]
+    judged = [(name, verdict.statements) for name, _, verdict in report.verdicts]
     texts = {
         "index": (TITLE, _method(), _verdicts(report, str), contents),
         "tables": ("Tables", *map(_table, report.tables)),
-        "statements": ("Statements about the figures", _statements(report)),
+        "statements": ("Statements", _statements(judged, _truth)),
         "figures": ("Figures", *shown),
         "conclusions": ("Conclusions", *map(_conclusion, report.conclusions)),
     }
@@ -67,30 +71,25 @@ def pages(report: Report) -> dict[str, str]:
 def html(report: Report, folder: Path) -> str:
     """Return everything as one HTML page that needs no other file.
 
-    Parameters
-    ----------
-    report : Report
-        What it shows.
-    folder : Path
-        Where ``figures/NAME.png`` are.
+    The pictures are taken from ``figures`` in ``folder``.
     """
     parts = [
         f"# {TITLE}",
         _method(),
         _verdicts(report, lambda name: f"[{name}](#{name})"),
-        "## Tables",
+        "# Tables",
         *(f"{_table(one)}\n\n{_details(one.name, one.verdict)}" for one in report.tables),
-        "## Figures",
+        "# Figures",
         *(_figure(figure, verdict) for figure, verdict in report.figures),
-        "## Conclusions",
+        "# Conclusions",
         *map(_conclusion, report.conclusions),
-        "## Runs",
+        "# Runs",
         _runs(report.runs),
     ]
     body = MarkdownIt("commonmark", {"html": True}).enable("table").render("\n\n".join(parts))
     for word, colour in _COLOURS.items():
         body = re.sub(f"<td>({word}\\b)", f'<td class="{colour}">\\1', body)
-    body = re.sub(r"<h3>(\w+)", r'<h3 id="\1">\1', body)
+    body = re.sub(r"<h2>(\w+)", r'<h2 id="\1">\1', body)
     body = re.sub(r'src="(figures/\w+\.png)"', lambda m: f'src="{_embedded(folder / m[1])}"', body)
     style = (_HERE / "style.css").read_text(encoding="utf-8")
     return (
@@ -134,12 +133,12 @@ def _verdicts(report: Report, name: Callable[[str], str]) -> str:
 
 
 def _table(one: Table) -> str:
-    title = f"### {one.name}: {one.title}"
+    title = f"## {one.name}: {one.title}"
     return f"{title}\n\n{_rows(one.head, one.rows)}\n\n{_bullets(one.notes)}"
 
 
 def _picture(figure: Figure) -> str:
-    title = f"### {figure.name}: {figure.title}"
+    title = f"## {figure.name}: {figure.title}"
     return f"{title}\n\n![{figure.title}](figures/{figure.name}.png)\n\n{figure.panels}."
 
 
@@ -149,61 +148,57 @@ def _figure(figure: Figure, verdict: Verdict) -> str:
     return f"{_picture(figure)}\n\n{words}\n\n{_details(figure.name, verdict)}"
 
 
-def _findings(name: str, statements: Iterable[Statement]) -> str:
-    """Return numbered statements with what decides them."""
-
-    def cell(found: Finding | None) -> str:
-        return f"{_truth(found)}: {found.numbers}" if found else "does not apply"
-
+def _statements(
+    judged: Iterable[tuple[str, Sequence[Statement]]], cell: Callable[[Finding], str]
+) -> str:
+    """Return numbered statements with their findings, as ``cell`` writes them."""
     rows = [
-        (f"{name}.{number}", one.text, cell(one.paper), cell(one.converged))
-        for number, one in enumerate(statements, 1)
+        (f"{name}.{n}", one.text, *(cell(f) if f else "does not apply" for f in one[1:]))
+        for name, statements in judged
+        for n, one in enumerate(statements, 1)
     ]
     return _rows(("", "statement", "paper's grid", "converged"), rows)
 
 
+def _truth(found: Finding) -> str:
+    return "true" if found.holds else "false"
+
+
+def _numbers(found: Finding) -> str:
+    return f"{_truth(found)}: {found.numbers}"
+
+
 def _details(name: str, verdict: Verdict) -> str:
-    return _folded("statements", _findings(name, verdict.statements))
+    return _folded("statements", _statements([(name, verdict.statements)], _numbers))
 
 
 def _folded(title: str, text: str) -> str:
     return f"<details><summary>{title}</summary>\n\n{text}\n\n</details>"
 
 
-def _truth(found: Finding | None) -> str:
-    return "does not apply" if found is None else "true" if found.holds else "false"
-
-
-def _statements(report: Report) -> str:
-    """Return every statement by its number and whether it holds, without numbers."""
-    rows = [
-        (f"{name}.{number}", one.text, _truth(one.paper), _truth(one.converged))
-        for name, _, verdict in report.verdicts
-        for number, one in enumerate(verdict.statements, 1)
-    ]
-    return _rows(("", "statement", "paper's grid", "converged"), rows)
-
-
 def _conclusion(one: Conclusion) -> str:
     verdict = f"{one.verdict}; {one.brief}" if one.brief else one.verdict
-    return (
-        f"### {one.name}\n\n> {one.text}\n\n**{verdict}**\n\n{_findings(one.name, one.statements)}"
-    )
+    statements = _statements([(one.name, one.statements)], _numbers)
+    return f"## {one.name}\n\n> {one.text}\n\n**{verdict}**\n\n{statements}"
 
 
 def _runs(runs: Runs) -> str:
     """Return how all runs ended, and why some did not converge, folded."""
     keys = ("outcome", "grid", "domain", "cycles", "residual", "change", "load_error", "seconds")
+    head = ("run", "outcome", "grid", "domain", "cycles", "residual", "change", "load error", "s")
+    known = runs.store.rows(runs.cases)
     rows, reasons = [], []
     for case in runs.cases:
-        run, row = runs.numbers.get(case.key), runs.store.row(case)
-        cells = [_shown(run[key]) for key in keys] if run else ["no fields"]
-        rows.append([case.name, *cells])
-        if row is not None and not (run and run["ok"]):
-            reasons.append(f"{case.name}: {row.message}")
-    head = ("run", "outcome", "grid", "domain", "cycles", "residual", "change", "load error", "s")
-    every, failed = _rows(head, rows), _bullets(reasons)
-    return f"{RUNS}\n\n{_folded('all runs', every)}\n\n{_folded('not converged, and why', failed)}"
+        run = runs.numbers.get(case.key, {})
+        rows.append([case.name, *(_shown(run.get(key, "")) for key in keys)])
+        if case.key in known and not run.get("ok"):
+            reasons.append(f"{case.name}: {known[case.key].message}")
+    seconds = sum(row.cost.cpu_seconds for row in known.values())
+    every, failed = (
+        _folded("all runs", _rows(head, rows)),
+        _folded("why some did not converge", _bullets(reasons)),
+    )
+    return f"{RUNS.format(version=tehl.__version__, seconds=seconds)}\n\n{every}\n\n{failed}"
 
 
 def _shown(value: object) -> str:

@@ -9,6 +9,8 @@ from itertools import repeat
 from pathlib import Path
 from typing import Any
 
+from pydantic import ValidationError
+
 from paper.conclusions import CONCLUSIONS
 from paper.draw import draw
 from paper.figures import FIGURES
@@ -111,8 +113,8 @@ def reproduce(
 def _check(points: int) -> None:
     try:
         Options(points=points)
-    except ValueError as error:
-        why = str(error).partition("Value error, ")[2].partition(" [type=")[0] or "must be a grid"
+    except ValidationError as error:
+        why = error.errors()[0]["msg"].removeprefix("Value error, ")
         raise InputError(f"--points {points}: {why}") from None
 
 
@@ -120,22 +122,14 @@ def _draw(folder: Path, names: list[str], points: int | None, jobs: int) -> None
     """Draw figures, in processes of their own if there are several jobs."""
     tasks = (names, repeat(folder), repeat(points))
     if min(jobs, len(names)) <= 1:
-        list(map(draw_figure, *tasks))
+        list(map(_draw_figure, *tasks))
         return
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(min(jobs, len(names)), mp_context=context) as pool:
-        list(pool.map(draw_figure, *tasks))
+        list(pool.map(_draw_figure, *tasks))
 
 
-def draw_figure(name: str, folder: Path, points: int | None) -> None:
-    """Draw a figure from the results in ``folder``.
-
-    Parameters
-    ----------
-    name : str
-        Of the figure.
-    folder, points
-        As :class:`Runs` takes them.
-    """
+def _draw_figure(name: str, folder: Path, points: int | None) -> None:
+    """Draw a figure from the results in ``folder``, in a process of its own."""
     figure = FIGURES[name]
     draw(figure, Runs(folder, [figure.series], points), folder / "figures")

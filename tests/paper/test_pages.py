@@ -40,13 +40,13 @@ def test_pages_and_pictures_are_written(small, small_runs):
     page = (small / "index.html").read_text(encoding="utf-8")
     assert page.count('src="data:image/webp') == 2
     for name in ("T1", "T2", "F3", "F7"):
-        assert f'<h3 id="{name}">' in page
+        assert f'<h2 id="{name}">' in page
         assert f'href="#{name}"' in page
     assert "http" not in page
     for name in ("F3", "F7"):
         for ending in ("png", "pdf"):
             assert (small / "figures" / f"{name}.{ending}").stat().st_size > 10_000
-    assert "### T2" in (small / "tables.md").read_text(encoding="utf-8")
+    assert "## T2" in (small / "tables.md").read_text(encoding="utf-8")
     assert "| F3.1 |" in (small / "statements.md").read_text(encoding="utf-8")
     with (small / "runs.csv").open(encoding="utf-8") as file:
         assert sum(1 for _ in csv.DictReader(file)) == len(small_runs.cases)
