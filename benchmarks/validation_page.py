@@ -14,7 +14,7 @@ from tests.reference import CLOSE, DOMAIN, heated_contact, moes_contact, read, w
 from benchmarks import waves
 from benchmarks.table import show
 from tehl.options import Options
-from tehl.post.waviness import WaveResponse, wave_responses
+from tehl.post.waves import WaveResponse, wave_responses
 from tehl.result import Result
 from tehl.solver import solve
 from tehl.solver.certify import estimate

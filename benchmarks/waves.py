@@ -21,6 +21,7 @@ from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.scaling import groups, scales
 from tehl.transient_result import TransientResult
+from tehl.wave_theory import amplitude_reduction, nabla_of
 
 DOMAIN = Domain(x=(-2.5, 1.5), y=(-2.0, 2.0))
 ENTRANCE = 1.7
@@ -51,12 +52,12 @@ class Passing:
     @property
     def nabla(self) -> float:
         """Return the wavelength over that of the inlet, lambda/a sqrt(M/L) [-]."""
-        return self.wavelength * math.sqrt(self.load / self.speed)
+        return nabla_of(self.wavelength, self.load, self.speed)
 
     @property
     def curve(self) -> float:
         """Return the published curve."""
-        return 1.0 / (1.0 + 0.15 * self.nabla + 0.015 * self.nabla**2)
+        return amplitude_reduction(self.nabla)
 
     def problem(self) -> ContactProblem:
         """Return the contact, its surface 1 with the wave."""

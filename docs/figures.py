@@ -12,7 +12,7 @@ from tehl.kernels.reynolds import mark_dipoles
 from tehl.operators.flow import flow_table
 from tehl.operators.influence import influence_of
 from tehl.operators.reynolds import line_influence
-from tehl.post.waviness import WaveResponse, wave_responses
+from tehl.post.waves import WaveResponse, wave_responses
 from tehl.roughness import Wave
 from tehl.scaling import ScaledProblem
 from tehl.solver.equations import Equations

@@ -24,7 +24,7 @@ from pathlib import Path
 import tehl
 from tehl import plots
 from tehl.post.micro_film import roughness_effect
-from tehl.post.waviness import wave_responses
+from tehl.post.waves import wave_responses
 from tehl.roughness import Wave
 
 DOMAIN = tehl.Domain(x=(-4.5, 1.5), y=(-3.0, 3.0))

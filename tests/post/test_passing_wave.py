@@ -6,7 +6,7 @@ import pytest
 
 from tehl import solve_transient
 from tehl.options import Domain, Options
-from tehl.post.passing_wave import passing_wave
+from tehl.post.waves import passing_wave
 from tehl.problem import ContactProblem
 from tehl.scaling import scales
 from tehl.transient_result import TransientResult

@@ -14,7 +14,7 @@ from tehl.post.micro_film import (
     effect_block,
     micro_film,
     roughness_effect,
-    smooth_twin,
+    smooth_reference,
     stored_effect,
     typical_wavelength,
 )
@@ -75,7 +75,7 @@ def test_ripples_are_counted_with_their_depth():
 
 def test_the_micro_film_is_what_the_smooth_film_lacks(rough, smooth):
     ripples = micro_film(rough, smooth)
-    assert ripples.by_twin
+    assert ripples.by_reference
     assert np.abs(ripples.film).max() == pytest.approx(
         (LEFT + CARRIED) * AMPLITUDE * rough.scales.film_thickness, rel=0.02
     )
@@ -83,15 +83,15 @@ def test_the_micro_film_is_what_the_smooth_film_lacks(rough, smooth):
 
 
 def test_a_filter_stands_in_for_a_missing_twin(rough, smooth):
-    by_twin, by_filter = micro_film(rough, smooth), micro_film(rough)
-    assert not by_filter.by_twin
+    by_reference, by_filter = micro_film(rough, smooth), micro_film(rough)
+    assert not by_filter.by_reference
     assert typical_wavelength(rough) == pytest.approx(
         # central differences of a wave on ten nodes are 5 % too flat
         WAVELENGTH * rough.scales.half_width_x,
         rel=0.07,
     )
     middle = np.ix_(np.abs(rough.scaled.y) < 0.4, np.abs(rough.scaled.x) < 0.4)
-    one, other = by_twin.pressure[middle], by_filter.pressure[middle]
+    one, other = by_reference.pressure[middle], by_filter.pressure[middle]
     assert np.corrcoef(one.ravel(), other.ravel())[0, 1] > 0.98
 
 
@@ -100,13 +100,13 @@ def test_films_on_other_grids_are_no_twins(rough, result):
         micro_film(rough, result)
 
 
-def test_the_smooth_twin_is_a_case_of_its_own(rough):
-    twin = smooth_twin(rough.problem)
+def test_the_smooth_reference_is_a_case_of_its_own(rough):
+    twin = smooth_reference(rough.problem)
     assert ContactProblem.model_validate(twin.model_dump(mode="json")) == twin
     assert not twin.is_rough
     assert twin.contact == rough.problem.contact
     with pytest.raises(InputError, match="no roughness"):
-        smooth_twin(twin)
+        smooth_reference(twin)
 
 
 def test_the_effect_is_rough_over_smooth_and_comes_back_from_a_file(rough, smooth, tmp_path):

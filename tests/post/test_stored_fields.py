@@ -8,7 +8,7 @@ from tehl.options import Options
 from tehl.post.micro_film import micro_film
 from tehl.post.roughness import area_below, rough_film
 from tehl.post.transient import film_at, smooth_start
-from tehl.post.waviness import drift_of_found
+from tehl.wave_theory import drift_of_heights
 from tests.reference import DOMAIN
 from tests.solver.test_transient import in_time, wave
 
@@ -37,7 +37,7 @@ def test_an_instant_has_the_fields_and_heights_of_its_time(run):
     )
 
 
-def test_the_film_of_the_beginning_is_the_smooth_twin_of_each_instant(run):
+def test_the_film_of_the_beginning_is_the_smooth_reference_of_each_field(run):
     smooth = smooth_start(run)
     none, some = (micro_film(film_at(run, k), smooth) for k in (0, -1))
     middle = np.ix_(np.abs(run.start.scaled.y) < 0.4, np.abs(run.start.scaled.x) < 0.4)
@@ -73,9 +73,9 @@ def test_a_wave_that_is_found_in_a_map_moves_with_its_surface(tmp_path, run):
     table = {"type": "map", "file": str(tmp_path / "wave.npy"), "unit": "m", "level": "none",
              "pixel": pixel, "outside": "periodic"}  # fmt: skip
     moving = in_time(5.0, surface_1={"roughness": table})
-    assert drift_of_found(moving) == 0.0
-    assert drift_of_found(in_time(1.0, slide=0.5, surface_1={"roughness": table})) > 0.0
+    assert drift_of_heights(moving) == 0.0
+    assert drift_of_heights(in_time(1.0, slide=0.5, surface_1={"roughness": table})) > 0.0
     both = in_time(1.0, slide=0.5, surface_1={"roughness": table}, surface_2={"roughness": table})
-    assert drift_of_found(both) is None
+    assert drift_of_heights(both) is None
     steady = moving.model_copy(update={"transient": None})
-    assert drift_of_found(steady) == -units.speed
+    assert drift_of_heights(steady) == -units.speed

@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 
 from tehl.errors import InputError
-from tehl.post.passing_wave import amplitude_reduction, nabla_of, passing_wave
 from tehl.post.transient import envelope, largest_change, moving_profiles, passing_features
-from tehl.roughness import Wave
+from tehl.post.waves import passing_wave
 from tehl.transient_result import TransientResult
 from tests.fixtures_result import CASE, make_result
 from tests.fixtures_transient import make_transient, passing
@@ -140,16 +139,11 @@ def test_a_wave_of_too_few_steps_is_told():
         passing_wave(passing(wave_case(wavelength=1e-4)), 1)
 
 
-def test_the_published_curve():
-    for nabla, ratio in ((0.5, 0.92700), (2.0, 0.73529), (10.0, 0.25)):
-        assert amplitude_reduction(nabla) == pytest.approx(ratio, abs=1e-5)
-    assert amplitude_reduction(10.0, ratio=2.0) == pytest.approx(
-        amplitude_reduction(10.0 * math.exp(0.5))
-    )
-
-
-def test_nabla_takes_the_shorter_wavelength():
-    run, result = make_transient(), make_result(33)
-    wave = Wave(amplitude=1e-8, wavelength=LENGTH).components[0]
-    expected = LENGTH / result.scales.half_width_x * math.sqrt(result.groups.M / result.groups.L)
-    assert nabla_of(run, wave) == pytest.approx(expected)
+@pytest.mark.parametrize("degrees", [0.0, 30.0, 60.0])
+def test_nabla_takes_the_shorter_wavelength(degrees):
+    angle = math.radians(degrees)
+    run = passing(wave_case(angle=angle, wavelength=LENGTH * math.cos(angle)), points=65)
+    start = run.start
+    shorter = LENGTH * min(1.0, 1.0 / math.tan(max(angle, 1e-9)))
+    expected = shorter / start.scales.half_width_x * math.sqrt(start.groups.M / start.groups.L)
+    assert passing_wave(run, 1).nabla == pytest.approx(expected)

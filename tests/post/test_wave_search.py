@@ -5,13 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from tehl.post.wave_search import FoundWave, distinct_waves
-from tehl.roughness import Random
+from tehl.post.waves.search import distinct_waves
+from tehl.roughness import Random, WaveVector
 
 X, Y = np.linspace(-4.5, 1.5, 129), np.linspace(-3.0, 3.0, 129)
 
 
-def is_short(wave: FoundWave) -> bool:
+def is_short(wave: WaveVector) -> bool:
     return abs(wave.along) + abs(wave.across) > 1.5 * 2.0 * math.pi / 0.8
 
 

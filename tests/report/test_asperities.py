@@ -52,12 +52,12 @@ def test_the_nodes_that_are_told_carry_eight_and_sixteen_of_a_wave():
 
 
 def test_theory_flattens_a_transverse_wave_and_leaves_a_longitudinal_one_to_the_inlet():
-    across = explained(WAVE).roughness.waves[0]
+    _, across = explained(WAVE).roughness.waves[0]
     assert across.film_ratio == pytest.approx(
         1 - across.pressure / across.elastic_pressure, rel=1e-3
     )
     along = explained(WAVE | {"angle": "90 deg"})
-    assert along.roughness.waves[0].left_to_inlet
+    assert along.roughness.waves[0][1].left_to_inlet
     assert "depends on the inlet" in as_text(along)
     assert "% left in the film" in as_text(explained(WAVE))
 

@@ -7,9 +7,9 @@ import pytest
 
 from tehl.inlet_heating import InletFactor
 from tehl.post.micro_film import roughness_effect
-from tehl.post.passing_wave import passing_wave
 from tehl.post.thermal_effect import ThermalEffect
 from tehl.post.transient import largest_change
+from tehl.post.waves import passing_wave
 from tehl.report import page as module
 from tehl.report.page import report_text, write_report
 from tehl.report.readable import input_rows

@@ -10,7 +10,7 @@ from functools import cache
 import pytest
 
 from tehl.options import Options
-from tehl.post.waviness import WaveResponse, wave_responses
+from tehl.post.waves import WaveResponse, wave_responses
 from tehl.result import Result
 from tehl.solver import solve
 from tests.reference import CLOSE, moes_contact, wavy_contact

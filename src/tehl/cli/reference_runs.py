@@ -62,7 +62,7 @@ def reference_cases(
     if isothermal:
         cases[ISOTHERMAL] = thermal_effect.isothermal_reference(problem)
     if smooth:
-        cases[SMOOTH] = micro_film.smooth_twin(problem)
+        cases[SMOOTH] = micro_film.smooth_reference(problem)
     return cases
 
 
@@ -114,4 +114,4 @@ def smooth_beside(stored: Path, result: Result | TransientResult) -> Result | No
         smooth = load_as(Result, path)
     except FileFormatError:
         return None
-    return smooth if micro_film.is_twin(result, smooth) else None
+    return smooth if micro_film.is_reference(result, smooth) else None

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from tehl.cli.reference_runs import Comparisons
 from tehl.post.film import no_film
 from tehl.post.roughness import RoughFilm
-from tehl.post.waviness import WaveResponse
+from tehl.post.waves import WaveResponse
 from tehl.report.readable import UNTITLED, length, length_unit, seconds
 from tehl.result import Estimate, Result, Status
 from tehl.transient_result import TransientResult

@@ -12,7 +12,7 @@ from tehl.fields import FilmHeat
 from tehl.post.heat import Temperature
 from tehl.post.roughness import RoughFilm
 from tehl.post.traction import Traction
-from tehl.post.waviness import WaveResponse
+from tehl.post.waves import WaveResponse
 from tehl.result import Estimate, Result
 from tehl.transient_result import HistoryBars, TransientResult
 from tehl.typing import Array

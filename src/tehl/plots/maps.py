@@ -228,14 +228,14 @@ def micro_film_map(result: Result, smooth: Result | None = None) -> Figure:
 
 def _ripple_panel(axes: Axes, result: Result, ripples: MicroFilm, name: str) -> None:
     factor, unit = _RIPPLES[name]
-    contact = in_contact(result, 1.0 if ripples.by_twin else FILTERED)
+    contact = in_contact(result, 1.0 if ripples.by_reference else FILTERED)
     values = getattr(ripples, name) * factor
     reach = float(np.percentile(np.abs(values[contact]), 99.0)) or 1.0
-    shown = values if ripples.by_twin else np.where(contact, values, np.nan)
+    shown = values if ripples.by_reference else np.where(contact, values, np.nan)
     dress_contact(axes, result)
     part, span = window_part(result), (-reach, reach)
     mesh = coloured(axes, result, shown[part], cmap="RdBu_r", clim=span)
-    less = "less that of smooth surfaces" if ripples.by_twin else "less its long waves"
+    less = "less that of smooth surfaces" if ripples.by_reference else "less its long waves"
     axes.set_title(f"{name} {less}", fontsize=9)
     axes.xaxis.set_major_locator(MaxNLocator(5, steps=STEPS))
     label = f"{name} ripple [{unit}]"

@@ -1,14 +1,14 @@
-"""What roughness does to a film: a rough result beside its smooth twin."""
+"""What roughness does to a film: a rough result beside its smooth reference run."""
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from tehl.errors import InputError
-from tehl.post.roughness import in_contact, middle_film
+from tehl.post.roughness import in_contact, middle_film, square
 from tehl.problem import ContactProblem
 from tehl.roughness import Smooth
 from tehl.roughness.prepare import gaussian_mean
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class MicroFilm:
-    """Ripples that roughness makes.
+    """Ripples of film and pressure.
 
     Attributes
     ----------
@@ -29,19 +29,19 @@ class MicroFilm:
         Film less that of the smooth contact [m].
     pressure : (ny, nx) array
         Pressure less that of the smooth contact [Pa].
-    by_twin : bool
+    by_reference : bool
         Whether the smooth contact was solved; if not, ripples are what is left when long waves
-        are filtered off, and mean something inside the contact only.
+        are filtered off, and are meaningful inside the contact only.
     """
 
     film: Array
     pressure: Array
-    by_twin: bool
+    by_reference: bool
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class RoughnessEffect:
-    """A rough contact over its smooth twin.
+    """A rough contact over its smooth reference run.
 
     Attributes
     ----------
@@ -52,9 +52,9 @@ class RoughnessEffect:
     traction : float or None
         Ratio of the mid-film tractions [-]; None where there is no sliding.
     smooth_central, smooth_minimum : float
-        Films of the twin [m].
+        Films of the reference run [m].
     smooth_largest_pressure : float
-        Of the twin [Pa].
+        Of the reference run [Pa].
     ripple_film, ripple_pressure : float
         Root mean square of both ripples over the Hertz contact [m], [Pa].
     """
@@ -71,7 +71,7 @@ class RoughnessEffect:
     ripple_pressure: float
 
 
-def smooth_twin(problem: ContactProblem) -> ContactProblem:
+def smooth_reference(problem: ContactProblem) -> ContactProblem:
     """Return ``problem`` with both surfaces smooth, and steady.
 
     Raises
@@ -96,8 +96,8 @@ def micro_film(rough: "Result", smooth: "Result | None" = None) -> MicroFilm:
     rough : Result
         Of the rough contact.
     smooth : Result or None
-        Of its smooth twin on the same grid. Without it a Gaussian filter takes off all waves that
-        are longer than twice those of the surface.
+        Of its smooth reference run on the same grid. Without it a Gaussian filter removes all
+        waves that are longer than twice those of the surface.
 
     Raises
     ------
@@ -106,22 +106,21 @@ def micro_film(rough: "Result", smooth: "Result | None" = None) -> MicroFilm:
     """
     if smooth is None:
         cut_off = 2.0 * typical_wavelength(rough)
-        pixel = (float(np.diff(rough.x[:2])[0]), float(np.diff(rough.y[:2])[0]))
         film, pressure = (
-            field - gaussian_mean(field, pixel, cut_off)
+            field - gaussian_mean(field, _pixel(rough), cut_off)
             for field in (rough.film_thickness, rough.pressure)
         )
-        return MicroFilm(film=film, pressure=pressure, by_twin=False)
-    if not is_twin(rough, smooth):
+        return MicroFilm(film=film, pressure=pressure, by_reference=False)
+    if not is_reference(rough, smooth):
         raise InputError("the rough and the smooth film are not those of one contact on one grid")
     return MicroFilm(
         film=rough.film_thickness - smooth.film_thickness,
         pressure=rough.pressure - smooth.pressure,
-        by_twin=True,
+        by_reference=True,
     )
 
 
-def is_twin(rough: "Result", smooth: "Result") -> bool:
+def is_reference(rough: "Result", smooth: "Result") -> bool:
     """Return whether two results differ by nothing but the heights of the surfaces."""
     same_grid = all(
         one.shape == other.shape and np.allclose(one, other)
@@ -135,14 +134,16 @@ def typical_wavelength(result: "Result") -> float:
     longest = result.scales.half_width_x
     if result.heights is None:
         return longest
-    part = np.ix_(np.abs(result.scaled.y) < 1.0, np.abs(result.scaled.x) < 1.0)
-    pixel = (float(np.diff(result.x[:2])[0]), float(np.diff(result.y[:2])[0]))
-    found = statistics(result.heights.together[part], pixel)
+    found = statistics(result.heights.together[square(result)], _pixel(result))
     return min(2.0 * math.pi * found.sq / found.sdq, longest) if found.sdq > 0 else longest
 
 
+def _pixel(result: "Result") -> tuple[float, float]:
+    return float(np.diff(result.x[:2])[0]), float(np.diff(result.y[:2])[0])
+
+
 def roughness_effect(rough: "Result", smooth: "Result") -> RoughnessEffect:
-    """Return what roughness does to the film, from a rough result and that of its twin."""
+    """Return what roughness does to the film, from a rough result and its reference run."""
     ripples, contact = micro_film(rough, smooth), in_contact(rough)
     highest, without = float(rough.pressure.max()), float(smooth.pressure.max())
     return RoughnessEffect(
@@ -166,25 +167,20 @@ def _traction_ratio(rough: "Result", smooth: "Result") -> float | None:
     return here.mid_film / there.mid_film if there.mid_film else None
 
 
-_NAMES = {
-    "central": "central",
-    "minimum": "minimum",
-    "middle": "middle",
-    "largest_pressure": "largest_pressure",
-    "traction": "traction",
+_KEYS = {
     "smooth_central": "smooth_h_central_m",
     "smooth_minimum": "smooth_h_min_m",
     "smooth_largest_pressure": "smooth_max_pa",
     "ripple_film": "ripple_film_m",
     "ripple_pressure": "ripple_pressure_pa",
 }
-"""Attributes and their keys in a summary."""
+"""Keys in a summary of attributes that have another name there."""
+_NAMES = [field.name for field in fields(RoughnessEffect)]
 
 
 def effect_block(effect: RoughnessEffect) -> dict[str, Any]:
     """Return what a summary says of the comparison, in the block ``roughness_effect``."""
-    values = asdict(effect)
-    return {key: values[name] for name, key in _NAMES.items()}
+    return {_KEYS.get(name, name): value for name, value in asdict(effect).items()}
 
 
 def stored_effect(summary: Mapping[str, Any]) -> RoughnessEffect | None:
@@ -197,9 +193,10 @@ def stored_effect(summary: Mapping[str, Any]) -> RoughnessEffect | None:
     """
     block: Any = summary.get("roughness_effect")
     try:
-        values = {name: block[key] for name, key in _NAMES.items()}
+        values = {name: block[_KEYS.get(name, name)] for name in _NAMES}
+        traction = values.pop("traction")
         return RoughnessEffect(
-            traction=None if values.pop("traction", None) is None else float(block["traction"]),
+            traction=None if traction is None else float(traction),
             **{name: float(value) for name, value in values.items()},
         )
     except (TypeError, KeyError, ValueError):  # none, or one that another program wrote

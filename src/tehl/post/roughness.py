@@ -1,4 +1,4 @@
-"""What the film of a rough contact looks like: lambda ratio, distribution, ripples."""
+"""The film of a rough contact: lambda ratio, distribution, ripples."""
 
 import math
 from collections.abc import Sequence
@@ -9,7 +9,7 @@ import numpy as np
 
 from tehl.film_formulas import expected_film
 from tehl.post.film import no_film
-from tehl.post.waviness import REACH, WaveResponse, wave_notes, wave_responses
+from tehl.post.waves.response import REACH, WaveResponse, wave_notes, wave_responses
 from tehl.typing import Array, BoolArray
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 QUANTILES = (0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
-"""Parts of the contact whose films are told."""
+"""Parts of the contact whose films are reported."""
 SHALLOWEST = 0.01
 """Depth of a ripple that counts, over the mean film of the line [-]."""
 _LINE = 0.8
@@ -95,7 +95,7 @@ def rough_film(result: "Result", smooth: "Result | None" = None) -> RoughFilm | 
         What a solve returned or a file held.
     smooth : Result or None
         The same contact with smooth surfaces on the same grid: without it waves longer than 0.4
-        half-widths are told from the shape of the film to a few per cent only.
+        half-widths are separated from the shape of the film to a few per cent only.
 
     Returns
     -------
@@ -131,19 +131,19 @@ def sq_of(result: "Result") -> tuple[float, float]:
     stated = (result.problem.surface_1.rms_roughness, result.problem.surface_2.rms_roughness)
     if result.heights is None:
         return stated
-    part = np.ix_(np.abs(result.scaled.y) < 1.0, np.abs(result.scaled.x) < 1.0)
-    first, second = (
-        float(np.std(heights[part])) or rms
-        for heights, rms in zip(
-            (result.heights.surface_1, result.heights.surface_2), stated, strict=True
-        )
-    )
-    return first, second
+    surfaces = (result.heights.surface_1, result.heights.surface_2)
+    first, second = (float(np.std(heights[square(result)])) for heights in surfaces)
+    return first or stated[0], second or stated[1]
+
+
+def square(result: "Result") -> tuple[Array, ...]:
+    """Return the indices of the nodes where |X|, |Y| < 1."""
+    return np.ix_(*(np.abs(axis) < 1.0 for axis in (result.scaled.y, result.scaled.x)))
 
 
 def middle_film(result: "Result") -> float:
     """Return the mean film where |X|, |Y| < 0.4 [m]."""
-    part = np.ix_(np.abs(result.scaled.y) <= REACH, np.abs(result.scaled.x) <= REACH)
+    part = np.ix_(*(np.abs(axis) <= REACH for axis in (result.scaled.y, result.scaled.x)))
     return float(result.film_thickness[part].mean())
 
 

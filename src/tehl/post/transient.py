@@ -13,7 +13,7 @@ from tehl.fields import Fields, FilmSummary, SurfaceHeights
 from tehl.grid import Grid
 from tehl.operators.heights import MovingHeights
 from tehl.options import Domain
-from tehl.post.micro_film import smooth_twin
+from tehl.post.micro_film import smooth_reference
 from tehl.typing import Array
 
 if TYPE_CHECKING:
@@ -268,7 +268,7 @@ def smooth_start(run: "TransientResult") -> "Result | None":
     starts = transient is not None and transient.start == "smooth" and transient.load_at(0.0) == 1.0
     if not starts or not problem.is_rough:
         return None
-    return replace(run.start, problem=smooth_twin(problem))
+    return replace(run.start, problem=smooth_reference(problem))
 
 
 def _heights(run: "TransientResult", frame: int) -> SurfaceHeights | None:

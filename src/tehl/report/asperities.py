@@ -2,15 +2,16 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
 
 from tehl.options import Domain, Options, coarsenable
 from tehl.problem import ContactProblem, Surface
-from tehl.roughness import AnyRoughness, Bump, Dimple, Ridge, Roughness
-
-if TYPE_CHECKING:
-    from tehl.typing import Array
+from tehl.roughness import AnyRoughness, Bump, Dimple, Ridge, Roughness, WaveVector
+from tehl.typing import Array
+from tehl.wave_theory import LinearTheory, expected_waves
 
 CONVERGES, ANSWERS = 8, 16
 """Nodes on the shortest wave with which runs converge, and with which ripples are right to 3 %."""
@@ -18,35 +19,6 @@ STEEP = 0.1
 """Slope from which on Reynolds' equation is doubted."""
 _SAMPLES = (129, 513)
 _LARGEST = 16385
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class ExpectedWave:
-    """One harmonic and what linear theory leaves of it.
-
-    Attributes
-    ----------
-    wavelength, angle, amplitude : float
-        [m], [rad], [m].
-    film_ratio : float or None
-        Part that is left in the film [-]; None where the theory does not hold.
-    pressure : float or None
-        Amplitude of the pressure [Pa]; None where the theory does not hold.
-    elastic_pressure : float
-        The one that flattens the whole wave [Pa].
-    """
-
-    wavelength: float
-    angle: float
-    amplitude: float
-    film_ratio: float | None
-    pressure: float | None
-    elastic_pressure: float
-
-    @property
-    def left_to_inlet(self) -> bool:
-        """Whether the pressure leaves the wave alone, so that the inlet decides."""
-        return self.pressure == 0
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -70,8 +42,8 @@ class Asperities:
         Nodes per direction that put 8 and 16 on it.
     stands : bool
         Whether the roughness stands still in the contact.
-    waves : tuple of ExpectedWave
-        Of surfaces that consist of waves.
+    waves : tuple of (WaveVector, LinearTheory)
+        Stated waves of the surfaces, and their ripples by theory.
     remarks : tuple of str
         Sizes of a surface that do not fit the contact.
     """
@@ -84,8 +56,23 @@ class Asperities:
     points_to_converge: int
     points_to_answer: int
     stands: bool
-    waves: tuple[ExpectedWave, ...]
+    waves: tuple[tuple[WaveVector, LinearTheory], ...]
     remarks: tuple[str, ...]
+
+    def summary(self) -> dict[str, Any]:
+        """Return it as JSON can hold it."""
+        waves = [
+            {
+                "wavelength": wave.wavelength,
+                "angle": wave.angle,
+                "amplitude": wave.amplitude,
+                "film_ratio": theory.film_ratio,
+                "pressure": theory.pressure,
+                "elastic_pressure": theory.elastic_pressure,
+            }
+            for wave, theory in self.waves
+        ]
+        return asdict(self) | {"waves": waves}
 
 
 def asperities(
@@ -125,7 +112,7 @@ def asperities(
         points_to_converge=_needed(options, fewest, axis, CONVERGES),
         points_to_answer=_needed(options, fewest, axis, ANSWERS),
         stands=problem.transient is None,
-        waves=tuple(_expected_waves(problem, film)),
+        waves=tuple(expected_waves(problem, film)),
         remarks=tuple(_remarks(problem)),
     )
 
@@ -162,8 +149,6 @@ class _Look:
 
 
 def _look(roughness: Roughness, problem: ContactProblem, mesh: tuple[float, float]) -> _Look:
-    import numpy as np  # noqa: PLC0415 (smooth cases are explained without arrays)
-
     if roughness.is_smooth:
         return _Look(0.0, 0.0, (math.inf, math.inf))
     resolved, hertz = roughness.resolved_on(*mesh), problem.hertz
@@ -175,9 +160,7 @@ def _look(roughness: Roughness, problem: ContactProblem, mesh: tuple[float, floa
     return _Look(float(np.std(heights)), _steepest(heights, x, y), waves)
 
 
-def _steepest(heights: "Array", x: "Array", y: "Array") -> float:
-    import numpy as np  # noqa: PLC0415
-
+def _steepest(heights: Array, x: Array, y: Array) -> float:
     across, along = np.gradient(heights, y, x)
     return float(np.hypot(across, along).max())
 
@@ -187,36 +170,6 @@ def _needed(options: Options, fewest: float, axis: int, wanted: int) -> int:
     nodes = options.shape[1 - axis]
     intervals = math.ceil((nodes - 1) * wanted / fewest)
     return coarsenable(min(intervals, 2 * _LARGEST) - 1)[1]
-
-
-def _expected_waves(problem: ContactProblem, film: float) -> Iterator[ExpectedWave]:
-    """Yield the waves of both surfaces, under the pressure in the middle of the contact."""
-    from tehl.post.waviness import (  # noqa: PLC0415
-        FlatFilm,
-        angle_of,
-        bulk_modulus,
-        drifting_waves,
-        why_no_theory,
-    )
-
-    oil, pressure = problem.lubricant, problem.hertz.pressure
-    temperature = problem.inlet_temperature
-    flat = FlatFilm(
-        film=film,
-        bulk_modulus=bulk_modulus(oil.density, pressure, temperature),
-        viscosity=oil.viscosity.viscosity_at(pressure, temperature),
-        reduced_modulus=problem.reduced_modulus,
-    )
-    for wave, drift in drifting_waves(problem):
-        theory = flat.theory(wave, wave.amplitude, drift, holds=why_no_theory(problem) is None)
-        yield ExpectedWave(
-            wavelength=2.0 * math.pi / wave.number,
-            angle=angle_of(wave),
-            amplitude=wave.amplitude,
-            film_ratio=theory.film_ratio,
-            pressure=theory.pressure,
-            elastic_pressure=theory.elastic_pressure,
-        )
 
 
 def _remarks(problem: ContactProblem) -> Iterator[str]:
@@ -261,7 +214,7 @@ def odd_asperities(
             f"the film is {film / found.composite:.2g} times Sq: asperities may touch, and the "
             "result shows where there is no film"
         )
-    pressures = (w.elastic_pressure if w.pressure is None else w.pressure for w in found.waves)
+    pressures = (t.elastic_pressure if t.pressure is None else t.pressure for _, t in found.waves)
     largest = max(pressures, default=0.0)
     if largest > problem.hertz.pressure:
         yield (

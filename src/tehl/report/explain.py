@@ -158,15 +158,15 @@ def _source(problem: ContactProblem, peclet: float | None) -> str | None:
 
 def as_summary(case: Explanation) -> dict[str, Any]:
     """Return an explanation as one JSON object."""
-    problem, plain = case.problem, (case.roughness, case.bodies, case.heat)
-    roughness, bodies, heat = (None if one is None else asdict(one) for one in plain)
+    problem, roughness = case.problem, case.roughness
+    bodies, heat = (None if one is None else asdict(one) for one in (case.bodies, case.heat))
     return {
         **_contact_as_summary(case),
         "regime": case.regime,
         "central_film_m": case.central_film,
         "films": [asdict(film) | {"valid": film.valid} for film in case.films],
         "lambda_ratio": case.lambda_ratio,
-        "roughness": roughness,
+        "roughness": None if roughness is None else roughness.summary(),
         "solid_peclet": list(case.peclet),
         "inlet_heating_factor": case.inlet_heating,
         "inlet_factors": [asdict(factor) for factor in case.inlet_factors],

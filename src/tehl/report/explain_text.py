@@ -6,10 +6,12 @@ from math import degrees, isfinite
 from tehl.domain import AIM
 from tehl.memory import available_memory
 from tehl.options import Domain
-from tehl.report.asperities import ANSWERS, CONVERGES, Asperities, ExpectedWave
+from tehl.report.asperities import ANSWERS, CONVERGES, Asperities
 from tehl.report.explain import Explanation
 from tehl.report.readable import UNTITLED, length, seconds
 from tehl.report.transient_plan import TransientPlan
+from tehl.roughness import WaveVector
+from tehl.wave_theory import LinearTheory
 
 LEAST_RISE, LEAST_TRACTION = 0.1, 1e-4
 """Temperature rise [K] and traction coefficient below which no number is shown."""
@@ -114,21 +116,21 @@ def _roughness(found: Asperities) -> Iterator[str]:
         f"({CONVERGES} to converge: {found.points_to_converge}, "
         f"{ANSWERS} for its ripples: {found.points_to_answer} nodes)",
     )
-    for wave in found.waves:
-        yield _row("wave", *_wave(wave))
+    for wave, theory in found.waves:
+        yield _row("wave", *_wave(wave, theory))
 
 
-def _wave(wave: ExpectedWave) -> Iterator[str]:
+def _wave(wave: WaveVector, theory: LinearTheory) -> Iterator[str]:
     giga = 1e-9
     yield f"{length(wave.wavelength)} at {degrees(wave.angle) + 0.0:.3g} deg"
-    if wave.left_to_inlet:
+    if theory.left_to_inlet:
         yield "its amplitude depends on the inlet"
-    elif wave.film_ratio is None or wave.pressure is None:
+    elif theory.film_ratio is None or theory.pressure is None:
         yield "no theory of its amplitude in the film: it covers isothermal Newtonian films"
     else:
-        yield f"{100 * wave.film_ratio:.3g} % left in the film"
-        yield f"pressure +-{wave.pressure * giga:.2g} GPa"
-    yield f"({wave.elastic_pressure * giga:.2g} GPa flatten it)"
+        yield f"{100 * theory.film_ratio:.3g} % left in the film"
+        yield f"pressure +-{theory.pressure * giga:.2g} GPa"
+    yield f"({theory.elastic_pressure * giga:.2g} GPa flatten it)"
 
 
 def _heat(case: Explanation) -> Iterator[str]:

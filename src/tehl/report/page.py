@@ -17,14 +17,14 @@ from tehl.io.tables import DEFINITIONS
 from tehl.plots.save import Pictures, pictures_of
 from tehl.post.film import no_film
 from tehl.post.micro_film import RoughnessEffect
-from tehl.post.passing_wave import PassingWave, passing_wave
 from tehl.post.roughness import rough_film
 from tehl.post.thermal_effect import ThermalEffect
 from tehl.post.transient import largest_change, passing_features
-from tehl.post.waviness import waves_of
+from tehl.post.waves import PassingWave, passing_wave
 from tehl.report.readable import UNTITLED, input_rows, seconds
 from tehl.result import Estimate, Result
 from tehl.transient_result import TransientResult
+from tehl.wave_theory import waves_of
 
 CAPTIONS = {
     "history": "Film, pressure and traction over time.",

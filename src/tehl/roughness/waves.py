@@ -40,6 +40,18 @@ class WaveVector(NamedTuple):
         """Return the wave number across the crests [rad/m]."""
         return math.hypot(self.along, self.across)
 
+    @property
+    def wavelength(self) -> float:
+        """Return the distance of the crests [m]."""
+        return 2.0 * math.pi / self.number
+
+    @property
+    def angle(self) -> float:
+        """Return the angle as cases state it, between -pi/2 and pi/2 [rad]."""
+        backwards = self.along < 0 or (self.along == 0 and self.across > 0)
+        sign = -1.0 if backwards else 1.0
+        return math.atan2(-sign * self.across, sign * self.along)
+
 
 class HarmonicModel(RoughnessModel):
     """Base of the surfaces that are a few harmonics."""

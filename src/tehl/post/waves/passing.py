@@ -1,18 +1,4 @@
-r"""Amplitude of a wave that passes a place, fitted in time.
-
-A wave that passes is flattened less the shorter it is. For pure rolling its amplitude in the film
-follows, by a fit to computed contacts [1]_,
-
-.. math:: \frac{A_d}{A_i} = \frac{1}{1 + 0.15 f\nabla + 0.015 (f\nabla)^2}, \quad
-          \nabla = \frac{\lambda}{a}\sqrt{\frac{M}{L}}
-
-with :math:`\lambda` the shorter one of the wavelengths along x and y, :math:`r = \lambda_x /
-\lambda_y`, and :math:`f = e^{1 - 1/r}` for r > 1, else one.
-
-References
-----------
-.. [1] C. H. Venner and A. A. Lubrecht, Proc. IMechE Part J 214 (2000), 43-62.
-"""
+"""Amplitude of a wave that passes a place, fitted in time, beside :mod:`tehl.wave_theory`."""
 
 import cmath
 import math
@@ -23,9 +9,9 @@ import numpy as np
 
 from tehl.errors import InputError
 from tehl.post.transient import speed_of
-from tehl.post.waviness import waves_of
 from tehl.roughness import WaveVector
 from tehl.typing import Array
+from tehl.wave_theory import amplitude_reduction, nabla_of, waves_of
 
 if TYPE_CHECKING:
     from tehl.transient_result import TransientResult
@@ -112,7 +98,7 @@ def passing_wave(run: "TransientResult", surface: int, *, x: float = 0.0) -> Pas
             run.profiles.pressure,
         )
     )
-    nabla = nabla_of(run, wave)
+    nabla = _nabla(run, wave)
     return PassingWave(
         x=x,
         periods=periods,
@@ -127,20 +113,11 @@ def passing_wave(run: "TransientResult", surface: int, *, x: float = 0.0) -> Pas
     )
 
 
-def amplitude_reduction(nabla: float, *, ratio: float = 1.0) -> float:
-    """Return the published amplitude reduction A_d / A_i for pure rolling [-].
-
-    ``ratio`` is the wavelength along x over that along y, zero for a transverse wave.
-    """
-    scaled = nabla * (math.exp(1.0 - 1.0 / ratio) if ratio > 1.0 else 1.0)
-    return 1.0 / (1.0 + 0.15 * scaled + 0.015 * scaled**2)
-
-
-def nabla_of(run: "TransientResult", wave: WaveVector) -> float:
-    """Return (lambda / a) sqrt(M/L) [-], lambda the shorter one of those along x and y."""
+def _nabla(run: "TransientResult", wave: WaveVector) -> float:
+    """Return nabla of a wave: its wavelength is the shorter one of those along x and y."""
     groups, half_width = run.start.groups, run.start.scales.half_width_x
-    number = max(abs(wave.along), abs(wave.across))
-    return 2.0 * math.pi / (number * half_width) * math.sqrt(groups.M / groups.L)
+    shorter = 2.0 * math.pi / max(abs(wave.along), abs(wave.across))
+    return nabla_of(shorter / half_width, groups.M, groups.L)
 
 
 def _wave(run: "TransientResult", surface: int) -> WaveVector:

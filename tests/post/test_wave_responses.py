@@ -9,7 +9,7 @@ import pytest
 
 from tehl.fields import SurfaceHeights
 from tehl.heat import Thermal
-from tehl.post.waviness import bulk_modulus, wave_notes, wave_responses
+from tehl.post.waves import wave_notes, wave_responses
 from tehl.problem import ContactProblem
 from tehl.result import Result
 from tehl.transient import Transient
@@ -79,15 +79,6 @@ def test_the_elastic_pressure_is_that_of_a_flattened_wave(rough):
     (wave,) = wave_responses(rough)
     expected = math.pi * rough.problem.reduced_modulus * wave.amplitude / (2 * wave.wavelength)
     assert wave.theory.elastic_pressure == pytest.approx(expected)
-
-
-def test_the_bulk_modulus_is_that_of_the_law(result):
-    p, s, c = 0.8e9, 0.6e-9, 1.7e-9
-    slope = s / (1 + c * p) ** 2
-    expected = (1 + s * p / (1 + c * p)) / slope
-    assert bulk_modulus(result.problem.lubricant.density, p, 313.15) == pytest.approx(
-        expected, rel=1e-6
-    )
 
 
 RANDOM = {"type": "random", "rms": 1e-9, "correlation_length": 1e-5}

@@ -1,0 +1,335 @@
+"""Ripples of the waves of the surfaces in the middle of a contact, by least squares."""
+
+import cmath
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tehl.post.waves.search import distinct_waves
+from tehl.problem import ContactProblem
+from tehl.roughness import AnyRoughness, Map, Random, Sum, WaveVector
+from tehl.typing import Array, BoolArray
+from tehl.wave_theory import (
+    FlatFilm,
+    LinearTheory,
+    bulk_modulus,
+    drift_of_heights,
+    drifting_waves,
+    why_no_theory,
+)
+
+if TYPE_CHECKING:
+    from tehl.result import Result
+
+
+REACH = 0.4
+"""Half-widths on each side of the centre in which waves are fitted: the pressure is even there."""
+FEWEST = 1.5
+"""Waves in that square below which a wave cannot be separated from the shape of the film."""
+_TURN = 0.25
+"""Part of a wave in that square below which it is the same as one along an axis."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class WaveResponse:
+    """One wave of the surfaces, and its ripples in the middle of the contact.
+
+    Attributes
+    ----------
+    wavelength : float
+        Across the crests [m].
+    angle : float
+        Zero: crests across the entrainment; between -pi/2 and pi/2 [rad].
+    amplitude : float
+        Of the heights, as the grid carries them [m].
+    points_per_wave : float
+        Nodes on a wave, along the axis that has fewer [-].
+    film_amplitude, pressure_amplitude : float
+        Of the ripples [m], [Pa].
+    film_phase, pressure_phase : float
+        Zero where crests have the thinnest film and the highest pressure; positive where the
+        ripple comes after, along the wave vector [rad].
+    carried_amplitude : float
+        Of the streaks along x that the film brings from the inlet [m]; zero where crests lie
+        across or along the entrainment, or nearly so.
+    theory : LinearTheory
+        Ripples by linear theory, where it holds (:func:`tehl.wave_theory.why_no_theory`).
+    """
+
+    wavelength: float
+    angle: float
+    amplitude: float
+    points_per_wave: float
+    film_amplitude: float
+    film_phase: float
+    pressure_amplitude: float
+    pressure_phase: float
+    carried_amplitude: float
+    theory: LinearTheory
+
+    @property
+    def film_ratio(self) -> float:
+        """Return the part of the wave that is left in the film [-]."""
+        return self.film_amplitude / self.amplitude
+
+
+def wave_responses(result: "Result", smooth: "Result | None" = None) -> tuple[WaveResponse, ...]:
+    """Return how film and pressure respond to each wave of the surfaces.
+
+    Waves are those of ``wave`` and ``crossed`` surfaces, alone or in a sum; of measured and random
+    surfaces those that stand out of the heights in the contact, often none. Ripples are fitted by
+    least squares where ``|X|, |Y| < 0.4``, together with a quadratic background and with the
+    streaks that an oblique wave makes in the inlet and the film carries along x.
+
+    Parameters
+    ----------
+    result : Result
+        Of a rough contact; others have no waves.
+    smooth : Result or None
+        The same contact with smooth surfaces on the same grid, which is subtracted first.
+
+    Returns
+    -------
+    tuple of WaveResponse
+        Without the waves that are too long to be separated from the shape of the film;
+        :func:`wave_notes` names them.
+    """
+    found = _Waves.of(result)
+    if found is None or not found.fitted:
+        return ()
+    patch, waves = found.patch, found.fitted
+    film, pressure = result.film_thickness, result.pressure
+    if smooth is not None:
+        film, pressure = film - smooth.film_thickness, pressure - smooth.pressure
+    fit = patch.fit(waves)
+    cuts = [patch.cut(field) for field in (found.heights, film, pressure)]
+    ripples = zip(*(fit.ripples(field) for field in cuts), strict=True)
+    level = _flat_film(result, patch)
+    return tuple(
+        WaveResponse(
+            wavelength=wave.wavelength,
+            angle=wave.angle,
+            points_per_wave=patch.points_per_wave(wave),
+            amplitude=abs(height),
+            film_amplitude=abs(in_film),
+            film_phase=lag(in_film / -height),
+            pressure_amplitude=abs(in_pressure),
+            pressure_phase=lag(in_pressure / height),
+            carried_amplitude=fit.carried(cuts[1], wave),
+            theory=found.theory(wave, level, abs(height)),
+        )
+        for wave, (height, in_film, in_pressure) in zip(waves, ripples, strict=True)
+        if abs(height) > 0
+    )
+
+
+def wave_notes(result: "Result") -> tuple[str, ...]:
+    """Return what :func:`wave_responses` leaves out and why, a sentence each.
+
+    Parameters
+    ----------
+    result : Result
+        Of a rough contact; others have no notes.
+    """
+    found = _Waves.of(result)
+    if found is None:
+        return ()
+    patch = found.patch
+    notes = [patch.too_long(wave) for wave in found.all if wave not in found.fitted]
+    if not found.all and _is_searched(result.problem):
+        notes.append("no wave stands out of the heights in the contact: they are broad-band")
+    why = why_no_theory(result.problem)
+    if found.drift is None and not found.stated:
+        why = why or "no theory: it is not known which of two surfaces that move apart has the wave"
+    if why and any(patch.straight(wave).along for wave in found.fitted):
+        notes.append(why)
+    return tuple(notes)
+
+
+def lag(ratio: complex) -> float:
+    """Return how far a ripple lies behind the wave that it is divided by [rad]."""
+    return -cmath.phase(ratio) + 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class _Waves:
+    """The waves of the surfaces of a result: stated ones, else those found in the heights."""
+
+    problem: ContactProblem
+    heights: Array
+    patch: "_Patch"
+    stated: dict[WaveVector, float]
+    all: list[WaveVector]
+
+    @classmethod
+    def of(cls, result: "Result") -> "_Waves | None":
+        if result.heights is None:
+            return None
+        patch, heights = _Patch.of(result), result.heights.together
+        stated = dict(drifting_waves(result.problem))
+        waves = list(stated) or _standing_out(result, heights, patch)
+        return cls(result.problem, heights, patch, stated, waves)
+
+    @property
+    def fitted(self) -> list[WaveVector]:
+        """Waves of which enough lies in the patch."""
+        return [wave for wave in self.all if self.patch.holds(wave)]
+
+    @property
+    def drift(self) -> float | None:
+        """Speed of found waves less the mean speed [m/s]."""
+        return drift_of_heights(self.problem)
+
+    def theory(self, wave: WaveVector, level: FlatFilm, amplitude: float) -> LinearTheory:
+        """Return the ripples of a wave by theory."""
+        drift = self.stated.get(wave, self.drift)
+        holds = why_no_theory(self.problem) is None and drift is not None
+        if drift is None:
+            drift = -self.problem.entrainment_speed
+        return level.theory(self.patch.straight(wave), amplitude, drift, holds=holds)
+
+
+def _is_searched(problem: ContactProblem) -> bool:
+    """Return whether a surface may have waves that it does not state."""
+    return any(_may_hold_waves(one.roughness) for one in (problem.surface_1, problem.surface_2))
+
+
+def _may_hold_waves(roughness: AnyRoughness) -> bool:
+    if isinstance(roughness, Sum):
+        return any(map(_may_hold_waves, roughness.parts))
+    return isinstance(roughness, Map | Random)
+
+
+def _standing_out(result: "Result", heights: Array, patch: "_Patch") -> list[WaveVector]:
+    """Return the waves of surfaces that state none, also those too long for the patch."""
+    if not _is_searched(result.problem):
+        return []
+    width_x, width_y = patch.half_widths
+
+    def vector(along: float, across: float) -> WaveVector:
+        return WaveVector(1.0, along / width_x, across / width_y, 0.0)
+
+    found = distinct_waves(
+        result.scaled.x,
+        result.scaled.y,
+        heights,
+        lambda wave: patch.holds(vector(wave.along, wave.across)),
+    )
+    return [vector(wave.along, wave.across) for wave in found]
+
+
+@dataclass(frozen=True, slots=True)
+class _Patch:
+    """The middle of the contact: coordinates in metres, and in half-widths."""
+
+    rows: BoolArray
+    columns: BoolArray
+    x: Array
+    y: Array
+    half_widths: tuple[float, float]
+
+    @classmethod
+    def of(cls, result: "Result") -> "_Patch":
+        columns, rows = (np.abs(axis) <= REACH for axis in (result.scaled.x, result.scaled.y))
+        widths = (result.scales.half_width_x, result.scales.half_width_y)
+        return cls(rows, columns, result.x[columns], result.y[rows], widths)
+
+    def cut(self, field: Array) -> Array:
+        return field[np.ix_(self.rows, self.columns)]
+
+    def counts(self, wave: WaveVector) -> tuple[float, float]:
+        """Return how many waves lie in the patch along both axes."""
+        width_x, width_y = (REACH * width / math.pi for width in self.half_widths)
+        return abs(wave.along) * width_x, abs(wave.across) * width_y
+
+    def holds(self, wave: WaveVector) -> bool:
+        """Return whether enough of a wave lies in the patch."""
+        return sum(self.counts(wave)) >= FEWEST
+
+    def too_long(self, wave: WaveVector) -> str:
+        """Return why a wave has no ripples."""
+        return (
+            f"{1e6 * wave.wavelength:.4g} um at {math.degrees(wave.angle) + 0.0:.3g} deg is too "
+            f"long to part from the shape of the film: {sum(self.counts(wave)):.3g} waves where "
+            f"|X|, |Y| < {REACH:g}, and it takes {FEWEST:g}"
+        )
+
+    def straight(self, wave: WaveVector) -> WaveVector:
+        """Return a wave with crests along the entrainment if it nearly has them.
+
+        Where it turns by less than a quarter of its phase, what the inlet carries along x looks
+        like the wave itself.
+        """
+        return wave if self.counts(wave)[0] >= _TURN else wave._replace(along=0.0)
+
+    def points_per_wave(self, wave: WaveVector) -> float:
+        steps = (np.ptp(self.x) / (self.x.size - 1), np.ptp(self.y) / (self.y.size - 1))
+        phase = max(abs(wave.along) * steps[0], abs(wave.across) * steps[1])
+        return float(2.0 * math.pi / phase)
+
+    def fit(self, waves: Sequence[WaveVector]) -> "_Fit":
+        """Return a least-squares fit of ``waves``, their streaks and a quadratic background."""
+        x, y = (axis.ravel() for axis in np.meshgrid(self.x, self.y))
+        # Less than a quarter of a streak is part of the quadratic background.
+        wide = (wave for wave in waves if self.counts(wave)[1] >= _TURN or not wave.along)
+        streaks = _streaks([self.straight(wave) for wave in wide])
+        phases = [wave.along * x + wave.across * y + wave.phase for wave in waves]
+        phases += [number * y for number in streaks]
+        columns = [function(phase) for phase in phases for function in (np.cos, np.sin)]
+        unit_x, unit_y = x / self.half_widths[0], y / self.half_widths[1]
+        columns += [unit_x**i * unit_y**j for i in range(3) for j in range(3 - i)]
+        return _Fit(np.linalg.pinv(np.stack(columns, axis=1)), len(waves), streaks)
+
+
+def _streaks(waves: Sequence[WaveVector]) -> list[float]:
+    """Return the wave numbers across of the streaks that oblique waves make, each once."""
+    found = [abs(wave.across) for wave in waves if not wave.along]
+    longitudinal = len(found)
+    for number in (abs(wave.across) for wave in waves if wave.along and wave.across):
+        if not any(math.isclose(number, other) for other in found):
+            found.append(number)
+    return found[longitudinal:]
+
+
+@dataclass(frozen=True, slots=True)
+class _Fit:
+    """The inverse of the matrix of a fit, and what its first rows are."""
+
+    inverse: Array
+    waves: int
+    streaks: list[float]
+
+    def ripples(self, field: Array) -> list[complex]:
+        """Return the complex amplitude of each wave, relative to its phase."""
+        return self._pairs(field)[: self.waves]
+
+    def carried(self, field: Array, wave: WaveVector) -> float:
+        """Return the amplitude of the streaks that belong to a wave."""
+        pairs = zip(self._pairs(field)[self.waves :], self.streaks, strict=True)
+        own = (abs(p) for p, number in pairs if math.isclose(number, abs(wave.across)))
+        return next(own, 0.0) if wave.along else 0.0
+
+    def _pairs(self, field: Array) -> list[complex]:
+        count = 2 * (self.waves + len(self.streaks))
+        values = self.inverse[:count] @ field.ravel()
+        return [complex(c, -s) for c, s in zip(values[::2], values[1::2], strict=True)]
+
+
+def _flat_film(result: "Result", patch: _Patch) -> FlatFilm:
+    """Return the means of a film over the patch."""
+    pressure = float(patch.cut(result.pressure).mean())
+    temperature = result.scales.temperature
+    if result.heat is not None:
+        layers = np.tensordot(result.heat.weights, result.heat.temperature, axes=1)
+        temperature = float(patch.cut(layers).mean())
+    thinning = 1.0 if result.shear is None else float(patch.cut(result.shear.thinning).mean())
+    oil = result.problem.lubricant
+    return FlatFilm(
+        film=float(patch.cut(result.film_thickness).mean()),
+        bulk_modulus=bulk_modulus(oil.density, pressure, temperature),
+        viscosity=thinning * float(oil.viscosity.viscosity(np.array(pressure), temperature)),
+        reduced_modulus=result.problem.reduced_modulus,
+    )
