@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from tehl.errors import InputError
 from tehl.problem import ContactProblem
-from tehl.roughness.protocol import Extent
-from tehl.roughness.surface import OneRoughness, Sum
+from tehl.roughness.model import Extent
+from tehl.roughness.superposition import OneRoughness, Sum
 from tehl.roughness.waves import HarmonicModel
 from tehl.scaling import ScaledProblem, Scales
 from tehl.transient import Transient

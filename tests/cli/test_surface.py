@@ -154,7 +154,7 @@ def test_the_picture_has_map_histogram_and_spectrum(tmp_path, shape):
     [
         (("{}",), "does not say the unit"),
         (("{}", "--unit", "um"), "how far its points are apart"),
-        (("{}", "--unit", "kg"), 'unit = "kg": is no unit of length'),
+        (("{}", "--unit", "kg"), 'unit = "kg": is not a unit of length'),
         (("{}", *STATED, "--level", "flat"), 'level = "flat": unknown; known are none'),
         (("{}", *STATED, "--set", "shape=1"), "shape is not a known key"),
         (("{}", *STATED, "--set", "shape"), "invalid override"),

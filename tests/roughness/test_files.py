@@ -213,7 +213,7 @@ WRONG = {
     "huge shape": ("a.npy", npy((10**12, 10**12)), "claims 1000000000000 x"),
     "truncated npy": ("a.npy", npy((100, 100), content=b"0" * 9000), "truncated.* 80000 bytes"),
     "half a header": ("a.npy", saved(HEIGHTS)[:40], "header cannot be read"),
-    "garbage npy": ("a.npy", b"\x00\xff" * 400, "no file of numpy"),
+    "garbage npy": ("a.npy", b"\x00\xff" * 400, "not a file of numpy"),
     "negative sides": ("a.npy", npy((-5, -5), content=b"0" * 400), r"claims .* shape \(-5, -5\)"),
     "one negative side": ("a.npy", npy((-5, 5), content=b"0" * 400), r"shape \(-5, 5\)"),
     "truth as a side": ("a.npy", npy((20, True), content=b"0" * 400), r"shape \(20, True\)"),
@@ -243,13 +243,13 @@ WRONG = {
         "no lattice",
     ),
     "uneven": ("a.xyz", b"0 0 1\n1 0 1\n3 0 1\n0 1 1\n1 1 1\n3 1 1\n", "equal, rising"),
-    "garbage netcdf": ("a.nc", b"\x00\x01" * 99, "is no NetCDF file"),
+    "garbage netcdf": ("a.nc", b"\x00\x01" * 99, "is not a NetCDF file"),
     "half netcdf": ("a.nc", b"\x89HDF\r\n\x1a\n" + b"\0" * 99, "truncated or damaged"),
     "classic netcdf": ("a.nc", b"CDF\x01\0\0\0\0\0\0", "truncated or damaged"),
     "no zip": ("a.x3p", b"PK\x03\x04" + b"\0" * 99, "no whole x3p"),
-    "picture": ("a.png", b"\x89PNG", "ending that says no format"),
-    "pickle file": ("a.pkl", b"\x80\x04.", "ending that says no format"),
-    "no ending": ("a", b"1 2 3 4", "ending that says no format"),
+    "picture": ("a.png", b"\x89PNG", "ending that is not a format"),
+    "pickle file": ("a.pkl", b"\x80\x04.", "ending that is not a format"),
+    "no ending": ("a", b"1 2 3 4", "ending that is not a format"),
 }
 
 
@@ -375,7 +375,7 @@ def test_places_that_are_no_files_are_told(tmp_path):
     for name, words in (
         (str(tmp_path), "is a folder"),
         (str(tmp_path / "none.npy"), "does not exist"),
-        ("/dev/null", "no regular file"),
+        ("/dev/null", "not a regular file"),
         ("a\0b.npy", "cannot be read"),
         ("a" * 5000 + ".npy", "cannot be read"),
     ):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tehl.roughness import Map
-from tehl.roughness.form import form_of
+from tehl.roughness.prepare import form_of
 from tests.roughness.files import relief
 
 NY, NX, PIXEL = 48, 64, 2e-6

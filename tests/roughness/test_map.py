@@ -137,8 +137,8 @@ def test_fine_maps_on_coarse_meshes_are_filtered_on_a_lattice_of_the_mesh(file, 
     whole = surface.resolved_on(*mesh)
     monkeypatch.setattr("tehl.roughness.tile.is_roomy", lambda *_: True)
     coarse = surface.resolved_on(*mesh)
-    assert coarse.tile.heights.size < 0.7 * whole.tile.heights.size
-    assert coarse.tile.size == pytest.approx(whole.tile.size)
+    assert coarse.heights.size < 0.7 * whole.heights.size
+    assert coarse.size == pytest.approx(whole.size)
     assert coarse.rms == pytest.approx(whole.rms, rel=1e-9)
     # slopes are differences over one pixel, which is up to twice as long
     assert coarse.shortest_wavelengths == pytest.approx(whole.shortest_wavelengths, rel=1e-3)
@@ -155,7 +155,7 @@ def test_the_rim_of_a_fine_map_is_never_stored(tmp_path, pixel):
     coarse = surface.resolved_on(2e-5, 2e-5)  # with its rim, 576 million points and more
     assert tracemalloc.get_traced_memory()[1] < 50e6
     tracemalloc.stop()
-    (ny, nx), (width, height) = coarse.tile.heights.shape, coarse.tile.size
+    (ny, nx), (width, height) = coarse.heights.shape, coarse.size
     assert max(ny, nx) < 250
     assert min(width, height) > 12 * 2e-5
     middle = float(coarse.height(np.zeros(1), np.zeros(1))[0])
@@ -313,7 +313,7 @@ def test_maps_without_roughness_are_told(tmp_path, heights, words):
 @pytest.mark.parametrize(
     ("keys", "words"),
     [
-        ({"unit": "kg"}, "no unit of length"),
+        ({"unit": "kg"}, "not a unit of length"),
         ({"size": "1 mm"}, "say the same"),
         ({"file": " "}, "no name of a file"),
         ({"taper": "1 um", "outside": "mirror"}, "outside = .flat. only"),

@@ -7,8 +7,7 @@ import pytest
 
 from tehl.plots.surface import surface_preview
 from tehl.roughness import Map
-from tehl.roughness.preview import Mesh, preview
-from tehl.roughness.view import view
+from tehl.roughness.preview import Mesh, preview, view
 
 NY, NX, PIXEL = 60, 80, 2e-6
 PLACE = (-40e-6, 30e-6)

@@ -13,8 +13,8 @@ from tehl.duration import components
 from tehl.errors import InputError
 from tehl.grid import Grid
 from tehl.roughness import Roughness, Sum, Superposition
-from tehl.roughness.protocol import RoughnessModel
-from tehl.roughness.surface import OneRoughness
+from tehl.roughness.model import RoughnessModel
+from tehl.roughness.superposition import OneRoughness
 from tehl.roughness.waves import HarmonicModel
 from tehl.scaling import ScaledProblem
 from tehl.typing import Array

@@ -10,8 +10,7 @@ from matplotlib.patches import Ellipse, Polygon
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from tehl.plots.frame import BLUE, MICRO, ORANGE, STEPS, outline
-from tehl.roughness.preview import Preview
-from tehl.roughness.view import View, view
+from tehl.roughness.preview import Preview, View, view
 from tehl.typing import Array
 
 _CLIPPED, _COUNTED = 0.1, 10**6

@@ -1,19 +1,20 @@
 """Features that stand alone: ridges and grooves, bumps and dents, dimples."""
 
 import math
-from typing import TYPE_CHECKING, Literal, Self
+from typing import TYPE_CHECKING, ClassVar, Literal, Self
 
 from pydantic import model_validator
 
-from tehl.roughness.protocol import (
+from tehl.roughness.model import (
     ENDLESS,
     Extent,
+    Position,
     RoughnessModel,
-    along_axes,
+    SignedHeight,
+    Wavelength,
     check_gentle,
     direction,
 )
-from tehl.roughness.quantities import Position, SignedHeight, Wavelength
 from tehl.units import Angle
 
 if TYPE_CHECKING:
@@ -52,7 +53,19 @@ class FeatureModel(RoughnessModel):
 
 
 class RoundModel(FeatureModel):
-    """Base of the features that look alike from all sides."""
+    """Base of the features that look alike from all sides.
+
+    ``SHORTEST`` and ``REACH`` are over their length: the wavelength that a mesh must carry to see
+    the feature, where its spectrum has fallen to half of its height, and how far from its middle
+    it has two per cent of its height.
+    """
+
+    SHORTEST: ClassVar[float]
+    REACH: ClassVar[float]
+
+    @property
+    def _length(self) -> float:
+        raise NotImplementedError
 
     @property
     def is_even_in_y(self) -> bool:
@@ -67,20 +80,13 @@ class RoundModel(FeatureModel):
     @property
     def shortest_wavelength(self) -> float:
         """Return the wavelength that a mesh must carry to see the feature [m]."""
-        raise NotImplementedError
-
-    @property
-    def reach(self) -> float:
-        """Return how far from its middle the feature has two per cent of its height [m]."""
-        raise NotImplementedError
+        return math.inf if self.is_smooth else self.SHORTEST * self._length
 
     def extent(self, length: float) -> Extent:
         """Return where the feature stands at time zero along x and along y [m]."""
         del length
-        return (
-            (self.x - self.reach, self.x + self.reach),
-            (self.y - self.reach, self.y + self.reach),
-        )
+        reach = self.REACH * self._length
+        return (self.x - reach, self.x + reach), (self.y - reach, self.y + reach)
 
 
 class Bump(RoundModel):
@@ -98,6 +104,9 @@ class Bump(RoundModel):
         Where it stands at time zero [m].
     """
 
+    SHORTEST: ClassVar[float] = 4.0
+    REACH: ClassVar[float] = 2.0
+
     type: Literal["bump"] = "bump"
     radius: Wavelength
 
@@ -107,17 +116,11 @@ class Bump(RoundModel):
         return self
 
     @property
-    def shortest_wavelength(self) -> float:
-        """Return four radii [m]; the spectrum has fallen to half of its height there."""
-        return math.inf if self.is_smooth else 4.0 * self.radius
-
-    @property
-    def reach(self) -> float:
-        """Return two radii [m]."""
-        return 2.0 * self.radius
+    def _length(self) -> float:
+        return self.radius
 
     def _at_rest(self, x: "Array", y: "Array") -> "Array":
-        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
+        import numpy as np  # noqa: PLC0415 (a case is stated without arrays)
 
         return self.amplitude * np.exp(-self._squared_distance(x, y) / self.radius**2)
 
@@ -146,6 +149,9 @@ class Dimple(RoundModel):
        1745-1756.
     """
 
+    SHORTEST: ClassVar[float] = 0.5
+    REACH: ClassVar[float] = 0.5
+
     type: Literal["dimple"] = "dimple"
     width: Wavelength
 
@@ -155,14 +161,8 @@ class Dimple(RoundModel):
         return self
 
     @property
-    def shortest_wavelength(self) -> float:
-        """Return half of the width [m]; the spectrum has fallen to half of its height there."""
-        return math.inf if self.is_smooth else 0.5 * self.width
-
-    @property
-    def reach(self) -> float:
-        """Return half of the width [m]."""
-        return 0.5 * self.width
+    def _length(self) -> float:
+        return self.width
 
     def _at_rest(self, x: "Array", y: "Array") -> "Array":
         return self.amplitude * _damped_cosine(self._squared_distance(x, y) / self.width**2)
@@ -216,7 +216,12 @@ class Ridge(FeatureModel):
     @property
     def shortest_wavelengths(self) -> tuple[float, float]:
         """Return the shortest wavelengths along x and along y [m]."""
-        return along_axes(self.shortest_wavelength, self.angle)
+        cosine, sine = (abs(part) for part in direction(self.angle))
+        shortest = self.shortest_wavelength
+        return (
+            shortest / cosine if cosine else math.inf,
+            shortest / sine if sine else math.inf,
+        )
 
     @property
     def shortest_wavelength(self) -> float:
@@ -235,7 +240,7 @@ class Ridge(FeatureModel):
         return (min(ends) - reach, max(ends) + reach), ENDLESS[1]
 
     def _at_rest(self, x: "Array", y: "Array") -> "Array":
-        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
+        import numpy as np  # noqa: PLC0415 (a case is stated without arrays)
 
         cosine, sine = direction(self.angle)
         across = ((x - self.x) * cosine - (y - self.y) * sine) / self.width
@@ -249,6 +254,6 @@ class Ridge(FeatureModel):
 
 def _damped_cosine(square: "Array") -> "Array":
     """Return the cosine that dies out, by the squared distance in widths."""
-    import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
+    import numpy as np  # noqa: PLC0415 (a case is stated without arrays)
 
     return np.exp(-10.0 * _TEN * square) * np.cos(2.0 * np.pi * np.sqrt(square))

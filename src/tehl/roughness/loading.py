@@ -1,21 +1,28 @@
 """A map from its file to prepared heights."""
 
+from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tehl.errors import InputError
 from tehl.roughness.files import RawMap, checked, read
 from tehl.roughness.files.raw import shown
-from tehl.roughness.prepare import Heights, filled, gaussian_mean, levelled, without_outliers
-from tehl.roughness.quantities import metres
+from tehl.roughness.map import Map
+from tehl.roughness.model import metres
+from tehl.roughness.prepare import (
+    Heights,
+    filled,
+    gaussian_mean,
+    levelled,
+    tapered,
+    without_outliers,
+)
+from tehl.roughness.tile import Tile
 from tehl.typing import Array
 
-if TYPE_CHECKING:
-    from tehl.roughness.map import Map
-
 _LEAST = 4
+_TAPER = 0.1
 _LOWEST, _HIGHEST = 1e-12, 10e-6
 _ROUNDING = 1e-12
 _WIDEST, _FINEST, _TALLEST = 1.0, 1e-10, 1.0
@@ -26,7 +33,7 @@ _BEYOND = {
 }
 
 
-def found_file(surface: "Map") -> Path:
+def found_file(surface: Map) -> Path:
     """Return the path of the file of a map.
 
     Raises
@@ -40,20 +47,37 @@ def found_file(surface: "Map") -> Path:
         raise InputError(f"map {shown(surface.file)} {error}") from None
 
 
-def stamp(path: Path) -> tuple[int, int]:
-    """Return what changes when a file does: its size and when it was written."""
-    state = path.stat()
-    return state.st_size, state.st_mtime_ns
-
-
-def load(surface: "Map") -> Heights:
-    """Return the prepared heights of a map.
+def heights_of(surface: Map) -> Heights:
+    """Return the prepared heights of a map, read once as long as its file does not change.
 
     Raises
     ------
     InputError
         If its file holds no map that a contact can have; the message names it.
     """
+    return _loaded(surface, _stamp(surface))
+
+
+def tile_of(surface: Map) -> Tile:
+    """Return the heights of a map with what lies beyond their edges.
+
+    Raises
+    ------
+    InputError
+        As :func:`heights_of`.
+    """
+    return _tile(surface, _stamp(surface))
+
+
+def _stamp(surface: Map) -> tuple[int, int]:
+    """Return what changes when a file does: its size and when it was written."""
+    state = found_file(surface).stat()
+    return state.st_size, state.st_mtime_ns
+
+
+@lru_cache(maxsize=4)
+def _loaded(surface: Map, stamp: object) -> Heights:
+    del stamp
     path = found_file(surface)
     try:
         raw = read(path, layout=surface.layout, variable=surface.variable)
@@ -62,7 +86,24 @@ def load(surface: "Map") -> Heights:
         raise InputError(f"map {shown(surface.file)} {error}") from None
 
 
-def prepared(surface: "Map", raw: RawMap) -> Heights:
+@lru_cache(maxsize=4)
+def _tile(surface: Map, stamp: object) -> Tile:
+    heights = _loaded(surface, stamp)
+    values = heights.values
+    if surface.outside == "flat":
+        width = _TAPER * min(heights.size) if surface.taper is None else surface.taper
+        values = tapered(values, heights.pixel, width)
+    return Tile(
+        heights=values,
+        pixel=heights.pixel,
+        centre=(surface.x, surface.y),
+        angle=surface.rotate,
+        edge=surface.outside,
+        covered=heights.values.size,
+    )
+
+
+def prepared(surface: Map, raw: RawMap) -> Heights:
     """Return the heights of a file in metres, ready for a contact.
 
     Raises
@@ -107,7 +148,7 @@ def _highest(heights: Array, factor: float) -> float:
 # ---- units
 
 
-def _factor(surface: "Map", raw: RawMap, notes: list[str]) -> float:
+def _factor(surface: Map, raw: RawMap, notes: list[str]) -> float:
     """Return the factor from the heights of the file to metres."""
     stated = surface.unit or raw.unit
     if stated is None:
@@ -134,7 +175,7 @@ def _metres(unit: str, what: str, key: str) -> float:
     return factor
 
 
-def _pixel(surface: "Map", raw: RawMap, notes: list[str]) -> tuple[float, float]:
+def _pixel(surface: Map, raw: RawMap, notes: list[str]) -> tuple[float, float]:
     """Return the distances of the points of the file [m]."""
     ny, nx = raw.heights.shape
     pixel = surface.pixel
@@ -157,7 +198,7 @@ def _pixel(surface: "Map", raw: RawMap, notes: list[str]) -> tuple[float, float]
     return pixel
 
 
-def _pixel_of_file(surface: "Map", raw: RawMap, notes: list[str]) -> tuple[float, float]:
+def _pixel_of_file(surface: Map, raw: RawMap, notes: list[str]) -> tuple[float, float]:
     """Return the distances that the file has, each in its own unit or both in the one stated."""
     if raw.pixel is None or (surface.xy_unit is None and None in raw.pixel_units):
         raise InputError(_question(raw))
@@ -171,7 +212,7 @@ def _pixel_of_file(surface: "Map", raw: RawMap, notes: list[str]) -> tuple[float
     return raw.pixel[0] * x, raw.pixel[1] * y
 
 
-def _own_pixel(surface: "Map", raw: RawMap) -> tuple[float, float] | None:
+def _own_pixel(surface: Map, raw: RawMap) -> tuple[float, float] | None:
     """Return the distances that the file has [m], where it is known in which units."""
     x, y = (_known(unit or surface.xy_unit or "") for unit in raw.pixel_units)
     if raw.pixel is None or x is None or y is None:
@@ -199,7 +240,7 @@ def _pair(pixel: tuple[float, float]) -> str:
 # ---- shape
 
 
-def _oriented(surface: "Map", heights: Heights) -> Heights:
+def _oriented(surface: Map, heights: Heights) -> Heights:
     values, pixel = heights.values, heights.pixel
     if surface.transpose:
         values, pixel = values.T, (pixel[1], pixel[0])
@@ -208,7 +249,7 @@ def _oriented(surface: "Map", heights: Heights) -> Heights:
     return Heights(values=-values if surface.upside_down else values, pixel=pixel)
 
 
-def _cropped(surface: "Map", heights: Heights) -> Heights:
+def _cropped(surface: Map, heights: Heights) -> Heights:
     if surface.crop is None:
         return heights
     spans = (surface.crop.y, surface.crop.x)
@@ -232,7 +273,7 @@ def _cropped(surface: "Map", heights: Heights) -> Heights:
 # ---- heights
 
 
-def _whole(surface: "Map", values: Array, notes: list[str]) -> Array:
+def _whole(surface: Map, values: Array, notes: list[str]) -> Array:
     """Return heights without spikes and gaps."""
     values = np.where(np.isfinite(values), values, np.nan)
     gaps = int(np.isnan(values).sum())
@@ -245,7 +286,7 @@ def _whole(surface: "Map", values: Array, notes: list[str]) -> Array:
     return whole
 
 
-def _filtered(surface: "Map", values: Array, heights: Heights, notes: list[str]) -> Array:
+def _filtered(surface: Map, values: Array, heights: Heights, notes: list[str]) -> Array:
     for key, cut_off in (("lambda_c", surface.lambda_c), ("lambda_s", surface.lambda_s)):
         if cut_off is None:
             continue
@@ -261,7 +302,7 @@ def _filtered(surface: "Map", values: Array, heights: Heights, notes: list[str])
     return values
 
 
-def _check_heights(surface: "Map", values: Array, highest: float, factor: float) -> None:
+def _check_heights(surface: Map, values: Array, highest: float, factor: float) -> None:
     """Refuse heights that are none, and ask about those that no contact has."""
     if not np.ptp(values) > _ROUNDING * highest * factor:
         raise InputError("is constant: there is no roughness in it")
@@ -281,5 +322,5 @@ def _check_heights(surface: "Map", values: Array, highest: float, factor: float)
         )
 
 
-def _has_filters(surface: "Map") -> bool:
+def _has_filters(surface: Map) -> bool:
     return surface.lambda_c is not None or surface.lambda_s is not None

@@ -1,23 +1,31 @@
 """Measured surfaces: a file, what it does not say, and how its heights are prepared."""
 
 import hashlib
-from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, ValidationInfo, field_validator, model_validator
 
-from tehl.roughness.protocol import ENDLESS, Extent, Roughness, RoughnessModel, direction
-from tehl.roughness.quantities import Lengths, LengthUnit, Position, Span, Wavelength
-from tehl.roughness.sampled import Sampled
-from tehl.roughness.tile import Edge, Tile
+from tehl.roughness.model import (
+    ENDLESS,
+    Edge,
+    Extent,
+    Lengths,
+    LengthUnit,
+    Position,
+    Roughness,
+    RoughnessModel,
+    Span,
+    Wavelength,
+    direction,
+)
 from tehl.units import Angle, Height, PositiveNumber
 
 if TYPE_CHECKING:
     from tehl.roughness.prepare import Heights
+    from tehl.roughness.tile import Tile
     from tehl.typing import Array
 
-_TAPER = 0.1
 _COARSE = 10.0
 _LARGE = 20.0
 
@@ -138,36 +146,24 @@ class Map(RoughnessModel):
         return self
 
     @property
-    def is_smooth(self) -> bool:
-        """Return False: a map without heights is refused."""
-        return False
-
-    @property
-    def is_even_in_y(self) -> bool:
-        """Return False."""
-        return False
-
-    @property
     def shortest_wavelengths(self) -> tuple[float, float]:
         """Return the wavelengths 2 pi Sq / Sq' along x and along y [m]."""
-        return self._sampled.shortest_wavelengths
+        return self._tile.shortest_wavelengths
 
     @property
     def shortest_wavelength(self) -> float:
         """Return the wavelength 2 pi Sq / Sq' where it is shortest [m]."""
-        return self._sampled.shortest_wavelength
+        return self._tile.shortest_wavelength
 
     @property
     def rms(self) -> float:
         """Return Sq of the prepared heights [m], before they are tapered."""
-        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-
-        return float(np.std(self.load().values))
+        return float(self.load().values.std())
 
     @property
     def fingerprint(self) -> str:
         """Return the SHA-256 sum of the file."""
-        from tehl.roughness.loading import found_file  # noqa: PLC0415 (only where heights are)
+        from tehl.roughness.loading import found_file  # noqa: PLC0415 (a case needs no scipy)
 
         with found_file(self).open("rb") as file:
             return hashlib.file_digest(file, "sha256").hexdigest()
@@ -180,9 +176,9 @@ class Map(RoughnessModel):
         InputError
             If the file holds no map that a contact can have; the message names the file.
         """
-        from tehl.roughness.loading import found_file, stamp  # noqa: PLC0415
+        from tehl.roughness.loading import heights_of  # noqa: PLC0415
 
-        return _loaded(self, stamp(found_file(self)))
+        return heights_of(self)
 
     def extent(self, length: float) -> Extent:
         """Return where the map lies at time zero, if it ends there [m]."""
@@ -199,17 +195,17 @@ class Map(RoughnessModel):
         )
 
     def _at_rest(self, x: "Array", y: "Array") -> "Array":
-        return self._sampled.height(x, y)
+        return self._tile.height(x, y)
 
     def resolved_on(self, dx: float, dy: float) -> Roughness:
         """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
-        return self._sampled.resolved_on(dx, dy)
+        return self._tile.resolved_on(dx, dy)
 
     @property
-    def _sampled(self) -> Sampled:
-        from tehl.roughness.loading import found_file, stamp  # noqa: PLC0415
+    def _tile(self) -> "Tile":
+        from tehl.roughness.loading import tile_of  # noqa: PLC0415
 
-        return Sampled(_tile(self, stamp(found_file(self))))
+        return tile_of(self)
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
         """Return what is odd about the map beside a contact.
@@ -224,7 +220,7 @@ class Map(RoughnessModel):
         tuple of str
             Sentences, none when all is well.
         """
-        from tehl.roughness.form import question_of_form  # noqa: PLC0415 (only where heights are)
+        from tehl.roughness.prepare import question_of_form  # noqa: PLC0415
 
         heights = self.load()
         extent = _turned(heights.size, self.rotate)
@@ -265,32 +261,3 @@ def _turned(size: tuple[float, float], angle: float) -> tuple[float, float]:
 
 def _micro(first: float, second: float) -> str:
     return f"{first * 1e6:.4g} x {second * 1e6:.4g} um"
-
-
-@lru_cache(maxsize=4)
-def _loaded(surface: Map, stamp: object) -> "Heights":
-    """Return prepared heights; ``stamp`` tells another content of the same file."""
-    from tehl.roughness.loading import load  # noqa: PLC0415 (only where heights are)
-
-    del stamp
-    return load(surface)
-
-
-@lru_cache(maxsize=4)
-def _tile(surface: Map, stamp: object) -> Tile:
-    """Return the heights with what lies beyond their edges."""
-    from tehl.roughness.prepare import tapered  # noqa: PLC0415 (only where heights are)
-
-    heights = _loaded(surface, stamp)
-    values = heights.values
-    if surface.outside == "flat":
-        width = _TAPER * min(heights.size) if surface.taper is None else surface.taper
-        values = tapered(values, heights.pixel, width)
-    return Tile(
-        heights=values,
-        pixel=heights.pixel,
-        centre=(surface.x, surface.y),
-        angle=surface.rotate,
-        edge=surface.outside,
-        covered=heights.values.size,
-    )

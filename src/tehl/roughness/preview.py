@@ -1,15 +1,24 @@
-"""A measured surface at a glance: what it is, and what a mesh sees of it."""
+"""A measured surface at a glance: what it is, what a mesh sees of it, and where it lies."""
 
 from dataclasses import dataclass
+
+import numpy as np
 
 from tehl.errors import InputError
 from tehl.roughness.files import RawMap, read
 from tehl.roughness.files.raw import shown
-from tehl.roughness.form import question_of_form
 from tehl.roughness.loading import found_file
 from tehl.roughness.map import Map
-from tehl.roughness.prepare import Heights
+from tehl.roughness.model import Extent, direction
+from tehl.roughness.prepare import Heights, question_of_form
 from tehl.roughness.statistics import Spectrum, Statistics, share_beyond, spectrum, statistics
+from tehl.typing import Array
+
+_PER_PICTURE = 900
+"""Most points of a picture along an axis."""
+_WIDEST = 5.0
+"""Largest size of a picture over that of its map; beyond, the map would be a dot."""
+_MARGIN = 1.05
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -45,12 +54,8 @@ class Preview:
         Rows and columns of the file.
     missing : int
         Points of the file without a height.
-    heights : Heights
-        As they are prepared.
-    statistics : Statistics
-        Of the prepared heights.
-    spectrum : Spectrum
-        Of the prepared heights.
+    heights, statistics, spectrum
+        Prepared heights, and of those the numbers and the spectrum.
     shortest_wavelength : float
         2 pi Sq / Sq' where it is shortest [m].
     mesh : Mesh or None
@@ -90,13 +95,8 @@ def preview(surface: Map, mesh: Mesh | None = None) -> Preview:
     InputError
         As :meth:`tehl.roughness.Map.load`.
     """
-    import numpy as np  # noqa: PLC0415 (beside the arrays only)
-
-    raw = _raw(surface)
-    heights = surface.load()
-    lost: float | None = None
-    if mesh is not None:
-        lost = share_beyond(heights.values, heights.pixel, mesh.spacing)
+    raw, heights = _raw(surface), surface.load()
+    values, pixel = heights.values, heights.pixel
     return Preview(
         surface=surface,
         file=shown(surface.file),
@@ -104,11 +104,11 @@ def preview(surface: Map, mesh: Mesh | None = None) -> Preview:
         raw_shape=(raw.heights.shape[0], raw.heights.shape[1]),
         missing=int(np.sum(~np.isfinite(raw.heights))),
         heights=heights,
-        statistics=statistics(heights.values, heights.pixel),
-        spectrum=spectrum(heights.values, heights.pixel),
+        statistics=statistics(values, pixel),
+        spectrum=spectrum(values, pixel),
         shortest_wavelength=surface.shortest_wavelength,
         mesh=mesh,
-        lost=lost,
+        lost=None if mesh is None else share_beyond(values, pixel, mesh.spacing),
         sentences=_questions(surface, heights, mesh),
     )
 
@@ -126,3 +126,72 @@ def _raw(surface: Map) -> RawMap:
         return read(path, layout=surface.layout, variable=surface.variable)
     except InputError as error:
         raise InputError(f"map {shown(surface.file)} {error}") from None
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
+class View:
+    """Heights in a window.
+
+    Attributes
+    ----------
+    values : (ny, nx) array
+        Heights [m], rows along x.
+    window : ((left, right), (bottom, top))
+        The edges [m], in the coordinates of the contact.
+    corners : (4, 2) array or None
+        x and y of the corners of the map, where the window is not the map itself [m].
+    """
+
+    values: Array
+    window: Extent
+    corners: Array | None = None
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Return the lengths of the window along x and y [m]."""
+        (left, right), (bottom, top) = self.window
+        return right - left, top - bottom
+
+
+def view(found: Preview) -> View:
+    """Return the heights of a map where it lies at time zero.
+
+    Without a contact beside it, and neither turned nor moved, these are the points of the map.
+    Otherwise they are what the contact gets, with what lies beyond the edges of the map.
+    """
+    surface = found.surface
+    if found.mesh is None and not any((surface.rotate, surface.x, surface.y)):
+        values = found.heights.values
+        steps = [max(1, count // _PER_PICTURE) for count in values.shape]
+        return View(values=values[:: steps[0], :: steps[1]], window=surface.box)
+    window = _window(found)
+    x, y = (_places(*ends, step) for ends, step in zip(window, found.heights.pixel, strict=True))
+    values = surface.height(x[None, :], y[:, None])
+    return View(values=values, window=window, corners=_corners(surface))
+
+
+def _window(found: Preview) -> Extent:
+    """Return a window around the map, and around the contact unless the map would be a dot."""
+    box = found.surface.box
+    if found.mesh is None:
+        return box
+    halves = [_MARGIN * half for half in found.mesh.half_widths]
+    x, y = (
+        (min(start, -half), max(end, half)) for (start, end), half in zip(box, halves, strict=True)
+    )
+    longest = [max(end - start for start, end in one) for one in ((x, y), box)]
+    return (x, y) if longest[0] <= _WIDEST * longest[1] else box
+
+
+def _places(start: float, end: float, step: float) -> Array:
+    """Return the middles of the pixels of a picture, the points of the map where they suffice."""
+    count = int(np.clip(round((end - start) / step), 2, _PER_PICTURE))
+    return start + (np.arange(count) + 0.5) * (end - start) / count
+
+
+def _corners(surface: Map) -> Array:
+    """Return x and y of the corners of a map [m]."""
+    cosine, sine = direction(surface.rotate)
+    signs = np.array([(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)])
+    turn = np.array([[cosine, -sine], [sine, cosine]])  # by which x and y are those of the map
+    return (signs * surface.load().size) @ turn + (surface.x, surface.y)

@@ -1,18 +1,15 @@
 """Random surfaces by their spectrum."""
 
 import math
-from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from tehl.roughness.protocol import Roughness, RoughnessModel, check_gentle, direction
-from tehl.roughness.quantities import Wavelength
-from tehl.roughness.sampled import Sampled
-from tehl.roughness.tile import Tile
+from tehl.roughness.model import Roughness, RoughnessModel, Wavelength, check_gentle, direction
 from tehl.units import Angle, Height, Number, PositiveNumber
 
 if TYPE_CHECKING:
+    from tehl.roughness.tile import Tile
     from tehl.typing import Array
 
 _PER_CORRELATION_LENGTH = 4
@@ -157,7 +154,7 @@ class Random(RoughnessModel):
         return self.roll_off / self.cut_off if self.cut_off is not None else _WIDE
 
     @property
-    def _layout(self) -> tuple[int, tuple[float, float]]:
+    def lattice(self) -> tuple[int, tuple[float, float]]:
         """Return points per direction and pixels [m] of the lattice."""
         finest = _PER_CORRELATION_LENGTH if self.spectrum == "gaussian" else _PER_CUT_OFF
         along, across = (length / self._band / finest for length in self._lengths)
@@ -166,18 +163,13 @@ class Random(RoughnessModel):
     @property
     def period(self) -> tuple[float, float]:
         """Return the distances after which the surface repeats, along u and v [m]."""
-        points, (along, across) = self._layout
+        points, (along, across) = self.lattice
         return points * along, points * across
 
     @property
     def is_smooth(self) -> bool:
         """Return whether Sq is zero."""
         return self.rms == 0
-
-    @property
-    def is_even_in_y(self) -> bool:
-        """Return False, unless the surface is smooth."""
-        return self.is_smooth
 
     @property
     def shortest_wavelengths(self) -> tuple[float, float]:
@@ -214,15 +206,17 @@ class Random(RoughnessModel):
         return square / first**2, square / second**2
 
     @property
-    def _sampled(self) -> Sampled:
-        return Sampled(_tile(self))
+    def _tile(self) -> "Tile":
+        from tehl.roughness.random_heights import tile_of  # noqa: PLC0415 (scipy)
+
+        return tile_of(self)
 
     def _at_rest(self, x: "Array", y: "Array") -> "Array":
-        return _tile(self).at(x, y)
+        return self._tile.height(x, y)
 
     def resolved_on(self, dx: float, dy: float) -> Roughness:
         """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
-        return self._sampled.resolved_on(dx, dy)
+        return self._tile.resolved_on(dx, dy)
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
         """Return a sentence if the surface repeats within a contact of these lengths [m]."""
@@ -236,7 +230,7 @@ class Random(RoughnessModel):
 
     def density(self, along: "Array", across: "Array") -> "Array":
         """Return the power spectral density, one at zero, by wave numbers along u and v [rad/m]."""
-        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
+        import numpy as np  # noqa: PLC0415 (a case is stated without arrays)
 
         first, second = self._lengths
         if self.spectrum == "gaussian":
@@ -248,25 +242,3 @@ class Random(RoughnessModel):
 
 def _length(square: float) -> float:
     return 2.0 * math.pi / math.sqrt(square) if square > 0 else math.inf
-
-
-@lru_cache(maxsize=4)
-def _tile(surface: Random) -> Tile:
-    """Return one period of a random surface."""
-    import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-    from scipy import fft  # noqa: PLC0415
-
-    points, pixel = surface._layout
-    noise = np.random.default_rng(surface.seed).standard_normal((points, points))
-    along, across = (2.0 * np.pi / step for step in pixel)
-    density = surface.density(
-        along * fft.rfftfreq(points), across * fft.fftfreq(points)[:, np.newaxis]
-    )
-    density[0, 0] = 0.0
-    heights = fft.irfft2(fft.rfft2(noise) * np.sqrt(density), (points, points))
-    heights /= np.sqrt(np.mean(np.square(heights)))
-    if (surface.skewness, surface.kurtosis) != (0.0, 3.0):
-        from tehl.roughness.moments import with_moments  # noqa: PLC0415
-
-        heights = with_moments(heights, surface.skewness, surface.kurtosis)
-    return Tile(heights=surface.rms * heights, pixel=pixel, angle=surface.angle)

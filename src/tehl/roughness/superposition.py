@@ -1,25 +1,32 @@
-"""Several surfaces on top of each other."""
+"""Sums of surfaces, and what a case file may state under ``roughness``."""
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from tehl.roughness.protocol import Roughness
-from tehl.roughness.waves import HarmonicModel, WaveVector, are_even, root_mean_square
+from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, core_schema
+
+from tehl.roughness.features import Bump, Dimple, Ridge
+from tehl.roughness.map import Map
+from tehl.roughness.model import Roughness, RoughnessModel, Smooth
+from tehl.roughness.random_surface import Random
+from tehl.roughness.waves import (
+    Crossed,
+    HarmonicModel,
+    Wave,
+    WaveVector,
+    are_even,
+    root_mean_square,
+)
 
 if TYPE_CHECKING:
     from tehl.typing import Array
 
 
-@dataclass(frozen=True, slots=True)
-class Superposition:
-    """The sum of surfaces of any kind.
-
-    Attributes
-    ----------
-    parts : tuple of Roughness
-        What is added.
-    """
+class _Added:
+    """Several surfaces on top of each other."""
 
     parts: tuple[Roughness, ...]
 
@@ -52,7 +59,7 @@ class Superposition:
 
     def height(self, x: "Array", y: "Array", time: float = 0.0, speed: float = 0.0) -> "Array":
         """Return the sum of the heights [m], as :meth:`tehl.roughness.Wave.height`."""
-        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
+        import numpy as np  # noqa: PLC0415 (a case is stated without arrays)
 
         total = np.zeros(np.broadcast_shapes(np.shape(x), np.shape(y)))
         for part in self.parts:
@@ -71,3 +78,63 @@ class Superposition:
     @property
     def _others(self) -> list[Roughness]:
         return [part for part in self.parts if not isinstance(part, HarmonicModel)]
+
+
+@dataclass(frozen=True)
+class Superposition(_Added):
+    """The sum of surfaces of any kind, also as a mesh carries them."""
+
+    parts: tuple[Roughness, ...]
+
+
+OneRoughness = Annotated[
+    Smooth | Wave | Crossed | Ridge | Bump | Dimple | Random | Map, Field(discriminator="type")
+]
+"""A surface that is not a sum."""
+
+
+class Sum(_Added, RoughnessModel):
+    """The sum of several surfaces; in a case file, a list of tables.
+
+    Attributes
+    ----------
+    parts : tuple of surfaces
+        What is added.
+    """
+
+    type: Literal["sum"] = "sum"
+    parts: tuple[OneRoughness, ...]
+
+    def fits(self, width: float, length: float) -> tuple[str, ...]:
+        """Return what is odd about the parts beside a contact of ``width`` by ``length`` [m]."""
+        return tuple(line for part in self.parts for line in part.fits(width, length))
+
+
+class _ListIsSum:
+    """Metadata of a field: read a list of tables as their sum."""
+
+    def __get_pydantic_core_schema__(
+        self, source: object, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        """Read a list before pydantic looks for its type."""
+        return core_schema.no_info_before_validator_function(_as_table, handler(source))
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        """Describe the field as a table or a list of tables."""
+        table = handler(schema)
+        return {"anyOf": [table, {"type": "array", "items": table}]}
+
+
+def _as_table(value: Any) -> Any:
+    """Return a list as the table of a sum, anything else as it is."""
+    return {"type": "sum", "parts": value} if isinstance(value, list | tuple) else value
+
+
+AnyRoughness = Annotated[
+    Smooth | Wave | Crossed | Ridge | Bump | Dimple | Random | Map | Sum,
+    Field(discriminator="type"),
+    _ListIsSum(),
+]
+"""Type of the field ``roughness``."""

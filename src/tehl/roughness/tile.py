@@ -1,27 +1,36 @@
-"""Heights on a lattice, and the smooth surface between its points.
+"""Heights on a lattice, the smooth surface between its points, and what a mesh can carry of it.
 
 A tile is what random surfaces and measured maps become: heights at equal distances, a cubic
-B-spline through them, and a rule for what lies beyond its edges.
+B-spline through them, and a rule for what lies beyond its edges. Waves that a mesh cannot carry are
+filtered off: those of four mesh widths and more pass, those of two and less do not, with a cosine
+between.
 """
 
 import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
 
-from tehl.roughness.lowpass import KEPT, is_roomy, low_passed, low_passed_with_room, room
-from tehl.roughness.protocol import direction
+import numpy as np
+from scipy import fft, ndimage
 
-if TYPE_CHECKING:
-    from tehl.typing import Array, IntArray
+from tehl.roughness.model import Edge, direction
+from tehl.typing import Array, IntArray
 
-Edge = Literal["periodic", "mirror", "flat"]
-"""What lies beyond the edges: the tile again, its mirror image, or nothing."""
+KEPT, LOST = 0.25, 0.5
+"""Waves per mesh width up to which all of a wave passes, and from which nothing does."""
+_FADED = 6
+"""Mesh widths in which filtered heights fade into a flat rim."""
+_ROOM, _TIMES = 4_000_000, 4
+"""Points of a tile with its rim, and over those without, above which it is coarsened."""
+_PER_MESH = 16
+"""Points per mesh width of a coarsened tile."""
+
+Pair = tuple[float, float]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Tile:
-    """Heights on a lattice.
+    """Heights on a lattice, as :class:`tehl.roughness.Roughness`.
 
     Attributes
     ----------
@@ -36,29 +45,57 @@ class Tile:
     edge : {"periodic", "mirror", "flat"}
         What lies beyond the edges. Heights that are to be flat there must end at zero.
     covered : float or None
-        Points that are no flat rim, over which Sq is taken, no whole number where they were of
+        Points without a flat rim, over which Sq is taken, not a whole number where they were of
         another lattice; None is all.
     """
 
-    heights: "Array" = field(repr=False)
-    pixel: tuple[float, float]
-    centre: tuple[float, float] = (0.0, 0.0)
+    heights: Array = field(repr=False)
+    pixel: Pair
+    centre: Pair = (0.0, 0.0)
     angle: float = 0.0
     edge: Edge = "periodic"
     covered: float | None = None
 
     @property
-    def size(self) -> tuple[float, float]:
+    def size(self) -> Pair:
         """Return the lengths of the edges [m]."""
         ny, nx = self.heights.shape
         return nx * self.pixel[0], ny * self.pixel[1]
 
-    def at(self, x: "Array", y: "Array") -> "Array":
-        """Return the heights [m] at ``x`` and ``y`` [m] of the body, which broadcast."""
-        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
+    @property
+    def is_smooth(self) -> bool:
+        """Return whether the height is zero everywhere."""
+        return not self.rms > 0
 
+    @property
+    def is_even_in_y(self) -> bool:
+        """Return whether the surface is smooth: heights on a lattice are not mirrored exactly."""
+        return self.is_smooth
+
+    @cached_property
+    def rms(self) -> float:
+        """Root mean square height Sq, without a flat rim [m]."""
+        return math.sqrt(float(np.sum(np.square(self.heights))) / self._covered)
+
+    @property
+    def _covered(self) -> float:
+        return self.covered or self.heights.size
+
+    @property
+    def shortest_wavelengths(self) -> Pair:
+        """Return the wavelengths 2 pi Sq / Sq' along x and along y [m]."""
+        return self._wavelengths[:2]
+
+    @property
+    def shortest_wavelength(self) -> float:
+        """Return the wavelength 2 pi Sq / Sq' where it is shortest [m]."""
+        return self._wavelengths[2]
+
+    def height(self, x: Array, y: Array, time: float = 0.0, speed: float = 0.0) -> Array:
+        """Return the heights [m], as :meth:`tehl.roughness.Wave.height`."""
         cosine, sine = direction(self.angle)
-        x, y = x - self.centre[0], y - self.centre[1]
+        x = np.asarray(x, np.float64) - speed * time - self.centre[0]
+        y = np.asarray(y, np.float64) - self.centre[1]
         along = x * cosine - y * sine if sine else x * cosine
         across = y * cosine + x * sine if sine else y * cosine
         ny, nx = self.heights.shape
@@ -73,68 +110,77 @@ class Tile:
         return total
 
     @cached_property
-    def _coefficients(self) -> "Array":
+    def _coefficients(self) -> Array:
         """Coefficients of the B-spline, with a row and a column of zeros for what lies outside."""
-        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-        from scipy import ndimage  # noqa: PLC0415
-
         mode = "grid-wrap" if self.edge == "periodic" else "reflect"
-        inside = ndimage.spline_filter(self.heights, order=3, mode=mode)
-        return np.pad(inside, ((0, 1), (0, 1)))
+        return np.pad(ndimage.spline_filter(self.heights, order=3, mode=mode), ((0, 1), (0, 1)))
 
-    def filtered(self, dx: float, dy: float) -> "Tile":
+    def resolved_on(self, dx: float, dy: float) -> "Tile":
         """Return the tile without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry.
 
-        Waves of four mesh widths and more pass whole, those of two and less not at all, with a
-        cosine between; the tile itself is returned when it has nothing shorter.
+        The tile itself is returned when it has nothing shorter.
         """
         cosine, sine = direction(self.angle)
-        turned = sine != 0 and cosine != 0
-        mesh = (max(dx, dy),) * 2 if turned else (dx, dy) if sine == 0 else (dy, dx)
+        radial = sine != 0 and cosine != 0
+        mesh = (max(dx, dy),) * 2 if radial else (dx, dy) if sine == 0 else (dy, dx)
         if all(0.5 * step / own <= KEPT for step, own in zip(mesh, self.pixel, strict=True)):
             return self
-        if self.edge == "flat" and is_roomy(self.heights.shape, room(self.pixel, mesh)):
-            return self._coarsened(mesh, radial=turned)
-        tile = self._with_room(mesh) if self.edge == "flat" else self
-        heights = low_passed(
-            tile.heights, tile.size, mesh, periodic=self.edge == "periodic", radial=turned
-        )
-        return replace(tile, heights=heights)
+        if self.edge == "flat":
+            x, y = rim = _rim(self.pixel, mesh)
+            if is_roomy(self.heights.shape, rim):
+                return self._coarsened(mesh, rim, radial=radial)
+            rimmed = np.pad(self.heights, ((y, y), (x, x)))
+            tile = replace(self, heights=rimmed, covered=self._covered)
+        else:
+            tile = self
+        return replace(tile, heights=tile._low_passed(mesh, radial=radial))
 
-    def _with_room(self, mesh: tuple[float, float]) -> "Tile":
-        """Return the tile with a flat rim, into which filtered heights fade."""
-        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
+    def _low_passed(self, mesh: Pair, *, radial: bool) -> Array:
+        """Return the heights without waves that are short for a mesh [m].
 
-        x, y = room(self.pixel, mesh)
-        covered = self.covered or self.heights.size
-        return replace(self, heights=np.pad(self.heights, ((y, y), (x, x))), covered=covered)
+        ``radial``: a wave is judged by its length, not by that along x and that along y.
+        """
+        (ny, nx), (width, height) = self.heights.shape, self.size
+        if self.edge == "periodic":
+            x, y = fft.rfftfreq(nx) * nx / width, np.abs(fft.fftfreq(ny)) * ny / height
+            spectrum = fft.rfft2(self.heights) * _response(x, y, mesh, radial=radial)
+            return fft.irfft2(spectrum, (ny, nx))
+        x, y = np.arange(nx) / (2.0 * width), np.arange(ny) / (2.0 * height)
+        spectrum = fft.dctn(self.heights, type=2) * _response(x, y, mesh, radial=radial)
+        return fft.idctn(spectrum, type=2)
 
-    def _coarsened(self, mesh: tuple[float, float], *, radial: bool) -> "Tile":
+    def _coarsened(self, mesh: Pair, rim: tuple[int, int], *, radial: bool) -> "Tile":
         """Return the filtered tile with its rim on a lattice of a part of the mesh.
 
-        A map whose points are nanometres apart has, on a mesh of micrometres, a rim of as many
-        points as no memory holds.
+        A map whose points are nanometres apart would have, on a mesh of micrometres, a rim too
+        large for any memory. So the few waves that pass are summed over the heights alone.
         """
-        heights, pixel = low_passed_with_room(self.heights, self.pixel, mesh, radial=radial)
-        area = (self.covered or self.heights.size) * self.pixel[0] * self.pixel[1]
+        shape = self.heights.shape[::-1]
+        whole = [count + 2 * points for count, points in zip(shape, rim, strict=True)]
+        lengths = [count * step for count, step in zip(whole, self.pixel, strict=True)]
+        kept, (nx, ny) = (
+            [
+                min(count, math.ceil(per_mesh * length / step))
+                for count, length, step in zip(whole, lengths, mesh, strict=True)
+            ]
+            for per_mesh in (2.0 * LOST, _PER_MESH)
+        )
+        along, across = (_cosines(kept[k], shape[k], rim[k], whole[k]) for k in (0, 1))
+        x, y = (np.arange(kept[k]) / (2.0 * lengths[k]) for k in (0, 1))
+        spectrum = (across @ self.heights @ along.T) * _response(x, y, mesh, radial=radial)
+        spectrum *= nx * ny / (whole[0] * whole[1])
+        heights = fft.idctn(np.pad(spectrum, ((0, ny - kept[1]), (0, nx - kept[0]))), type=2)
+        pixel = (lengths[0] / nx, lengths[1] / ny)
+        area = self._covered * self.pixel[0] * self.pixel[1]
         return replace(self, heights=heights, pixel=pixel, covered=area / (pixel[0] * pixel[1]))
 
     @cached_property
-    def mean_square(self) -> float:
-        """Mean square height, without a flat rim [m^2]."""
-        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-
-        return float(np.sum(np.square(self.heights))) / (self.covered or self.heights.size)
-
-    @cached_property
-    def wavelengths(self) -> tuple[float, float, float]:
+    def _wavelengths(self) -> tuple[float, float, float]:
         """Wavelengths 2 pi Sq / Sq' along x, along y and where it is shortest [m].
 
         Sq' is the root mean square slope in that direction, so this is the wave that is as steep
         as the surface. Infinite where the surface does not change.
         """
-        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-
         (xx, xy), (_, yy) = self._slopes()
         cosine, sine = direction(self.angle)
         turn = np.array([[cosine, sine], [-sine, cosine]])
@@ -147,10 +193,8 @@ class Tile:
         )
         return along, across, least
 
-    def _slopes(self) -> tuple[tuple[float, float], tuple[float, float]]:
+    def _slopes(self) -> tuple[Pair, Pair]:
         """Return the mean products of the slopes along rows and columns [-]."""
-        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-
         wrap = "wrap" if self.edge == "periodic" else "edge"
         heights = np.pad(self.heights, ((0, 1), (0, 1)), mode=wrap)  # type: ignore[call-overload]
         x, y = np.diff(heights, axis=1) / self.pixel[0], np.diff(heights, axis=0) / self.pixel[1]
@@ -158,14 +202,14 @@ class Tile:
         return (float(np.mean(x[:-1] ** 2)), both), (both, float(np.mean(y[:, :-1] ** 2)))
 
 
-Support = list[tuple["IntArray", "Array"]]
+# ---- the spline between the points
+
+Support = list[tuple[IntArray, Array]]
 """Indices of the four lattice points around each place, and the weights of their splines."""
 
 
-def _support(place: "Array", count: int, edge: Edge) -> Support:
+def _support(place: Array, count: int, edge: Edge) -> Support:
     """Return which points carry each ``place``, counted in pixels, and with what weight."""
-    import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-
     first = np.floor(np.clip(place, -1e15, 1e15)).astype(np.int64)
     t = place - first
     weights = (
@@ -177,10 +221,8 @@ def _support(place: "Array", count: int, edge: Edge) -> Support:
     return [(_inside(first + k - 1, count, edge), weight) for k, weight in enumerate(weights)]
 
 
-def _inside(index: "IntArray", count: int, edge: Edge) -> "IntArray":
+def _inside(index: IntArray, count: int, edge: Edge) -> IntArray:
     """Return indices into the lattice; ``count`` is the row or column of zeros."""
-    import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-
     if edge == "periodic":
         return index % count
     if edge == "mirror":
@@ -189,10 +231,8 @@ def _inside(index: "IntArray", count: int, edge: Edge) -> "IntArray":
     return np.where((index >= 0) & (index < count), index, count)
 
 
-def _on_a_mesh(coefficients: "Array", rows: Support, columns: Support) -> "Array":
+def _on_a_mesh(coefficients: Array, rows: Support, columns: Support) -> Array:
     """Return the spline where rows and columns of a mesh cross: one axis after the other."""
-    import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-
     across = np.zeros((rows[0][0].shape[0], coefficients.shape[1]))
     for row, weight in rows:
         across += weight * coefficients[row[:, 0]]
@@ -200,3 +240,37 @@ def _on_a_mesh(coefficients: "Array", rows: Support, columns: Support) -> "Array
     for column, weight in columns:
         total += weight * across[:, column[0]]
     return total
+
+
+# ---- the filter of a mesh
+
+
+def _rim(pixel: Pair, mesh: Pair) -> tuple[int, int]:
+    """Return the points of the flat rim along x and y into which filtered heights fade."""
+    x, y = (math.ceil(_FADED * step / own) for step, own in zip(mesh, pixel, strict=True))
+    return x, y
+
+
+def is_roomy(shape: tuple[int, ...], rim: tuple[int, int]) -> bool:
+    """Return whether heights with a rim of so many points are many times the heights themselves."""
+    ny, nx = shape
+    return (ny + 2 * rim[1]) * (nx + 2 * rim[0]) > max(_TIMES * ny * nx, _ROOM)
+
+
+def _cosines(waves: int, count: int, rim: int, whole: int) -> Array:
+    """Return the first rows of a cosine transform of ``whole`` points, where it is not flat."""
+    places = (np.arange(count) + rim + 0.5) / whole
+    return 2.0 * np.cos(np.pi * np.arange(waves)[:, None] * places)
+
+
+def _response(x: Array, y: Array, mesh: Pair, *, radial: bool) -> Array:
+    """Return which part of each wave passes, by its waves per metre along x and y."""
+    if radial:
+        return _passed(np.hypot(x, y[:, None]) * mesh[0])
+    return _passed(x * mesh[0]) * _passed(y * mesh[1])[:, None]
+
+
+def _passed(frequency: Array) -> Array:
+    """Return which part of a wave passes, by waves per mesh width."""
+    beyond = np.clip((frequency - KEPT) / (LOST - KEPT), 0.0, 1.0)
+    return np.cos(0.5 * np.pi * beyond) ** 2

@@ -5,8 +5,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, Self
 
 from pydantic import model_validator
 
-from tehl.roughness.protocol import RoughnessModel, check_gentle, direction
-from tehl.roughness.quantities import Wavelength
+from tehl.roughness.model import RoughnessModel, Wavelength, check_gentle, direction
 from tehl.units import Angle, Height
 
 if TYPE_CHECKING:
@@ -93,7 +92,7 @@ class HarmonicModel(RoughnessModel):
         return [wave for wave in self.components if wave.amplitude > 0]
 
     def _at_rest(self, x: "Array", y: "Array") -> "Array":
-        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
+        import numpy as np  # noqa: PLC0415 (a case is stated without arrays)
 
         total = np.zeros(np.broadcast_shapes(x.shape, y.shape))
         for wave in self._present:

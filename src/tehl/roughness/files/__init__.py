@@ -4,9 +4,7 @@ import stat
 from pathlib import Path
 
 from tehl.errors import InputError
-from tehl.roughness.files.instrument import FORMATS, read_instrument
-from tehl.roughness.files.netcdf import read_netcdf
-from tehl.roughness.files.npy import read_npy
+from tehl.roughness.files.libraries import FORMATS, read_instrument, read_netcdf, read_npy
 from tehl.roughness.files.raw import LARGEST_FILE, RawMap
 from tehl.roughness.files.text import Layout, read_text
 from tehl.roughness.files.x3p import read_x3p
@@ -48,7 +46,7 @@ def read(path: Path, *, layout: Layout = "auto", variable: str | None = None) ->
     if ending in FORMATS:
         return read_instrument(path)
     raise InputError(
-        f"has an ending that says no format of heights: known are {', '.join(ENDINGS)}"
+        f"has an ending that is not a format of heights: known are {', '.join(ENDINGS)}"
     )
 
 
@@ -71,7 +69,7 @@ def checked(file: str) -> Path:
     if stat.S_ISDIR(found.st_mode):
         raise InputError("is a folder, not a file of heights")
     if not stat.S_ISREG(found.st_mode):
-        raise InputError("is no regular file")
+        raise InputError("is not a regular file")
     if found.st_size == 0:
         raise InputError("is empty")
     if found.st_size > LARGEST_FILE:

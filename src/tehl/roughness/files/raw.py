@@ -3,17 +3,19 @@
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
+
+import numpy as np
 
 from tehl.errors import InputError
-
-if TYPE_CHECKING:
-    from tehl.typing import Array
+from tehl.typing import Array
 
 LARGEST_MAP = 36_000_000
 """Points of a map."""
 LARGEST_FILE = 2 * 10**9
 """Bytes of a file."""
+HDF5 = b"\x89HDF"
+"""The first bytes of a file in HDF5."""
 _TOLERANCE = 1e-3
 
 
@@ -35,7 +37,7 @@ class RawMap:
         What the file is, for people.
     """
 
-    heights: "Array"
+    heights: Array
     kind: str
     unit: str | None = None
     pixel: tuple[float, float] | None = None
@@ -63,7 +65,7 @@ def check_bytes(there: int, needed: int, shape: tuple[int, ...]) -> None:
         )
 
 
-def step(places: "Array", axis: str) -> float:
+def step(places: Array, axis: str) -> float:
     """Return the distance of equidistant places.
 
     Raises
@@ -71,8 +73,6 @@ def step(places: "Array", axis: str) -> float:
     InputError
         If they are not equidistant and rising, or fewer than two.
     """
-    import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-
     distances = np.diff(places)
     if distances.size == 0:
         raise InputError(f"has one point along {axis}, which is no map")
@@ -80,6 +80,33 @@ def step(places: "Array", axis: str) -> float:
     if not (mean > 0 and np.abs(distances - mean).max() <= _TOLERANCE * mean):
         raise InputError(f"has points along {axis} that do not follow at equal, rising distances")
     return mean
+
+
+def check_hdf5(path: Path) -> None:
+    """Refuse HDF5 with data in other files; raise what h5py does where h5netcdf would warn.
+
+    Raises
+    ------
+    InputError
+        If a part of the file lies in another one, which a map must not read.
+    """
+    import h5py  # noqa: PLC0415
+
+    def leads_out(_: str, link: Any) -> bool | None:
+        return isinstance(link, h5py.ExternalLink) or None
+
+    def lies_outside(_: str, thing: Any) -> bool | None:
+        is_table = isinstance(thing, h5py.Dataset)
+        return (is_table and (thing.is_virtual or thing.external is not None)) or None
+
+    with h5py.File(path, "r") as file:
+        list(file.attrs.items())
+        # neither follows an external link; both stop at the first True, and go on after None
+        if file.visititems_links(leads_out) or file.visititems(lies_outside):
+            raise InputError(
+                "has data in another file (external storage, an external link or a virtual "
+                "dataset), and a map is read from its own file only: copy all into one file"
+            )
 
 
 def shown(path: str | Path) -> str:

@@ -1,9 +1,14 @@
-"""Heights with a given skewness and kurtosis, by a monotone transformation of Gaussian ones."""
+"""Heights of a random surface: filtered noise, with a given skewness and kurtosis."""
+
+from functools import lru_cache
 
 import numpy as np
+from scipy import fft
 from scipy.optimize import least_squares
 
 from tehl.errors import InputError
+from tehl.roughness.random_surface import Random
+from tehl.roughness.tile import Tile
 from tehl.typing import Array
 
 _BINS = 4001
@@ -11,12 +16,29 @@ _STARTS = (0.0, 1.0, 3.0)
 _MISSED = 1e-3
 
 
+@lru_cache(maxsize=4)
+def tile_of(surface: Random) -> Tile:
+    """Return one period of a random surface."""
+    points, pixel = surface.lattice
+    noise = np.random.default_rng(surface.seed).standard_normal((points, points))
+    along, across = (2.0 * np.pi / step for step in pixel)
+    density = surface.density(
+        along * fft.rfftfreq(points), across * fft.fftfreq(points)[:, np.newaxis]
+    )
+    density[0, 0] = 0.0
+    heights = fft.irfft2(fft.rfft2(noise) * np.sqrt(density), (points, points))
+    heights /= np.sqrt(np.mean(np.square(heights)))
+    if (surface.skewness, surface.kurtosis) != (0.0, 3.0):
+        heights = with_moments(heights, surface.skewness, surface.kurtosis)
+    return Tile(heights=surface.rms * heights, pixel=pixel, angle=surface.angle)
+
+
 def with_moments(heights: Array, skewness: float, kurtosis: float) -> Array:
-    r"""Return heights with the wanted moments, each peak still a peak.
+    r"""Return heights with given moments by a monotone transformation [1]_: each peak stays one.
 
     .. math:: t(z) = \sinh\frac{\operatorname{arsinh} z + \epsilon}{\delta}
 
-    with the two parameters that the heights themselves need, not a Gaussian distribution.
+    with the two parameters that these heights need, not those of a Gaussian distribution.
 
     Parameters
     ----------

@@ -1,0 +1,269 @@
+"""What the solver requires of a rough surface, and what the models of it share.
+
+Heights are positive outwards: a peak of either surface makes the film thinner. Coordinates are
+those of the contact, x along entrainment; a surface carries its heights along x at its speed.
+"""
+
+import math
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Protocol
+
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    GetCoreSchemaHandler,
+    GetJsonSchemaHandler,
+)
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, core_schema
+
+from tehl.units import Length, Quantity, quantity
+
+if TYPE_CHECKING:
+    from tehl.typing import Array
+
+_ROUNDING = 1e-12
+_STEEPEST = 0.25
+
+Extent = tuple[tuple[float, float], tuple[float, float]]
+"""From where to where a surface is rough along x and along y [m], perhaps without end."""
+ENDLESS: Extent = ((-math.inf, math.inf), (-math.inf, math.inf))
+Edge = Literal["periodic", "mirror", "flat"]
+"""What lies beyond the edges of a map: the map again, its mirror image, or nothing."""
+
+
+class Roughness(Protocol):
+    """Heights of one surface."""
+
+    @property
+    def is_smooth(self) -> bool:
+        """Return whether the height is zero everywhere."""
+        ...
+
+    @property
+    def is_even_in_y(self) -> bool:
+        """Return whether the heights mirror at y = 0, so that half of the domain may be solved."""
+        ...
+
+    @property
+    def shortest_wavelengths(self) -> tuple[float, float]:
+        """Return the shortest wavelengths along x and along y [m]; infinite where there is none."""
+        ...
+
+    @property
+    def shortest_wavelength(self) -> float:
+        """Return the shortest wavelength in whatever direction [m]; infinite when smooth."""
+        ...
+
+    @property
+    def rms(self) -> float:
+        """Return the root mean square height Sq [m]; zero for features that stand alone."""
+        ...
+
+    def height(self, x: "Array", y: "Array", time: float = 0.0, speed: float = 0.0) -> "Array":
+        """Return the heights [m] at ``x`` and ``y`` [m], which broadcast."""
+        ...
+
+    def resolved_on(self, dx: float, dy: float) -> "Roughness":
+        """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
+        ...
+
+
+class RoughnessModel(BaseModel):
+    """Base of the surfaces of a case file; a formula is exact on every mesh."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
+    @property
+    def is_smooth(self) -> bool:
+        """Return whether the height is zero everywhere."""
+        return False
+
+    @property
+    def is_even_in_y(self) -> bool:
+        """Return whether the heights mirror at y = 0."""
+        return self.is_smooth
+
+    @property
+    def shortest_wavelengths(self) -> tuple[float, float]:
+        """Return the shortest wavelengths along x and along y [m]; infinite where there is none."""
+        raise NotImplementedError
+
+    @property
+    def shortest_wavelength(self) -> float:
+        """Return the shortest wavelength in whatever direction [m]."""
+        raise NotImplementedError
+
+    def extent(self, length: float) -> Extent:
+        """Return where the surface is rough at time zero, between y = -``length`` and ``length``.
+
+        Of features, where more than two per cent of their height are left.
+        """
+        del length
+        return ENDLESS
+
+    def height(self, x: "Array", y: "Array", time: float = 0.0, speed: float = 0.0) -> "Array":
+        """Return the heights at a time.
+
+        Parameters
+        ----------
+        x, y : arrays that broadcast
+            Coordinates of the contact [m], x along entrainment.
+        time : float
+            [s]; at zero the surface lies as it was stated.
+        speed : float
+            Speed of the surface along x [m/s].
+
+        Returns
+        -------
+        Array
+            Heights in the broadcast shape [m], positive outwards.
+        """
+        import numpy as np  # noqa: PLC0415 (a case is stated without arrays)
+
+        along = np.asarray(x, dtype=np.float64) - speed * time
+        return self._at_rest(along, np.asarray(y, dtype=np.float64))
+
+    def _at_rest(self, x: "Array", y: "Array") -> "Array":
+        """Return the heights [m] in the coordinates of the body [m]."""
+        raise NotImplementedError
+
+    def resolved_on(self, dx: float, dy: float) -> Roughness:
+        """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
+        del dx, dy
+        return self  # type: ignore[return-value]  # rms is a field of some and a property of others
+
+    def fits(self, width: float, length: float) -> tuple[str, ...]:
+        """Return sentences on what is odd beside a contact of ``width`` by ``length`` [m]."""
+        del width, length
+        return ()
+
+
+class Smooth(RoughnessModel):
+    """A surface without roughness."""
+
+    type: Literal["smooth"] = "smooth"
+
+    @property
+    def is_smooth(self) -> bool:
+        """Return True."""
+        return True
+
+    @property
+    def shortest_wavelengths(self) -> tuple[float, float]:
+        """Return infinity along both axes [m]."""
+        return math.inf, math.inf
+
+    @property
+    def shortest_wavelength(self) -> float:
+        """Return infinity [m]."""
+        return math.inf
+
+    @property
+    def rms(self) -> float:
+        """Return zero [m]."""
+        return 0.0
+
+    def _at_rest(self, x: "Array", y: "Array") -> "Array":
+        return 0.0 * (x + y)
+
+
+def direction(angle: float) -> tuple[float, float]:
+    """Return cosine and sine of ``angle`` [rad], exact at multiples of a right angle."""
+    return tuple(_snapped(value) for value in (math.cos(angle), math.sin(angle)))  # type: ignore[return-value]
+
+
+def _snapped(value: float) -> float:
+    nearest = round(value)
+    return float(nearest) if abs(value - nearest) < _ROUNDING else value
+
+
+def check_gentle(amplitude: float, **lengths: float) -> None:
+    """Refuse an amplitude [m] that is large beside a length on which the height changes [m].
+
+    Raises
+    ------
+    ValueError
+        If it is: Reynolds' equation requires gentle slopes, and most often a unit is wrong.
+    """
+    for name, length in lengths.items():
+        if not abs(amplitude) <= _STEEPEST * length:
+            raise ValueError(
+                f"amplitude = {amplitude:g} m is not small beside {name} = {length:g} m, at most "
+                f"{_STEEPEST:g} of it: check their units"
+            )
+
+
+# ---- quantities
+
+SignedHeight = Annotated[
+    float, Quantity(name="a height", unit="m", example='"-0.3 um"', sign="any")
+]
+Position = Annotated[float, Quantity(name="a position", unit="m", example='"0.1 mm"', sign="any")]
+Wavelength = Annotated[float, Quantity(name="a length", unit="m", example='"50 um"')]
+
+_WORDS = {
+    "micron": "um",
+    "micrometer": "um",
+    "micrometre": "um",
+    "nanometer": "nm",
+    "nanometre": "nm",
+    "millimeter": "mm",
+    "millimetre": "mm",
+    "meter": "m",
+    "metre": "m",
+}
+_ANGSTROMS = ("Å", "\N{ANGSTROM SIGN}", "angstrom", "A")
+
+
+def metres(unit: str) -> float:
+    """Return the factor from a unit of length to metres.
+
+    Raises
+    ------
+    ValueError
+        If it is not one; the message continues a sentence that begins with the unit.
+    """
+    text = unit.strip().removeprefix("Â")  # a micro sign of two bytes, read as two letters
+    if text in _ANGSTROMS or text.lower() in _ANGSTROMS:
+        return 1e-10
+    word = text.lower()
+    return quantity(Length).parse(
+        f"1 {_WORDS.get(word) or _WORDS.get(word.removesuffix('s'), text)}"
+    )
+
+
+def _is_length(unit: str) -> str:
+    try:
+        metres(unit)
+    except ValueError:
+        raise ValueError('is not a unit of length: give one such as "um"') from None
+    return unit
+
+
+LengthUnit = Annotated[str, AfterValidator(_is_length)]
+
+
+class _OneForBoth:
+    """Metadata of a pair: a single value stands for both."""
+
+    def __get_pydantic_core_schema__(
+        self, source: object, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        """Double a single value before pydantic looks for two."""
+        return core_schema.no_info_before_validator_function(_pair, handler(source))
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        """Describe the field as one value or two."""
+        pair = handler(schema)
+        return {"anyOf": [pair, *pair.get("prefixItems", [])[:1]]}
+
+
+def _pair(value: Any) -> Any:
+    return value if isinstance(value, list | tuple) else (value, value)
+
+
+Lengths = Annotated[tuple[Wavelength, Wavelength], _OneForBoth()]
+Span = tuple[Position, Position]
