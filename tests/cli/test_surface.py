@@ -152,7 +152,7 @@ def test_the_picture_has_map_histogram_and_spectrum(tmp_path, shape):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("{}",), "does not say the unit"),
+        (("{}",), "does not state the unit"),
         (("{}", "--unit", "um"), "how far its points are apart"),
         (("{}", "--unit", "kg"), 'unit = "kg": is not a unit of length'),
         (("{}", *STATED, "--level", "flat"), 'level = "flat": unknown; known are none'),

@@ -107,7 +107,7 @@ def test_a_mark_at_the_end_is_a_gap_only_where_one_is(tmp_path, text, expected):
 def test_a_table_of_three_columns_is_no_map_unless_it_is_said(tmp_path):
     path = tmp_path / "map.csv"
     np.savetxt(path, HEIGHTS[:, :3])
-    with pytest.raises(InputError, match="no lattice of x and y"):
+    with pytest.raises(InputError, match="not a lattice of x and y"):
         read(path)
     np.testing.assert_allclose(read(path, layout="matrix").heights, HEIGHTS[:, :3])
 
@@ -228,11 +228,11 @@ WRONG = {
     "several layers": ("a.npy", saved(np.zeros((2, 3, 4))), "shape 2 x 3 x 4"),
     "text garbage": ("a.csv", b"1 2 3 4\n1 2 hello 4\n", "line 2 has 'hello'"),
     "prose": ("a.txt", b"It was a dark and stormy night; the rain fell.", "line 1 has|no numbers"),
-    "binary text": ("a.txt", b"\x89PNG\xff\xfe\x00", "no text in UTF-8"),
+    "binary text": ("a.txt", b"\x89PNG\xff\xfe\x00", "not a text in UTF-8"),
     "ragged": ("a.csv", b"1,2,3,4\n1,2,3\n", "line 2 has 3 numbers, .* have 4"),
     "ragged by two": ("a.csv", b"1,2,3,4\n1,2,\n", "line 2 has 2 numbers, .* have 4"),
     "longer": ("a.csv", b"1,2,3,\n1,2,3,4,\n", "line 2 has 4 numbers, .* have 3"),
-    "underscores": ("a.csv", b"1,2,3,4\n1,2,3_0,4\n", "line 2 has '3_0', which is no number"),
+    "underscores": ("a.csv", b"1,2,3,4\n1,2,3_0,4\n", "line 2 has '3_0', which is not a number"),
     "only names": ("a.csv", b"x,y,z\n", "holds no numbers"),
     "nothing": ("a.csv", b"", "is empty"),
     "two heights": ("a.xyz", b"0 0 1\n1 0 1\n0 1 1\n1 1 1\n1 1 2\n", "several heights at one"),
@@ -240,13 +240,13 @@ WRONG = {
     "a spiral": (
         "a.xyz",
         "\n".join(f"{t * np.cos(t)} {t * np.sin(t)} 1" for t in range(50)).encode(),
-        "no lattice",
+        "not a lattice",
     ),
     "uneven": ("a.xyz", b"0 0 1\n1 0 1\n3 0 1\n0 1 1\n1 1 1\n3 1 1\n", "equal, rising"),
     "garbage netcdf": ("a.nc", b"\x00\x01" * 99, "is not a NetCDF file"),
     "half netcdf": ("a.nc", b"\x89HDF\r\n\x1a\n" + b"\0" * 99, "truncated or damaged"),
     "classic netcdf": ("a.nc", b"CDF\x01\0\0\0\0\0\0", "truncated or damaged"),
-    "no zip": ("a.x3p", b"PK\x03\x04" + b"\0" * 99, "no whole x3p"),
+    "no zip": ("a.x3p", b"PK\x03\x04" + b"\0" * 99, "not a whole x3p"),
     "picture": ("a.png", b"\x89PNG", "ending that is not a format"),
     "pickle file": ("a.pkl", b"\x80\x04.", "ending that is not a format"),
     "no ending": ("a", b"1 2 3 4", "ending that is not a format"),
@@ -279,7 +279,7 @@ def test_wrong_files_are_told(tmp_path, case):
         ({"dx": 0}, "not positive"),
         ({"feature": "PRF"}, "type PRF"),
         ({"valid": "<ValidPointsLink>../../etc/passwd</ValidPointsLink>"}, "without"),
-        ({"feature": "&lol;"}, "no XML"),
+        ({"feature": "&lol;"}, "not XML"),
     ],
 )
 def test_wrong_x3p_are_told(tmp_path, changes, words):
@@ -298,7 +298,7 @@ def test_a_flipped_byte_of_packed_heights_is_told_or_changes_nothing(tmp_path, m
         try:
             np.testing.assert_array_equal(read(path).heights, HEIGHTS)
         except InputError as told:
-            assert "no whole x3p" in str(told)  # noqa: PT017 (a byte may say nothing)
+            assert "not a whole x3p" in str(told)  # noqa: PT017 (a byte may say nothing)
 
 
 @pytest.mark.parametrize("encoding", ["foo", "rot13", "hex", "utf-7"])

@@ -198,7 +198,7 @@ def test_units_come_from_the_file_or_are_asked_for(file, tmp_path):
         with pytest.raises(InputError, match=words):
             Map(file=file, **keys).load()
     xyz = write_xyz(tmp_path / "a.xyz", HEIGHTS * 1e6)
-    with pytest.raises(InputError, match=r"2 and 3 apart .* which unit.*xy_unit"):
+    with pytest.raises(InputError, match=r"2 and 3 apart .* unit.*xy_unit"):
         Map(file=str(xyz), unit="um").load()
     known = Map(file=str(xyz), unit="um", xy_unit="micron").load()
     assert known.pixel == pytest.approx((2e-6, 3e-6))
@@ -234,7 +234,7 @@ def test_a_stated_unit_of_x_and_y_that_the_file_contradicts_is_noted(tmp_path):
 
 def test_units_of_x_or_y_that_are_missing_or_foreign_are_asked_for(tmp_path):
     half = write_netcdf(tmp_path / "half.nc", "um", None)
-    with pytest.raises(InputError, match=r"in which unit along y: which is it\? Give xy_unit"):
+    with pytest.raises(InputError, match=r"their unit along y: give xy_unit"):
         Map(file=half).load()
     foreign = write_netcdf(tmp_path / "foreign.nc", "degrees_east", "degrees_east")
     with pytest.raises(InputError, match=r"unit 'degrees_east' for its x, which is no length"):
@@ -315,7 +315,7 @@ def test_maps_without_roughness_are_told(tmp_path, heights, words):
     [
         ({"unit": "kg"}, "not a unit of length"),
         ({"size": "1 mm"}, "say the same"),
-        ({"file": " "}, "no name of a file"),
+        ({"file": " "}, "not the name of a file"),
         ({"taper": "1 um", "outside": "mirror"}, "outside = .flat. only"),
         ({"lambda_s": "9 um", "lambda_c": "8 um"}, "must be shorter"),
         ({"crop": {"x": ["9 um", "2 um"]}}, "x must rise"),

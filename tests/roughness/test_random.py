@@ -154,8 +154,8 @@ def test_a_sum_is_resolved_part_by_part():
     [
         ({}, "correlation_length is missing"),
         ({"spectrum": "self-affine"}, "roll_off is missing"),
-        ({"correlation_length": 1e-5, "roll_off": 1e-4}, "roll_off says nothing"),
-        ({"correlation_length": 1e-5, "cut_off": 1e-6}, "cut_off says nothing"),
+        ({"correlation_length": 1e-5, "roll_off": 1e-4}, "roll_off does not apply"),
+        ({"correlation_length": 1e-5, "cut_off": 1e-6}, "cut_off does not apply"),
         ({"spectrum": "self-affine", "roll_off": 1e-4, "cut_off": 1e-6}, "between roll_off/64"),
         ({"spectrum": "self-affine", "roll_off": 1e-4, "cut_off": 1e-3}, "between roll_off/64"),
         ({"spectrum": "self-affine", "roll_off": 1e-4, "hurst": 1.2}, "not be larger than 1"),

@@ -1,5 +1,7 @@
 """A map from its file to prepared heights."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
 
@@ -33,18 +35,26 @@ _BEYOND = {
 }
 
 
-def found_file(surface: Map) -> Path:
-    """Return the path of the file of a map.
-
-    Raises
-    ------
-    InputError
-        If it is not there or no file; the message names it.
-    """
+@contextmanager
+def _naming(surface: Map) -> Iterator[None]:
+    """Put the name of the file before errors."""
     try:
-        return checked(surface.file)
+        yield
     except InputError as error:
         raise InputError(f"map {shown(surface.file)} {error}") from None
+
+
+def found_file(surface: Map) -> Path:
+    """Return the path of the file of a map; the error of a missing one names it."""
+    with _naming(surface):
+        return checked(surface.file)
+
+
+def raw_map(surface: Map) -> RawMap:
+    """Return what the file of a map says; errors name it."""
+    path = found_file(surface)
+    with _naming(surface):
+        return read(path, layout=surface.layout, variable=surface.variable)
 
 
 def heights_of(surface: Map) -> Heights:
@@ -59,13 +69,7 @@ def heights_of(surface: Map) -> Heights:
 
 
 def tile_of(surface: Map) -> Tile:
-    """Return the heights of a map with what lies beyond their edges.
-
-    Raises
-    ------
-    InputError
-        As :func:`heights_of`.
-    """
+    """Return the heights of a map with what lies beyond their edges, as :func:`heights_of`."""
     return _tile(surface, _stamp(surface))
 
 
@@ -78,12 +82,9 @@ def _stamp(surface: Map) -> tuple[int, int]:
 @lru_cache(maxsize=4)
 def _loaded(surface: Map, stamp: object) -> Heights:
     del stamp
-    path = found_file(surface)
-    try:
-        raw = read(path, layout=surface.layout, variable=surface.variable)
+    raw = raw_map(surface)
+    with _naming(surface):
         return prepared(surface, raw)
-    except InputError as error:
-        raise InputError(f"map {shown(surface.file)} {error}") from None
 
 
 @lru_cache(maxsize=4)
@@ -111,11 +112,10 @@ def prepared(surface: Map, raw: RawMap) -> Heights:
     InputError
         If units are missing or heights cannot be meant; the message lacks the file.
     """
-    _check_points(raw.heights)
     notes: list[str] = []
     factor = _factor(surface, raw, notes)
-    pixel = _pixel(surface, raw, notes)
     highest = _highest(raw.heights, factor)
+    pixel = _pixel(surface, raw, notes)
     heights = _oriented(surface, Heights(values=raw.heights * factor, pixel=pixel))
     heights = _cropped(surface, heights)
     values = _whole(surface, heights.values, notes)
@@ -126,16 +126,13 @@ def prepared(surface: Map, raw: RawMap) -> Heights:
     return Heights(values=values, pixel=heights.pixel, notes=tuple(notes))
 
 
-def _check_points(heights: Array) -> None:
+def _highest(heights: Array, factor: float) -> float:
+    """Return the largest number of a file; refuse too few points and absurd heights."""
     ny, nx = heights.shape
     if min(ny, nx) < _LEAST:
         raise InputError(f"has {nx} x {ny} points, but a map has at least {_LEAST} x {_LEAST}")
     if not np.isfinite(heights).any():
         raise InputError("has no point with a height")
-
-
-def _highest(heights: Array, factor: float) -> float:
-    """Return the largest number of a file, no height that none has on purpose, before squares."""
     highest = float(np.abs(heights[np.isfinite(heights)]).max())
     if not highest <= _TALLEST / factor:
         raise InputError(
@@ -152,7 +149,7 @@ def _factor(surface: Map, raw: RawMap, notes: list[str]) -> float:
     """Return the factor from the heights of the file to metres."""
     stated = surface.unit or raw.unit
     if stated is None:
-        raise InputError('does not say the unit of its heights: which is it? Give unit = "um"')
+        raise InputError('does not state the unit of its heights: give unit = "um"')
     factor = _metres(stated, "heights", "unit")
     if surface.unit and raw.unit and _known(raw.unit) != factor:
         notes.append(f"its heights are taken in {surface.unit}, though the file says {raw.unit}")
@@ -170,7 +167,7 @@ def _metres(unit: str, what: str, key: str) -> float:
     factor = _known(unit)
     if factor is None:
         raise InputError(
-            f'has the unit {unit[:20]!r} for its {what}, which is no length: give {key} = "um"'
+            f'has the unit {unit[:20]!r} for its {what}, which is not a length: give {key} = "um"'
         )
     return factor
 
@@ -192,8 +189,8 @@ def _pixel(surface: Map, raw: RawMap, notes: list[str]) -> tuple[float, float]:
     size = (nx * pixel[0], ny * pixel[1])
     if not (max(size) <= _WIDEST and min(pixel) >= _FINEST):
         raise InputError(
-            f"comes out {size[0]:.3g} x {size[1]:.3g} m large with points {min(pixel):.3g} m "
-            "apart, which no measured surface is: check unit, xy_unit, pixel and size"
+            f"has a size of {size[0]:.3g} x {size[1]:.3g} m with points {min(pixel):.3g} m "
+            "apart, which is not that of a measured surface: check unit, xy_unit, pixel and size"
         )
     return pixel
 
@@ -226,10 +223,11 @@ def _question(raw: RawMap) -> str:
         half = f" along {'xy'[raw.pixel_units.index(None)]}" if known else ""
         return (
             f"has points {raw.pixel[0]:g} and {raw.pixel[1]:g} apart along x and y, but does not "
-            f'say in which unit{half}: which is it? Give xy_unit = "um"'
+            f'state their unit{half}: give xy_unit = "um"'
         )
     return (
-        'does not say how far its points are apart: give pixel = "2 um", or size = ["1 mm", "1 mm"]'
+        "does not state how far its points are apart: give pixel = "
+        '"2 um", or size = ["1 mm", "1 mm"]'
     )
 
 
@@ -279,7 +277,7 @@ def _whole(surface: Map, values: Array, notes: list[str]) -> Array:
     gaps = int(np.isnan(values).sum())
     if surface.outliers is not None:
         values, spikes = without_outliers(values, surface.outliers)
-        notes.append(f"{spikes} spikes were taken away")
+        notes.append(f"{spikes} spikes were removed")
     whole = filled(values, surface.fill)
     if gaps:
         notes.append(f"{gaps} missing points ({100 * gaps / values.size:.2g} %) were filled")
@@ -303,13 +301,14 @@ def _filtered(surface: Map, values: Array, heights: Heights, notes: list[str]) -
 
 
 def _check_heights(surface: Map, values: Array, highest: float, factor: float) -> None:
-    """Refuse heights that are none, and ask about those that no contact has."""
+    """Refuse heights that are constant or outside the physical range."""
     if not np.ptp(values) > _ROUNDING * highest * factor:
-        raise InputError("is constant: there is no roughness in it")
+        raise InputError("is constant: it has no roughness")
     off = float(np.std(values))
     how = f'after level = "{surface.level}"'
     if not off >= _LOWEST:
-        filters = ", and do lambda_c and lambda_s leave any" if _has_filters(surface) else ""
+        has_filters = surface.lambda_c is not None or surface.lambda_s is not None
+        filters = ", and do lambda_c and lambda_s leave any" if has_filters else ""
         raise InputError(
             f"has Sq = {off:.3g} m {how}, less than {_LOWEST:g} m and than is measured, where "
             f"{highest:.3g} in the file stands for {highest * factor:.3g} m: is the unit right"
@@ -320,7 +319,3 @@ def _check_heights(surface: Map, values: Array, highest: float, factor: float) -
             f"has Sq = {off * 1e6:.3g} um {how}, more than {_HIGHEST * 1e6:g} um and than a "
             "lubricated contact has: is the unit right, and is its form taken off?"
         )
-
-
-def _has_filters(surface: Map) -> bool:
-    return surface.lambda_c is not None or surface.lambda_s is not None

@@ -55,7 +55,7 @@ class Crop(BaseModel):
 class Map(RoughnessModel):
     """A measured surface.
 
-    The file is read when heights are first asked for, so that a case can be stored and read again
+    The file is read when heights are first needed, so that a case can be stored and read again
     without it. Columns lie along x, rows along y, the first row at the least y. What is done goes
     in this order: transpose, flip, upside_down, crop, outliers, fill, level, lambda_c, lambda_s.
 
@@ -79,7 +79,7 @@ class Map(RoughnessModel):
     crop : Crop or None
         The part to take, after these.
     outliers : float or None
-        Spikes beyond so many standard deviations become missing points.
+        Standard deviations beyond which spikes become missing points.
     fill : {"auto", "linear", "nearest", "refuse"}
         How missing points are filled; "auto" refuses more than a hundredth.
     level : {"none", "mean", "plane", "quadratic"}
@@ -128,7 +128,7 @@ class Map(RoughnessModel):
         context: Any = info.context
         folder = context.get("folder") if isinstance(context, dict) else None
         if not file.strip():
-            raise ValueError('is no name of a file: give one such as "surface.x3p"')
+            raise ValueError('is not the name of a file: give one such as "surface.x3p"')
         known = Path(file).expanduser()
         return file if folder is None or known.is_absolute() else str(Path(folder) / known)
 

@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from scipy import ndimage, sparse
@@ -13,14 +13,16 @@ from tehl.typing import Array, BoolArray
 Level = Literal["none", "mean", "plane", "quadratic"]
 Fill = Literal["auto", "linear", "nearest", "refuse"]
 
-FEW = 0.01
-"""Share of missing points that is filled without being asked."""
-MOST = 0.5
-"""Share of missing points that no filling bridges."""
+FEW, MOST = 0.01, 0.5
+"""Share of missing points that is filled by default, and that no filling bridges."""
 _NEIGHBOURS = 5
 _NORMAL = 1.4826
 _DEGREE = {"mean": 0, "plane": 1, "quadratic": 2}
 _ALPHA = math.sqrt(math.log(2.0) / math.pi)
+_RIM = 12
+"""Points of zeros around a flat tile, after which its spline is zero to rounding."""
+_MOST_LEFT, _COUNTS = 0.5, 0.2
+"""Sq without the quadratic over Sq below which it is odd; share of a bend that is named."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -146,25 +148,6 @@ def levelled(values: Array, how: Level) -> Array:
     return np.asarray(off - rows.T @ (weights @ columns))
 
 
-def quadratic_of(values: Array) -> tuple[Array, float]:
-    """Return the quadratic that fits heights best, and its mean square.
-
-    Parameters
-    ----------
-    values : (ny, nx) array
-        Heights [m].
-
-    Returns
-    -------
-    weights : (3, 3) array
-        Of the powers of y and x, both from -1 in the first point to 1 in the last [m].
-    square : float
-        Mean square of the quadratic [m^2].
-    """
-    _, _, weights, square = _fitted(values - values.mean(), _DEGREE["quadratic"])
-    return weights, square
-
-
 def _fitted(off: Array, degree: int) -> tuple[Array, Array, Array, float]:
     """Return powers of y and of x, their weights by least squares, and the fit's mean square."""
     rows, columns = (
@@ -221,10 +204,6 @@ def tapered(heights: Array, pixel: tuple[float, float], width: float) -> Array:
     return np.pad(heights * windows[0][:, None] * windows[1], _RIM)
 
 
-_RIM = 12
-"""Points of zeros around a flat tile, after which its spline is zero to rounding."""
-
-
 def _window(count: int, width: float) -> Array:
     edge = np.minimum(np.arange(count) + 0.5, count - np.arange(count) - 0.5)
     return np.sin(0.5 * np.pi * np.clip(edge / max(width, 1e-9), 0.0, 1.0)) ** 2
@@ -232,22 +211,13 @@ def _window(count: int, width: float) -> Array:
 
 # ---- the form of the body that is left in a map
 
-_MOST_LEFT = 0.5
-_COUNTS = 0.2
 
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Form:
+class Form(NamedTuple):
     """The quadratic that fits a map best.
 
-    Attributes
-    ----------
-    sq, sq_without : float
-        Of the map without a plane, and without the quadratic [m].
-    curvatures : (float, float)
-        Second derivatives of the heights along x and along y of the map [1/m].
-    sags : (float, float)
-        What they make between the middle and the edges [m].
+    ``sq`` and ``sq_without`` are those of the map without a plane, and without the quadratic [m];
+    ``curvatures`` the second derivatives along x and y of the map [1/m], ``sags`` what they make
+    between the middle and the edges [m].
     """
 
     sq: float
@@ -258,32 +228,17 @@ class Form:
 
 def form_of(heights: Heights) -> Form:
     """Return the quadratic form of a map by least squares."""
-    flat = levelled(heights.values, "plane")  # a slope that was left does not bend
-    weights, square = quadratic_of(flat)
-    sq = float(np.std(flat))
-    sags = (float(weights[0, 2]), float(weights[2, 0]))
-    halves = [
-        0.5 * (count - 1) * step
-        for count, step in zip(reversed(heights.values.shape), heights.pixel, strict=True)
-    ]
-    return Form(
-        sq=sq,
-        sq_without=math.sqrt(max(sq**2 - square, 0.0)),
-        curvatures=(2.0 * sags[0] / halves[0] ** 2, 2.0 * sags[1] / halves[1] ** 2),
-        sags=sags,
-    )
+    flat = levelled(heights.values, "plane")  # a slope that was left is not a curvature
+    _, _, weights, square = _fitted(flat - flat.mean(), _DEGREE["quadratic"])
+    sq, sags = float(np.std(flat)), (float(weights[0, 2]), float(weights[2, 0]))
+    ny, nx = heights.values.shape
+    half_x, half_y = 0.5 * (nx - 1) * heights.pixel[0], 0.5 * (ny - 1) * heights.pixel[1]
+    curvatures = (2.0 * sags[0] / half_x**2, 2.0 * sags[1] / half_y**2)
+    return Form(sq, math.sqrt(max(sq**2 - square, 0.0)), curvatures, sags)
 
 
 def question_of_form(heights: Heights, level: Level) -> str | None:
-    """Return a question if more than half of Sq is a quadratic form; None where all is well.
-
-    Parameters
-    ----------
-    heights : Heights
-        As they are prepared.
-    level : {"none", "mean", "plane", "quadratic"}
-        What was taken off.
-    """
+    """Return a question if more than half of Sq is a quadratic form that ``level`` has left."""
     if level == "quadratic":
         return None
     form = form_of(heights)

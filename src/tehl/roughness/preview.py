@@ -4,10 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl.errors import InputError
-from tehl.roughness.files import RawMap, read
 from tehl.roughness.files.raw import shown
-from tehl.roughness.loading import found_file
+from tehl.roughness.loading import raw_map
 from tehl.roughness.map import Map
 from tehl.roughness.model import Extent, direction
 from tehl.roughness.prepare import Heights, question_of_form
@@ -95,7 +93,7 @@ def preview(surface: Map, mesh: Mesh | None = None) -> Preview:
     InputError
         As :meth:`tehl.roughness.Map.load`.
     """
-    raw, heights = _raw(surface), surface.load()
+    raw, heights = raw_map(surface), surface.load()
     values, pixel = heights.values, heights.pixel
     return Preview(
         surface=surface,
@@ -118,14 +116,6 @@ def _questions(surface: Map, heights: Heights, mesh: Mesh | None) -> tuple[str, 
         return surface.fits(2.0 * mesh.half_widths[0], 2.0 * mesh.half_widths[1])
     bent = question_of_form(heights, surface.level)
     return () if bent is None else (bent,)
-
-
-def _raw(surface: Map) -> RawMap:
-    path = found_file(surface)
-    try:
-        return read(path, layout=surface.layout, variable=surface.variable)
-    except InputError as error:
-        raise InputError(f"map {shown(surface.file)} {error}") from None
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)

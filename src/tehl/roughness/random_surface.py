@@ -95,7 +95,7 @@ class Random(RoughnessModel):
         for key in others:
             if getattr(self, key) is not None:
                 raise ValueError(
-                    f'{key} says nothing of the spectrum "{self.spectrum}", which takes {needed}'
+                    f'{key} does not apply to the spectrum "{self.spectrum}", which takes {needed}'
                 )
         if getattr(self, needed) is None:
             raise ValueError(f'{needed} is missing: give a length such as "20 um"')

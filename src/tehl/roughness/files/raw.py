@@ -75,7 +75,7 @@ def step(places: Array, axis: str) -> float:
     """
     distances = np.diff(places)
     if distances.size == 0:
-        raise InputError(f"has one point along {axis}, which is no map")
+        raise InputError(f"has one point along {axis}, which is not a map")
     mean = float(np.mean(distances))
     if not (mean > 0 and np.abs(distances - mean).max() <= _TOLERANCE * mean):
         raise InputError(f"has points along {axis} that do not follow at equal, rising distances")

@@ -64,7 +64,7 @@ def _table(path: Path) -> Array:
                 names_may_come = False
                 rows.add(_cells(text), number)
         except UnicodeDecodeError:
-            raise InputError("is no text in UTF-8") from None
+            raise InputError("is not a text in UTF-8") from None
     if not rows.found:
         raise InputError("holds no numbers")
     return np.array(rows.found)
@@ -87,7 +87,7 @@ class _Rows:
         Raises
         ------
         InputError
-            If one is no number, or they are more or fewer than those of the lines before.
+            If one is not a number, or their count differs from that of the lines before.
         """
         ends_with_a_mark = not cells[-1] and len(cells) > 1
         row = _row(cells[:-1] if ends_with_a_mark else cells, number)
@@ -133,7 +133,7 @@ def _row(cells: list[str], number: int) -> Array:
     cells = [_MISSING.get(cell.lower(), cell) for cell in cells]
     for cell in cells:
         if not _is_number(cell):
-            raise InputError(f"line {number} has {_short(cell)}, which is no number")
+            raise InputError(f"line {number} has {_short(cell)}, which is not a number")
     return np.array(cells, dtype=np.float64)
 
 
@@ -172,9 +172,8 @@ def _lattice(table: Array) -> RawMap:
     covered = table.shape[0] / (y.size * x.size)
     if min(shape) < 2 or not _LEAST_COVERED <= covered:
         raise InputError(
-            "has three columns whose first two are no lattice of x and y: if it is a table of "
-            "heights three points wide, it is no map; if it is columns of something else, give x, "
-            "y and z"
+            "has three columns whose first two are not a lattice of x and y: give x, y and z; a "
+            "table of heights three points wide is not a map"
         )
     check_count(shape)
     heights = np.full(shape, np.nan)

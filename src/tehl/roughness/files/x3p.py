@@ -7,6 +7,7 @@ import hashlib
 import lzma
 import zipfile
 import zlib
+from functools import partial
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -29,6 +30,7 @@ _DAMAGE = (
     ValueError,
     NotImplementedError,
 )
+_md5 = partial(hashlib.md5, usedforsecurity=False)
 _TYPES = {"I": "<i2", "L": "<i4", "F": "<f4", "D": "<f8"}
 
 
@@ -48,7 +50,7 @@ def read_x3p(path: Path) -> RawMap:
         with zipfile.ZipFile(path) as archive:
             return _map_of(archive)
     except _DAMAGE as error:
-        raise InputError(f"is no whole x3p file: {str(error)[:100]}") from None
+        raise InputError(f"is not a whole x3p file: {str(error)[:100]}") from None
 
 
 def _map_of(archive: zipfile.ZipFile) -> RawMap:
@@ -60,7 +62,7 @@ def _map_of(archive: zipfile.ZipFile) -> RawMap:
     shape = (_whole(root, "SizeY"), _whole(root, "SizeX"))
     check_count(shape)
     if _whole(root, "SizeZ") != 1:
-        raise InputError("holds several heights per point, which is no map")
+        raise InputError("holds several heights per point, which is not a map")
     heights = _heights(archive, root, shape)
     pixel = tuple(_number(root, f"Record1/Axes/{axis}/Increment", None) for axis in ("CX", "CY"))
     if not all(step > 0 and np.isfinite(step) for step in pixel):
@@ -133,26 +135,20 @@ def _check_header(archive: zipfile.ZipFile, header: bytes) -> None:
     if _CHECKSUM not in archive.namelist():
         return
     stated = _member(archive, _CHECKSUM, 1000).split()
-    known = [hashlib.md5(header, usedforsecurity=False).hexdigest()]
+    known = [_md5(header).hexdigest()]
     points = next((name for name in archive.namelist() if name.endswith("data.bin")), None)
     if points is not None:  # of which a widespread program writes the checksum instead
-        known.append(_sum_of(archive, points))
+        digest = _md5()
+        with archive.open(points) as file:
+            for _ in range(600):  # at most 600 MB, whatever the archive claims
+                digest.update(file.read(10**6))
+        known.append(digest.hexdigest())
     if not stated or stated[0].decode("ascii", "replace").lower() not in known:
         raise InputError("is damaged: the checksum of its header does not match")
 
 
-def _sum_of(archive: zipfile.ZipFile, name: str) -> str:
-    digest = hashlib.md5(usedforsecurity=False)
-    with archive.open(name) as file:
-        for _ in range(600):
-            digest.update(part := file.read(10**6))
-            if not part:
-                break
-    return digest.hexdigest()
-
-
 def _check_sum(content: bytes, stated: str | None, name: str) -> None:
-    found = hashlib.md5(content, usedforsecurity=False).hexdigest()
+    found = _md5(content).hexdigest()
     if stated and stated.lower() != found:
         raise InputError(f"is damaged: the checksum of {name[:60]} does not match")
 
@@ -173,7 +169,7 @@ def _parsed(header: bytes) -> ElementTree.Element:
         scout.Parse(header, True)
         return ElementTree.fromstring(header)
     except (expat.ExpatError, ElementTree.ParseError) as error:
-        raise InputError(f"has a header that is no XML: {error}") from None
+        raise InputError(f"has a header that is not XML: {error}") from None
     except (LookupError, ValueError) as error:  # what codecs say of a foreign name
         reason = str(error).split(";", maxsplit=1)[0][:60]
         raise InputError(
@@ -200,7 +196,7 @@ def _number(root: Any, path: str, absent: float | None) -> float:
 def _whole(root: Any, name: str) -> int:
     text = _text(root, f"Record3/MatrixDimension/{name}")
     if text is None:
-        raise InputError("holds a profile or a cloud of points, which is no map")
+        raise InputError("holds a profile or a cloud of points, which is not a map")
     if not (text.isascii() and text.isdigit() and len(text) < 12):
         raise InputError(f"has no count at {name} of its header")
     return int(text)
