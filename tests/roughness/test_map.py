@@ -237,7 +237,7 @@ def test_units_of_x_or_y_that_are_missing_or_foreign_are_asked_for(tmp_path):
     with pytest.raises(InputError, match=r"their unit along y: give xy_unit"):
         Map(file=half).load()
     foreign = write_netcdf(tmp_path / "foreign.nc", "degrees_east", "degrees_east")
-    with pytest.raises(InputError, match=r"unit 'degrees_east' for its x, which is no length"):
+    with pytest.raises(InputError, match=r"unit 'degrees_east' for its x, which is not a length"):
         Map(file=foreign).load()
     assert Map(file=foreign, pixel="2 um").load().pixel == (2e-6, 2e-6)
 

@@ -208,18 +208,7 @@ class Map(RoughnessModel):
         return tile_of(self)
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
-        """Return what is odd about the map beside a contact.
-
-        Parameters
-        ----------
-        width, length : float
-            Of the contact along x and y [m].
-
-        Returns
-        -------
-        tuple of str
-            Sentences, none when all is well.
-        """
+        """Return sentences on what is odd beside a contact of ``width`` by ``length`` [m]."""
         from tehl.roughness.prepare import question_of_form  # noqa: PLC0415
 
         heights = self.load()
@@ -242,8 +231,7 @@ class Map(RoughnessModel):
             )
         if abs(self.x) > 0.5 * (extent[0] + width) or abs(self.y) > 0.5 * (extent[1] + length):
             sentences.append(f"{sizes} do not touch at time zero: the map lies beside the contact")
-        bent = question_of_form(heights, self.level)
-        return tuple(sentences) if bent is None else (*sentences, bent)
+        return tuple(filter(None, [*sentences, question_of_form(heights, self.level)]))
 
 
 _BEYOND: dict[str, str] = {

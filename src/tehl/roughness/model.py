@@ -7,15 +7,7 @@ those of the contact, x along entrainment; a surface carries its heights along x
 import math
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Protocol
 
-from pydantic import (
-    AfterValidator,
-    BaseModel,
-    ConfigDict,
-    GetCoreSchemaHandler,
-    GetJsonSchemaHandler,
-)
-from pydantic.json_schema import JsonSchemaValue
-from pydantic_core import CoreSchema, core_schema
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict
 
 from tehl.units import Length, Quantity, quantity
 
@@ -84,16 +76,6 @@ class RoughnessModel(BaseModel):
         """Return whether the heights mirror at y = 0."""
         return self.is_smooth
 
-    @property
-    def shortest_wavelengths(self) -> tuple[float, float]:
-        """Return the shortest wavelengths along x and along y [m]; infinite where there is none."""
-        raise NotImplementedError
-
-    @property
-    def shortest_wavelength(self) -> float:
-        """Return the shortest wavelength in whatever direction [m]."""
-        raise NotImplementedError
-
     def extent(self, length: float) -> Extent:
         """Return where the surface is rough at time zero, between y = -``length`` and ``length``.
 
@@ -131,7 +113,7 @@ class RoughnessModel(BaseModel):
     def resolved_on(self, dx: float, dy: float) -> Roughness:
         """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
         del dx, dy
-        return self  # type: ignore[return-value]  # rms is a field of some and a property of others
+        return self  # type: ignore[return-value]  # subclasses have the rest of the protocol
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
         """Return sentences on what is odd beside a contact of ``width`` by ``length`` [m]."""
@@ -244,26 +226,11 @@ def _is_length(unit: str) -> str:
 LengthUnit = Annotated[str, AfterValidator(_is_length)]
 
 
-class _OneForBoth:
-    """Metadata of a pair: a single value stands for both."""
-
-    def __get_pydantic_core_schema__(
-        self, source: object, handler: GetCoreSchemaHandler
-    ) -> CoreSchema:
-        """Double a single value before pydantic looks for two."""
-        return core_schema.no_info_before_validator_function(_pair, handler(source))
-
-    def __get_pydantic_json_schema__(
-        self, schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> JsonSchemaValue:
-        """Describe the field as one value or two."""
-        pair = handler(schema)
-        return {"anyOf": [pair, *pair.get("prefixItems", [])[:1]]}
-
-
 def _pair(value: Any) -> Any:
+    """Double a single value."""
     return value if isinstance(value, list | tuple) else (value, value)
 
 
-Lengths = Annotated[tuple[Wavelength, Wavelength], _OneForBoth()]
+_Pair = tuple[Wavelength, Wavelength]
+Lengths = Annotated[_Pair, BeforeValidator(_pair, json_schema_input_type=_Pair | Wavelength)]
 Span = tuple[Position, Position]

@@ -21,17 +21,7 @@ _MARGIN = 1.05
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Mesh:
-    """A grid of the solver around a contact.
-
-    Attributes
-    ----------
-    spacing : (dx, dy)
-        [m]
-    half_widths : (a_x, a_y)
-        Of the Hertz contact [m].
-    points : (nx, ny)
-        Nodes along x and y.
-    """
+    """A grid of the solver: mesh widths, half-widths of the contact [m], nodes; along x and y."""
 
     spacing: tuple[float, float]
     half_widths: tuple[float, float]
@@ -114,22 +104,14 @@ def preview(surface: Map, mesh: Mesh | None = None) -> Preview:
 def _questions(surface: Map, heights: Heights, mesh: Mesh | None) -> tuple[str, ...]:
     if mesh is not None:
         return surface.fits(2.0 * mesh.half_widths[0], 2.0 * mesh.half_widths[1])
-    bent = question_of_form(heights, surface.level)
-    return () if bent is None else (bent,)
+    return tuple(filter(None, [question_of_form(heights, surface.level)]))
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class View:
-    """Heights in a window.
+    """Heights in a window [m], rows along x, and the edges of the window in the contact [m].
 
-    Attributes
-    ----------
-    values : (ny, nx) array
-        Heights [m], rows along x.
-    window : ((left, right), (bottom, top))
-        The edges [m], in the coordinates of the contact.
-    corners : (4, 2) array or None
-        x and y of the corners of the map, where the window is not the map itself [m].
+    ``corners``, (4, 2), are those of the map [m]; None where the window is the map itself.
     """
 
     values: Array

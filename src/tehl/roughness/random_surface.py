@@ -12,16 +12,14 @@ if TYPE_CHECKING:
     from tehl.roughness.tile import Tile
     from tehl.typing import Array
 
-_PER_CORRELATION_LENGTH = 4
-_PER_CUT_OFF = 4
-_POINTS = 1024
+_PER_LENGTH, _POINTS = 4, 1024
+"""Points per correlation length or cut-off, and of the lattice."""
 _WIDE, _WIDEST = 16.0, 64.0
 _LENGTHS = ("correlation_length", "roll_off")
 _SHORTEST, _LONGEST = 1e-12, 1e6
-_LAST_SEED = 2**53
 _LARGEST_KURTOSIS = 20.0
 
-Seed = Annotated[int, Field(strict=True, ge=0, le=_LAST_SEED)]
+Seed = Annotated[int, Field(strict=True, ge=0, le=2**53)]
 
 
 class Random(RoughnessModel):
@@ -101,7 +99,6 @@ class Random(RoughnessModel):
             raise ValueError(f'{needed} is missing: give a length such as "20 um"')
         self._check_lengths(needed)
         check_gentle(self.rms, **dict(zip((needed, f"{needed}_y"), self._lengths, strict=True)))
-        self._check_self_affine()
         return self
 
     @model_validator(mode="after")
@@ -126,8 +123,6 @@ class Random(RoughnessModel):
                 raise ValueError(
                     f"{key} = {length:g} m must lie between {_SHORTEST:g} m and {_LONGEST:g} m"
                 )
-
-    def _check_self_affine(self) -> None:
         if not self.hurst <= 1.0:
             raise ValueError(f"hurst = {self.hurst:g} must not be larger than 1")
         if not 1.0 <= self._band <= _WIDEST:
@@ -139,11 +134,9 @@ class Random(RoughnessModel):
     @property
     def _lengths(self) -> tuple[float, float]:
         """Return correlation or roll-off lengths along u and v [m]."""
-        pairs = (
-            (self.correlation_length, self.correlation_length_y),
-            (self.roll_off, self.roll_off_y),
-        )
-        along, across = pairs[0] if self.spectrum == "gaussian" else pairs[1]
+        along, across = self.correlation_length, self.correlation_length_y
+        if self.spectrum != "gaussian":
+            along, across = self.roll_off, self.roll_off_y
         return along or 0.0, across or along or 0.0
 
     @property
@@ -156,8 +149,7 @@ class Random(RoughnessModel):
     @property
     def lattice(self) -> tuple[int, tuple[float, float]]:
         """Return points per direction and pixels [m] of the lattice."""
-        finest = _PER_CORRELATION_LENGTH if self.spectrum == "gaussian" else _PER_CUT_OFF
-        along, across = (length / self._band / finest for length in self._lengths)
+        along, across = (length / self._band / _PER_LENGTH for length in self._lengths)
         return (_POINTS if self._band <= _WIDE else 2 * _POINTS), (along, across)
 
     @property
@@ -180,10 +172,8 @@ class Random(RoughnessModel):
         """
         along, across = self._slopes
         cosine, sine = (value**2 for value in direction(self.angle))
-        return (
-            _length(along * cosine + across * sine),
-            _length(along * sine + across * cosine),
-        )
+        squares = (along * cosine + across * sine, along * sine + across * cosine)
+        return _length(squares[0]), _length(squares[1])
 
     @property
     def shortest_wavelength(self) -> float:

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from scipy import fft
@@ -53,6 +54,7 @@ def statistics(heights: Array, pixel: tuple[float, float]) -> Statistics:
     sq = float(np.sqrt(np.mean(off**2)))
     scaled = off / sq if sq > 0 else np.full_like(off, np.nan)
     slope_y, slope_x = np.gradient(off, pixel[1], pixel[0])
+    along, across = (_correlation_length(off, axis) for axis in (1, 0))
     return Statistics(
         sq=sq,
         sa=float(np.mean(np.abs(off))),
@@ -60,52 +62,34 @@ def statistics(heights: Array, pixel: tuple[float, float]) -> Statistics:
         ssk=float(np.mean(scaled**3)),
         sku=float(np.mean(scaled**4)),
         sdq=float(np.sqrt(np.mean(slope_x**2 + slope_y**2))),
-        correlation_lengths=correlation_lengths(off, pixel),
+        correlation_lengths=(along * pixel[0], across * pixel[1]),
     )
 
 
-def correlation_lengths(heights: Array, pixel: tuple[float, float]) -> tuple[float, float]:
-    """Return where the autocorrelation has fallen to 1/e, along x and y [m]."""
-    along = _autocorrelation(heights, axis=1)
-    across = _autocorrelation(heights, axis=0)
-    return _fallen(along) * pixel[0], _fallen(across) * pixel[1]
+def _correlation_length(heights: Array, axis: int) -> float:
+    """Return the lag where the autocorrelation has fallen to 1/e, infinite if nowhere [points].
 
-
-def _autocorrelation(heights: Array, axis: int) -> Array:
-    """Return the mean product of heights some points apart, without wrapping around, by lag."""
+    Products are not wrapped around.
+    """
     count = heights.shape[axis]
-    spectrum = np.abs(fft.rfft(heights, fft.next_fast_len(2 * count, real=True), axis=axis)) ** 2
-    power = spectrum.sum(axis=1 - axis)
-    products = fft.irfft(power, fft.next_fast_len(2 * count, real=True))[: count // 2]
-    return products / (count - np.arange(count // 2))
-
-
-def _fallen(correlation: Array) -> float:
-    """Return the lag where a correlation has fallen to 1/e, infinite if nowhere."""
-    if not (correlation.size and correlation[0] > 0):
+    whole = fft.next_fast_len(2 * count, real=True)
+    power = (np.abs(fft.rfft(heights, whole, axis=axis)) ** 2).sum(axis=1 - axis)
+    mean = fft.irfft(power, whole)[: count // 2] / (count - np.arange(count // 2))
+    if not (mean.size and mean[0] > 0):
         return math.inf
-    scaled = correlation / correlation[0]
+    scaled = mean / mean[0]
     below = np.flatnonzero(scaled < math.exp(-1.0))
     if below.size == 0:
         return math.inf
-    after = int(below[0])
-    return (
-        after
-        - 1
-        + float((scaled[after - 1] - math.exp(-1.0)) / (scaled[after - 1] - scaled[after]))
-    )
+    high, low = scaled[below[0] - 1], scaled[below[0]]
+    return float(below[0] - 1 + (high - math.exp(-1.0)) / (high - low))
 
 
-@dataclass(frozen=True, kw_only=True, slots=True, eq=False)
-class Spectrum:
-    """Power of a map by wave number, averaged over all directions.
+class Spectrum(NamedTuple):
+    """Power of a map, averaged over all directions.
 
-    Attributes
-    ----------
-    wave_number : (n,) array
-        Middle of each ring, q = 2 pi / wavelength [rad/m].
-    density : (n,) array
-        Mean two-dimensional power spectral density of the ring [m^4].
+    ``density`` is the mean two-dimensional power spectral density [m^4] of the ring around each
+    ``wave_number`` q = 2 pi / wavelength [rad/m], arrays (n,).
     """
 
     wave_number: Array
@@ -132,24 +116,20 @@ def spectrum(heights: Array, pixel: tuple[float, float], rings: int = 60) -> Spe
     .. [1] T. D. B. Jacobs, T. Junge and L. Pastewka, Surf. Topogr.: Metrol. Prop. 5 (2017), 013001.
     """
     power, number = _power(heights, pixel)
-    ny, nx = heights.shape
-    area = nx * pixel[0] * ny * pixel[1]
-    least = 2.0 * math.pi / max(nx * pixel[0], ny * pixel[1])
-    largest = math.pi / min(pixel)
+    width, height = (n * step for n, step in zip(heights.shape[::-1], pixel, strict=True))
+    least, largest = 2.0 * math.pi / max(width, height), math.pi / min(pixel)
     edges = np.geomspace(0.9 * least, max(largest, 1.1 * least), rings + 1)
     ring = np.digitize(number.ravel(), edges) - 1
     inside = (ring >= 0) & (ring < rings)
     count = np.bincount(ring[inside], minlength=rings)
     total = np.bincount(ring[inside], weights=power.ravel()[inside], minlength=rings)
     there = count > 0
-    return Spectrum(
-        wave_number=np.sqrt(edges[1:] * edges[:-1])[there],
-        density=area * total[there] / count[there],
-    )
+    middle = np.sqrt(edges[1:] * edges[:-1])
+    return Spectrum(middle[there], width * height * total[there] / count[there])
 
 
 def share_beyond(heights: Array, pixel: tuple[float, float], mesh: tuple[float, float]) -> float:
-    """Return which share of the variance a mesh of ``mesh`` [m] loses: waves of two widths or less.
+    """Return which share of the variance a mesh loses: waves of two widths or less.
 
     Parameters
     ----------

@@ -4,9 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
-from pydantic.json_schema import JsonSchemaValue
-from pydantic_core import CoreSchema, core_schema
+from pydantic import BeforeValidator, Field
 
 from tehl.roughness.features import Bump, Dimple, Ridge
 from tehl.roughness.map import Map
@@ -110,31 +108,16 @@ class Sum(_Added, RoughnessModel):
         return tuple(line for part in self.parts for line in part.fits(width, length))
 
 
-class _ListIsSum:
-    """Metadata of a field: read a list of tables as their sum."""
-
-    def __get_pydantic_core_schema__(
-        self, source: object, handler: GetCoreSchemaHandler
-    ) -> CoreSchema:
-        """Read a list before pydantic looks for its type."""
-        return core_schema.no_info_before_validator_function(_as_table, handler(source))
-
-    def __get_pydantic_json_schema__(
-        self, schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> JsonSchemaValue:
-        """Describe the field as a table or a list of tables."""
-        table = handler(schema)
-        return {"anyOf": [table, {"type": "array", "items": table}]}
-
-
 def _as_table(value: Any) -> Any:
     """Return a list as the table of a sum, anything else as it is."""
     return {"type": "sum", "parts": value} if isinstance(value, list | tuple) else value
 
 
-AnyRoughness = Annotated[
+_Table = Annotated[
     Smooth | Wave | Crossed | Ridge | Bump | Dimple | Random | Map | Sum,
     Field(discriminator="type"),
-    _ListIsSum(),
 ]
-"""Type of the field ``roughness``."""
+AnyRoughness = Annotated[
+    _Table, BeforeValidator(_as_table, json_schema_input_type=_Table | list[_Table])
+]
+"""Type of the field ``roughness``: a table, or a list of tables that are added."""

@@ -183,7 +183,7 @@ class Crossed(HarmonicModel):
     def _must_be_gentle(self) -> Self:
         if self.form == "product" and self.amplitude_2 is not None:
             raise ValueError(
-                "amplitude_2 does not apply to a product, which has one amplitude: leave it out, or "
+                "amplitude_2 does not apply to a product, which has one amplitude: leave it out or "
                 'use form = "sum"'
             )
         check_gentle(self.amplitude, wavelength=self.wavelength)

@@ -35,19 +35,16 @@ def read(path: Path, *, layout: Layout = "auto", variable: str | None = None) ->
         If there is no map in it; the message lacks the name of the file.
     """
     ending = path.suffix[1:].lower()
-    if ending == "npy":
-        return read_npy(path)
     if ending in _TEXTS:
         return read_text(path, "xyz" if ending == "xyz" and layout == "auto" else layout)
     if ending in _NETCDF:
         return read_netcdf(path, variable)
-    if ending == "x3p":
-        return read_x3p(path)
-    if ending in FORMATS:
-        return read_instrument(path)
-    raise InputError(
-        f"has an ending that is not a format of heights: known are {', '.join(ENDINGS)}"
-    )
+    reader = {"npy": read_npy, "x3p": read_x3p}.get(ending)
+    if reader is None and ending not in FORMATS:
+        raise InputError(
+            f"has an ending that is not a format of heights: known are {', '.join(ENDINGS)}"
+        )
+    return (reader or read_instrument)(path)
 
 
 def checked(file: str) -> Path:
