@@ -3,14 +3,13 @@
 import math
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from tehl.options import Domain, Options, coarsenable
-from tehl.problem import ContactProblem, Surface
-from tehl.roughness import AnyRoughness, Bump, Dimple, Ridge, Roughness, WaveVector
-from tehl.typing import Array
+from tehl.problem import ContactProblem
+from tehl.roughness import AnyRoughness, Bump, Dimple, Ridge, WaveVector
 from tehl.wave_theory import LinearTheory, expected_waves
 
 CONVERGES, ANSWERS = 8, 16
@@ -97,15 +96,17 @@ def asperities(
     if not problem.is_rough:
         return None
     mesh = _mesh(problem, options, domain)
-    looks = [_look(roughness, problem, mesh) for roughness in _as_they_pass(problem)]
-    stated = [surface.rms_roughness for surface in _surfaces(problem)]
-    sq = tuple(look.sq or rms for look, rms in zip(looks, stated, strict=True))
+    surfaces = (problem.surface_1, problem.surface_2)
+    looks = [_look(one.roughness, problem, mesh) for one in surfaces]
+    first, second = (
+        look.sq or one.rms_roughness for look, one in zip(looks, surfaces, strict=True)
+    )
     waves = [min(pair) for pair in zip(*(look.waves for look in looks), strict=True)]
     counts = [wave / step for wave, step in zip(waves, mesh, strict=True)]
     fewest, axis = min((count, number) for number, count in enumerate(counts))
     return Asperities(
-        sq=(sq[0], sq[1]),
-        composite=math.hypot(*sq),
+        sq=(first, second),
+        composite=math.hypot(first, second),
         steepest=max(look.steepest for look in looks),
         shortest_wave=waves[axis],
         points_per_wave=fewest,
@@ -117,52 +118,36 @@ def asperities(
     )
 
 
-def _as_they_pass(problem: ContactProblem) -> Iterator[AnyRoughness]:
-    """Yield the roughness of both surfaces; a feature that moves, when it is in the middle."""
-    for surface in _surfaces(problem):
-        roughness = surface.roughness
-        moves = problem.transient is not None and isinstance(roughness, Bump | Dimple | Ridge)
-        yield roughness.model_copy(update={"x": 0.0}) if moves else roughness
-
-
-def _surfaces(problem: ContactProblem) -> tuple[Surface, Surface]:
-    return problem.surface_1, problem.surface_2
-
-
 def _mesh(problem: ContactProblem, options: Options, domain: Domain) -> tuple[float, float]:
     """Return the mesh widths of the finest grid [m]."""
-    ny, nx = options.shape
-    hertz = problem.hertz
+    (ny, nx), hertz = options.shape, problem.hertz
     return (
         (domain.x[1] - domain.x[0]) / (nx - 1) * hertz.half_width_x,
         (domain.y[1] - domain.y[0]) / (ny - 1) * hertz.half_width_y,
     )
 
 
-@dataclass(frozen=True, slots=True)
-class _Look:
-    """Heights of one surface in the contact, as a mesh carries them."""
+class _Look(NamedTuple):
+    """Sq, largest slope and shortest waves of a surface in the contact, as a mesh carries it."""
 
     sq: float
     steepest: float
     waves: tuple[float, float]
 
 
-def _look(roughness: Roughness, problem: ContactProblem, mesh: tuple[float, float]) -> _Look:
+def _look(roughness: AnyRoughness, problem: ContactProblem, mesh: tuple[float, float]) -> _Look:
     if roughness.is_smooth:
         return _Look(0.0, 0.0, (math.inf, math.inf))
+    if problem.transient is not None and isinstance(roughness, Bump | Dimple | Ridge):
+        roughness = roughness.model_copy(update={"x": 0.0})  # when it is in the middle
     resolved, hertz = roughness.resolved_on(*mesh), problem.hertz
     widths, waves = (hertz.half_width_x, hertz.half_width_y), resolved.shortest_wavelengths
     finest = max(2.0 * width / wave for width, wave in zip(widths, waves, strict=True))
     count = int(min(max(_SAMPLES[0], ANSWERS * finest), _SAMPLES[1]))
     x, y = (np.linspace(-width, width, count) for width in widths)
     heights = np.broadcast_to(resolved.height(x[None, :], y[:, None]), (count, count))
-    return _Look(float(np.std(heights)), _steepest(heights, x, y), waves)
-
-
-def _steepest(heights: Array, x: Array, y: Array) -> float:
-    across, along = np.gradient(heights, y, x)
-    return float(np.hypot(across, along).max())
+    slopes = np.hypot(*np.gradient(heights, y, x))
+    return _Look(float(np.std(heights)), float(slopes.max()), waves)
 
 
 def _needed(options: Options, fewest: float, axis: int, wanted: int) -> int:
@@ -173,10 +158,9 @@ def _needed(options: Options, fewest: float, axis: int, wanted: int) -> int:
 
 
 def _remarks(problem: ContactProblem) -> Iterator[str]:
-    hertz = problem.hertz
-    size = (2.0 * hertz.half_width_x, 2.0 * hertz.half_width_y)
+    width, length = 2.0 * problem.hertz.half_width_x, 2.0 * problem.hertz.half_width_y
     for name in ("surface_1", "surface_2"):
-        for sentence in getattr(problem, name).roughness.fits(*size):
+        for sentence in getattr(problem, name).roughness.fits(width, length):
             yield f"{name}: {sentence}"
 
 

@@ -1,6 +1,5 @@
 """Amplitude of a wave that passes a place, fitted in time, beside :mod:`tehl.wave_theory`."""
 
-import cmath
 import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -9,6 +8,7 @@ import numpy as np
 
 from tehl.errors import InputError
 from tehl.post.transient import speed_of
+from tehl.post.waves.response import Ripple, ripple
 from tehl.roughness import WaveVector
 from tehl.typing import Array
 from tehl.wave_theory import amplitude_reduction, nabla_of, waves_of
@@ -24,7 +24,7 @@ _WHOLE = 1e-6
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class PassingWave:
+class PassingWave(Ripple):
     """Amplitudes of a wave that passes a place on y = 0.
 
     Attributes
@@ -35,13 +35,6 @@ class PassingWave:
         Number of fitted periods.
     steps_per_period : float
         Time steps in each of them.
-    amplitude : float
-        Of the heights, as the grid carries them [m].
-    film_amplitude, pressure_amplitude : float
-        Of the ripples [m], [Pa].
-    film_phase, pressure_phase : float
-        Zero where the film is thinnest and the pressure highest under the crests; positive where
-        the ripple lags [rad].
     nabla : float
         (lambda / a) sqrt(M/L) [-].
     published_ratio : float
@@ -51,18 +44,8 @@ class PassingWave:
     x: float
     periods: int
     steps_per_period: float
-    amplitude: float
-    film_amplitude: float
-    film_phase: float
-    pressure_amplitude: float
-    pressure_phase: float
     nabla: float
     published_ratio: float
-
-    @property
-    def film_ratio(self) -> float:
-        """Return the part of the wave that is left in the film [-]."""
-        return self.film_amplitude / self.amplitude
 
 
 def passing_wave(run: "TransientResult", surface: int, *, x: float = 0.0) -> PassingWave:
@@ -90,24 +73,17 @@ def passing_wave(run: "TransientResult", surface: int, *, x: float = 0.0) -> Pas
     rate = abs(wave.along * speed_of(run, surface))
     periods, steps = _periods(run, surface, rate, x)
     harmonic = _harmonic(run.history.time, rate, periods)
-    height, film, pressure = (
-        complex(*(harmonic @ _at(run, line, x)[-harmonic.shape[1] :])).conjugate()
-        for line in (
-            getattr(run.profiles, f"height_{surface}"),
-            run.profiles.film,
-            run.profiles.pressure,
-        )
+    profiles = run.profiles
+    lines = (getattr(profiles, f"height_{surface}"), profiles.film, profiles.pressure)
+    amplitudes = (
+        complex(*(harmonic @ _at(run, line, x)[-harmonic.shape[1] :])).conjugate() for line in lines
     )
     nabla = _nabla(run, wave)
     return PassingWave(
+        **ripple(*amplitudes),
         x=x,
         periods=periods,
         steps_per_period=steps,
-        amplitude=abs(height),
-        film_amplitude=abs(film),
-        film_phase=_lag(film / -height),
-        pressure_amplitude=abs(pressure),
-        pressure_phase=_lag(pressure / height),
         nabla=nabla,
         published_ratio=amplitude_reduction(nabla, ratio=abs(wave.across / wave.along)),
     )
@@ -182,8 +158,3 @@ def _harmonic(time: Array, rate: float, periods: int) -> Array:
     drift = (t - t.mean()) / max(np.ptp(t), 1e-300)
     columns = [np.cos(rate * t), np.sin(rate * t), np.cos(2 * rate * t), np.sin(2 * rate * t)]
     return np.linalg.pinv(np.stack([*columns, np.ones_like(t), drift], axis=1))[:2]
-
-
-def _lag(ratio: complex) -> float:
-    """Return the lag of a ripple behind its divisor [rad]."""
-    return -cmath.phase(ratio) + 0.0

@@ -34,7 +34,45 @@ _TURN = 0.25
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class WaveResponse:
+class Ripple:
+    """Ripples of film and pressure over a wave of the heights.
+
+    Attributes
+    ----------
+    amplitude : float
+        Of the heights, as the grid carries them [m].
+    film_amplitude, pressure_amplitude : float
+        Of the ripples [m], [Pa].
+    film_phase, pressure_phase : float
+        Zero where crests have the thinnest film and the highest pressure; positive where the
+        ripple lies behind, along the wave vector or in time [rad].
+    """
+
+    amplitude: float
+    film_amplitude: float
+    film_phase: float
+    pressure_amplitude: float
+    pressure_phase: float
+
+    @property
+    def film_ratio(self) -> float:
+        """Return the part of the wave that is left in the film [-]."""
+        return self.film_amplitude / self.amplitude
+
+
+def ripple(height: complex, film: complex, pressure: complex) -> dict[str, float]:
+    """Return the fields of :class:`Ripple` of complex amplitudes [m], [m], [Pa]."""
+    return {
+        "amplitude": abs(height),
+        "film_amplitude": abs(film),
+        "film_phase": -cmath.phase(film / -height) + 0.0,
+        "pressure_amplitude": abs(pressure),
+        "pressure_phase": -cmath.phase(pressure / height) + 0.0,
+    }
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class WaveResponse(Ripple):
     """One wave of the surfaces, and its ripples in the middle of the contact.
 
     Attributes
@@ -43,15 +81,8 @@ class WaveResponse:
         Across the crests [m].
     angle : float
         Zero: crests across the entrainment; between -pi/2 and pi/2 [rad].
-    amplitude : float
-        Of the heights, as the grid carries them [m].
     points_per_wave : float
         Nodes on a wave, along the axis that has fewer [-].
-    film_amplitude, pressure_amplitude : float
-        Of the ripples [m], [Pa].
-    film_phase, pressure_phase : float
-        Zero where crests have the thinnest film and the highest pressure; positive where the
-        ripple comes after, along the wave vector [rad].
     carried_amplitude : float
         Of the streaks along x that the film brings from the inlet [m]; zero where crests lie
         across or along the entrainment, or nearly so.
@@ -61,19 +92,9 @@ class WaveResponse:
 
     wavelength: float
     angle: float
-    amplitude: float
     points_per_wave: float
-    film_amplitude: float
-    film_phase: float
-    pressure_amplitude: float
-    pressure_phase: float
     carried_amplitude: float
     theory: LinearTheory
-
-    @property
-    def film_ratio(self) -> float:
-        """Return the part of the wave that is left in the film [-]."""
-        return self.film_amplitude / self.amplitude
 
 
 def wave_responses(result: "Result", smooth: "Result | None" = None) -> tuple[WaveResponse, ...]:
@@ -106,23 +127,18 @@ def wave_responses(result: "Result", smooth: "Result | None" = None) -> tuple[Wa
         film, pressure = film - smooth.film_thickness, pressure - smooth.pressure
     fit = patch.fit(waves)
     cuts = [patch.cut(field) for field in (found.heights, film, pressure)]
-    ripples = zip(*(fit.ripples(field) for field in cuts), strict=True)
     level = _flat_film(result, patch)
     return tuple(
         WaveResponse(
+            **ripple(*amplitudes),
             wavelength=wave.wavelength,
             angle=wave.angle,
             points_per_wave=patch.points_per_wave(wave),
-            amplitude=abs(height),
-            film_amplitude=abs(in_film),
-            film_phase=lag(in_film / -height),
-            pressure_amplitude=abs(in_pressure),
-            pressure_phase=lag(in_pressure / height),
             carried_amplitude=fit.carried(cuts[1], wave),
-            theory=found.theory(wave, level, abs(height)),
+            theory=found.theory(wave, level, abs(amplitudes[0])),
         )
-        for wave, (height, in_film, in_pressure) in zip(waves, ripples, strict=True)
-        if abs(height) > 0
+        for wave, *amplitudes in zip(waves, *map(fit.ripples, cuts), strict=True)
+        if abs(amplitudes[0]) > 0
     )
 
 
@@ -147,11 +163,6 @@ def wave_notes(result: "Result") -> tuple[str, ...]:
     if why and any(patch.straight(wave).along for wave in found.fitted):
         notes.append(why)
     return tuple(notes)
-
-
-def lag(ratio: complex) -> float:
-    """Return how far a ripple lies behind the wave that it is divided by [rad]."""
-    return -cmath.phase(ratio) + 0.0
 
 
 @dataclass(frozen=True, slots=True)
