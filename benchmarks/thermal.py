@@ -105,7 +105,7 @@ def cost(problem: ContactProblem, points: int) -> tuple[Result, float, float]:
 
 
 def speed(*, quick: bool = False) -> Table:
-    """Return what a heated, thinning film costs by grid, beside its isothermal Newtonian twin."""
+    """Return what a heated, thinning film costs by grid, beside an isothermal Newtonian one."""
     made = Table(
         title="Heat: cost at M = 100, SRR 0.5, Eyring 10 MPa, X in [-4.5, 1.5], Y in [-3, 3]",
         columns=(
@@ -115,11 +115,11 @@ def speed(*, quick: bool = False) -> Table:
     )  # fmt: skip
     for points in (257,) if quick else REPEATS:
         run, share, finest = cost(speed_contact("generalised", EYRING), points)
-        twin, _, _ = cost(speed_contact(None, None), points)
+        reference, _, _ = cost(speed_contact(None, None), points)
         made.rows.append(
             (points, outcome(run), run.cost.cpu_seconds, run.cost.work, 100 * share, 100 * finest,
              cycles(run),
-             twin.cost.work, f"{run.film_scaled.central:.5f}", *heat_cells(run))
+             reference.cost.work, f"{run.film_scaled.central:.5f}", *heat_cells(run))
         )  # fmt: skip
     made.notes.append("sweeps: part of the CPU seconds that went into the energy equation")
     made.notes.append("finest: the same on the finest grid alone, of its sweeps and cycles")

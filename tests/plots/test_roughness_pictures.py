@@ -41,12 +41,12 @@ def test_the_map_of_heights_shows_them_in_nanometres(rough):
     assert "Sq = " in texts(figure)
 
 
-def test_ripples_are_those_of_the_twin_if_there_is_one(rough, smooth):
-    with_twin, without = plots.micro_film_map(rough, smooth), plots.micro_film_map(rough)
-    assert "less that of smooth surfaces" in texts(with_twin)
+def test_ripples_are_those_of_the_reference_run_if_there_is_one(rough, smooth):
+    with_reference, without = plots.micro_film_map(rough, smooth), plots.micro_film_map(rough)
+    assert "less that of smooth surfaces" in texts(with_reference)
     assert "less its long waves" in texts(without)
-    # without the twin ripples mean nothing outside the contact
-    assert not np.ma.getmaskarray(with_twin.axes[0].findobj(QuadMesh)[0].get_array()).any()
+    # without the reference run ripples mean nothing outside the contact
+    assert not np.ma.getmaskarray(with_reference.axes[0].findobj(QuadMesh)[0].get_array()).any()
     assert np.ma.getmaskarray(without.axes[0].findobj(QuadMesh)[0].get_array()).any()
 
 
@@ -72,7 +72,7 @@ def test_a_smooth_result_has_nothing_to_draw(result, draw):
         draw(result)
 
 
-def test_pictures_use_the_twin_that_is_given(rough, smooth, tmp_path, monkeypatch):
+def test_pictures_use_the_reference_run_that_is_given(rough, smooth, tmp_path, monkeypatch):
     monkeypatch.setattr("tehl.plots.save.PICTURES", {})
     paths = plots.save_all(rough, tmp_path, dpi=40, smooth=smooth)
     assert [path.stem for path in paths] == list(OURS)

@@ -1,4 +1,4 @@
-"""Numbers of a rough film, and the same beside its smooth twin."""
+"""Numbers of a rough film, and the same beside its smooth reference run."""
 
 import math
 from dataclasses import replace
@@ -82,7 +82,7 @@ def test_the_micro_film_is_what_the_smooth_film_lacks(rough, smooth):
     assert ripples.pressure.max() == pytest.approx(PRESSURE * rough.scales.hertz_pressure)
 
 
-def test_a_filter_stands_in_for_a_missing_twin(rough, smooth):
+def test_a_filter_stands_in_for_a_missing_reference_run(rough, smooth):
     by_reference, by_filter = micro_film(rough, smooth), micro_film(rough)
     assert not by_filter.by_reference
     assert typical_wavelength(rough) == pytest.approx(
@@ -95,18 +95,18 @@ def test_a_filter_stands_in_for_a_missing_twin(rough, smooth):
     assert np.corrcoef(one.ravel(), other.ravel())[0, 1] > 0.98
 
 
-def test_films_on_other_grids_are_no_twins(rough, result):
+def test_films_on_other_grids_are_not_compared(rough, result):
     with pytest.raises(InputError, match="one grid"):
         micro_film(rough, result)
 
 
 def test_the_smooth_reference_is_a_case_of_its_own(rough):
-    twin = smooth_reference(rough.problem)
-    assert ContactProblem.model_validate(twin.model_dump(mode="json")) == twin
-    assert not twin.is_rough
-    assert twin.contact == rough.problem.contact
+    reference = smooth_reference(rough.problem)
+    assert ContactProblem.model_validate(reference.model_dump(mode="json")) == reference
+    assert not reference.is_rough
+    assert reference.contact == rough.problem.contact
     with pytest.raises(InputError, match="no roughness"):
-        smooth_reference(twin)
+        smooth_reference(reference)
 
 
 def test_the_effect_is_rough_over_smooth_and_comes_back_from_a_file(rough, smooth, tmp_path):

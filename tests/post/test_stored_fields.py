@@ -59,7 +59,7 @@ def test_an_instant_that_was_not_kept_is_refused(run):
         film_at(run, 3)
 
 
-def test_a_run_that_began_between_rough_surfaces_has_no_twin():
+def test_a_run_that_began_between_rough_surfaces_has_no_reference():
     standing = in_time(0.2, surface_1=wave(), transient={"start": "standing"})
     assert smooth_start(solve_transient(standing, OPTIONS)) is None
 

@@ -1,4 +1,4 @@
-"""A thermal film beside its isothermal twin."""
+"""A thermal film beside its isothermal reference run."""
 
 from dataclasses import replace
 
@@ -26,16 +26,16 @@ def warm() -> ContactProblem:
     )
 
 
-def test_the_twin_is_a_case_of_its_own(warm):
-    twin = isothermal_reference(warm)
-    assert ContactProblem.model_validate(twin.model_dump(mode="json")) == twin
-    assert twin.thermal is None
-    assert twin.inlet_temperature == warm.inlet_temperature == 333.15
-    assert twin.ambient_viscosity == warm.ambient_viscosity < 0.04
+def test_the_reference_run_is_a_case_of_its_own(warm):
+    reference = isothermal_reference(warm)
+    assert ContactProblem.model_validate(reference.model_dump(mode="json")) == reference
+    assert reference.thermal is None
+    assert reference.inlet_temperature == warm.inlet_temperature == 333.15
+    assert reference.ambient_viscosity == warm.ambient_viscosity < 0.04
     assert isothermal_reference(warm).contact == warm.contact
 
 
-def test_a_case_without_heat_has_no_twin(result):
+def test_a_case_without_heat_has_no_reference_run(result):
     with pytest.raises(InputError, match=r"\[thermal\]"):
         isothermal_reference(result.problem)
 

@@ -203,7 +203,10 @@ def test_the_schema_knows_tables_and_lists():
         (WAVE | {"angle": "45 um"}, "angle"),
         (WAVE | {"lay": 1}, "Extra inputs"),
         ([WAVE, {"type": "wavy"}], "wavy"),
-        (WAVE | {"type": "crossed", "form": "product", "amplitude_2": 1e-6}, "amplitude_2 does not apply"),
+        (
+            WAVE | {"type": "crossed", "form": "product", "amplitude_2": 1e-6},
+            "amplitude_2 does not",
+        ),
         (WAVE | {"amplitude": 0.2}, "not small beside wavelength = 0.0001 m"),
         ({"type": "bump", "amplitude": -1e-6, "radius": 2e-6}, "not small beside radius"),
         ({"type": "ridge", "amplitude": "1 mm", "width": "1 mm"}, "not small beside width"),
