@@ -21,11 +21,9 @@ SHOWN = ("F3", "F7", "F19", "X1")
 """Figures that the documentation shows."""
 TITLE = "The paper, recomputed"
 RUNS = """\
-tehl {version}, {seconds:.0f} s of CPU time for all runs.
-
-Residual: mean residual scaled by its diagonal. Change: largest change of pressure in the last
-cycle, in Hertz pressures. Runs on the paper's grid stop by the rule of the paper, which limits
-neither."""
+tehl {version}, {seconds:.0f} s of CPU time for all runs. Residual: mean residual scaled by its
+diagonal. Change: largest change of pressure in the last cycle, in Hertz pressures. Runs on the
+paper's grid stop by the rule of the paper, which limits neither."""
 _HERE = Path(__file__).parent
 _COLOURS = {
     "reproduced": "good",
