@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from tehl.errors import InputError
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Motion:
@@ -32,3 +34,9 @@ class Motion:
     def sliding_speed(self) -> float:
         """Return u_1 - u_2 [m/s]."""
         return self.entrainment_speed * self.slide_roll_ratio
+
+    def speed_of(self, surface: int) -> float:
+        """Return the speed of surface 1 or 2 [m/s]; raise InputError for any other number."""
+        if surface not in (1, 2):
+            raise InputError(f"surface = {surface}: must be 1 or 2")
+        return self.speed_1 if surface == 1 else self.speed_2

@@ -66,14 +66,6 @@ class Envelope:
     pressure_largest: Array
 
 
-def speed_of(run: "TransientResult", surface: int) -> float:
-    """Return the speed of surface 1 or 2 [m/s]; raise InputError for any other number."""
-    motion = run.start.problem.motion
-    if surface not in (1, 2):
-        raise InputError(f"surface = {surface}: must be 1 or 2")
-    return motion.speed_1 if surface == 1 else motion.speed_2
-
-
 def moving_profiles(
     run: "TransientResult", surface: int, *, start: float | None = None, reach: float | None = None
 ) -> MovingProfiles:
@@ -101,7 +93,7 @@ def moving_profiles(
     InputError
         If the surface has several features, or one away from y = 0, and ``start`` is not given.
     """
-    speed, x = speed_of(run, surface), run.x
+    speed, x = run.start.problem.motion.speed_of(surface), run.x
     start = _place_of_feature(run, surface) if start is None else start
     reach = run.start.scales.half_width_x if reach is None else reach
     if not reach > 0:

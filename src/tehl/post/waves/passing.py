@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tehl.errors import InputError
-from tehl.post.transient import speed_of
 from tehl.post.waves.response import Ripple, ripple
 from tehl.roughness import WaveVector
 from tehl.typing import Array
@@ -70,7 +69,7 @@ def passing_wave(run: "TransientResult", surface: int, *, x: float = 0.0) -> Pas
         the place, or if there are too few steps in a period.
     """
     wave = _wave(run, surface)
-    rate = abs(wave.along * speed_of(run, surface))
+    rate = abs(wave.along * run.start.problem.motion.speed_of(surface))
     periods, steps = _periods(run, surface, rate, x)
     harmonic = _harmonic(run.history.time, rate, periods)
     profiles = run.profiles
@@ -133,7 +132,8 @@ def _periods(run: "TransientResult", surface: int, rate: float, x: float) -> tup
 
 def _arrival(run: "TransientResult", surface: int, x: float) -> float:
     """Return when a wave that enters at the inlet has reached ``x`` in full [s]."""
-    transient, speed = run.start.problem.transient, speed_of(run, surface)
+    problem = run.start.problem
+    transient, speed = problem.transient, problem.motion.speed_of(surface)
     if transient is None or transient.start == "standing":
         return 0.0
     front = transient.entrance * run.start.scales.half_width_x
