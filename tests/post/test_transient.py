@@ -74,6 +74,7 @@ def test_what_lies_outside_the_domain_is_not_a_number():
     ("words", "call"),
     [
         ("surface = 3: must be 1 or 2", lambda run: moving_profiles(run, 3)),
+        ("surface = 3: must be 1 or 2", lambda run: passing_wave(run, 3)),
         ("reach = -1.0 m: must be positive", lambda run: moving_profiles(run, 1, reach=-1.0)),
         ("no step lies between", lambda run: envelope(run, since=1.0)),
         ("surface_1 has no wave", lambda run: passing_wave(run, 1)),

@@ -68,8 +68,8 @@ def passing_wave(run: "TransientResult", surface: int, *, x: float = 0.0) -> Pas
         If no wave of the surface passes, if less than a period remains after the wave has reached
         the place, or if there are too few steps in a period.
     """
-    wave = _wave(run, surface)
-    rate = abs(wave.along * run.start.problem.motion.speed_of(surface))
+    speed, wave = run.start.problem.motion.speed_of(surface), _wave(run, surface)
+    rate = abs(wave.along * speed)
     periods, steps = _periods(run, surface, rate, x)
     harmonic = _harmonic(run.history.time, rate, periods)
     profiles = run.profiles
