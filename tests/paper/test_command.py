@@ -30,7 +30,7 @@ def run(folder, *arguments):
     [
         (["T9"], "T9 is not a table, figure or conclusion"),
         (["T2", "Z1"], "Z1 is not a table, figure or conclusion"),
-        (["--points", "66", "T1"], "points = 66 cannot be coarsened"),
+        (["--points", "66", "T1"], "points = 66: cannot be coarsened"),
     ],
 )
 def test_bad_input_is_one_sentence_and_writes_nothing(tmp_path, arguments, words):
