@@ -38,6 +38,11 @@ class Grid:
         return (self.domain.y[1] - self.domain.y[0]) / (self.ny - 1)
 
     @property
+    def points(self) -> tuple[int, int]:
+        """Nodes (nx, ny) of the full domain."""
+        return self.nx, self.ny
+
+    @property
     def shape(self) -> tuple[int, int]:
         """Stored rows and columns."""
         return (self.ny // 2 + 1 if self.mirror else self.ny), self.nx

@@ -161,6 +161,16 @@ class Cost:
     wall_seconds: float
     work: float | None = None
 
+    def __add__(self, other: "Cost") -> "Cost":
+        """Return the sum of the seconds of two solves."""
+        return Cost(
+            cpu_seconds=self.cpu_seconds + other.cpu_seconds,
+            wall_seconds=self.wall_seconds + other.wall_seconds,
+        )
+
+
+NO_COST = Cost(cpu_seconds=0.0, wall_seconds=0.0)
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Provenance:

@@ -6,12 +6,11 @@ from tehl.grid import Grid
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.scaling import ScaledProblem
-from tehl.solver.diagnosis import LikelyCause, likely_cause
+from tehl.solver.diagnosis import LikelyCause, diverged, likely_cause
 from tehl.solver.film_solver import FilmSolver
 from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.ladder import COUPLED
 from tehl.solver.steady import finest_grid
-from tehl.solver.verdict import diverged
 from tests.reference import heated_contact, moes_contact
 
 DOMAIN = Domain(x=(-4.5, 1.5), y=(-3.0, 3.0))

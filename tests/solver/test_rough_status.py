@@ -10,9 +10,8 @@ from tehl.grid import Grid
 from tehl.io.summary import summary
 from tehl.report.page import report_text
 from tehl.result import ErrorEstimate, Result, Status
-from tehl.solver.certify import _Grid
-from tehl.solver.statuses import no_film
-from tehl.solver.verdict import is_film
+from tehl.solver.certify import _ending
+from tehl.solver.verdict import is_film, no_film
 from tests.reference import DOMAIN
 
 FLOOR = 0.01
@@ -80,8 +79,8 @@ def test_an_open_minimum_is_reported_everywhere(result: Result, monkeypatch):
         VAGUE.message,
         VAGUE.hint,
     )
-    assert "too coarse for the film" in _Grid(name="9 x 9", result=vague).ending
-    assert "too coarse for the film" not in _Grid(name="9 x 9", result=result).ending
+    assert "too coarse for the film" in _ending(vague)
+    assert "too coarse for the film" not in _ending(result)
 
 
 def test_a_certified_result_is_not_vague():

@@ -10,7 +10,6 @@ from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.scaling import scales
 from tehl.solver.monitor import SILENT
-from tehl.solver.statuses import step_not_settled
 from tehl.solver.transient.run import Run
 from tehl.solver.transient.snapshot import pack, unpack
 from tehl.solver.transient.step import StepError
@@ -369,8 +368,8 @@ def test_an_unreachable_tolerance_is_reported():
 @pytest.mark.parametrize(("cause", "change"), [("stalled", 1e-3), ("diverged", 1e-9)])
 def test_the_hint_of_a_step_that_does_not_converge_names_the_asperities(cause, change):
     case = in_time(0.3, transient={"tolerance": 1e-12})
-    grid = Run(case, OPTIONS, case.transient, SILENT).level.grid
-    status = step_not_settled(cause, change, 0.0, grid, case.transient)
+    run = Run(case, OPTIONS, case.transient, SILENT)
+    status = run.step_not_settled(StepError(cause, change), 0.0)
     assert "asperities" in str(status.hint)
 
 

@@ -6,17 +6,16 @@ h = h_3 + (h_3 - h_2)/3 (docs/theory/numerics.md on stopping and errors).
 
 import math
 from dataclasses import dataclass, replace
+from typing import Generic, NoReturn, TypeVar
 
 from tehl.errors import ConvergenceError
 from tehl.operators.heights import UnresolvedError
 from tehl.options import Domain, Options, check_certifiable
 from tehl.problem import ContactProblem
-from tehl.result import Estimate, Result
-from tehl.solver.cost import total
+from tehl.result import NO_COST, Cost, Estimate, Result, Status
 from tehl.solver.monitor import SILENT, Monitor
-from tehl.solver.statuses import not_certified, too_coarse_to_certify
 from tehl.solver.steady import solve
-from tehl.solver.verdict import LARGEST_BAR
+from tehl.solver.verdict import LARGEST_BAR, too_coarse
 
 WIDER = 2
 """Size of the larger domain over that of the result."""
@@ -29,6 +28,17 @@ JUDGED = ("film_central", "film_minimum", "pressure_max")
 RESIDUE = 0.25
 """Least error bar over the extrapolated change."""
 WITHOUT_FIRST = "The first grid is left out: each bar is the full change between the other two."
+
+AnyResult = TypeVar("AnyResult")
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Companion(Generic[AnyResult]):
+    """A run beside the finest one: how it ended, and its result if the error bars use it."""
+
+    ending: str
+    result: AnyResult | None = None
+    cost: Cost = NO_COST
 
 
 def certify(
@@ -61,107 +71,56 @@ def certify(
     """
     options = (options or Options()).model_copy(update={"accuracy": "tight"})
     check_certifiable(options)
-    grids: list[_Grid] = []
-    for number, times in enumerate((2, 1), start=1):
-        monitor.message(f"certify: grid {number} of 3")
-        grids.append(_coarser(problem, halved(options, times), monitor))
+    monitor.message("certify: grid 1 of 3")
+    first = _companion(problem, halved(options, 2), monitor)
+    monitor.message("certify: grid 2 of 3")
+    middle = _companion(problem, halved(options, 1), monitor)
     monitor.message("certify: grid 3 of 3")
     finest = solve(problem, options, monitor=monitor)
     monitor.message("certify: larger domain")
-    wide = _coarser(problem, widened(options, finest), monitor)
-    return _certified(grids, finest, wide)
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class _Grid:
-    """A run of the certification; ``used``: whether the error bars use it.
-
-    A grid that does not resolve the roughness has no result.
-    """
-
-    name: str
-    result: Result | None
-    used: bool = True
-
-    @property
-    def ending(self) -> str:
-        """Its nodes and how it ended."""
-        if self.result is None:
-            return f"{self.name} too coarse for the roughness"
-        status = self.result.status
-        coarse = status.is_vague or status.cause in ("grid_too_coarse", "film_not_positive")
-        return f"{self.name} {'too coarse for the film' if coarse else status.outcome}"
-
-
-def nodes_of(options: Options) -> str:
-    """Return the nodes of the finest grid as text."""
-    ny, nx = options.shape
-    return f"{nx} x {ny}"
-
-
-def _coarser(problem: ContactProblem, options: Options, monitor: Monitor) -> _Grid:
-    """Solve on a coarser grid, which need not resolve the film but must converge."""
-    name = nodes_of(options)
-    try:
-        return _Grid(name=name, result=solve(problem, options, monitor=monitor))
-    except UnresolvedError as error:
-        monitor.message(f"certify: {error}")
-        return _Grid(name=name, result=None, used=False)
-    except ConvergenceError as error:
-        monitor.message(f"certify: {error.result.status.message}")
-        film = error.result.film_scaled.minimum
-        return _Grid(name=name, result=error.result, used=film > 0 and _has_converged(error.result))
-
-
-def _certified(coarser: list[_Grid], finest: Result, wide: _Grid) -> Result:
-    """Return the result of the finest grid with error bars; raise if a bar is too wide."""
-    others = (grid.result for grid in (*coarser, wide) if grid.result is not None)
-    finest = replace(finest, cost=total(finest.cost, *(other.cost for other in others)))
-    first, middle = coarser
-    before, larger = _check_used(finest, middle, wide)
-    last = _Grid(name=nodes_of(finest.options), result=finest)
-    used = [grid.result for grid in (first, middle, last) if grid.used and grid.result is not None]
-    runs, wider = [_quantities(run) for run in used], _quantities(larger)
-    # the larger domain has the mesh of the middle grid: their difference is due to the domain
-    uncertainty = {
-        name: estimate(tuple(run[name] for run in runs), domain=abs(wider[name] - runs[-2][name]))
-        for name in wider
-    }
-    highest = uncertainty["pressure_max"]
-    uncertainty["pressure_max"] = with_growing_spike(highest, spike(before), spike(finest))
-    status = replace(finest.status, message=_endings([first, middle, last], wide), hint=None)
-    result = replace(finest, uncertainty=uncertainty, status=status)
-    worst = max(abs(uncertainty[name].uncertainty / uncertainty[name].value) for name in JUDGED)
+    wide = _companion(problem, widened(options, finest), monitor)
+    finest = replace(finest, cost=finest.cost + first.cost + middle.cost + wide.cost)
+    result = _with_bars(
+        finest,
+        first.result,
+        _needed(finest, middle, "the next coarser grid"),
+        _needed(finest, wide, "the larger domain"),
+    )
+    message = message_on([first.ending, middle.ending, _ending(finest)], wide.ending)
+    if first.result is None:
+        message += f" {WITHOUT_FIRST}"
+    elif first.result.status.is_vague or not first.result.status.converged:
+        message += (
+            " Where the first grid hides the order of the scheme, a bar is the full change between "
+            "the other two."
+        )
+    result = replace(result, status=replace(finest.status, message=message, hint=None))
+    bars = (result.uncertainty[name] for name in JUDGED)
+    worst = max(abs(bar.uncertainty / bar.value) for bar in bars)
     if worst > LARGEST_BAR:
-        status = too_coarse_to_certify(result, worst)
-        raise ConvergenceError(str(status.message), replace(result, status=status))
+        _reject(result, too_coarse_to_certify(result, worst))
     return result
 
 
-def _check_used(finest: Result, middle: _Grid, wide: _Grid) -> tuple[Result, Result]:
-    """Return the results that the bars need; raise with the finest result if one is missing."""
-    found = []
-    for grid, what in ((middle, "the next coarser grid"), (wide, "the larger domain")):
-        if grid.result is None or not grid.used:
-            status = not_certified(finest, f"{what} failed ({grid.ending}).")
-            raise ConvergenceError(str(status.message), replace(finest, status=status))
-        found.append(grid.result)
-    return found[0], found[1]
+def _companion(problem: ContactProblem, options: Options, monitor: Monitor) -> Companion[Result]:
+    """Solve on a coarser grid, which need not resolve the film but must converge."""
+    try:
+        result = solve(problem, options, monitor=monitor)
+    except UnresolvedError as error:
+        monitor.message(f"certify: {error}")
+        return Companion(ending=f"{nodes_of(options)} too coarse for the roughness")
+    except ConvergenceError as error:
+        result = error.result
+        monitor.message(f"certify: {result.status.message}")
+    is_used = result.status.converged or (result.film_scaled.minimum > 0 and _has_converged(result))
+    return Companion(ending=_ending(result), result=result if is_used else None, cost=result.cost)
 
 
-def _endings(grids: list[_Grid], wide: _Grid) -> str:
-    """Return how each grid ended, and what follows for the bars."""
-    endings = ", ".join(grid.ending for grid in grids)
-    message = f"Grids of the error bars: {endings}; larger domain: {wide.ending}."
-    if not grids[0].used:
-        return f"{message} {WITHOUT_FIRST}"
-    first = grids[0].result
-    if first is not None and (first.status.is_vague or not first.status.converged):
-        return (
-            f"{message} Where the first grid hides the order of the scheme, a bar is the full "
-            "change between the other two."
-        )
-    return message
+def _ending(result: Result) -> str:
+    """Return the nodes of a run and how it ended."""
+    status = result.status
+    coarse = status.is_vague or status.cause in ("grid_too_coarse", "film_not_positive")
+    return f"{nodes_of(result.options)} {'too coarse for the film' if coarse else status.outcome}"
 
 
 def _has_converged(result: Result) -> bool:
@@ -173,6 +132,44 @@ def _has_converged(result: Result) -> bool:
     return worst <= result.options.tolerance
 
 
+def _needed(finest: Result, run: Companion[Result], what: str) -> Result:
+    """Return the result of a run that the bars need; raise with the finest one if it failed."""
+    if run.result is None:
+        _reject(finest, not_certified(finest, f"{what} failed ({run.ending})."))
+    return run.result
+
+
+def _reject(result: Result, status: Status) -> NoReturn:
+    raise ConvergenceError(str(status.message), replace(result, status=status))
+
+
+def not_certified(result: Result, why: str) -> Status:
+    """Return ``not_certified``: the finest grid converged, but has no error bar."""
+    nodes = 2 * max(result.scaled.x.size, result.scaled.y.size) - 1
+    return Status(
+        kind="not_converged",
+        cause="not_certified",
+        message=f"The finest grid converged, but has no error bar: {why}",
+        hint=f"Take numerics.points = {nodes}, or solve without certifying.",
+    )
+
+
+def too_coarse_to_certify(result: Result, error: float) -> Status:
+    """Return ``grid_too_coarse`` for a certified result with a relative error bar ``error``."""
+    return too_coarse((result.scaled.x.size, result.scaled.y.size), result.groups, error)
+
+
+def message_on(grids: list[str], wide: str) -> str:
+    """Return how the runs ended, given for each grid and for the larger domain."""
+    return f"Grids of the error bars: {', '.join(grids)}; larger domain: {wide}."
+
+
+def nodes_of(options: Options) -> str:
+    """Return the nodes of the finest grid as text."""
+    ny, nx = options.shape
+    return f"{nx} x {ny}"
+
+
 def halved(options: Options, times: int) -> Options:
     """Return options of the grid with its intervals halved ``times`` times."""
     ny, nx = ((n - 1) // 2**times + 1 for n in options.shape)
@@ -181,31 +178,40 @@ def halved(options: Options, times: int) -> Options:
 
 def widened(options: Options, finest: Result) -> Options:
     """Return options of the larger domain: the nodes of ``finest``, twice its mesh width."""
-    x, y = finest.scaled.x, finest.scaled.y
-    domain = Domain(
-        x=(WIDER * float(x[0]), WIDER * float(x[-1])), y=(WIDER * float(y[0]), WIDER * float(y[-1]))
+    x, y = (
+        (WIDER * float(edges[0]), WIDER * float(edges[-1]))
+        for edges in (finest.scaled.x, finest.scaled.y)
     )
-    return options.model_copy(update={"domain": domain})
+    return options.model_copy(update={"domain": Domain(x=x, y=y)})
+
+
+def _with_bars(finest: Result, first: Result | None, middle: Result, wide: Result) -> Result:
+    """Return the finest result with its error bars; the first grid may be missing."""
+    used = [run for run in (first, middle, finest) if run is not None]
+    runs, wider = [_quantities(run) for run in used], _quantities(wide)
+    # the larger domain has the mesh of the middle grid: their difference is due to the domain
+    uncertainty = {
+        name: estimate(tuple(run[name] for run in runs), domain=abs(wider[name] - runs[-2][name]))
+        for name in wider
+    }
+    highest = uncertainty["pressure_max"]
+    uncertainty["pressure_max"] = with_growing_spike(highest, spike(middle), spike(finest))
+    return replace(finest, uncertainty=uncertainty)
 
 
 def _quantities(result: Result) -> dict[str, float]:
-    return {
+    """Return the values that get error bars: film, pressure, temperature, traction if it slides."""
+    found = {
         "film_central": result.film_scaled.central,
         "film_minimum": result.film_scaled.minimum,
         "pressure_max": float(result.scaled.pressure.max()),
-        **_heat_quantities(result),
     }
-
-
-def _heat_quantities(result: Result) -> dict[str, float]:
-    """Return the temperature rise of a heated film, and the traction of a sliding one."""
-    quantities = {}
     if (temperature := result.temperature) is not None:
-        quantities["mid_film_rise_central"] = temperature.mid_film_rise_central
+        found["mid_film_rise_central"] = temperature.mid_film_rise_central
     coupled = result.problem.is_coupled and result.problem.slide_roll_ratio != 0.0
     if coupled and (traction := result.traction) is not None:
-        quantities["traction_mid_film"] = traction.mid_film
-    return quantities
+        found["traction_mid_film"] = traction.mid_film
+    return found
 
 
 def spike(result: Result) -> float:

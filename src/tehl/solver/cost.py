@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from tehl.result import Cost, Result
+from tehl.result import NO_COST, Cost, Result
 
 REPEATS = 20
 
@@ -20,24 +20,15 @@ class Clock:
     """
 
     def __init__(self) -> None:
-        self.before = Cost(cpu_seconds=0.0, wall_seconds=0.0)
+        self.before = NO_COST
         self._wall, self._cpu = time.perf_counter(), time.process_time()
 
     def cost(self) -> Cost:
         """Return the cost so far."""
-        return Cost(
-            cpu_seconds=self.before.cpu_seconds + time.process_time() - self._cpu,
-            wall_seconds=self.before.wall_seconds + time.perf_counter() - self._wall,
+        return self.before + Cost(
+            cpu_seconds=time.process_time() - self._cpu,
+            wall_seconds=time.perf_counter() - self._wall,
         )
-
-
-def total(*costs: Cost | None) -> Cost:
-    """Return the sum of several costs; None counts nothing."""
-    known = [cost for cost in costs if cost is not None]
-    return Cost(
-        cpu_seconds=sum(cost.cpu_seconds for cost in known),
-        wall_seconds=sum(cost.wall_seconds for cost in known),
-    )
 
 
 def fft_seconds(nx: int, ny: int) -> float:

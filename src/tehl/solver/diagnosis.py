@@ -1,33 +1,122 @@
-"""Likely cause of an iteration that fails: temperature of the bodies, shear stress, or grid."""
+"""Why an iteration failed: the status of a run that diverged or stalled, with its likely cause."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from tehl.domain import needed_points
 from tehl.film_formulas import expected_central_film, expected_film
 from tehl.grid import Grid
 from tehl.heat import FAR_BODY, FilmEnergy
 from tehl.problem import ContactProblem
+from tehl.result import Status
 from tehl.scaling import Groups, ScaledProblem
+from tehl.solver.film_solver import FilmSolver
+from tehl.solver.film_summary import film_summary
+from tehl.solver.level import Level
 
 LARGEST_TRACTION = 0.1
 """Shear stress over pressure beyond what oils bear."""
 MEAN_PRESSURE = 2.0 / 3.0
 """Mean over largest pressure of a Hertz contact."""
 
+LESS_ROUGH = "Take lower or longer asperities, a higher speed, or more nodes (numerics.points)."
 _SHEAR_HINT = (
     'State lubricant.shear, such as { law = "eyring", stress = "5 MPa" }, or slide less '
     "(contact.slide_roll_ratio)."
 )
 
 
-@dataclass(frozen=True, kw_only=True, slots=True)
-class LikelyCause:
+class LikelyCause(NamedTuple):
     """A likely cause of failure: its name for programs, message and hint."""
 
     cause: str
     message: str
     hint: str
+
+
+def diverged(run: FilmSolver) -> Status:
+    """Return the status of a run that diverged, with its likely cause."""
+    (nx, ny), groups = run.finest.grid.points, run.groups
+    what = f"The iteration diverged on {nx} x {ny} nodes at M = {groups.M:.4g}, L = {groups.L:.4g}."
+    found, other = _likely_cause(run), _smoother_hint(run)
+    if found is None:
+        hint = (
+            f"Take {grid_hint((nx, ny), groups)}, or approach the case in steps from less load, "
+            "less sliding or a thicker film: it has no evident cause of failure."
+        )
+        hint = LESS_ROUGH if run.roughness.is_rough else hint
+        return Status(kind="diverged", cause="diverged", message=what, hint=other or hint)
+    message = f"{what} Likely cause: {found.message}"
+    return Status(kind="diverged", cause=found.cause, message=message, hint=other or found.hint)
+
+
+def not_reached(run: FilmSolver) -> Status:
+    """Return the status of a run whose cycles stalled, or ended before they converged."""
+    options, reports = run.options, run.traces[-1].reports
+    last = reports[-1]
+    numbers = {
+        "residual": last.residual,
+        "change per cycle": last.change,
+        "load error": abs(last.load_error),
+    }
+    worst = max(numbers, key=lambda name: numbers[name])
+    wanted = (
+        f"the tolerance is {options.tolerance:.1e}"
+        if options.accuracy == "tight"
+        else "the film still changes by more than a third of its discretisation error"
+    )
+    message = (
+        f"After {len(reports)} cycles on {last.points[0]} x {last.points[1]} nodes the "
+        f"{worst} is {numbers[worst]:.1e}; {wanted}."
+    )
+    hint = "Increase numerics.max_cycles."
+    if options.accuracy == "change":
+        hint = "Remove numerics.accuracy: a small change per cycle is not an error estimate."
+    if options.accuracy == "change" or len(reports) >= options.max_cycles * run.strategy.patience:
+        return Status(kind="not_converged", cause="too_few_cycles", message=message, hint=hint)
+    found, hint = _likely_cause(run), f"Take {grid_hint(run.finest.grid.points, run.groups)}."
+    if found is not None:
+        message, hint = f"{message} Likely cause: {found.message}", found.hint
+    return Status(
+        kind="stalled", cause="stalled", message=message, hint=_smoother_hint(run) or hint
+    )
+
+
+def _likely_cause(run: FilmSolver) -> LikelyCause | None:
+    """Return the likely cause of a failed run: the coarser film, or the contact."""
+    if not run.coarser_film_is_negative:
+        return likely_cause(run.finest.grid, run.hierarchy.scaled)
+    level = run.levels[-2]
+    smallest, x, y = thinnest(level)
+    return LikelyCause(
+        cause="grid_too_coarse",
+        message=(
+            f"The film of the next coarser grid, of {level.grid.nx} x {level.grid.ny} nodes, is "
+            f"not positive (smallest H = {smallest:.3g} at X = {x:.3g}, Y = {y:.3g} half-widths), "
+            "so it is not a start for this one."
+        ),
+        hint=LESS_ROUGH,
+    )
+
+
+def thinnest(level: Level) -> tuple[float, float, float]:
+    """Return the smallest film of a level, between its nodes too, and its X and Y."""
+    found = film_summary(level.grid, level.film.h)
+    node = float(level.film.h.min())
+    return (min(found.minimum, node), *found.minimum_at)
+
+
+def _smoother_hint(run: FilmSolver) -> str:
+    """Return the hint to remove a stated smoother, empty if the default was used."""
+    tried = run.options.smoother
+    if tried == "gauss-seidel":
+        return (
+            "Remove numerics.smoother: plain Gauss-Seidel diverges on any grid where the elastic "
+            "deflection dominates."
+        )
+    if tried in ("auto", "robust"):
+        return ""
+    return "Remove numerics.smoother: the default falls back to more robust settings."
 
 
 def likely_cause(grid: Grid, scaled: ScaledProblem) -> LikelyCause | None:
@@ -111,7 +200,7 @@ def _film_below_grid(grid: Grid, groups: Groups) -> Iterator[LikelyCause]:
             f"The expected film is H = {expected_central_film(groups):.2g}, which takes {needed} "
             f"nodes per direction or more to resolve; the grid has {here}."
         ),
-        hint=f"Take {grid_hint(grid, groups)}.",
+        hint=f"Take {grid_hint(grid.points, groups)}.",
     )
 
 
@@ -120,7 +209,6 @@ def _round(value: float) -> str:
     return f"{float(f'{value:.2g}'):g}"
 
 
-def grid_hint(grid: Grid, groups: Groups) -> str:
-    """Return the key and value of the recommended grid, at least twice as fine as ``grid``."""
-    nodes = max(needed_points(groups), 2 * max(grid.nx, grid.ny) - 1)
-    return f"numerics.points = {nodes}"
+def grid_hint(points: tuple[int, int], groups: Groups) -> str:
+    """Return the key and value of the recommended grid, at least twice as fine as ``points``."""
+    return f"numerics.points = {max(needed_points(groups), 2 * max(points) - 1)}"

@@ -20,13 +20,14 @@ from tehl.result import Cost, CycleReport, Provenance, Result, Status
 from tehl.scaling import ScaledProblem, Scales
 from tehl.solver.continuation import TouchingError
 from tehl.solver.cost import Clock
+from tehl.solver.diagnosis import diverged
 from tehl.solver.film_solver import FilmSolver
 from tehl.solver.film_summary import film_summary
 from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.ladder import ladder
 from tehl.solver.monitor import SILENT, Monitor, Recorder
 from tehl.solver.outputs import film_heat, film_shear, newtonian_shear
-from tehl.solver.verdict import diverged, touching, verdict
+from tehl.solver.verdict import touching, verdict
 from tehl.solver.warmup import warm_up
 
 GRID_CAUSES = ("grid_too_coarse", "domain_too_small", "inlet_too_short", "sides_too_close")

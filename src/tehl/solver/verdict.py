@@ -1,31 +1,26 @@
-"""Judgement of a finished run: converged, or which status of `tehl.solver.statuses`."""
+"""Judgement of a finished run: converged, or the cause why not.
 
+A status has the name of its cause for programs, a message with the numbers, and a hint with an
+action.
+"""
+
+import math
 from dataclasses import replace
 
 import numpy as np
 
 from tehl.domain import domain_error
+from tehl.grid import Grid
 from tehl.operators.energy import FilmState
 from tehl.result import ErrorEstimate, Status
-from tehl.solver.diagnosis import LikelyCause, grid_hint, likely_cause
+from tehl.scaling import Groups
+from tehl.solver.diagnosis import LESS_ROUGH, diverged, grid_hint, not_reached, thinnest
 from tehl.solver.film_solver import FilmSolver
 from tehl.solver.film_summary import film_summary
 from tehl.solver.level import Level
 from tehl.solver.outputs import heat_balance
-from tehl.solver.statuses import (
-    CONVERGED,
-    LESS_ROUGH,
-    asperity_contact,
-    domain_too_small,
-    edge_status,
-    film_not_positive,
-    heat_not_balanced,
-    minimum_open,
-    no_film,
-    thinnest,
-    too_coarse,
-)
 
+CONVERGED = Status(kind="converged")
 LARGEST_BAR = 0.5
 """Relative discretisation error of the film beyond which a grid is too coarse."""
 OPEN = 1.0
@@ -34,8 +29,12 @@ one spot beside an asperity: the rest of the film may be accurate, so the result
 BELOW_FLOOR = 0.5
 """Least film between rough surfaces over the floor of the conductance: a thinner one flows as if it
 were another film."""
+KNOWN = 0.5
+"""Relative error of the minimum film at which the hint to a finer grid aims."""
 LARGEST_DOMAIN_ERROR = 0.1
 """Estimated part of the central film beyond which a domain is too small."""
+STARVED = 0.9
+"""Film over fully flooded film below which an edge is too close."""
 LARGEST_COOLING = 5.0
 """Largest temperature of a film below that of all that enters it and expands adiabatically [K]."""
 LARGEST_MISSING_HEAT = 0.3
@@ -59,27 +58,76 @@ def verdict(run: FilmSolver, reached: bool, errors: ErrorEstimate | None) -> Sta
     if not (np.isfinite(film.p).all() and np.isfinite(film.h).all() and film.p.min() >= 0):
         return diverged(run)
     if not reached and run.roughness.is_rough:  # another strategy may converge on this grid
-        return _not_reached(run)
-    found = _film_status(run, errors)  # a grid too coarse explains cycles that do not converge
-    if not found.converged:
-        return found
-    if not reached:
-        return _not_reached(run)
-    rest = _heat_status(run)
-    rest = _domain_status(run) if rest.converged else rest
-    return found if rest.converged else rest
+        return not_reached(run)
+    found = _rough_status(run, errors) if run.roughness.is_rough else _smooth_status(run, errors)
+    # a grid too coarse explains cycles that do not converge
+    if found.converged and not reached:
+        return not_reached(run)
+    for judge in (_heat_status, _domain_status):
+        if found.converged and not (status := judge(run)).converged:
+            return status
+    return found
 
 
-def _film_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
-    """Judge whether the film is positive, and whether the grid resolves it."""
-    level, groups = run.finest, run.groups
-    if run.roughness.is_rough and not is_film(level, errors):
+def _failed(cause: str, message: str, hint: str) -> Status:
+    return Status(kind="not_converged", cause=cause, message=message, hint=hint)
+
+
+def too_coarse(points: tuple[int, int], groups: Groups, error: float) -> Status:
+    """Return ``grid_too_coarse``: the error of the film is too large.
+
+    Parameters
+    ----------
+    points : (int, int)
+        Nodes (nx, ny) of the finest grid.
+    groups : Groups
+        Dimensionless groups.
+    error : float
+        Relative error of the film [-].
+    """
+    size = "above 100 %" if error > 1.0 else f"{100 * error:.0f} %"
+    return _failed(
+        "grid_too_coarse",
+        f"The grid of {points[0]} x {points[1]} nodes is too coarse for the film: its estimated "
+        f"relative error is {size}.",
+        f"Take {grid_hint(points, groups)}.",
+    )
+
+
+def _smooth_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
+    """Judge whether the film between smooth surfaces is positive and resolved by the grid."""
+    level, points = run.finest, run.finest.grid.points
+    smallest = level.film.h.min()
+    if not smallest > level.equations.floor:
+        return _failed(
+            "film_not_positive",
+            f"The discrete film is not positive on {points[0]} x {points[1]} nodes (smallest H = "
+            f"{smallest:.3g}): the grid is too coarse for the film.",
+            f"Take {grid_hint(points, run.groups)}.",
+        )
+    if errors is None:
+        return CONVERGED
+    error = max(errors.discretisation_minimum, errors.discretisation_central)
+    return CONVERGED if error <= LARGEST_BAR else too_coarse(points, run.groups, error)
+
+
+def _rough_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
+    """Judge whether the film between rough surfaces is positive and resolved by the grid.
+
+    The error of its minimum counts relative to the smooth film.
+    """
+    level = run.finest
+    if not is_film(level, errors):
         return _no_film_status(run, errors)
-    if run.roughness.is_rough and errors is not None and errors.iteration_minimum >= 1.0:
-        return _not_reached(run)  # further cycles might make the minimum negative
-    if not run.roughness.is_rough and not level.film.h.min() > level.equations.floor:
-        return film_not_positive(level, groups)
-    return _resolution_status(run, errors)
+    if errors is None:
+        return CONVERGED
+    if errors.iteration_minimum >= 1.0:
+        return not_reached(run)  # further cycles might make the minimum negative
+    error, part = errors.discretisation_minimum, level.film.h.min() / run.hierarchy.expected_film
+    if not max(part * error, errors.discretisation_central) <= LARGEST_BAR:
+        largest = max(error, errors.discretisation_central)
+        return too_coarse(level.grid.points, run.groups, largest)
+    return minimum_open(level, error) if error > OPEN else CONVERGED
 
 
 def is_film(level: Level, errors: ErrorEstimate | None) -> bool:
@@ -97,10 +145,29 @@ def is_film(level: Level, errors: ErrorEstimate | None) -> bool:
 
 def _no_film_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     """Return asperity contact, or a grid too coarse if the error leaves doubt."""
+    (nx, ny), floor = run.finest.grid.points, run.finest.equations.floor
     if errors is not None and errors.discretisation_minimum > OPEN:
-        status = too_coarse(run.finest.grid, run.groups, errors.discretisation_minimum)
+        status = too_coarse((nx, ny), run.groups, errors.discretisation_minimum)
         return replace(status, message=f"{status.message} {no_film(run.finest)}.")
-    return asperity_contact(run.finest)
+    thin = int(np.count_nonzero(run.finest.film.h <= floor))
+    return _failed(
+        "asperity_contact",
+        f"{no_film(run.finest)}, on {nx} x {ny} nodes of which {thin} are below "
+        f"H = {floor:.2g}. Asperities would touch there, which a film that carries the whole "
+        "load does not describe.",
+        LESS_ROUGH,
+    )
+
+
+def no_film(level: Level) -> str:
+    """Return the value of the smallest film, its place, and what is wrong with it."""
+    smallest, x, y = thinnest(level)
+    how = "not positive"
+    if smallest > 0.0:
+        how = f"thinner than H = {level.equations.floor:.2g}, the floor of the conductance"
+    return (
+        f"The film is {how}: smallest H = {smallest:.3g} at X = {x:.3g}, Y = {y:.3g} (half-widths)"
+    )
 
 
 def touching(run: FilmSolver, part: float) -> Status:
@@ -110,33 +177,76 @@ def touching(run: FilmSolver, part: float) -> Status:
     return replace(status, message=message)
 
 
-def _resolution_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
-    """Judge whether the grid resolves the film.
-
-    Between rough surfaces the error of the minimum counts relative to the smooth film.
-    """
-    level, groups = run.finest, run.groups
-    if errors is None:
-        return CONVERGED
-    error, part = errors.discretisation_minimum, 1.0
-    if run.roughness.is_rough:
-        part = float(level.film.h.min()) / run.hierarchy.expected_film
-    if not max(part * error, errors.discretisation_central) <= LARGEST_BAR:
-        return too_coarse(level.grid, groups, max(error, errors.discretisation_central))
-    return minimum_open(level, error) if run.roughness.is_rough and error > OPEN else CONVERGED
+def minimum_open(level: Level, error: float) -> Status:
+    """Return ``converged`` with a warning: the relative ``error`` of the minimum exceeds one."""
+    grid, (smallest, x, y) = level.grid, thinnest(level)
+    factor = 2 ** math.ceil(0.5 * math.log2(error / KNOWN))  # of second order
+    nodes = factor * (max(grid.nx, grid.ny) - 1) + 1
+    return Status(
+        kind="converged",
+        message=(
+            f"The minimum film, at X = {x:.3g}, Y = {y:.3g} (half-widths), has a relative error of "
+            f"about {100 * error:.0f} % on {grid.nx} x {grid.ny} nodes: it is thin, at most about "
+            f"H = {(1.0 + error) * smallest:.2g}, but its value is not known."
+        ),
+        hint=(
+            f"If the minimum matters, take numerics.points = {nodes}, which at second order would "
+            f"reduce its error to {100 * KNOWN:.0f} %."
+        ),
+    )
 
 
 def _domain_status(run: FilmSolver) -> Status:
     """Judge whether the domain is large enough, and the contact fully flooded."""
-    level, groups = run.finest, run.groups
-    left_out = domain_error(groups, level.grid.domain)
+    grid, groups = run.finest.grid, run.groups
+    left_out = domain_error(groups, grid.domain)
     if left_out > LARGEST_DOMAIN_ERROR:
-        return domain_too_small(groups, left_out)
+        return _failed(
+            "domain_too_small",
+            f"At M = {groups.M:.4g} the contact is nearly rigid and carries load far outside the "
+            f"domain: the film may be {100 * left_out:.0f} % too thin.",
+            "Increase numerics.domain and numerics.points in proportion, or use the formula of "
+            "Nijenbanning, Venner and Moes in `tehl explain`, which covers rigid contacts.",
+        )
     # the central film may lie in a dent; the oil that the contact needs follows from the formula
     central = (
         run.hierarchy.expected_film if run.roughness.is_rough else run.traces[-1].central.values[-1]
     )
-    return edge_status(level.grid, groups, central)
+    return edge_status(grid, groups, central)
+
+
+def edge_status(grid: Grid, groups: Groups, central: float) -> Status:
+    """Return ``inlet_too_short`` or ``sides_too_close`` if an edge starves the contact.
+
+    The film decreases as ``((X - 1)/(m* - 1))^0.29`` if the meniscus is nearer than
+    ``m* = 1 + 3.06 H_c^0.58`` (Hamrock and Dowson 1977, part IV, for the inlet; applied to the
+    sides too).
+
+    Parameters
+    ----------
+    grid : Grid
+        Its domain is judged.
+    groups : Groups
+        Dimensionless groups.
+    central : float
+        Central film H_c [-].
+    """
+    needed = 1.0 + 3.06 * max(central, 0.0) ** 0.58
+    edges = (
+        ("inlet_too_short", "inlet edge at X", grid.domain.x[0]),
+        ("sides_too_close", "side edge at Y", grid.domain.y[0]),
+        ("sides_too_close", "side edge at Y", grid.domain.y[1]),
+    )
+    for cause, name, place in edges:
+        distance = abs(place)
+        if distance < needed and ((distance - 1.0) / (needed - 1.0)) ** 0.29 < STARVED:
+            return _failed(
+                cause,
+                f"The {name} = {place:.3g} starves the contact (M = {groups.M:.4g}): a fully "
+                f"flooded film needs {needed:.2g} or more (unit: Hertz half-widths).",
+                "Remove numerics.domain: the default domain is large enough.",
+            )
+    return CONVERGED
 
 
 def _heat_status(run: FilmSolver) -> Status:
@@ -148,17 +258,21 @@ def _heat_status(run: FilmSolver) -> Status:
     entering = min(state.scales.temperature, *(side.bulk for side in state.sides))
     missing = heat_balance(state).error if state.model.terms.heat else 0.0
     if not np.isfinite(temperature).all():
-        return heat_not_balanced("The temperature of the film is not finite.")
-    if temperature.min() < entering - LARGEST_COOLING - _adiabatic_cooling(state):
-        return heat_not_balanced(
+        message = "The temperature of the film is not finite."
+    elif temperature.min() < entering - LARGEST_COOLING - _adiabatic_cooling(state):
+        message = (
             f"The film is {entering - temperature.min():.3g} K colder than all that enters it, "
             "more than adiabatic expansion explains."
         )
-    if abs(missing) > LARGEST_MISSING_HEAT:
-        return heat_not_balanced(
-            f"The heat of the film does not balance: {100 * missing:.3g} % of it is missing."
-        )
-    return CONVERGED
+    elif abs(missing) > LARGEST_MISSING_HEAT:
+        message = f"The heat of the film does not balance: {100 * missing:.3g} % of it is missing."
+    else:
+        return CONVERGED
+    return _failed(
+        "heat_not_balanced",
+        message,
+        "Take more nodes (numerics.points), more layers (thermal.layers), or less sliding.",
+    )
 
 
 def _adiabatic_cooling(state: FilmState) -> float:
@@ -169,87 +283,3 @@ def _adiabatic_cooling(state: FilmState) -> float:
     ambient = state.problem.lubricant.density.ambient
     expansion = 1.0 - ambient(inlet + 1.0) / ambient(inlet)
     return expansion * inlet * terms.compression / terms.peclet
-
-
-def diverged(run: FilmSolver) -> Status:
-    """Return the status of a run that diverged, with its likely cause."""
-    grid, groups = run.finest.grid, run.groups
-    what = (
-        f"The iteration diverged on {grid.nx} x {grid.ny} nodes at M = {groups.M:.4g}, "
-        f"L = {groups.L:.4g}."
-    )
-    found, other = _likely_cause(run), _smoother_hint(run)
-    if found is None:
-        hint = (
-            other
-            or (LESS_ROUGH if run.roughness.is_rough else "")
-            or (
-                f"Take {grid_hint(grid, groups)}, or approach the case in steps from less load, "
-                "less sliding or a thicker film: it has no evident cause of failure."
-            )
-        )
-        return Status(kind="diverged", cause="diverged", message=what, hint=hint)
-    message = f"{what} Likely cause: {found.message}"
-    return Status(kind="diverged", cause=found.cause, message=message, hint=other or found.hint)
-
-
-def _not_reached(run: FilmSolver) -> Status:
-    """Return the status of a run whose cycles stalled, or ended before they converged."""
-    options, reports = run.options, run.traces[-1].reports
-    last = reports[-1]
-    numbers = {
-        "residual": last.residual,
-        "change per cycle": last.change,
-        "load error": abs(last.load_error),
-    }
-    worst = max(numbers, key=lambda name: numbers[name])
-    wanted = (
-        f"the tolerance is {options.tolerance:.1e}"
-        if options.accuracy == "tight"
-        else "the film still changes by more than a third of its discretisation error"
-    )
-    message = (
-        f"After {len(reports)} cycles on {last.points[0]} x {last.points[1]} nodes the "
-        f"{worst} is {numbers[worst]:.1e}; {wanted}."
-    )
-    hint = "Increase numerics.max_cycles."
-    if options.accuracy == "change":
-        hint = "Remove numerics.accuracy: a small change per cycle is not an error estimate."
-    if options.accuracy == "change" or len(reports) >= options.max_cycles * run.strategy.patience:
-        return Status(kind="not_converged", cause="too_few_cycles", message=message, hint=hint)
-    found, hint = _likely_cause(run), f"Take {grid_hint(run.finest.grid, run.groups)}."
-    if found is not None:
-        message, hint = f"{message} Likely cause: {found.message}", found.hint
-    return Status(
-        kind="stalled", cause="stalled", message=message, hint=_smoother_hint(run) or hint
-    )
-
-
-def _likely_cause(run: FilmSolver) -> LikelyCause | None:
-    """Return the likely cause of a failed run: the coarser film, or the contact."""
-    if not run.coarser_film_is_negative:
-        return likely_cause(run.finest.grid, run.hierarchy.scaled)
-    level = run.levels[-2]
-    smallest, x, y = thinnest(level)
-    return LikelyCause(
-        cause="grid_too_coarse",
-        message=(
-            f"The film of the next coarser grid, of {level.grid.nx} x {level.grid.ny} nodes, is "
-            f"not positive (smallest H = {smallest:.3g} at X = {x:.3g}, Y = {y:.3g} half-widths), "
-            "so it is not a start for this one."
-        ),
-        hint=LESS_ROUGH,
-    )
-
-
-def _smoother_hint(run: FilmSolver) -> str:
-    """Return the hint to remove a stated smoother, empty if the default was used."""
-    tried = run.options.smoother
-    if tried == "gauss-seidel":
-        return (
-            "Remove numerics.smoother: plain Gauss-Seidel diverges on any grid where the elastic "
-            "deflection dominates."
-        )
-    if tried in ("auto", "robust"):
-        return ""
-    return "Remove numerics.smoother: the default falls back to more robust settings."

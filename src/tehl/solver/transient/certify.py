@@ -5,28 +5,31 @@ scheme is of second order in both together (docs/theory/numerics.md on time step
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from tehl.errors import ConvergenceError, InputError
 from tehl.options import Options, can_be_halved, check_certifiable
 from tehl.problem import ContactProblem
-from tehl.result import Cost, Estimate, Status
+from tehl.result import Estimate
 from tehl.solver.certify import (
     ORDERS,
     RESIDUE,
     WITHOUT_FIRST,
+    Companion,
     estimate,
     halved,
+    message_on,
     nodes_of,
+    not_certified,
     spike,
+    too_coarse_to_certify,
     widened,
     with_growing_spike,
 )
-from tehl.solver.cost import total
 from tehl.solver.monitor import SILENT, StepMonitor
-from tehl.solver.statuses import not_certified, too_coarse_to_certify
 from tehl.solver.transient.run import solve_transient
 from tehl.solver.verdict import LARGEST_BAR
 from tehl.transient_result import HistoryBars, TransientResult
@@ -79,68 +82,33 @@ def certify_transient(
     finest = solve_transient(problem, options, monitor=monitor)
     if not finest.status.converged:
         return finest
-    runs = _Runs(problem=_without_frames(problem), monitor=monitor)
-    middle = runs.solve(halved(options, 1), "half the intervals")
-    if middle.run is None:
-        return _not_certified(finest, "the run on half the intervals", (middle,))
-    wide = runs.solve(widened(options, finest.start), "the larger domain")
-    if wide.run is None:
-        return _not_certified(finest, "the run on the larger domain", (middle, wide))
-    coarse = runs.solve_quarter(options)
-    known = tuple(one for one in (coarse.run, middle.run, finest) if one is not None)
-    return _judged(
-        replace(
-            finest,
-            status=_certified(finest, coarse, middle, wide),
-            cost=total(finest.cost, coarse.cost, middle.cost, wide.cost),
-            uncertainty=estimates(known, wide.run),
-            bars=history_bars(known, wide.run),
-        )
+    solve = partial(_companion, _without_frames(problem), monitor)
+    middle = solve(halved(options, 1), "half the intervals")
+    if middle.result is None:
+        return _not_certified(finest, "the run on half the intervals", middle)
+    wide = solve(widened(options, finest.start), "the larger domain")
+    finest = replace(finest, cost=finest.cost + middle.cost)
+    if wide.result is None:
+        return _not_certified(finest, "the run on the larger domain", wide)
+    coarse = solve(halved(options, 2), "a quarter of the intervals")
+    runs = tuple(one for one in (coarse.result, middle.result, finest) if one is not None)
+    last = f"{nodes_of(options)} {finest.status.outcome}"
+    message = message_on([coarse.ending, middle.ending, last], wide.ending)
+    if coarse.result is None:
+        message += f" {WITHOUT_FIRST}"
+    result = replace(
+        finest,
+        status=replace(finest.status, message=message, hint=None),
+        cost=finest.cost + coarse.cost + wide.cost,
+        uncertainty=estimates(runs, wide.result),
+        bars=history_bars(runs, wide.result),
     )
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class _Other:
-    """A run beside the finest; ``run`` is None if it failed."""
-
-    ending: str
-    run: TransientResult | None = None
-    cost: Cost | None = None
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class _Runs:
-    """Makes the runs beside the finest, of which none raises."""
-
-    problem: ContactProblem
-    monitor: StepMonitor
-
-    def solve(self, options: Options, what: str) -> _Other:
-        """Return a run, or how it failed."""
-        self.monitor.message(f"certify: {nodes_of(options)} nodes, {what}")
-        found = self._try(options)
-        if found.run is None:
-            self.monitor.message(f"certify: {found.ending}")
-        return found
-
-    def solve_quarter(self, options: Options) -> _Other:
-        """Return the run on a quarter of the intervals, if there is such a grid."""
-        coarse = halved(options, 2)
-        if not can_be_halved(options, 2):
-            return _Other(ending=f"{nodes_of(coarse)} has too few nodes")
-        return self.solve(coarse, "a quarter of the intervals")
-
-    def _try(self, options: Options) -> _Other:
-        name = nodes_of(options)
-        try:
-            run = solve_transient(self.problem, options, monitor=self.monitor)
-        except InputError as error:
-            return _Other(ending=f"{name} not possible ({error})")
-        except ConvergenceError as error:
-            ending = f"{name} at time zero {error.result.status.outcome}"
-            return _Other(ending=ending, cost=error.result.cost)
-        ending = f"{name} {run.status.outcome}"
-        return _Other(ending=ending, run=run if run.status.converged else None, cost=run.cost)
+    bars = (result.uncertainty[name] for name in JUDGED)
+    # a film extrapolated to zero has no relative error
+    worst = max(abs(bar.uncertainty / bar.value) if bar.value else math.inf for bar in bars)
+    if worst > LARGEST_BAR:
+        return replace(result, status=too_coarse_to_certify(result.start, worst))
+    return result
 
 
 def _without_frames(problem: ContactProblem) -> ContactProblem:
@@ -150,33 +118,35 @@ def _without_frames(problem: ContactProblem) -> ContactProblem:
     return problem.model_copy(update={"transient": bare})
 
 
+def _companion(
+    problem: ContactProblem, monitor: StepMonitor, options: Options, what: str
+) -> Companion[TransientResult]:
+    """Solve on another grid; a run that fails has no result."""
+    name = nodes_of(options)
+    if not can_be_halved(options, 0):
+        return Companion(ending=f"{name} has too few nodes")
+    monitor.message(f"certify: {name} nodes, {what}")
+    try:
+        run = solve_transient(problem, options, monitor=monitor)
+    except InputError as error:
+        found = Companion[TransientResult](ending=f"{name} not possible ({error})")
+    except ConvergenceError as error:
+        result = error.result
+        found = Companion(ending=f"{name} at time zero {result.status.outcome}", cost=result.cost)
+    else:
+        used = run if run.status.converged else None
+        found = Companion(ending=f"{name} {run.status.outcome}", result=used, cost=run.cost)
+    if found.result is None:
+        monitor.message(f"certify: {found.ending}")
+    return found
+
+
 def _not_certified(
-    finest: TransientResult, what: str, others: tuple[_Other, ...]
+    finest: TransientResult, what: str, failed: Companion[TransientResult]
 ) -> TransientResult:
-    """Return the finest run without error bars, because the last of the others failed."""
-    status = not_certified(finest.start, f"{what} failed ({others[-1].ending}).")
-    cost = total(finest.cost, *(other.cost for other in others))
-    return replace(finest, status=status, cost=cost)
-
-
-def _certified(finest: TransientResult, coarse: _Other, middle: _Other, wide: _Other) -> Status:
-    """Return the status with how each run ended, and what follows for the bars."""
-    last = f"{nodes_of(finest.start.options)} {finest.status.outcome}"
-    endings = f"{coarse.ending}, {middle.ending}, {last}"
-    message = f"Grids of the error bars: {endings}; larger domain: {wide.ending}."
-    if coarse.run is None:
-        message += f" {WITHOUT_FIRST}"
-    return replace(finest.status, message=message, hint=None)
-
-
-def _judged(run: TransientResult) -> TransientResult:
-    """Return the run, with the status of too coarse a grid if a bar is too wide."""
-    bars = [run.uncertainty[name] for name in JUDGED]
-    # a film extrapolated to zero has no relative error
-    worst = max(abs(bar.uncertainty / bar.value) if bar.value else math.inf for bar in bars)
-    if worst <= LARGEST_BAR:
-        return run
-    return replace(run, status=too_coarse_to_certify(run.start, worst))
+    """Return the finest run without error bars, because another one failed."""
+    status = not_certified(finest.start, f"{what} failed ({failed.ending}).")
+    return replace(finest, status=status, cost=finest.cost + failed.cost)
 
 
 def estimates(runs: Runs, wide: TransientResult) -> dict[str, Estimate]:

@@ -5,9 +5,11 @@ from typing import Any
 
 import numpy as np
 
+from tehl.errors import InputError
 from tehl.scaling import Scales
 from tehl.solver.film_summary import film_summary
 from tehl.solver.level import Level
+from tehl.transient import Transient
 from tehl.transient_result import Frames, History, Profiles
 from tehl.typing import Array
 
@@ -112,3 +114,31 @@ class Record:
         return Frames(
             step=np.array(self.frame_steps, np.int64), pressure=pressure, film=film, height=height
         )
+
+
+def kept_steps(transient: Transient, steps: int, seconds: float) -> set[int]:
+    """Return the steps whose fields are stored: evenly spaced, or nearest to stated times.
+
+    Parameters
+    ----------
+    transient : Transient
+        ``frames`` is their number, or their times [s].
+    steps : int
+        Number of steps of the run.
+    seconds : float
+        Time step [s].
+
+    Raises
+    ------
+    InputError
+        If a stated time is after the end.
+    """
+    if isinstance(transient.frames, int):
+        every = steps / max(transient.frames - 1, 1)
+        return {round(n * every) for n in range(transient.frames)}
+    late = [time for time in transient.frames if time > (steps + 0.5) * seconds]
+    if late:
+        raise InputError(
+            f"transient.frames = {late[0]:g} s: after the end of the run at {steps * seconds:.4g} s"
+        )
+    return {min(round(time / seconds), steps) for time in transient.frames}

@@ -19,11 +19,10 @@ from tehl.solver.level import Level
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.outputs import newtonian_sliding
 from tehl.solver.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH
-from tehl.solver.statuses import step_not_settled, touching_in_time
 from tehl.solver.steady import Attempt, finest_grid, solve_attempt
 from tehl.solver.transient.checks import check_load, check_places, check_stride, check_waves
-from tehl.solver.transient.record import Record
-from tehl.solver.transient.snapshot import ANEW, Snapshot, check_consistent, pack
+from tehl.solver.transient.record import Record, kept_steps
+from tehl.solver.transient.snapshot import ANEW, Snapshot
 from tehl.solver.transient.step import StepEnd, StepError, Stepper
 from tehl.solver.warmup import warm_up
 from tehl.transient import Transient
@@ -34,6 +33,8 @@ SETTINGS, COUPLED_SETTINGS = (FAST, ROUGH, CAREFUL), (BROAD, ROBUST, CAREFUL)
 """Relaxations of a step, fastest first; and those for heated or shear-thinning films."""
 START_TOLERANCE = 1e-7
 """Tolerance of the steady film at time zero."""
+NEARLY_CONVERGED = 1e-6
+"""Change of P in the last cycle of a time step that only a tight tolerance rejects."""
 
 
 def solve_transient(
@@ -129,12 +130,10 @@ class Run:
                 load = self.transient.load_at(time_now)
                 end = self.stepper.step(heights[0] + heights[1], load)
             except StepError as error:
-                return step_not_settled(
-                    error.cause, error.change, time_now, self.level.grid, self.transient
-                )
+                return self.step_not_settled(error, time_now)
             self._note(step, heights, end)
             if not self.level.film.h.min() > self.level.equations.floor:
-                return touching_in_time(time_now, self.level, rough=self.problem.is_rough)
+                return self._touching(time_now)
             monitor.step(self._report(step, end))
             if keep is not None:
                 keep(self.snapshot())
@@ -204,7 +203,7 @@ class Run:
         Raises
         ------
         InputError
-            If it belongs to another grid, lacks a field, or has values that are not finite.
+            If it belongs to another grid or other steps, or lacks a field.
         """
         level, fields = self.level, dict(snapshot.fields)
         self._check(snapshot)
@@ -217,23 +216,72 @@ class Run:
         self.record, self.clock.before = snapshot.record, snapshot.cost
 
     def _check(self, snapshot: Snapshot) -> None:
-        """Check that a snapshot is complete and belongs to this problem."""
+        """Check that a snapshot belongs to this problem."""
         if _shapes(snapshot.fields) != _shapes(self.snapshot().fields):
             raise InputError(f"the checkpoint has another grid than the case, or is damaged{ANEW}")
-        arrays = pack(snapshot)
-        check_consistent(arrays)
-        grid, count = self.level.grid, len(snapshot.record.rows)
-        steps = np.arange(count)
+        record, grid = snapshot.record, self.level.grid
+        steps = np.arange(len(record.rows))
+        times = np.array([row[0] for row in record.rows])
         fitting = (
-            count <= self.steps + 1
+            steps.size <= self.steps + 1
             and 0 <= snapshot.setting < len(self.stepper.settings)
-            and np.allclose(arrays["rows"][:, 0], steps * self.seconds, rtol=1e-9, atol=0.0)
-            and arrays["profiles"].shape[-1] == grid.nx
-            and snapshot.record.frame_steps == [step for step in steps if step in self.kept]
-            and arrays["frames"].shape[2:] in {(grid.ny, grid.nx), (0, 0)}
+            and np.allclose(times, steps * self.seconds, rtol=1e-9, atol=0.0)
+            and record.profiles[0].shape[-1] == grid.nx
+            and record.frame_steps == [step for step in steps if step in self.kept]
+            and all(frame.shape[1:] == (grid.ny, grid.nx) for frame in record.frames)
         )
         if not fitting:
             raise InputError(f"the checkpoint has other steps than the case, or is damaged{ANEW}")
+
+    def step_not_settled(self, error: StepError, seconds: float) -> Status:
+        """Return ``step_not_settled``: the time step to ``seconds`` did not converge."""
+        (nx, ny), tolerance = self.level.grid.points, self.transient.tolerance
+        hint = (
+            "Take lower or longer asperities, more nodes (numerics.points), or more cycles per "
+            "step (transient.max_cycles)."
+        )
+        if error.cause == "stalled" and tolerance < error.change < NEARLY_CONVERGED:
+            hint = (
+                f"Set transient.tolerance = {NEARLY_CONVERGED:g} or more (now {tolerance:g}): the "
+                "pressure has nearly converged."
+            )
+        return Status(
+            kind=error.cause,
+            cause="step_not_settled",
+            message=(
+                f"The time step to {seconds:.4g} s did not converge on {nx} x {ny} nodes: "
+                f"the last change of P is {error.change:.2g}. The steps before it are kept."
+            ),
+            hint=hint,
+        )
+
+    def _touching(self, seconds: float) -> Status:
+        """Return ``asperity_contact``, or ``film_not_positive`` of smooth surfaces."""
+        grid, h = self.level.grid, self.level.film.h
+        row, column = np.unravel_index(int(np.argmin(h)), h.shape)
+        where = (
+            f"At {seconds:.4g} s the film is not positive: smallest H = {h.min():.3g} at "
+            f"X = {grid.x[column]:.3g}, Y = {grid.y[row]:.3g}"
+        )
+        if self.problem.is_rough:
+            cause = "asperity_contact"
+            message = (
+                f"{where}. On {grid.nx} x {grid.ny} nodes asperities would touch there, which a "
+                "film that carries the whole load does not describe; on a finer grid they may "
+                "not. The steps before it are kept."
+            )
+            hint = (
+                f"Take numerics.points = {2 * max(grid.points) - 1} to see whether a finer grid "
+                "has a film, else lower or longer asperities, or a higher speed."
+            )
+        else:
+            cause = "film_not_positive"
+            message = (
+                f"{where}, between smooth surfaces: the load grows too fast, or beyond the domain. "
+                "The steps before it are kept."
+            )
+            hint = "Let the load grow more slowly or less, or take more nodes (numerics.points)."
+        return Status(kind="not_converged", cause=cause, message=message, hint=hint)
 
     def result(self, status: Status) -> TransientResult:
         """Return the result; an open minimum of the steady film is reported in its status."""
@@ -285,31 +333,3 @@ def steady_start(
         status = replace(result.status, message=message)
         raise ConvergenceError(message, replace(result, status=status))
     return attempt, result
-
-
-def kept_steps(transient: Transient, steps: int, seconds: float) -> set[int]:
-    """Return the steps whose fields are stored: evenly spaced, or nearest to stated times.
-
-    Parameters
-    ----------
-    transient : Transient
-        ``frames`` is their number, or their times [s].
-    steps : int
-        Number of steps of the run.
-    seconds : float
-        Time step [s].
-
-    Raises
-    ------
-    InputError
-        If a stated time is after the end.
-    """
-    if isinstance(transient.frames, int):
-        every = steps / max(transient.frames - 1, 1)
-        return {round(n * every) for n in range(transient.frames)}
-    late = [time for time in transient.frames if time > (steps + 0.5) * seconds]
-    if late:
-        raise InputError(
-            f"transient.frames = {late[0]:g} s: after the end of the run at {steps * seconds:.4g} s"
-        )
-    return {min(round(time / seconds), steps) for time in transient.frames}

@@ -85,7 +85,9 @@ def unpack(arrays: Arrays) -> Snapshot:
     InputError
         If an array is missing, inconsistent with the others, or not finite.
     """
-    check_consistent(arrays)
+    wrong = next(_faults(arrays), None)
+    if wrong is not None:
+        raise InputError(f"the checkpoint is damaged: {wrong}{ANEW}")
     cpu, wall = arrays["cost"].tolist()
     return Snapshot(
         setting=int(arrays["setting"]),
@@ -103,19 +105,6 @@ def unpack(arrays: Arrays) -> Snapshot:
         ),
         cost=Cost(cpu_seconds=cpu, wall_seconds=wall),
     )
-
-
-def check_consistent(arrays: Arrays) -> None:
-    """Check that the arrays of a snapshot are complete, consistent and finite.
-
-    Raises
-    ------
-    InputError
-        If an array is missing, inconsistent with the others, or not finite.
-    """
-    wrong = next(_faults(arrays), None)
-    if wrong is not None:
-        raise InputError(f"the checkpoint is damaged: {wrong}{ANEW}")
 
 
 def _faults(arrays: Arrays) -> Iterator[str]:

@@ -10,6 +10,7 @@ are one derivative of m = rho H along the mean motion, second-order backward:
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
@@ -49,7 +50,7 @@ class StepEnd:
 class StepError(ArithmeticError):
     """No relaxation converged; ``cause`` is "diverged" or "stalled"."""
 
-    def __init__(self, cause: str, change: float) -> None:
+    def __init__(self, cause: Literal["diverged", "stalled"], change: float) -> None:
         super().__init__(cause)
         self.cause, self.change = cause, change
 
