@@ -50,7 +50,7 @@ def level() -> Level:
     result = tehl.solve(case, options)
     scaled = ScaledProblem.of(case)
     grid = finest_grid(scaled, options)
-    here = Level(Equations.on(grid, scaled.groups, flow_table(scaled), options), FAST)
+    here = Level(Equations.on(grid, scaled, flow_table(scaled), options), FAST)
     here.film.p[:] = result.scaled.pressure
     here.film.h[:] = result.scaled.film
     here.update_properties()

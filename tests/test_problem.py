@@ -90,14 +90,14 @@ def test_a_stated_hertz_pressure_is_the_hertz_pressure():
 
 
 def test_the_temperature_of_the_film_is_that_of_the_viscosity():
-    assert problem().heat.temperature == pytest.approx(313.15)
+    assert problem().inlet_temperature == pytest.approx(313.15)
 
 
 def hot(thermal: dict[str, Any] | None = None, **changes: Any) -> ContactProblem:
     return problem(lubricant="mineral-oil", thermal=thermal or {}, **changes)
 
 
-def test_a_thermal_table_makes_a_heat_problem_of_its_own():
+def test_a_thermal_table_makes_a_heat_problem():
     heat = hot().heat
     assert isinstance(heat, FilmEnergy)
     assert (heat.temperature, heat.bulk_1, heat.bulk_2) == (313.15, 313.15, 313.15)
@@ -124,7 +124,7 @@ def test_the_oil_enters_at_the_stated_temperature_and_the_laws_keep_theirs():
     tables["lubricant"]["temperature"] = "80 degC"
     warm = ContactProblem.model_validate(tables)
     oil, none = warm.lubricant, np.zeros(1)
-    assert warm.heat.temperature == pytest.approx(353.15)
+    assert warm.inlet_temperature == pytest.approx(353.15)
     assert warm.ambient_viscosity == pytest.approx(oil.viscosity.viscosity(none, 353.15)[0])
     assert warm.ambient_density == pytest.approx(oil.density.density(none, 353.15)[0])
     assert warm.ambient_viscosity < 0.3 * cold.ambient_viscosity

@@ -5,7 +5,7 @@
     problem, options = tehl.read_case_and_options("case.toml")
     result = tehl.solve(problem, options)
 
-What this package exports is loaded when it is first asked for, so that importing it costs nothing.
+Exports are loaded on first use, so that importing the package costs nothing.
 """
 
 from importlib import import_module
@@ -56,37 +56,29 @@ __all__ = [
 
 __version__ = "0.1.0"
 SOLVER_VERSION = 4
-"""To be raised with each change of the solver after which answers kept before would mislead."""
+"""To be raised with each change of the solver that makes stored results of studies invalid."""
 
 _HOMES = {
-    "Contact": "tehl.problem",
-    "ContactProblem": "tehl.problem",
-    "ConvergenceError": "tehl.errors",
-    "Domain": "tehl.options",
-    "TransientResult": "tehl.transient_result",
-    "FileFormatError": "tehl.errors",
-    "InputError": "tehl.errors",
-    "Lubricant": "tehl.lubricant",
-    "Options": "tehl.options",
-    "Result": "tehl.result",
-    "Solid": "tehl.materials",
-    "Surface": "tehl.problem",
-    "TehlError": "tehl.errors",
-    "certify": "tehl.solver",
-    "certify_transient": "tehl.solver",
-    "load": "tehl.io.store",
-    "solve_transient": "tehl.solver",
-    "material": "tehl.materials",
-    "oil": "tehl.lubricant",
-    "read_case": "tehl.io.case",
-    "read_case_and_options": "tehl.io.case",
-    "solve": "tehl.solver",
-    "study": "tehl.studies",
+    name: module
+    for module, names in {
+        "tehl.errors": ("ConvergenceError", "FileFormatError", "InputError", "TehlError"),
+        "tehl.io.case": ("read_case", "read_case_and_options"),
+        "tehl.io.store": ("load",),
+        "tehl.lubricant": ("Lubricant", "oil"),
+        "tehl.materials": ("Solid", "material"),
+        "tehl.options": ("Domain", "Options"),
+        "tehl.problem": ("Contact", "ContactProblem", "Surface"),
+        "tehl.result": ("Result",),
+        "tehl.solver": ("certify", "certify_transient", "solve", "solve_transient"),
+        "tehl.studies": ("study",),
+        "tehl.transient_result": ("TransientResult",),
+    }.items()
+    for name in names
 }
 
 
 def __getattr__(name: str) -> Any:
-    """Load an export from where it lives."""
+    """Load an export from its module."""
     if name in ("plots", "studies"):
         return import_module(f"tehl.{name}")
     if name not in _HOMES:
@@ -95,5 +87,5 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    """Show the exports, loaded or not, and nothing else."""
+    """List the exports, loaded or not, and nothing else."""
     return sorted(__all__)

@@ -3,9 +3,9 @@
 ::
 
     TehlError
-    ├── InputError         what was asked cannot be: wrong name, unit or value
-    ├── ConvergenceError   the solver did not reach the answer; carries the result so far
-    └── FileFormatError    a file is not what it should be
+    ├── InputError         an input is invalid: wrong name, unit or value
+    ├── ConvergenceError   the solver did not converge; carries the result so far
+    └── FileFormatError    a file has the wrong format
 """
 
 from typing import TYPE_CHECKING
@@ -15,30 +15,24 @@ if TYPE_CHECKING:
 
 
 class TehlError(Exception):
-    """Base of every error raised on purpose by ``tehl``."""
+    """Base of all errors that ``tehl`` raises on purpose."""
 
 
 class InputError(TehlError):
-    """An input is impossible; the message names it, its value, its unit and what would be right."""
+    """An input is invalid; the message has its name, value and unit, and what is expected."""
 
 
 class FileFormatError(TehlError):
-    """A file is truncated, foreign or of an unknown version."""
+    """A file is truncated, of another program or of an unknown version."""
 
 
 class ConvergenceError(TehlError):
-    """The solver stopped before the answer.
-
-    Attributes
-    ----------
-    result : Result
-        The last finite state, marked as not converged, with its history.
-    """
+    """The solver did not converge; ``result`` is the last finite state, with its history."""
 
     def __init__(self, message: str, result: "Result") -> None:
         super().__init__(message)
         self.result = result
 
     def __reduce__(self) -> tuple[type["ConvergenceError"], tuple[str, "Result"]]:
-        """Travel between processes whole."""
+        """Pickle with the result, so that worker processes can raise it."""
         return type(self), (str(self), self.result)

@@ -1,4 +1,4 @@
-"""Which heat problem goes with the film; not how it is solved."""
+"""The heat problem of a film; not how it is solved."""
 
 from dataclasses import dataclass
 from typing import Annotated, Literal
@@ -15,23 +15,23 @@ SourceForm = Literal["auto", "line", "full"]
 LEAST_LINE_PECLET = 30.0
 """Solid Peclet number from which on the line source is good to one per cent."""
 FAR_BODY = 40.0
-"""Kelvin between a body and the oil at the inlet beyond which a run is seldom orderly."""
+"""Difference of a body to the oil at the inlet beyond which runs often fail to converge [K]."""
 LAYERS: dict[AcrossScheme, int] = {"chebyshev": 9, "uniform": 21}
 """Nodes across the film when the case does not state them."""
 
 
 class Thermal(BaseModel):
-    """The table ``[thermal]`` of a case: heat is computed, and how.
+    """The table ``[thermal]`` of a case.
 
     Attributes
     ----------
     temperature : float or None
-        Temperature of the oil at the inlet [K]; None when ``lubricant.temperature`` says it, or
-        the reference temperature of the viscosity does.
+        Temperature of the oil at the inlet [K]; None takes ``lubricant.temperature``, or the
+        reference temperature of the viscosity.
     reynolds : {"generalised", "mean", "mean-all"}
         Form of the Reynolds equation, see :class:`FilmEnergy`.
     layers : int or None
-        Nodes across the film, both surfaces included; None takes what suits the scheme.
+        Nodes across the film, both surfaces included; None takes `LAYERS` of the scheme.
     scheme : {"chebyshev", "uniform"}
         Collocation at Chebyshev nodes, or differences between uniform layers.
     sources : {"auto", "line", "full"}
@@ -48,21 +48,8 @@ class Thermal(BaseModel):
 
     @property
     def nodes(self) -> int:
-        """Return the nodes across the film, stated or usual."""
+        """Return the nodes across the film, stated or those of the scheme."""
         return LAYERS[self.scheme] if self.layers is None else self.layers
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Isothermal:
-    """The film keeps the temperature of the inlet everywhere.
-
-    Attributes
-    ----------
-    temperature : float
-        Temperature of oil and solids [K].
-    """
-
-    temperature: float
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -84,7 +71,7 @@ class FilmEnergy:
         Collocation at Chebyshev nodes, or differences between uniform layers.
     sources : {"auto", "line", "full"}
         Surface temperatures by the line source of high Peclet numbers, by the full moving source,
-        or by whichever suits each surface.
+        or by `source_form` for each surface.
     """
 
     temperature: float
@@ -97,14 +84,9 @@ class FilmEnergy:
 
 
 def source_form(stated: SourceForm, peclet: float) -> Literal["line", "full"]:
-    """Return the moving source that a surface takes.
+    """Return the moving source of a surface, as stated or for its Peclet number.
 
-    Parameters
-    ----------
-    stated : {"auto", "line", "full"}
-        What the case says.
-    peclet : float
-        ``u_s a_x / (2 diffusivity)`` of the solid [-], negative where it moves against x.
+    ``peclet`` is u_s a_x / (2 diffusivity) of the solid [-], negative if it moves against x.
     """
     if stated != "auto":
         return stated

@@ -9,12 +9,11 @@ from typing import Self
 
 from pydantic import BaseModel, ConfigDict, model_validator
 
-from tehl.geometry import Radii, reduced_radii
-from tehl.heat import FilmEnergy, Isothermal, Thermal
+from tehl.geometry import Motion, Radii, reduced_radii
+from tehl.heat import FilmEnergy, Thermal
 from tehl.hertz import HertzContact, hertz_contact, load_of_pressure
 from tehl.lubricant import NamedLubricant
 from tehl.materials import NamedSolid, reduced_modulus
-from tehl.motion import Motion
 from tehl.problem_checks import check
 from tehl.roughness import AnyRoughness, Smooth
 from tehl.transient import Transient
@@ -45,7 +44,7 @@ class Surface(BaseModel):
     rms_roughness : float
         Rq [m], for the lambda ratio of a smooth calculation.
     roughness : surface
-        Heights that the film has to flow over; smooth if left out.
+        Heights of the surface; smooth if left out.
     temperature : float or None
         Temperature far from the contact [K], in thermal runs; None is that of the oil at the inlet.
     """
@@ -81,11 +80,7 @@ class Surface(BaseModel):
     @property
     def radii(self) -> Radii | None:
         """Return the radii of this surface, None when the contact states them."""
-        if self.radius is not None:
-            return Radii(x=self.radius, y=self.radius)
-        if self.radius_x is None or self.radius_y is None:
-            return None
-        return Radii(x=self.radius_x, y=self.radius_y)
+        return _stated_radii(self)
 
 
 class Contact(BaseModel):
@@ -138,11 +133,15 @@ class Contact(BaseModel):
     @property
     def radii(self) -> Radii | None:
         """Return the reduced radii, None when the surfaces state theirs."""
-        if self.radius is not None:
-            return Radii(x=self.radius, y=self.radius)
-        if self.radius_x is None or self.radius_y is None:
-            return None
-        return Radii(x=self.radius_x, y=self.radius_y)
+        return _stated_radii(self)
+
+
+def _stated_radii(stated: Surface | Contact) -> Radii | None:
+    if stated.radius is not None:
+        return Radii(x=stated.radius, y=stated.radius)
+    if stated.radius_x is None or stated.radius_y is None:
+        return None
+    return Radii(x=stated.radius_x, y=stated.radius_y)
 
 
 class ContactProblem(BaseModel):
@@ -151,7 +150,7 @@ class ContactProblem(BaseModel):
     Attributes
     ----------
     title : str
-        For people.
+        Shown in reports and pictures.
     contact : Contact
         Shape, load and motion.
     surface_1, surface_2 : Surface
@@ -159,9 +158,9 @@ class ContactProblem(BaseModel):
     lubricant : Lubricant
         A named oil or its laws.
     thermal : Thermal or None
-        How heat is computed; None is an isothermal film.
+        Settings of the heat; None is an isothermal film.
     transient : Transient or None
-        Time: roughness moves with its surface; None is a steady film.
+        Settings of a transient run, in which roughness moves with its surface; None is steady.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
@@ -234,19 +233,16 @@ class ContactProblem(BaseModel):
         return self.lubricant.viscosity.reference_temperature
 
     @property
-    def heat(self) -> Isothermal | FilmEnergy:
-        """Return which heat problem goes with the film."""
-        inlet, bulk = (
-            self.inlet_temperature,
-            (self.surface_1.temperature, self.surface_2.temperature),
-        )
+    def heat(self) -> FilmEnergy | None:
+        """Return the heat problem of the film, None if it is isothermal."""
         if self.thermal is None:
-            return Isothermal(temperature=inlet)
-        first, second = (inlet if stated is None else stated for stated in bulk)
+            return None
+        inlet, first = self.inlet_temperature, self.surface_1.temperature
+        second = self.surface_2.temperature
         return FilmEnergy(
             temperature=inlet,
-            bulk_1=first,
-            bulk_2=second,
+            bulk_1=inlet if first is None else first,
+            bulk_2=inlet if second is None else second,
             reynolds=self.thermal.reynolds,
             layers=self.thermal.nodes,
             scheme=self.thermal.scheme,
@@ -255,7 +251,7 @@ class ContactProblem(BaseModel):
 
     @property
     def is_coupled(self) -> bool:
-        """Whether more than pressure rules the flow: heat, or shear thinning."""
+        """Whether heat or shear thinning affect the flow."""
         return self.thermal is not None or not self.lubricant.shear.is_newtonian
 
     @property
@@ -309,15 +305,12 @@ class ContactProblem(BaseModel):
     @property
     def solid_peclet(self) -> tuple[float | None, float | None]:
         """Return ``u_s a_x / (2 diffusivity)`` of both solids [-], signed; None if not stated."""
-        width, motion = self.hertz.half_width_x, self.motion
-        first, second = (
-            None if diffusivity is None else speed * width / (2.0 * diffusivity)
-            for speed, diffusivity in (
-                (motion.speed_1, self.surface_1.material.diffusivity),
-                (motion.speed_2, self.surface_2.material.diffusivity),
-            )
+        motion, half_width = self.motion, 0.5 * self.hertz.half_width_x
+        first, second = (one.material.diffusivity for one in (self.surface_1, self.surface_2))
+        return (
+            None if first is None else motion.speed_1 * half_width / first,
+            None if second is None else motion.speed_2 * half_width / second,
         )
-        return first, second
 
     @property
     def rms_roughness(self) -> float:
@@ -326,10 +319,10 @@ class ContactProblem(BaseModel):
 
     @property
     def is_rough(self) -> bool:
-        """Whether the film has to flow over heights."""
+        """Whether a surface has heights."""
         return not (self.surface_1.roughness.is_smooth and self.surface_2.roughness.is_smooth)
 
     @property
     def is_even_in_y(self) -> bool:
-        """Whether y and -y are alike, so that half of the domain may be solved."""
+        """Whether the problem is symmetric in y, so that half of the domain suffices."""
         return self.surface_1.roughness.is_even_in_y and self.surface_2.roughness.is_even_in_y

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from typing import Literal
 
-from tehl.fields import Fields, FilmHeat, FilmShear, FilmSummary, SiFilm, SurfaceHeights
+from tehl.fields import Fields, FilmHeat, FilmShear, FilmSummary, SurfaceHeights
 from tehl.options import Options
 from tehl.post.heat import Temperature, temperature
 from tehl.post.roughness import RoughFilm, rough_film
@@ -259,13 +259,17 @@ class Result(Saved):
         return self.scaled.film * self.scales.film_thickness
 
     @property
-    def film(self) -> SiFilm:
-        """Central and minimum film thickness [m]."""
-        scale, film = self.scales.film_thickness, self.film_scaled
-        return SiFilm(
-            central=film.central * scale,
-            minimum=film.minimum * scale,
-            minimum_node=film.minimum_node * scale,
+    def film(self) -> FilmSummary:
+        """Central and minimum film thickness, and place of the minimum [m]."""
+        scales, film = self.scales, self.film_scaled
+        return FilmSummary(
+            central=film.central * scales.film_thickness,
+            minimum=film.minimum * scales.film_thickness,
+            minimum_node=film.minimum_node * scales.film_thickness,
+            minimum_at=(
+                film.minimum_at[0] * scales.half_width_x,
+                film.minimum_at[1] * scales.half_width_y,
+            ),
         )
 
     @property

@@ -321,13 +321,9 @@ def film_terms(grid: Grid, scaled: ScaledProblem, wedge_order: int) -> energy.Te
 
 
 def film_energy(problem: ContactProblem) -> FilmEnergy:
-    """Return the heat problem; of an isothermal film one that nobody solves."""
-    heat = problem.heat
-    if isinstance(heat, FilmEnergy):
-        return heat
-    return FilmEnergy(
-        temperature=heat.temperature, bulk_1=heat.temperature, bulk_2=heat.temperature
-    )
+    """Return the heat problem, for an isothermal film a placeholder that is never solved."""
+    inlet = problem.inlet_temperature
+    return problem.heat or FilmEnergy(temperature=inlet, bulk_1=inlet, bulk_2=inlet)
 
 
 def line_surface(grid: Grid, scales: Scales, side: Side, flux_unit: float) -> energy.Surface:

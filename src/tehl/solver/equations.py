@@ -9,6 +9,7 @@
 
 from dataclasses import dataclass
 
+from tehl.film_formulas import expected_central_film
 from tehl.grid import Grid
 from tehl.kernels import reynolds
 from tehl.operators.deformation import Deformation, choose
@@ -18,8 +19,11 @@ from tehl.operators.influence import Influence, influence_of
 from tehl.operators.load import TARGET, Load
 from tehl.operators.reynolds import stencil
 from tehl.options import Options
-from tehl.scaling import Groups
+from tehl.scaling import Groups, ScaledProblem
 from tehl.typing import Array
+
+FLOOR = 0.02
+"""Least film in the conductance, over the expected central film."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -65,12 +69,10 @@ class Equations:
     def on(
         cls,
         grid: Grid,
-        groups: Groups,
+        scaled: ScaledProblem,
         flow: FlowTable,
         options: Options,
-        *,
         load: float = 1.0,
-        floor: float = 0.0,
     ) -> "Equations":
         """Discretise a contact.
 
@@ -78,17 +80,16 @@ class Equations:
         ----------
         grid : Grid
             The nodes.
-        groups : Groups
-            Dimensionless groups.
+        scaled : ScaledProblem
+            The contact.
         flow : FlowTable
-            Mobility and density of the lubricant.
+            Mobility and density of the lubricant, the same on all grids.
         options : Options
             Order of the wedge, and method of the deflection.
         load : float
             Load that the film carries, over that of the contact [-].
-        floor : float
-            Least film in the conductance [-].
         """
+        groups = scaled.groups
         return cls(
             grid=grid,
             groups=groups,
@@ -99,7 +100,7 @@ class Equations:
             load=Load(grid),
             target=load * TARGET,
             gap=gap(grid, groups),
-            floor=floor,
+            floor=FLOOR * expected_central_film(groups),
         )
 
 

@@ -11,7 +11,6 @@ from itertools import count
 import numpy as np
 
 from tehl.operators.heights import Heights
-from tehl.options import Options
 from tehl.result import CycleReport, ErrorEstimate, Result
 from tehl.scaling import Groups
 from tehl.solver.anderson import Anderson
@@ -44,7 +43,6 @@ from tehl.solver.level import Level
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.newton import Newton
 from tehl.solver.thermal import Coupling
-from tehl.solver.warm_start import warm_start
 from tehl.typing import Array
 
 FIRST_STEPS = 6
@@ -94,10 +92,11 @@ class FilmSolver:
         monitor: Monitor = SILENT,
         guess: Result | None = None,
     ) -> None:
-        self.hierarchy, self.strategy = hierarchy, strategy
+        self.hierarchy, self.strategy, self.options = hierarchy, strategy, hierarchy.options
+        self.levels = hierarchy.levels
         self.coupling = Coupling(
             hierarchy.scaled,
-            hierarchy.options,
+            self.options,
             slide_in_steps=strategy.slide_in_steps,
             damping=strategy.damping if heights is not None else 1.0,
         )
@@ -105,11 +104,6 @@ class FilmSolver:
         self.monitor, self.guess = monitor, guess
         self.traces: list[GridTrace] = []
         self.accepted, self.from_hertz = True, False
-
-    @property
-    def levels(self) -> list[Level]:
-        """The levels, coarsest first."""
-        return self.hierarchy.levels
 
     @property
     def finest(self) -> Level:
@@ -120,11 +114,6 @@ class FilmSolver:
     def groups(self) -> Groups:
         """Dimensionless groups of the contact."""
         return self.hierarchy.scaled.groups
-
-    @property
-    def options(self) -> Options:
-        """Numerical options."""
-        return self.hierarchy.options
 
     def solve(self, *, force: bool) -> bool:
         """Run full multigrid; return whether the finest grid converged.
@@ -208,7 +197,7 @@ class FilmSolver:
         Not if the next coarser grid has no positive film with all heights: raising them takes ten
         times as long as all before, and fails alike.
         """
-        warm_start(self.finest, self.guess)
+        self.finest.warm_start(self.guess)
         last, roughness = len(self.levels) - 1, self.roughness
         try:
             self._iterate(self.levels)

@@ -19,8 +19,6 @@ from tehl.solver.fas import Cycle, cycle
 from tehl.solver.level import Level
 from tehl.solver.relaxation import Relaxation
 
-FLOOR = 0.02
-"""Least film in the conductance, over the expected central film."""
 LONGEST_STEP = 0.3
 """Largest change of pressure in a Newton step on the coarsest grid, in Hertz pressures."""
 
@@ -118,12 +116,9 @@ class Hierarchy:
         load : float
             Load that the film carries, over that of the contact [-].
         """
-        groups, flow = scaled.groups, flow_table(scaled)
-        film = expected_central_film(groups)
+        flow, film = flow_table(scaled), expected_central_film(scaled.groups)
         levels = [
-            Level(
-                Equations.on(grid, groups, flow, options, load=load, floor=FLOOR * film), relaxation
-            )
+            Level(Equations.on(grid, scaled, flow, options, load), relaxation)
             for grid in hierarchy(finest)
         ]
         return cls(scaled, options, levels, CoarsestSolver(levels[0]), film)
