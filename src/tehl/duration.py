@@ -5,7 +5,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from tehl.errors import InputError
-from tehl.problem import ContactProblem
 from tehl.roughness.model import Extent
 from tehl.roughness.superposition import OneRoughness, Sum
 from tehl.roughness.waves import HarmonicModel
@@ -19,7 +18,7 @@ BEYOND = 1.5
 PERIODS = 2.5
 """Wavelengths of a harmonic surface that pass the centre, so that a fit over time has two."""
 LONGEST = 6.0
-"""Longest wave along x that a run waits for [a_x]: longer ones tilt the surfaces as a whole."""
+"""Longest wave along x that extends a run [a_x]: longer ones tilt the surfaces as a whole."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -45,7 +44,7 @@ class Part:
 
     @property
     def is_endless(self) -> bool:
-        """Whether it extends without end along x, and so enters at the inlet."""
+        """Whether it is infinite along x, and so enters at the inlet."""
         return math.isinf(self.extent[0][0])
 
     @property
@@ -112,7 +111,7 @@ def components(roughness: OneRoughness | Sum) -> tuple[OneRoughness, ...]:
 
 
 def misplaced(scaled: ScaledProblem, seconds: float) -> str | None:
-    """Return why the roughness never enters the contact, or starts inside it; None if it is fine.
+    """Return why the roughness never enters the contact, or starts inside it; None if it enters.
 
     ``seconds`` is the duration of the run [s].
     """
@@ -132,15 +131,11 @@ def misplaced(scaled: ScaledProblem, seconds: float) -> str | None:
             return _starts_inside(part, units)
     if any(part.is_in_contact(units, seconds, entrance) for part in parts):
         return None
+    too_short = " and transient.duration" if transient.duration is not None else ""
     return (
         f"roughness: does not enter the contact within {seconds:.3g} s; check its position "
-        f"(x, y){_and_duration(problem)}"
+        f"(x, y){too_short}"
     )
-
-
-def _and_duration(problem: ContactProblem) -> str:
-    stated = problem.transient is not None and problem.transient.duration is not None
-    return " and transient.duration" if stated else ""
 
 
 def _starts_inside(part: Part, units: Scales) -> str:

@@ -10,7 +10,7 @@ from tehl.operators.heights import MovingHeights
 from tehl.problem import ContactProblem
 from tehl.scaling import ScaledProblem, scales
 from tehl.solver.transient.checks import check_load, check_waves
-from tehl.solver.transient.record import kept_steps
+from tehl.solver.transient.snapshot import kept_steps
 from tehl.transient import Transient
 from tests.reference import DOMAIN, moes_contact
 from tests.solver.test_transient import OPTIONS, in_time, wave

@@ -302,13 +302,13 @@ def test_the_last_relaxation_before_newton_continues_to_the_finest_grid(
 ) -> None:
     """Even if coarser grids are not converging; with heat it is the last strategy."""
     seen: list[tuple[str, bool]] = []
-    run = steady._attempt
+    run = steady._run
 
     def noted(*args: Any, force: bool) -> Any:
         seen.append((args[0].strategy.name, force))
         return replace(run(*args, force=force), status=Status(kind="stalled", cause="stalled"))
 
-    monkeypatch.setattr(steady, "_attempt", noted)
+    monkeypatch.setattr(steady, "_run", noted)
     smooth = wavy((20.0, 10.0), (0.01, 2.0, 0.0))
     sheared = smooth.model_copy(update={"lubricant": thinning(smooth)})
     for problem in (smooth, sheared):

@@ -18,12 +18,7 @@ class Anderson:
 
     It makes a cycle converge that is unstable in a few modes, as between rough surfaces, which a
     coarse grid represents with another shape (D. G. Anderson 1965; as a Krylov method, Walker and
-    Ni 2011).
-
-    Parameters
-    ----------
-    memory : int
-        Number of earlier cycles to combine with the last one.
+    Ni 2011). ``memory`` is the number of earlier cycles that are combined with the last one.
     """
 
     def __init__(self, memory: int) -> None:
@@ -32,13 +27,7 @@ class Anderson:
         self.changes: list[Array] = []
 
     def combine(self, before: Array, after: Array) -> Array:
-        """Return the state from which the next cycle starts.
-
-        Parameters
-        ----------
-        before, after : (n,) array
-            States at the start and at the end of the last cycle.
-        """
+        """Return the start of the next cycle from start and end of the last one, each (n,)."""
         change = after - before
         if self.changes and not _size(change) <= WORSE * min(map(_size, self.changes)):
             self.states, self.changes = [], []

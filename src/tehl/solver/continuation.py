@@ -63,16 +63,7 @@ class Continuation:
 
 
 class Roughness:
-    """The heights on a hierarchy of levels, and the smooth film from which they are raised.
-
-    Parameters
-    ----------
-    levels : list of Level
-        Coarsest first.
-    heights : Heights or None
-        On the finest grid; None for smooth surfaces.
-    settings : Continuation
-        Settings.
+    """The heights on ``levels``, coarsest first, and the smooth film from which they are raised.
 
     Attributes
     ----------
@@ -154,23 +145,6 @@ class Roughness:
         """Store the film of the last of ``levels``, before its heights are raised."""
         fine = levels[-1]
         self.smooth = (len(levels) - 1, fine.film.p.copy(), fine.rigid_approach)
-
-
-def raise_by_cycles(level: Level, ramp: int, iterate: Callable[[], float]) -> None:
-    """Raise the heights of ``level`` in ``ramp`` equal parts, with one iteration between them.
-
-    Parameters
-    ----------
-    level : Level
-        Starts from the smooth film.
-    ramp : int
-        Number of parts.
-    iterate : callable
-        Performs and reports a cycle.
-    """
-    for number in range(1, ramp):
-        level.apply_heights(number / ramp)
-        iterate()
 
 
 def raise_by_newton(

@@ -11,13 +11,7 @@ REPEATS = 20
 
 
 class Clock:
-    """Measures the cost from now on, on top of an earlier one.
-
-    Attributes
-    ----------
-    before : Cost
-        Cost of earlier parts of a resumed run.
-    """
+    """Measures the cost from now on, in addition to that of earlier parts of a resumed run."""
 
     def __init__(self) -> None:
         self.before = NO_COST
@@ -35,7 +29,7 @@ def fft_seconds(nx: int, ny: int) -> float:
     """Return the CPU seconds of one zero-padded FFT deformation on ``nx`` by ``ny`` nodes.
 
     Real transform, product with a given spectrum, inverse; full domain, period of twice the
-    intervals, float64, one thread, reused buffers; median of twenty.
+    intervals, float64, one thread, reused buffers; median of `REPEATS`.
     """
     shape = (2 * (ny - 1), 2 * (nx - 1))
     padded, spectrum = np.zeros(shape), np.ones((shape[0], shape[1] // 2 + 1))

@@ -20,7 +20,6 @@ from tehl.solver.continuation import (
     SMOOTH_CYCLES,
     Roughness,
     TouchingError,
-    raise_by_cycles,
     raise_by_newton,
 )
 from tehl.solver.convergence import (
@@ -62,10 +61,8 @@ class FilmSolver:
 
     Parameters
     ----------
-    hierarchy : Hierarchy
-        The levels.
-    strategy : Strategy
-        Method and settings.
+    hierarchy, strategy : Hierarchy, Strategy
+        The levels; method and settings.
     heights : Heights or None
         Heights of the surfaces on the finest grid; None for smooth surfaces.
     monitor : Monitor
@@ -118,10 +115,8 @@ class FilmSolver:
     def solve(self, *, force: bool) -> bool:
         """Run full multigrid; return whether the finest grid converged.
 
-        Parameters
-        ----------
-        force : bool
-            Continue on the finest grid even if the next coarser one has no acceptable solution.
+        ``force`` continues on the finest grid even if the next coarser one has no acceptable
+        solution.
 
         Raises
         ------
@@ -296,7 +291,10 @@ class FilmSolver:
             iterate(cycle)
         self.roughness.remember_smooth_film(levels)
         if newton is None:
-            raise_by_cycles(fine, self.strategy.continuation.ramp, partial(iterate, cycle))
+            ramp = self.strategy.continuation.ramp
+            for part in range(1, ramp):
+                fine.apply_heights(part / ramp)
+                iterate(cycle)
         else:
             try:
                 solve_part = partial(iterate, newton.step)

@@ -72,18 +72,7 @@ class CoarsestSolver:
 class Hierarchy:
     """The levels of a contact, coarsest first, and the solver of the coarsest.
 
-    Attributes
-    ----------
-    scaled : ScaledProblem
-        The contact.
-    options : Options
-        Numerical options.
-    levels : list of Level
-        Coarsest first.
-    coarsest : CoarsestSolver
-        Newton's method on ``levels[0]``.
-    expected_film : float
-        Central film by formula [-].
+    ``expected_film`` is the central film by formula [-].
     """
 
     scaled: ScaledProblem

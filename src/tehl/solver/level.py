@@ -53,13 +53,6 @@ class Level:
 
     A change of pressure or rigid approach, by `set_state`, relaxation or coarse-grid correction,
     marks the film as stale; `update` evaluates film, density and conductance again.
-
-    Parameters
-    ----------
-    equations : Equations
-        The discrete equations.
-    relaxation : Relaxation
-        Settings of the smoother.
     """
 
     def __init__(self, equations: Equations, relaxation: Relaxation) -> None:

@@ -48,12 +48,8 @@ ROUNDING = 1e-8
 class Newton:
     """Newton's method for pressure and rigid approach of a level, with the load balance.
 
-    Parameters
-    ----------
-    level : Level
-        Level whose unknowns change in place.
-    coarse : Grid
-        Grid of the coarse correction, of some hundred nodes.
+    It changes the unknowns of ``level`` in place. ``coarse`` is the grid of the coarse correction,
+    of some hundred nodes.
     """
 
     def __init__(self, level: Level, coarse: Grid) -> None:
@@ -174,12 +170,9 @@ class System:
 
 
 class Preconditioner:
-    """Approximate inverse: coarse-grid correction, then sparse factorisation.
+    """Approximate inverse of ``system``: coarse-grid correction, then sparse factorisation.
 
-    Parameters
-    ----------
-    system : System
-        Equations from which it is computed; later steps use it as well.
+    Later steps use it as well.
     """
 
     def __init__(self, system: System) -> None:

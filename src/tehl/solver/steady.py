@@ -3,7 +3,6 @@
 import platform
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np
@@ -32,7 +31,6 @@ from tehl.solver.warmup import warm_up
 
 GRID_CAUSES = ("grid_too_coarse", "domain_too_small", "inlet_too_short", "sides_too_close")
 """Causes of failure that no other strategy removes."""
-PACKAGES = ("tehl", "numpy", "scipy", "numba")
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -48,6 +46,11 @@ class Attempt:
         """Whether another strategy would end the same way."""
         touching = self.reached and self.status.cause == "asperity_contact"
         return self.status.converged or self.status.cause in GRID_CAUSES or touching
+
+    @property
+    def rank(self) -> tuple[bool, bool, bool]:
+        """Sorting key, best first: final, converged, finite."""
+        return not self.is_final, not self.reached, self.status.kind == "diverged"
 
 
 def solve(
@@ -91,13 +94,13 @@ def solve(
             "tehl solve does so by itself)"
         )
     check_memory(options, problem)
-    _, result = solve_attempt(problem, options, monitor=monitor, rough=True, guess=guess)
+    _, result = try_strategies(problem, options, monitor=monitor, rough=True, guess=guess)
     if not result.status.converged:
         raise ConvergenceError(result.status.message or "not converged", result)
     return result
 
 
-def solve_attempt(
+def try_strategies(
     problem: ContactProblem,
     options: Options,
     *,
@@ -132,10 +135,10 @@ def solve_attempt(
         run = FilmSolver(hierarchy, strategy, heights=heights, monitor=history, guess=start)
         # Newton's method costs so much that the cycles before it are tried to the end
         only_newton_left = all(one.newton for one in rungs[number + 1 :])
-        attempts.append(_attempt(run, force=only_newton_left))
+        attempts.append(_run(run, force=only_newton_left))
         if attempts[-1].is_final:
             break
-    best = min(attempts, key=_rank)
+    best = min(attempts, key=lambda attempt: attempt.rank)
     surfaces = _surfaces(grid, heights, scaled.scales)
     return best, _result(best, tuple(history.reports), surfaces, clock.cost())
 
@@ -151,12 +154,7 @@ def _surfaces(grid: Grid, heights: Heights | None, scales: Scales) -> SurfaceHei
     return SurfaceHeights(surface_1=first, surface_2=second)
 
 
-def _rank(attempt: Attempt) -> tuple[bool, bool, bool]:
-    """Return the sorting key of an attempt: final ones first, then converged, then finite ones."""
-    return not attempt.is_final, not attempt.reached, attempt.status.kind == "diverged"
-
-
-def _attempt(run: FilmSolver, *, force: bool) -> Attempt:
+def _run(run: FilmSolver, *, force: bool) -> Attempt:
     """Run a strategy and judge its result, finite or not."""
     with np.errstate(all="ignore"):  # divergence ends in a status, not in warnings
         try:
@@ -228,19 +226,11 @@ def _stress_and_heat(attempt: Attempt) -> tuple[FilmShear | None, FilmHeat | Non
 
 
 def provenance() -> Provenance:
-    """Return the versions of the software and the time."""
-    return Provenance(
-        versions=dict(versions()), created=datetime.now(UTC).isoformat(timespec="seconds")
-    )
-
-
-@cache
-def versions() -> dict[str, str]:
-    """Return the versions of Python and of the packages."""
-    found = {"python": platform.python_version()}
-    for package in PACKAGES:
+    """Return the versions of Python and of the packages, and the time."""
+    versions = {"python": platform.python_version()}
+    for package in ("tehl", "numpy", "scipy", "numba"):
         try:
-            found[package] = version(package)
+            versions[package] = version(package)
         except PackageNotFoundError:
-            found[package] = "unknown"
-    return found
+            versions[package] = "unknown"
+    return Provenance(versions=versions, created=datetime.now(UTC).isoformat(timespec="seconds"))

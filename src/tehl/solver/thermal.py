@@ -47,10 +47,8 @@ class Coupling:
 
     Parameters
     ----------
-    scaled : ScaledProblem
-        Laws, motion and heat.
-    options : Options
-        Order of the upstream differences, and accuracy.
+    scaled, options : ScaledProblem, Options
+        The contact; order of the upstream differences, and accuracy.
     slide_in_steps : bool
         Raise the sliding speed from zero over the first sweeps.
     damping : float
@@ -253,7 +251,7 @@ class Coupling:
 
 
 def damped(old: reynolds.Factors, new: reynolds.Factors, damping: float) -> reynolds.Factors:
-    """Return old factors changed by a part of the way to new ones, in logarithms.
+    """Return factors between old and new ones, in logarithms.
 
     Parameters
     ----------

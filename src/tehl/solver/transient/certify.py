@@ -41,7 +41,8 @@ GROWTH = 2.0
 """Further growth of a spike over its last change: it grows to first order."""
 
 Runs = tuple[TransientResult, ...]
-"""Two or three runs, coarse to fine, each with twice the steps of the one before."""
+"""Two or three runs, coarse to fine, each with twice the steps of the one before. ``wide`` below is
+the run on the larger domain, with mesh and steps of the run before the last."""
 
 
 def certify_transient(
@@ -126,10 +127,11 @@ def _companion(
     if not can_be_halved(options, 0):
         return Companion(ending=f"{name} has too few nodes")
     monitor.message(f"certify: {name} nodes, {what}")
+    found: Companion[TransientResult]
     try:
         run = solve_transient(problem, options, monitor=monitor)
     except InputError as error:
-        found = Companion[TransientResult](ending=f"{name} not possible ({error})")
+        found = Companion(ending=f"{name} not possible ({error})")
     except ConvergenceError as error:
         result = error.result
         found = Companion(ending=f"{name} at time zero {result.status.outcome}", cost=result.cost)
@@ -150,15 +152,7 @@ def _not_certified(
 
 
 def estimates(runs: Runs, wide: TransientResult) -> dict[str, Estimate]:
-    """Return extremes over time with their error bars, in SI.
-
-    Parameters
-    ----------
-    runs : tuple of TransientResult
-        Two or three, coarse to fine.
-    wide : TransientResult
-        On the larger domain, with mesh and steps of the run before the last.
-    """
+    """Return extremes over time with their error bars, in SI."""
     end = float(runs[-1].history.time[-1])
     found, wider = [_extremes(run, end) for run in runs], _extremes(wide, end)
     bars = {
@@ -197,15 +191,7 @@ def _extremes(run: TransientResult, end: float) -> dict[str, float]:
 
 
 def history_bars(runs: Runs, wide: TransientResult) -> HistoryBars:
-    """Return error bars along the history, at the times that all runs share.
-
-    Parameters
-    ----------
-    runs : tuple of TransientResult
-        Two or three, coarse to fine.
-    wide : TransientResult
-        On the larger domain, with mesh and steps of the run before the last.
-    """
+    """Return error bars along the history, at the times that all runs share."""
     time = _shared(runs, "time")[-1]
     return HistoryBars(
         time=time,
@@ -269,12 +255,8 @@ def grid_bar(series: list[Array]) -> Array:
 
     They are the change between the last two grids, over 2^q - 1 if three grids show an order q near
     two (at most two) in the mean square over time. A quarter of the root mean square over time is
-    added in quadrature, because changes pass through zero where errors need not.
-
-    Parameters
-    ----------
-    series : list of array
-        Two or three, coarse to fine, at the same times.
+    added in quadrature, because changes pass through zero where errors need not. ``series`` are two
+    or three arrays of values at the same times, coarse to fine.
     """
     bar, order = np.abs(series[-1] - series[-2]), _order(series)
     if order is not None and _is_second(order):

@@ -5,11 +5,9 @@ Each raises `InputError` with the key, its value, what is wrong, and what is exp
 
 import math
 
-from tehl.duration import misplaced
 from tehl.errors import InputError
 from tehl.grid import Grid
 from tehl.operators.heights import MovingHeights, check_nodes, rounded_up
-from tehl.scaling import ScaledProblem
 from tehl.transient import Transient
 
 LEAST_STEPS = 4.0
@@ -52,13 +50,6 @@ def check_waves(heights: MovingHeights, grid: Grid, stride: int) -> None:
                 "would be aliased; increase numerics.points by a factor of at least "
                 f"{rounded_up(part * LEAST_STEPS)}{smaller}"
             )
-
-
-def check_places(scaled: ScaledProblem, seconds: float) -> None:
-    """Check that the roughness enters the contact within ``seconds``, and is not there at once."""
-    message = misplaced(scaled, seconds)
-    if message is not None:
-        raise InputError(message)
 
 
 def check_load(transient: Transient, seconds: float) -> None:

@@ -27,14 +27,8 @@ class Predictor:
     (docs/theory/numerics.md on time steps), with the coefficients that best fit the last step in
     the least-squares sense and, among equally good ones, are nearest to linear extrapolation. The
     fit adapts to what stands still and to what moves, at any speed. The normal equations are
-    assembled without BLAS, whose threads cost more than they save here.
-
-    Parameters
-    ----------
-    steady : (ny, nx) array
-        Pressure at time zero [-].
-    stride : int
-        Nodes that the mean motion passes per step.
+    assembled without BLAS, whose threads cost more than they save here. ``steady`` is the pressure
+    at time zero, (ny, nx), and ``stride`` the nodes that the mean motion passes per step.
     """
 
     def __init__(self, steady: Array, stride: int) -> None:

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from tehl.duration import number_of_steps
+from tehl.duration import misplaced, number_of_steps
 from tehl.errors import ConvergenceError, InputError
 from tehl.memory import check_memory
 from tehl.operators.energy import stress_unit
@@ -19,10 +19,9 @@ from tehl.solver.level import Level
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.outputs import newtonian_sliding
 from tehl.solver.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH
-from tehl.solver.steady import Attempt, finest_grid, solve_attempt
-from tehl.solver.transient.checks import check_load, check_places, check_stride, check_waves
-from tehl.solver.transient.record import Record, kept_steps
-from tehl.solver.transient.snapshot import ANEW, Snapshot
+from tehl.solver.steady import Attempt, finest_grid, try_strategies
+from tehl.solver.transient.checks import check_load, check_stride, check_waves
+from tehl.solver.transient.snapshot import ANEW, Record, Snapshot, kept_steps
 from tehl.solver.transient.step import StepEnd, StepError, Stepper
 from tehl.solver.warmup import warm_up
 from tehl.transient import Transient
@@ -105,7 +104,8 @@ class Run:
         self.steps = number_of_steps(scaled, self.seconds)
         check_stride(transient, grid)
         check_waves(self.heights, grid, transient.stride)
-        check_places(scaled, self.steps * self.seconds)
+        if (fault := misplaced(scaled, self.steps * self.seconds)) is not None:
+            raise InputError(fault)
         check_load(transient, self.seconds)
         self.kept = kept_steps(transient, self.steps, self.seconds)
         attempt, self.start = steady_start(problem, options, rough=not smooth, monitor=monitor)
@@ -326,7 +326,7 @@ def steady_start(
         update={"accuracy": "tight", "tolerance": min(options.tolerance, START_TOLERANCE)}
     )
     load = problem.transient.load_at(0.0) if problem.transient else 1.0
-    attempt, result = solve_attempt(problem, tight, monitor=monitor, rough=rough, load=load)
+    attempt, result = try_strategies(problem, tight, monitor=monitor, rough=rough, load=load)
     result = replace(result, options=options)
     if not result.status.converged:
         message = f"The steady film at time zero did not converge: {result.status.message}"

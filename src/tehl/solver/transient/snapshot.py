@@ -1,7 +1,10 @@
-"""State from which a transient run resumes, and its arrays in a checkpoint."""
+"""Record of a transient run, and the snapshot from which it resumes.
+
+Both are scaled; `Record` converts to SI, `pack` to the arrays of a checkpoint.
+"""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 import numpy as np
@@ -9,26 +12,125 @@ from numpy.typing import NDArray
 
 from tehl.errors import InputError
 from tehl.result import Cost
-from tehl.solver.transient.record import COLUMNS, Record
+from tehl.scaling import Scales
+from tehl.solver.film_summary import film_summary
+from tehl.solver.level import Level
+from tehl.transient import Transient
+from tehl.transient_result import Frames, History, Profiles
 from tehl.typing import Array
 
+Heights = tuple[Array, Array]
+COLUMNS = tuple(one.name for one in fields(History))
 Arrays = Mapping[str, NDArray[Any]]
 
 ANEW = "; remove it, and the run starts anew"
 """End of the message on an invalid checkpoint."""
 _FIELD = "field_"
-_LINES, _FRAMES = 4, 3
-"""Arrays per step in a profile (pressure, film and both heights), and in a frame."""
-_LAYOUT = {
-    "setting": (0, np.int64),
-    "rigid_approach": (0, np.float64),
-    "cost": (1, np.float64),
-    "rows": (2, np.float64),
-    "profiles": (3, np.float64),
-    "frame_steps": (1, np.int64),
-    "frames": (4, np.float32),
+_LAYOUT: dict[str, tuple[type, tuple[str | int, ...]]] = {
+    "setting": (np.int64, ()),
+    "rigid_approach": (np.float64, ()),
+    "cost": (np.float64, (2,)),
+    "rows": (np.float64, ("steps", len(COLUMNS))),
+    "profiles": (np.float64, ("steps", 4, "nodes")),
+    "frame_steps": (np.int64, ("frames",)),
+    "frames": (np.float32, ("frames", 3, "rows", "columns")),
 }
-"""Dimensions and number type of all arrays but the fields."""
+"""Number type and shape of all arrays but the fields. A profile has pressure, film and both
+heights, a frame pressure, film and height."""
+
+
+@dataclass(slots=True)
+class Record:
+    """Numbers, profiles and fields of the steps so far, scaled.
+
+    Attributes
+    ----------
+    rows : list of tuple
+        Per step, the columns of `tehl.transient_result.History`.
+    profiles : list of (4, nx) array
+        Per step, pressure, film and both heights along y = 0.
+    frame_steps : list of int
+        Steps whose fields are stored.
+    frames : list of (3, ny, nx) array
+        Their pressure, film and height.
+    """
+
+    rows: list[tuple[float, ...]] = field(default_factory=list)
+    profiles: list[Array] = field(default_factory=list)
+    frame_steps: list[int] = field(default_factory=list)
+    frames: list[Array] = field(default_factory=list)
+
+    def note(
+        self, level: Level, heights: Heights, numbers: dict[str, float], *, keep: bool
+    ) -> None:
+        """Append a step.
+
+        Parameters
+        ----------
+        level : Level
+            The finest level after the step.
+        heights : (array, array)
+            Heights of both surfaces, ``grid.shape`` [-].
+        numbers : dict of str to float
+            Columns of the history besides film, pressure and rigid approach.
+        keep : bool
+            Store the fields too.
+        """
+        film = film_summary(level.grid, level.film.h)
+        row = numbers | {
+            "film_central": film.central,
+            "film_minimum": film.minimum,
+            "pressure_max": float(level.film.p.max()),
+            "rigid_approach": level.rigid_approach,
+        }
+        self.rows.append(tuple(float(row[name]) for name in COLUMNS))
+        line = 0 if level.grid.mirror else level.grid.shape[0] // 2
+        lines = (level.film.p, level.film.h, *heights)
+        self.profiles.append(np.stack([one[line] for one in lines]))
+        if keep:
+            self.frame_steps.append(len(self.rows) - 1)
+            together = heights[0] + heights[1]
+            whole = [level.grid.unfold(one) for one in (level.film.p, level.film.h, together)]
+            self.frames.append(np.stack(whole).astype(np.float32))
+
+    def copy(self) -> "Record":
+        """Return a copy that later steps do not change."""
+        return Record(**{one.name: getattr(self, one.name).copy() for one in fields(self)})
+
+    def history(self, scales: Scales) -> History:
+        """Return the numbers of all steps, in SI."""
+        units = {
+            "film_central": scales.film_thickness,
+            "film_minimum": scales.film_thickness,
+            "pressure_max": scales.hertz_pressure,
+        }
+        columns: dict[str, Any] = {
+            name: column * units.get(name, 1.0)
+            for name, column in zip(COLUMNS, np.array(self.rows).T, strict=True)
+        }
+        return History(**columns | {"cycles": columns["cycles"].astype(np.int64)})
+
+    def lines(self, scales: Scales) -> Profiles:
+        """Return the profiles of all steps, in SI."""
+        pressure, film, first, second = np.moveaxis(np.stack(self.profiles), 1, 0)
+        thickness = scales.film_thickness
+        return Profiles(
+            pressure=pressure * scales.hertz_pressure,
+            film=film * thickness,
+            height_1=first * thickness,
+            height_2=second * thickness,
+        )
+
+    def fields(self, scales: Scales, shape: tuple[int, int]) -> Frames:
+        """Return the stored fields, in SI; ``shape`` is that of the full domain."""
+        stack = np.stack(self.frames) if self.frames else np.zeros((0, 3, *shape), np.float32)
+        units = (scales.hertz_pressure, scales.film_thickness, scales.film_thickness)
+        pressure, film, height = (
+            np.asarray(stack[:, k] * np.float32(unit), np.float32) for k, unit in enumerate(units)
+        )
+        return Frames(
+            step=np.array(self.frame_steps, np.int64), pressure=pressure, film=film, height=height
+        )
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -72,7 +174,7 @@ def pack(snapshot: Snapshot) -> dict[str, NDArray[Any]]:
         "rows": np.array(record.rows),
         "profiles": np.stack(record.profiles),
         "frame_steps": np.array(record.frame_steps, np.int64),
-        "frames": np.stack(record.frames) if record.frames else np.zeros((0,) * 4, np.float32),
+        "frames": np.stack(record.frames) if record.frames else np.zeros((0, 3, 0, 0), np.float32),
         **{f"{_FIELD}{name}": field for name, field in snapshot.fields.items()},
     }
 
@@ -109,33 +211,57 @@ def unpack(arrays: Arrays) -> Snapshot:
 
 def _faults(arrays: Arrays) -> Iterator[str]:
     """Yield what is wrong; each check relies on those before it."""
-    for name, (dimensions, kind) in _LAYOUT.items():
-        if name not in arrays:
-            yield f"{name!r} is missing"
-        elif arrays[name].ndim != dimensions or arrays[name].dtype != kind:
-            yield f"{name!r} does not have {dimensions} dimensions of {np.dtype(kind)}"
+    yield from _misfits(arrays)
     for name, values in arrays.items():
         if values.dtype.kind not in "biuf" or not np.isfinite(values).all():
             yield f"{name.removeprefix(_FIELD)!r} has values that are not finite"
-    yield from _misfits(arrays)
-
-
-def _misfits(arrays: Arrays) -> Iterator[str]:
-    """Yield inconsistencies of the record."""
-    rows, profiles, frames = arrays["rows"], arrays["profiles"], arrays["frames"]
-    steps, kept = len(rows), arrays["frame_steps"]
-    if not steps or rows.shape[1] != len(COLUMNS):
-        yield f"'rows' has the shape {rows.shape}; expected {len(COLUMNS)} numbers per step"
-    if profiles.shape[:2] != (steps, _LINES):
-        yield f"'profiles' has the shape {profiles.shape}; expected {_LINES} lines in {steps} steps"
-    if len(frames) != len(kept) or (len(kept) and frames.shape[1] != _FRAMES):
-        wanted = f"{_FRAMES} fields in {len(kept)} frames"
-        yield f"'frames' has the shape {frames.shape}; expected {wanted}"
-    if (np.diff(kept) <= 0).any() or ((kept < 0) | (kept >= steps)).any():
+    steps, kept = len(arrays["rows"]), arrays["frame_steps"]
+    if not steps or (np.diff(kept) <= 0).any() or ((kept < 0) | (kept >= steps)).any():
         yield f"'frame_steps' are not increasing steps below {steps}"
-    if arrays["cost"].shape != (2,) or (arrays["cost"] < 0.0).any():
-        yield "'cost' is not two non-negative numbers of seconds"
-    last = dict(zip(COLUMNS, rows[-1], strict=True))
+    if (arrays["cost"] < 0.0).any():
+        yield "'cost' is negative"
+    last = dict(zip(COLUMNS, arrays["rows"][-1], strict=True))
     pressure = arrays.get(f"{_FIELD}pressure", np.zeros(1)).max()
     if (last["rigid_approach"], last["pressure_max"]) != (arrays["rigid_approach"], pressure):
         yield "its pressure is not that of its last step"
+
+
+def _misfits(arrays: Arrays) -> Iterator[str]:
+    """Yield arrays that are missing, or of another type or shape than in `_LAYOUT`."""
+    lengths: dict[str, int] = {}
+    for name, (kind, shape) in _LAYOUT.items():
+        if name not in arrays:
+            yield f"{name!r} is missing"
+        found = arrays[name]
+        if found.ndim != len(shape) or found.dtype != kind:
+            yield f"{name!r} does not have {len(shape)} dimensions of {np.dtype(kind)}"
+        for size, wanted in zip(found.shape, shape, strict=True):
+            expected = lengths.setdefault(wanted, size) if isinstance(wanted, str) else wanted
+            if size != expected:
+                yield f"{name!r} has the shape {found.shape}; {size} must be {expected}"
+
+
+def kept_steps(transient: Transient, steps: int, seconds: float) -> set[int]:
+    """Return the steps whose fields are stored: evenly spaced, or nearest to stated times.
+
+    Parameters
+    ----------
+    transient : Transient
+        ``frames`` is their number, or their times [s].
+    steps, seconds : int, float
+        Number of steps of the run, and time step [s].
+
+    Raises
+    ------
+    InputError
+        If a stated time is after the end.
+    """
+    if isinstance(transient.frames, int):
+        every = steps / max(transient.frames - 1, 1)
+        return {round(n * every) for n in range(transient.frames)}
+    late = [time for time in transient.frames if time > (steps + 0.5) * seconds]
+    if late:
+        raise InputError(
+            f"transient.frames = {late[0]:g} s: after the end of the run at {steps * seconds:.4g} s"
+        )
+    return {min(round(time / seconds), steps) for time in transient.frames}

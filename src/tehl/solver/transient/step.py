@@ -56,16 +56,9 @@ class StepError(ArithmeticError):
 
 
 class Stepper:
-    """Advances the film of a hierarchy of levels in time.
+    """Advances a film in time from the steady one of ``run``.
 
-    Parameters
-    ----------
-    run : FilmSolver
-        With the steady film at time zero.
-    transient : Transient
-        Stride, tolerance and largest number of cycles.
-    settings : sequence of Relaxation
-        Relaxations to try, fastest first.
+    ``settings`` are the relaxations to try, fastest first.
     """
 
     def __init__(
@@ -91,14 +84,7 @@ class Stepper:
         self.choose(0)
 
     def step(self, heights: Array, load: float) -> StepEnd:
-        """Advance by one step.
-
-        Parameters
-        ----------
-        heights : (ny, nx) array
-            Heights of both surfaces at the new time [-].
-        load : float
-            Load over that of the contact [-].
+        """Advance by one step to the heights of both surfaces, (ny, nx), and the load [-].
 
         Raises
         ------
