@@ -232,23 +232,23 @@ FORMULAS = (
 
 def film_estimates(groups: Groups, scales: Scales) -> tuple[FilmEstimate, ...]:
     """Return the film of a contact by each formula, with remarks on its validity."""
-    return tuple(_estimate(formula, groups, scales) for formula in FORMULAS)
-
-
-def _estimate(formula: Formula, groups: Groups, scales: Scales) -> FilmEstimate:
-    film, unit = formula.film(groups), hertz_ratio_squared(groups)
-    central = film.central / unit
-    minimum = None if film.minimum is None else film.minimum / unit
-    return FilmEstimate(
-        formula=formula.name,
-        source=formula.source,
-        central=central,
-        minimum=minimum,
-        central_m=central * scales.film_thickness,
-        minimum_m=None if minimum is None else minimum * scales.film_thickness,
-        remarks=_remarks(formula, groups),
-        minimum_remark=_minimum_remark(formula, groups),
-    )
+    unit, metres, estimates = hertz_ratio_squared(groups), scales.film_thickness, []
+    for formula in FORMULAS:
+        film = formula.film(groups)
+        central = film.central / unit
+        minimum = None if film.minimum is None else film.minimum / unit
+        estimate = FilmEstimate(
+            formula=formula.name,
+            source=formula.source,
+            central=central,
+            minimum=minimum,
+            central_m=central * metres,
+            minimum_m=None if minimum is None else minimum * metres,
+            remarks=_remarks(formula, groups),
+            minimum_remark=_minimum_remark(formula, groups),
+        )
+        estimates.append(estimate)
+    return tuple(estimates)
 
 
 def _remarks(formula: Formula, groups: Groups) -> tuple[str, ...]:

@@ -72,7 +72,7 @@ def ellipticity(radius_x: float, radius_y: float) -> float:
     return _axis_ratio(radius_y / radius_x)
 
 
-@lru_cache(maxsize=256)  # a solve asks for the same contact some ten times
+@lru_cache(maxsize=256)  # a solve needs the same contact some ten times
 def _axis_ratio(radius_ratio: float) -> float:
     """Solve ``k^2 B/D = radius_ratio`` for k >= 1 by bisection in ln k."""
     low, high = 0.0, math.log(radius_ratio)

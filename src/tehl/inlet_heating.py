@@ -65,12 +65,8 @@ def gupta(loading: float, slide_roll_ratio: float, relative_pressure: float) -> 
 
     Parameters
     ----------
-    loading : float
-        Thermal loading parameter [-].
-    slide_roll_ratio : float
-        (u_1 - u_2) / u_m [-].
-    relative_pressure : float
-        p_h / E' [-].
+    loading, slide_roll_ratio, relative_pressure : float
+        Thermal loading parameter, (u_1 - u_2) / u_m, and p_h / E' [-].
     """
     compressed = max(1.0 - 13.2 * relative_pressure * loading**0.42, 0.0)
     sliding = 1.0 + 2.23 * abs(slide_roll_ratio) ** 0.83
@@ -91,15 +87,23 @@ def inlet_factors(problem: ContactProblem) -> tuple[InletFactor, ...]:
     sliding = "valid for pure rolling" if abs(slip) > ROLLING else ""
     opposite = "valid for surfaces that move in one direction" if abs(slip) > 2 else ""
     large = f"the term 13.2 p_h/E' L^0.42 = {term:.2g} is not small" if term > 0.5 else ""
+    journal = "J. Lubrication Technology"
     found = (
-        ("Murch-Wilson", "J. Lubrication Technology 97 (1975) 212-216", murch_wilson(loading)),
-        ("Wilson-Sheu", "J. Lubrication Technology 105 (1983) 187-188", wilson_sheu(loading, slip)),
-        ("Gupta", "Tribology Transactions 35 (1992) 621-626", gupta(loading, slip, squeezed)),
+        ("Murch-Wilson", f"{journal} 97 (1975) 212-216", murch_wilson(loading), sliding),
+        ("Wilson-Sheu", f"{journal} 105 (1983) 187-188", wilson_sheu(loading, slip), opposite),
+        (
+            "Gupta",
+            "Tribology Transactions 35 (1992) 621-626",
+            gupta(loading, slip, squeezed),
+            opposite,
+            large,
+        ),
     )
-    remarks = ((sliding,), (opposite,), (opposite, large))
     return tuple(
-        InletFactor(formula=name, source=source, factor=factor, remarks=tuple(filter(None, some)))
-        for (name, source, factor), some in zip(found, remarks, strict=True)
+        InletFactor(
+            formula=name, source=source, factor=factor, remarks=tuple(filter(None, remarks))
+        )
+        for name, source, factor, *remarks in found
     )
 
 

@@ -78,7 +78,7 @@ def material(name: str) -> Solid:
 
 
 def _by_name(value: object) -> object:
-    """Return the table of a name, a table as it is."""
+    """Return the table of a name; a table is returned unchanged."""
     if isinstance(value, Mapping | Solid):
         return value
     known = read_tables(_SOLIDS)

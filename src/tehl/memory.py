@@ -33,7 +33,7 @@ def _bytes_per_node(problem: ContactProblem | None) -> float:
 
 
 def available_memory() -> float | None:
-    """Return the memory available to this process [byte], None where the system does not say."""
+    """Return the memory available to this process [byte], None if unknown."""
     known = [number for number in (_of_machine(), *map(_of_container, _LIMITS)) if number]
     return min(known, default=None)
 

@@ -11,13 +11,7 @@ Tables = dict[str, dict[str, Any]]
 
 @cache
 def read_tables(path: Path) -> Tables:
-    """Return the tables of a library by name; each holds its own name too.
-
-    Parameters
-    ----------
-    path : Path
-        A file in TOML with one table for each name. It is read once.
-    """
+    """Return the tables of a TOML file by name, each with its own name; the file is read once."""
     text = path.read_text(encoding="utf-8")
     return {name: {"name": name} | table for name, table in tomllib.loads(text).items()}
 
@@ -30,9 +24,9 @@ def find_table(tables: Tables, name: str, kind: str, needs: str) -> dict[str, An
     tables : dict
         The library.
     name : str
-        What to look for.
+        Name of the table.
     kind, needs : str
-        What the tables stand for, and what a table without a name must have, for the message.
+        What the tables describe, and what a table without a name must have, for the message.
 
     Raises
     ------
@@ -44,5 +38,5 @@ def find_table(tables: Tables, name: str, kind: str, needs: str) -> dict[str, An
     close = difflib.get_close_matches(name, tables, n=1)
     guess = f"did you mean {close[0]}? " if close else ""
     raise ValueError(
-        f"is no known {kind}: {guess}known are {', '.join(tables)}; or give a table with {needs}"
+        f"is not a known {kind}: {guess}known are {', '.join(tables)}; or give a table with {needs}"
     )

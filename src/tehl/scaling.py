@@ -1,4 +1,4 @@
-"""Units are removed here, once: the scales of a contact and its dimensionless groups."""
+"""Scales of a contact, which make it dimensionless, and its dimensionless groups."""
 
 import math
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ from tehl.problem import ContactProblem
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Scales:
-    """What one unit of each dimensionless quantity is in SI.
+    """One unit of each dimensionless quantity in SI.
 
     Attributes
     ----------
@@ -75,18 +75,9 @@ class Groups:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class ScaledProblem:
-    """A contact together with its scales and dimensionless groups.
+    """A contact in SI together with its scales and dimensionless groups.
 
-    Made once where a run begins, and passed down, so that nothing is scaled twice.
-
-    Attributes
-    ----------
-    problem : ContactProblem
-        The contact in SI.
-    scales : Scales
-        What one unit of each dimensionless quantity is in SI.
-    groups : Groups
-        Dimensionless groups.
+    Made once at the start of a run and passed down, so that nothing is scaled twice.
     """
 
     problem: ContactProblem
@@ -100,7 +91,7 @@ class ScaledProblem:
 
 
 def scales(problem: ContactProblem) -> Scales:
-    """Return what one unit of each dimensionless quantity of ``problem`` is in SI."""
+    """Return one unit of each dimensionless quantity of ``problem`` in SI."""
     hertz = problem.hertz
     return Scales(
         half_width_x=hertz.half_width_x,

@@ -1,6 +1,6 @@
-"""Time: what the ``[transient]`` table of a case says."""
+"""Settings of a transient run: the ``[transient]`` table of a case."""
 
-import math
+from bisect import bisect_right
 from itertools import pairwise
 from typing import Annotated, Literal, Self
 
@@ -13,30 +13,31 @@ LARGEST_FACTOR = 10.0
 
 
 class Transient(BaseModel):
-    """A transient run: the surfaces carry their roughness along, and the film is squeezed.
+    """A transient run: roughness moves with its surface, the load may vary, the film is squeezed.
 
     Attributes
     ----------
     duration : float or None
-        Until when [s]; None is until all that moves has passed the contact, of waves 2.5.
+        Duration of the run [s]; None is until all moving roughness has passed the contact, of
+        waves 2.5 wavelengths.
     stride : int
-        Mesh widths that the mean of both surfaces moves on in one step of time: what changes is
-        resolved as on a grid so many times coarser.
+        Mesh widths that the mean motion passes per time step: changes are resolved as on a grid
+        coarser by this factor.
     start : {"smooth", "standing"}
-        From which film: the smooth one, waves and random surfaces coming in from the inlet; or the
-        steady one of the surfaces as they stand at time zero.
+        Film at time zero: of smooth surfaces, with waves and random surfaces that enter from the
+        inlet; or the steady film of the rough surfaces at rest.
     entrance : float
-        How far upstream of the contact waves and random surfaces begin at time zero, when they
-        come in [a_x].
+        Distance upstream of the contact at which waves and random surfaces that enter begin at
+        time zero [a_x].
     load : tuple of (float, float)
         Times [s] and loads over that of the contact, linear between and constant before and
         after.
     frames : int or tuple of float
-        How many fields are kept, at even distances in time, or the instants of which they are [s].
+        Number of stored fields, evenly spaced in time, or their times [s].
     tolerance : float
         Largest change of pressure in the last cycle of a step [p_h].
     max_cycles : int
-        Cycles per step before another setting is tried.
+        Cycles per step before the next relaxation is tried.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
@@ -66,12 +67,10 @@ class Transient(BaseModel):
 
     def load_at(self, time: float) -> float:
         """Return the load at ``time`` [s] over that of the contact [-]."""
-        before = (-math.inf, self.load[0][1] if self.load else 1.0)
-        for now in self.load:
-            if time <= now[0]:
-                if math.isinf(before[0]):
-                    return now[1]
-                part = (time - before[0]) / (now[0] - before[0])
-                return before[1] + part * (now[1] - before[1])
-            before = now
-        return before[1]
+        if not self.load:
+            return 1.0
+        after = bisect_right([moment for moment, _ in self.load], time)
+        if after in (0, len(self.load)):
+            return self.load[min(after, len(self.load) - 1)][1]
+        (start, load), (end, next_load) = self.load[after - 1 : after + 1]
+        return load + (time - start) / (end - start) * (next_load - load)

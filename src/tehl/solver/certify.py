@@ -86,20 +86,28 @@ def certify(
         _needed(finest, middle, "the next coarser grid"),
         _needed(finest, wide, "the larger domain"),
     )
-    message = message_on([first.ending, middle.ending, _ending(finest)], wide.ending)
-    if first.result is None:
-        message += f" {WITHOUT_FIRST}"
-    elif first.result.status.is_vague or not first.result.status.converged:
-        message += (
-            " Where the first grid hides the order of the scheme, a bar is the full change between "
-            "the other two."
-        )
+    message = _message(first, middle, finest, wide)
     result = replace(result, status=replace(finest.status, message=message, hint=None))
     bars = (result.uncertainty[name] for name in JUDGED)
     worst = max(abs(bar.uncertainty / bar.value) for bar in bars)
     if worst > LARGEST_BAR:
         _reject(result, too_coarse_to_certify(result, worst))
     return result
+
+
+def _message(
+    first: Companion[Result], middle: Companion[Result], finest: Result, wide: Companion[Result]
+) -> str:
+    """Return how each run ended, and what follows for the bars."""
+    message = message_on([first.ending, middle.ending, _ending(finest)], wide.ending)
+    if first.result is None:
+        return f"{message} {WITHOUT_FIRST}"
+    if first.result.status.is_vague or not first.result.status.converged:
+        message += (
+            " Where the first grid hides the order of the scheme, a bar is the full change between "
+            "the other two."
+        )
+    return message
 
 
 def _companion(problem: ContactProblem, options: Options, monitor: Monitor) -> Companion[Result]:

@@ -121,10 +121,6 @@ class Roughness:
         """Return whether the last of ``levels`` has the heights."""
         return len(levels) > self.first
 
-    def begins_on(self, levels: Sequence[Level]) -> bool:
-        """Return whether the last of ``levels`` is the first that has the heights."""
-        return len(levels) - 1 == self.first
-
     def restart(self, number: int, expected_film: float) -> bool:
         """Restart level ``number`` from the smooth film; the heights are raised there again.
 
@@ -140,11 +136,6 @@ class Roughness:
             pressure = refine(pressure, level.grid)
         self.levels[number].set_state(pressure, approach)
         return True
-
-    def remember_smooth_film(self, levels: Sequence[Level]) -> None:
-        """Store the film of the last of ``levels``, before its heights are raised."""
-        fine = levels[-1]
-        self.smooth = (len(levels) - 1, fine.film.p.copy(), fine.rigid_approach)
 
 
 def raise_by_newton(

@@ -16,8 +16,6 @@ from tehl.solver.level import Level
 
 LARGEST_TRACTION = 0.1
 """Shear stress over pressure beyond what oils bear."""
-MEAN_PRESSURE = 2.0 / 3.0
-"""Mean over largest pressure of a Hertz contact."""
 
 LESS_ROUGH = "Take lower or longer asperities, a higher speed, or more nodes (numerics.points)."
 _SHEAR_HINT = (
@@ -124,7 +122,9 @@ def likely_cause(grid: Grid, scaled: ScaledProblem) -> LikelyCause | None:
 
     Temperatures and sliding do not affect an isothermal Newtonian film.
     """
-    found = list(_causes(grid, scaled))
+    found = [*_film_below_grid(grid, scaled.groups)]
+    if scaled.problem.is_coupled:
+        found = [*_body_temperature(scaled.problem), *_shear_stress(scaled), *found]
     if not found:
         return None
     return LikelyCause(
@@ -132,13 +132,6 @@ def likely_cause(grid: Grid, scaled: ScaledProblem) -> LikelyCause | None:
         message=" ".join(one.message for one in found),
         hint=" ".join(one.hint for one in found),
     )
-
-
-def _causes(grid: Grid, scaled: ScaledProblem) -> Iterator[LikelyCause]:
-    if scaled.problem.is_coupled:
-        yield from _body_temperature(scaled.problem)
-        yield from _shear_stress(scaled)
-    yield from _film_below_grid(grid, scaled.groups)
 
 
 def _body_temperature(problem: ContactProblem) -> Iterator[LikelyCause]:
@@ -170,7 +163,7 @@ def _body_temperature(problem: ContactProblem) -> Iterator[LikelyCause]:
 def _shear_stress(scaled: ScaledProblem) -> Iterator[LikelyCause]:
     """Yield the shear law if the stress at the inlet temperature is beyond what oils bear."""
     problem, scales = scaled.problem, scaled.scales
-    pressure = MEAN_PRESSURE * scales.hertz_pressure
+    pressure = problem.hertz.mean_pressure
     rate = abs(problem.motion.sliding_speed) / expected_film(scaled)
     oil = problem.lubricant
     viscosity = oil.viscosity.viscosity_at(pressure, scales.temperature)

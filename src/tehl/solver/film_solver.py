@@ -215,10 +215,15 @@ class FilmSolver:
         fine.pose_problem()
         fine.update()
         self._couple(levels, has_film=not self.from_hertz)
-        trace = self._new_trace(levels)
+        trace = GridTrace(
+            largest_change=LARGEST_ROUGH_CHANGE if self.roughness.is_on(levels) else LARGEST_CHANGE
+        )
+        trace.damp(self.coupling.damping)
+        self.traces.append(trace)
         newton, anderson = self._newton(levels), self._anderson(levels)
         step = newton.step if newton else partial(self.hierarchy.cycle, levels)
-        done = self._raise_heights(levels, newton) if self.roughness.begins_on(levels) else 0
+        begins = len(levels) - 1 == self.roughness.first  # the first level with the heights
+        done = self._raise_heights(levels, newton) if begins else 0
         trace.note(*fine.nodal_film())
         patience, most = self.strategy.patience, MOST_STEPS if newton else MOST_CYCLES
         if finest:
@@ -247,14 +252,6 @@ class FilmSolver:
         if self.coupling.begin(levels, finest=finest, has_film=has_film):
             for level in levels:
                 level.set_relaxation(self.strategy.relaxation)
-
-    def _new_trace(self, levels: Sequence[Level]) -> GridTrace:
-        trace = GridTrace()
-        if self.roughness.is_on(levels):
-            trace.largest_change = LARGEST_ROUGH_CHANGE
-        trace.damp(self.coupling.damping)
-        self.traces.append(trace)
-        return trace
 
     def _coarser_trace(self) -> GridTrace | None:
         """Return the trace of the next coarser grid; None if its film is not comparable."""
@@ -289,7 +286,7 @@ class FilmSolver:
         fine.apply_heights(0.0)
         for _ in range(SMOOTH_CYCLES):
             iterate(cycle)
-        self.roughness.remember_smooth_film(levels)
+        self.roughness.smooth = (len(levels) - 1, fine.film.p.copy(), fine.rigid_approach)
         if newton is None:
             ramp = self.strategy.continuation.ramp
             for part in range(1, ramp):

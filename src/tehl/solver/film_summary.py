@@ -50,7 +50,10 @@ def film_summary(grid: Grid, film: Array) -> FilmSummary:
     full = grid.unfold(film)
     row = grid.domain.y[0] + grid.dy * np.arange(grid.ny)
     j, i = (int(n) for n in np.unravel_index(int(full.argmin()), full.shape))
-    minimum, (shift_y, shift_x) = subgrid_minimum(_patch(full, j, i))
+    # `REACH` nodes on each side of (j, i), symmetrically fewer near edges
+    across, along = min(REACH, j, grid.ny - 1 - j), min(REACH, i, grid.nx - 1 - i)
+    patch = full[j - across : j + across + 1, i - along : i + along + 1]
+    minimum, (shift_y, shift_x) = subgrid_minimum(patch)
     at_y = float(row[j] + shift_y * grid.dy)
     return FilmSummary(
         central=central_value(grid, film),
@@ -58,13 +61,6 @@ def film_summary(grid: Grid, film: Array) -> FilmSummary:
         minimum_node=float(full[j, i]),
         minimum_at=(float(grid.x[i] + shift_x * grid.dx), abs(at_y) if grid.mirror else at_y),
     )
-
-
-def _patch(full: Array, j: int, i: int) -> Array:
-    """Return the nodes around (j, i): `REACH` on each side, symmetrically fewer near edges."""
-    ny, nx = full.shape
-    across, along = min(REACH, j, ny - 1 - j), min(REACH, i, nx - 1 - i)
-    return full[j - across : j + across + 1, i - along : i + along + 1]
 
 
 def subgrid_minimum(patch: Array) -> tuple[float, tuple[float, float]]:
@@ -83,7 +79,10 @@ def subgrid_minimum(patch: Array) -> tuple[float, tuple[float, float]]:
 
 @cache
 def _sampling(nodes: int) -> Array:
-    """Return the weights of the samples of a not-a-knot cubic spline of ``nodes`` values."""
+    """Return the weights of the samples of a not-a-knot cubic spline of ``nodes`` values.
+
+    `scipy.interpolate` has such a spline, but takes 0.4 s to load.
+    """
     if nodes < 5:
         return np.eye(nodes)[nodes // 2 : nodes // 2 + 1]
     half = nodes // 2

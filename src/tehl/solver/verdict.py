@@ -10,7 +10,6 @@ from dataclasses import replace
 import numpy as np
 
 from tehl.domain import domain_error
-from tehl.grid import Grid
 from tehl.operators.energy import FilmState
 from tehl.result import ErrorEstimate, Status
 from tehl.scaling import Groups
@@ -127,7 +126,26 @@ def _rough_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     if not max(part * error, errors.discretisation_central) <= LARGEST_BAR:
         largest = max(error, errors.discretisation_central)
         return too_coarse(level.grid.points, run.groups, largest)
-    return minimum_open(level, error) if error > OPEN else CONVERGED
+    return _minimum_open(level, error) if error > OPEN else CONVERGED
+
+
+def _minimum_open(level: Level, error: float) -> Status:
+    """Return ``converged`` with a warning: the relative ``error`` of the minimum exceeds one."""
+    smallest, x, y = thinnest(level)
+    factor = 2 ** math.ceil(0.5 * math.log2(error / KNOWN))  # of second order
+    nodes = factor * (max(level.grid.points) - 1) + 1
+    return Status(
+        kind="converged",
+        message=(
+            f"The minimum film, at X = {x:.3g}, Y = {y:.3g} (half-widths), has a relative error of "
+            f"about {100 * error:.0f} % on {level.grid.nx} x {level.grid.ny} nodes: it is thin, at "
+            f"most about H = {(1.0 + error) * smallest:.2g}, but its value is not known."
+        ),
+        hint=(
+            f"If the minimum matters, take numerics.points = {nodes}, which at second order would "
+            f"reduce its error to {100 * KNOWN:.0f} %."
+        ),
+    )
 
 
 def is_film(level: Level, errors: ErrorEstimate | None) -> bool:
@@ -177,25 +195,6 @@ def touching(run: FilmSolver, part: float) -> Status:
     return replace(status, message=message)
 
 
-def minimum_open(level: Level, error: float) -> Status:
-    """Return ``converged`` with a warning: the relative ``error`` of the minimum exceeds one."""
-    grid, (smallest, x, y) = level.grid, thinnest(level)
-    factor = 2 ** math.ceil(0.5 * math.log2(error / KNOWN))  # of second order
-    nodes = factor * (max(grid.nx, grid.ny) - 1) + 1
-    return Status(
-        kind="converged",
-        message=(
-            f"The minimum film, at X = {x:.3g}, Y = {y:.3g} (half-widths), has a relative error of "
-            f"about {100 * error:.0f} % on {grid.nx} x {grid.ny} nodes: it is thin, at most about "
-            f"H = {(1.0 + error) * smallest:.2g}, but its value is not known."
-        ),
-        hint=(
-            f"If the minimum matters, take numerics.points = {nodes}, which at second order would "
-            f"reduce its error to {100 * KNOWN:.0f} %."
-        ),
-    )
-
-
 def _domain_status(run: FilmSolver) -> Status:
     """Judge whether the domain is large enough, and the contact fully flooded."""
     grid, groups = run.finest.grid, run.groups
@@ -208,41 +207,33 @@ def _domain_status(run: FilmSolver) -> Status:
             "Increase numerics.domain and numerics.points in proportion, or use the formula of "
             "Nijenbanning, Venner and Moes in `tehl explain`, which covers rigid contacts.",
         )
-    # the central film may lie in a dent; the oil that the contact needs follows from the formula
-    central = (
-        run.hierarchy.expected_film if run.roughness.is_rough else run.traces[-1].central.values[-1]
-    )
-    return edge_status(grid, groups, central)
+    return _edge_status(run)
 
 
-def edge_status(grid: Grid, groups: Groups, central: float) -> Status:
+def _edge_status(run: FilmSolver) -> Status:
     """Return ``inlet_too_short`` or ``sides_too_close`` if an edge starves the contact.
 
     The film decreases as ``((X - 1)/(m* - 1))^0.29`` if the meniscus is nearer than
     ``m* = 1 + 3.06 H_c^0.58`` (Hamrock and Dowson 1977, part IV, for the inlet; applied to the
     sides too).
-
-    Parameters
-    ----------
-    grid : Grid
-        Its domain is judged.
-    groups : Groups
-        Dimensionless groups.
-    central : float
-        Central film H_c [-].
     """
+    # the central film may lie in a dent; the oil that the contact needs follows from the formula
+    central = (
+        run.hierarchy.expected_film if run.roughness.is_rough else run.traces[-1].central.values[-1]
+    )
+    domain = run.finest.grid.domain
     needed = 1.0 + 3.06 * max(central, 0.0) ** 0.58
     edges = (
-        ("inlet_too_short", "inlet edge at X", grid.domain.x[0]),
-        ("sides_too_close", "side edge at Y", grid.domain.y[0]),
-        ("sides_too_close", "side edge at Y", grid.domain.y[1]),
+        ("inlet_too_short", "inlet edge at X", domain.x[0]),
+        ("sides_too_close", "side edge at Y", domain.y[0]),
+        ("sides_too_close", "side edge at Y", domain.y[1]),
     )
     for cause, name, place in edges:
         distance = abs(place)
         if distance < needed and ((distance - 1.0) / (needed - 1.0)) ** 0.29 < STARVED:
             return _failed(
                 cause,
-                f"The {name} = {place:.3g} starves the contact (M = {groups.M:.4g}): a fully "
+                f"The {name} = {place:.3g} starves the contact (M = {run.groups.M:.4g}): a fully "
                 f"flooded film needs {needed:.2g} or more (unit: Hertz half-widths).",
                 "Remove numerics.domain: the default domain is large enough.",
             )

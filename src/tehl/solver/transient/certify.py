@@ -40,6 +40,7 @@ JUDGED = ("film_minimum", "film_central_least", "pressure_max")
 GROWTH = 2.0
 """Further growth of a spike over its last change: it grows to first order."""
 
+Other = Companion[TransientResult]
 Runs = tuple[TransientResult, ...]
 """Two or three runs, coarse to fine, each with twice the steps of the one before. ``wide`` below is
 the run on the larger domain, with mesh and steps of the run before the last."""
@@ -83,7 +84,9 @@ def certify_transient(
     finest = solve_transient(problem, options, monitor=monitor)
     if not finest.status.converged:
         return finest
-    solve = partial(_companion, _without_frames(problem), monitor)
+    assert problem.transient is not None
+    no_frames = problem.transient.model_copy(update={"frames": 0})  # only the finest has fields
+    solve = partial(_companion, problem.model_copy(update={"transient": no_frames}), monitor)
     middle = solve(halved(options, 1), "half the intervals")
     if middle.result is None:
         return _not_certified(finest, "the run on half the intervals", middle)
@@ -93,13 +96,9 @@ def certify_transient(
         return _not_certified(finest, "the run on the larger domain", wide)
     coarse = solve(halved(options, 2), "a quarter of the intervals")
     runs = tuple(one for one in (coarse.result, middle.result, finest) if one is not None)
-    last = f"{nodes_of(options)} {finest.status.outcome}"
-    message = message_on([coarse.ending, middle.ending, last], wide.ending)
-    if coarse.result is None:
-        message += f" {WITHOUT_FIRST}"
     result = replace(
         finest,
-        status=replace(finest.status, message=message, hint=None),
+        status=replace(finest.status, message=_message(finest, coarse, middle, wide), hint=None),
         cost=finest.cost + coarse.cost + wide.cost,
         uncertainty=estimates(runs, wide.result),
         bars=history_bars(runs, wide.result),
@@ -112,22 +111,20 @@ def certify_transient(
     return result
 
 
-def _without_frames(problem: ContactProblem) -> ContactProblem:
-    """Return the problem without stored fields, which only the finest run needs."""
-    assert problem.transient is not None
-    bare = problem.transient.model_copy(update={"frames": 0})
-    return problem.model_copy(update={"transient": bare})
+def _message(finest: TransientResult, coarse: Other, middle: Other, wide: Other) -> str:
+    """Return how each run ended, and what follows for the bars."""
+    last = f"{nodes_of(finest.start.options)} {finest.status.outcome}"
+    message = message_on([coarse.ending, middle.ending, last], wide.ending)
+    return message if coarse.result is not None else f"{message} {WITHOUT_FIRST}"
 
 
-def _companion(
-    problem: ContactProblem, monitor: StepMonitor, options: Options, what: str
-) -> Companion[TransientResult]:
+def _companion(problem: ContactProblem, monitor: StepMonitor, options: Options, what: str) -> Other:
     """Solve on another grid; a run that fails has no result."""
     name = nodes_of(options)
     if not can_be_halved(options, 0):
         return Companion(ending=f"{name} has too few nodes")
     monitor.message(f"certify: {name} nodes, {what}")
-    found: Companion[TransientResult]
+    found: Other
     try:
         run = solve_transient(problem, options, monitor=monitor)
     except InputError as error:
@@ -143,9 +140,7 @@ def _companion(
     return found
 
 
-def _not_certified(
-    finest: TransientResult, what: str, failed: Companion[TransientResult]
-) -> TransientResult:
+def _not_certified(finest: TransientResult, what: str, failed: Other) -> TransientResult:
     """Return the finest run without error bars, because another one failed."""
     status = not_certified(finest.start, f"{what} failed ({failed.ending}).")
     return replace(finest, status=status, cost=finest.cost + failed.cost)
@@ -192,12 +187,12 @@ def _extremes(run: TransientResult, end: float) -> dict[str, float]:
 
 def history_bars(runs: Runs, wide: TransientResult) -> HistoryBars:
     """Return error bars along the history, at the times that all runs share."""
-    time = _shared(runs, "time")[-1]
+    growth = _growth(runs)[:: 2 ** (len(runs) - 2)]
     return HistoryBars(
-        time=time,
+        time=_shared(runs, "time")[-1],
         film_central=_bar(runs, wide, "film_central"),
         film_minimum=_bar(runs, wide, "film_minimum"),
-        pressure_max=_pressure_bar(runs, wide),
+        pressure_max=_bar(runs, wide, "pressure_max", growth),
     )
 
 
@@ -211,22 +206,15 @@ def _shared(runs: Runs, name: str) -> list[Array]:
     ]
 
 
-def _bar(runs: Runs, wide: TransientResult, name: str) -> Array:
-    """Return the errors of grid and domain, added in quadrature."""
-    return np.hypot(grid_bar(_shared(runs, name)), _domain_bar(runs, wide, name))
-
-
-def _domain_bar(runs: Runs, wide: TransientResult, name: str) -> Array:
-    """Return the change by the larger domain, from the run with the same mesh and steps."""
+def _bar(runs: Runs, wide: TransientResult, name: str, least: Array | None = None) -> Array:
+    """Return the errors of grid, at least ``least``, and domain, added in quadrature."""
+    series = _shared(runs, name)
+    grid = grid_bar(series)
+    if least is not None:
+        grid = np.maximum(grid, least[: grid.size])
+    # the larger domain has mesh and steps of the run before the last
     wider = _shared((*runs[:-2], wide, runs[-1]), name)[-2]
-    return np.abs(wider - _shared(runs, name)[-2])
-
-
-def _pressure_bar(runs: Runs, wide: TransientResult) -> Array:
-    """Return the bar of the largest pressure, including a growing spike."""
-    series, steps = _shared(runs, "pressure_max"), 2 ** (len(runs) - 2)
-    grid = np.maximum(grid_bar(series), _growth(runs)[::steps][: series[-1].size])
-    return np.hypot(grid, _domain_bar(runs, wide, "pressure_max"))
+    return np.hypot(grid, np.abs(wider - series[-2]))
 
 
 def _growth(runs: Runs) -> Array:
@@ -237,17 +225,12 @@ def _growth(runs: Runs) -> Array:
     the only time at which all runs have the whole field.
     """
     middle, finest = _shared(runs[-2:], "pressure_max")
-    excess = np.full_like(finest, _spike_excess(*runs[-2:]))
+    before, now = (spike(run.start) for run in runs[-2:])
+    reach = (now + GROWTH * max(now - before, 0.0)) * runs[-1].start.scales.hertz_pressure
+    excess = np.full_like(finest, max(reach - float(runs[-1].history.pressure_max[0]), 0.0))
     if _is_second(_order(_shared(runs, "pressure_max"))):
         return excess
     return np.maximum(excess, GROWTH * (finest - middle))
-
-
-def _spike_excess(middle: TransientResult, finest: TransientResult) -> float:
-    """Return by how much the spike of the steady film may exceed its largest pressure [Pa]."""
-    now, before, highest = spike(finest.start), spike(middle.start), finest.history.pressure_max[0]
-    reach = (now + GROWTH * max(now - before, 0.0)) * finest.start.scales.hertz_pressure
-    return max(reach - float(highest), 0.0)
 
 
 def grid_bar(series: list[Array]) -> Array:

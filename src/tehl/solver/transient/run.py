@@ -108,7 +108,7 @@ class Run:
             raise InputError(fault)
         check_load(transient, self.seconds)
         self.kept = kept_steps(transient, self.steps, self.seconds)
-        attempt, self.start = steady_start(problem, options, rough=not smooth, monitor=monitor)
+        attempt, self.start = _steady_start(problem, options, rough=not smooth, monitor=monitor)
         settings = COUPLED_SETTINGS if problem.is_coupled else SETTINGS
         self.stepper = Stepper(attempt.run, transient, settings)
         self.record = Record()
@@ -305,23 +305,10 @@ def _shapes(fields: dict[str, Array]) -> dict[str, tuple[tuple[int, ...], np.dty
     return {name: (field.shape, field.dtype) for name, field in fields.items()}
 
 
-def steady_start(
+def _steady_start(
     problem: ContactProblem, options: Options, *, rough: bool, monitor: StepMonitor
 ) -> tuple[Attempt, Result]:
-    """Solve for the steady film at time zero, with the load of that time.
-
-    Parameters
-    ----------
-    problem, options, monitor
-        As in `solve_transient`.
-    rough : bool
-        Whether the surfaces have their roughness at time zero; else they are smooth.
-
-    Raises
-    ------
-    ConvergenceError
-        When it did not converge.
-    """
+    """Solve for the steady film at time zero, with the load of that time, rough or smooth."""
     tight = options.model_copy(
         update={"accuracy": "tight", "tolerance": min(options.tolerance, START_TOLERANCE)}
     )
