@@ -54,7 +54,7 @@ def test_the_circle_has_its_closed_form():
     assert contact.mean_pressure == pytest.approx(2 / 3 * contact.pressure)
 
 
-def test_nothing_is_lost_next_to_the_circle():
+def test_no_digits_are_lost_next_to_the_circle():
     # For a small difference of radii k = (Ry/Rx)^(2/3) to first order.
     assert ellipticity(1.0, 1.0 + 1e-9) - 1.0 == pytest.approx(2e-9 / 3, rel=1e-5)
 

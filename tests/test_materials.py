@@ -40,6 +40,6 @@ def test_an_unknown_name_lists_the_known_and_suggests_one():
 
 
 @pytest.mark.parametrize("ratio", [0.6, -1.0, float("nan")])
-def test_an_impossible_poisson_ratio_is_refused(ratio: float):
+def test_an_invalid_poisson_ratio_is_rejected(ratio: float):
     with pytest.raises(ValidationError):
         Solid(young_modulus=2e11, poisson_ratio=ratio)

@@ -1,4 +1,4 @@
-"""What ``import tehl`` offers, and what it costs."""
+"""Exports of ``import tehl``, and the time it takes."""
 
 import subprocess
 import sys
@@ -11,7 +11,7 @@ LIGHT = ["ContactProblem", "Domain", "InputError", "Options", "Solid", "read_cas
 
 
 def fresh(script: str) -> str:
-    """Return what ``script`` prints in a process of its own."""
+    """Return what ``script`` prints in a new process."""
     command = [sys.executable, "-c", script]
     return subprocess.run(
         command, capture_output=True, text=True, check=True, timeout=60
@@ -41,7 +41,7 @@ def test_every_export_can_be_loaded(name: str):
     assert name in dir(tehl)
 
 
-def test_only_what_is_offered_is_listed():
+def test_only_exports_are_listed():
     assert dir(tehl) == sorted(tehl.__all__)
 
 

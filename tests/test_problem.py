@@ -1,4 +1,4 @@
-"""The question in SI, however it is stated."""
+"""The problem in SI, by any of its statements."""
 
 import copy
 import json
@@ -30,13 +30,13 @@ CONTACTS: list[dict[str, Any]] = [
 
 
 @pytest.mark.parametrize("contact", CONTACTS)
-def test_a_problem_returns_from_json_as_it_was(contact: dict[str, Any]):
+def test_a_problem_survives_json(contact: dict[str, Any]):
     stated = problem(contact=contact)
     assert ContactProblem.model_validate(stated.model_dump(mode="json")) == stated
     assert ContactProblem.model_validate(json.loads(stated.model_dump_json())) == stated
 
 
-def test_a_flat_surface_and_a_named_oil_return_from_json():
+def test_a_flat_surface_and_a_named_oil_survive_json():
     stated = problem(
         contact={"load": 80, "entrainment_speed": 1},
         surface_1={"material": "glass", "radius": "10 mm"},
@@ -158,7 +158,7 @@ def test_heat_needs_all_its_properties():
         problem(thermal={}, lubricant=oil | {"viscosity": free})
 
 
-def test_a_thermal_problem_returns_from_json_as_it_was():
+def test_a_thermal_problem_survives_json():
     table = {"value": "0.154 W/m/K", "slope": "1.4 1/GPa", "saturation": "0.34 1/GPa"}
     oil = {**ball_tables()["lubricant"], "conductivity": table, "heat_capacity": 2000}
     oil["viscosity"] = oil["viscosity"] | {"gamma": 0.04}
@@ -177,7 +177,7 @@ def test_a_slow_or_backward_surface_takes_the_full_source():
     assert source_form("line", 0.0) == "line"
 
 
-def test_roughnesses_add_as_squares():
+def test_roughnesses_add_in_quadrature():
     rough = problem(
         surface_1={"material": "steel", "rms_roughness": "0.3 um"},
         surface_2={"material": "steel", "rms_roughness": "0.4 um"},
@@ -213,7 +213,7 @@ IMPOSSIBLE = [
 
 
 @pytest.mark.parametrize(("key", "value", "words"), IMPOSSIBLE)
-def test_an_impossible_question_is_refused(key: str, value: object, words: str):
+def test_an_invalid_problem_is_rejected(key: str, value: object, words: str):
     tables = copy.deepcopy(ball_tables())
     node: Any = tables
     *path, last = key.split(".")
@@ -232,7 +232,7 @@ def test_an_impossible_question_is_refused(key: str, value: object, words: str):
         ("10 mm", "-10 mm", "do not curve apart"),
     ],
 )
-def test_impossible_bodies_are_refused(first: str, second: str | None, words: str):
+def test_invalid_bodies_are_rejected(first: str, second: str | None, words: str):
     tables = ball_tables(
         contact={"load": 80, "entrainment_speed": 1},
         surface_1={"material": "steel", "radius": first},
@@ -250,13 +250,13 @@ def test_a_moes_speed_needs_a_pressure_coefficient():
 
 
 @pytest.mark.parametrize(("load", "value"), [("hertz_pressure", 1e200), ("moes_load", 1e-299)])
-def test_numbers_that_overflow_are_refused(load: str, value: float):
+def test_numbers_that_overflow_are_rejected(load: str, value: float):
     tables = ball_tables(contact={"radius": 0.02, load: value, "entrainment_speed": 1.0})
     with pytest.raises(ValidationError, match="far outside the physical range"):
         ContactProblem.model_validate(tables)
 
 
-def test_a_line_contact_is_refused():
+def test_a_line_contact_is_rejected():
     radii = {"radius_x": 0.02, "radius_y": 200.0}
     tables = ball_tables(contact=radii | {"load": 80, "entrainment_speed": 1})
     with pytest.raises(ValidationError, match="line contact"):

@@ -1,4 +1,4 @@
-"""Strings with units become SI, or are refused with a sentence."""
+"""Strings with units become SI, or are rejected with a message."""
 
 import math
 
@@ -86,7 +86,7 @@ def test_a_string_with_a_unit_becomes_si(kind: object, text: object, value: floa
         ("80 deg", "unit of an angle"),
     ],
 )
-def test_what_is_no_force_is_refused_with_an_example(text: object, words: str):
+def test_an_invalid_force_is_rejected_with_an_example(text: object, words: str):
     with pytest.raises(ValueError, match=words) as caught:
         quantity(Force).parse(text)
     assert 'expected a force such as "80 N"' in str(caught.value)
@@ -105,7 +105,7 @@ def test_a_plain_number_takes_no_unit():
         quantity(Number).parse("0.2 deg")
 
 
-def test_a_radius_of_zero_is_told_from_a_flat():
+def test_a_radius_of_zero_is_not_a_flat():
     with pytest.raises(ValueError, match="flat surface"):
         quantity(Radius).parse(0.0)
 

@@ -11,7 +11,7 @@ FILM = FlatFilm(film=2e-7, bulk_modulus=1e10, viscosity=1e3, reduced_modulus=2.2
 WAVE = Wave(amplitude=1e-8, wavelength=5e-5)
 
 
-def test_the_published_curve():
+def test_the_amplitude_reduction_is_the_published_curve():
     for nabla, ratio in ((0.5, 0.92700), (2.0, 0.73529), (10.0, 0.25)):
         assert amplitude_reduction(nabla) == pytest.approx(ratio, abs=1e-5)
     assert amplitude_reduction(10.0, ratio=2.0) == pytest.approx(

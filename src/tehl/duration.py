@@ -77,10 +77,8 @@ class Part:
 
         Parameters
         ----------
-        units : Scales
-            Half-widths of the contact.
-        seconds : float
-            Time since the start [s].
+        units, seconds : Scales, float
+            Half-widths of the contact, and time since the start [s].
         entrance : float or None
             Distance upstream at which endless parts start [a_x]; None if they start everywhere.
         """

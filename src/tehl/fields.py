@@ -1,14 +1,26 @@
 """Fields of a film: pressure, film, shear stresses, temperatures, heights; all read-only."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
 from tehl.typing import Array
 
 
+class _ReadOnly:
+    """Base of fields whose arrays cannot be changed."""
+
+    __slots__ = ()
+
+    def __post_init__(self) -> None:
+        for one in fields(self):  # type: ignore[arg-type]
+            value = getattr(self, one.name)
+            if isinstance(value, np.ndarray):
+                value.flags.writeable = False
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Fields:
+class Fields(_ReadOnly):
     """Dimensionless fields on the full domain, read-only arrays of shape (ny, nx).
 
     Attributes
@@ -26,19 +38,11 @@ class Fields:
     pressure: Array
     film: Array
 
-    def __post_init__(self) -> None:
-        _freeze(self.x, self.y, self.pressure, self.film)
-
     def at_origin(self, values: Array) -> float:
         """Return ``values`` at X = Y = 0, by the parabolas through the nearest three nodes."""
         rows, row_weights = _parabola(self.y)
         columns, column_weights = _parabola(self.x)
         return float(row_weights @ values[rows, columns] @ column_weights)
-
-
-def _freeze(*arrays: Array) -> None:
-    for array in arrays:
-        array.flags.writeable = False
 
 
 def _parabola(axis: Array) -> tuple[slice, Array]:
@@ -72,7 +76,7 @@ class FilmSummary:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class FilmShear:
+class FilmShear(_ReadOnly):
     """Shear stress of the film in SI, read-only arrays of shape (ny, nx).
 
     The stress is ``eta du/dz`` of the effective viscosity: negative for SRR > 0.
@@ -92,9 +96,6 @@ class FilmShear:
     surface_2: Array
     across: Array
     thinning: Array
-
-    def __post_init__(self) -> None:
-        _freeze(self.surface_1, self.mid_film, self.surface_2, self.across, self.thinning)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -131,7 +132,7 @@ class HeatBalance:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class FilmHeat:
+class FilmHeat(_ReadOnly):
     """Temperature of the film in SI, read-only arrays.
 
     Attributes
@@ -160,9 +161,6 @@ class FilmHeat:
     balance: HeatBalance
     solid_peclet: tuple[float, float]
     sources: tuple[str, str]
-
-    def __post_init__(self) -> None:
-        _freeze(self.zeta, self.weights, self.temperature, self.flux_1, self.flux_2)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -26,7 +26,7 @@ def reduced_radius(first: float, second: float) -> float:
     Raises
     ------
     ValueError
-        If the surfaces do not curve apart: then there is no point contact.
+        If the surfaces do not curve apart, so that they have no point contact.
     """
     curvature = 1.0 / first + 1.0 / second
     if curvature == 0.0 and math.isinf(first):

@@ -207,7 +207,7 @@ class Result(Saved):
     uncertainty : dict of str to Estimate
         Of a certified result: ``film_central``, ``film_minimum``, ``pressure_max`` [-].
     shear : FilmShear or None
-        Shear stresses; None when there is no credible film.
+        Shear stresses; None without a valid film.
     heat : FilmHeat or None
         Temperatures; None in an isothermal run.
     heights : SurfaceHeights or None
@@ -271,16 +271,6 @@ class Result(Saved):
                 film.minimum_at[1] * scales.half_width_y,
             ),
         )
-
-    @property
-    def central_film_thickness(self) -> float:
-        """Film thickness at the centre of the contact [m]."""
-        return self.film.central
-
-    @property
-    def minimum_film_thickness(self) -> float:
-        """Smallest film thickness [m], sub-grid."""
-        return self.film.minimum
 
     @property
     def traction(self) -> Traction | None:

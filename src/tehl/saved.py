@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class Saved:
-    """Base of `Result` and `TransientResult`, the only classes that ``self`` stands for."""
+    """Base of `Result` and `TransientResult`, the only types of ``self``."""
 
     __slots__ = ()
 

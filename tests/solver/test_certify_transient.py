@@ -150,7 +150,7 @@ class Replayed:
 STALLED = Status(kind="stalled", cause="step_not_settled", message="it did not settle")
 
 
-def test_a_finest_run_that_fails_is_returned_as_it_is(monkeypatch):
+def test_a_finest_run_that_fails_is_returned_unchanged(monkeypatch):
     run = replace(make_transient(), status=STALLED)
     replayed = Replayed(monkeypatch, run)
     assert certify_transient(passing(), options(129)) is run

@@ -4,15 +4,14 @@ import numpy as np
 import pytest
 
 from tehl.kernels.reynolds import Factors
-from tehl.solver.convergence import GridTrace, error_estimate
+from tehl.solver.convergence import LEAST_CYCLES, LEAST_RATE, GridTrace, error_estimate
 from tehl.solver.thermal import damped
 
 
 @pytest.mark.parametrize("damping", [0.3, 0.5])
 def test_the_iteration_error_of_a_damped_cycle_is_not_underestimated(damping: float) -> None:
     """The film changes by a constant part of its error per cycle."""
-    trace, left = GridTrace(), [1.0]
-    trace.damp(damping)
+    trace, left = GridTrace(damping=damping), [1.0]
     for _ in range(6):
         trace.central.values.append(0.3 + left[-1])
         left.append((1.0 - damping) * left[-1])
@@ -21,9 +20,8 @@ def test_the_iteration_error_of_a_damped_cycle_is_not_underestimated(damping: fl
 
 
 def test_a_damping_factor_of_one_changes_nothing() -> None:
-    trace, same = GridTrace(), GridTrace()
-    trace.damp(1.0)
-    assert trace == same
+    trace = GridTrace(damping=1.0)
+    assert (trace.least_cycles, trace.central.least_rate) == (LEAST_CYCLES, LEAST_RATE)
 
 
 @pytest.mark.parametrize(("coarse", "bar"), [(0.010, 0.35), (0.0, 0.70), (-0.020, 2.0)])

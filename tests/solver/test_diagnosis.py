@@ -41,7 +41,7 @@ def test_a_body_near_the_temperature_of_the_oil_is_not_a_likely_cause():
     assert cause_of(changed("surface_1", temperature=333.0)) is None
 
 
-def test_a_stress_beyond_what_oils_bear_is_attributed_to_the_shear_law():
+def test_a_stress_beyond_that_of_oils_is_attributed_to_the_shear_law():
     sliding = changed("contact", hertz_pressure=2e9, slide_roll_ratio=1.9)
     found = cause_of(sliding, 1025)
     assert found is not None

@@ -102,7 +102,7 @@ def scaled_copy(problem: ContactProblem, size: float, modulus: float) -> Contact
 
 
 def barus(problem: ContactProblem) -> ContactProblem:
-    """Return the same contact with a law that has no pressure scale of its own."""
+    """Return the same contact with a law without a pressure scale."""
     tables: dict[str, Any] = problem.model_dump(mode="python", exclude_none=True)
     tables["lubricant"]["viscosity"] = {
         "law": "barus", "eta_0": 0.04, "alpha": 14e-9, "gamma": 0.042,

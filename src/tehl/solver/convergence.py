@@ -98,7 +98,8 @@ class Trace:
 class GridTrace:
     """Film and temperature rise over the cycles on one grid, with the reports of the cycles.
 
-    ``damping`` is the damping factor of heat and thinning between rough surfaces; 1 is undamped.
+    ``damping`` is the damping factor of heat and thinning between rough surfaces, 1 is undamped: no
+    convergence rate is below 1 - damping.
     """
 
     central: Trace = field(default_factory=Trace)
@@ -109,12 +110,10 @@ class GridTrace:
     least_cycles: int = LEAST_CYCLES
     damping: float = 1.0
 
-    def damp(self, damping: float) -> None:
-        """Account for a damping factor of heat and thinning: no rate is below 1 - damping."""
-        self.damping = damping
-        self.least_cycles = max(LEAST_CYCLES, math.ceil(1.0 / damping))
+    def __post_init__(self) -> None:
+        self.least_cycles = max(LEAST_CYCLES, math.ceil(1.0 / self.damping))
         for trace in (self.central, self.minimum, self.rise):
-            trace.least_rate = max(LEAST_RATE, 1.0 - damping)
+            trace.least_rate = max(LEAST_RATE, 1.0 - self.damping)
 
     def note(self, central: float, minimum: float) -> None:
         """Append the film before the first cycle."""

@@ -15,7 +15,7 @@ from tehl.solver.film_summary import film_summary
 from tehl.solver.level import Level
 
 LARGEST_TRACTION = 0.1
-"""Shear stress over pressure beyond what oils bear."""
+"""Largest shear stress of oils over pressure."""
 
 LESS_ROUGH = "Take lower or longer asperities, a higher speed, or more nodes (numerics.points)."
 _SHEAR_HINT = (
@@ -161,7 +161,7 @@ def _body_temperature(problem: ContactProblem) -> Iterator[LikelyCause]:
 
 
 def _shear_stress(scaled: ScaledProblem) -> Iterator[LikelyCause]:
-    """Yield the shear law if the stress at the inlet temperature is beyond what oils bear."""
+    """Yield the shear law if the stress at the inlet temperature exceeds that of oils."""
     problem, scales = scaled.problem, scaled.scales
     pressure = problem.hertz.mean_pressure
     rate = abs(problem.motion.sliding_speed) / expected_film(scaled)
@@ -176,7 +176,7 @@ def _shear_stress(scaled: ScaledProblem) -> Iterator[LikelyCause]:
             f"lubricant.shear.law = {oil.shear.law} with slide_roll_ratio = "
             f"{problem.slide_roll_ratio:g}: the shear stress at the inlet temperature is "
             f"{_round(stress / pressure)} times the mean pressure of {pressure / 1e9:.2g} GPa; "
-            f"oils bear at most {LARGEST_TRACTION:g} times."
+            f"oils reach at most {LARGEST_TRACTION:g} times."
         ),
         hint=_SHEAR_HINT if oil.shear.law == "newtonian" else "Check lubricant.shear and sliding.",
     )

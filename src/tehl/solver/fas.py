@@ -7,17 +7,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol, Self, TypeVar
 
-from tehl.grid import Grid
-from tehl.options import Options
-
-UNRESOLVED = 0.5
-"""Mesh width of the coarsest grid, in Hertz half-widths, beyond which it does not resolve the
-contact. One visit then overshoots the load balance (by 100 % at M = 5); a second one, through the
-next finer level, corrects this at negligible cost."""
-THICK = 0.25
-"""Expected central film above which this applies: for a thinner film such a grid has no valid
-discrete solution, and more visits do harm (M = 200 and more on wide domains)."""
-
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Cycle:
@@ -41,26 +30,6 @@ class Cycle:
     extra_sweeps: int = 1
     twice: bool = False
 
-    @classmethod
-    def of(cls, options: Options, coarsest: Grid, film: float) -> "Cycle":
-        """Return the cycle for a contact.
-
-        Parameters
-        ----------
-        options : Options
-            Kind of cycle, and sweeps.
-        coarsest : Grid
-            The coarsest grid.
-        film : float
-            Expected central film [-].
-        """
-        return cls(
-            kind=options.cycle,
-            pre_sweeps=options.pre_sweeps,
-            post_sweeps=options.post_sweeps,
-            twice=coarsest.dx > UNRESOLVED and film > THICK,
-        )
-
     def coarse_visits(self, coarser: int) -> tuple["Cycle", ...]:
         """Return the cycles on ``coarser`` levels: V for V, two W for W, F and V for F."""
         kinds = {"V": "V", "W": "WW", "F": "FV"}[self.kind]
@@ -74,15 +43,12 @@ class Level(Protocol):
 
     def relax(self, sweeps: int) -> None:
         """Smooth the error by relaxation sweeps."""
-        ...
 
     def restrict_to(self, coarse: Self) -> None:
         """Pose the FAS problem  A_c(u_c) = A_c(I u) + I (b - A(u))  on the next coarser level."""
-        ...
 
     def correct_from(self, coarse: Self) -> None:
         """Add the interpolated change of the coarser level:  u += I (u_c - I u)."""
-        ...
 
 
 AnyLevel = TypeVar("AnyLevel", bound=Level)

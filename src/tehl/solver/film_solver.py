@@ -215,10 +215,8 @@ class FilmSolver:
         fine.pose_problem()
         fine.update()
         self._couple(levels, has_film=not self.from_hertz)
-        trace = GridTrace(
-            largest_change=LARGEST_ROUGH_CHANGE if self.roughness.is_on(levels) else LARGEST_CHANGE
-        )
-        trace.damp(self.coupling.damping)
+        largest = LARGEST_ROUGH_CHANGE if self.roughness.is_on(levels) else LARGEST_CHANGE
+        trace = GridTrace(largest_change=largest, damping=self.coupling.damping)
         self.traces.append(trace)
         newton, anderson = self._newton(levels), self._anderson(levels)
         step = newton.step if newton else partial(self.hierarchy.cycle, levels)

@@ -4,7 +4,7 @@ A strategy is a relaxation with the settings of everything around it. Smooth iso
 the first rung only, up to M = 1000 and more; later rungs trade speed for robustness.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from tehl.options import Options
 from tehl.problem import ContactProblem
@@ -20,8 +20,6 @@ from tehl.solver.relaxation import (
     ROUGH,
     Relaxation,
 )
-
-DIRECT = Continuation()
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -48,7 +46,7 @@ class Strategy:
     """
 
     relaxation: Relaxation
-    continuation: Continuation = DIRECT
+    continuation: Continuation = field(default_factory=Continuation)
     memory: int = 0
     patience: int = 1
     damping: float = 1.0

@@ -58,7 +58,7 @@ class Level:
     def __init__(self, equations: Equations, relaxation: Relaxation) -> None:
         shape = equations.grid.shape
         self.equations = equations
-        self.smoother = make_smoother(equations.grid, equations.influence, relaxation)
+        self.smoother = make_smoother(equations, relaxation)
         p, h, eps, rho, drho, f, g = (np.zeros(shape) for _ in range(7))
         self.film = reynolds.Film(p, h, eps, rho, drho, eps_x=eps, eps_y=eps)
         self.rigid_approach = 0.0
@@ -227,7 +227,7 @@ class Level:
     def set_relaxation(self, relaxation: Relaxation) -> None:
         """Change the settings of the smoother; frozen nodes stay frozen."""
         frozen = self.smoother.frozen
-        self.smoother = make_smoother(self.grid, self.equations.influence, relaxation)
+        self.smoother = make_smoother(self.equations, relaxation)
         self.smoother.frozen[:] = frozen
 
     def relax(self, sweeps: int) -> None:

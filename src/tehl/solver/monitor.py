@@ -11,11 +11,9 @@ class Monitor(Protocol):
 
     def message(self, text: str) -> None:
         """Receive a message for people."""
-        ...
 
     def cycle(self, report: CycleReport) -> None:
         """Receive the report of one cycle."""
-        ...
 
 
 class StepMonitor(Monitor, Protocol):
@@ -23,7 +21,6 @@ class StepMonitor(Monitor, Protocol):
 
     def step(self, report: StepReport) -> None:
         """Receive the report of one time step."""
-        ...
 
 
 class Silent:

@@ -18,6 +18,7 @@ from tehl.kernels.reynolds import Film, Mesh, relax_lines, stiffen
 from tehl.operators.flow import FlowTable
 from tehl.operators.influence import Influence
 from tehl.operators.reynolds import line_influence
+from tehl.solver.equations import Equations
 from tehl.typing import Array, FlagArray
 
 
@@ -78,7 +79,6 @@ class Smoother(Protocol):
         flow : FlowTable
             Mobility and density of the lubricant.
         """
-        ...
 
 
 class LineSmoother:
@@ -128,18 +128,7 @@ class PointSmoother:
         relax_points(film, mesh, rhs, self.point, self.omega)
 
 
-def make_smoother(grid: Grid, influence: Influence, relaxation: Relaxation) -> Smoother:
-    """Return the smoother of one grid: plain Gauss-Seidel if so named, else by lines.
-
-    Parameters
-    ----------
-    grid : Grid
-        The nodes.
-    influence : Influence
-        Deflection per unit pressure on one cell.
-    relaxation : Relaxation
-        Settings.
-    """
-    if relaxation is GAUSS_SEIDEL:
-        return PointSmoother(grid, influence, relaxation)
-    return LineSmoother(grid, influence, relaxation)
+def make_smoother(equations: Equations, relaxation: Relaxation) -> Smoother:
+    """Return the smoother of one grid: plain Gauss-Seidel if so named, else by lines."""
+    kind = PointSmoother if relaxation is GAUSS_SEIDEL else LineSmoother
+    return kind(equations.grid, equations.influence, relaxation)
