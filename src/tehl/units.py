@@ -144,7 +144,7 @@ def _read_unit(text: str) -> tuple[float, Dimension]:
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """What kind of number is expected: dimension, sign and an example for messages.
+    """An expected kind of number: dimension, sign and an example for messages.
 
     An instance is pydantic metadata: ``Annotated[float, Quantity(...)]``.
 
@@ -174,12 +174,7 @@ class Quantity:
         return _read_unit(self.unit)[1]
 
     def parse(self, value: object) -> float:
-        """Return ``value`` in SI.
-
-        Parameters
-        ----------
-        value : float or str
-            A bare SI number, or a number with its unit.
+        """Return ``value``, a bare SI number or a number with its unit, in SI.
 
         Raises
         ------

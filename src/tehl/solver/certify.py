@@ -250,14 +250,8 @@ def estimate(values: tuple[float, ...], domain: float) -> Estimate:
 
     If the grids show second order, the extrapolated value is h_3 + (h_3 - h_2)/3, and the bar its
     difference to that with the observed order, at least a quarter of (h_3 - h_2)/3. If not, the
-    value is h_3 and the bar |h_3 - h_2|.
-
-    Parameters
-    ----------
-    values : tuple of float
-        h_1, h_2, h_3 or h_2, h_3 on grids halved each time.
-    domain : float
-        Change by the larger domain.
+    value is h_3 and the bar |h_3 - h_2|. ``values`` are h_1, h_2, h_3 or h_2, h_3 on grids halved
+    each time, and ``domain`` is the change by the larger domain.
     """
     last = values[-1] - values[-2]
     first = values[1] - values[0] if len(values) == 3 else 0.0

@@ -223,9 +223,9 @@ class FilmSolver:
         begins = len(levels) - 1 == self.roughness.first  # the first level with the heights
         done = self._raise_heights(levels, newton) if begins else 0
         trace.note(*fine.nodal_film())
-        patience, most = self.strategy.patience, MOST_STEPS if newton else MOST_CYCLES
+        most = MOST_STEPS if newton else MOST_CYCLES
         if finest:
-            most = patience * self.options.max_cycles
+            most = self.strategy.patience * self.options.max_cycles
         for number in range(1, most + 1):
             if number > HERTZ_CYCLES and self.from_hertz and not finest:
                 self.from_hertz = False  # these cycles have made a film that heat can act on
@@ -233,16 +233,20 @@ class FilmSolver:
             before = fine.unknowns() if anderson else None
             report = self._iteration(levels, step, number + done)
             trace.add(report)
-            coarser = self._coarser_trace()
-            if finest and (must_stop(trace, coarser, self.options) or stalled(trace, patience)):
-                return
-            if not finest and film_converged(trace, coarser):
+            if self._is_done(trace, finest=finest):
                 return
             if anderson is not None and before is not None:
                 combined = anderson.combine(before, fine.unknowns())
                 # a combination of states must not wet the nodes that the last cycle cavitated
                 wet = np.append(fine.film.p.ravel() > 0.0, True)
                 fine.set_unknowns(np.where(wet, combined, 0.0))
+
+    def _is_done(self, trace: GridTrace, *, finest: bool) -> bool:
+        """Return whether the iteration on a grid has converged or stalled."""
+        coarser = self._coarser_trace()
+        if not finest:
+            return film_converged(trace, coarser)
+        return must_stop(trace, coarser, self.options) or stalled(trace, self.strategy.patience)
 
     def _couple(self, levels: Sequence[Level], *, has_film: bool) -> None:
         """Start heat and shear thinning on the last of ``levels``, if it resolves them."""
@@ -321,7 +325,7 @@ class FilmSolver:
         np.subtract(level.film.p, before, out=before)
         central, minimum = level.nodal_film()
         report = CycleReport(
-            points=(level.grid.nx, level.grid.ny),
+            points=level.grid.points,
             cycle=number,
             residual=residual,
             change=float(max(before.max(), -before.min())),

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -137,17 +138,14 @@ class Hierarchy:
 
     def salvage(self) -> None:
         """Interpolate the finest valid state of a coarser grid to the finest grid."""
-        levels = self.levels
-        valid = max((k for k, level in enumerate(levels) if _is_valid(level)), default=0)
-        if not _is_valid(levels[valid]):
-            levels[0].start_from_hertz(self.expected_film)
-        for coarse, fine in zip(levels[valid:], levels[valid + 1 :], strict=False):
+        start = -1
+        for number, level in enumerate(self.levels):
+            if 0.0 < level.film.p.max() < RUNAWAY and np.isfinite(level.rigid_approach):
+                start = number
+        if start < 0:
+            start = 0
+            self.levels[0].start_from_hertz(self.expected_film)
+        for coarse, fine in pairwise(self.levels[start:]):
             fine.interpolate_from(coarse)
         self.finest.pose_problem()
         self.finest.update()
-
-
-def _is_valid(level: Level) -> bool:
-    """Return whether the pressure of a level is finite and of plausible size."""
-    largest = float(level.film.p.max())
-    return 0.0 < largest < RUNAWAY and bool(np.isfinite(level.rigid_approach))
