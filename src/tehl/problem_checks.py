@@ -103,7 +103,7 @@ def check_temperatures(problem: "ContactProblem") -> None:
     if inlet != law.reference_temperature and not is_constant:
         raise ValueError(
             f"lubricant.viscosity is given at {law.reference_temperature:g} K without a "
-            f"temperature coefficient, but the inlet is at {inlet:g} K: {remedy(problem)}"
+            f"temperature coefficient, but the inlet is at {inlet:g} K: {_remedy(problem)}"
         )
 
 
@@ -118,19 +118,19 @@ def check_heat(problem: "ContactProblem") -> None:
                 "state lubricant.temperature for an isothermal film"
             )
         for name, wanted in THERMAL_PROPERTIES.items() if problem.thermal else ():
-            need(f"{key}.material.{name}", getattr(surface.material, name), wanted)
+            _need(f"{key}.material.{name}", getattr(surface.material, name), wanted)
     if problem.thermal is None:
         return
-    need("lubricant.conductivity", oil.conductivity, quantity(Conductivity))
-    need("lubricant.heat_capacity", oil.heat_capacity, quantity(HeatCapacity))
+    _need("lubricant.conductivity", oil.conductivity, quantity(Conductivity))
+    _need("lubricant.heat_capacity", oil.heat_capacity, quantity(HeatCapacity))
     if not oil.viscosity.temperature_coefficient > 0:
         raise ValueError(
             "lubricant.viscosity has no temperature coefficient, which a thermal run needs: "
-            f"{remedy(problem)}"
+            f"{_remedy(problem)}"
         )
 
 
-def need(key: str, value: object, wanted: Quantity) -> None:
+def _need(key: str, value: object, wanted: Quantity) -> None:
     """Raise if a property that a thermal run needs is missing."""
     if value is None:
         raise ValueError(
@@ -139,7 +139,7 @@ def need(key: str, value: object, wanted: Quantity) -> None:
         )
 
 
-def remedy(problem: "ContactProblem") -> str:
+def _remedy(problem: "ContactProblem") -> str:
     """Return the key that makes the viscosity depend on temperature."""
     keys = type(problem.lubricant.viscosity).model_fields
     if "gamma" in keys:

@@ -63,7 +63,7 @@ def test_the_heated_film_conserves_mass(slide):
     carried, stored, pressed = [], [], []
 
     def note(_):
-        film, excess = run.level.film, run.stepper.run.coupling.excess()
+        film, excess = run.level.film, run.stepper.solver.coupling.excess()
         mass = film.rho[0] * film.h[0]
         carried.append(mass)
         stored.append((1.0 - excess[0]) * mass)

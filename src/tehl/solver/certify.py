@@ -5,6 +5,7 @@ h = h_3 + (h_3 - h_2)/3 (docs/theory/numerics.md on stopping and errors).
 """
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Generic, NoReturn, TypeVar
 
@@ -88,8 +89,7 @@ def certify(
     )
     message = _message(first, middle, finest, wide)
     result = replace(result, status=replace(finest.status, message=message, hint=None))
-    bars = (result.uncertainty[name] for name in JUDGED)
-    worst = max(abs(bar.uncertainty / bar.value) for bar in bars)
+    worst = widest(result.uncertainty, JUDGED)
     if worst > LARGEST_BAR:
         _reject(result, too_coarse_to_certify(result, worst))
     return result
@@ -165,6 +165,12 @@ def not_certified(result: Result, why: str) -> Status:
 def too_coarse_to_certify(result: Result, error: float) -> Status:
     """Return ``grid_too_coarse`` for a certified result with a relative error bar ``error``."""
     return too_coarse((result.scaled.x.size, result.scaled.y.size), result.groups, error)
+
+
+def widest(uncertainty: dict[str, Estimate], names: Iterable[str]) -> float:
+    """Return the largest relative error bar; a value extrapolated to zero has an infinite one."""
+    bars = (uncertainty[name] for name in names)
+    return max(abs(bar.uncertainty / bar.value) if bar.value else math.inf for bar in bars)
 
 
 def message_on(grids: list[str], wide: str) -> str:

@@ -147,7 +147,13 @@ def must_stop(now: GridTrace, coarser: GridTrace | None, options: Options) -> bo
 
 
 def converged(now: GridTrace, coarser: GridTrace | None, options: Options) -> bool:
-    """Whether the cycles reached the accuracy of the options; parameters as in `must_stop`."""
+    """Whether the cycles reached the accuracy of the options.
+
+    Parameters
+    ----------
+    now, coarser, options
+        As in `must_stop`.
+    """
     if len(now.reports) < now.least_cycles:
         return False
     if options.accuracy == "tight":

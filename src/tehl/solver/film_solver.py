@@ -214,7 +214,7 @@ class FilmSolver:
         fine, finest = levels[-1], levels[-1] is self.finest
         fine.pose_problem()
         fine.update()
-        self._couple(levels, has_film=not self.from_hertz)
+        self._start_heat(levels, has_film=not self.from_hertz)
         largest = LARGEST_ROUGH_CHANGE if self.roughness.is_on(levels) else LARGEST_CHANGE
         trace = GridTrace(largest_change=largest, damping=self.coupling.damping)
         self.traces.append(trace)
@@ -229,7 +229,7 @@ class FilmSolver:
         for number in range(1, most + 1):
             if number > HERTZ_CYCLES and self.from_hertz and not finest:
                 self.from_hertz = False  # these cycles have made a film that heat can act on
-                self._couple(levels, has_film=True)
+                self._start_heat(levels, has_film=True)
             before = fine.unknowns() if anderson else None
             report = self._iteration(levels, step, number + done)
             trace.add(report)
@@ -248,7 +248,7 @@ class FilmSolver:
             return film_converged(trace, coarser)
         return must_stop(trace, coarser, self.options) or stalled(trace, self.strategy.patience)
 
-    def _couple(self, levels: Sequence[Level], *, has_film: bool) -> None:
+    def _start_heat(self, levels: Sequence[Level], *, has_film: bool) -> None:
         """Start heat and shear thinning on the last of ``levels``, if it resolves them."""
         finest = levels[-1] is self.finest
         if self.coupling.begin(levels, finest=finest, has_film=has_film):

@@ -27,6 +27,7 @@ from tehl.solver.certify import (
     spike,
     too_coarse_to_certify,
     widened,
+    widest,
     with_growing_spike,
 )
 from tehl.solver.monitor import SILENT, StepMonitor
@@ -103,9 +104,7 @@ def certify_transient(
         uncertainty=estimates(runs, wide.result),
         bars=history_bars(runs, wide.result),
     )
-    bars = (result.uncertainty[name] for name in JUDGED)
-    # a film extrapolated to zero has no relative error
-    worst = max(abs(bar.uncertainty / bar.value) if bar.value else math.inf for bar in bars)
+    worst = widest(result.uncertainty, JUDGED)
     if worst > LARGEST_BAR:
         return replace(result, status=too_coarse_to_certify(result.start, worst))
     return result

@@ -1,7 +1,7 @@
 """Transient runs: the steady film at time zero, then step by step to the end."""
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import numpy as np
 
@@ -117,7 +117,7 @@ class Run:
     @property
     def level(self) -> Level:
         """The finest level."""
-        return self.stepper.run.finest
+        return self.stepper.solver.finest
 
     def advance(
         self, monitor: StepMonitor, keep: Callable[[Snapshot], None] | None = None
@@ -147,7 +147,7 @@ class Run:
             "time": time_now,
             "load": load,
             "traction": self._traction(load),
-            "temperature_rise": self.stepper.run.coupling.temperature_rise(),
+            "temperature_rise": self.stepper.solver.coupling.temperature_rise(),
             "cycles": end.cycles if end else 0,
             "change": end.change if end else 0.0,
         }
@@ -155,7 +155,7 @@ class Run:
 
     def _traction(self, load: float) -> float:
         """Return the mid-film traction coefficient."""
-        level, state = self.level, self.stepper.run.coupling.state
+        level, state = self.level, self.stepper.solver.coupling.state
         if state is not None:
             stress = state.view("tau_x").T
         else:
@@ -171,13 +171,10 @@ class Run:
             step=step,
             steps=self.steps,
             time=step * self.seconds,
-            cycles=end.cycles,
-            change=end.change,
-            load_error=end.load_error,
             film_central=central,
             film_minimum=minimum,
             pressure_max=float(self.level.film.p.max()),
-            smoother=end.smoother,
+            **asdict(end),
         )
 
     def snapshot(self) -> Snapshot:
@@ -191,7 +188,7 @@ class Run:
                 "mass_before": self.stepper.before,
                 "pressure_changes": self.stepper.predictor.past,
                 "excess": self.stepper.squeeze.past,
-                **self.stepper.run.coupling.pack(self.stepper.run.levels),
+                **self.stepper.solver.coupling.pack(self.stepper.solver.levels),
             },
             record=self.record,
             cost=self.clock.cost(),
@@ -212,7 +209,7 @@ class Run:
         self.stepper.squeeze.past = fields.pop("excess")
         level.set_state(fields.pop("pressure"), snapshot.rigid_approach)
         self.stepper.choose(snapshot.setting)
-        self.stepper.run.coupling.unpack(self.stepper.run.levels, fields)
+        self.stepper.solver.coupling.unpack(self.stepper.solver.levels, fields)
         self.record, self.clock.before = snapshot.record, snapshot.cost
 
     def _check(self, snapshot: Snapshot) -> None:

@@ -56,30 +56,30 @@ class StepError(ArithmeticError):
 
 
 class Stepper:
-    """Advances a film in time from the steady one of ``run``.
+    """Advances a film in time from the steady one of ``solver``.
 
     ``settings`` are the relaxations to try, fastest first.
     """
 
     def __init__(
-        self, run: FilmSolver, transient: Transient, settings: Sequence[Relaxation]
+        self, solver: FilmSolver, transient: Transient, settings: Sequence[Relaxation]
     ) -> None:
-        self.run, self.transient, self.settings = run, transient, settings
-        level = run.finest
+        self.solver, self.transient, self.settings = solver, transient, settings
+        level = solver.finest
         self.time_step = transient.stride * level.grid.dx
         self.steady = level.film.rho * level.film.h
-        self.wedge = steady_wedge(self.steady, level.grid.dx, run.options.wedge_order)
+        self.wedge = steady_wedge(self.steady, level.grid.dx, solver.options.wedge_order)
         self.now, self.before = self.steady.copy(), self.steady.copy()
         self.predictor = Predictor(level.film.p, transient.stride)
         # all levels take the same time step, and so the same weight of rho H
-        for one in run.levels:
+        for one in solver.levels:
             mesh = step_stencil(one.mesh, self.time_step)
             one.equations = replace(one.equations, mesh=mesh)
-        run.coupling.damping = 1.0  # steps are small: heat and thinning need no damping
-        run.coupling.begin_transient(run.levels, self.time_step)
+        solver.coupling.damping = 1.0  # steps are small: heat and thinning need no damping
+        solver.coupling.begin_transient(solver.levels, self.time_step)
         step = (self.time_step, level.grid.dx, transient.stride)
-        excess = run.coupling.excess()
-        self.squeeze = Squeeze(self.steady, excess, step, run.options.wedge_order)
+        excess = solver.coupling.excess()
+        self.squeeze = Squeeze(self.steady, excess, step, solver.options.wedge_order)
         self.setting = 0
         self.choose(0)
 
@@ -91,7 +91,7 @@ class Stepper:
         StepError
             When no relaxation converges; pressure and film are those of the last attempt.
         """
-        level, history = self.run.finest, self._history()
+        level, history = self.solver.finest, self._history()
         start = level.film.p.copy(), level.rigid_approach
         first = self.setting
         for number in range(first, len(self.settings)):
@@ -99,7 +99,7 @@ class Stepper:
             if number > first:  # retry: first restore the film from which stresses follow
                 level.set_state(*start)
                 level.update()
-                self.run.coupling.revert(self.run.levels)
+                self.solver.coupling.revert(self.solver.levels)
             else:
                 level.set_state(self.predictor.onward(), level.rigid_approach)
             level.pose_step(history + self.squeeze.onward(), heights, load)
@@ -114,7 +114,7 @@ class Stepper:
             self.before, self.now = self.now, level.film.rho * level.film.h
             self.predictor.note(level.film.p)
             self.squeeze.advance()
-            self.run.coupling.advance(self.run.levels)
+            self.solver.coupling.advance(self.solver.levels)
             return end
         raise StepError("stalled", np.inf)
 
@@ -132,7 +132,7 @@ class Stepper:
     def choose(self, number: int) -> None:
         """Set the relaxation, with at least the threshold of dipoles that the time step needs."""
         self.setting, setting = number, self.settings[number]
-        for level in self.run.levels:
+        for level in self.solver.levels:
             # below this conductance smooth errors grow if nodes relax as points
             least = level.mesh.w0 / WEIGHT_OF_POINTS
             threshold = max(setting.threshold, least)
@@ -140,13 +140,13 @@ class Stepper:
 
     def _solve(self, name: str) -> StepEnd:
         """Perform cycles until the step has converged."""
-        level, change = self.run.finest, np.inf
+        level, change = self.solver.finest, np.inf
         # slower relaxations get more cycles
         for number in range(1, (1 + self.setting) * self.transient.max_cycles + 1):
             before = level.film.p.copy()
-            cycle(self.run.levels, self.run.hierarchy.coarsest.step, SHAPE)
+            cycle(self.solver.levels, self.solver.hierarchy.coarsest.step, SHAPE)
             level.update()
-            warmer, rise = self.run.coupling.update(self.run.levels)
+            warmer, rise = self.solver.coupling.update(self.solver.levels)
             self._follow_density()
             np.subtract(level.film.p, before, out=before)
             change = float(max(before.max(), -before.min()))
@@ -162,7 +162,7 @@ class Stepper:
 
     def _follow_density(self) -> None:
         """Update the squeeze for the densities at the last temperatures."""
-        level, excess = self.run.finest, self.run.coupling.excess()
+        level, excess = self.solver.finest, self.solver.coupling.excess()
         history = level.sources.history
         if excess is None or history is None:
             return
