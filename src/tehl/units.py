@@ -66,80 +66,50 @@ LONGEST_UNIT = 40
 """Characters of a unit."""
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
-_TOKEN = re.compile(r"\s*(?:(\*\*|[*/()^·])|([+-]?\d+)|([A-Za-zµμ°%]+|-))")
+_GROUP = re.compile(r"\(([^()]*)\)")
+_FACTOR = re.compile(
+    r"\s*([*/·]?)\s*(<\d+>|[+-]?\d+|[A-Za-zµμ°%]+|-|)(?:\s*(?:\^|\*\*)\s*([+-]?\d*))?"
+)
 _SUPERSCRIPTS = str.maketrans({"²": "^2", "³": "^3", "⁻": "-", "¹": "1"})
-
-
-class _UnitReader:
-    """Recursive descent over a unit such as ``W/m/K`` or ``1/(Pa s)``."""
-
-    def __init__(self, text: str) -> None:
-        self.text, self.tokens = text, _tokens(text)
-
-    def _next(self) -> str:
-        return self.tokens[0] if self.tokens else ""
-
-    def read(self) -> tuple[float, Dimension]:
-        """Return factor to SI and dimension of the whole text."""
-        value = self._product()
-        if self.tokens:
-            raise ValueError(f"has an unreadable unit {self.text!r}")
-        return value
-
-    def _product(self) -> tuple[float, Dimension]:
-        factor, dimension = self._power()
-        while self._next() not in ("", ")"):
-            sign = -1 if self._next() == "/" else 1
-            if self._next() in ("*", "·", "/"):
-                self.tokens.pop(0)
-            other, exponents = self._power()
-            factor *= other**sign
-            dimension = _combine(dimension, exponents, sign)
-        return factor, dimension
-
-    def _power(self) -> tuple[float, Dimension]:
-        factor, dimension = self._atom()
-        if self._next() not in ("^", "**"):
-            return factor, dimension
-        self.tokens.pop(0)
-        power = self.tokens.pop(0) if self.tokens else ""
-        if not re.fullmatch(r"[+-]?\d", power):
-            raise ValueError(f"has an unreadable exponent in its unit {self.text!r}")
-        return float(factor ** int(power)), _combine(_NONE, dimension, int(power))
-
-    def _atom(self) -> tuple[float, Dimension]:
-        token = self.tokens.pop(0) if self.tokens else ""
-        if token == "(":
-            value = self._product()
-            if self._next() != ")":
-                raise ValueError(f"has a bracket left open in its unit {self.text!r}")
-            self.tokens.pop(0)
-            return value
-        if token not in _UNITS:
-            raise ValueError(f"has an unknown unit {token or self.text!r}")
-        return _UNITS[token]
-
-
-def _tokens(text: str) -> list[str]:
-    found, plain = [], text.replace("⁻¹", "^-1").translate(_SUPERSCRIPTS).rstrip()
-    while plain:
-        match = _TOKEN.match(plain)
-        if match is None:
-            raise ValueError(f"has an unreadable unit {text!r}")
-        found.append(match.group().strip())
-        plain = plain[match.end() :]
-    return found
-
-
-def _combine(first: Dimension, second: Dimension, power: int) -> Dimension:
-    a, b, c, d = (one + power * two for one, two in zip(first, second, strict=True))
-    return (a, b, c, d)
 
 
 @lru_cache(maxsize=256)
 def _read_unit(text: str) -> tuple[float, Dimension]:
-    """Return factor to SI and dimension of a unit; a study reads the same few a thousand times."""
-    return _UnitReader(text).read()
+    """Return factor to SI and dimension of a unit such as ``W/m/K`` or ``1/(Pa s)``.
+
+    Innermost brackets first: each becomes a unit with the name ``<number>``.
+    """
+    units, plain = dict(_UNITS), text.replace("⁻¹", "^-1").translate(_SUPERSCRIPTS)
+    while (group := _GROUP.search(plain)) is not None:
+        name = f"<{len(units)}>"
+        units[name] = _product(group[1].strip(), units, text)
+        plain = f"{plain[: group.start()]} {name}{plain[group.end() :]}"
+    return _product(plain.strip(), units, text)
+
+
+def _product(
+    plain: str, units: dict[str, tuple[float, Dimension]], text: str
+) -> tuple[float, Dimension]:
+    """Return factor to SI and dimension of a product of powers without brackets."""
+    factor, dimension, place = 1.0, _NONE, 0
+    while place == 0 or place < len(plain):
+        match = _FACTOR.match(plain, place)
+        assert match is not None  # each part is optional
+        operator, name, power = match.groups()
+        if not (operator or name):
+            fault = "a bracket left open in its" if "(" in plain else "an unreadable"
+            raise ValueError(f"has {fault} unit {text!r}")
+        if name not in units or (operator and place == 0):
+            raise ValueError(f"has an unknown unit {name or text!r}")
+        if power is not None and not re.fullmatch(r"[+-]?\d", power):
+            raise ValueError(f"has an unreadable exponent in its unit {text!r}")
+        exponent, sign = int(power or 1), -1 if operator == "/" else 1
+        factor *= float(units[name][0] ** exponent) ** sign
+        a, b, c, d = (
+            one + sign * exponent * two for one, two in zip(dimension, units[name][1], strict=True)
+        )
+        dimension, place = (a, b, c, d), match.end()
+    return factor, dimension
 
 
 @dataclass(frozen=True, slots=True)
