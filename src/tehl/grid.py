@@ -79,9 +79,8 @@ def can_mirror(shape: tuple[int, int], domain: Domain) -> bool:
     ``shape`` is (ny, nx) of the finest grid; y = 0 must be a row of the coarsest one too.
     """
     ny, nx = shape
-    while (ny - 1) % 2 == 0 and (nx - 1) % 2 == 0 and min(nx, ny) - 1 >= 32:
-        nx, ny = nx // 2 + 1, ny // 2 + 1
-    return (ny - 1) % 2 == 0 and domain.y[0] == -domain.y[1]
+    coarsest = hierarchy(Grid(nx=nx, ny=ny, domain=domain, mirror=False))[0]
+    return (coarsest.ny - 1) % 2 == 0 and domain.y[0] == -domain.y[1]
 
 
 def hierarchy(finest: Grid) -> list[Grid]:

@@ -121,6 +121,14 @@ def hertz_contact(
 def load_of_pressure(
     pressure: float, radius_x: float, radius_y: float, reduced_modulus: float
 ) -> float:
-    """Return the load [N] under which the Hertz pressure is ``pressure`` [Pa]."""
+    """Return the load [N] under which the Hertz pressure is ``pressure`` [Pa].
+
+    Parameters
+    ----------
+    pressure : float
+        Largest pressure [Pa].
+    radius_x, radius_y, reduced_modulus : float
+        As in `hertz_contact`.
+    """
     under_one_newton = hertz_contact(1.0, radius_x, radius_y, reduced_modulus).pressure
     return (pressure / under_one_newton) ** 3

@@ -1,6 +1,7 @@
 """Memory that a solve needs, and memory that is available."""
 
 import os
+import re
 from pathlib import Path
 
 from tehl.errors import InputError
@@ -62,10 +63,12 @@ def check_memory(options: Options, problem: ContactProblem | None = None) -> Non
 def _of_machine() -> float | None:
     """Return the free memory of the machine, caches counted as free [byte]."""
     try:
-        lines = Path("/proc/meminfo").read_text(encoding="ascii").splitlines()
-        facts = dict(line.split(":", 1) for line in lines if ":" in line)
-        return 1024.0 * int(facts["MemAvailable"].split()[0])
-    except (OSError, ValueError, KeyError, IndexError):
+        found = re.search(
+            r"MemAvailable:\s*(\d+)", Path("/proc/meminfo").read_text(encoding="ascii")
+        )
+        if found is not None:
+            return 1024.0 * int(found[1])
+    except (OSError, ValueError):
         pass
     try:
         return float(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))

@@ -171,8 +171,10 @@ class Quantity:
         if match is None:
             raise ValueError(f"does not begin with a number; {self._expected}")
         number, unit = float(match.group()), text[match.end() :].strip()
+        if not unit and self.unit != "-":
+            raise ValueError(f"lacks a unit; {self._expected}, or a number in SI without quotes")
         if not unit:
-            return self._unitless(number)
+            return number
         if self.unit == "K" and unit in _CELSIUS:
             return number + _ZERO_CELSIUS
         factor = self._factor(unit)
@@ -195,11 +197,6 @@ class Quantity:
             hint = "" if way is None else f" ({way})"
             raise ValueError(f"has the unit of {_kind(dimension, unit)}; {self._expected}{hint}")
         return factor
-
-    def _unitless(self, number: float) -> float:
-        if self.unit != "-":
-            raise ValueError(f"lacks a unit; {self._expected}, or a number in SI without quotes")
-        return number
 
     def _check(self, number: float) -> float:
         if math.isnan(number):
