@@ -3,6 +3,7 @@
 import platform
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np
@@ -226,11 +227,18 @@ def _stress_and_heat(attempt: Attempt) -> tuple[FilmShear | None, FilmHeat | Non
 
 
 def provenance() -> Provenance:
-    """Return the versions of Python and of the packages, and the time."""
+    """Return the versions of the software and the time."""
+    return Provenance(
+        versions=dict(_versions()), created=datetime.now(UTC).isoformat(timespec="seconds")
+    )
+
+
+@cache  # reading the metadata takes 3 ms, as long as a cycle on 257 nodes
+def _versions() -> dict[str, str]:
     versions = {"python": platform.python_version()}
     for package in ("tehl", "numpy", "scipy", "numba"):
         try:
             versions[package] = version(package)
         except PackageNotFoundError:
             versions[package] = "unknown"
-    return Provenance(versions=versions, created=datetime.now(UTC).isoformat(timespec="seconds"))
+    return versions
