@@ -104,7 +104,7 @@ def test_scales_have_the_shape_of_the_pressure_and_no_stress_overflows(law: Law)
 @pytest.mark.parametrize(
     "parts", [{"law": Carreau, "modulus": 1e6, "exponent": 0.0}, {"law": Limiting}]
 )
-def test_a_law_without_sense_is_refused(parts: dict[str, object]):
+def test_an_impossible_law_is_rejected(parts: dict[str, object]):
     law = parts.pop("law")
     with pytest.raises(ValidationError):
         law.model_validate(parts)  # type: ignore[attr-defined]
