@@ -4,14 +4,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tehl.errors import InputError
 from tehl.roughness.files import RawMap, checked, read
 from tehl.roughness.files.raw import shown
-from tehl.roughness.map import Map
-from tehl.roughness.model import metres
+from tehl.roughness.model import BEYOND, metres
 from tehl.roughness.prepare import (
     Heights,
     filled,
@@ -23,20 +23,18 @@ from tehl.roughness.prepare import (
 from tehl.roughness.tile import Tile
 from tehl.typing import Array
 
+if TYPE_CHECKING:
+    from tehl.roughness.map import Map
+
 _LEAST = 4
 _TAPER = 0.1
 _LOWEST, _HIGHEST = 1e-12, 10e-6
 _ROUNDING = 1e-12
 _WIDEST, _FINEST, _TALLEST = 1.0, 1e-10, 1.0
-_BEYOND = {
-    "flat": "beyond its edges the surface is flat, heights fall to zero before",
-    "periodic": "beyond its edges it repeats",
-    "mirror": "beyond its edges it is mirrored",
-}
 
 
 @contextmanager
-def _naming(surface: Map) -> Iterator[None]:
+def _naming(surface: "Map") -> Iterator[None]:
     """Put the name of the file before errors."""
     try:
         yield
@@ -44,20 +42,20 @@ def _naming(surface: Map) -> Iterator[None]:
         raise InputError(f"map {shown(surface.file)} {error}") from None
 
 
-def found_file(surface: Map) -> Path:
+def found_file(surface: "Map") -> Path:
     """Return the path of the file of a map; the error of a missing one names it."""
     with _naming(surface):
         return checked(surface.file)
 
 
-def raw_map(surface: Map) -> RawMap:
+def raw_map(surface: "Map") -> RawMap:
     """Return what the file of a map says; errors name it."""
     path = found_file(surface)
     with _naming(surface):
         return read(path, layout=surface.layout, variable=surface.variable)
 
 
-def heights_of(surface: Map) -> Heights:
+def heights_of(surface: "Map") -> Heights:
     """Return the prepared heights of a map, read once as long as its file does not change.
 
     Raises
@@ -68,19 +66,19 @@ def heights_of(surface: Map) -> Heights:
     return _loaded(surface, _stamp(surface))
 
 
-def tile_of(surface: Map) -> Tile:
+def tile_of(surface: "Map") -> Tile:
     """Return the heights of a map with what lies beyond their edges, as :func:`heights_of`."""
     return _tile(surface, _stamp(surface))
 
 
-def _stamp(surface: Map) -> tuple[int, int]:
+def _stamp(surface: "Map") -> tuple[int, int]:
     """Return what changes when a file does: its size and when it was written."""
     state = found_file(surface).stat()
     return state.st_size, state.st_mtime_ns
 
 
 @lru_cache(maxsize=4)
-def _loaded(surface: Map, stamp: object) -> Heights:
+def _loaded(surface: "Map", stamp: object) -> Heights:
     del stamp
     raw = raw_map(surface)
     with _naming(surface):
@@ -88,7 +86,7 @@ def _loaded(surface: Map, stamp: object) -> Heights:
 
 
 @lru_cache(maxsize=4)
-def _tile(surface: Map, stamp: object) -> Tile:
+def _tile(surface: "Map", stamp: object) -> Tile:
     heights = _loaded(surface, stamp)
     values = heights.values
     if surface.outside == "flat":
@@ -104,7 +102,7 @@ def _tile(surface: Map, stamp: object) -> Tile:
     )
 
 
-def prepared(surface: Map, raw: RawMap) -> Heights:
+def prepared(surface: "Map", raw: RawMap) -> Heights:
     """Return the heights of a file in metres, ready for a contact.
 
     Raises
@@ -122,7 +120,8 @@ def prepared(surface: Map, raw: RawMap) -> Heights:
     values = levelled(values, surface.level)
     values = _filtered(surface, values, heights, notes)
     _check_heights(surface, values, highest, factor)
-    notes.append(_BEYOND[surface.outside])
+    fades = ", heights fall to zero before" if surface.outside == "flat" else ""
+    notes.append(f"{BEYOND[surface.outside]}{fades}")
     return Heights(values=values, pixel=heights.pixel, notes=tuple(notes))
 
 
@@ -145,7 +144,7 @@ def _highest(heights: Array, factor: float) -> float:
 # ---- units
 
 
-def _factor(surface: Map, raw: RawMap, notes: list[str]) -> float:
+def _factor(surface: "Map", raw: RawMap, notes: list[str]) -> float:
     """Return the factor from the heights of the file to metres."""
     stated = surface.unit or raw.unit
     if stated is None:
@@ -172,7 +171,7 @@ def _metres(unit: str, what: str, key: str) -> float:
     return factor
 
 
-def _pixel(surface: Map, raw: RawMap, notes: list[str]) -> tuple[float, float]:
+def _pixel(surface: "Map", raw: RawMap, notes: list[str]) -> tuple[float, float]:
     """Return the distances of the points of the file [m]."""
     ny, nx = raw.heights.shape
     pixel = surface.pixel
@@ -195,7 +194,7 @@ def _pixel(surface: Map, raw: RawMap, notes: list[str]) -> tuple[float, float]:
     return pixel
 
 
-def _pixel_of_file(surface: Map, raw: RawMap, notes: list[str]) -> tuple[float, float]:
+def _pixel_of_file(surface: "Map", raw: RawMap, notes: list[str]) -> tuple[float, float]:
     """Return the distances that the file has, each in its own unit or both in the one stated."""
     if raw.pixel is None or (surface.xy_unit is None and None in raw.pixel_units):
         raise InputError(_question(raw))
@@ -209,7 +208,7 @@ def _pixel_of_file(surface: Map, raw: RawMap, notes: list[str]) -> tuple[float, 
     return raw.pixel[0] * x, raw.pixel[1] * y
 
 
-def _own_pixel(surface: Map, raw: RawMap) -> tuple[float, float] | None:
+def _own_pixel(surface: "Map", raw: RawMap) -> tuple[float, float] | None:
     """Return the distances that the file has [m], where it is known in which units."""
     x, y = (_known(unit or surface.xy_unit or "") for unit in raw.pixel_units)
     if raw.pixel is None or x is None or y is None:
@@ -238,7 +237,7 @@ def _pair(pixel: tuple[float, float]) -> str:
 # ---- shape
 
 
-def _oriented(surface: Map, heights: Heights) -> Heights:
+def _oriented(surface: "Map", heights: Heights) -> Heights:
     values, pixel = heights.values, heights.pixel
     if surface.transpose:
         values, pixel = values.T, (pixel[1], pixel[0])
@@ -247,7 +246,7 @@ def _oriented(surface: Map, heights: Heights) -> Heights:
     return Heights(values=-values if surface.upside_down else values, pixel=pixel)
 
 
-def _cropped(surface: Map, heights: Heights) -> Heights:
+def _cropped(surface: "Map", heights: Heights) -> Heights:
     if surface.crop is None:
         return heights
     spans = (surface.crop.y, surface.crop.x)
@@ -271,7 +270,7 @@ def _cropped(surface: Map, heights: Heights) -> Heights:
 # ---- heights
 
 
-def _whole(surface: Map, values: Array, notes: list[str]) -> Array:
+def _whole(surface: "Map", values: Array, notes: list[str]) -> Array:
     """Return heights without spikes and gaps."""
     values = np.where(np.isfinite(values), values, np.nan)
     gaps = int(np.isnan(values).sum())
@@ -284,7 +283,7 @@ def _whole(surface: Map, values: Array, notes: list[str]) -> Array:
     return whole
 
 
-def _filtered(surface: Map, values: Array, heights: Heights, notes: list[str]) -> Array:
+def _filtered(surface: "Map", values: Array, heights: Heights, notes: list[str]) -> Array:
     for key, cut_off in (("lambda_c", surface.lambda_c), ("lambda_s", surface.lambda_s)):
         if cut_off is None:
             continue
@@ -300,7 +299,7 @@ def _filtered(surface: Map, values: Array, heights: Heights, notes: list[str]) -
     return values
 
 
-def _check_heights(surface: Map, values: Array, highest: float, factor: float) -> None:
+def _check_heights(surface: "Map", values: Array, highest: float, factor: float) -> None:
     """Refuse heights that are constant or outside the physical range."""
     if not np.ptp(values) > _ROUNDING * highest * factor:
         raise InputError("is constant: it has no roughness")

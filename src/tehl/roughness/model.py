@@ -5,14 +5,15 @@ those of the contact, x along entrainment; a surface carries its heights along x
 """
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Protocol
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Protocol
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict
 
+from tehl.typing import Array, np
 from tehl.units import Length, Quantity, quantity
 
 if TYPE_CHECKING:
-    from tehl.typing import Array
+    from tehl.roughness.tile import Tile
 
 _ROUNDING = 1e-12
 _STEEPEST = 0.25
@@ -22,6 +23,11 @@ Extent = tuple[tuple[float, float], tuple[float, float]]
 ENDLESS: Extent = ((-math.inf, math.inf), (-math.inf, math.inf))
 Edge = Literal["periodic", "mirror", "flat"]
 """What lies beyond the edges of a map: the map again, its mirror image, or nothing."""
+BEYOND: dict[Edge, str] = {
+    "flat": "beyond its edges the surface is flat",
+    "periodic": "beyond its edges it repeats",
+    "mirror": "beyond its edges it is mirrored",
+}
 
 
 class Roughness(Protocol):
@@ -30,35 +36,28 @@ class Roughness(Protocol):
     @property
     def is_smooth(self) -> bool:
         """Return whether the height is zero everywhere."""
-        ...
 
     @property
     def is_even_in_y(self) -> bool:
         """Return whether the heights mirror at y = 0, so that half of the domain may be solved."""
-        ...
 
     @property
     def shortest_wavelengths(self) -> tuple[float, float]:
         """Return the shortest wavelengths along x and along y [m]; infinite where there is none."""
-        ...
 
     @property
     def shortest_wavelength(self) -> float:
         """Return the shortest wavelength in whatever direction [m]; infinite when smooth."""
-        ...
 
     @property
     def rms(self) -> float:
         """Return the root mean square height Sq [m]; zero for features that stand alone."""
-        ...
 
-    def height(self, x: "Array", y: "Array", time: float = 0.0, speed: float = 0.0) -> "Array":
+    def height(self, x: Array, y: Array, time: float = 0.0, speed: float = 0.0) -> Array:
         """Return the heights [m] at ``x`` and ``y`` [m], which broadcast."""
-        ...
 
     def resolved_on(self, dx: float, dy: float) -> "Roughness":
         """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
-        ...
 
 
 class RoughnessModel(BaseModel):
@@ -76,15 +75,25 @@ class RoughnessModel(BaseModel):
         """Return whether the heights mirror at y = 0."""
         return self.is_smooth
 
+    @property
+    def shortest_wavelengths(self) -> tuple[float, float]:
+        """Return the shortest wavelengths along x and along y [m]; infinite where there is none."""
+        return self.shortest_wavelength, self.shortest_wavelength
+
+    @property
+    def shortest_wavelength(self) -> float:
+        """Return the shortest wavelength in any direction [m]; infinite when smooth."""
+        return math.inf
+
     def extent(self, length: float) -> Extent:
         """Return where the surface is rough at time zero, between y = -``length`` and ``length``.
 
-        Of features, where more than two per cent of their height are left.
+        For features, where more than two per cent of their height are left.
         """
         del length
         return ENDLESS
 
-    def height(self, x: "Array", y: "Array", time: float = 0.0, speed: float = 0.0) -> "Array":
+    def height(self, x: Array, y: Array, time: float = 0.0, speed: float = 0.0) -> Array:
         """Return the heights at a time.
 
         Parameters
@@ -101,22 +110,20 @@ class RoughnessModel(BaseModel):
         Array
             Heights in the broadcast shape [m], positive outwards.
         """
-        import numpy as np  # noqa: PLC0415 (a case is stated without arrays)
-
         along = np.asarray(x, dtype=np.float64) - speed * time
         return self._at_rest(along, np.asarray(y, dtype=np.float64))
 
-    def _at_rest(self, x: "Array", y: "Array") -> "Array":
+    def _at_rest(self, x: Array, y: Array) -> Array:
         """Return the heights [m] in the coordinates of the body [m]."""
         raise NotImplementedError
 
     def resolved_on(self, dx: float, dy: float) -> Roughness:
         """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
         del dx, dy
-        return self  # type: ignore[return-value]  # subclasses have the rest of the protocol
+        return self  # type: ignore[return-value]  # subclasses have rms
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
-        """Return sentences on what is odd beside a contact of ``width`` by ``length`` [m]."""
+        """Return sentences on what is unusual for a contact of ``width`` by ``length`` [m]."""
         del width, length
         return ()
 
@@ -125,39 +132,39 @@ class Smooth(RoughnessModel):
     """A surface without roughness."""
 
     type: Literal["smooth"] = "smooth"
+    rms: ClassVar[float] = 0.0
 
     @property
     def is_smooth(self) -> bool:
         """Return True."""
         return True
 
-    @property
-    def shortest_wavelengths(self) -> tuple[float, float]:
-        """Return infinity along both axes [m]."""
-        return math.inf, math.inf
-
-    @property
-    def shortest_wavelength(self) -> float:
-        """Return infinity [m]."""
-        return math.inf
-
-    @property
-    def rms(self) -> float:
-        """Return zero [m]."""
-        return 0.0
-
-    def _at_rest(self, x: "Array", y: "Array") -> "Array":
+    def _at_rest(self, x: Array, y: Array) -> Array:
         return 0.0 * (x + y)
 
 
 def direction(angle: float) -> tuple[float, float]:
     """Return cosine and sine of ``angle`` [rad], exact at multiples of a right angle."""
-    return tuple(_snapped(value) for value in (math.cos(angle), math.sin(angle)))  # type: ignore[return-value]
+    cosine, sine = (
+        round(value) if abs(value - round(value)) < _ROUNDING else value
+        for value in (math.cos(angle), math.sin(angle))
+    )
+    return float(cosine), float(sine)
 
 
-def _snapped(value: float) -> float:
-    nearest = round(value)
-    return float(nearest) if abs(value - nearest) < _ROUNDING else value
+class TileModel(RoughnessModel):
+    """Base of the surfaces that are heights on a lattice."""
+
+    @property
+    def _tile(self) -> "Tile":
+        raise NotImplementedError
+
+    def _at_rest(self, x: Array, y: Array) -> Array:
+        return self._tile.height(x, y)
+
+    def resolved_on(self, dx: float, dy: float) -> Roughness:
+        """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
+        return self._tile.resolved_on(dx, dy)
 
 
 def check_gentle(amplitude: float, **lengths: float) -> None:

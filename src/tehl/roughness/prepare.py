@@ -51,7 +51,7 @@ class Heights:
 
 
 def without_outliers(values: Array, sigmas: float) -> tuple[Array, int]:
-    """Return heights with spikes as missing points, and how many they are.
+    """Return heights with spikes as missing points, and the number of spikes.
 
     A spike lies further from the median of the 5 x 5 points around it than ``sigmas`` times the
     usual distance, 1.48 times the median one.
@@ -124,7 +124,6 @@ def _with_membranes(whole: Array, missing: BoolArray) -> Array:
     start, end = np.concatenate(from_), np.concatenate(to)
     graph = sparse.csr_array((-np.ones(start.size), (start, end)), shape=(rows.size, rows.size))
     matrix = graph + sparse.diags_array(diagonal)
-    inverse = sparse.diags_array(1.0 / diagonal)
     base = float(whole[missing].mean())  # so that the tolerance is one of the relief
     found, _ = sparse.linalg.cg(
         matrix,
@@ -132,7 +131,7 @@ def _with_membranes(whole: Array, missing: BoolArray) -> Array:
         x0=whole[missing] - base,
         rtol=1e-6,
         maxiter=2000,
-        M=inverse,
+        M=sparse.diags_array(1.0 / diagonal),
     )
     result = whole.copy()
     result[missing] = found + base
@@ -209,15 +208,12 @@ def _window(count: int, width: float) -> Array:
     return np.sin(0.5 * np.pi * np.clip(edge / max(width, 1e-9), 0.0, 1.0)) ** 2
 
 
-# ---- the form of the body that is left in a map
-
-
 class Form(NamedTuple):
-    """The quadratic that fits a map best.
+    """Least-squares quadratic of a map: the form of the body that is left in it.
 
     ``sq`` and ``sq_without`` are those of the map without a plane, and without the quadratic [m];
-    ``curvatures`` the second derivatives along x and y of the map [1/m], ``sags`` what they make
-    between the middle and the edges [m].
+    ``curvatures`` the second derivatives along x and y of the map [1/m], ``sags`` the heights that
+    they make between the middle and the edges [m].
     """
 
     sq: float
@@ -237,17 +233,17 @@ def form_of(heights: Heights) -> Form:
     return Form(sq, math.sqrt(max(sq**2 - square, 0.0)), curvatures, sags)
 
 
-def question_of_form(heights: Heights, level: Level) -> str | None:
-    """Return a question if more than half of Sq is a quadratic form that ``level`` has left."""
+def note_on_form(heights: Heights, level: Level) -> tuple[str, ...]:
+    """Return a note if more than half of Sq is a quadratic form that ``level`` has left."""
     if level == "quadratic":
-        return None
+        return ()
     form = form_of(heights)
     if not form.sq_without < _MOST_LEFT * form.sq:
-        return None
+        return ()
     return (
         f'the map {_shape(form)} (level = "{level}"), and without that its Sq is '
         f"{_metres(form.sq_without)}, not {_metres(form.sq)}: is it the form of the body, which "
-        'the radii of the contact have already? Then take it off, level = "quadratic"'
+        'the radii of the contact have already? Then take it off, level = "quadratic"',
     )
 
 

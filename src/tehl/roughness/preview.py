@@ -1,4 +1,4 @@
-"""A measured surface at a glance: what it is, what a mesh sees of it, and where it lies."""
+"""Summary of a measured surface: its statistics, what a mesh carries of it, where it lies."""
 
 from dataclasses import dataclass
 
@@ -8,7 +8,7 @@ from tehl.roughness.files.raw import shown
 from tehl.roughness.loading import raw_map
 from tehl.roughness.map import Map
 from tehl.roughness.model import Extent, direction
-from tehl.roughness.prepare import Heights, question_of_form
+from tehl.roughness.prepare import Heights, note_on_form
 from tehl.roughness.statistics import Spectrum, Statistics, share_beyond, spectrum, statistics
 from tehl.typing import Array
 
@@ -30,7 +30,7 @@ class Mesh:
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class Preview:
-    """What a file holds, and what becomes of it.
+    """What a file holds, and what the solver makes of it.
 
     Attributes
     ----------
@@ -51,7 +51,7 @@ class Preview:
     lost : float or None
         Share of the variance that the mesh cannot carry.
     sentences : tuple of str
-        What is odd about the map, and beside the contact.
+        What is unusual about the map, alone and for the contact.
     """
 
     surface: Map
@@ -69,7 +69,7 @@ class Preview:
 
 
 def preview(surface: Map, mesh: Mesh | None = None) -> Preview:
-    """Return a measured surface at a glance.
+    """Return the summary of a measured surface.
 
     Parameters
     ----------
@@ -97,14 +97,12 @@ def preview(surface: Map, mesh: Mesh | None = None) -> Preview:
         shortest_wavelength=surface.shortest_wavelength,
         mesh=mesh,
         lost=None if mesh is None else share_beyond(values, pixel, mesh.spacing),
-        sentences=_questions(surface, heights, mesh),
+        sentences=(
+            note_on_form(heights, surface.level)
+            if mesh is None
+            else surface.fits(2.0 * mesh.half_widths[0], 2.0 * mesh.half_widths[1])
+        ),
     )
-
-
-def _questions(surface: Map, heights: Heights, mesh: Mesh | None) -> tuple[str, ...]:
-    if mesh is not None:
-        return surface.fits(2.0 * mesh.half_widths[0], 2.0 * mesh.half_widths[1])
-    return tuple(filter(None, [question_of_form(heights, surface.level)]))
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)

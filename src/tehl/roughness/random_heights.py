@@ -1,15 +1,18 @@
 """Heights of a random surface: filtered noise, with a given skewness and kurtosis."""
 
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy import fft
 from scipy.optimize import least_squares
 
 from tehl.errors import InputError
-from tehl.roughness.random_surface import Random
 from tehl.roughness.tile import Tile
 from tehl.typing import Array
+
+if TYPE_CHECKING:
+    from tehl.roughness.random_surface import Random
 
 _BINS = 4001
 _STARTS = (0.0, 1.0, 3.0)
@@ -17,7 +20,7 @@ _MISSED = 1e-3
 
 
 @lru_cache(maxsize=4)
-def tile_of(surface: Random) -> Tile:
+def tile_of(surface: "Random") -> Tile:
     """Return one period of a random surface."""
     points, pixel = surface.lattice
     noise = np.random.default_rng(surface.seed).standard_normal((points, points))

@@ -5,12 +5,12 @@ from typing import TYPE_CHECKING, Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from tehl.roughness.model import Roughness, RoughnessModel, Wavelength, check_gentle, direction
+from tehl.roughness.model import TileModel, Wavelength, check_gentle, direction
+from tehl.typing import Array, np
 from tehl.units import Angle, Height, Number, PositiveNumber
 
 if TYPE_CHECKING:
     from tehl.roughness.tile import Tile
-    from tehl.typing import Array
 
 _PER_LENGTH, _POINTS = 4, 1024
 """Points per correlation length or cut-off, and of the lattice."""
@@ -22,7 +22,7 @@ _LARGEST_KURTOSIS = 20.0
 Seed = Annotated[int, Field(strict=True, ge=0, le=2**53)]
 
 
-class Random(RoughnessModel):
+class Random(TileModel):
     r"""A random surface with a given spectrum.
 
     The power spectral density is, with wave numbers :math:`q_u` and :math:`q_v` along and across
@@ -36,8 +36,8 @@ class Random(RoughnessModel):
     .. math:: C \sim 1,\ \kappa < 1; \quad \kappa^{-2(1+H)},\ \kappa \ge 1 \quad
               \text{("self-affine")}
 
-    up to the cut-off. The surface has a lattice of its own and repeats: it is the same on whatever
-    mesh it is sampled.
+    up to the cut-off. The surface is defined on its own lattice and repeats: it is the same on
+    every mesh.
 
     Attributes
     ----------
@@ -197,16 +197,9 @@ class Random(RoughnessModel):
 
     @property
     def _tile(self) -> "Tile":
-        from tehl.roughness.random_heights import tile_of  # noqa: PLC0415 (scipy)
+        from tehl.roughness.random_heights import tile_of  # noqa: PLC0415 (a case needs no scipy)
 
         return tile_of(self)
-
-    def _at_rest(self, x: "Array", y: "Array") -> "Array":
-        return self._tile.height(x, y)
-
-    def resolved_on(self, dx: float, dy: float) -> Roughness:
-        """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
-        return self._tile.resolved_on(dx, dy)
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
         """Return a sentence if the surface repeats within a contact of these lengths [m]."""
@@ -218,10 +211,8 @@ class Random(RoughnessModel):
             f"{width * 1e6:.3g} x {length * 1e6:.3g} um: it has very short waves",
         )
 
-    def density(self, along: "Array", across: "Array") -> "Array":
+    def density(self, along: Array, across: Array) -> Array:
         """Return the power spectral density, one at zero, by wave numbers along u and v [rad/m]."""
-        import numpy as np  # noqa: PLC0415 (a case is stated without arrays)
-
         first, second = self._lengths
         if self.spectrum == "gaussian":
             return np.exp(-((along * first) ** 2 + (across * second) ** 2) / 4.0)

@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
 
@@ -18,9 +18,7 @@ from tehl.roughness.waves import (
     are_even,
     root_mean_square,
 )
-
-if TYPE_CHECKING:
-    from tehl.typing import Array
+from tehl.typing import Array, np
 
 
 class _Added:
@@ -55,10 +53,8 @@ class _Added:
         """Return the root mean square height Sq [m]; that of equal harmonics with their phases."""
         return math.hypot(root_mean_square(self._harmonics), *(part.rms for part in self._others))
 
-    def height(self, x: "Array", y: "Array", time: float = 0.0, speed: float = 0.0) -> "Array":
+    def height(self, x: Array, y: Array, time: float = 0.0, speed: float = 0.0) -> Array:
         """Return the sum of the heights [m], as :meth:`tehl.roughness.Wave.height`."""
-        import numpy as np  # noqa: PLC0415 (a case is stated without arrays)
-
         total = np.zeros(np.broadcast_shapes(np.shape(x), np.shape(y)))
         for part in self.parts:
             total += part.height(x, y, time, speed)
@@ -85,9 +81,8 @@ class Superposition(_Added):
     parts: tuple[Roughness, ...]
 
 
-OneRoughness = Annotated[
-    Smooth | Wave | Crossed | Ridge | Bump | Dimple | Random | Map, Field(discriminator="type")
-]
+_Single = Smooth | Wave | Crossed | Ridge | Bump | Dimple | Random | Map
+OneRoughness = Annotated[_Single, Field(discriminator="type")]
 """A surface that is not a sum."""
 
 
@@ -104,19 +99,16 @@ class Sum(_Added, RoughnessModel):
     parts: tuple[OneRoughness, ...]
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
-        """Return what is odd about the parts beside a contact of ``width`` by ``length`` [m]."""
+        """Return what is unusual about the parts for a contact of ``width`` by ``length`` [m]."""
         return tuple(line for part in self.parts for line in part.fits(width, length))
 
 
 def _as_table(value: Any) -> Any:
-    """Return a list as the table of a sum, anything else as it is."""
+    """Return a list as the table of a sum, anything else unchanged."""
     return {"type": "sum", "parts": value} if isinstance(value, list | tuple) else value
 
 
-_Table = Annotated[
-    Smooth | Wave | Crossed | Ridge | Bump | Dimple | Random | Map | Sum,
-    Field(discriminator="type"),
-]
+_Table = Annotated[_Single | Sum, Field(discriminator="type")]
 AnyRoughness = Annotated[
     _Table, BeforeValidator(_as_table, json_schema_input_type=_Table | list[_Table])
 ]

@@ -1,17 +1,14 @@
 """Harmonic surfaces: one wave, and two that cross."""
 
 import math
-from typing import TYPE_CHECKING, Literal, NamedTuple, Self
+from collections.abc import Sequence
+from typing import Literal, NamedTuple, Self
 
 from pydantic import model_validator
 
 from tehl.roughness.model import RoughnessModel, Wavelength, check_gentle, direction
+from tehl.typing import Array, np
 from tehl.units import Angle, Height
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from tehl.typing import Array
 
 _ALIKE = 1e-9
 
@@ -91,9 +88,7 @@ class HarmonicModel(RoughnessModel):
     def _present(self) -> list[WaveVector]:
         return [wave for wave in self.components if wave.amplitude > 0]
 
-    def _at_rest(self, x: "Array", y: "Array") -> "Array":
-        import numpy as np  # noqa: PLC0415 (a case is stated without arrays)
-
+    def _at_rest(self, x: Array, y: Array) -> Array:
         total = np.zeros(np.broadcast_shapes(x.shape, y.shape))
         for wave in self._present:
             total += wave.amplitude * np.cos(wave.along * x + wave.across * y + wave.phase)
@@ -224,7 +219,7 @@ def wave_vector(amplitude: float, wavelength: float, angle: float, phase: float)
     return WaveVector(amplitude, number * cosine, -number * sine, phase)
 
 
-def are_even(waves: "Sequence[WaveVector]") -> bool:
+def are_even(waves: Sequence[WaveVector]) -> bool:
     """Return whether a sum of harmonics mirrors at y = 0."""
     spectrum = _spectrum(waves)
     mirrored = _spectrum([wave._replace(across=-wave.across) for wave in waves])
@@ -233,7 +228,7 @@ def are_even(waves: "Sequence[WaveVector]") -> bool:
     return all(abs(difference) <= _ALIKE * largest for difference in differences)
 
 
-def _spectrum(waves: "Sequence[WaveVector]") -> dict[tuple[int, int], complex]:
+def _spectrum(waves: Sequence[WaveVector]) -> dict[tuple[int, int], complex]:
     """Return complex amplitudes by wave vector, each vector in the half-plane of positive x."""
     unit = _ALIKE * max((wave.number for wave in waves), default=1.0) or 1.0
     spectrum: dict[tuple[int, int], complex] = {}
@@ -248,7 +243,7 @@ def _spectrum(waves: "Sequence[WaveVector]") -> dict[tuple[int, int], complex]:
     return spectrum
 
 
-def root_mean_square(waves: "Sequence[WaveVector]") -> float:
+def root_mean_square(waves: Sequence[WaveVector]) -> float:
     """Return the root mean square height of a sum of harmonics over the plane [m]."""
     spectrum = _spectrum(waves)
     mean_squares = (
