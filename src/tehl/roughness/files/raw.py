@@ -109,10 +109,10 @@ def check_hdf5(path: Path) -> None:
             )
 
 
-def shown(path: str | Path) -> str:
-    """Return a path for a message: on one line, its middle left out when it is long."""
-    text = "".join(c if c.isprintable() else "?" for c in str(path))
-    return text if len(text) <= 160 else f"{text[:60]}...{text[-80:]}"
+def shown(text: object, longest: int = 160) -> str:
+    """Return a path or a text for a message: printable, its middle left out when it is long."""
+    line = "".join(c if c.isprintable() else "?" for c in str(text))
+    return line if len(line) <= longest else f"{line[: longest // 2 - 3]}...{line[-longest // 2 :]}"
 
 
 def _times(shape: tuple[int, ...]) -> str:
