@@ -1,10 +1,11 @@
 """A map from its file to prepared heights."""
 
+import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -81,8 +82,18 @@ def _stamp(surface: "Map") -> tuple[int, int]:
 def _loaded(surface: "Map", stamp: object) -> Heights:
     del stamp
     raw = raw_map(surface)
+    notes: list[str] = []
     with _naming(surface):
-        return prepared(surface, raw)
+        factor = _factor(surface, raw, notes)
+        highest = _highest(raw.heights, factor)
+        pixel = _pixel(surface, raw, notes)
+        heights = _cropped(surface, *_oriented(surface, raw.heights * factor, pixel))
+        values = levelled(_whole(surface, heights.values, notes), surface.level)
+        values = _filtered(surface, values, heights, notes)
+        _check_heights(surface, values, highest, factor)
+    fades = ", heights fall to zero before" if surface.outside == "flat" else ""
+    notes.append(f"{BEYOND[surface.outside]}{fades}")
+    return Heights(values=values, pixel=heights.pixel, notes=tuple(notes))
 
 
 @lru_cache(maxsize=4)
@@ -100,29 +111,6 @@ def _tile(surface: "Map", stamp: object) -> Tile:
         edge=surface.outside,
         covered=heights.values.size,
     )
-
-
-def prepared(surface: "Map", raw: RawMap) -> Heights:
-    """Return the heights of a file in metres, ready for a contact.
-
-    Raises
-    ------
-    InputError
-        If units are missing or heights cannot be meant; the message lacks the file.
-    """
-    notes: list[str] = []
-    factor = _factor(surface, raw, notes)
-    highest = _highest(raw.heights, factor)
-    pixel = _pixel(surface, raw, notes)
-    heights = _oriented(surface, Heights(values=raw.heights * factor, pixel=pixel))
-    heights = _cropped(surface, heights)
-    values = _whole(surface, heights.values, notes)
-    values = levelled(values, surface.level)
-    values = _filtered(surface, values, heights, notes)
-    _check_heights(surface, values, highest, factor)
-    fades = ", heights fall to zero before" if surface.outside == "flat" else ""
-    notes.append(f"{BEYOND[surface.outside]}{fades}")
-    return Heights(values=values, pixel=heights.pixel, notes=tuple(notes))
 
 
 def _highest(heights: Array, factor: float) -> float:
@@ -149,21 +137,18 @@ def _factor(surface: "Map", raw: RawMap, notes: list[str]) -> float:
     stated = surface.unit or raw.unit
     if stated is None:
         raise InputError('does not state the unit of its heights: give unit = "um"')
-    factor = _metres(stated, "heights", "unit")
-    if surface.unit and raw.unit and _known(raw.unit) != factor:
-        notes.append(f"its heights are taken in {surface.unit}, though the file says {raw.unit}")
-    return factor
+    _compare("heights are", surface.unit, raw.unit, notes)
+    return _metres(stated, "heights", "unit")
 
 
-def _known(unit: str) -> float | None:
-    try:
-        return metres(unit)
-    except ValueError:
-        return None
+def _compare(what: str, stated: str | None, found: str | None, notes: list[str]) -> None:
+    """Add a note where a case states another unit than the file."""
+    if stated and found and metres(found) != metres(stated):
+        notes.append(f"its {what} taken in {stated}, though the file says {found}")
 
 
 def _metres(unit: str, what: str, key: str) -> float:
-    factor = _known(unit)
+    factor = metres(unit)
     if factor is None:
         raise InputError(
             f'has the unit {unit[:20]!r} for its {what}, which is not a length: give {key} = "um"'
@@ -179,12 +164,12 @@ def _pixel(surface: "Map", raw: RawMap, notes: list[str]) -> tuple[float, float]
         pixel = (surface.size[0] / nx, surface.size[1] / ny)
     if pixel is None:
         pixel = _pixel_of_file(surface, raw, notes)
-    elif (own := _own_pixel(surface, raw)) is not None and not np.allclose(
-        pixel, own, rtol=1e-3, atol=0.0
-    ):
-        notes.append(
-            f"its points are taken {_pair(pixel)} um apart, though the file says {_pair(own)} um"
-        )
+    elif raw.pixel is not None:
+        factors = [metres(unit or surface.xy_unit or "") for unit in raw.pixel_units]
+        own = [step * (factor or math.nan) for step, factor in zip(raw.pixel, factors, strict=True)]
+        if None not in factors and not np.allclose(pixel, own, rtol=1e-3, atol=0.0):
+            first, second = (f"{x * 1e6:.4g} and {y * 1e6:.4g} um" for x, y in (pixel, own))
+            notes.append(f"its points are taken {first} apart, though the file says {second}")
     size = (nx * pixel[0], ny * pixel[1])
     if not (max(size) <= _WIDEST and min(pixel) >= _FINEST):
         raise InputError(
@@ -196,64 +181,43 @@ def _pixel(surface: "Map", raw: RawMap, notes: list[str]) -> tuple[float, float]
 
 def _pixel_of_file(surface: "Map", raw: RawMap, notes: list[str]) -> tuple[float, float]:
     """Return the distances that the file has, each in its own unit or both in the one stated."""
-    if raw.pixel is None or (surface.xy_unit is None and None in raw.pixel_units):
-        raise InputError(_question(raw))
-    x, y = (
-        _metres(surface.xy_unit or unit or "", axis, "xy_unit")
-        for unit, axis in zip(raw.pixel_units, "xy", strict=True)
-    )
-    for axis, unit, factor in zip("xy", raw.pixel_units, (x, y), strict=True):
-        if surface.xy_unit and unit and _known(unit) != factor:
-            notes.append(f"its {axis} is taken in {surface.xy_unit}, though the file says {unit}")
-    return raw.pixel[0] * x, raw.pixel[1] * y
-
-
-def _own_pixel(surface: "Map", raw: RawMap) -> tuple[float, float] | None:
-    """Return the distances that the file has [m], where it is known in which units."""
-    x, y = (_known(unit or surface.xy_unit or "") for unit in raw.pixel_units)
-    if raw.pixel is None or x is None or y is None:
-        return None
-    return raw.pixel[0] * x, raw.pixel[1] * y
-
-
-def _question(raw: RawMap) -> str:
-    if raw.pixel is not None:
-        known = [unit for unit in raw.pixel_units if unit]
-        half = f" along {'xy'[raw.pixel_units.index(None)]}" if known else ""
-        return (
+    if raw.pixel is None:
+        raise InputError(
+            "does not state how far its points are apart: give pixel = "
+            '"2 um", or size = ["1 mm", "1 mm"]'
+        )
+    if surface.xy_unit is None and None in raw.pixel_units:
+        half = f" along {'xy'[raw.pixel_units.index(None)]}" if any(raw.pixel_units) else ""
+        raise InputError(
             f"has points {raw.pixel[0]:g} and {raw.pixel[1]:g} apart along x and y, but does not "
             f'state their unit{half}: give xy_unit = "um"'
         )
-    return (
-        "does not state how far its points are apart: give pixel = "
-        '"2 um", or size = ["1 mm", "1 mm"]'
+    for axis, unit in zip("xy", raw.pixel_units, strict=True):
+        _compare(f"{axis} is", surface.xy_unit, unit, notes)
+    x, y = (
+        step * _metres(surface.xy_unit or unit or "", axis, "xy_unit")
+        for step, unit, axis in zip(raw.pixel, raw.pixel_units, "xy", strict=True)
     )
-
-
-def _pair(pixel: tuple[float, float]) -> str:
-    return " and ".join(f"{step * 1e6:.4g}" for step in pixel)
+    return x, y
 
 
 # ---- shape
 
 
-def _oriented(surface: "Map", heights: Heights) -> Heights:
-    values, pixel = heights.values, heights.pixel
+def _oriented(surface: "Map", values: Array, pixel: tuple[float, float]) -> tuple[Array, Any]:
     if surface.transpose:
         values, pixel = values.T, (pixel[1], pixel[0])
     values = values[:, ::-1] if surface.flip_x else values
     values = values[::-1] if surface.flip_y else values
-    return Heights(values=-values if surface.upside_down else values, pixel=pixel)
+    return -values if surface.upside_down else values, pixel
 
 
-def _cropped(surface: "Map", heights: Heights) -> Heights:
+def _cropped(surface: "Map", values: Array, pixel: tuple[float, float]) -> Heights:
     if surface.crop is None:
-        return heights
-    spans = (surface.crop.y, surface.crop.x)
+        return Heights(values=values, pixel=pixel)
     parts = []
-    for axis, count, step, span in zip(
-        "yx", heights.values.shape, reversed(heights.pixel), spans, strict=True
-    ):
+    for axis, count, step in zip("yx", values.shape, pixel[::-1], strict=True):
+        span = getattr(surface.crop, axis)
         first, last = (0, count) if span is None else (round(end / step) for end in span)
         if not first + _LEAST <= last <= count:
             raise InputError(
@@ -261,10 +225,10 @@ def _cropped(surface: "Map", heights: Heights) -> Heights:
                 f"{_LEAST} points or goes beyond"
             )
         parts.append(slice(first, last))
-    values = heights.values[parts[0], parts[1]]
+    values = values[parts[0], parts[1]]
     if not np.isfinite(values).any():
         raise InputError("has no point with a height where crop leaves it")
-    return Heights(values=values, pixel=heights.pixel)
+    return Heights(values=values, pixel=pixel)
 
 
 # ---- heights

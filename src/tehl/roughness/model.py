@@ -205,28 +205,21 @@ _WORDS = {
 _ANGSTROMS = ("Å", "\N{ANGSTROM SIGN}", "angstrom", "A")
 
 
-def metres(unit: str) -> float:
-    """Return the factor from a unit of length to metres.
-
-    Raises
-    ------
-    ValueError
-        If it is not one; the message continues a sentence that begins with the unit.
-    """
+def metres(unit: str) -> float | None:
+    """Return the factor from a unit of length to metres; None if it is not one."""
     text = unit.strip().removeprefix("Â")  # a micro sign of two bytes, read as two letters
     if text in _ANGSTROMS or text.lower() in _ANGSTROMS:
         return 1e-10
-    word = text.lower()
-    return quantity(Length).parse(
-        f"1 {_WORDS.get(word) or _WORDS.get(word.removesuffix('s'), text)}"
-    )
+    word = _WORDS.get(text.lower()) or _WORDS.get(text.lower().removesuffix("s"), text)
+    try:
+        return quantity(Length).parse(f"1 {word}")
+    except ValueError:
+        return None
 
 
 def _is_length(unit: str) -> str:
-    try:
-        metres(unit)
-    except ValueError:
-        raise ValueError('is not a unit of length: give one such as "um"') from None
+    if metres(unit) is None:
+        raise ValueError('is not a unit of length: give one such as "um"')
     return unit
 
 

@@ -135,8 +135,11 @@ def view(found: Preview) -> View:
         steps = [max(1, count // _PER_PICTURE) for count in values.shape]
         return View(values=values[:: steps[0], :: steps[1]], window=surface.box)
     window = _window(found)
-    x, y = (_places(*ends, step) for ends, step in zip(window, found.heights.pixel, strict=True))
-    values = surface.height(x[None, :], y[:, None])
+    middles = []
+    for (start, end), step in zip(window, found.heights.pixel, strict=True):
+        count = int(np.clip(round((end - start) / step), 2, _PER_PICTURE))
+        middles.append(start + (np.arange(count) + 0.5) * (end - start) / count)
+    values = surface.height(middles[0][None, :], middles[1][:, None])
     return View(values=values, window=window, corners=_corners(surface))
 
 
@@ -151,12 +154,6 @@ def _window(found: Preview) -> Extent:
     )
     longest = [max(end - start for start, end in one) for one in ((x, y), box)]
     return (x, y) if longest[0] <= _WIDEST * longest[1] else box
-
-
-def _places(start: float, end: float, step: float) -> Array:
-    """Return the middles of the pixels of a picture, the points of the map where they suffice."""
-    count = int(np.clip(round((end - start) / step), 2, _PER_PICTURE))
-    return start + (np.arange(count) + 0.5) * (end - start) / count
 
 
 def _corners(surface: Map) -> Array:

@@ -37,11 +37,12 @@ def tile_of(surface: "Random") -> Tile:
 
 
 def with_moments(heights: Array, skewness: float, kurtosis: float) -> Array:
-    r"""Return heights with given moments by a monotone transformation [1]_: each peak stays one.
+    r"""Return heights with given moments by a monotone transformation: each peak stays one.
 
     .. math:: t(z) = \sinh\frac{\operatorname{arsinh} z + \epsilon}{\delta}
 
-    with the two parameters that these heights need, not those of a Gaussian distribution.
+    with the two parameters that these heights need, not those of a Gaussian distribution (Jones and
+    Pewsey, see :class:`tehl.roughness.Random`).
 
     Parameters
     ----------
@@ -59,17 +60,18 @@ def with_moments(heights: Array, skewness: float, kurtosis: float) -> Array:
     ------
     InputError
         If no parameters give these moments.
-
-    References
-    ----------
-    .. [1] M. C. Jones and A. Pewsey, Sinh-arcsinh distributions, Biometrika 96 (2009), 761-780.
     """
     count, edges = np.histogram(heights, bins=_BINS)
     places, share = 0.5 * (edges[1:] + edges[:-1]), count / count.sum()
 
+    def transformed(heights: Array, parameters: Array) -> Array:
+        return np.sinh((np.arcsinh(heights) + parameters[0]) * np.exp(-parameters[1]))
+
     def missed(parameters: Array) -> Array:
-        found = _moments(_transformed(places, parameters), share)
-        return np.array(found) - (skewness, kurtosis)
+        changed = transformed(places, parameters)
+        off = changed - np.sum(share * changed)
+        off /= np.sqrt(np.sum(share * off**2))
+        return np.array([np.sum(share * off**3) - skewness, np.sum(share * off**4) - kurtosis])
 
     fits = [
         least_squares(missed, (start * np.sign(skewness), 0.0), bounds=([-30, -3], [30, 3]))
@@ -80,18 +82,6 @@ def with_moments(heights: Array, skewness: float, kurtosis: float) -> Array:
         raise InputError(
             f"kurtosis = {kurtosis:g} with skewness = {skewness:g} cannot be made of these heights"
         )
-    changed = _transformed(heights, best.x)
+    changed = transformed(heights, best.x)
     changed -= changed.mean()
     return changed / np.sqrt(np.mean(np.square(changed)))
-
-
-def _transformed(heights: Array, parameters: Array) -> Array:
-    shift, tail = parameters
-    return np.sinh((np.arcsinh(heights) + shift) * np.exp(-tail))
-
-
-def _moments(heights: Array, share: Array) -> tuple[float, float]:
-    """Return skewness and kurtosis of heights that have a share each."""
-    off = heights - np.sum(share * heights)
-    spread = np.sqrt(np.sum(share * off**2))
-    return float(np.sum(share * (off / spread) ** 3)), float(np.sum(share * (off / spread) ** 4))

@@ -97,7 +97,7 @@ class Spectrum(NamedTuple):
 
 
 def spectrum(heights: Array, pixel: tuple[float, float], rings: int = 60) -> Spectrum:
-    r"""Return the radially averaged power spectral density.
+    r"""Return the radially averaged power spectral density (Jacobs and others, 2017).
 
     It is :math:`C(q) = |\hat h|^2/A` of the heights under a Hann window, scaled so that the mean
     square height is :math:`\int C \, d^2q / 4\pi^2`; a window is needed because maps do not repeat.
@@ -110,10 +110,6 @@ def spectrum(heights: Array, pixel: tuple[float, float], rings: int = 60) -> Spe
         [m]
     rings : int
         How many rings, of equal width on a logarithmic scale; those without a wave are left out.
-
-    References
-    ----------
-    .. [1] T. D. B. Jacobs, T. Junge and L. Pastewka, Surf. Topogr.: Metrol. Prop. 5 (2017), 013001.
     """
     off = heights - heights.mean()
     ny, nx = off.shape

@@ -200,14 +200,9 @@ class Crossed(HarmonicModel):
 
 
 def _product(first: WaveVector, second: WaveVector) -> tuple[WaveVector, ...]:
-    half = 0.5 * first.amplitude
+    (amplitude, *one), (_, *other) = first, second
     return tuple(
-        WaveVector(
-            half,
-            first.along + sign * second.along,
-            first.across + sign * second.across,
-            first.phase + sign * second.phase,
-        )
+        WaveVector(0.5 * amplitude, *(a + sign * b for a, b in zip(one, other, strict=True)))
         for sign in (1.0, -1.0)
     )
 
@@ -245,11 +240,8 @@ def _spectrum(waves: Sequence[WaveVector]) -> dict[tuple[int, int], complex]:
 
 def root_mean_square(waves: Sequence[WaveVector]) -> float:
     """Return the root mean square height of a sum of harmonics over the plane [m]."""
-    spectrum = _spectrum(waves)
-    mean_squares = (
-        abs(amplitude) ** 2 * (1.0 if key == (0, 0) else 0.5) for key, amplitude in spectrum.items()
-    )
-    return math.sqrt(sum(mean_squares))
+    spectrum = _spectrum(waves).items()
+    return math.sqrt(sum(abs(a) ** 2 * (1.0 if key == (0, 0) else 0.5) for key, a in spectrum))
 
 
 def _length(number: float) -> float:
