@@ -63,7 +63,7 @@ class Roelands(_RoelandsPressure):
               \theta = \frac{T - 138}{T_0 - 138}
 
     Pressure in Pa, temperature in K. State the slope as ``z`` or as ``alpha``, and the fall with
-    temperature as ``S0``, as ``gamma`` or not at all (then the law knows no temperature).
+    temperature as ``S0``, as ``gamma`` or not at all (independent of temperature).
 
     Attributes
     ----------
@@ -160,16 +160,10 @@ class RoelandsExponential(ExponentialFall, _RoelandsPressure):
 
     Attributes
     ----------
-    eta_0 : float
-        Viscosity at ambient pressure and ``reference_temperature`` [Pa s].
-    alpha : float or None
-        Pressure coefficient at ambient pressure [1/Pa], ``z = 1.96e8 alpha / (ln eta_0 + 9.67)``.
-    z : float or None
-        Pressure index [-].
+    eta_0, alpha, z, reference_temperature
+        As of :class:`Roelands`.
     gamma : float or None
-        Temperature coefficient [1/K]; None when the law knows no temperature.
-    reference_temperature : float
-        T_0 [K].
+        Temperature coefficient [1/K]; None: independent of temperature.
 
     References
     ----------

@@ -23,7 +23,7 @@ class Barus(ExponentialFall):
     alpha : float
         Pressure coefficient [1/Pa].
     gamma : float or None
-        Temperature coefficient [1/K]; None when the law knows no temperature.
+        Temperature coefficient [1/K]; None: independent of temperature.
     reference_temperature : float
         T_0 [K].
     """
@@ -44,7 +44,7 @@ class Barus(ExponentialFall):
 
 
 class ConstantViscosity(ViscosityModel):
-    """A liquid whose viscosity knows neither pressure nor temperature.
+    """A viscosity independent of pressure and temperature.
 
     Attributes
     ----------

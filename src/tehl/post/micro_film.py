@@ -179,13 +179,7 @@ def effect_block(effect: RoughnessEffect) -> dict[str, Any]:
 
 
 def stored_effect(summary: Mapping[str, Any]) -> RoughnessEffect | None:
-    """Return the comparison in a stored summary, None without one.
-
-    Parameters
-    ----------
-    summary : mapping
-        As :func:`tehl.io.store.load_summary` returns it.
-    """
+    """Return the comparison in a summary of a stored result, None without one."""
     block: Any = summary.get("roughness_effect")
     try:
         values = {one.name: block[_KEYS.get(one.name, one.name)] for one in fields(RoughnessEffect)}

@@ -22,15 +22,7 @@ _TEN = math.log(10.0)
 
 
 class FeatureModel(RoughnessModel):
-    """Base of the features; ``LENGTH`` is the field that their height changes with.
-
-    Attributes
-    ----------
-    amplitude : float
-        Height of the top over the surface around it [m]; negative goes into the body.
-    x, y : float
-        Where the feature stands at time zero [m]; the origin is the centre of the contact.
-    """
+    """Base of the features; ``LENGTH`` is the field with the length of their slopes."""
 
     LENGTH: ClassVar[str] = "width"
     rms: ClassVar[float] = 0.0  # one feature has no share of an infinite surface

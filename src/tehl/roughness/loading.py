@@ -57,13 +57,7 @@ def raw_map(surface: "Map") -> RawMap:
 
 
 def heights_of(surface: "Map") -> Heights:
-    """Return the prepared heights of a map, read once as long as its file does not change.
-
-    Raises
-    ------
-    InputError
-        If its file holds no map that a contact can have; the message names it.
-    """
+    """Return the prepared heights of a map, read once as long as its file does not change."""
     return _loaded(surface, _stamp(surface))
 
 

@@ -5,7 +5,7 @@ those of the contact, x along entrainment; a surface carries its heights along x
 """
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Protocol
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict
 
@@ -30,40 +30,14 @@ BEYOND: dict[Edge, str] = {
 }
 
 
-class Roughness(Protocol):
-    """Heights of one surface."""
+class Roughness:
+    """Heights of one surface; a formula is exact on every mesh."""
 
-    @property
-    def is_smooth(self) -> bool:
-        """Return whether the height is zero everywhere."""
+    if TYPE_CHECKING:  # a field of some surfaces
 
-    @property
-    def is_even_in_y(self) -> bool:
-        """Return whether the heights mirror at y = 0, so that half of the domain may be solved."""
-
-    @property
-    def shortest_wavelengths(self) -> tuple[float, float]:
-        """Return the shortest wavelengths along x and along y [m]; infinite where there is none."""
-
-    @property
-    def shortest_wavelength(self) -> float:
-        """Return the shortest wavelength in whatever direction [m]; infinite when smooth."""
-
-    @property
-    def rms(self) -> float:
-        """Return the root mean square height Sq [m]; zero for features that stand alone."""
-
-    def height(self, x: Array, y: Array, time: float = 0.0, speed: float = 0.0) -> Array:
-        """Return the heights [m] at ``x`` and ``y`` [m], which broadcast."""
-
-    def resolved_on(self, dx: float, dy: float) -> "Roughness":
-        """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
-
-
-class RoughnessModel(BaseModel):
-    """Base of the surfaces of a case file; a formula is exact on every mesh."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+        @property
+        def rms(self) -> float:
+            """Return the root mean square height Sq [m]; zero for single features."""
 
     @property
     def is_smooth(self) -> bool:
@@ -72,7 +46,7 @@ class RoughnessModel(BaseModel):
 
     @property
     def is_even_in_y(self) -> bool:
-        """Return whether the heights mirror at y = 0."""
+        """Return whether the heights mirror at y = 0, so that half of the domain may be solved."""
         return self.is_smooth
 
     @property
@@ -85,6 +59,36 @@ class RoughnessModel(BaseModel):
         """Return the shortest wavelength in any direction [m]; infinite when smooth."""
         return math.inf
 
+    def height(self, x: Array, y: Array, time: float = 0.0, speed: float = 0.0) -> Array:
+        """Return the heights at a time.
+
+        Parameters
+        ----------
+        x, y : arrays that broadcast
+            Coordinates of the contact [m], x along entrainment.
+        time : float
+            [s]; at zero the surface lies as stated.
+        speed : float
+            Speed of the surface along x [m/s].
+
+        Returns
+        -------
+        Array
+            Heights in the broadcast shape [m], positive outwards.
+        """
+        raise NotImplementedError
+
+    def resolved_on(self, dx: float, dy: float) -> "Roughness":
+        """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
+        del dx, dy
+        return self
+
+
+class RoughnessModel(Roughness, BaseModel):
+    """Base of the surfaces of a case file."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
     def extent(self, length: float) -> Extent:
         """Return where the surface is rough at time zero, between y = -``length`` and ``length``.
 
@@ -94,33 +98,13 @@ class RoughnessModel(BaseModel):
         return ENDLESS
 
     def height(self, x: Array, y: Array, time: float = 0.0, speed: float = 0.0) -> Array:
-        """Return the heights at a time.
-
-        Parameters
-        ----------
-        x, y : arrays that broadcast
-            Coordinates of the contact [m], x along entrainment.
-        time : float
-            [s]; at zero the surface lies as it was stated.
-        speed : float
-            Speed of the surface along x [m/s].
-
-        Returns
-        -------
-        Array
-            Heights in the broadcast shape [m], positive outwards.
-        """
+        """Return the heights [m] at a time, as :meth:`Roughness.height`."""
         along = np.asarray(x, dtype=np.float64) - speed * time
         return self._at_rest(along, np.asarray(y, dtype=np.float64))
 
     def _at_rest(self, x: Array, y: Array) -> Array:
         """Return the heights [m] in the coordinates of the body [m]."""
         raise NotImplementedError
-
-    def resolved_on(self, dx: float, dy: float) -> Roughness:
-        """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
-        del dx, dy
-        return self  # type: ignore[return-value]  # subclasses have rms
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
         """Return sentences on what is unusual for a contact of ``width`` by ``length`` [m]."""
@@ -167,13 +151,15 @@ class TileModel(RoughnessModel):
         return self._tile.resolved_on(dx, dy)
 
 
-def check_gentle(amplitude: float, **lengths: float) -> None:
-    """Refuse an amplitude [m] that is large beside a length on which the height changes [m].
+def wavelength_of(number: float) -> float:
+    """Return the wavelength [m] at a wave ``number`` [rad/m]."""
+    return 2.0 * math.pi / number if number > 0 else math.inf
 
-    Raises
-    ------
-    ValueError
-        If it is: Reynolds' equation requires gentle slopes, and most often a unit is wrong.
+
+def check_gentle(amplitude: float, **lengths: float) -> None:
+    """Raise ValueError if an amplitude [m] is large beside a length of its slopes [m].
+
+    Reynolds' equation requires gentle slopes, and most often a unit is wrong.
     """
     for name, length in lengths.items():
         if not abs(amplitude) <= _STEEPEST * length:
@@ -191,16 +177,10 @@ SignedHeight = Annotated[
 Position = Annotated[float, Quantity(name="a position", unit="m", example='"0.1 mm"', sign="any")]
 Wavelength = Annotated[float, Quantity(name="a length", unit="m", example='"50 um"')]
 
-_WORDS = {
-    "micron": "um",
-    "micrometer": "um",
-    "micrometre": "um",
-    "nanometer": "nm",
-    "nanometre": "nm",
-    "millimeter": "mm",
-    "millimetre": "mm",
-    "meter": "m",
-    "metre": "m",
+_WORDS = {"micron": "um"} | {
+    f"{prefix}{metre}": f"{letter}m"
+    for prefix, letter in (("", ""), ("milli", "m"), ("micro", "u"), ("nano", "n"))
+    for metre in ("meter", "metre")
 }
 _ANGSTROMS = ("Å", "\N{ANGSTROM SIGN}", "angstrom", "A")
 

@@ -64,20 +64,10 @@ def without_outliers(values: Array, sigmas: float) -> tuple[Array, int]:
 
 
 def filled(values: Array, how: Fill) -> Array:
-    """Return heights without gaps.
+    """Return heights with their gaps, NaN or infinite, filled.
 
-    Parameters
-    ----------
-    values : Array
-        Heights; what is not finite is missing.
-    how : {"auto", "linear", "nearest", "refuse"}
-        "linear" spans a membrane over each gap (Laplace's equation), "nearest" takes the nearest
-        height, "auto" is "linear" for a hundredth of the points and refuses more.
-
-    Raises
-    ------
-    InputError
-        If too much is missing.
+    "linear" spans a membrane over each gap (Laplace's equation), "nearest" takes the nearest height,
+    "auto" is "linear" for up to 1 % of the points. Raises InputError if more are missing.
     """
     missing = ~np.isfinite(values)
     count = int(missing.sum())

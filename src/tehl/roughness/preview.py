@@ -69,19 +69,9 @@ class Preview:
 
 
 def preview(surface: Map, mesh: Mesh | None = None) -> Preview:
-    """Return the summary of a measured surface.
+    """Return the summary of a measured surface, compared with ``mesh``.
 
-    Parameters
-    ----------
-    surface : Map
-        The file and how it is prepared.
-    mesh : Mesh or None
-        The grid to compare with.
-
-    Raises
-    ------
-    InputError
-        As :meth:`tehl.roughness.Map.load`.
+    Raises InputError as :meth:`tehl.roughness.Map.load`.
     """
     raw, heights = raw_map(surface), surface.load()
     values, pixel = heights.values, heights.pixel

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from tehl.roughness.model import TileModel, Wavelength, check_gentle, direction
+from tehl.roughness.model import TileModel, Wavelength, check_gentle, direction, wavelength_of
 from tehl.typing import Array, np
 from tehl.units import Angle, Height, Number, PositiveNumber
 
@@ -173,12 +173,12 @@ class Random(TileModel):
         along, across = self._slopes
         cosine, sine = (value**2 for value in direction(self.angle))
         squares = (along * cosine + across * sine, along * sine + across * cosine)
-        return _length(squares[0]), _length(squares[1])
+        return wavelength_of(math.sqrt(squares[0])), wavelength_of(math.sqrt(squares[1]))
 
     @property
     def shortest_wavelength(self) -> float:
         """Return the wavelength 2 pi Sq / Sq' where it is shortest [m]."""
-        return _length(max(self._slopes))
+        return wavelength_of(math.sqrt(max(self._slopes)))
 
     @property
     def _slopes(self) -> tuple[float, float]:
@@ -219,7 +219,3 @@ class Random(TileModel):
         number = np.hypot(along * first, across * second) / (2.0 * np.pi)
         falling = np.maximum(number, 1.0) ** (-2.0 * (1.0 + self.hurst))
         return np.where(number <= self._band, falling, 0.0)
-
-
-def _length(square: float) -> float:
-    return 2.0 * math.pi / math.sqrt(square) if square > 0 else math.inf

@@ -41,15 +41,7 @@ class Statistics:
 
 
 def statistics(heights: Array, pixel: tuple[float, float]) -> Statistics:
-    """Return the parameters of a map.
-
-    Parameters
-    ----------
-    heights : (ny, nx) array
-        [m], without gaps; their mean is taken off.
-    pixel : (dx, dy)
-        [m]
-    """
+    """Return the parameters of heights [m], (ny, nx), without gaps; their mean is subtracted."""
     off = heights - heights.mean()
     sq = float(np.sqrt(np.mean(off**2)))
     scaled = off / sq if sq > 0 else np.full_like(off, np.nan)
@@ -97,10 +89,11 @@ class Spectrum(NamedTuple):
 
 
 def spectrum(heights: Array, pixel: tuple[float, float], rings: int = 60) -> Spectrum:
-    r"""Return the radially averaged power spectral density (Jacobs and others, 2017).
+    r"""Return the radially averaged power spectral density.
 
     It is :math:`C(q) = |\hat h|^2/A` of the heights under a Hann window, scaled so that the mean
     square height is :math:`\int C \, d^2q / 4\pi^2`; a window is needed because maps do not repeat.
+    Source: Jacobs, Junge and Pastewka, see :class:`tehl.roughness.Random`.
 
     Parameters
     ----------

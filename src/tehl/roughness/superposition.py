@@ -21,7 +21,7 @@ from tehl.roughness.waves import (
 from tehl.typing import Array, np
 
 
-class _Added:
+class _Added(Roughness):
     """Several surfaces on top of each other."""
 
     parts: tuple[Roughness, ...]
@@ -54,7 +54,7 @@ class _Added:
         return math.hypot(root_mean_square(self._harmonics), *(part.rms for part in self._others))
 
     def height(self, x: Array, y: Array, time: float = 0.0, speed: float = 0.0) -> Array:
-        """Return the sum of the heights [m], as :meth:`tehl.roughness.Wave.height`."""
+        """Return the sum of the heights [m], as :meth:`tehl.roughness.Roughness.height`."""
         total = np.zeros(np.broadcast_shapes(np.shape(x), np.shape(y)))
         for part in self.parts:
             total += part.height(x, y, time, speed)

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from scipy import fft, ndimage
 
-from tehl.roughness.model import Edge, direction
+from tehl.roughness.model import Edge, Roughness, direction
 from tehl.typing import Array, IntArray
 
 KEPT, LOST = 0.25, 0.5
@@ -29,8 +29,8 @@ Pair = tuple[float, float]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Tile:
-    """Heights on a lattice, as :class:`tehl.roughness.Roughness`.
+class Tile(Roughness):
+    """Heights on a lattice; they count as even in y only when smooth.
 
     Attributes
     ----------
@@ -67,8 +67,6 @@ class Tile:
         """Return whether the height is zero everywhere."""
         return not self.rms > 0
 
-    is_even_in_y = is_smooth  # heights on a lattice are not mirrored exactly
-
     @cached_property
     def rms(self) -> float:
         """Root mean square height Sq, without a flat rim [m]."""
@@ -86,7 +84,7 @@ class Tile:
         return self._wavelengths[2]
 
     def height(self, x: Array, y: Array, time: float = 0.0, speed: float = 0.0) -> Array:
-        """Return the heights [m], as :meth:`tehl.roughness.Wave.height`."""
+        """Return the heights [m], as :meth:`tehl.roughness.Roughness.height`."""
         cosine, sine = direction(self.angle)
         x = np.asarray(x, np.float64) - speed * time - self.centre[0]
         y = np.asarray(y, np.float64) - self.centre[1]
@@ -254,4 +252,4 @@ def _response(x: Array, y: Array, mesh: Pair, *, radial: bool) -> Array:
     y = y[:, None]
     parts = [np.hypot(x, y) * mesh[0]] if radial else [x * mesh[0], y * mesh[1]]
     beyond = (np.clip((part - KEPT) / (LOST - KEPT), 0.0, 1.0) for part in parts)
-    return math.prod(np.cos(0.5 * np.pi * part) ** 2 for part in beyond)
+    return np.asarray(math.prod(np.cos(0.5 * np.pi * part) ** 2 for part in beyond))

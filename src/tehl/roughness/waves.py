@@ -6,7 +6,7 @@ from typing import Literal, NamedTuple, Self
 
 from pydantic import model_validator
 
-from tehl.roughness.model import RoughnessModel, Wavelength, check_gentle, direction
+from tehl.roughness.model import RoughnessModel, Wavelength, check_gentle, direction, wavelength_of
 from tehl.typing import Array, np
 from tehl.units import Angle, Height
 
@@ -72,12 +72,12 @@ class HarmonicModel(RoughnessModel):
         """Return the shortest wavelengths along x and along y [m]."""
         along = max((abs(wave.along) for wave in self._present), default=0.0)
         across = max((abs(wave.across) for wave in self._present), default=0.0)
-        return _length(along), _length(across)
+        return wavelength_of(along), wavelength_of(across)
 
     @property
     def shortest_wavelength(self) -> float:
         """Return the shortest distance between crests [m]."""
-        return _length(max((wave.number for wave in self._present), default=0.0))
+        return wavelength_of(max((wave.number for wave in self._present), default=0.0))
 
     @property
     def rms(self) -> float:
@@ -242,7 +242,3 @@ def root_mean_square(waves: Sequence[WaveVector]) -> float:
     """Return the root mean square height of a sum of harmonics over the plane [m]."""
     spectrum = _spectrum(waves).items()
     return math.sqrt(sum(abs(a) ** 2 * (1.0 if key == (0, 0) else 0.5) for key, a in spectrum))
-
-
-def _length(number: float) -> float:
-    return 2.0 * math.pi / number if number > 0 else math.inf

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from tehl.post.heat import mean_temperature
 from tehl.post.waves.search import distinct_waves
 from tehl.problem import ContactProblem
-from tehl.roughness import AnyRoughness, Map, Random, Sum, WaveVector
+from tehl.roughness import Map, Random, Sum, WaveVector
 from tehl.typing import Array, BoolArray
 from tehl.wave_theory import (
     FlatFilm,
@@ -143,13 +144,7 @@ def wave_responses(result: "Result", smooth: "Result | None" = None) -> tuple[Wa
 
 
 def wave_notes(result: "Result") -> tuple[str, ...]:
-    """Return what :func:`wave_responses` leaves out and why, a sentence each.
-
-    Parameters
-    ----------
-    result : Result
-        Of a rough contact; others have no notes.
-    """
+    """Return what :func:`wave_responses` leaves out and why, a sentence each."""
     found = _Waves.of(result)
     if found is None:
         return ()
@@ -205,13 +200,9 @@ class _Waves:
 
 def _is_searched(problem: ContactProblem) -> bool:
     """Return whether a surface may have waves that it does not state."""
-    return any(_may_hold_waves(one.roughness) for one in (problem.surface_1, problem.surface_2))
-
-
-def _may_hold_waves(roughness: AnyRoughness) -> bool:
-    if isinstance(roughness, Sum):
-        return any(map(_may_hold_waves, roughness.parts))
-    return isinstance(roughness, Map | Random)
+    surfaces = (problem.surface_1.roughness, problem.surface_2.roughness)
+    parts = (part for one in surfaces for part in (one.parts if isinstance(one, Sum) else [one]))
+    return any(isinstance(part, Map | Random) for part in parts)
 
 
 def _standing_out(result: "Result", heights: Array, patch: "_Patch") -> list[WaveVector]:
@@ -334,8 +325,7 @@ def _flat_film(result: "Result", patch: _Patch) -> FlatFilm:
     pressure = float(patch.cut(result.pressure).mean())
     temperature = result.scales.temperature
     if result.heat is not None:
-        layers = np.tensordot(result.heat.weights, result.heat.temperature, axes=1)
-        temperature = float(patch.cut(layers).mean())
+        temperature = float(patch.cut(mean_temperature(result.heat)).mean())
     thinning = 1.0 if result.shear is None else float(patch.cut(result.shear.thinning).mean())
     oil = result.problem.lubricant
     return FlatFilm(

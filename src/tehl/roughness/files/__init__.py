@@ -48,13 +48,7 @@ def read(path: Path, *, layout: Layout = "auto", variable: str | None = None) ->
 
 
 def checked(file: str) -> Path:
-    """Return the path of a file that is there.
-
-    Raises
-    ------
-    InputError
-        If it is missing, no regular file, empty or too large; the message lacks the name.
-    """
+    """Return the path of an existing file; raise InputError, without the name, for others."""
     path = Path(file).expanduser()
     try:
         found = path.stat()

@@ -45,7 +45,7 @@ class RawMap:
 
 
 def check_count(shape: tuple[int, ...]) -> None:
-    """Refuse a map that is larger than memory should hold, before anything is allocated."""
+    """Reject a map that is too large for memory, before anything is allocated."""
     if len(shape) != 2:
         raise InputError(
             f"holds an array of shape {_times(shape)}, but heights are a table of rows and columns"
@@ -58,7 +58,7 @@ def check_count(shape: tuple[int, ...]) -> None:
 
 
 def check_bytes(there: int, needed: int, shape: tuple[int, ...]) -> None:
-    """Refuse a file whose header claims more than it holds."""
+    """Reject a file whose header claims more than it holds."""
     if there < needed:
         raise InputError(
             f"is truncated: {_times(shape)} points take {needed} bytes, and {there} are there"
@@ -66,13 +66,7 @@ def check_bytes(there: int, needed: int, shape: tuple[int, ...]) -> None:
 
 
 def step(places: Array, axis: str) -> float:
-    """Return the distance of equidistant places.
-
-    Raises
-    ------
-    InputError
-        If they are not equidistant and rising, or fewer than two.
-    """
+    """Return the distance of at least two equidistant places; raise InputError for others."""
     distances = np.diff(places)
     if distances.size == 0:
         raise InputError(f"has one point along {axis}, which is not a map")
@@ -83,13 +77,7 @@ def step(places: Array, axis: str) -> float:
 
 
 def check_hdf5(path: Path) -> None:
-    """Refuse HDF5 with data in other files; raise what h5py does where h5netcdf would warn.
-
-    Raises
-    ------
-    InputError
-        If a part of the file lies in another one, which a map must not read.
-    """
+    """Reject HDF5 with data in other files; raise what h5py does where h5netcdf would warn."""
     import h5py  # noqa: PLC0415
 
     def leads_out(_: str, link: Any) -> bool | None:

@@ -35,16 +35,9 @@ _TYPES = {"I": "<i2", "L": "<i4", "F": "<f4", "D": "<f8"}
 
 
 def read_x3p(path: Path) -> RawMap:
-    """Return the heights of an x3p file.
+    """Return the heights of an x3p file (ISO 25178-72).
 
-    Raises
-    ------
-    InputError
-        If it is damaged, its checksums do not match, or it holds no map.
-
-    References
-    ----------
-    .. [1] ISO 25178-72, XML file format x3p.
+    Raises InputError if it is damaged, its checksums do not match, or it holds no map.
     """
     try:
         with zipfile.ZipFile(path) as archive:
