@@ -66,8 +66,8 @@ def without_outliers(values: Array, sigmas: float) -> tuple[Array, int]:
 def filled(values: Array, how: Fill) -> Array:
     """Return heights with their gaps, NaN or infinite, filled.
 
-    "linear" spans a membrane over each gap (Laplace's equation), "nearest" takes the nearest height,
-    "auto" is "linear" for up to 1 % of the points. Raises InputError if more are missing.
+    "linear" spans a membrane over each gap (Laplace's equation), "nearest" takes the nearest
+    height, "auto" is "linear" for up to 1 % of the points. Raises InputError if more are missing.
     """
     missing = ~np.isfinite(values)
     count = int(missing.sum())

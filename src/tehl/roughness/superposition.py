@@ -9,7 +9,7 @@ from pydantic import BeforeValidator, Field
 from tehl.roughness.features import Bump, Dimple, Ridge
 from tehl.roughness.map import Map
 from tehl.roughness.model import Roughness, RoughnessModel, Smooth
-from tehl.roughness.random_surface import Random
+from tehl.roughness.random import Random
 from tehl.roughness.waves import (
     Crossed,
     HarmonicModel,

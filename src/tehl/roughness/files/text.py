@@ -23,11 +23,11 @@ _DIGITS = 1e-6
 def read_text(path: Path, layout: Layout) -> RawMap:
     """Return the heights of a text file.
 
-    Numbers are separated by commas, semicolons, tabs or blanks; lines that begin with ``#``, ``%`` or
-    ``//`` and one line of names are skipped; nothing and ``nan`` are points without a height, but a
-    mark at the end of a row that is as long as the others without it is not a point. ``layout`` =
-    "auto" takes three columns as x, y and z if the first two make a lattice, and never as a table.
-    Raises InputError, with the line, if the file holds anything else.
+    Numbers are separated by commas, semicolons, tabs or blanks; lines that begin with ``#``, ``%``
+    or ``//`` and one line of names are skipped; nothing and ``nan`` are points without a height,
+    but a mark at the end of a row that is as long as the others without it is not a point.
+    ``layout`` = "auto" takes three columns as x, y and z if the first two make a lattice, and never
+    as a table. Raises InputError, with the line, if the file holds anything else.
     """
     table = _table(path)
     if layout == "matrix" or (layout == "auto" and table.shape[1] != 3):
