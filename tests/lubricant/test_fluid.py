@@ -20,7 +20,7 @@ def test_every_named_oil_has_a_source_and_usual_values(name: str):
 
 
 @pytest.mark.parametrize("grade", [32, 68, 150, 320])
-def test_the_iso_grades_follow_the_relations_they_cite(grade: int):
+def test_the_iso_grades_follow_their_cited_relations(grade: int):
     law = oil(f"iso-vg-{grade}").viscosity
     centipoise = grade * 0.87
     assert law.eta_0 == pytest.approx(centipoise * 1e-3, rel=1e-3)
@@ -79,6 +79,6 @@ def test_thermal_properties_grow_with_pressure_where_the_oil_states_it():
         oil("mourier-2006").conductivity_at(pressure)
 
 
-def test_an_unknown_oil_lists_the_known():
+def test_an_unknown_oil_lists_the_known_oils():
     with pytest.raises(InputError, match="mineral-oil"):
         oil("olive")

@@ -85,7 +85,7 @@ def test_small_stresses_follow_the_series():
     assert carreau.log_thinning(s) == pytest.approx(s**2 / 4, rel=1e-3)
 
 
-def test_the_limit_is_held_and_grows_with_pressure():
+def test_the_stress_stays_near_the_limit_which_grows_with_pressure():
     law = Limiting(slope=0.04)
     pressure = np.array([0.0, 1e9])
     assert law.stress_scale(pressure) == pytest.approx([1e5, 4e7])

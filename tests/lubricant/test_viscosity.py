@@ -124,7 +124,7 @@ def test_one_value_is_that_of_an_array(law: ViscosityLaw, pressure: float, tempe
 
 
 @pytest.mark.parametrize("law", LAWS)
-def test_at_the_reference_the_stated_values_return(law: ViscosityLaw):
+def test_values_at_the_reference_are_the_stated_ones(law: ViscosityLaw):
     at = law.reference_temperature
     assert law.ambient(at) == pytest.approx(law.eta_0, rel=1e-12)
     assert law.pressure_coefficient_at(at) == law.pressure_coefficient

@@ -134,23 +134,11 @@ class Lubricant(Law):
         return _ambient(self.heat_capacity)
 
     def conductivity_at(self, pressure: Array) -> Array:
-        """Return the thermal conductivity [W/m/K] at ``pressure`` [Pa].
-
-        Raises
-        ------
-        InputError
-            If the oil states none.
-        """
+        """Return the conductivity [W/m/K] at ``pressure`` [Pa]; raise InputError without one."""
         return _grown(self.conductivity, "conductivity", pressure)
 
     def heat_capacity_at(self, pressure: Array) -> Array:
-        """Return the heat capacity [J/kg/K] at ``pressure`` [Pa].
-
-        Raises
-        ------
-        InputError
-            If the oil states none.
-        """
+        """Return the heat capacity [J/kg/K] at ``pressure`` [Pa]; raise InputError without one."""
         grown, stated = _grown(self.heat_capacity, "heat_capacity", pressure), self.heat_capacity
         if isinstance(stated, HeatCapacityOfPressure) and stated.basis == "volume":
             at = self.viscosity.reference_temperature

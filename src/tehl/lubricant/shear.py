@@ -3,8 +3,8 @@ r"""Shear laws: how the stress follows the shear rate.
 All have one form. With the magnitude of the shear stress tau, the Newtonian viscosity eta at the
 pressure and temperature and a ``scale`` of the stress, which may depend on the pressure, let
 ``s = tau / scale`` and ``y = eta (shear rate) / scale``. Then ``y = s F(s)``, where ``F >= 1`` is
-the Newtonian over the effective viscosity. Stresses vary linearly across a film, so whoever
-computes the flow asks for ``ln F`` at a stress and solves for no rate.
+the Newtonian over the effective viscosity. Stresses vary linearly across a film, so the flow
+is computed from ``ln F`` at a stress, and no rate is solved for.
 """
 
 import math

@@ -22,9 +22,16 @@ _TEN = math.log(10.0)
 
 
 class FeatureModel(RoughnessModel):
-    """Base of the features; ``LENGTH`` is the field with the length of their slopes."""
+    """Base of the features, round if not stated otherwise.
+
+    ``LENGTH`` is the field with the length of their slopes. Over it, ``SHORTEST`` is the wavelength
+    that a mesh must carry to represent the feature, where its spectrum has fallen to half of its
+    height, and ``REACH`` the distance from the middle where 2 % of the height are left.
+    """
 
     LENGTH: ClassVar[str] = "width"
+    SHORTEST: ClassVar[float] = 0.5
+    REACH: ClassVar[float] = 0.5
     rms: ClassVar[float] = 0.0  # one feature has no share of an infinite surface
 
     amplitude: SignedHeight
@@ -45,29 +52,14 @@ class FeatureModel(RoughnessModel):
         """Return whether the feature has no height."""
         return self.amplitude == 0
 
-    def _squared_distance(self, x: Array, y: Array) -> Array:
-        return (x - self.x) ** 2 + (y - self.y) ** 2
-
-
-class RoundModel(FeatureModel):
-    """Base of the features that look alike from all sides.
-
-    ``SHORTEST`` and ``REACH`` are over their length: the wavelength that a mesh must carry to see
-    the feature, where its spectrum has fallen to half of its height, and how far from its middle
-    it has two per cent of its height.
-    """
-
-    SHORTEST: ClassVar[float]
-    REACH: ClassVar[float]
-
     @property
     def is_even_in_y(self) -> bool:
-        """Return whether the feature stands on the line y = 0."""
+        """Return whether the feature mirrors at y = 0."""
         return self.y == 0 or self.is_smooth
 
     @property
     def shortest_wavelength(self) -> float:
-        """Return the wavelength that a mesh must carry to see the feature [m]."""
+        """Return the wavelength that a mesh must carry to represent the feature [m]."""
         return math.inf if self.is_smooth else self.SHORTEST * self._length
 
     def extent(self, length: float) -> Extent:
@@ -76,8 +68,12 @@ class RoundModel(FeatureModel):
         reach = self.REACH * self._length
         return (self.x - reach, self.x + reach), (self.y - reach, self.y + reach)
 
+    def _squared_distance(self, x: Array, y: Array) -> Array:
+        """Return the squared distance from the middle, in lengths [-]."""
+        return ((x - self.x) ** 2 + (y - self.y) ** 2) / self._length**2
 
-class Bump(RoundModel):
+
+class Bump(FeatureModel):
     r"""A Gaussian bump, or with a negative amplitude a dent.
 
     .. math:: s = A \exp\{-r^2/r_0^2\}
@@ -100,10 +96,10 @@ class Bump(RoundModel):
     radius: Wavelength
 
     def _at_rest(self, x: Array, y: Array) -> Array:
-        return self.amplitude * np.exp(-self._squared_distance(x, y) / self.radius**2)
+        return self.amplitude * np.exp(-self._squared_distance(x, y))
 
 
-class Dimple(RoundModel):
+class Dimple(FeatureModel):
     r"""The dimple of the micro-texture literature, a cosine that dies out.
 
     .. math:: s = A \, 10^{-10 (r/w)^2} \cos(2\pi r/w)
@@ -127,14 +123,11 @@ class Dimple(RoundModel):
        1745-1756.
     """
 
-    SHORTEST = 0.5
-    REACH = 0.5
-
     type: Literal["dimple"] = "dimple"
     width: Wavelength
 
     def _at_rest(self, x: Array, y: Array) -> Array:
-        return self.amplitude * _damped_cosine(self._squared_distance(x, y) / self.width**2)
+        return self.amplitude * _damped_cosine(self._squared_distance(x, y))
 
 
 class Ridge(FeatureModel):

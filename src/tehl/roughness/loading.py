@@ -50,7 +50,7 @@ def found_file(surface: "Map") -> Path:
 
 
 def raw_map(surface: "Map") -> RawMap:
-    """Return what the file of a map says; errors name it."""
+    """Return the content of the file of a map; errors name the file."""
     path = found_file(surface)
     with _naming(surface):
         return read(path, layout=surface.layout, variable=surface.variable)
@@ -108,7 +108,7 @@ def _tile(surface: "Map", stamp: object) -> Tile:
 
 
 def _highest(heights: Array, factor: float) -> float:
-    """Return the largest number of a file; refuse too few points and absurd heights."""
+    """Return the largest number of a file; reject too few points and absurd heights."""
     ny, nx = heights.shape
     if min(ny, nx) < _LEAST:
         raise InputError(f"has {nx} x {ny} points, but a map has at least {_LEAST} x {_LEAST}")
@@ -258,7 +258,7 @@ def _filtered(surface: "Map", values: Array, heights: Heights, notes: list[str])
 
 
 def _check_heights(surface: "Map", values: Array, highest: float, factor: float) -> None:
-    """Refuse heights that are constant or outside the physical range."""
+    """Reject heights that are constant or outside the physical range."""
     if not np.ptp(values) > _ROUNDING * highest * factor:
         raise InputError("is constant: it has no roughness")
     off = float(np.std(values))
@@ -268,7 +268,7 @@ def _check_heights(surface: "Map", values: Array, highest: float, factor: float)
         filters = ", and do lambda_c and lambda_s leave any" if has_filters else ""
         raise InputError(
             f"has Sq = {off:.3g} m {how}, less than {_LOWEST:g} m and than is measured, where "
-            f"{highest:.3g} in the file stands for {highest * factor:.3g} m: is the unit right"
+            f"{highest:.3g} in the file is {highest * factor:.3g} m: is the unit right"
             f"{filters}?"
         )
     if not off <= _HIGHEST:

@@ -61,7 +61,7 @@ class Map(TileModel):
     Attributes
     ----------
     file : str
-        Its path; the ending says the format.
+        Its path; the ending decides the format.
     unit : str or None
         Of the heights; needed where the file does not say.
     xy_unit : str or None
@@ -80,7 +80,7 @@ class Map(TileModel):
     outliers : float or None
         Standard deviations beyond which spikes become missing points.
     fill : {"auto", "linear", "nearest", "refuse"}
-        How missing points are filled; "auto" refuses more than a hundredth.
+        How missing points are filled; "auto" accepts at most 1 % of them.
     level : {"none", "mean", "plane", "quadratic"}
         What is taken off.
     lambda_c, lambda_s : float or None
@@ -170,17 +170,14 @@ class Map(TileModel):
     def load(self) -> "Heights":
         """Return the prepared heights in metres, read once.
 
-        Raises
-        ------
-        InputError
-            If the file holds no map that a contact can have; the message names the file.
+        Raises InputError if the file does not hold a map of a surface; the message names the file.
         """
         from tehl.roughness.loading import heights_of  # noqa: PLC0415
 
         return heights_of(self)
 
     def extent(self, length: float) -> Extent:
-        """Return where the map lies at time zero, if it ends there [m]."""
+        """Return where the map lies at time zero, without limits if it repeats [m]."""
         del length
         return self.box if self.outside == "flat" else ENDLESS
 

@@ -186,16 +186,12 @@ def gaussian_mean(heights: Array, pixel: tuple[float, float], cut_off: float) ->
 
 def tapered(heights: Array, pixel: tuple[float, float], width: float) -> Array:
     """Return heights that fall to zero over ``width`` [m] at all edges, with a flat rim around."""
-    windows = [
-        _window(count, min(width / step, 0.5 * count))
-        for count, step in zip(heights.shape, reversed(pixel), strict=True)
-    ]
+    windows = []
+    for count, step in zip(heights.shape, reversed(pixel), strict=True):
+        edge = np.minimum(np.arange(count) + 0.5, count - np.arange(count) - 0.5)
+        share = edge / max(min(width / step, 0.5 * count), 1e-9)
+        windows.append(np.sin(0.5 * np.pi * np.clip(share, 0.0, 1.0)) ** 2)
     return np.pad(heights * windows[0][:, None] * windows[1], _RIM)
-
-
-def _window(count: int, width: float) -> Array:
-    edge = np.minimum(np.arange(count) + 0.5, count - np.arange(count) - 0.5)
-    return np.sin(0.5 * np.pi * np.clip(edge / max(width, 1e-9), 0.0, 1.0)) ** 2
 
 
 class Form(NamedTuple):

@@ -130,7 +130,11 @@ def view(found: Preview) -> View:
         count = int(np.clip(round((end - start) / step), 2, _PER_PICTURE))
         middles.append(start + (np.arange(count) + 0.5) * (end - start) / count)
     values = surface.height(middles[0][None, :], middles[1][:, None])
-    return View(values=values, window=window, corners=_corners(surface))
+    cosine, sine = direction(surface.rotate)
+    signs = np.array([(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)])
+    turn = np.array([[cosine, -sine], [sine, cosine]])  # by which x and y are those of the map
+    corners = (signs * found.heights.size) @ turn + (surface.x, surface.y)
+    return View(values=values, window=window, corners=corners)
 
 
 def _window(found: Preview) -> Extent:
@@ -144,11 +148,3 @@ def _window(found: Preview) -> Extent:
     )
     longest = [max(end - start for start, end in one) for one in ((x, y), box)]
     return (x, y) if longest[0] <= _WIDEST * longest[1] else box
-
-
-def _corners(surface: Map) -> Array:
-    """Return x and y of the corners of a map [m]."""
-    cosine, sine = direction(surface.rotate)
-    signs = np.array([(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)])
-    turn = np.array([[cosine, -sine], [sine, cosine]])  # by which x and y are those of the map
-    return (signs * surface.load().size) @ turn + (surface.x, surface.y)

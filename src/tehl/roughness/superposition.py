@@ -39,9 +39,9 @@ class _Added(Roughness):
     @property
     def shortest_wavelengths(self) -> tuple[float, float]:
         """Return the shortest wavelengths of all parts along x and along y [m]."""
-        pairs = [part.shortest_wavelengths for part in self.parts]
-        along, across = zip(*pairs, strict=True) if pairs else ((), ())
-        return min(along, default=math.inf), min(across, default=math.inf)
+        pairs = (part.shortest_wavelengths for part in self.parts)
+        along, across = zip((math.inf, math.inf), *pairs, strict=True)
+        return min(along), min(across)
 
     @property
     def shortest_wavelength(self) -> float:
@@ -66,7 +66,7 @@ class _Added(Roughness):
 
     @property
     def _harmonics(self) -> list[WaveVector]:
-        waves = [part for part in self.parts if isinstance(part, HarmonicModel)]
+        waves = (part for part in self.parts if isinstance(part, HarmonicModel))
         return [component for wave in waves for component in wave.components]
 
     @property

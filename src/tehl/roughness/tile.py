@@ -236,7 +236,7 @@ def _on_a_mesh(coefficients: Array, rows: Support, columns: Support) -> Array:
 
 
 def is_roomy(shape: tuple[int, ...], rim: tuple[int, int]) -> bool:
-    """Return whether heights with a rim of so many points are many times the heights themselves."""
+    """Return whether a rim of these widths in points makes the heights many times larger."""
     ny, nx = shape
     return (ny + 2 * rim[1]) * (nx + 2 * rim[0]) > max(_TIMES * ny * nx, _ROOM)
 

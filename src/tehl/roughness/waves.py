@@ -70,9 +70,9 @@ class HarmonicModel(RoughnessModel):
     @property
     def shortest_wavelengths(self) -> tuple[float, float]:
         """Return the shortest wavelengths along x and along y [m]."""
-        along = max((abs(wave.along) for wave in self._present), default=0.0)
-        across = max((abs(wave.across) for wave in self._present), default=0.0)
-        return wavelength_of(along), wavelength_of(across)
+        numbers = ((abs(wave.along), abs(wave.across)) for wave in self._present)
+        along, across = zip((0.0, 0.0), *numbers, strict=True)
+        return wavelength_of(max(along)), wavelength_of(max(across))
 
     @property
     def shortest_wavelength(self) -> float:

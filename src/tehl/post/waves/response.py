@@ -169,6 +169,7 @@ class _Waves:
     patch: "_Patch"
     stated: dict[WaveVector, float]
     all: list[WaveVector]
+    drift: float | None  # speed of found waves less the mean speed [m/s]
 
     @classmethod
     def of(cls, result: "Result") -> "_Waves | None":
@@ -177,25 +178,21 @@ class _Waves:
         patch, heights = _Patch.of(result), result.heights.together
         stated = dict(drifting_waves(result.problem))
         waves = list(stated) or _standing_out(result, heights, patch)
-        return cls(result.problem, heights, patch, stated, waves)
+        drift = drift_of_heights(result.problem)
+        return cls(result.problem, heights, patch, stated, waves, drift)
 
     @property
     def fitted(self) -> list[WaveVector]:
         """Waves of which enough lies in the patch."""
         return [wave for wave in self.all if self.patch.holds(wave)]
 
-    @property
-    def drift(self) -> float | None:
-        """Speed of found waves less the mean speed [m/s]."""
-        return drift_of_heights(self.problem)
-
     def theory(self, wave: WaveVector, level: FlatFilm, amplitude: float) -> LinearTheory:
         """Return the ripples of a wave by theory."""
-        drift = self.stated.get(wave, self.drift)
-        holds = why_no_theory(self.problem) is None and drift is not None
+        drift, straight = self.stated.get(wave, self.drift), self.patch.straight(wave)
         if drift is None:
-            drift = -self.problem.entrainment_speed
-        return level.theory(self.patch.straight(wave), amplitude, drift, holds=holds)
+            return level.theory(straight, amplitude, -self.problem.entrainment_speed, holds=False)
+        holds = why_no_theory(self.problem) is None
+        return level.theory(straight, amplitude, drift, holds=holds)
 
 
 def _is_searched(problem: ContactProblem) -> bool:
@@ -288,12 +285,12 @@ class _Patch:
 
 def _streaks(waves: Sequence[WaveVector]) -> list[float]:
     """Return the wave numbers across of the streaks that oblique waves make, each once."""
-    found = [abs(wave.across) for wave in waves if not wave.along]
-    longitudinal = len(found)
+    longitudinal = [abs(wave.across) for wave in waves if not wave.along]
+    found: list[float] = []
     for number in (abs(wave.across) for wave in waves if wave.along and wave.across):
-        if not any(math.isclose(number, other) for other in found):
+        if not any(math.isclose(number, other) for other in longitudinal + found):
             found.append(number)
-    return found[longitudinal:]
+    return found
 
 
 @dataclass(frozen=True, slots=True)

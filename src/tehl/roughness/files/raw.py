@@ -1,4 +1,4 @@
-"""What a file of heights says, before anything is made of it, and checks that all readers share."""
+"""Heights of a file before preparation, and checks that all readers share."""
 
 import math
 from dataclasses import dataclass
