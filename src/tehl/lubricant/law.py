@@ -112,7 +112,15 @@ def functions(values: Any) -> Any:
 
 
 def limited(values: Any, least: float, most: float = math.inf) -> Any:
-    """Return a number or an array within limits."""
+    """Return values within limits.
+
+    Parameters
+    ----------
+    values : float or array
+        What is limited.
+    least, most : float
+        The limits; NaN stays NaN.
+    """
     if isinstance(values, float):
         return min(max(values, least), most)
     return np.clip(values, least, most)

@@ -66,7 +66,7 @@ class TaitDensity(DensityModel):
 
     def density(self, pressure: Values, temperature: Values | float) -> Values:
         """Return the density [kg/m^3] at ``pressure`` [Pa] and ``temperature`` [K]."""
-        return self.rho_0 / relative_volume(self, pressure, temperature)
+        return self.rho_0 / _relative_volume(self, pressure, temperature)
 
 
 class TaitDoolittle(ViscosityModel):
@@ -123,7 +123,7 @@ class TaitDoolittle(ViscosityModel):
         return self.occupied * limited(1.0 + self.occupied_expansion * warmer, 0.0)
 
     def _free(self, pressure: Any, temperature: Any) -> Any:
-        volume = relative_volume(self, pressure, temperature)
+        volume = _relative_volume(self, pressure, temperature)
         return limited(volume - self._core(temperature), LEAST_FREE)
 
     def viscosity(self, pressure: Values, temperature: Values | float) -> Values:
@@ -132,9 +132,7 @@ class TaitDoolittle(ViscosityModel):
         return exponential(self.eta_0, self.B * (ratio - self.occupied / (1.0 - self.occupied)))
 
 
-def relative_volume(
-    law: TaitDensity | TaitDoolittle, pressure: Values, temperature: Values | float
-) -> Values:
+def _relative_volume(law: TaitDensity | TaitDoolittle, pressure: Any, temperature: Any) -> Any:
     """Return ``V / V_R`` [-] at ``pressure`` [Pa] and ``temperature`` [K]."""
     steepness = 1.0 + law.bulk_modulus_slope
     strain = limited(steepness * pressure / _modulus(law, temperature), -0.9)

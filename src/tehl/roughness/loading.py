@@ -96,7 +96,7 @@ def _tile(surface: "Map", stamp: object) -> Tile:
     values = heights.values
     if surface.outside == "flat":
         width = _TAPER * min(heights.size) if surface.taper is None else surface.taper
-        values = tapered(values, heights.pixel, width)
+        values = tapered(heights, width)
     return Tile(
         heights=values,
         pixel=heights.pixel,

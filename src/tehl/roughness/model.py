@@ -76,6 +76,11 @@ class Roughness:
         Array
             Heights in the broadcast shape [m], positive outwards.
         """
+        along = np.asarray(x, dtype=np.float64) - speed * time
+        return self._at_rest(along, np.asarray(y, dtype=np.float64))
+
+    def _at_rest(self, x: Array, y: Array) -> Array:
+        """Return the heights [m] in the coordinates of the body [m]."""
         raise NotImplementedError
 
     def resolved_on(self, dx: float, dy: float) -> "Roughness":
@@ -96,15 +101,6 @@ class RoughnessModel(Roughness, BaseModel):
         """
         del length
         return ENDLESS
-
-    def height(self, x: Array, y: Array, time: float = 0.0, speed: float = 0.0) -> Array:
-        """Return the heights [m] at a time, as :meth:`Roughness.height`."""
-        along = np.asarray(x, dtype=np.float64) - speed * time
-        return self._at_rest(along, np.asarray(y, dtype=np.float64))
-
-    def _at_rest(self, x: Array, y: Array) -> Array:
-        """Return the heights [m] in the coordinates of the body [m]."""
-        raise NotImplementedError
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
         """Return sentences on what is unusual for a contact of ``width`` by ``length`` [m]."""

@@ -184,14 +184,14 @@ def gaussian_mean(heights: Array, pixel: tuple[float, float], cut_off: float) ->
     )
 
 
-def tapered(heights: Array, pixel: tuple[float, float], width: float) -> Array:
+def tapered(heights: Heights, width: float) -> Array:
     """Return heights that fall to zero over ``width`` [m] at all edges, with a flat rim around."""
     windows = []
-    for count, step in zip(heights.shape, reversed(pixel), strict=True):
+    for count, step in zip(heights.values.shape, reversed(heights.pixel), strict=True):
         edge = np.minimum(np.arange(count) + 0.5, count - np.arange(count) - 0.5)
         share = edge / max(min(width / step, 0.5 * count), 1e-9)
         windows.append(np.sin(0.5 * np.pi * np.clip(share, 0.0, 1.0)) ** 2)
-    return np.pad(heights * windows[0][:, None] * windows[1], _RIM)
+    return np.pad(heights.values * windows[0][:, None] * windows[1], _RIM)
 
 
 class Form(NamedTuple):

@@ -53,11 +53,10 @@ class _Added(Roughness):
         """Return the root mean square height Sq [m]; that of equal harmonics with their phases."""
         return math.hypot(root_mean_square(self._harmonics), *(part.rms for part in self._others))
 
-    def height(self, x: Array, y: Array, time: float = 0.0, speed: float = 0.0) -> Array:
-        """Return the sum of the heights [m], as :meth:`tehl.roughness.Roughness.height`."""
-        total = np.zeros(np.broadcast_shapes(np.shape(x), np.shape(y)))
+    def _at_rest(self, x: Array, y: Array) -> Array:
+        total = np.zeros(np.broadcast_shapes(x.shape, y.shape))
         for part in self.parts:
-            total += part.height(x, y, time, speed)
+            total += part.height(x, y)
         return total
 
     def resolved_on(self, dx: float, dy: float) -> Roughness:

@@ -83,11 +83,9 @@ class Tile(Roughness):
         """Return the wavelength 2 pi Sq / Sq' where it is shortest [m]."""
         return self._wavelengths[2]
 
-    def height(self, x: Array, y: Array, time: float = 0.0, speed: float = 0.0) -> Array:
-        """Return the heights [m], as :meth:`tehl.roughness.Roughness.height`."""
+    def _at_rest(self, x: Array, y: Array) -> Array:
         cosine, sine = direction(self.angle)
-        x = np.asarray(x, np.float64) - speed * time - self.centre[0]
-        y = np.asarray(y, np.float64) - self.centre[1]
+        x, y = x - self.centre[0], y - self.centre[1]
         along = x * cosine - y * sine if sine else x * cosine
         across = y * cosine + x * sine if sine else y * cosine
         ny, nx = self.heights.shape

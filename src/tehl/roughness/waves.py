@@ -126,7 +126,7 @@ class Wave(HarmonicModel):
     @property
     def components(self) -> tuple[WaveVector, ...]:
         """Return the one harmonic."""
-        return (wave_vector(self.amplitude, self.wavelength, self.angle, self.phase),)
+        return (_wave_vector(self.amplitude, self.wavelength, self.angle, self.phase),)
 
 
 class Crossed(HarmonicModel):
@@ -189,8 +189,8 @@ class Crossed(HarmonicModel):
     @property
     def components(self) -> tuple[WaveVector, ...]:
         """Return the harmonics; those of a product run along the sum and difference of both."""
-        first = wave_vector(self.amplitude, self.wavelength, self.angle, self.phase)
-        second = wave_vector(
+        first = _wave_vector(self.amplitude, self.wavelength, self.angle, self.phase)
+        second = _wave_vector(
             self.amplitude if self.amplitude_2 is None else self.amplitude_2,
             self.wavelength if self.wavelength_2 is None else self.wavelength_2,
             self.angle + 0.5 * math.pi if self.angle_2 is None else self.angle_2,
@@ -207,7 +207,7 @@ def _product(first: WaveVector, second: WaveVector) -> tuple[WaveVector, ...]:
     )
 
 
-def wave_vector(amplitude: float, wavelength: float, angle: float, phase: float) -> WaveVector:
+def _wave_vector(amplitude: float, wavelength: float, angle: float, phase: float) -> WaveVector:
     """Return the harmonic with crests ``wavelength`` [m] apart, turned by ``angle`` [rad]."""
     cosine, sine = direction(angle)
     number = 2.0 * math.pi / wavelength

@@ -83,7 +83,7 @@ def passing_wave(run: "TransientResult", surface: int, *, x: float = 0.0) -> Pas
     groups = run.start.groups
     nabla = nabla_of(shorter / run.start.scales.half_width_x, groups.M, groups.L)
     return PassingWave(
-        **ripple(*amplitudes),
+        **ripple(amplitudes),
         x=x,
         periods=periods,
         steps_per_period=steps,

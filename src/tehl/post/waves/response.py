@@ -2,7 +2,7 @@
 
 import cmath
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -61,8 +61,9 @@ class Ripple:
         return self.film_amplitude / self.amplitude
 
 
-def ripple(height: complex, film: complex, pressure: complex) -> dict[str, float]:
-    """Return the fields of :class:`Ripple` of complex amplitudes [m], [m], [Pa]."""
+def ripple(amplitudes: Iterable[complex]) -> dict[str, float]:
+    """Return the fields of :class:`Ripple` of complex height, film [m] and pressure [Pa]."""
+    height, film, pressure = amplitudes
     return {
         "amplitude": abs(height),
         "film_amplitude": abs(film),
@@ -131,7 +132,7 @@ def wave_responses(result: "Result", smooth: "Result | None" = None) -> tuple[Wa
     level = _flat_film(result, patch)
     return tuple(
         WaveResponse(
-            **ripple(*amplitudes),
+            **ripple(amplitudes),
             wavelength=wave.wavelength,
             angle=wave.angle,
             points_per_wave=patch.points_per_wave(wave),

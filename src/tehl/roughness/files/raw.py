@@ -58,7 +58,15 @@ def check_count(shape: tuple[int, ...]) -> None:
 
 
 def check_bytes(there: int, needed: int, shape: tuple[int, ...]) -> None:
-    """Reject a file whose header claims more than it holds."""
+    """Reject a file whose header claims more than it holds.
+
+    Parameters
+    ----------
+    there, needed : int
+        Bytes of the file, and of the points.
+    shape : (ny, nx)
+        Points that the header claims.
+    """
     if there < needed:
         raise InputError(
             f"is truncated: {_times(shape)} points take {needed} bytes, and {there} are there"
