@@ -1,10 +1,28 @@
-"""Names for array types."""
+"""Names for array types, and ``np`` for modules that also work without arrays.
 
-import numpy as np
-from numpy.typing import NDArray
+Numpy takes 0.17 s to load, and a case is stated and explained without it: modules that both do so
+import ``np`` and ``Array`` from here, and numpy is loaded when ``np`` is first used.
+"""
 
-Array = NDArray[np.float64]
-SingleArray = NDArray[np.float32]
-IntArray = NDArray[np.int64]
-BoolArray = NDArray[np.bool_]
-FlagArray = NDArray[np.uint8]
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+    SingleArray = NDArray[np.float32]
+    IntArray = NDArray[np.int64]
+    BoolArray = NDArray[np.bool_]
+    FlagArray = NDArray[np.uint8]
+else:
+
+    class _Numpy:
+        """The module numpy, imported by the first use of a function."""
+
+        def __getattr__(self, name: str) -> object:
+            return getattr(importlib.import_module("numpy"), name)
+
+    np = _Numpy()
+    Array = SingleArray = IntArray = BoolArray = FlagArray = Any

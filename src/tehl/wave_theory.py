@@ -162,7 +162,7 @@ def expected_waves(
     flat = FlatFilm(
         film=film,
         bulk_modulus=bulk_modulus(oil.density, pressure, temperature),
-        viscosity=oil.viscosity.viscosity_at(pressure, temperature),
+        viscosity=oil.viscosity.viscosity(pressure, temperature),
         reduced_modulus=problem.reduced_modulus,
     )
     for wave, drift in drifting_waves(problem):

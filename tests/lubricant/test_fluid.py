@@ -20,7 +20,7 @@ def test_every_named_oil_has_a_source_and_usual_values(name: str):
 
 
 @pytest.mark.parametrize("grade", [32, 68, 150, 320])
-def test_the_iso_grades_follow_the_relations_they_cite(grade: int):
+def test_the_iso_grades_follow_their_cited_relations(grade: int):
     law = oil(f"iso-vg-{grade}").viscosity
     centipoise = grade * 0.87
     assert law.eta_0 == pytest.approx(centipoise * 1e-3, rel=1e-3)
@@ -29,7 +29,7 @@ def test_the_iso_grades_follow_the_relations_they_cite(grade: int):
 
 
 @pytest.mark.parametrize("name", [name for name in library() if name != "mourier-2006"])
-def test_a_named_oil_has_what_heat_takes(name: str):
+def test_a_named_oil_has_its_thermal_properties(name: str):
     lubricant = oil(name)
     assert lubricant.conductivity
     assert lubricant.heat_capacity
@@ -58,7 +58,7 @@ def test_a_data_sheet_takes_the_density_of_the_oil_at_40_degrees():
     assert stated.viscosity.eta_0 == pytest.approx(68e-6 * 900)
 
 
-def test_thermal_properties_grow_with_pressure_where_the_oil_says_so():
+def test_thermal_properties_grow_with_pressure_where_the_oil_states_it():
     table = {"value": "0.154 W/m/K", "slope": "1.40 1/GPa", "saturation": "0.34 1/GPa"}
     heat = {"value": 2000, "slope": "0.1 1/GPa"}
     parts = oil("mineral-oil").model_dump() | {"conductivity": table, "heat_capacity": heat}
@@ -79,6 +79,6 @@ def test_thermal_properties_grow_with_pressure_where_the_oil_says_so():
         oil("mourier-2006").conductivity_at(pressure)
 
 
-def test_an_unknown_oil_lists_the_known():
+def test_an_unknown_oil_lists_the_known_oils():
     with pytest.raises(InputError, match="mineral-oil"):
         oil("olive")

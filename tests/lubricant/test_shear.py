@@ -85,7 +85,7 @@ def test_small_stresses_follow_the_series():
     assert carreau.log_thinning(s) == pytest.approx(s**2 / 4, rel=1e-3)
 
 
-def test_the_limit_is_held_and_grows_with_pressure():
+def test_the_stress_stays_near_the_limit_which_grows_with_pressure():
     law = Limiting(slope=0.04)
     pressure = np.array([0.0, 1e9])
     assert law.stress_scale(pressure) == pytest.approx([1e5, 4e7])
@@ -104,7 +104,7 @@ def test_scales_have_the_shape_of_the_pressure_and_no_stress_overflows(law: Law)
 @pytest.mark.parametrize(
     "parts", [{"law": Carreau, "modulus": 1e6, "exponent": 0.0}, {"law": Limiting}]
 )
-def test_a_law_without_sense_is_refused(parts: dict[str, object]):
+def test_an_impossible_law_is_rejected(parts: dict[str, object]):
     law = parts.pop("law")
     with pytest.raises(ValidationError):
         law.model_validate(parts)  # type: ignore[attr-defined]

@@ -37,7 +37,7 @@ def test_the_dry_gap_closes_in_the_contact(ellipticity):
 
 @pytest.mark.parametrize("kappa", [0.5, 1.6, 4.0])
 def test_far_away_the_dry_gap_is_the_undeformed_one(kappa):
-    """H -> X^2/2 + D kappa^2 Y^2/2 - approach + load term; the second difference tells D."""
+    """H -> X^2/2 + D kappa^2 Y^2/2 - approach + load term; D from the second difference."""
     k = max(kappa, 1 / kappa)
     b, d = elliptic_b_d(1 - 1 / k**2)
     radius_ratio = 1 / (k**2 * b / d) if kappa >= 1 else k**2 * b / d
@@ -90,7 +90,7 @@ def test_mass_that_leaves_sideways_is_counted(result):
     assert flow.imbalance == pytest.approx(flow.sideways[-2] / flow.forward[0], rel=0.1)
 
 
-def test_behind_the_cavitation_front_nothing_is_claimed(result):
+def test_the_imbalance_covers_full_sections_only(result):
     flow = mass_flow(result)
     assert not flow.full.any()
     assert flow.imbalance == 0.0

@@ -22,7 +22,7 @@ def test_rises_are_over_the_inlet(thermal):
     assert found.surface_2_rise_max == pytest.approx(0.8 * found.surface_1_rise_max)
 
 
-def test_the_hottest_place_is_a_node_of_the_upper_half(thermal):
+def test_the_hottest_place_is_a_node_with_y_not_negative(thermal):
     x, y, zeta = thermal.temperature.film_rise_max_at
     column = int(np.flatnonzero(thermal.scaled.x == x)[0])
     row = int(np.flatnonzero(thermal.scaled.y == y)[0])
@@ -67,7 +67,7 @@ def test_the_origin_between_nodes_is_interpolated(result):
     assert fields.at_origin(3.0 + x - 2 * y + x**2) == pytest.approx(3.0)
 
 
-def test_the_error_of_the_balance_is_what_is_missing(thermal):
+def test_the_error_of_the_balance_is_the_missing_power(thermal):
     balance = thermal.heat.balance
     total = balance.surface_1 + balance.surface_2
     assert balance.error == pytest.approx(0.01 * total / (1.03 * total))

@@ -31,7 +31,7 @@ def passed(amplitude: float = 0.01, points: int = 65) -> TransientResult:
     )
 
 
-def test_a_wave_is_left_as_the_published_curve_says():
+def test_the_amplitude_follows_the_published_curve():
     found = passing_wave(passed(), 1)
     assert found.nabla == pytest.approx(2.236, rel=1e-3)
     # a fit, below computed waves by 6 to 17 %; this coarse grid adds to it

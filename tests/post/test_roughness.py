@@ -73,7 +73,7 @@ def test_ripples_are_counted_with_their_depth():
     assert found.ripples_y.count == 0
 
 
-def test_the_micro_film_is_what_the_smooth_film_lacks(rough, smooth):
+def test_the_micro_film_is_the_rough_film_less_the_smooth_one(rough, smooth):
     ripples = micro_film(rough, smooth)
     assert ripples.by_reference
     assert np.abs(ripples.film).max() == pytest.approx(
@@ -82,7 +82,7 @@ def test_the_micro_film_is_what_the_smooth_film_lacks(rough, smooth):
     assert ripples.pressure.max() == pytest.approx(PRESSURE * rough.scales.hertz_pressure)
 
 
-def test_a_filter_stands_in_for_a_missing_reference_run(rough, smooth):
+def test_a_filter_replaces_a_missing_reference_run(rough, smooth):
     by_reference, by_filter = micro_film(rough, smooth), micro_film(rough)
     assert not by_filter.by_reference
     assert typical_wavelength(rough) == pytest.approx(
@@ -95,12 +95,12 @@ def test_a_filter_stands_in_for_a_missing_reference_run(rough, smooth):
     assert np.corrcoef(one.ravel(), other.ravel())[0, 1] > 0.98
 
 
-def test_films_on_other_grids_are_not_compared(rough, result):
+def test_films_on_different_grids_are_not_compared(rough, result):
     with pytest.raises(InputError, match="one grid"):
         micro_film(rough, result)
 
 
-def test_the_smooth_reference_is_a_case_of_its_own(rough):
+def test_the_smooth_reference_is_a_steady_case(rough):
     reference = smooth_reference(rough.problem)
     assert ContactProblem.model_validate(reference.model_dump(mode="json")) == reference
     assert not reference.is_rough
@@ -109,7 +109,7 @@ def test_the_smooth_reference_is_a_case_of_its_own(rough):
         smooth_reference(reference)
 
 
-def test_the_effect_is_rough_over_smooth_and_comes_back_from_a_file(rough, smooth, tmp_path):
+def test_the_effect_is_rough_over_smooth_and_survives_a_file(rough, smooth, tmp_path):
     effect = roughness_effect(rough, smooth)
     assert effect.central == 1.0  # the numbers of the fixture
     assert effect.largest_pressure == pytest.approx(

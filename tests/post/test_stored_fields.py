@@ -17,13 +17,13 @@ OPTIONS = Options(points=65, domain=DOMAIN)
 
 @pytest.fixture(scope="module")
 def run():
-    """A wave on each surface comes in, in pure rolling."""
+    """A wave on each surface enters the contact in pure rolling."""
     return solve_transient(
         in_time(5.0, surface_1=wave(), surface_2=wave(0.005, phase=1.0)), OPTIONS
     )
 
 
-def test_an_instant_has_the_fields_and_heights_of_its_time(run):
+def test_a_snapshot_has_the_fields_and_heights_of_its_time(run):
     last, film = film_at(run), run.frames.film[-1]
     np.testing.assert_allclose(last.film_thickness, film, rtol=1e-6)
     assert last.film_scaled.minimum == pytest.approx(float(film.min() / last.scales.film_thickness))
@@ -37,7 +37,7 @@ def test_an_instant_has_the_fields_and_heights_of_its_time(run):
     )
 
 
-def test_the_film_of_the_beginning_is_the_smooth_reference_of_each_field(run):
+def test_the_initial_film_is_the_smooth_reference_of_each_field(run):
     smooth = smooth_start(run)
     none, some = (micro_film(film_at(run, k), smooth) for k in (0, -1))
     middle = np.ix_(np.abs(run.start.scaled.y) < 0.4, np.abs(run.start.scaled.x) < 0.4)
@@ -45,26 +45,26 @@ def test_the_film_of_the_beginning_is_the_smooth_reference_of_each_field(run):
     assert 0.2 < np.abs(some.film[middle]).max() / np.abs(run.frames.height[-1]).max() < 1.1
 
 
-def test_the_numbers_of_rough_films_are_those_of_the_instant(run):
+def test_the_numbers_of_rough_films_are_those_of_the_snapshot(run):
     last = film_at(run)
-    told = rough_film(last, smooth_start(run))
-    assert told.lambda_ratio == pytest.approx(
-        run.history.film_central[-1] / told.composite, rel=0.2
+    found = rough_film(last, smooth_start(run))
+    assert found.lambda_ratio == pytest.approx(
+        run.history.film_central[-1] / found.composite, rel=0.2
     )
-    assert area_below(last, 2.0 * told.lambda_ratio * told.composite) == pytest.approx(1.0)
+    assert area_below(last, 2.0 * found.lambda_ratio * found.composite) == pytest.approx(1.0)
 
 
-def test_an_instant_that_was_not_kept_is_refused(run):
+def test_a_field_that_was_not_stored_is_an_error(run):
     with pytest.raises(InputError, match="frame = 3: the run has 3 stored fields"):
         film_at(run, 3)
 
 
-def test_a_run_that_began_between_rough_surfaces_has_no_reference():
+def test_a_run_with_a_rough_start_has_no_reference():
     standing = in_time(0.2, surface_1=wave(), transient={"start": "standing"})
     assert smooth_start(solve_transient(standing, OPTIONS)) is None
 
 
-def test_a_wave_that_is_found_in_a_map_moves_with_its_surface(tmp_path, run):
+def test_a_wave_found_in_a_map_moves_with_its_surface(tmp_path, run):
     """In pure rolling the inlet decides of it, as of the same wave by its formula."""
     units = run.start.scales
     pixel = 1.5 * units.half_width_x / 32.0

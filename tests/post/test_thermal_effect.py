@@ -26,7 +26,7 @@ def warm() -> ContactProblem:
     )
 
 
-def test_the_reference_run_is_a_case_of_its_own(warm):
+def test_the_reference_run_is_an_isothermal_case(warm):
     reference = isothermal_reference(warm)
     assert ContactProblem.model_validate(reference.model_dump(mode="json")) == reference
     assert reference.thermal is None
@@ -50,7 +50,7 @@ def test_the_effect_is_thermal_over_isothermal(result, warm):
     assert "Wilson-Sheu" in [factor.formula for factor in effect.inlet_factors]
 
 
-def test_the_effect_comes_back_from_a_file_as_it_was(result, warm, tmp_path):
+def test_the_effect_survives_a_file(result, warm, tmp_path):
     effect = thermal_effect(replace(result, problem=warm), result)
     save(result, tmp_path / "warm.nc", extra={"thermal_effect": effect_block(effect)})
     assert stored_effect(load_summary(tmp_path / "warm.nc")) == effect

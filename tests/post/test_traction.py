@@ -57,13 +57,13 @@ def test_friction_power_is_sliding_and_rolling(sheared):
     assert found.friction_power > 0
 
 
-def test_what_no_oil_bears_is_not_credible(sheared):
+def test_a_traction_beyond_that_of_oils_is_not_credible(sheared):
     assert sheared.traction.credible
     shear = replace(sheared.shear, mid_film=3 * sheared.shear.mid_film)
     assert not replace(sheared, shear=shear).traction.credible
 
 
-def test_what_lies_outside_the_pressure_does_not_count(sheared):
+def test_stresses_outside_the_pressurised_film_do_not_count(sheared):
     dry = sheared.scaled.pressure <= 0
     shear = replace(sheared.shear, mid_film=np.where(dry, np.nan, sheared.shear.mid_film))
     found = replace(sheared, shear=shear).traction

@@ -22,7 +22,7 @@ def wave_case(**changes: float) -> dict:
     return CASE | {"surface_1": surface, "transient": {"start": "standing"}}
 
 
-def test_a_dent_stands_still_for_somebody_on_its_surface():
+def test_a_dent_is_at_rest_in_the_frame_of_its_surface():
     seen = moving_profiles(make_transient(points=65), 1, reach=1e-4)
     whole = ~np.isnan(seen.height).any(axis=1)
     assert whole.sum() > 10
@@ -33,7 +33,7 @@ def test_a_dent_stands_still_for_somebody_on_its_surface():
     assert np.abs(middle).max() <= 1.1 * (seen.offset[1] - seen.offset[0])
 
 
-def test_somebody_on_the_other_surface_sees_it_pass():
+def test_a_dent_moves_in_the_frame_of_the_other_surface():
     run = make_transient(points=65)
     seen = moving_profiles(run, 2, start=-2e-4)
     assert seen.place[0] == -2e-4
@@ -49,7 +49,7 @@ def carrying(*features: dict) -> TransientResult:
     return replace(run, start=replace(run.start, problem=start.problem))
 
 
-def test_of_several_features_the_one_is_to_be_said():
+def test_several_features_require_a_start():
     dent = {"type": "bump", "amplitude": -1e-7, "radius": 5e-5, "x": -6e-4}
     wave = {"type": "wave", "amplitude": 1e-8, "wavelength": LENGTH}
     assert moving_profiles(carrying(dent, wave), 1).place[0] == -6e-4
@@ -59,14 +59,14 @@ def test_of_several_features_the_one_is_to_be_said():
     assert moving_profiles(two, 1, start=-9e-4).place[0] == -9e-4
 
 
-def test_a_feature_beside_the_line_of_the_profiles_is_refused():
+def test_a_feature_beside_the_line_of_the_profiles_is_rejected():
     dent = {"type": "bump", "amplitude": -1e-7, "radius": 5e-5, "x": -6e-4}
     with pytest.raises(InputError, match=r"is at y = 0\.0001 m, but profiles are stored"):
         moving_profiles(carrying(dent | {"y": 1e-4}), 1)
     assert moving_profiles(carrying(dent | {"y": 2e-5}), 1).place[0] == -6e-4
 
 
-def test_what_lies_outside_the_domain_is_not_a_number():
+def test_profiles_outside_the_domain_are_nan():
     assert np.isnan(moving_profiles(make_transient(), 1).film[-1]).any()
 
 
@@ -80,7 +80,7 @@ def test_what_lies_outside_the_domain_is_not_a_number():
         ("surface_1 has no wave", lambda run: passing_wave(run, 1)),
     ],
 )
-def test_what_cannot_be_is_told(words, call):
+def test_invalid_arguments_are_reported(words, call):
     with pytest.raises(InputError, match=words):
         call(make_transient())
 
@@ -107,7 +107,7 @@ def test_the_largest_change_is_that_of_the_film_in_the_dent():
     assert thinnest.value - thinnest.start == changes.min()
 
 
-def test_a_feature_passes_the_centre_when_it_has_come_from_where_it_was():
+def test_a_feature_passes_the_centre_after_its_distance_over_its_speed():
     run = make_transient()
     ((part, time),) = passing_features(run)
     assert (part.surface, part.roughness.type) == ("surface_1", "bump")
@@ -116,7 +116,7 @@ def test_a_feature_passes_the_centre_when_it_has_come_from_where_it_was():
 
 
 @pytest.mark.parametrize("phase", [0.0, 2.0])
-def test_what_is_left_of_a_wave_is_found(phase):
+def test_the_amplitude_of_a_passing_wave_is_found(phase):
     run = passing(wave_case(phase=phase), points=65, flattened=0.3)
     found = passing_wave(run, 1, x=2e-5)
     assert found.amplitude == pytest.approx(1e-8, rel=0.01)
@@ -128,14 +128,14 @@ def test_what_is_left_of_a_wave_is_found(phase):
     assert 1 <= found.periods <= 4
 
 
-def test_a_run_that_ends_too_early_is_told():
+def test_a_run_that_ends_too_early_is_reported():
     case = wave_case()
     case["transient"] = {"entrance": 6.0}
     with pytest.raises(InputError, match=r"increase transient\.duration"):
         passing_wave(passing(case, points=65), 1)
 
 
-def test_a_wave_of_too_few_steps_is_told():
+def test_a_wave_of_too_few_steps_is_reported():
     with pytest.raises(InputError, match="8 or more; take more nodes"):
         passing_wave(passing(wave_case(wavelength=1e-4)), 1)
 

@@ -25,7 +25,7 @@ from tests.fixtures_rough import (
 )
 
 
-def test_ripples_of_an_oblique_wave_are_parted_from_the_streaks_it_leaves(rough, smooth):
+def test_ripples_of_an_oblique_wave_are_separated_from_its_streaks(rough, smooth):
     (wave,) = wave_responses(rough, smooth)
     unit, width = rough.scales.film_thickness, rough.scales.half_width_x
     assert wave.wavelength == pytest.approx(WAVELENGTH * width)
@@ -40,7 +40,7 @@ def test_ripples_of_an_oblique_wave_are_parted_from_the_streaks_it_leaves(rough,
 
 def test_without_the_smooth_film_the_ripples_are_nearly_the_same(rough):
     (wave,) = wave_responses(rough)
-    # the pressure of Hertz is no parabola: one per cent of the ripple
+    # the Hertz pressure is not a parabola: one per cent of the ripple
     assert wave.film_ratio == pytest.approx(LEFT, rel=0.01)
     assert wave.pressure_amplitude == pytest.approx(
         PRESSURE * rough.scales.hertz_pressure, rel=0.02
@@ -98,7 +98,7 @@ def with_lubricant(rough: Result, **changes: Any) -> Result:
 
 
 @pytest.mark.parametrize("degrees", [0.0, 30.0, 45.0, -70.0])
-def test_a_wave_that_nobody_states_is_found_as_it_is(smooth, degrees):
+def test_an_unstated_wave_is_found(smooth, degrees):
     rough = make_rough(angle=math.radians(degrees))
     (stated,) = wave_responses(rough, smooth)
     (found,) = wave_responses(with_surface(rough, RANDOM), smooth)
@@ -108,7 +108,7 @@ def test_a_wave_that_nobody_states_is_found_as_it_is(smooth, degrees):
     assert found.theory.film_ratio == pytest.approx(stated.theory.film_ratio, rel=0.01)
 
 
-def test_of_broad_band_heights_no_wave_is_told_but_that_none_stands_out(rough):
+def test_broad_band_heights_have_a_note_instead_of_waves(rough):
     noise = np.random.default_rng(1).standard_normal(rough.film_thickness.shape)
     heights = SurfaceHeights(surface_1=0.0 * noise, surface_2=1e-8 * noise)
     random = with_surface(replace(rough, heights=heights), RANDOM)
@@ -132,7 +132,7 @@ def test_streaks_too_wide_for_the_middle_are_part_of_the_background(smooth):
     assert wave.film_ratio == pytest.approx(LEFT, rel=0.01)
 
 
-def test_theory_is_left_out_where_oil_shears_thin_or_heats_and_it_is_said_why(rough, smooth):
+def test_theory_is_omitted_with_a_note_for_shear_thinning_or_heated_oil(rough, smooth):
     eyring = with_lubricant(rough, shear={"law": "eyring", "stress": 5e6})
     (wave,) = wave_responses(eyring, smooth)
     assert wave.theory.film_ratio is wave.theory.pressure is None
@@ -145,7 +145,7 @@ def test_theory_is_left_out_where_oil_shears_thin_or_heats_and_it_is_said_why(ro
     assert wave_notes(rough) == ()
 
 
-def test_what_the_inlet_decides_needs_no_theory():
+def test_waves_left_to_the_inlet_need_no_theory():
     along = with_lubricant(make_rough(angle=0.5 * math.pi), shear={"law": "eyring", "stress": 5e6})
     assert wave_responses(along)[0].theory.left_to_inlet
     assert wave_notes(along) == ()

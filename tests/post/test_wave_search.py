@@ -1,4 +1,4 @@
-"""Waves in heights: each is found as it is, and none where there is none."""
+"""Search for waves in heights: all are found, without false ones."""
 
 import math
 
@@ -42,7 +42,7 @@ def test_a_wave_is_found_between_the_bins_under_noise_and_form(length, degrees):
     assert angle == pytest.approx(degrees, abs=0.5)
 
 
-def test_a_pure_wave_has_no_second():
+def test_a_pure_wave_is_found_alone():
     assert vectors(1e-7 * wave(0.45, 30.0)) == [pytest.approx((0.45, 30.0), rel=1e-4)]
 
 
@@ -74,7 +74,7 @@ def test_flat_heights_have_none():
 
 
 @pytest.mark.parametrize("nodes", [4.2, 5.0])
-def test_a_wave_of_few_nodes_on_a_very_fine_grid_is_no_longer_one(nodes):
+def test_a_short_wave_on_a_very_fine_grid_is_not_aliased(nodes):
     axis = np.linspace(-4.5, 1.5, 2049)
     x, y = axis, np.linspace(-3.0, 3.0, 2049)
     length = nodes * (axis[1] - axis[0])

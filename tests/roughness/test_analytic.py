@@ -71,13 +71,13 @@ def test_a_sum_is_the_sum_of_its_parts(parts):
 
 
 @given(surfaces)
-def test_a_surface_that_says_it_is_even_is_even(rough):
+def test_an_even_surface_mirrors_at_y_zero(rough):
     if rough.is_even_in_y:
         np.testing.assert_allclose(rough.height(X, Y), rough.height(X, -Y), atol=10 * SMALL)
 
 
 @given(surfaces)
-def test_a_surface_that_says_it_is_smooth_is_zero(rough):
+def test_a_smooth_surface_is_zero(rough):
     assert not (rough.is_smooth and rough.height(X, Y).any())
     assert not (rough.is_smooth and math.isfinite(rough.shortest_wavelength))
 
@@ -115,7 +115,7 @@ def test_a_surface_is_stored_and_read_again(rough):
         (Dimple(amplitude=1e-7, width=1e-4, y=1e-5), False),
     ],
 )
-def test_symmetry_is_known(rough, even):
+def test_symmetry_in_y_is_detected(rough, even):
     assert rough.is_even_in_y is even
     assert Sum(parts=(rough, Smooth())).is_even_in_y is even
 
@@ -189,7 +189,7 @@ def test_a_list_is_a_sum():
     assert rough.shortest_wavelength == pytest.approx(8e-5)
 
 
-def test_the_schema_knows_tables_and_lists():
+def test_the_schema_has_tables_and_lists():
     schema = Body.model_json_schema()["properties"]["roughness"]
     assert [kind.get("type") for kind in schema["anyOf"]] == [None, "array"]
 
@@ -213,6 +213,6 @@ def test_the_schema_knows_tables_and_lists():
         ({"type": "bump", "amplitude": "nan", "radius": 1e-5}, "not a number"),
     ],
 )
-def test_wrong_tables_are_told(stated, words):
+def test_wrong_tables_are_reported(stated, words):
     with pytest.raises(ValidationError, match=words):
         surface(stated)

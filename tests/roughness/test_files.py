@@ -1,4 +1,4 @@
-"""Files of heights: right ones are read, wrong ones are told in a sentence."""
+"""Files of heights: right ones are read, wrong ones are reported in a sentence."""
 
 import gc
 import hashlib
@@ -44,7 +44,7 @@ def test_a_table_of_heights_is_read(tmp_path, mark):
     assert (found.unit, found.pixel, found.kind) == (None, None, "table of heights")
 
 
-def test_decimal_commas_are_read_where_something_else_parts_the_cells(tmp_path):
+def test_decimal_commas_are_read_where_another_mark_separates_the_cells(tmp_path):
     path = tmp_path / "map.txt"
     path.write_text("1,5;2,5;nan;;\n3,5;4,5;-1e-3;0;\n")
     np.testing.assert_array_equal(
@@ -72,7 +72,7 @@ NAN = np.nan
 
 @pytest.mark.parametrize("word", ["nan", "NaN", "na", "N/A", "bad", "-", "***", "inf"])
 @pytest.mark.parametrize("mark", [",", ";", "\t", " "])
-def test_a_first_row_without_heights_is_no_line_of_names(tmp_path, word, mark):
+def test_a_first_row_without_heights_is_not_a_line_of_names(tmp_path, word, mark):
     path = tmp_path / "map.csv"
     path.write_text("\n".join(map(mark.join, [[word] * 4, list("1234"), list("5678")])))
     found = read(path).heights
@@ -104,7 +104,7 @@ def test_a_mark_at_the_end_is_a_gap_only_where_one_is(tmp_path, text, expected):
         np.testing.assert_array_equal(read(path, layout="matrix").heights, expected)
 
 
-def test_a_table_of_three_columns_is_no_map_unless_it_is_said(tmp_path):
+def test_a_table_of_three_columns_needs_a_layout(tmp_path):
     path = tmp_path / "map.csv"
     np.savetxt(path, HEIGHTS[:, :3])
     with pytest.raises(InputError, match="not a lattice of x and y"):
@@ -127,7 +127,7 @@ def test_netcdf_is_read_with_units_and_axes(tmp_path):
 
 
 @pytest.mark.parametrize("engine", ["scipy", "h5netcdf"])
-def test_netcdf_in_the_order_of_images_is_turned_round(tmp_path, engine):
+def test_netcdf_in_the_order_of_images_is_reversed(tmp_path, engine):
     """Rows from the top down, and columns from right to left."""
     ny, nx = HEIGHTS.shape
     places = {"y": np.arange(ny)[::-1] * 3.0, "x": -2.0 * np.arange(nx)}
@@ -138,7 +138,7 @@ def test_netcdf_in_the_order_of_images_is_turned_round(tmp_path, engine):
     assert found.pixel == (2.0, 3.0)
 
 
-def test_netcdf_with_uneven_falling_places_is_told(tmp_path):
+def test_netcdf_with_uneven_falling_coordinates_is_reported(tmp_path):
     places = {"y": -(np.arange(HEIGHTS.shape[0]) ** 2.0)}
     xr.Dataset({"z": (("y", "x"), HEIGHTS)}, coords=places).to_netcdf(tmp_path / "a.nc")
     with pytest.raises(InputError, match="along y that do not follow at equal"):
@@ -194,7 +194,7 @@ def test_files_of_instruments_need_an_extra_or_are_read(tmp_path):
 
 
 def npy(shape, dtype="<f8", content=b""):
-    """Return a .npy file whose header says what it wants."""
+    """Return a .npy file with any header."""
     file = io.BytesIO()
     np.lib.format.write_array_header_1_0(
         file, {"descr": dtype, "fortran_order": False, "shape": shape}
@@ -254,14 +254,14 @@ WRONG = {
 
 
 @pytest.mark.parametrize("case", WRONG)
-def test_wrong_files_are_told(tmp_path, case):
+def test_wrong_files_are_reported(tmp_path, case):
     name, content, words = WRONG[case]
     path = tmp_path / name
     path.write_bytes(content)
-    with pytest.raises(InputError, match=words) as told:
+    with pytest.raises(InputError, match=words) as error:
         Map(file=str(path), unit="um", pixel="2 um").load()
-    assert str(path) in str(told.value)
-    assert "\n" not in str(told.value)
+    assert str(path) in str(error.value)
+    assert "\n" not in str(error.value)
 
 
 @pytest.mark.parametrize(
@@ -282,14 +282,14 @@ def test_wrong_files_are_told(tmp_path, case):
         ({"feature": "&lol;"}, "not XML"),
     ],
 )
-def test_wrong_x3p_are_told(tmp_path, changes, words):
+def test_wrong_x3p_are_reported(tmp_path, changes, words):
     path = write_x3p(tmp_path / "map.x3p", HEIGHTS, **changes)
     with pytest.raises(InputError, match=words):
         read(path)
 
 
 @pytest.mark.parametrize("method", [zipfile.ZIP_LZMA, zipfile.ZIP_BZIP2, zipfile.ZIP_DEFLATED])
-def test_a_flipped_byte_of_packed_heights_is_told_or_changes_nothing(tmp_path, method):
+def test_a_flipped_byte_of_packed_heights_is_reported_or_without_effect(tmp_path, method):
     path = write_x3p(tmp_path / "map.x3p", HEIGHTS, method=method)
     whole = path.read_bytes()
     start = whole.index(b"bindata/data.bin") + 16
@@ -297,18 +297,18 @@ def test_a_flipped_byte_of_packed_heights_is_told_or_changes_nothing(tmp_path, m
         path.write_bytes(whole[:place] + bytes([whole[place] ^ 0xFF]) + whole[place + 1 :])
         try:
             np.testing.assert_array_equal(read(path).heights, HEIGHTS)
-        except InputError as told:
-            assert "not a whole x3p" in str(told)  # noqa: PT017 (a byte may say nothing)
+        except InputError as error:
+            assert "not a whole x3p" in str(error)  # noqa: PT017 (a byte may have no effect)
 
 
 @pytest.mark.parametrize("encoding", ["foo", "rot13", "hex", "utf-7"])
-def test_a_header_in_a_foreign_encoding_is_told(tmp_path, encoding):
+def test_a_header_in_an_unknown_encoding_is_reported(tmp_path, encoding):
     path = write_x3p(tmp_path / "map.x3p", HEIGHTS, encoding=encoding)
     with pytest.raises(InputError, match=r"encoding that cannot be read, .*: it must be UTF-8"):
         read(path)
 
 
-def test_damaged_netcdf_is_told_without_noise(tmp_path, monkeypatch):
+def test_damaged_netcdf_is_reported_without_warnings(tmp_path, monkeypatch):
     noise = []
     monkeypatch.setattr("sys.unraisablehook", noise.append)
     path = tmp_path / "a.nc"
@@ -330,7 +330,7 @@ def test_hdf5_without_names_of_dimensions_is_read_without_warnings(tmp_path, rec
 
 
 @pytest.mark.parametrize("way", ["storage", "link", "link in a group", "virtual"])
-def test_hdf5_that_reads_another_file_is_refused(tmp_path, way):
+def test_hdf5_that_reads_another_file_is_rejected(tmp_path, way):
     HEIGHTS.tofile(tmp_path / "other.bin")
     with h5py.File(tmp_path / "other.nc", "w") as file:
         file["z"] = HEIGHTS
@@ -350,7 +350,7 @@ def test_hdf5_that_reads_another_file_is_refused(tmp_path, way):
         read(tmp_path / "a.nc")
 
 
-def test_hdf5_of_an_instrument_reads_no_other_file_either(tmp_path, monkeypatch):
+def test_hdf5_of_an_instrument_does_not_read_another_file(tmp_path, monkeypatch):
     reader = SimpleNamespace(open_topography=lambda *_, **__: pytest.fail("was opened"))
     monkeypatch.setitem(sys.modules, "SurfaceTopography", SimpleNamespace(IO=reader))
     monkeypatch.setitem(sys.modules, "SurfaceTopography.IO", reader)
@@ -360,7 +360,7 @@ def test_hdf5_of_an_instrument_reads_no_other_file_either(tmp_path, monkeypatch)
         read(tmp_path / "a.datx")
 
 
-def test_no_code_of_a_pickle_runs(tmp_path):
+def test_code_in_a_pickle_does_not_run(tmp_path):
     class Bomb:
         def __reduce__(self):
             return (open, (str(tmp_path / "executed"), "w"))
@@ -371,7 +371,7 @@ def test_no_code_of_a_pickle_runs(tmp_path):
     assert not (tmp_path / "executed").exists()
 
 
-def test_places_that_are_no_files_are_told(tmp_path):
+def test_places_that_are_not_files_are_reported(tmp_path):
     for name, words in (
         (str(tmp_path), "is a folder"),
         (str(tmp_path / "none.npy"), "does not exist"),
@@ -383,14 +383,14 @@ def test_places_that_are_no_files_are_told(tmp_path):
             checked(name)
 
 
-def test_a_bomb_of_zeros_is_not_unpacked(tmp_path):
+def test_a_zip_bomb_is_not_unpacked(tmp_path):
     path = write_x3p(tmp_path / "map.x3p", np.zeros((3000, 3000)), nx=10, ny=10)
     assert path.stat().st_size < 10**6
     with pytest.raises(InputError, match="larger than its header allows"):
         read(path)
 
 
-def test_a_header_that_lies_about_its_length_is_told(tmp_path):
+def test_a_wrong_length_in_a_header_is_reported(tmp_path):
     path = tmp_path / "a.npy"
     path.write_bytes(b"\x93NUMPY\x02\x00" + struct.pack("<I", 2**32 - 1) + b"{")
     with pytest.raises(InputError, match="header cannot be read"):

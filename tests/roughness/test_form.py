@@ -1,4 +1,4 @@
-"""The form of a body that is left in a map is asked for."""
+"""The form of a body that is left in a map is reported."""
 
 import numpy as np
 import pytest
@@ -20,35 +20,35 @@ def stated(folder, heights, **keys):
     )
 
 
-def questions(folder, heights, **keys):
+def notes(folder, heights, **keys):
     return [one for one in stated(folder, heights, **keys).fits(9e-5, 9e-5) if "form" in one]
 
 
-def test_the_radius_of_a_ball_is_found_and_asked_for(tmp_path):
+def test_the_radius_of_a_ball_is_found_and_reported(tmp_path):
     ball = ROUGH - (X**2 + Y**2) / (2 * 20e-3)
-    (told,) = questions(tmp_path, ball)
-    assert 'radii of 20 mm along x and of 20 mm along y (level = "plane")' in told
-    assert told.endswith('take it off, level = "quadratic"')
-    assert questions(tmp_path, ball, level="quadratic") == []
+    (note,) = notes(tmp_path, ball)
+    assert 'radii of 20 mm along x and of 20 mm along y (level = "plane")' in note
+    assert note.endswith('take it off, level = "quadratic"')
+    assert notes(tmp_path, ball, level="quadratic") == []
     found = form_of(stated(tmp_path, ball).load())
     assert found.curvatures == pytest.approx((-50.0, -50.0), rel=0.02)
     assert found.sq_without == pytest.approx(stated(tmp_path, ball, level="quadratic").rms)
 
 
 @pytest.mark.parametrize("level", ["none", "mean", "plane"])
-def test_a_roller_bends_along_one_axis_however_it_is_tilted(tmp_path, level):
-    (told,) = questions(tmp_path, ROUGH - Y**2 / (2 * 10e-3) + 1e-3 * X, level=level)
-    assert "bends with a radius of 10 mm along y (level" in told
+def test_a_roller_bends_along_one_axis_even_if_tilted(tmp_path, level):
+    (note,) = notes(tmp_path, ROUGH - Y**2 / (2 * 10e-3) + 1e-3 * X, level=level)
+    assert "bends with a radius of 10 mm along y (level" in note
 
 
-def test_a_saddle_across_the_axes_is_told_as_one(tmp_path):
-    assert "twisted as a saddle" in questions(tmp_path, ROUGH + 30.0 * X * Y)[0]
+def test_a_saddle_across_the_axes_is_reported_as_one(tmp_path):
+    assert "twisted as a saddle" in notes(tmp_path, ROUGH + 30.0 * X * Y)[0]
 
 
 def test_the_form_that_a_filter_leaves_counts(tmp_path):
     ball = ROUGH - (X**2 + Y**2) / (2 * 20e-3)
-    assert questions(tmp_path, ball, lambda_s="10 um")
-    assert questions(tmp_path, ball, lambda_c="30 um") == []
+    assert notes(tmp_path, ball, lambda_s="10 um")
+    assert notes(tmp_path, ball, lambda_c="30 um") == []
 
 
 @pytest.mark.parametrize(
@@ -62,6 +62,6 @@ def test_the_form_that_a_filter_leaves_counts(tmp_path):
     ],
     ids=["rough", "tilted", "hardly bent", "dent", "wave"],
 )
-def test_roughness_is_no_form(tmp_path, heights):
-    assert questions(tmp_path, heights) == []
-    assert questions(tmp_path, heights, level="none") == []
+def test_roughness_is_not_a_form(tmp_path, heights):
+    assert notes(tmp_path, heights) == []
+    assert notes(tmp_path, heights, level="none") == []

@@ -71,7 +71,7 @@ def test_a_map_is_not_transposed(file):
     assert flipped.height(-x[:, 40], -y[20, :]) == pytest.approx(-heights[20, 40])
 
 
-def test_beyond_the_edges_lies_what_is_stated(file):
+def test_beyond_the_edges_the_stated_rule_holds(file):
     repeated, mirrored, flat = (
         stated(file, outside=outside) for outside in ("periodic", "mirror", "flat")
     )
@@ -114,7 +114,7 @@ def test_rotation_turns_as_the_angle_of_a_wave(tmp_path):
     )
 
 
-def test_the_mesh_gets_what_it_can_carry(file):
+def test_a_mesh_gets_the_waves_that_it_can_carry(file):
     surface = stated(file, outside="periodic", level="mean")
     assert surface.resolved_on(1e-7, 1e-7).rms == pytest.approx(surface.rms, rel=1e-9)
     coarse = surface.resolved_on(4 * PIXEL, 4 * PIXEL)
@@ -191,7 +191,7 @@ def test_a_changed_file_is_read_again(file):
 # ---- units
 
 
-def test_units_come_from_the_file_or_are_asked_for(file, tmp_path):
+def test_units_come_from_the_file_or_are_required(file, tmp_path):
     for missing, words in (("unit", "unit of its heights"), ("pixel", "how far its points")):
         keys = {"unit": "um", "pixel": "2 um"}
         keys.pop(missing)
@@ -216,7 +216,7 @@ def write_netcdf(path, x_unit, y_unit):
 
 
 @pytest.mark.parametrize(("x_unit", "y_unit"), [("um", "mm"), ("micrometers", "millimetre")])
-def test_x_and_y_have_units_of_their_own(tmp_path, x_unit, y_unit):
+def test_x_and_y_have_separate_units(tmp_path, x_unit, y_unit):
     found = Map(file=write_netcdf(tmp_path / "a.nc", x_unit, y_unit)).load()
     assert found.pixel == pytest.approx((2e-6, 3e-6))
     assert len(found.notes) == 1
@@ -232,7 +232,7 @@ def test_a_stated_unit_of_x_and_y_that_the_file_contradicts_is_noted(tmp_path):
     assert stated_too.notes[0].endswith("2 and 2 um apart, though the file says 2 and 3 um")
 
 
-def test_units_of_x_or_y_that_are_missing_or_foreign_are_asked_for(tmp_path):
+def test_units_of_x_or_y_that_are_missing_or_unknown_are_reported(tmp_path):
     half = write_netcdf(tmp_path / "half.nc", "um", None)
     with pytest.raises(InputError, match=r"their unit along y: give xy_unit"):
         Map(file=half).load()
@@ -242,7 +242,7 @@ def test_units_of_x_or_y_that_are_missing_or_foreign_are_asked_for(tmp_path):
     assert Map(file=foreign, pixel="2 um").load().pixel == (2e-6, 2e-6)
 
 
-def test_what_is_stated_wins_over_the_file_and_is_noted(tmp_path):
+def test_a_stated_value_overrides_the_file_and_is_noted(tmp_path):
     path = str(write_x3p(tmp_path / "a.x3p", HEIGHTS * 1e3))
     plain = Map(file=path.replace("a.x3p", "b.x3p"))
     write_x3p(tmp_path / "b.x3p", HEIGHTS)
@@ -265,13 +265,13 @@ def test_what_is_stated_wins_over_the_file_and_is_noted(tmp_path):
         ({"lambda_c": "9 mm"}, "too little for lambda_c"),
     ],
 )
-def test_heights_that_cannot_be_meant_are_questioned(file, keys, words):
+def test_implausible_heights_are_rejected(file, keys, words):
     with pytest.raises(InputError, match=words):
         stated(file, **keys).load()
 
 
 @pytest.mark.parametrize(("scale", "unit"), [(1.0, "nm"), (1e-3, "nm"), (1e-12, "um")])
-def test_heights_that_a_wrong_unit_makes_tiny_are_asked_for(tmp_path, scale, unit):
+def test_heights_that_a_wrong_unit_makes_tiny_are_rejected(tmp_path, scale, unit):
     np.save(tmp_path / "a.npy", HEIGHTS * scale)  # of metres
     surface = stated(str(tmp_path / "a.npy"), unit=unit)
     with pytest.raises(
@@ -304,7 +304,7 @@ def test_planes_are_constant_in_every_unit(tmp_path, unit, offset):
         (np.where(np.eye(9) > 0, -32768e300, 0.0), "marks missing points by a number"),
     ],
 )
-def test_maps_without_roughness_are_told(tmp_path, heights, words):
+def test_maps_without_roughness_are_reported(tmp_path, heights, words):
     np.save(tmp_path / "a.npy", heights)
     with pytest.raises(InputError, match=words):
         stated(str(tmp_path / "a.npy")).load()
@@ -323,12 +323,12 @@ def test_maps_without_roughness_are_told(tmp_path, heights, words):
         ({"outliers": 0}, "must be positive"),
     ],
 )
-def test_wrong_keys_are_told_without_the_file(keys, words):
+def test_wrong_keys_are_reported_without_the_file(keys, words):
     with pytest.raises(ValidationError, match=words):
         stated(**{"file": "missing.npy"} | keys)
 
 
-def test_a_map_says_how_it_fits_the_contact(file):
+def test_a_map_reports_how_it_fits_the_contact(file):
     surface = stated(file)  # 128 x 96 um
     assert surface.fits(9e-5, 9e-5) == ()
     assert (
@@ -362,7 +362,7 @@ def test_holes_are_counted_and_filled(tmp_path):
     assert stated(str(tmp_path / "many.npy"), fill="nearest").rms > 0
 
 
-def test_a_membrane_continues_what_is_linear():
+def test_a_membrane_continues_a_plane():
     x, y = np.arange(30.0)[None, :], np.arange(20.0)[:, None]
     plane = 3 * x - 2 * y + 7
     holed = plane.copy()
@@ -392,7 +392,7 @@ def test_spikes_go_and_the_rest_stays():
 
 
 @pytest.mark.parametrize(("how", "order"), [("mean", 0), ("plane", 1), ("quadratic", 2)])
-def test_levelling_takes_off_what_it_says_and_no_more(how, order):
+def test_levelling_removes_the_stated_form_only(how, order):
     x, y = np.linspace(0, 3, 40)[None, :], np.linspace(-1, 5, 30)[:, None]
     terms = [np.ones((30, 40)), 2 * x - y, x**2 - 3 * x * y + 0.5 * y**2]
     form = sum(terms[: order + 1])
@@ -410,7 +410,7 @@ def test_half_of_a_wave_at_the_cut_off_passes_the_gaussian_filter():
         np.testing.assert_allclose(found, passed * wave, atol=2e-3)
 
 
-def test_what_lies_between_both_cut_offs_is_kept(tmp_path):
+def test_waves_between_both_cut_offs_are_kept(tmp_path):
     x = (np.arange(400) + 0.5) * PIXEL  # 800 um, mirrored at the edges
     waves = [np.cos(np.pi * x * count / 8e-4) for count in (2, 16, 160)]
     np.save(tmp_path / "a.npy", np.tile(sum(waves), (200, 1)))

@@ -28,14 +28,14 @@ def correlation(heights):
 
 
 @pytest.mark.parametrize("surface", [GAUSSIAN, ROLLED])
-def test_the_rms_is_that_asked_for(surface):
+def test_the_rms_is_the_stated_one(surface):
     heights = one_period(surface, 1024)
     assert heights.mean() == pytest.approx(0, abs=1e-3 * surface.rms)
     assert heights.std() == pytest.approx(surface.rms, rel=1e-3)
 
 
 @pytest.mark.parametrize(("along", "across"), [(LENGTH, LENGTH), (4e-5, 1e-5)])
-def test_the_correlation_lengths_are_those_asked_for(along, across):
+def test_the_correlation_lengths_are_the_stated_ones(along, across):
     surface = Random(
         rms=1e-7, correlation_length=along, correlation_length_y=across, skewness=0, seed=5
     )
@@ -69,7 +69,7 @@ def test_turning_swaps_the_axes():
     assert turned.shortest_wavelengths == pytest.approx(lay.shortest_wavelengths[::-1])
 
 
-def test_the_same_seed_gives_the_same_surface_and_another_another():
+def test_the_seed_decides_the_surface():
     x, y = np.linspace(-1e-4, 1e-4, 9)[None, :], np.zeros((1, 1))
     again = Random(**GAUSSIAN.model_dump())
     np.testing.assert_array_equal(again.height(x, y), GAUSSIAN.height(x, y))
@@ -90,7 +90,7 @@ def test_the_surface_is_the_same_on_every_grid_and_travels(angle, time, speed):
 
 
 @pytest.mark.parametrize(("skewness", "kurtosis"), [(-1.5, 6.0), (0.5, 3.0), (0.0, 2.3), (0, 9)])
-def test_skewness_and_kurtosis_are_those_asked_for(skewness, kurtosis):
+def test_skewness_and_kurtosis_are_the_stated_ones(skewness, kurtosis):
     surface = GAUSSIAN.model_copy(update={"skewness": skewness, "kurtosis": kurtosis})
     scaled = one_period(surface, 1024) / surface.rms
     assert (scaled**2).mean() == pytest.approx(1, rel=2e-3)
@@ -119,7 +119,7 @@ def test_wavelengths_are_those_of_the_slopes(surface):
     assert surface.shortest_wavelength <= min(surface.shortest_wavelengths)
 
 
-def test_a_mesh_gets_what_it_can_carry():
+def test_a_mesh_gets_the_waves_that_it_can_carry():
     fine, coarse = ROLLED.resolved_on(5e-7, 5e-7), ROLLED.resolved_on(1e-5, 1e-5)
     x = np.linspace(-3e-4, 3e-4, 61)
     np.testing.assert_array_equal(
@@ -170,6 +170,6 @@ def test_a_sum_is_resolved_part_by_part():
         ({"correlation_length": 1e-5, "seed": 1.5}, "valid integer"),
     ],
 )
-def test_wrong_spectra_are_told(keys, words):
+def test_wrong_spectra_are_reported(keys, words):
     with pytest.raises(ValidationError, match=words):
         Random(rms=1e-7, **keys)

@@ -40,7 +40,7 @@ def test_the_correlation_lengths_of_a_random_surface_are_found():
     assert found.sku == pytest.approx(3, abs=0.3)
 
 
-def test_the_spectrum_integrates_to_the_variance_and_has_the_shape_asked_for():
+def test_the_spectrum_integrates_to_the_variance_and_has_the_stated_shape():
     surface = Random(rms=1e-7, spectrum="self-affine", roll_off=1e-4, hurst=0.7, seed=2)
     x = np.arange(512) * 1.5e-6
     heights = surface.height(x[None, :], x[:, None])

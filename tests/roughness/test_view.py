@@ -44,7 +44,7 @@ def test_a_map_by_itself_is_shown_as_its_points(seen):
 
 
 @pytest.mark.parametrize("mesh", [None, CONTACT])
-def test_a_turned_and_moved_map_is_shown_where_the_contact_gets_it(seen, mesh):
+def test_a_turned_and_moved_map_is_shown_where_it_lies(seen, mesh):
     found = seen(mesh, rotate="30 deg", x="0.02 mm", y="-0.01 mm")
     cosine, sine = math.cos(math.radians(30)), math.sin(math.radians(30))
     along, across = PLACE
@@ -69,7 +69,7 @@ def test_a_contact_beside_the_map_is_in_the_window_unless_it_is_far(seen):
     assert far.size == pytest.approx((160e-6, 120e-6))
 
 
-def test_beyond_the_edges_is_what_the_contact_gets(seen):
+def test_beyond_the_edges_the_heights_of_the_contact_are_shown(seen):
     wide = Mesh(spacing=(2e-6, 2e-6), half_widths=(2e-4, 2e-4), points=(65, 65))
     for outside, count in (("flat", 1), ("periodic", 6)):
         tops = view(seen(wide, outside=outside)).values > 0.7e-7
@@ -85,7 +85,7 @@ def test_beyond_the_edges_is_what_the_contact_gets(seen):
         ({"x": "20 mm"}, "dashed: Hertz contact, cut off by this picture"),
     ],
 )
-def test_the_picture_says_what_its_lines_are(seen, keys, words):
+def test_the_legend_names_the_lines(seen, keys, words):
     picture = surface_preview(seen(CONTACT, **keys))
     picture.draw_without_rendering()
     axes = next(one for one in picture.axes if one.get_xlabel() == "x along entrainment [µm]")

@@ -1,21 +1,19 @@
 """Density laws: density as a function of pressure and temperature."""
 
-from typing import TYPE_CHECKING, Annotated, Literal
+import math
+from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
+from tehl.lubricant.law import DensityModel, Values, limited
 from tehl.lubricant.tait import TaitDensity
 from tehl.units import Density, PressureCoefficient, Temperature, TemperatureCoefficient
-
-if TYPE_CHECKING:
-    from tehl.typing import Array
-
 
 LARGEST_LOSS = 0.9
 """Most of the ambient density that heat may take, far beyond where a law holds."""
 
 
-class DowsonHigginson(BaseModel):
+class DowsonHigginson(DensityModel):
     r"""Dowson and Higginson's law, with a linear fall with temperature.
 
     .. math:: \rho = \rho_0 \left(1 + \frac{s p}{1 + c p}\right) [1 - \beta (T - T_0)]
@@ -43,8 +41,6 @@ class DowsonHigginson(BaseModel):
     .. [1] D. Dowson and G. R. Higginson, Elasto-hydrodynamic Lubrication, Pergamon, 1966.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
-
     law: Literal["dowson-higginson"] = "dowson-higginson"
     rho_0: Density
     slope: PressureCoefficient = 0.6e-9
@@ -53,25 +49,17 @@ class DowsonHigginson(BaseModel):
     form: Literal["product", "additive"] = "product"
     reference_temperature: Temperature = 313.15
 
-    def ambient(self, temperature: float) -> float:
-        """Return the density [kg/m^3] at ambient pressure and ``temperature`` [K]."""
-        loss = self.beta * (temperature - self.reference_temperature)
-        return self.rho_0 * (1.0 - min(loss, LARGEST_LOSS))
-
-    def density(self, pressure: "Array", temperature: "Array | float") -> "Array":
+    def density(self, pressure: Values, temperature: Values | float) -> Values:
         """Return the density [kg/m^3] at ``pressure`` [Pa] and ``temperature`` [K]."""
-        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-
-        pressure = np.asarray(pressure, dtype=np.float64)
         ratio = 1.0 + self.slope * pressure / (1.0 + self.saturation * pressure)
         if self.beta > 0:
-            loss = self.beta * (temperature - self.reference_temperature)
-            loss = np.minimum(loss, LARGEST_LOSS)
+            warmer = temperature - self.reference_temperature
+            loss = limited(self.beta * warmer, -math.inf, LARGEST_LOSS)
             ratio = ratio - loss if self.form == "additive" else ratio * (1.0 - loss)
         return self.rho_0 * ratio
 
 
-class ConstantDensity(BaseModel):
+class ConstantDensity(DensityModel):
     """An incompressible liquid.
 
     Attributes
@@ -80,22 +68,12 @@ class ConstantDensity(BaseModel):
         Density [kg/m^3].
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
-
     law: Literal["constant"] = "constant"
     rho_0: Density
 
-    def ambient(self, temperature: float) -> float:
-        """Return rho_0 [kg/m^3] at any ``temperature`` [K]."""
-        del temperature
-        return self.rho_0
-
-    def density(self, pressure: "Array", temperature: "Array | float") -> "Array":
+    def density(self, pressure: Values, temperature: Values | float) -> Values:
         """Return rho_0 [kg/m^3] in the shape of ``pressure`` and ``temperature``."""
-        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-
-        shape = np.broadcast_shapes(np.shape(pressure), np.shape(temperature))
-        return np.full(shape, self.rho_0)
+        return self.rho_0 + 0.0 * (pressure + temperature)
 
 
 DensityLaw = Annotated[DowsonHigginson | TaitDensity | ConstantDensity, Field(discriminator="law")]

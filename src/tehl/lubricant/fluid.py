@@ -3,7 +3,7 @@
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import (
     BaseModel,
@@ -18,17 +18,16 @@ from pydantic import (
 
 from tehl.errors import InputError
 from tehl.lubricant.density import DensityLaw
+from tehl.lubricant.law import Law
 from tehl.lubricant.shear import Newtonian, ShearLaw
 from tehl.lubricant.viscosity import ViscosityLaw
 from tehl.lubricant.walther import Walther
 from tehl.named import find_table, read_tables
+from tehl.typing import Array
 from tehl.units import Conductivity, HeatCapacity, PressureCoefficient, Temperature
 
-if TYPE_CHECKING:
-    from tehl.typing import Array
 
-
-class ConductivityOfPressure(BaseModel):
+class ConductivityOfPressure(Law):
     """A thermal conductivity that grows with pressure, ``value (1 + s p / (1 + c p))``.
 
     Attributes
@@ -43,14 +42,12 @@ class ConductivityOfPressure(BaseModel):
     .. [1] R. Larsson and O. Andersson, Proc. IMechE Part J 214 (2000), 337-342.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
-
     value: Conductivity
     slope: Annotated[PressureCoefficient, Field(examples=["1.4 1/GPa"])]
     saturation: PressureCoefficient = 0.0
 
 
-class HeatCapacityOfPressure(BaseModel):
+class HeatCapacityOfPressure(Law):
     """A heat capacity that changes with pressure, ``value (1 + s p / (1 + c p))``.
 
     Attributes
@@ -67,8 +64,6 @@ class HeatCapacityOfPressure(BaseModel):
     ----------
     .. [1] R. Larsson and O. Andersson, Proc. IMechE Part J 214 (2000), 337-342.
     """
-
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     value: HeatCapacity
     slope: Annotated[PressureCoefficient, Field(examples=["0.5 1/GPa"])]
@@ -90,7 +85,7 @@ AnyHeatCapacity = Annotated[
 ]
 
 
-class Lubricant(BaseModel):
+class Lubricant(Law):
     """An oil.
 
     Attributes
@@ -110,8 +105,6 @@ class Lubricant(BaseModel):
     name, source : str or None
         Where the numbers come from.
     """
-
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     density: DensityLaw
     viscosity: ViscosityLaw
@@ -140,24 +133,12 @@ class Lubricant(BaseModel):
         """Return the heat capacity at ambient pressure [J/kg/K], None if not stated."""
         return _ambient(self.heat_capacity)
 
-    def conductivity_at(self, pressure: "Array") -> "Array":
-        """Return the thermal conductivity [W/m/K] at ``pressure`` [Pa].
-
-        Raises
-        ------
-        InputError
-            If the oil states none.
-        """
+    def conductivity_at(self, pressure: Array) -> Array:
+        """Return the conductivity [W/m/K] at ``pressure`` [Pa]; raise InputError without one."""
         return _grown(self.conductivity, "conductivity", pressure)
 
-    def heat_capacity_at(self, pressure: "Array") -> "Array":
-        """Return the heat capacity [J/kg/K] at ``pressure`` [Pa].
-
-        Raises
-        ------
-        InputError
-            If the oil states none.
-        """
+    def heat_capacity_at(self, pressure: Array) -> Array:
+        """Return the heat capacity [J/kg/K] at ``pressure`` [Pa]; raise InputError without one."""
         grown, stated = _grown(self.heat_capacity, "heat_capacity", pressure), self.heat_capacity
         if isinstance(stated, HeatCapacityOfPressure) and stated.basis == "volume":
             at = self.viscosity.reference_temperature
@@ -169,20 +150,17 @@ Property = float | ConductivityOfPressure | HeatCapacityOfPressure | None
 
 
 def _ambient(stated: Property) -> float | None:
-    return stated.value if isinstance(stated, BaseModel) else stated
+    return stated.value if isinstance(stated, Law) else stated
 
 
-def _grown(stated: Property, name: str, pressure: "Array") -> "Array":
+def _grown(stated: Property, name: str, pressure: Array) -> Array:
     """Return a property at ``pressure`` [Pa]."""
-    import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-
     if stated is None:
         raise InputError(f"lubricant.{name} is missing: heat is not computed without it")
-    if isinstance(stated, BaseModel):
-        pressure = np.asarray(pressure, dtype=np.float64)
+    if isinstance(stated, Law):
         growth = stated.slope * pressure / (1.0 + stated.saturation * pressure)
         return stated.value * (1.0 + growth)
-    return np.full(np.shape(pressure), stated)
+    return stated + 0.0 * pressure
 
 
 _OILS = Path(__file__).with_name("oils.toml")

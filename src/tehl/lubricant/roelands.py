@@ -1,34 +1,23 @@
 """Roelands' laws of viscosity, with either fall with temperature."""
 
 import math
-from typing import TYPE_CHECKING, Literal, Self
+from typing import Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, model_validator
+from pydantic import model_validator
 
-from tehl.lubricant.exponent import (
-    PER_ROELANDS_PRESSURE,
-    ROELANDS_OFFSET,
-    ROELANDS_PRESSURE,
-    exponential,
-    exponential_at,
-    power_growth,
-    temperature_law,
-)
+from tehl.lubricant.law import ExponentialFall, Values, ViscosityModel, exponential, limited
 from tehl.units import PressureCoefficient, Ratio, Temperature, TemperatureCoefficient, Viscosity
 
-if TYPE_CHECKING:
-    from tehl.typing import Array
-
+ROELANDS_OFFSET = 9.67  # -ln of 6.31e-5 Pa s, the viscosity at Roelands' common point
+ROELANDS_PRESSURE = 1.96e8  # [Pa], in the definition of z
+PER_ROELANDS_PRESSURE = 5.1e-9  # [1/Pa], in the bracket: the rounded 1/1.96e8
 LEAST_THETA = 0.01
 """Least ``(T - 138)/(T_0 - 138)``: Roelands' law ends at 138 K."""
-
 _ROELANDS_TEMPERATURE = 138.0  # [K]
 
 
-class _RoelandsPressure(BaseModel):
+class _RoelandsPressure(ViscosityModel):
     """How the viscosity grows with pressure, the same in both laws."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     law: str
     eta_0: Viscosity
@@ -37,18 +26,14 @@ class _RoelandsPressure(BaseModel):
     gamma: TemperatureCoefficient | None = None
 
     @model_validator(mode="after")
-    def _must_be_complete(self) -> Self:
-        self._check_slope()
-        return self
-
-    def _check_slope(self) -> None:
-        """Refuse what fixes no slope against pressure."""
+    def _must_have_a_slope(self) -> Self:
         if (self.alpha is None) == (self.z is None):
             raise ValueError("needs exactly one of alpha and z")
         if not self.viscosity_span > 0:
             raise ValueError(
                 f"has eta_0 = {self.eta_0:g} Pa s, but the Roelands law needs more than 6.3e-5 Pa s"
             )
+        return self
 
     @property
     def viscosity_span(self) -> float:
@@ -78,7 +63,7 @@ class Roelands(_RoelandsPressure):
               \theta = \frac{T - 138}{T_0 - 138}
 
     Pressure in Pa, temperature in K. State the slope as ``z`` or as ``alpha``, and the fall with
-    temperature as ``S0``, as ``gamma`` or not at all (then the law knows no temperature).
+    temperature as ``S0``, as ``gamma`` or not at all (independent of temperature).
 
     Attributes
     ----------
@@ -103,13 +88,14 @@ class Roelands(_RoelandsPressure):
     .. [2] L. Houpert, J. Tribology 107 (1985), 241-247 (the form with alpha and S0).
     """
 
+    FALL = "S0"
+
     law: Literal["roelands"] = "roelands"
     S0: Ratio | None = None
     reference_temperature: Temperature = 313.15
 
     @model_validator(mode="after")
-    def _must_be_complete(self) -> Self:
-        self._check_slope()
+    def _must_have_one_fall(self) -> Self:
         if self.gamma is not None and self.S0 is not None:
             raise ValueError("takes only one of gamma and S0")
         if not self.reference_temperature > _ROELANDS_TEMPERATURE:
@@ -133,16 +119,6 @@ class Roelands(_RoelandsPressure):
         above = self.reference_temperature - _ROELANDS_TEMPERATURE
         return self.temperature_index * self.viscosity_span / above
 
-    @property
-    def temperature_law(self) -> str:
-        """Return the name of the law and of its fall with temperature."""
-        return temperature_law("roelands", "S0", self.temperature_index)
-
-    def ambient(self, temperature: float) -> float:
-        """Return the viscosity [Pa s] at ambient pressure and ``temperature`` [K]."""
-        growth = self.viscosity_span * (self._thinner(temperature) - 1.0)
-        return exponential_at(self.eta_0, growth)
-
     def pressure_coefficient_at(self, temperature: float) -> float:
         """Return ``d ln eta / dp`` [1/Pa] at ambient pressure and ``temperature`` [K]."""
         return self.pressure_coefficient * self._thinner(temperature)
@@ -151,39 +127,29 @@ class Roelands(_RoelandsPressure):
         """Return ``-d ln eta / dT`` [1/K] at ambient pressure and ``temperature`` [K]."""
         return self.temperature_coefficient * self._thinner(temperature) / self._theta(temperature)
 
-    def _theta(self, temperature: float) -> float:
+    def _theta(self, temperature: Any) -> Any:
         above = self.reference_temperature - _ROELANDS_TEMPERATURE
-        return max((temperature - _ROELANDS_TEMPERATURE) / above, LEAST_THETA)
+        return limited((temperature - _ROELANDS_TEMPERATURE) / above, LEAST_THETA)
 
-    def _thinner(self, temperature: float) -> float:
-        return float(self._theta(temperature) ** -self.temperature_index)
+    def _thinner(self, temperature: Any) -> Any:
+        return self._theta(temperature) ** -self.temperature_index
 
-    def viscosity_at(self, pressure: float, temperature: float) -> float:
-        """Return the viscosity [Pa s] at one ``pressure`` [Pa] and ``temperature`` [K]."""
-        slope = self.pressure_coefficient_at(temperature)
-        growth = power_growth(pressure, slope, self.pressure_index)
-        return exponential_at(self.ambient(temperature), growth)
-
-    def viscosity(self, pressure: "Array", temperature: "Array | float") -> "Array":
+    def viscosity(self, pressure: Values, temperature: Values | float) -> Values:
         """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K].
 
-        Arrays of one shape; ``temperature`` may be a number. Pressures must exceed -1.9e8 Pa.
+        Arrays of one shape, or numbers; pressures must exceed -1.9e8 Pa.
         """
-        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-
-        growth = np.asarray(np.multiply(pressure, PER_ROELANDS_PRESSURE))
-        growth += 1.0
-        growth = np.power(growth, self.pressure_index, out=growth)
+        growth = pressure * PER_ROELANDS_PRESSURE
+        growth += 1.0  # in place from here on: this is evaluated in each cycle
+        growth **= self.pressure_index
         if self.temperature_index > 0:
-            above = self.reference_temperature - _ROELANDS_TEMPERATURE
-            theta = np.maximum((temperature - _ROELANDS_TEMPERATURE) / above, LEAST_THETA)
-            growth = growth * theta**-self.temperature_index
+            growth = growth * self._thinner(temperature)
         growth -= 1.0
         growth *= self.viscosity_span
         return exponential(self.eta_0, growth)
 
 
-class RoelandsExponential(_RoelandsPressure):
+class RoelandsExponential(ExponentialFall, _RoelandsPressure):
     r"""Roelands' law against pressure, exponential against temperature.
 
     .. math:: \eta = \eta_0 \exp\{(\ln\eta_0 + 9.67)
@@ -194,16 +160,10 @@ class RoelandsExponential(_RoelandsPressure):
 
     Attributes
     ----------
-    eta_0 : float
-        Viscosity at ambient pressure and ``reference_temperature`` [Pa s].
-    alpha : float or None
-        Pressure coefficient at ambient pressure [1/Pa], ``z = 1.96e8 alpha / (ln eta_0 + 9.67)``.
-    z : float or None
-        Pressure index [-].
+    eta_0, alpha, z, reference_temperature
+        As of :class:`Roelands`.
     gamma : float or None
-        Temperature coefficient [1/K]; None when the law knows no temperature.
-    reference_temperature : float
-        T_0 [K].
+        Temperature coefficient [1/K]; None: independent of temperature.
 
     References
     ----------
@@ -213,44 +173,11 @@ class RoelandsExponential(_RoelandsPressure):
     law: Literal["roelands-exponential"] = "roelands-exponential"
     reference_temperature: Temperature = 313.15
 
-    @property
-    def temperature_coefficient(self) -> float:
-        """Return gamma [1/K], zero when it is not stated."""
-        return self.gamma or 0.0
-
-    @property
-    def temperature_law(self) -> str:
-        """Return the name of the law and of its fall with temperature."""
-        return temperature_law("roelands", "gamma", self.temperature_coefficient)
-
-    def ambient(self, temperature: float) -> float:
-        """Return the viscosity [Pa s] at ambient pressure and ``temperature`` [K]."""
-        warmer = temperature - self.reference_temperature
-        return exponential_at(self.eta_0, -self.temperature_coefficient * warmer)
-
     def pressure_coefficient_at(self, temperature: float) -> float:
         """Return alpha [1/Pa] at any ``temperature`` [K]."""
         del temperature
         return self.pressure_coefficient
 
-    def temperature_coefficient_at(self, temperature: float) -> float:
-        """Return gamma [1/K] at any ``temperature`` [K]."""
-        del temperature
-        return self.temperature_coefficient
-
-    def viscosity_at(self, pressure: float, temperature: float) -> float:
-        """Return the viscosity [Pa s] at one ``pressure`` [Pa] and ``temperature`` [K]."""
-        slope = self.pressure_coefficient_at(temperature)
-        growth = power_growth(pressure, slope, self.pressure_index)
-        return exponential_at(self.ambient(temperature), growth)
-
-    def viscosity(self, pressure: "Array", temperature: "Array | float") -> "Array":
-        """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K]."""
-        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-
-        growth = (1.0 + PER_ROELANDS_PRESSURE * np.asarray(pressure)) ** self.pressure_index
-        growth = (growth - 1.0) * self.viscosity_span
-        if self.temperature_coefficient > 0:
-            warmer = temperature - self.reference_temperature
-            growth = growth - self.temperature_coefficient * warmer
-        return exponential(self.eta_0, growth)
+    def _growth(self, pressure: Values) -> Values:
+        bracket = (1.0 + PER_ROELANDS_PRESSURE * pressure) ** self.pressure_index
+        return self.viscosity_span * (bracket - 1.0)

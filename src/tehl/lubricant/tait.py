@@ -13,12 +13,11 @@ References
 .. [2] S. Bair, Tribology Letters 22 (2006), 197-206 (squalane).
 """
 
-import math
-from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
+from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
-from tehl.lubricant.exponent import exponential, exponential_at, temperature_law
+from tehl.lubricant.law import DensityModel, Values, ViscosityModel, exponential, functions, limited
 from tehl.units import (
     BulkModulus,
     Density,
@@ -27,9 +26,6 @@ from tehl.units import (
     TemperatureCoefficient,
     Viscosity,
 )
-
-if TYPE_CHECKING:
-    from tehl.typing import Array
 
 LEAST_VOLUME = 0.2
 """Least part of a volume that the equations of this module compress or cool to."""
@@ -41,14 +37,7 @@ LEAST_FREE = 1e-4
 Slope = Annotated[float, Field(gt=0.0, le=100.0, allow_inf_nan=False, examples=[11.0])]
 
 
-class _State(NamedTuple):
-    """What the equation of state says at ambient pressure and one temperature."""
-
-    volume: float
-    modulus: float
-
-
-class TaitDensity(BaseModel):
+class TaitDensity(DensityModel):
     r"""Tait's equation of state, ``rho = rho_0 V_R / V``.
 
     Attributes
@@ -67,8 +56,6 @@ class TaitDensity(BaseModel):
         T_0 [K].
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
-
     law: Literal["tait"] = "tait"
     rho_0: Density
     bulk_modulus: BulkModulus
@@ -77,17 +64,12 @@ class TaitDensity(BaseModel):
     softening: TemperatureCoefficient = 0.0
     reference_temperature: Temperature = 313.15
 
-    def ambient(self, temperature: float) -> float:
-        """Return the density [kg/m^3] at ambient pressure and ``temperature`` [K]."""
-        warmer = temperature - self.reference_temperature
-        return self.rho_0 / max(1.0 + self.expansion * warmer, LEAST_VOLUME)
-
-    def density(self, pressure: "Array", temperature: "Array | float") -> "Array":
+    def density(self, pressure: Values, temperature: Values | float) -> Values:
         """Return the density [kg/m^3] at ``pressure`` [Pa] and ``temperature`` [K]."""
-        return self.rho_0 / relative_volume(self, pressure, temperature)
+        return self.rho_0 / _relative_volume(self, pressure, temperature)
 
 
-class TaitDoolittle(BaseModel):
+class TaitDoolittle(ViscosityModel):
     r"""Doolittle's law: the viscosity follows the free volume.
 
     .. math:: \eta = \eta_0 \exp\left\{B R_0 \left[\frac{v}{V/V_R - R_0 v}
@@ -112,7 +94,7 @@ class TaitDoolittle(BaseModel):
         T_0 [K].
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+    FALL = "free volume"
 
     law: Literal["tait-doolittle"] = "tait-doolittle"
     eta_0: Viscosity
@@ -125,87 +107,45 @@ class TaitDoolittle(BaseModel):
     softening: TemperatureCoefficient = 0.0
     reference_temperature: Temperature = 313.15
 
-    @property
-    def pressure_coefficient(self) -> float:
-        """Return alpha at the reference temperature [1/Pa]."""
-        return self.pressure_coefficient_at(self.reference_temperature)
-
-    @property
-    def temperature_coefficient(self) -> float:
-        """Return ``-d ln eta / dT`` at the reference temperature [1/K]."""
-        return self.temperature_coefficient_at(self.reference_temperature)
-
-    @property
-    def temperature_law(self) -> str:
-        """Return the name of the law and of its fall with temperature."""
-        return temperature_law("tait-doolittle", "free volume", self.temperature_coefficient)
-
-    def ambient(self, temperature: float) -> float:
-        """Return the viscosity [Pa s] at ambient pressure and ``temperature`` [K]."""
-        return self.viscosity_at(0.0, temperature)
-
     def pressure_coefficient_at(self, temperature: float) -> float:
         """Return ``d ln eta / dp`` [1/Pa] at ambient pressure and ``temperature`` [K]."""
-        state, core = self._state(temperature), self._core(temperature)
-        return self.B * core * state.volume / (state.modulus * self._free(temperature) ** 2)
+        slope = _volume(self, temperature) / _modulus(self, temperature)
+        return self.B * self._core(temperature) * slope / self._free(0.0, temperature) ** 2
 
     def temperature_coefficient_at(self, temperature: float) -> float:
         """Return ``-d ln eta / dT`` [1/K] at ambient pressure and ``temperature`` [K]."""
-        volume, core = self._state(temperature).volume, self._core(temperature)
-        shrinking = self.occupied * self.occupied_expansion
-        gain = core * self.expansion - volume * shrinking
-        return self.B * gain / self._free(temperature) ** 2
+        shrinking = self.occupied * self.occupied_expansion * _volume(self, temperature)
+        gain = self._core(temperature) * self.expansion - shrinking
+        return self.B * gain / self._free(0.0, temperature) ** 2
 
-    @property
-    def _rest(self) -> float:
-        return self.occupied / (1.0 - self.occupied)
-
-    def _core(self, temperature: float) -> float:
+    def _core(self, temperature: Any) -> Any:
         warmer = temperature - self.reference_temperature
-        return self.occupied * max(1.0 + self.occupied_expansion * warmer, 0.0)
+        return self.occupied * limited(1.0 + self.occupied_expansion * warmer, 0.0)
 
-    def _free(self, temperature: float) -> float:
-        return max(self._state(temperature).volume - self._core(temperature), LEAST_FREE)
+    def _free(self, pressure: Any, temperature: Any) -> Any:
+        volume = _relative_volume(self, pressure, temperature)
+        return limited(volume - self._core(temperature), LEAST_FREE)
 
-    def _state(self, temperature: float) -> _State:
-        warmer = temperature - self.reference_temperature
-        return _State(
-            volume=max(1.0 + self.expansion * warmer, LEAST_VOLUME),
-            modulus=max(
-                exponential_at(self.bulk_modulus, -self.softening * warmer),
-                LEAST_MODULUS * self.bulk_modulus,
-            ),
-        )
-
-    def viscosity_at(self, pressure: float, temperature: float) -> float:
-        """Return the viscosity [Pa s] at one ``pressure`` [Pa] and ``temperature`` [K]."""
-        state, core = self._state(temperature), self._core(temperature)
-        steepness = 1.0 + self.bulk_modulus_slope
-        squeezed = 1.0 - math.log1p(steepness * pressure / state.modulus) / steepness
-        free = max(state.volume * max(squeezed, LEAST_VOLUME) - core, LEAST_FREE)
-        return exponential_at(self.eta_0, self.B * (core / free - self._rest))
-
-    def viscosity(self, pressure: "Array", temperature: "Array | float") -> "Array":
+    def viscosity(self, pressure: Values, temperature: Values | float) -> Values:
         """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K]."""
-        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-
-        warmer = np.asarray(temperature, dtype=np.float64) - self.reference_temperature
-        core = self.occupied * np.maximum(1.0 + self.occupied_expansion * warmer, 0.0)
-        free = np.maximum(relative_volume(self, pressure, temperature) - core, LEAST_FREE)
-        return exponential(self.eta_0, self.B * (core / free - self._rest))
+        ratio = self._core(temperature) / self._free(pressure, temperature)
+        return exponential(self.eta_0, self.B * (ratio - self.occupied / (1.0 - self.occupied)))
 
 
-def relative_volume(
-    law: TaitDensity | TaitDoolittle, pressure: "Array", temperature: "Array | float"
-) -> "Array":
+def _relative_volume(law: TaitDensity | TaitDoolittle, pressure: Any, temperature: Any) -> Any:
     """Return ``V / V_R`` [-] at ``pressure`` [Pa] and ``temperature`` [K]."""
-    import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-
-    warmer = np.asarray(temperature, dtype=np.float64) - law.reference_temperature
     steepness = 1.0 + law.bulk_modulus_slope
-    modulus = exponential(law.bulk_modulus, -law.softening * warmer)
-    modulus = np.maximum(modulus, LEAST_MODULUS * law.bulk_modulus)
-    strain = np.maximum(steepness * np.asarray(pressure) / modulus, -0.9)
-    squeezed = 1.0 - np.log1p(strain) / steepness
-    expanded = np.maximum(1.0 + law.expansion * warmer, LEAST_VOLUME)
-    return np.maximum(squeezed, LEAST_VOLUME) * expanded
+    strain = limited(steepness * pressure / _modulus(law, temperature), -0.9)
+    squeezed = 1.0 - functions(strain).log1p(strain) / steepness
+    return limited(squeezed, LEAST_VOLUME) * _volume(law, temperature)
+
+
+def _volume(law: TaitDensity | TaitDoolittle, temperature: Any) -> Any:
+    """Return ``V / V_R`` [-] at ambient pressure."""
+    return limited(1.0 + law.expansion * (temperature - law.reference_temperature), LEAST_VOLUME)
+
+
+def _modulus(law: TaitDensity | TaitDoolittle, temperature: Any) -> Any:
+    """Return K_0 [Pa]."""
+    softer = -law.softening * (temperature - law.reference_temperature)
+    return limited(exponential(law.bulk_modulus, softer), LEAST_MODULUS * law.bulk_modulus)

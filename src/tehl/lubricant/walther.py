@@ -1,20 +1,13 @@
 """The viscosity of a data sheet: two kinematic viscosities and a pressure coefficient."""
 
 import math
-from typing import TYPE_CHECKING, Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 
 from tehl.errors import InputError
-from tehl.lubricant.exponent import (
-    PER_ROELANDS_PRESSURE,
-    ROELANDS_OFFSET,
-    ROELANDS_PRESSURE,
-    exponential,
-    exponential_at,
-    power_growth,
-    temperature_law,
-)
+from tehl.lubricant.law import Values, ViscosityModel, exponential, functions, limited
+from tehl.lubricant.roelands import PER_ROELANDS_PRESSURE, ROELANDS_OFFSET, ROELANDS_PRESSURE
 from tehl.units import (
     Density,
     KinematicViscosity,
@@ -24,16 +17,13 @@ from tehl.units import (
     TemperatureCoefficient,
 )
 
-if TYPE_CHECKING:
-    from tehl.typing import Array
-
 _FORTY, _HUNDRED = 313.15, 373.15  # [K]
 _SHIFT = 0.7  # [mm^2/s]
 _MM2_PER_S = 1e6
 _THICKEST = 12.0  # log10 of the largest kinematic viscosity [mm^2/s]: no oil flows so slowly
 
 
-class Walther(BaseModel):
+class Walther(ViscosityModel):
     r"""Walther's law of ASTM D341 for the temperature, Roelands' law for the pressure.
 
     .. math:: \log_{10}\log_{10}(\nu + 0.7) = A - B \log_{10} T, \quad
@@ -65,7 +55,7 @@ class Walther(BaseModel):
        Products.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+    FALL = "ASTM D341"
 
     law: Literal["walther"] = "walther"
     nu_40: KinematicViscosity
@@ -105,26 +95,6 @@ class Walther(BaseModel):
             return self.z
         return (self.alpha or 0.0) * ROELANDS_PRESSURE / self._span(self.alpha_temperature)
 
-    @property
-    def pressure_coefficient(self) -> float:
-        """Return alpha at 40 degC [1/Pa]."""
-        return self.pressure_coefficient_at(_FORTY)
-
-    @property
-    def temperature_coefficient(self) -> float:
-        """Return ``-d ln eta / dT`` at 40 degC [1/K]."""
-        return self.temperature_coefficient_at(_FORTY)
-
-    @property
-    def temperature_law(self) -> str:
-        """Return the name of the law and of its fall with temperature."""
-        return temperature_law("walther", "ASTM D341", 1.0)
-
-    def ambient(self, temperature: float) -> float:
-        """Return the viscosity [Pa s] at ambient pressure and ``temperature`` [K]."""
-        kinematic = 10.0 ** min(self._log_shifted(temperature), _THICKEST) - _SHIFT
-        return kinematic / _MM2_PER_S * self._density / self._volume(temperature)
-
     def pressure_coefficient_at(self, temperature: float) -> float:
         """Return ``d ln eta / dp`` [1/Pa] at ambient pressure and ``temperature`` [K]."""
         if self.alpha is not None and temperature == self.alpha_temperature:
@@ -151,34 +121,27 @@ class Walther(BaseModel):
         steps = math.log10(_loglog(self.nu_40) / _loglog(self.nu_100))
         return steps / math.log10(_HUNDRED / _FORTY)
 
-    def _log_shifted(self, temperature: float) -> float:
+    def _log_shifted(self, temperature: Any) -> Any:
         """Return log10 of nu + 0.7 in mm^2/s."""
-        return float(_loglog(self.nu_40) * (_FORTY / temperature) ** self._slope)
+        return _loglog(self.nu_40) * (_FORTY / temperature) ** self._slope
 
-    def _volume(self, temperature: float) -> float:
-        return max(1.0 + self.expansion * (temperature - _FORTY), 0.1)
+    def _volume(self, temperature: Any) -> Any:
+        return limited(1.0 + self.expansion * (temperature - _FORTY), 0.1)
 
-    def _span(self, temperature: float) -> float:
+    def _ambient(self, temperature: Any) -> Any:
+        kinematic = 10.0 ** limited(self._log_shifted(temperature), 0.0, _THICKEST) - _SHIFT
+        return kinematic / _MM2_PER_S * self._density / self._volume(temperature)
+
+    def _span(self, temperature: Any) -> Any:
         """Return ``ln eta_T + 9.67`` [-]."""
-        return math.log(self.ambient(temperature)) + ROELANDS_OFFSET
+        ambient = self._ambient(temperature)
+        return functions(ambient).log(ambient) + ROELANDS_OFFSET
 
-    def viscosity_at(self, pressure: float, temperature: float) -> float:
-        """Return the viscosity [Pa s] at one ``pressure`` [Pa] and ``temperature`` [K]."""
-        slope = self.pressure_coefficient_at(temperature)
-        growth = power_growth(pressure, slope, self.pressure_index)
-        return exponential_at(self.ambient(temperature), growth)
-
-    def viscosity(self, pressure: "Array", temperature: "Array | float") -> "Array":
+    def viscosity(self, pressure: Values, temperature: Values | float) -> Values:
         """Return the viscosity [Pa s] at ``pressure`` [Pa] and ``temperature`` [K]."""
-        import numpy as np  # noqa: PLC0415 (the command explains a case without arrays)
-
-        warm = np.asarray(temperature, dtype=np.float64)
-        log_shifted = _loglog(self.nu_40) * (_FORTY / warm) ** self._slope
-        kinematic = 10.0 ** np.minimum(log_shifted, _THICKEST) - _SHIFT
-        volume = np.maximum(1.0 + self.expansion * (warm - _FORTY), 0.1)
-        ambient = kinematic / _MM2_PER_S * self._density / volume
-        growth = (1.0 + PER_ROELANDS_PRESSURE * np.asarray(pressure)) ** self.pressure_index - 1.0
-        return exponential(ambient, np.maximum(np.log(ambient) + ROELANDS_OFFSET, 0.0) * growth)
+        growth = (1.0 + PER_ROELANDS_PRESSURE * pressure) ** self.pressure_index - 1.0
+        span = limited(self._span(temperature), 0.0)
+        return exponential(self._ambient(temperature), span * growth)
 
 
 def _loglog(kinematic: float) -> float:

@@ -113,14 +113,9 @@ def dry_gap(x: Array, y: Array, ellipticity: float) -> Array:
         s2 = np.tan(end * node) ** 2
         bracket = x2 / (1.0 + s2) + y2 / (k2 + s2) - 1.0
         gap += weight * bracket * np.sqrt((1.0 + s2) / (k2 + s2))
-    return gap * end / _curvature_integral(k2)
-
-
-def _curvature_integral(k2: float) -> float:
-    """Return J: with s = tan(angle) the integrand is smooth and periodic."""
-    angle = (np.arange(512) + 0.5) * (np.pi / 1024)
-    values = np.cos(angle) ** 2 / np.sqrt(k2 * np.cos(angle) ** 2 + np.sin(angle) ** 2)
-    return float(np.pi * values.mean())
+    angle = (np.arange(512) + 0.5) * (np.pi / 1024)  # J with s = tan(angle), smooth and periodic
+    cosine, sine = np.cos(angle) ** 2, np.sin(angle) ** 2
+    return gap * end / (np.pi * np.mean(cosine / np.sqrt(k2 * cosine + sine)))
 
 
 def pressurised_area(result: "Result") -> float:
@@ -169,8 +164,7 @@ def mass_flow(result: "Result") -> MassFlow:
     slope_y, slope_x = np.gradient(pressure, y, x, edge_order=2)
     along = density * result.scales.speed * film - conductance * slope_x
     forward = cell_widths(y) @ along
-    edges = conductance * slope_y
-    leaving = edges[0] - edges[-1]
+    leaving = (conductance * slope_y)[0] - (conductance * slope_y)[-1]
     steps = 0.5 * (leaving[1:] + leaving[:-1]) * np.diff(x)
     sideways = np.concatenate([[0.0], np.cumsum(steps)])
     full = np.logical_and.accumulate((result.scaled.pressure[1:-1, 1:] > 0).all(axis=0))

@@ -12,10 +12,6 @@ if TYPE_CHECKING:
     from tehl.result import Result
 
 
-MIDDLE = 0.5
-"""z/h of the mid-film."""
-
-
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Temperature:
     """Temperatures of a film; all rises are over the temperature of the oil at the inlet.
@@ -53,12 +49,18 @@ def temperature(result: "Result") -> Temperature | None:
     if heat is None:
         return None
     mid_film, mean = mid_film_temperature(heat), mean_temperature(heat)
-    layer, row, column = _hottest(heat.temperature)
+    # Of equal temperatures the one with the largest Y: a symmetric contact has Y >= 0.
+    field = heat.temperature[:, ::-1]
+    layer, row, column = np.unravel_index(int(np.argmax(field)), field.shape)
     scaled = result.scaled
     return Temperature(
         inlet=inlet,
-        film_rise_max=float(heat.temperature[layer, row, column]) - inlet,
-        film_rise_max_at=(float(scaled.x[column]), float(scaled.y[row]), float(heat.zeta[layer])),
+        film_rise_max=float(field[layer, row, column]) - inlet,
+        film_rise_max_at=(
+            float(scaled.x[column]),
+            float(scaled.y[::-1][row]),
+            float(heat.zeta[layer]),
+        ),
         mid_film_rise_central=scaled.at_origin(mid_film) - inlet,
         mean_rise_central=scaled.at_origin(mean) - inlet,
         surface_1_rise_max=float(heat.temperature[0].max()) - inlet,
@@ -68,15 +70,9 @@ def temperature(result: "Result") -> Temperature | None:
     )
 
 
-def _hottest(field: Array) -> tuple[int, int, int]:
-    """Return layer, row and column of the largest value, of equal ones with the largest row."""
-    layer, row, column = np.unravel_index(int(np.argmax(field[:, ::-1])), field.shape)
-    return int(layer), field.shape[1] - 1 - int(row), int(column)
-
-
 def mid_film_temperature(heat: FilmHeat) -> Array:
-    """Draw the temperature rise half-way between the surfaces [K] as a map."""
-    return np.tensordot(lagrange_weights(heat.zeta, MIDDLE), heat.temperature, axes=1)
+    """Return T half-way between the surfaces, z/h = 0.5, (ny, nx) [K]."""
+    return np.tensordot(lagrange_weights(heat.zeta, 0.5), heat.temperature, axes=1)
 
 
 def mean_temperature(heat: FilmHeat) -> Array:
@@ -86,11 +82,6 @@ def mean_temperature(heat: FilmHeat) -> Array:
 
 def lagrange_weights(nodes: Array, place: float) -> Array:
     """Return the weights of the values at ``nodes`` in their polynomial at ``place``."""
-    here = np.isclose(nodes, place, rtol=0.0, atol=1e-12)
-    if here.any():
-        return here.astype(np.float64)
-    gaps = nodes[:, None] - nodes[None, :]
-    np.fill_diagonal(gaps, 1.0)
-    ratios = np.divide(place - nodes[None, :], gaps)
-    np.fill_diagonal(ratios, 1.0)
+    gaps, above = nodes[:, None] - nodes, np.broadcast_to(place - nodes, (nodes.size, nodes.size))
+    ratios = np.divide(above, gaps, out=np.ones_like(gaps), where=gaps != 0)
     return ratios.prod(axis=1)

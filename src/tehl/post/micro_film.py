@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass, fields
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from pydantic import TypeAdapter
 
 from tehl.errors import InputError
 from tehl.post.roughness import in_contact, middle_film, square
@@ -146,25 +147,21 @@ def roughness_effect(rough: "Result", smooth: "Result") -> RoughnessEffect:
     """Return what roughness does to the film, from a rough result and its reference run."""
     ripples, contact = micro_film(rough, smooth), in_contact(rough)
     highest, without = float(rough.pressure.max()), float(smooth.pressure.max())
+    here, there, traction = rough.traction, smooth.traction, None
+    if here and there and there.mid_film and rough.problem.slide_roll_ratio != 0:
+        traction = here.mid_film / there.mid_film
     return RoughnessEffect(
         central=rough.film.central / smooth.film.central,
         minimum=rough.film.minimum / smooth.film.minimum,
         middle=middle_film(rough) / middle_film(smooth),
         largest_pressure=highest / without,
-        traction=_traction_ratio(rough, smooth),
+        traction=traction,
         smooth_central=smooth.film.central,
         smooth_minimum=smooth.film.minimum,
         smooth_largest_pressure=without,
         ripple_film=float(np.sqrt(np.mean(ripples.film[contact] ** 2))),
         ripple_pressure=float(np.sqrt(np.mean(ripples.pressure[contact] ** 2))),
     )
-
-
-def _traction_ratio(rough: "Result", smooth: "Result") -> float | None:
-    here, there = rough.traction, smooth.traction
-    if here is None or there is None or rough.problem.slide_roll_ratio == 0:
-        return None
-    return here.mid_film / there.mid_film if there.mid_film else None
 
 
 _KEYS = {
@@ -174,30 +171,18 @@ _KEYS = {
     "ripple_film": "ripple_film_m",
     "ripple_pressure": "ripple_pressure_pa",
 }
-"""Keys in a summary of attributes that have another name there."""
-_NAMES = [field.name for field in fields(RoughnessEffect)]
 
 
 def effect_block(effect: RoughnessEffect) -> dict[str, Any]:
-    """Return what a summary says of the comparison, in the block ``roughness_effect``."""
+    """Return the comparison as the block ``roughness_effect`` of a summary."""
     return {_KEYS.get(name, name): value for name, value in asdict(effect).items()}
 
 
 def stored_effect(summary: Mapping[str, Any]) -> RoughnessEffect | None:
-    """Return the comparison that a stored summary holds; None where there is none.
-
-    Parameters
-    ----------
-    summary : mapping
-        As :func:`tehl.io.store.load_summary` returns it.
-    """
+    """Return the comparison in a summary of a stored result, None without one."""
     block: Any = summary.get("roughness_effect")
     try:
-        values = {name: block[_KEYS.get(name, name)] for name in _NAMES}
-        traction = values.pop("traction")
-        return RoughnessEffect(
-            traction=None if traction is None else float(traction),
-            **{name: float(value) for name, value in values.items()},
-        )
-    except (TypeError, KeyError, ValueError):  # none, or one that another program wrote
+        values = {one.name: block[_KEYS.get(one.name, one.name)] for one in fields(RoughnessEffect)}
+        return TypeAdapter(RoughnessEffect).validate_python(values)
+    except (TypeError, KeyError, ValueError):  # missing, or written by another program
         return None

@@ -1,8 +1,10 @@
 """Effect of heat on a film: a thermal result beside its isothermal reference run."""
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from typing import TYPE_CHECKING, Any
+
+from pydantic import TypeAdapter
 
 from tehl.errors import InputError
 from tehl.inlet_heating import InletFactor, inlet_factors
@@ -63,36 +65,22 @@ def thermal_effect(thermal: "Result", isothermal: "Result") -> ThermalEffect:
     )
 
 
+_KEYS = {
+    "isothermal_central": "isothermal_h_central_m",
+    "isothermal_minimum": "isothermal_h_min_m",
+}
+
+
 def effect_block(effect: ThermalEffect) -> dict[str, Any]:
     """Return the comparison as the block ``thermal_effect`` of a summary."""
-    return {
-        "central": effect.central,
-        "minimum": effect.minimum,
-        "isothermal_h_central_m": effect.isothermal_central,
-        "isothermal_h_min_m": effect.isothermal_minimum,
-        "inlet_factors": [asdict(factor) for factor in effect.inlet_factors],
-    }
+    return {_KEYS.get(name, name): value for name, value in asdict(effect).items()}
 
 
 def stored_effect(summary: Mapping[str, Any]) -> ThermalEffect | None:
-    """Return the comparison in a stored summary, None without one.
-
-    Parameters
-    ----------
-    summary : mapping
-        As :func:`tehl.io.store.load_summary` returns it.
-    """
+    """Return the comparison in a summary of a stored result, None without one."""
     block: Any = summary.get("thermal_effect")
     try:
-        return ThermalEffect(
-            central=float(block["central"]),
-            minimum=float(block["minimum"]),
-            isothermal_central=float(block["isothermal_h_central_m"]),
-            isothermal_minimum=float(block["isothermal_h_min_m"]),
-            inlet_factors=tuple(
-                InletFactor(**one | {"remarks": tuple(one["remarks"])})
-                for one in block["inlet_factors"]
-            ),
-        )
+        values = {one.name: block[_KEYS.get(one.name, one.name)] for one in fields(ThermalEffect)}
+        return TypeAdapter(ThermalEffect).validate_python(values)
     except (TypeError, KeyError, ValueError):  # missing, or written by another program
         return None

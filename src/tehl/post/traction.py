@@ -128,7 +128,7 @@ def under_pressure(result: "Result") -> Array:
 
 
 def cell_widths(axis: Array) -> Array:
-    """Return the width that each node of ``axis`` stands for, a half cell at the ends."""
+    """Return the width of the cell around each node of ``axis``, a half cell at the ends."""
     widths = np.gradient(axis)
     widths[[0, -1]] *= 0.5
     return np.asarray(widths)

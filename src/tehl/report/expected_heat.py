@@ -209,7 +209,7 @@ def _shear_stress(problem: ContactProblem, path: _HeatPath, pressure: float, rat
 
     def remaining(stress: float) -> float:
         temperature = path.mean_temperature(stress * sliding)
-        return oil.shear.thinned(oil.viscosity.viscosity_at(pressure, temperature) * rate, pressure)
+        return oil.shear.thinned(oil.viscosity.viscosity(pressure, temperature) * rate, pressure)
 
     low, high = 0.0, min(remaining(0.0), pressure)
     for _ in range(_BISECTIONS):

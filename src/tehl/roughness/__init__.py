@@ -3,7 +3,7 @@
 from tehl.roughness.features import Bump, Dimple, Ridge
 from tehl.roughness.map import Crop, Map
 from tehl.roughness.model import Roughness, Smooth
-from tehl.roughness.random_surface import Random
+from tehl.roughness.random import Random
 from tehl.roughness.superposition import AnyRoughness, Sum, Superposition
 from tehl.roughness.waves import Crossed, Wave, WaveVector
 

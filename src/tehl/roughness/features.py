@@ -1,7 +1,7 @@
 """Features that stand alone: ridges and grooves, bumps and dents, dimples."""
 
 import math
-from typing import TYPE_CHECKING, ClassVar, Literal, Self
+from typing import ClassVar, Literal, Self
 
 from pydantic import model_validator
 
@@ -15,28 +15,37 @@ from tehl.roughness.model import (
     check_gentle,
     direction,
 )
+from tehl.typing import Array, np
 from tehl.units import Angle
-
-if TYPE_CHECKING:
-    from tehl.typing import Array
 
 _TEN = math.log(10.0)
 
 
 class FeatureModel(RoughnessModel):
-    """Base of the features.
+    """Base of the features, round if not stated otherwise.
 
-    Attributes
-    ----------
-    amplitude : float
-        Height of the top over the surface around it [m]; negative goes into the body.
-    x, y : float
-        Where the feature stands at time zero [m]; the origin is the centre of the contact.
+    ``LENGTH`` is the field with the length of their slopes. Over it, ``SHORTEST`` is the wavelength
+    that a mesh must carry to represent the feature, where its spectrum has fallen to half of its
+    height, and ``REACH`` the distance from the middle where 2 % of the height are left.
     """
+
+    LENGTH: ClassVar[str] = "width"
+    SHORTEST: ClassVar[float] = 0.5
+    REACH: ClassVar[float] = 0.5
+    rms: ClassVar[float] = 0.0  # one feature has no share of an infinite surface
 
     amplitude: SignedHeight
     x: Position = 0.0
     y: Position = 0.0
+
+    @model_validator(mode="after")
+    def _must_be_gentle(self) -> Self:
+        check_gentle(self.amplitude, **{self.LENGTH: self._length})
+        return self
+
+    @property
+    def _length(self) -> float:
+        return float(getattr(self, self.LENGTH))
 
     @property
     def is_smooth(self) -> bool:
@@ -44,42 +53,13 @@ class FeatureModel(RoughnessModel):
         return self.amplitude == 0
 
     @property
-    def rms(self) -> float:
-        """Return zero [m]: one feature has no share of an infinite surface."""
-        return 0.0
-
-    def _squared_distance(self, x: "Array", y: "Array") -> "Array":
-        return (x - self.x) ** 2 + (y - self.y) ** 2
-
-
-class RoundModel(FeatureModel):
-    """Base of the features that look alike from all sides.
-
-    ``SHORTEST`` and ``REACH`` are over their length: the wavelength that a mesh must carry to see
-    the feature, where its spectrum has fallen to half of its height, and how far from its middle
-    it has two per cent of its height.
-    """
-
-    SHORTEST: ClassVar[float]
-    REACH: ClassVar[float]
-
-    @property
-    def _length(self) -> float:
-        raise NotImplementedError
-
-    @property
     def is_even_in_y(self) -> bool:
-        """Return whether the feature stands on the line y = 0."""
+        """Return whether the feature mirrors at y = 0."""
         return self.y == 0 or self.is_smooth
 
     @property
-    def shortest_wavelengths(self) -> tuple[float, float]:
-        """Return the shortest wavelength, along x and along y [m]."""
-        return self.shortest_wavelength, self.shortest_wavelength
-
-    @property
     def shortest_wavelength(self) -> float:
-        """Return the wavelength that a mesh must carry to see the feature [m]."""
+        """Return the wavelength that a mesh must carry to represent the feature [m]."""
         return math.inf if self.is_smooth else self.SHORTEST * self._length
 
     def extent(self, length: float) -> Extent:
@@ -88,8 +68,12 @@ class RoundModel(FeatureModel):
         reach = self.REACH * self._length
         return (self.x - reach, self.x + reach), (self.y - reach, self.y + reach)
 
+    def _squared_distance(self, x: Array, y: Array) -> Array:
+        """Return the squared distance from the middle, in lengths [-]."""
+        return ((x - self.x) ** 2 + (y - self.y) ** 2) / self._length**2
 
-class Bump(RoundModel):
+
+class Bump(FeatureModel):
     r"""A Gaussian bump, or with a negative amplitude a dent.
 
     .. math:: s = A \exp\{-r^2/r_0^2\}
@@ -104,28 +88,18 @@ class Bump(RoundModel):
         Where it stands at time zero [m].
     """
 
-    SHORTEST: ClassVar[float] = 4.0
-    REACH: ClassVar[float] = 2.0
+    LENGTH = "radius"
+    SHORTEST = 4.0
+    REACH = 2.0
 
     type: Literal["bump"] = "bump"
     radius: Wavelength
 
-    @model_validator(mode="after")
-    def _must_be_gentle(self) -> Self:
-        check_gentle(self.amplitude, radius=self.radius)
-        return self
-
-    @property
-    def _length(self) -> float:
-        return self.radius
-
-    def _at_rest(self, x: "Array", y: "Array") -> "Array":
-        import numpy as np  # noqa: PLC0415 (a case is stated without arrays)
-
-        return self.amplitude * np.exp(-self._squared_distance(x, y) / self.radius**2)
+    def _at_rest(self, x: Array, y: Array) -> Array:
+        return self.amplitude * np.exp(-self._squared_distance(x, y))
 
 
-class Dimple(RoundModel):
+class Dimple(FeatureModel):
     r"""The dimple of the micro-texture literature, a cosine that dies out.
 
     .. math:: s = A \, 10^{-10 (r/w)^2} \cos(2\pi r/w)
@@ -149,23 +123,11 @@ class Dimple(RoundModel):
        1745-1756.
     """
 
-    SHORTEST: ClassVar[float] = 0.5
-    REACH: ClassVar[float] = 0.5
-
     type: Literal["dimple"] = "dimple"
     width: Wavelength
 
-    @model_validator(mode="after")
-    def _must_be_gentle(self) -> Self:
-        check_gentle(self.amplitude, width=self.width)
-        return self
-
-    @property
-    def _length(self) -> float:
-        return self.width
-
-    def _at_rest(self, x: "Array", y: "Array") -> "Array":
-        return self.amplitude * _damped_cosine(self._squared_distance(x, y) / self.width**2)
+    def _at_rest(self, x: Array, y: Array) -> Array:
+        return self.amplitude * _damped_cosine(self._squared_distance(x, y))
 
 
 class Ridge(FeatureModel):
@@ -202,11 +164,6 @@ class Ridge(FeatureModel):
     angle: Angle = 0.0
     profile: Literal["gaussian", "cosine", "damped"] = "gaussian"
 
-    @model_validator(mode="after")
-    def _must_be_gentle(self) -> Self:
-        check_gentle(self.amplitude, width=self.width)
-        return self
-
     @property
     def is_even_in_y(self) -> bool:
         """Return whether the ridge runs across, or along the line y = 0."""
@@ -239,9 +196,7 @@ class Ridge(FeatureModel):
         ends = [self.x + sine / cosine * (y - self.y) for y in (-length, length)]
         return (min(ends) - reach, max(ends) + reach), ENDLESS[1]
 
-    def _at_rest(self, x: "Array", y: "Array") -> "Array":
-        import numpy as np  # noqa: PLC0415 (a case is stated without arrays)
-
+    def _at_rest(self, x: Array, y: Array) -> Array:
         cosine, sine = direction(self.angle)
         across = ((x - self.x) * cosine - (y - self.y) * sine) / self.width
         if self.profile == "gaussian":
@@ -252,8 +207,6 @@ class Ridge(FeatureModel):
         return 0.5 * self.amplitude * (1.0 + np.cos(2.0 * np.pi * inside))
 
 
-def _damped_cosine(square: "Array") -> "Array":
+def _damped_cosine(square: Array) -> Array:
     """Return the cosine that dies out, by the squared distance in widths."""
-    import numpy as np  # noqa: PLC0415 (a case is stated without arrays)
-
     return np.exp(-10.0 * _TEN * square) * np.cos(2.0 * np.pi * np.sqrt(square))

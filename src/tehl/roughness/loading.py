@@ -1,17 +1,18 @@
 """A map from its file to prepared heights."""
 
+import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from tehl.errors import InputError
 from tehl.roughness.files import RawMap, checked, read
 from tehl.roughness.files.raw import shown
-from tehl.roughness.map import Map
-from tehl.roughness.model import metres
+from tehl.roughness.model import BEYOND, metres
 from tehl.roughness.prepare import (
     Heights,
     filled,
@@ -23,20 +24,18 @@ from tehl.roughness.prepare import (
 from tehl.roughness.tile import Tile
 from tehl.typing import Array
 
+if TYPE_CHECKING:
+    from tehl.roughness.map import Map
+
 _LEAST = 4
 _TAPER = 0.1
 _LOWEST, _HIGHEST = 1e-12, 10e-6
 _ROUNDING = 1e-12
 _WIDEST, _FINEST, _TALLEST = 1.0, 1e-10, 1.0
-_BEYOND = {
-    "flat": "beyond its edges the surface is flat, heights fall to zero before",
-    "periodic": "beyond its edges it repeats",
-    "mirror": "beyond its edges it is mirrored",
-}
 
 
 @contextmanager
-def _naming(surface: Map) -> Iterator[None]:
+def _naming(surface: "Map") -> Iterator[None]:
     """Put the name of the file before errors."""
     try:
         yield
@@ -44,56 +43,60 @@ def _naming(surface: Map) -> Iterator[None]:
         raise InputError(f"map {shown(surface.file)} {error}") from None
 
 
-def found_file(surface: Map) -> Path:
+def found_file(surface: "Map") -> Path:
     """Return the path of the file of a map; the error of a missing one names it."""
     with _naming(surface):
         return checked(surface.file)
 
 
-def raw_map(surface: Map) -> RawMap:
-    """Return what the file of a map says; errors name it."""
+def raw_map(surface: "Map") -> RawMap:
+    """Return the content of the file of a map; errors name the file."""
     path = found_file(surface)
     with _naming(surface):
         return read(path, layout=surface.layout, variable=surface.variable)
 
 
-def heights_of(surface: Map) -> Heights:
-    """Return the prepared heights of a map, read once as long as its file does not change.
-
-    Raises
-    ------
-    InputError
-        If its file holds no map that a contact can have; the message names it.
-    """
+def heights_of(surface: "Map") -> Heights:
+    """Return the prepared heights of a map, read once as long as its file does not change."""
     return _loaded(surface, _stamp(surface))
 
 
-def tile_of(surface: Map) -> Tile:
+def tile_of(surface: "Map") -> Tile:
     """Return the heights of a map with what lies beyond their edges, as :func:`heights_of`."""
     return _tile(surface, _stamp(surface))
 
 
-def _stamp(surface: Map) -> tuple[int, int]:
+def _stamp(surface: "Map") -> tuple[int, int]:
     """Return what changes when a file does: its size and when it was written."""
     state = found_file(surface).stat()
     return state.st_size, state.st_mtime_ns
 
 
 @lru_cache(maxsize=4)
-def _loaded(surface: Map, stamp: object) -> Heights:
+def _loaded(surface: "Map", stamp: object) -> Heights:
     del stamp
     raw = raw_map(surface)
+    notes: list[str] = []
     with _naming(surface):
-        return prepared(surface, raw)
+        factor = _factor(surface, raw, notes)
+        highest = _highest(raw.heights, factor)
+        pixel = _pixel(surface, raw, notes)
+        heights = _cropped(surface, *_oriented(surface, raw.heights * factor, pixel))
+        values = levelled(_whole(surface, heights.values, notes), surface.level)
+        values = _filtered(surface, values, heights, notes)
+        _check_heights(surface, values, highest, factor)
+    fades = ", heights fall to zero before" if surface.outside == "flat" else ""
+    notes.append(f"{BEYOND[surface.outside]}{fades}")
+    return Heights(values=values, pixel=heights.pixel, notes=tuple(notes))
 
 
 @lru_cache(maxsize=4)
-def _tile(surface: Map, stamp: object) -> Tile:
+def _tile(surface: "Map", stamp: object) -> Tile:
     heights = _loaded(surface, stamp)
     values = heights.values
     if surface.outside == "flat":
         width = _TAPER * min(heights.size) if surface.taper is None else surface.taper
-        values = tapered(values, heights.pixel, width)
+        values = tapered(heights, width)
     return Tile(
         heights=values,
         pixel=heights.pixel,
@@ -104,30 +107,8 @@ def _tile(surface: Map, stamp: object) -> Tile:
     )
 
 
-def prepared(surface: Map, raw: RawMap) -> Heights:
-    """Return the heights of a file in metres, ready for a contact.
-
-    Raises
-    ------
-    InputError
-        If units are missing or heights cannot be meant; the message lacks the file.
-    """
-    notes: list[str] = []
-    factor = _factor(surface, raw, notes)
-    highest = _highest(raw.heights, factor)
-    pixel = _pixel(surface, raw, notes)
-    heights = _oriented(surface, Heights(values=raw.heights * factor, pixel=pixel))
-    heights = _cropped(surface, heights)
-    values = _whole(surface, heights.values, notes)
-    values = levelled(values, surface.level)
-    values = _filtered(surface, values, heights, notes)
-    _check_heights(surface, values, highest, factor)
-    notes.append(_BEYOND[surface.outside])
-    return Heights(values=values, pixel=heights.pixel, notes=tuple(notes))
-
-
 def _highest(heights: Array, factor: float) -> float:
-    """Return the largest number of a file; refuse too few points and absurd heights."""
+    """Return the largest number of a file; reject too few points and absurd heights."""
     ny, nx = heights.shape
     if min(ny, nx) < _LEAST:
         raise InputError(f"has {nx} x {ny} points, but a map has at least {_LEAST} x {_LEAST}")
@@ -145,26 +126,23 @@ def _highest(heights: Array, factor: float) -> float:
 # ---- units
 
 
-def _factor(surface: Map, raw: RawMap, notes: list[str]) -> float:
+def _factor(surface: "Map", raw: RawMap, notes: list[str]) -> float:
     """Return the factor from the heights of the file to metres."""
     stated = surface.unit or raw.unit
     if stated is None:
         raise InputError('does not state the unit of its heights: give unit = "um"')
-    factor = _metres(stated, "heights", "unit")
-    if surface.unit and raw.unit and _known(raw.unit) != factor:
-        notes.append(f"its heights are taken in {surface.unit}, though the file says {raw.unit}")
-    return factor
+    _compare("heights are", surface.unit, raw.unit, notes)
+    return _metres(stated, "heights", "unit")
 
 
-def _known(unit: str) -> float | None:
-    try:
-        return metres(unit)
-    except ValueError:
-        return None
+def _compare(what: str, stated: str | None, found: str | None, notes: list[str]) -> None:
+    """Add a note where a case states another unit than the file."""
+    if stated and found and metres(found) != metres(stated):
+        notes.append(f"its {what} taken in {stated}, though the file says {found}")
 
 
 def _metres(unit: str, what: str, key: str) -> float:
-    factor = _known(unit)
+    factor = metres(unit)
     if factor is None:
         raise InputError(
             f'has the unit {unit[:20]!r} for its {what}, which is not a length: give {key} = "um"'
@@ -172,7 +150,7 @@ def _metres(unit: str, what: str, key: str) -> float:
     return factor
 
 
-def _pixel(surface: Map, raw: RawMap, notes: list[str]) -> tuple[float, float]:
+def _pixel(surface: "Map", raw: RawMap, notes: list[str]) -> tuple[float, float]:
     """Return the distances of the points of the file [m]."""
     ny, nx = raw.heights.shape
     pixel = surface.pixel
@@ -180,12 +158,12 @@ def _pixel(surface: Map, raw: RawMap, notes: list[str]) -> tuple[float, float]:
         pixel = (surface.size[0] / nx, surface.size[1] / ny)
     if pixel is None:
         pixel = _pixel_of_file(surface, raw, notes)
-    elif (own := _own_pixel(surface, raw)) is not None and not np.allclose(
-        pixel, own, rtol=1e-3, atol=0.0
-    ):
-        notes.append(
-            f"its points are taken {_pair(pixel)} um apart, though the file says {_pair(own)} um"
-        )
+    elif raw.pixel is not None:
+        factors = [metres(unit or surface.xy_unit or "") for unit in raw.pixel_units]
+        own = [step * (factor or math.nan) for step, factor in zip(raw.pixel, factors, strict=True)]
+        if None not in factors and not np.allclose(pixel, own, rtol=1e-3, atol=0.0):
+            first, second = (f"{x * 1e6:.4g} and {y * 1e6:.4g} um" for x, y in (pixel, own))
+            notes.append(f"its points are taken {first} apart, though the file says {second}")
     size = (nx * pixel[0], ny * pixel[1])
     if not (max(size) <= _WIDEST and min(pixel) >= _FINEST):
         raise InputError(
@@ -195,66 +173,45 @@ def _pixel(surface: Map, raw: RawMap, notes: list[str]) -> tuple[float, float]:
     return pixel
 
 
-def _pixel_of_file(surface: Map, raw: RawMap, notes: list[str]) -> tuple[float, float]:
+def _pixel_of_file(surface: "Map", raw: RawMap, notes: list[str]) -> tuple[float, float]:
     """Return the distances that the file has, each in its own unit or both in the one stated."""
-    if raw.pixel is None or (surface.xy_unit is None and None in raw.pixel_units):
-        raise InputError(_question(raw))
-    x, y = (
-        _metres(surface.xy_unit or unit or "", axis, "xy_unit")
-        for unit, axis in zip(raw.pixel_units, "xy", strict=True)
-    )
-    for axis, unit, factor in zip("xy", raw.pixel_units, (x, y), strict=True):
-        if surface.xy_unit and unit and _known(unit) != factor:
-            notes.append(f"its {axis} is taken in {surface.xy_unit}, though the file says {unit}")
-    return raw.pixel[0] * x, raw.pixel[1] * y
-
-
-def _own_pixel(surface: Map, raw: RawMap) -> tuple[float, float] | None:
-    """Return the distances that the file has [m], where it is known in which units."""
-    x, y = (_known(unit or surface.xy_unit or "") for unit in raw.pixel_units)
-    if raw.pixel is None or x is None or y is None:
-        return None
-    return raw.pixel[0] * x, raw.pixel[1] * y
-
-
-def _question(raw: RawMap) -> str:
-    if raw.pixel is not None:
-        known = [unit for unit in raw.pixel_units if unit]
-        half = f" along {'xy'[raw.pixel_units.index(None)]}" if known else ""
-        return (
+    if raw.pixel is None:
+        raise InputError(
+            "does not state how far its points are apart: give pixel = "
+            '"2 um", or size = ["1 mm", "1 mm"]'
+        )
+    if surface.xy_unit is None and None in raw.pixel_units:
+        half = f" along {'xy'[raw.pixel_units.index(None)]}" if any(raw.pixel_units) else ""
+        raise InputError(
             f"has points {raw.pixel[0]:g} and {raw.pixel[1]:g} apart along x and y, but does not "
             f'state their unit{half}: give xy_unit = "um"'
         )
-    return (
-        "does not state how far its points are apart: give pixel = "
-        '"2 um", or size = ["1 mm", "1 mm"]'
+    for axis, unit in zip("xy", raw.pixel_units, strict=True):
+        _compare(f"{axis} is", surface.xy_unit, unit, notes)
+    x, y = (
+        step * _metres(surface.xy_unit or unit or "", axis, "xy_unit")
+        for step, unit, axis in zip(raw.pixel, raw.pixel_units, "xy", strict=True)
     )
-
-
-def _pair(pixel: tuple[float, float]) -> str:
-    return " and ".join(f"{step * 1e6:.4g}" for step in pixel)
+    return x, y
 
 
 # ---- shape
 
 
-def _oriented(surface: Map, heights: Heights) -> Heights:
-    values, pixel = heights.values, heights.pixel
+def _oriented(surface: "Map", values: Array, pixel: tuple[float, float]) -> tuple[Array, Any]:
     if surface.transpose:
         values, pixel = values.T, (pixel[1], pixel[0])
     values = values[:, ::-1] if surface.flip_x else values
     values = values[::-1] if surface.flip_y else values
-    return Heights(values=-values if surface.upside_down else values, pixel=pixel)
+    return -values if surface.upside_down else values, pixel
 
 
-def _cropped(surface: Map, heights: Heights) -> Heights:
+def _cropped(surface: "Map", values: Array, pixel: tuple[float, float]) -> Heights:
     if surface.crop is None:
-        return heights
-    spans = (surface.crop.y, surface.crop.x)
+        return Heights(values=values, pixel=pixel)
     parts = []
-    for axis, count, step, span in zip(
-        "yx", heights.values.shape, reversed(heights.pixel), spans, strict=True
-    ):
+    for axis, count, step in zip("yx", values.shape, pixel[::-1], strict=True):
+        span = getattr(surface.crop, axis)
         first, last = (0, count) if span is None else (round(end / step) for end in span)
         if not first + _LEAST <= last <= count:
             raise InputError(
@@ -262,16 +219,16 @@ def _cropped(surface: Map, heights: Heights) -> Heights:
                 f"{_LEAST} points or goes beyond"
             )
         parts.append(slice(first, last))
-    values = heights.values[parts[0], parts[1]]
+    values = values[parts[0], parts[1]]
     if not np.isfinite(values).any():
         raise InputError("has no point with a height where crop leaves it")
-    return Heights(values=values, pixel=heights.pixel)
+    return Heights(values=values, pixel=pixel)
 
 
 # ---- heights
 
 
-def _whole(surface: Map, values: Array, notes: list[str]) -> Array:
+def _whole(surface: "Map", values: Array, notes: list[str]) -> Array:
     """Return heights without spikes and gaps."""
     values = np.where(np.isfinite(values), values, np.nan)
     gaps = int(np.isnan(values).sum())
@@ -284,7 +241,7 @@ def _whole(surface: Map, values: Array, notes: list[str]) -> Array:
     return whole
 
 
-def _filtered(surface: Map, values: Array, heights: Heights, notes: list[str]) -> Array:
+def _filtered(surface: "Map", values: Array, heights: Heights, notes: list[str]) -> Array:
     for key, cut_off in (("lambda_c", surface.lambda_c), ("lambda_s", surface.lambda_s)):
         if cut_off is None:
             continue
@@ -300,8 +257,8 @@ def _filtered(surface: Map, values: Array, heights: Heights, notes: list[str]) -
     return values
 
 
-def _check_heights(surface: Map, values: Array, highest: float, factor: float) -> None:
-    """Refuse heights that are constant or outside the physical range."""
+def _check_heights(surface: "Map", values: Array, highest: float, factor: float) -> None:
+    """Reject heights that are constant or outside the physical range."""
     if not np.ptp(values) > _ROUNDING * highest * factor:
         raise InputError("is constant: it has no roughness")
     off = float(np.std(values))
@@ -311,7 +268,7 @@ def _check_heights(surface: Map, values: Array, highest: float, factor: float) -
         filters = ", and do lambda_c and lambda_s leave any" if has_filters else ""
         raise InputError(
             f"has Sq = {off:.3g} m {how}, less than {_LOWEST:g} m and than is measured, where "
-            f"{highest:.3g} in the file stands for {highest * factor:.3g} m: is the unit right"
+            f"{highest:.3g} in the file is {highest * factor:.3g} m: is the unit right"
             f"{filters}?"
         )
     if not off <= _HIGHEST:

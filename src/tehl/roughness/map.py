@@ -1,4 +1,4 @@
-"""Measured surfaces: a file, what it does not say, and how its heights are prepared."""
+"""Measured surfaces: a file, the units it does not state, and how its heights are prepared."""
 
 import hashlib
 from pathlib import Path
@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 from pydantic import BaseModel, ConfigDict, ValidationInfo, field_validator, model_validator
 
 from tehl.roughness.model import (
+    BEYOND,
     ENDLESS,
     Edge,
     Extent,
     Lengths,
     LengthUnit,
     Position,
-    Roughness,
-    RoughnessModel,
     Span,
+    TileModel,
     Wavelength,
     direction,
 )
@@ -24,7 +24,6 @@ from tehl.units import Angle, Height, PositiveNumber
 if TYPE_CHECKING:
     from tehl.roughness.prepare import Heights
     from tehl.roughness.tile import Tile
-    from tehl.typing import Array
 
 _COARSE = 10.0
 _LARGE = 20.0
@@ -52,7 +51,7 @@ class Crop(BaseModel):
         return self
 
 
-class Map(RoughnessModel):
+class Map(TileModel):
     """A measured surface.
 
     The file is read when heights are first needed, so that a case can be stored and read again
@@ -62,7 +61,7 @@ class Map(RoughnessModel):
     Attributes
     ----------
     file : str
-        Its path; the ending says the format.
+        Its path; the ending decides the format.
     unit : str or None
         Of the heights; needed where the file does not say.
     xy_unit : str or None
@@ -81,7 +80,7 @@ class Map(RoughnessModel):
     outliers : float or None
         Standard deviations beyond which spikes become missing points.
     fill : {"auto", "linear", "nearest", "refuse"}
-        How missing points are filled; "auto" refuses more than a hundredth.
+        How missing points are filled; "auto" accepts at most 1 % of them.
     level : {"none", "mean", "plane", "quadratic"}
         What is taken off.
     lambda_c, lambda_s : float or None
@@ -171,17 +170,14 @@ class Map(RoughnessModel):
     def load(self) -> "Heights":
         """Return the prepared heights in metres, read once.
 
-        Raises
-        ------
-        InputError
-            If the file holds no map that a contact can have; the message names the file.
+        Raises InputError if the file does not hold a map of a surface; the message names the file.
         """
         from tehl.roughness.loading import heights_of  # noqa: PLC0415
 
         return heights_of(self)
 
     def extent(self, length: float) -> Extent:
-        """Return where the map lies at time zero, if it ends there [m]."""
+        """Return where the map lies at time zero, without limits if it repeats [m]."""
         del length
         return self.box if self.outside == "flat" else ENDLESS
 
@@ -194,13 +190,6 @@ class Map(RoughnessModel):
             (self.y - 0.5 * height, self.y + 0.5 * height),
         )
 
-    def _at_rest(self, x: "Array", y: "Array") -> "Array":
-        return self._tile.height(x, y)
-
-    def resolved_on(self, dx: float, dy: float) -> Roughness:
-        """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
-        return self._tile.resolved_on(dx, dy)
-
     @property
     def _tile(self) -> "Tile":
         from tehl.roughness.loading import tile_of  # noqa: PLC0415
@@ -208,8 +197,8 @@ class Map(RoughnessModel):
         return tile_of(self)
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
-        """Return sentences on what is odd beside a contact of ``width`` by ``length`` [m]."""
-        from tehl.roughness.prepare import question_of_form  # noqa: PLC0415
+        """Return sentences on what is unusual for a contact of ``width`` by ``length`` [m]."""
+        from tehl.roughness.prepare import note_on_form  # noqa: PLC0415
 
         heights = self.load()
         extent = _turned(heights.size, self.rotate)
@@ -220,7 +209,7 @@ class Map(RoughnessModel):
         sentences = []
         if extent[0] < width or extent[1] < length:
             sentences.append(
-                f"{sizes}: the map is smaller than the contact; {_BEYOND[self.outside]}"
+                f"{sizes}: the map is smaller than the contact; {BEYOND[self.outside]}"
             )
         elif min(extent[0] / width, extent[1] / length) > _LARGE:
             sentences.append(f"{sizes}: only a small part of the map lies in the contact")
@@ -231,14 +220,7 @@ class Map(RoughnessModel):
             )
         if abs(self.x) > 0.5 * (extent[0] + width) or abs(self.y) > 0.5 * (extent[1] + length):
             sentences.append(f"{sizes} do not touch at time zero: the map lies beside the contact")
-        return tuple(filter(None, [*sentences, question_of_form(heights, self.level)]))
-
-
-_BEYOND: dict[str, str] = {
-    "flat": "beyond its edges the surface is flat",
-    "periodic": "beyond its edges it repeats",
-    "mirror": "beyond its edges it is mirrored",
-}
+        return (*sentences, *note_on_form(heights, self.level))
 
 
 def _turned(size: tuple[float, float], angle: float) -> tuple[float, float]:

@@ -5,14 +5,15 @@ those of the contact, x along entrainment; a surface carries its heights along x
 """
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Protocol
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict
 
+from tehl.typing import Array, np
 from tehl.units import Length, Quantity, quantity
 
 if TYPE_CHECKING:
-    from tehl.typing import Array
+    from tehl.roughness.tile import Tile
 
 _ROUNDING = 1e-12
 _STEEPEST = 0.25
@@ -22,49 +23,21 @@ Extent = tuple[tuple[float, float], tuple[float, float]]
 ENDLESS: Extent = ((-math.inf, math.inf), (-math.inf, math.inf))
 Edge = Literal["periodic", "mirror", "flat"]
 """What lies beyond the edges of a map: the map again, its mirror image, or nothing."""
+BEYOND: dict[Edge, str] = {
+    "flat": "beyond its edges the surface is flat",
+    "periodic": "beyond its edges it repeats",
+    "mirror": "beyond its edges it is mirrored",
+}
 
 
-class Roughness(Protocol):
-    """Heights of one surface."""
+class Roughness:
+    """Heights of one surface; a formula is exact on every mesh."""
 
-    @property
-    def is_smooth(self) -> bool:
-        """Return whether the height is zero everywhere."""
-        ...
+    if TYPE_CHECKING:  # a field of some surfaces
 
-    @property
-    def is_even_in_y(self) -> bool:
-        """Return whether the heights mirror at y = 0, so that half of the domain may be solved."""
-        ...
-
-    @property
-    def shortest_wavelengths(self) -> tuple[float, float]:
-        """Return the shortest wavelengths along x and along y [m]; infinite where there is none."""
-        ...
-
-    @property
-    def shortest_wavelength(self) -> float:
-        """Return the shortest wavelength in whatever direction [m]; infinite when smooth."""
-        ...
-
-    @property
-    def rms(self) -> float:
-        """Return the root mean square height Sq [m]; zero for features that stand alone."""
-        ...
-
-    def height(self, x: "Array", y: "Array", time: float = 0.0, speed: float = 0.0) -> "Array":
-        """Return the heights [m] at ``x`` and ``y`` [m], which broadcast."""
-        ...
-
-    def resolved_on(self, dx: float, dy: float) -> "Roughness":
-        """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
-        ...
-
-
-class RoughnessModel(BaseModel):
-    """Base of the surfaces of a case file; a formula is exact on every mesh."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+        @property
+        def rms(self) -> float:
+            """Return the root mean square height Sq [m]; zero for single features."""
 
     @property
     def is_smooth(self) -> bool:
@@ -73,18 +46,20 @@ class RoughnessModel(BaseModel):
 
     @property
     def is_even_in_y(self) -> bool:
-        """Return whether the heights mirror at y = 0."""
+        """Return whether the heights mirror at y = 0, so that half of the domain may be solved."""
         return self.is_smooth
 
-    def extent(self, length: float) -> Extent:
-        """Return where the surface is rough at time zero, between y = -``length`` and ``length``.
+    @property
+    def shortest_wavelengths(self) -> tuple[float, float]:
+        """Return the shortest wavelengths along x and along y [m]; infinite where there is none."""
+        return self.shortest_wavelength, self.shortest_wavelength
 
-        Of features, where more than two per cent of their height are left.
-        """
-        del length
-        return ENDLESS
+    @property
+    def shortest_wavelength(self) -> float:
+        """Return the shortest wavelength in any direction [m]; infinite when smooth."""
+        return math.inf
 
-    def height(self, x: "Array", y: "Array", time: float = 0.0, speed: float = 0.0) -> "Array":
+    def height(self, x: Array, y: Array, time: float = 0.0, speed: float = 0.0) -> Array:
         """Return the heights at a time.
 
         Parameters
@@ -92,7 +67,7 @@ class RoughnessModel(BaseModel):
         x, y : arrays that broadcast
             Coordinates of the contact [m], x along entrainment.
         time : float
-            [s]; at zero the surface lies as it was stated.
+            [s]; at zero the surface lies as stated.
         speed : float
             Speed of the surface along x [m/s].
 
@@ -101,22 +76,34 @@ class RoughnessModel(BaseModel):
         Array
             Heights in the broadcast shape [m], positive outwards.
         """
-        import numpy as np  # noqa: PLC0415 (a case is stated without arrays)
-
         along = np.asarray(x, dtype=np.float64) - speed * time
         return self._at_rest(along, np.asarray(y, dtype=np.float64))
 
-    def _at_rest(self, x: "Array", y: "Array") -> "Array":
+    def _at_rest(self, x: Array, y: Array) -> Array:
         """Return the heights [m] in the coordinates of the body [m]."""
         raise NotImplementedError
 
-    def resolved_on(self, dx: float, dy: float) -> Roughness:
+    def resolved_on(self, dx: float, dy: float) -> "Roughness":
         """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
         del dx, dy
-        return self  # type: ignore[return-value]  # subclasses have the rest of the protocol
+        return self
+
+
+class RoughnessModel(Roughness, BaseModel):
+    """Base of the surfaces of a case file."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
+    def extent(self, length: float) -> Extent:
+        """Return where the surface is rough at time zero, between y = -``length`` and ``length``.
+
+        For features, where more than two per cent of their height are left.
+        """
+        del length
+        return ENDLESS
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
-        """Return sentences on what is odd beside a contact of ``width`` by ``length`` [m]."""
+        """Return sentences on what is unusual for a contact of ``width`` by ``length`` [m]."""
         del width, length
         return ()
 
@@ -125,48 +112,50 @@ class Smooth(RoughnessModel):
     """A surface without roughness."""
 
     type: Literal["smooth"] = "smooth"
+    rms: ClassVar[float] = 0.0
 
     @property
     def is_smooth(self) -> bool:
         """Return True."""
         return True
 
-    @property
-    def shortest_wavelengths(self) -> tuple[float, float]:
-        """Return infinity along both axes [m]."""
-        return math.inf, math.inf
-
-    @property
-    def shortest_wavelength(self) -> float:
-        """Return infinity [m]."""
-        return math.inf
-
-    @property
-    def rms(self) -> float:
-        """Return zero [m]."""
-        return 0.0
-
-    def _at_rest(self, x: "Array", y: "Array") -> "Array":
+    def _at_rest(self, x: Array, y: Array) -> Array:
         return 0.0 * (x + y)
 
 
 def direction(angle: float) -> tuple[float, float]:
     """Return cosine and sine of ``angle`` [rad], exact at multiples of a right angle."""
-    return tuple(_snapped(value) for value in (math.cos(angle), math.sin(angle)))  # type: ignore[return-value]
+    cosine, sine = (
+        round(value) if abs(value - round(value)) < _ROUNDING else value
+        for value in (math.cos(angle), math.sin(angle))
+    )
+    return float(cosine), float(sine)
 
 
-def _snapped(value: float) -> float:
-    nearest = round(value)
-    return float(nearest) if abs(value - nearest) < _ROUNDING else value
+class TileModel(RoughnessModel):
+    """Base of the surfaces that are heights on a lattice."""
+
+    @property
+    def _tile(self) -> "Tile":
+        raise NotImplementedError
+
+    def _at_rest(self, x: Array, y: Array) -> Array:
+        return self._tile.height(x, y)
+
+    def resolved_on(self, dx: float, dy: float) -> Roughness:
+        """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
+        return self._tile.resolved_on(dx, dy)
+
+
+def wavelength_of(number: float) -> float:
+    """Return the wavelength [m] at a wave ``number`` [rad/m]."""
+    return 2.0 * math.pi / number if number > 0 else math.inf
 
 
 def check_gentle(amplitude: float, **lengths: float) -> None:
-    """Refuse an amplitude [m] that is large beside a length on which the height changes [m].
+    """Raise ValueError if an amplitude [m] is large beside a length of its slopes [m].
 
-    Raises
-    ------
-    ValueError
-        If it is: Reynolds' equation requires gentle slopes, and most often a unit is wrong.
+    Reynolds' equation requires gentle slopes, and most often a unit is wrong.
     """
     for name, length in lengths.items():
         if not abs(amplitude) <= _STEEPEST * length:
@@ -184,42 +173,29 @@ SignedHeight = Annotated[
 Position = Annotated[float, Quantity(name="a position", unit="m", example='"0.1 mm"', sign="any")]
 Wavelength = Annotated[float, Quantity(name="a length", unit="m", example='"50 um"')]
 
-_WORDS = {
-    "micron": "um",
-    "micrometer": "um",
-    "micrometre": "um",
-    "nanometer": "nm",
-    "nanometre": "nm",
-    "millimeter": "mm",
-    "millimetre": "mm",
-    "meter": "m",
-    "metre": "m",
+_WORDS = {"micron": "um"} | {
+    f"{prefix}{metre}": f"{letter}m"
+    for prefix, letter in (("", ""), ("milli", "m"), ("micro", "u"), ("nano", "n"))
+    for metre in ("meter", "metre")
 }
 _ANGSTROMS = ("Å", "\N{ANGSTROM SIGN}", "angstrom", "A")
 
 
-def metres(unit: str) -> float:
-    """Return the factor from a unit of length to metres.
-
-    Raises
-    ------
-    ValueError
-        If it is not one; the message continues a sentence that begins with the unit.
-    """
+def metres(unit: str) -> float | None:
+    """Return the factor from a unit of length to metres; None if it is not one."""
     text = unit.strip().removeprefix("Â")  # a micro sign of two bytes, read as two letters
     if text in _ANGSTROMS or text.lower() in _ANGSTROMS:
         return 1e-10
-    word = text.lower()
-    return quantity(Length).parse(
-        f"1 {_WORDS.get(word) or _WORDS.get(word.removesuffix('s'), text)}"
-    )
+    word = _WORDS.get(text.lower()) or _WORDS.get(text.lower().removesuffix("s"), text)
+    try:
+        return quantity(Length).parse(f"1 {word}")
+    except ValueError:
+        return None
 
 
 def _is_length(unit: str) -> str:
-    try:
-        metres(unit)
-    except ValueError:
-        raise ValueError('is not a unit of length: give one such as "um"') from None
+    if metres(unit) is None:
+        raise ValueError('is not a unit of length: give one such as "um"')
     return unit
 
 

@@ -51,7 +51,7 @@ class Heights:
 
 
 def without_outliers(values: Array, sigmas: float) -> tuple[Array, int]:
-    """Return heights with spikes as missing points, and how many they are.
+    """Return heights with spikes as missing points, and the number of spikes.
 
     A spike lies further from the median of the 5 x 5 points around it than ``sigmas`` times the
     usual distance, 1.48 times the median one.
@@ -64,20 +64,10 @@ def without_outliers(values: Array, sigmas: float) -> tuple[Array, int]:
 
 
 def filled(values: Array, how: Fill) -> Array:
-    """Return heights without gaps.
+    """Return heights with their gaps, NaN or infinite, filled.
 
-    Parameters
-    ----------
-    values : Array
-        Heights; what is not finite is missing.
-    how : {"auto", "linear", "nearest", "refuse"}
-        "linear" spans a membrane over each gap (Laplace's equation), "nearest" takes the nearest
-        height, "auto" is "linear" for a hundredth of the points and refuses more.
-
-    Raises
-    ------
-    InputError
-        If too much is missing.
+    "linear" spans a membrane over each gap (Laplace's equation), "nearest" takes the nearest
+    height, "auto" is "linear" for up to 1 % of the points. Raises InputError if more are missing.
     """
     missing = ~np.isfinite(values)
     count = int(missing.sum())
@@ -124,7 +114,6 @@ def _with_membranes(whole: Array, missing: BoolArray) -> Array:
     start, end = np.concatenate(from_), np.concatenate(to)
     graph = sparse.csr_array((-np.ones(start.size), (start, end)), shape=(rows.size, rows.size))
     matrix = graph + sparse.diags_array(diagonal)
-    inverse = sparse.diags_array(1.0 / diagonal)
     base = float(whole[missing].mean())  # so that the tolerance is one of the relief
     found, _ = sparse.linalg.cg(
         matrix,
@@ -132,7 +121,7 @@ def _with_membranes(whole: Array, missing: BoolArray) -> Array:
         x0=whole[missing] - base,
         rtol=1e-6,
         maxiter=2000,
-        M=inverse,
+        M=sparse.diags_array(1.0 / diagonal),
     )
     result = whole.copy()
     result[missing] = found + base
@@ -195,29 +184,22 @@ def gaussian_mean(heights: Array, pixel: tuple[float, float], cut_off: float) ->
     )
 
 
-def tapered(heights: Array, pixel: tuple[float, float], width: float) -> Array:
+def tapered(heights: Heights, width: float) -> Array:
     """Return heights that fall to zero over ``width`` [m] at all edges, with a flat rim around."""
-    windows = [
-        _window(count, min(width / step, 0.5 * count))
-        for count, step in zip(heights.shape, reversed(pixel), strict=True)
-    ]
-    return np.pad(heights * windows[0][:, None] * windows[1], _RIM)
-
-
-def _window(count: int, width: float) -> Array:
-    edge = np.minimum(np.arange(count) + 0.5, count - np.arange(count) - 0.5)
-    return np.sin(0.5 * np.pi * np.clip(edge / max(width, 1e-9), 0.0, 1.0)) ** 2
-
-
-# ---- the form of the body that is left in a map
+    windows = []
+    for count, step in zip(heights.values.shape, reversed(heights.pixel), strict=True):
+        edge = np.minimum(np.arange(count) + 0.5, count - np.arange(count) - 0.5)
+        share = edge / max(min(width / step, 0.5 * count), 1e-9)
+        windows.append(np.sin(0.5 * np.pi * np.clip(share, 0.0, 1.0)) ** 2)
+    return np.pad(heights.values * windows[0][:, None] * windows[1], _RIM)
 
 
 class Form(NamedTuple):
-    """The quadratic that fits a map best.
+    """Least-squares quadratic of a map: the form of the body that is left in it.
 
     ``sq`` and ``sq_without`` are those of the map without a plane, and without the quadratic [m];
-    ``curvatures`` the second derivatives along x and y of the map [1/m], ``sags`` what they make
-    between the middle and the edges [m].
+    ``curvatures`` the second derivatives along x and y of the map [1/m], ``sags`` the heights that
+    they make between the middle and the edges [m].
     """
 
     sq: float
@@ -237,17 +219,17 @@ def form_of(heights: Heights) -> Form:
     return Form(sq, math.sqrt(max(sq**2 - square, 0.0)), curvatures, sags)
 
 
-def question_of_form(heights: Heights, level: Level) -> str | None:
-    """Return a question if more than half of Sq is a quadratic form that ``level`` has left."""
+def note_on_form(heights: Heights, level: Level) -> tuple[str, ...]:
+    """Return a note if more than half of Sq is a quadratic form that ``level`` has left."""
     if level == "quadratic":
-        return None
+        return ()
     form = form_of(heights)
     if not form.sq_without < _MOST_LEFT * form.sq:
-        return None
+        return ()
     return (
         f'the map {_shape(form)} (level = "{level}"), and without that its Sq is '
         f"{_metres(form.sq_without)}, not {_metres(form.sq)}: is it the form of the body, which "
-        'the radii of the contact have already? Then take it off, level = "quadratic"'
+        'the radii of the contact have already? Then take it off, level = "quadratic"',
     )
 
 

@@ -1,4 +1,4 @@
-"""A measured surface at a glance: what it is, what a mesh sees of it, and where it lies."""
+"""Summary of a measured surface: its statistics, what a mesh carries of it, where it lies."""
 
 from dataclasses import dataclass
 
@@ -8,7 +8,7 @@ from tehl.roughness.files.raw import shown
 from tehl.roughness.loading import raw_map
 from tehl.roughness.map import Map
 from tehl.roughness.model import Extent, direction
-from tehl.roughness.prepare import Heights, question_of_form
+from tehl.roughness.prepare import Heights, note_on_form
 from tehl.roughness.statistics import Spectrum, Statistics, share_beyond, spectrum, statistics
 from tehl.typing import Array
 
@@ -30,7 +30,7 @@ class Mesh:
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class Preview:
-    """What a file holds, and what becomes of it.
+    """What a file holds, and what the solver makes of it.
 
     Attributes
     ----------
@@ -51,7 +51,7 @@ class Preview:
     lost : float or None
         Share of the variance that the mesh cannot carry.
     sentences : tuple of str
-        What is odd about the map, and beside the contact.
+        What is unusual about the map, alone and for the contact.
     """
 
     surface: Map
@@ -69,19 +69,9 @@ class Preview:
 
 
 def preview(surface: Map, mesh: Mesh | None = None) -> Preview:
-    """Return a measured surface at a glance.
+    """Return the summary of a measured surface, compared with ``mesh``.
 
-    Parameters
-    ----------
-    surface : Map
-        The file and how it is prepared.
-    mesh : Mesh or None
-        The grid to compare with.
-
-    Raises
-    ------
-    InputError
-        As :meth:`tehl.roughness.Map.load`.
+    Raises InputError as :meth:`tehl.roughness.Map.load`.
     """
     raw, heights = raw_map(surface), surface.load()
     values, pixel = heights.values, heights.pixel
@@ -97,14 +87,12 @@ def preview(surface: Map, mesh: Mesh | None = None) -> Preview:
         shortest_wavelength=surface.shortest_wavelength,
         mesh=mesh,
         lost=None if mesh is None else share_beyond(values, pixel, mesh.spacing),
-        sentences=_questions(surface, heights, mesh),
+        sentences=(
+            note_on_form(heights, surface.level)
+            if mesh is None
+            else surface.fits(2.0 * mesh.half_widths[0], 2.0 * mesh.half_widths[1])
+        ),
     )
-
-
-def _questions(surface: Map, heights: Heights, mesh: Mesh | None) -> tuple[str, ...]:
-    if mesh is not None:
-        return surface.fits(2.0 * mesh.half_widths[0], 2.0 * mesh.half_widths[1])
-    return tuple(filter(None, [question_of_form(heights, surface.level)]))
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -137,9 +125,16 @@ def view(found: Preview) -> View:
         steps = [max(1, count // _PER_PICTURE) for count in values.shape]
         return View(values=values[:: steps[0], :: steps[1]], window=surface.box)
     window = _window(found)
-    x, y = (_places(*ends, step) for ends, step in zip(window, found.heights.pixel, strict=True))
-    values = surface.height(x[None, :], y[:, None])
-    return View(values=values, window=window, corners=_corners(surface))
+    middles = []
+    for (start, end), step in zip(window, found.heights.pixel, strict=True):
+        count = int(np.clip(round((end - start) / step), 2, _PER_PICTURE))
+        middles.append(start + (np.arange(count) + 0.5) * (end - start) / count)
+    values = surface.height(middles[0][None, :], middles[1][:, None])
+    cosine, sine = direction(surface.rotate)
+    signs = np.array([(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)])
+    turn = np.array([[cosine, -sine], [sine, cosine]])  # by which x and y are those of the map
+    corners = (signs * found.heights.size) @ turn + (surface.x, surface.y)
+    return View(values=values, window=window, corners=corners)
 
 
 def _window(found: Preview) -> Extent:
@@ -153,17 +148,3 @@ def _window(found: Preview) -> Extent:
     )
     longest = [max(end - start for start, end in one) for one in ((x, y), box)]
     return (x, y) if longest[0] <= _WIDEST * longest[1] else box
-
-
-def _places(start: float, end: float, step: float) -> Array:
-    """Return the middles of the pixels of a picture, the points of the map where they suffice."""
-    count = int(np.clip(round((end - start) / step), 2, _PER_PICTURE))
-    return start + (np.arange(count) + 0.5) * (end - start) / count
-
-
-def _corners(surface: Map) -> Array:
-    """Return x and y of the corners of a map [m]."""
-    cosine, sine = direction(surface.rotate)
-    signs = np.array([(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)])
-    turn = np.array([[cosine, -sine], [sine, cosine]])  # by which x and y are those of the map
-    return (signs * surface.load().size) @ turn + (surface.x, surface.y)

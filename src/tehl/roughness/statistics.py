@@ -41,15 +41,7 @@ class Statistics:
 
 
 def statistics(heights: Array, pixel: tuple[float, float]) -> Statistics:
-    """Return the parameters of a map.
-
-    Parameters
-    ----------
-    heights : (ny, nx) array
-        [m], without gaps; their mean is taken off.
-    pixel : (dx, dy)
-        [m]
-    """
+    """Return the parameters of heights [m], (ny, nx), without gaps; their mean is subtracted."""
     off = heights - heights.mean()
     sq = float(np.sqrt(np.mean(off**2)))
     scaled = off / sq if sq > 0 else np.full_like(off, np.nan)
@@ -101,6 +93,7 @@ def spectrum(heights: Array, pixel: tuple[float, float], rings: int = 60) -> Spe
 
     It is :math:`C(q) = |\hat h|^2/A` of the heights under a Hann window, scaled so that the mean
     square height is :math:`\int C \, d^2q / 4\pi^2`; a window is needed because maps do not repeat.
+    Source: Jacobs, Junge and Pastewka, see :class:`tehl.roughness.Random`.
 
     Parameters
     ----------
@@ -110,19 +103,17 @@ def spectrum(heights: Array, pixel: tuple[float, float], rings: int = 60) -> Spe
         [m]
     rings : int
         How many rings, of equal width on a logarithmic scale; those without a wave are left out.
-
-    References
-    ----------
-    .. [1] T. D. B. Jacobs, T. Junge and L. Pastewka, Surf. Topogr.: Metrol. Prop. 5 (2017), 013001.
     """
-    power, number = _power(heights, pixel)
+    off = heights - heights.mean()
+    ny, nx = off.shape
+    window = np.hanning(ny + 2)[1:-1, None] * np.hanning(nx + 2)[1:-1]
+    window /= np.sqrt(np.mean(window**2))
+    power = np.abs(fft.fft2(off * window) / off.size) ** 2
+    number = 2.0 * np.pi * np.hypot(fft.fftfreq(nx, pixel[0]), fft.fftfreq(ny, pixel[1])[:, None])
     width, height = (n * step for n, step in zip(heights.shape[::-1], pixel, strict=True))
     least, largest = 2.0 * math.pi / max(width, height), math.pi / min(pixel)
     edges = np.geomspace(0.9 * least, max(largest, 1.1 * least), rings + 1)
-    ring = np.digitize(number.ravel(), edges) - 1
-    inside = (ring >= 0) & (ring < rings)
-    count = np.bincount(ring[inside], minlength=rings)
-    total = np.bincount(ring[inside], weights=power.ravel()[inside], minlength=rings)
+    count, total = np.histogram(number, edges)[0], np.histogram(number, edges, weights=power)[0]
     there = count > 0
     middle = np.sqrt(edges[1:] * edges[:-1])
     return Spectrum(middle[there], width * height * total[there] / count[there])
@@ -143,14 +134,3 @@ def share_beyond(heights: Array, pixel: tuple[float, float], mesh: tuple[float, 
     x, y = np.arange(nx) / (2.0 * nx * pixel[0]), np.arange(ny) / (2.0 * ny * pixel[1])
     lost = (x >= 0.5 / mesh[0]) | (y >= 0.5 / mesh[1])[:, None]
     return float(power[lost].sum() / power.sum()) if power.sum() > 0 else 0.0
-
-
-def _power(heights: Array, pixel: tuple[float, float]) -> tuple[Array, Array]:
-    """Return the share of each wave in the mean square [m^2] and its wave number [rad/m]."""
-    off = heights - heights.mean()
-    ny, nx = off.shape
-    window = np.hanning(ny + 2)[1:-1, None] * np.hanning(nx + 2)[1:-1]
-    window /= np.sqrt(np.mean(window**2))
-    power = np.abs(fft.fft2(off * window) / off.size) ** 2
-    number = 2.0 * np.pi * np.hypot(fft.fftfreq(nx, pixel[0]), fft.fftfreq(ny, pixel[1])[:, None])
-    return power, number

@@ -2,14 +2,14 @@
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
 
 from tehl.roughness.features import Bump, Dimple, Ridge
 from tehl.roughness.map import Map
 from tehl.roughness.model import Roughness, RoughnessModel, Smooth
-from tehl.roughness.random_surface import Random
+from tehl.roughness.random import Random
 from tehl.roughness.waves import (
     Crossed,
     HarmonicModel,
@@ -18,12 +18,10 @@ from tehl.roughness.waves import (
     are_even,
     root_mean_square,
 )
-
-if TYPE_CHECKING:
-    from tehl.typing import Array
+from tehl.typing import Array, np
 
 
-class _Added:
+class _Added(Roughness):
     """Several surfaces on top of each other."""
 
     parts: tuple[Roughness, ...]
@@ -41,9 +39,9 @@ class _Added:
     @property
     def shortest_wavelengths(self) -> tuple[float, float]:
         """Return the shortest wavelengths of all parts along x and along y [m]."""
-        pairs = [part.shortest_wavelengths for part in self.parts]
-        along, across = zip(*pairs, strict=True) if pairs else ((), ())
-        return min(along, default=math.inf), min(across, default=math.inf)
+        pairs = (part.shortest_wavelengths for part in self.parts)
+        along, across = zip((math.inf, math.inf), *pairs, strict=True)
+        return min(along), min(across)
 
     @property
     def shortest_wavelength(self) -> float:
@@ -55,13 +53,10 @@ class _Added:
         """Return the root mean square height Sq [m]; that of equal harmonics with their phases."""
         return math.hypot(root_mean_square(self._harmonics), *(part.rms for part in self._others))
 
-    def height(self, x: "Array", y: "Array", time: float = 0.0, speed: float = 0.0) -> "Array":
-        """Return the sum of the heights [m], as :meth:`tehl.roughness.Wave.height`."""
-        import numpy as np  # noqa: PLC0415 (a case is stated without arrays)
-
-        total = np.zeros(np.broadcast_shapes(np.shape(x), np.shape(y)))
+    def _at_rest(self, x: Array, y: Array) -> Array:
+        total = np.zeros(np.broadcast_shapes(x.shape, y.shape))
         for part in self.parts:
-            total += part.height(x, y, time, speed)
+            total += part.height(x, y)
         return total
 
     def resolved_on(self, dx: float, dy: float) -> Roughness:
@@ -70,7 +65,7 @@ class _Added:
 
     @property
     def _harmonics(self) -> list[WaveVector]:
-        waves = [part for part in self.parts if isinstance(part, HarmonicModel)]
+        waves = (part for part in self.parts if isinstance(part, HarmonicModel))
         return [component for wave in waves for component in wave.components]
 
     @property
@@ -85,9 +80,8 @@ class Superposition(_Added):
     parts: tuple[Roughness, ...]
 
 
-OneRoughness = Annotated[
-    Smooth | Wave | Crossed | Ridge | Bump | Dimple | Random | Map, Field(discriminator="type")
-]
+_Single = Smooth | Wave | Crossed | Ridge | Bump | Dimple | Random | Map
+OneRoughness = Annotated[_Single, Field(discriminator="type")]
 """A surface that is not a sum."""
 
 
@@ -104,19 +98,16 @@ class Sum(_Added, RoughnessModel):
     parts: tuple[OneRoughness, ...]
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
-        """Return what is odd about the parts beside a contact of ``width`` by ``length`` [m]."""
+        """Return what is unusual about the parts for a contact of ``width`` by ``length`` [m]."""
         return tuple(line for part in self.parts for line in part.fits(width, length))
 
 
 def _as_table(value: Any) -> Any:
-    """Return a list as the table of a sum, anything else as it is."""
+    """Return a list as the table of a sum, anything else unchanged."""
     return {"type": "sum", "parts": value} if isinstance(value, list | tuple) else value
 
 
-_Table = Annotated[
-    Smooth | Wave | Crossed | Ridge | Bump | Dimple | Random | Map | Sum,
-    Field(discriminator="type"),
-]
+_Table = Annotated[_Single | Sum, Field(discriminator="type")]
 AnyRoughness = Annotated[
     _Table, BeforeValidator(_as_table, json_schema_input_type=_Table | list[_Table])
 ]

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from scipy import fft, ndimage
 
-from tehl.roughness.model import Edge, direction
+from tehl.roughness.model import Edge, Roughness, direction
 from tehl.typing import Array, IntArray
 
 KEPT, LOST = 0.25, 0.5
@@ -29,8 +29,8 @@ Pair = tuple[float, float]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Tile:
-    """Heights on a lattice, as :class:`tehl.roughness.Roughness`.
+class Tile(Roughness):
+    """Heights on a lattice; they count as even in y only when smooth.
 
     Attributes
     ----------
@@ -67,19 +67,11 @@ class Tile:
         """Return whether the height is zero everywhere."""
         return not self.rms > 0
 
-    @property
-    def is_even_in_y(self) -> bool:
-        """Return whether the surface is smooth: heights on a lattice are not mirrored exactly."""
-        return self.is_smooth
-
     @cached_property
     def rms(self) -> float:
         """Root mean square height Sq, without a flat rim [m]."""
-        return math.sqrt(float(np.sum(np.square(self.heights))) / self._covered)
-
-    @property
-    def _covered(self) -> float:
-        return self.covered or self.heights.size
+        count = self.covered or self.heights.size
+        return math.sqrt(float(np.sum(np.square(self.heights))) / count)
 
     @property
     def shortest_wavelengths(self) -> Pair:
@@ -91,11 +83,9 @@ class Tile:
         """Return the wavelength 2 pi Sq / Sq' where it is shortest [m]."""
         return self._wavelengths[2]
 
-    def height(self, x: Array, y: Array, time: float = 0.0, speed: float = 0.0) -> Array:
-        """Return the heights [m], as :meth:`tehl.roughness.Wave.height`."""
+    def _at_rest(self, x: Array, y: Array) -> Array:
         cosine, sine = direction(self.angle)
-        x = np.asarray(x, np.float64) - speed * time - self.centre[0]
-        y = np.asarray(y, np.float64) - self.centre[1]
+        x, y = x - self.centre[0], y - self.centre[1]
         along = x * cosine - y * sine if sine else x * cosine
         across = y * cosine + x * sine if sine else y * cosine
         ny, nx = self.heights.shape
@@ -126,11 +116,13 @@ class Tile:
         if all(0.5 * step / own <= KEPT for step, own in zip(mesh, self.pixel, strict=True)):
             return self
         if self.edge == "flat":
-            x, y = rim = _rim(self.pixel, mesh)
-            if is_roomy(self.heights.shape, rim):
-                return self._coarsened(mesh, rim, radial=radial)
+            x, y = (
+                math.ceil(_FADED * step / own) for step, own in zip(mesh, self.pixel, strict=True)
+            )
+            if is_roomy(self.heights.shape, (x, y)):
+                return self._coarsened(mesh, (x, y), radial=radial)
             rimmed = np.pad(self.heights, ((y, y), (x, x)))
-            tile = replace(self, heights=rimmed, covered=self._covered)
+            tile = replace(self, heights=rimmed, covered=self.covered or self.heights.size)
         else:
             tile = self
         return replace(tile, heights=tile._low_passed(mesh, radial=radial))
@@ -171,8 +163,8 @@ class Tile:
         spectrum *= nx * ny / (whole[0] * whole[1])
         heights = fft.idctn(np.pad(spectrum, ((0, ny - kept[1]), (0, nx - kept[0]))), type=2)
         pixel = (lengths[0] / nx, lengths[1] / ny)
-        area = self._covered * self.pixel[0] * self.pixel[1]
-        return replace(self, heights=heights, pixel=pixel, covered=area / (pixel[0] * pixel[1]))
+        covered = (self.covered or self.heights.size) * math.prod(self.pixel) / math.prod(pixel)
+        return replace(self, heights=heights, pixel=pixel, covered=covered)
 
     @cached_property
     def _wavelengths(self) -> tuple[float, float, float]:
@@ -181,7 +173,11 @@ class Tile:
         Sq' is the root mean square slope in that direction, so this is the wave that is as steep
         as the surface. Infinite where the surface does not change.
         """
-        (xx, xy), (_, yy) = self._slopes()
+        wrap = "wrap" if self.edge == "periodic" else "edge"
+        heights = np.pad(self.heights, ((0, 1), (0, 1)), mode=wrap)  # type: ignore[call-overload]
+        x, y = np.diff(heights, axis=1) / self.pixel[0], np.diff(heights, axis=0) / self.pixel[1]
+        xx, yy = float(np.mean(x[:-1] ** 2)), float(np.mean(y[:, :-1] ** 2))
+        xy = float(np.mean((x[:-1] + x[1:]) * (y[:, :-1] + y[:, 1:]))) / 4.0
         cosine, sine = direction(self.angle)
         turn = np.array([[cosine, sine], [-sine, cosine]])
         slopes = turn @ np.array([[xx, xy], [xy, yy]]) @ turn.T
@@ -192,14 +188,6 @@ class Tile:
             for square in (float(slopes[0, 0]), float(slopes[1, 1]), steepest)
         )
         return along, across, least
-
-    def _slopes(self) -> tuple[Pair, Pair]:
-        """Return the mean products of the slopes along rows and columns [-]."""
-        wrap = "wrap" if self.edge == "periodic" else "edge"
-        heights = np.pad(self.heights, ((0, 1), (0, 1)), mode=wrap)  # type: ignore[call-overload]
-        x, y = np.diff(heights, axis=1) / self.pixel[0], np.diff(heights, axis=0) / self.pixel[1]
-        both = float(np.mean((x[:-1] + x[1:]) * (y[:, :-1] + y[:, 1:]))) / 4.0
-        return (float(np.mean(x[:-1] ** 2)), both), (both, float(np.mean(y[:, :-1] ** 2)))
 
 
 # ---- the spline between the points
@@ -245,14 +233,8 @@ def _on_a_mesh(coefficients: Array, rows: Support, columns: Support) -> Array:
 # ---- the filter of a mesh
 
 
-def _rim(pixel: Pair, mesh: Pair) -> tuple[int, int]:
-    """Return the points of the flat rim along x and y into which filtered heights fade."""
-    x, y = (math.ceil(_FADED * step / own) for step, own in zip(mesh, pixel, strict=True))
-    return x, y
-
-
 def is_roomy(shape: tuple[int, ...], rim: tuple[int, int]) -> bool:
-    """Return whether heights with a rim of so many points are many times the heights themselves."""
+    """Return whether a rim of these widths in points makes the heights many times larger."""
     ny, nx = shape
     return (ny + 2 * rim[1]) * (nx + 2 * rim[0]) > max(_TIMES * ny * nx, _ROOM)
 
@@ -265,12 +247,7 @@ def _cosines(waves: int, count: int, rim: int, whole: int) -> Array:
 
 def _response(x: Array, y: Array, mesh: Pair, *, radial: bool) -> Array:
     """Return which part of each wave passes, by its waves per metre along x and y."""
-    if radial:
-        return _passed(np.hypot(x, y[:, None]) * mesh[0])
-    return _passed(x * mesh[0]) * _passed(y * mesh[1])[:, None]
-
-
-def _passed(frequency: Array) -> Array:
-    """Return which part of a wave passes, by waves per mesh width."""
-    beyond = np.clip((frequency - KEPT) / (LOST - KEPT), 0.0, 1.0)
-    return np.cos(0.5 * np.pi * beyond) ** 2
+    y = y[:, None]
+    parts = [np.hypot(x, y) * mesh[0]] if radial else [x * mesh[0], y * mesh[1]]
+    beyond = (np.clip((part - KEPT) / (LOST - KEPT), 0.0, 1.0) for part in parts)
+    return np.asarray(math.prod(np.cos(0.5 * np.pi * part) ** 2 for part in beyond))

@@ -1,17 +1,14 @@
 """Harmonic surfaces: one wave, and two that cross."""
 
 import math
-from typing import TYPE_CHECKING, Literal, NamedTuple, Self
+from collections.abc import Sequence
+from typing import Literal, NamedTuple, Self
 
 from pydantic import model_validator
 
-from tehl.roughness.model import RoughnessModel, Wavelength, check_gentle, direction
+from tehl.roughness.model import RoughnessModel, Wavelength, check_gentle, direction, wavelength_of
+from tehl.typing import Array, np
 from tehl.units import Angle, Height
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from tehl.typing import Array
 
 _ALIKE = 1e-9
 
@@ -73,14 +70,14 @@ class HarmonicModel(RoughnessModel):
     @property
     def shortest_wavelengths(self) -> tuple[float, float]:
         """Return the shortest wavelengths along x and along y [m]."""
-        along = max((abs(wave.along) for wave in self._present), default=0.0)
-        across = max((abs(wave.across) for wave in self._present), default=0.0)
-        return _length(along), _length(across)
+        numbers = ((abs(wave.along), abs(wave.across)) for wave in self._present)
+        along, across = zip((0.0, 0.0), *numbers, strict=True)
+        return wavelength_of(max(along)), wavelength_of(max(across))
 
     @property
     def shortest_wavelength(self) -> float:
         """Return the shortest distance between crests [m]."""
-        return _length(max((wave.number for wave in self._present), default=0.0))
+        return wavelength_of(max((wave.number for wave in self._present), default=0.0))
 
     @property
     def rms(self) -> float:
@@ -91,9 +88,7 @@ class HarmonicModel(RoughnessModel):
     def _present(self) -> list[WaveVector]:
         return [wave for wave in self.components if wave.amplitude > 0]
 
-    def _at_rest(self, x: "Array", y: "Array") -> "Array":
-        import numpy as np  # noqa: PLC0415 (a case is stated without arrays)
-
+    def _at_rest(self, x: Array, y: Array) -> Array:
         total = np.zeros(np.broadcast_shapes(x.shape, y.shape))
         for wave in self._present:
             total += wave.amplitude * np.cos(wave.along * x + wave.across * y + wave.phase)
@@ -131,7 +126,7 @@ class Wave(HarmonicModel):
     @property
     def components(self) -> tuple[WaveVector, ...]:
         """Return the one harmonic."""
-        return (wave_vector(self.amplitude, self.wavelength, self.angle, self.phase),)
+        return (_wave_vector(self.amplitude, self.wavelength, self.angle, self.phase),)
 
 
 class Crossed(HarmonicModel):
@@ -194,8 +189,8 @@ class Crossed(HarmonicModel):
     @property
     def components(self) -> tuple[WaveVector, ...]:
         """Return the harmonics; those of a product run along the sum and difference of both."""
-        first = wave_vector(self.amplitude, self.wavelength, self.angle, self.phase)
-        second = wave_vector(
+        first = _wave_vector(self.amplitude, self.wavelength, self.angle, self.phase)
+        second = _wave_vector(
             self.amplitude if self.amplitude_2 is None else self.amplitude_2,
             self.wavelength if self.wavelength_2 is None else self.wavelength_2,
             self.angle + 0.5 * math.pi if self.angle_2 is None else self.angle_2,
@@ -205,26 +200,21 @@ class Crossed(HarmonicModel):
 
 
 def _product(first: WaveVector, second: WaveVector) -> tuple[WaveVector, ...]:
-    half = 0.5 * first.amplitude
+    (amplitude, *one), (_, *other) = first, second
     return tuple(
-        WaveVector(
-            half,
-            first.along + sign * second.along,
-            first.across + sign * second.across,
-            first.phase + sign * second.phase,
-        )
+        WaveVector(0.5 * amplitude, *(a + sign * b for a, b in zip(one, other, strict=True)))
         for sign in (1.0, -1.0)
     )
 
 
-def wave_vector(amplitude: float, wavelength: float, angle: float, phase: float) -> WaveVector:
+def _wave_vector(amplitude: float, wavelength: float, angle: float, phase: float) -> WaveVector:
     """Return the harmonic with crests ``wavelength`` [m] apart, turned by ``angle`` [rad]."""
     cosine, sine = direction(angle)
     number = 2.0 * math.pi / wavelength
     return WaveVector(amplitude, number * cosine, -number * sine, phase)
 
 
-def are_even(waves: "Sequence[WaveVector]") -> bool:
+def are_even(waves: Sequence[WaveVector]) -> bool:
     """Return whether a sum of harmonics mirrors at y = 0."""
     spectrum = _spectrum(waves)
     mirrored = _spectrum([wave._replace(across=-wave.across) for wave in waves])
@@ -233,7 +223,7 @@ def are_even(waves: "Sequence[WaveVector]") -> bool:
     return all(abs(difference) <= _ALIKE * largest for difference in differences)
 
 
-def _spectrum(waves: "Sequence[WaveVector]") -> dict[tuple[int, int], complex]:
+def _spectrum(waves: Sequence[WaveVector]) -> dict[tuple[int, int], complex]:
     """Return complex amplitudes by wave vector, each vector in the half-plane of positive x."""
     unit = _ALIKE * max((wave.number for wave in waves), default=1.0) or 1.0
     spectrum: dict[tuple[int, int], complex] = {}
@@ -248,14 +238,7 @@ def _spectrum(waves: "Sequence[WaveVector]") -> dict[tuple[int, int], complex]:
     return spectrum
 
 
-def root_mean_square(waves: "Sequence[WaveVector]") -> float:
+def root_mean_square(waves: Sequence[WaveVector]) -> float:
     """Return the root mean square height of a sum of harmonics over the plane [m]."""
-    spectrum = _spectrum(waves)
-    mean_squares = (
-        abs(amplitude) ** 2 * (1.0 if key == (0, 0) else 0.5) for key, amplitude in spectrum.items()
-    )
-    return math.sqrt(sum(mean_squares))
-
-
-def _length(number: float) -> float:
-    return 2.0 * math.pi / number if number > 0 else math.inf
+    spectrum = _spectrum(waves).items()
+    return math.sqrt(sum(abs(a) ** 2 * (1.0 if key == (0, 0) else 0.5) for key, a in spectrum))

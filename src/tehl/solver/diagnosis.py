@@ -166,7 +166,7 @@ def _shear_stress(scaled: ScaledProblem) -> Iterator[LikelyCause]:
     pressure = problem.hertz.mean_pressure
     rate = abs(problem.motion.sliding_speed) / expected_film(scaled)
     oil = problem.lubricant
-    viscosity = oil.viscosity.viscosity_at(pressure, scales.temperature)
+    viscosity = oil.viscosity.viscosity(pressure, scales.temperature)
     stress = oil.shear.thinned(viscosity * rate, pressure)
     if not stress > LARGEST_TRACTION * pressure:
         return

@@ -72,27 +72,24 @@ def passing_wave(run: "TransientResult", surface: int, *, x: float = 0.0) -> Pas
     rate = abs(wave.along * speed)
     periods, steps = _periods(run, surface, rate, x)
     harmonic = _harmonic(run.history.time, rate, periods)
-    profiles = run.profiles
-    lines = (getattr(profiles, f"height_{surface}"), profiles.film, profiles.pressure)
+    if not run.x[0] <= x <= run.x[-1]:
+        raise InputError(f"x = {x:g} m: outside the domain, {run.x[0]:g} to {run.x[-1]:g} m")
+    profiles, count = run.profiles, harmonic.shape[1]
     amplitudes = (
-        complex(*(harmonic @ _at(run, line, x)[-harmonic.shape[1] :])).conjugate() for line in lines
+        complex(*(harmonic @ [np.interp(x, run.x, line) for line in lines[-count:]])).conjugate()
+        for lines in (getattr(profiles, f"height_{surface}"), profiles.film, profiles.pressure)
     )
-    nabla = _nabla(run, wave)
+    shorter = 2.0 * math.pi / max(abs(wave.along), abs(wave.across))  # of those along x and y
+    groups = run.start.groups
+    nabla = nabla_of(shorter / run.start.scales.half_width_x, groups.M, groups.L)
     return PassingWave(
-        **ripple(*amplitudes),
+        **ripple(amplitudes),
         x=x,
         periods=periods,
         steps_per_period=steps,
         nabla=nabla,
         published_ratio=amplitude_reduction(nabla, ratio=abs(wave.across / wave.along)),
     )
-
-
-def _nabla(run: "TransientResult", wave: WaveVector) -> float:
-    """Return nabla of a wave: its wavelength is the shorter one of those along x and y."""
-    groups, half_width = run.start.groups, run.start.scales.half_width_x
-    shorter = 2.0 * math.pi / max(abs(wave.along), abs(wave.across))
-    return nabla_of(shorter / half_width, groups.M, groups.L)
 
 
 def _wave(run: "TransientResult", surface: int) -> WaveVector:
@@ -139,13 +136,6 @@ def _arrival(run: "TransientResult", surface: int, x: float) -> float:
     front = transient.entrance * run.start.scales.half_width_x
     fade_in = min(2.0 * math.pi / abs(_wave(run, surface).along), 0.5 * front)
     return (math.copysign(x, x * speed) + front + fade_in) / abs(speed)
-
-
-def _at(run: "TransientResult", line: Array, x: float) -> Array:
-    """Return a profile over time at one place, interpolated."""
-    if not run.x[0] <= x <= run.x[-1]:
-        raise InputError(f"x = {x:g} m: outside the domain, {run.x[0]:g} to {run.x[-1]:g} m")
-    return np.array([np.interp(x, run.x, values) for values in line])
 
 
 def _harmonic(time: Array, rate: float, periods: int) -> Array:

@@ -2,15 +2,16 @@
 
 import cmath
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from tehl.post.heat import mean_temperature
 from tehl.post.waves.search import distinct_waves
 from tehl.problem import ContactProblem
-from tehl.roughness import AnyRoughness, Map, Random, Sum, WaveVector
+from tehl.roughness import Map, Random, Sum, WaveVector
 from tehl.typing import Array, BoolArray
 from tehl.wave_theory import (
     FlatFilm,
@@ -60,8 +61,9 @@ class Ripple:
         return self.film_amplitude / self.amplitude
 
 
-def ripple(height: complex, film: complex, pressure: complex) -> dict[str, float]:
-    """Return the fields of :class:`Ripple` of complex amplitudes [m], [m], [Pa]."""
+def ripple(amplitudes: Iterable[complex]) -> dict[str, float]:
+    """Return the fields of :class:`Ripple` of complex height, film [m] and pressure [Pa]."""
+    height, film, pressure = amplitudes
     return {
         "amplitude": abs(height),
         "film_amplitude": abs(film),
@@ -130,7 +132,7 @@ def wave_responses(result: "Result", smooth: "Result | None" = None) -> tuple[Wa
     level = _flat_film(result, patch)
     return tuple(
         WaveResponse(
-            **ripple(*amplitudes),
+            **ripple(amplitudes),
             wavelength=wave.wavelength,
             angle=wave.angle,
             points_per_wave=patch.points_per_wave(wave),
@@ -143,13 +145,7 @@ def wave_responses(result: "Result", smooth: "Result | None" = None) -> tuple[Wa
 
 
 def wave_notes(result: "Result") -> tuple[str, ...]:
-    """Return what :func:`wave_responses` leaves out and why, a sentence each.
-
-    Parameters
-    ----------
-    result : Result
-        Of a rough contact; others have no notes.
-    """
+    """Return what :func:`wave_responses` leaves out and why, a sentence each."""
     found = _Waves.of(result)
     if found is None:
         return ()
@@ -174,6 +170,7 @@ class _Waves:
     patch: "_Patch"
     stated: dict[WaveVector, float]
     all: list[WaveVector]
+    drift: float | None  # speed of found waves less the mean speed [m/s]
 
     @classmethod
     def of(cls, result: "Result") -> "_Waves | None":
@@ -182,36 +179,28 @@ class _Waves:
         patch, heights = _Patch.of(result), result.heights.together
         stated = dict(drifting_waves(result.problem))
         waves = list(stated) or _standing_out(result, heights, patch)
-        return cls(result.problem, heights, patch, stated, waves)
+        drift = drift_of_heights(result.problem)
+        return cls(result.problem, heights, patch, stated, waves, drift)
 
     @property
     def fitted(self) -> list[WaveVector]:
         """Waves of which enough lies in the patch."""
         return [wave for wave in self.all if self.patch.holds(wave)]
 
-    @property
-    def drift(self) -> float | None:
-        """Speed of found waves less the mean speed [m/s]."""
-        return drift_of_heights(self.problem)
-
     def theory(self, wave: WaveVector, level: FlatFilm, amplitude: float) -> LinearTheory:
         """Return the ripples of a wave by theory."""
-        drift = self.stated.get(wave, self.drift)
-        holds = why_no_theory(self.problem) is None and drift is not None
+        drift, straight = self.stated.get(wave, self.drift), self.patch.straight(wave)
         if drift is None:
-            drift = -self.problem.entrainment_speed
-        return level.theory(self.patch.straight(wave), amplitude, drift, holds=holds)
+            return level.theory(straight, amplitude, -self.problem.entrainment_speed, holds=False)
+        holds = why_no_theory(self.problem) is None
+        return level.theory(straight, amplitude, drift, holds=holds)
 
 
 def _is_searched(problem: ContactProblem) -> bool:
     """Return whether a surface may have waves that it does not state."""
-    return any(_may_hold_waves(one.roughness) for one in (problem.surface_1, problem.surface_2))
-
-
-def _may_hold_waves(roughness: AnyRoughness) -> bool:
-    if isinstance(roughness, Sum):
-        return any(map(_may_hold_waves, roughness.parts))
-    return isinstance(roughness, Map | Random)
+    surfaces = (problem.surface_1.roughness, problem.surface_2.roughness)
+    parts = (part for one in surfaces for part in (one.parts if isinstance(one, Sum) else [one]))
+    return any(isinstance(part, Map | Random) for part in parts)
 
 
 def _standing_out(result: "Result", heights: Array, patch: "_Patch") -> list[WaveVector]:
@@ -297,12 +286,12 @@ class _Patch:
 
 def _streaks(waves: Sequence[WaveVector]) -> list[float]:
     """Return the wave numbers across of the streaks that oblique waves make, each once."""
-    found = [abs(wave.across) for wave in waves if not wave.along]
-    longitudinal = len(found)
+    longitudinal = [abs(wave.across) for wave in waves if not wave.along]
+    found: list[float] = []
     for number in (abs(wave.across) for wave in waves if wave.along and wave.across):
-        if not any(math.isclose(number, other) for other in found):
+        if not any(math.isclose(number, other) for other in longitudinal + found):
             found.append(number)
-    return found[longitudinal:]
+    return found
 
 
 @dataclass(frozen=True, slots=True)
@@ -334,8 +323,7 @@ def _flat_film(result: "Result", patch: _Patch) -> FlatFilm:
     pressure = float(patch.cut(result.pressure).mean())
     temperature = result.scales.temperature
     if result.heat is not None:
-        layers = np.tensordot(result.heat.weights, result.heat.temperature, axes=1)
-        temperature = float(patch.cut(layers).mean())
+        temperature = float(patch.cut(mean_temperature(result.heat)).mean())
     thinning = 1.0 if result.shear is None else float(patch.cut(result.shear.thinning).mean())
     oil = result.problem.lubricant
     return FlatFilm(

@@ -67,12 +67,16 @@ def distinct_waves(
             break
         found = region.refined([*((wave.along, wave.across) for wave in found), start])
     distinct = dict.fromkeys([*_standing_out(found), *_standing_out(list(filter(is_short, found)))])
-    steepest = max(map(_steepness, found), default=0.0)
-    return [_upright(wave) for wave in distinct if _steepness(wave) >= FAINTEST * steepest > 0]
-
-
-def _steepness(wave: WaveVector) -> float:
-    return wave.number * wave.amplitude
+    steepest = max((wave.number * wave.amplitude for wave in found), default=0.0)
+    return [
+        # Theory separates waves along an axis: nearly upright ones are taken as upright.
+        wave._replace(
+            along=wave.along if abs(wave.along) >= wave.number * _UPRIGHT else 0.0,
+            across=wave.across if abs(wave.across) >= wave.number * _UPRIGHT else 0.0,
+        )
+        for wave in distinct
+        if wave.number * wave.amplitude >= FAINTEST * steepest > 0
+    ]
 
 
 def _within(axis: Array) -> slice:
@@ -94,13 +98,6 @@ def _standing_out(found: Sequence[WaveVector]) -> list[WaveVector]:
         if ranked[place - 1].amplitude > place * CLEAR * ranked[place].amplitude
     ]
     return ranked[: max(falls, default=0)]
-
-
-def _upright(wave: WaveVector) -> WaveVector:
-    """Return a wave whose crests lie along an axis if they nearly do: theory separates these."""
-    least = wave.number * _UPRIGHT
-    along, across = (0.0 if abs(part) < least else part for part in (wave.along, wave.across))
-    return wave._replace(along=along, across=across)
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,7 +132,9 @@ class _Region:
     def peak(self, found: Sequence[WaveVector]) -> tuple[float, float] | None:
         """Return the highest peak of the spectrum without waves found, and away from them."""
         ny, nx = (_PADDED * size for size in self.shape)
-        spectrum = np.abs(np.fft.rfft2(self._less(found), s=(ny, nx)))
+        matrix = self._columns([(wave.along, wave.across) for wave in found])
+        left = self.weight * (self.heights - matrix @ self._solved(matrix))
+        spectrum = np.abs(np.fft.rfft2(left.reshape(self.shape), s=(ny, nx)))
         along = 2.0 * math.pi * np.fft.rfftfreq(nx, self.step[0]).astype(np.float64)
         across = 2.0 * math.pi * np.fft.fftfreq(ny, self.step[1]).astype(np.float64)[:, None]
 
@@ -175,11 +174,6 @@ class _Region:
             WaveVector(float(amplitude), float(along), float(across), 0.0)
             for amplitude, (along, across) in zip(amplitudes, place, strict=True)
         ]
-
-    def _less(self, found: Sequence[WaveVector]) -> Array:
-        """Return the weighted heights without the background and the waves found, (ny, nx)."""
-        matrix = self._columns([(wave.along, wave.across) for wave in found])
-        return (self.weight * (self.heights - matrix @ self._solved(matrix))).reshape(self.shape)
 
     def _pairs(self, vectors: Array) -> tuple[Array, Array]:
         """Return the amplitudes of cosine and sine of each wave, (n, 2), and all columns."""

@@ -18,7 +18,7 @@ ENDINGS = ("npy", *_TEXTS, *_NETCDF, "x3p", *FORMATS)
 
 
 def read(path: Path, *, layout: Layout = "auto", variable: str | None = None) -> RawMap:
-    """Return what a file of heights says. Nothing in it is ever executed.
+    """Return the content of a file of heights. Nothing in it is ever executed.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ def read(path: Path, *, layout: Layout = "auto", variable: str | None = None) ->
     Raises
     ------
     InputError
-        If there is no map in it; the message lacks the name of the file.
+        If it does not hold a map; the message lacks the name of the file.
     """
     ending = path.suffix[1:].lower()
     if ending in _TEXTS:
@@ -48,13 +48,7 @@ def read(path: Path, *, layout: Layout = "auto", variable: str | None = None) ->
 
 
 def checked(file: str) -> Path:
-    """Return the path of a file that is there.
-
-    Raises
-    ------
-    InputError
-        If it is missing, no regular file, empty or too large; the message lacks the name.
-    """
+    """Return the path of an existing file; raise InputError, without the name, for others."""
     path = Path(file).expanduser()
     try:
         found = path.stat()

@@ -9,7 +9,6 @@ import numpy as np
 
 from tehl.errors import InputError
 from tehl.roughness.files.raw import HDF5, RawMap, check_bytes, check_count, check_hdf5, step
-from tehl.typing import Array
 
 _READERS = {
     (1, 0): np.lib.format.read_array_header_1_0,
@@ -31,10 +30,7 @@ def _short(error: Exception) -> str:
 def read_npy(path: Path) -> RawMap:
     """Return the heights of a ``.npy`` file; objects are never unpickled.
 
-    Raises
-    ------
-    InputError
-        If it holds no table of real numbers, or less than its header claims.
+    Raises InputError if it is not a table of real numbers, or holds less than its header claims.
     """
     with path.open("rb") as file:
         try:
@@ -62,10 +58,7 @@ def read_npy(path: Path) -> RawMap:
 def read_instrument(path: Path) -> RawMap:
     """Return the heights of a file of an instrument.
 
-    Raises
-    ------
-    InputError
-        If SurfaceTopography is not installed, or cannot read the file.
+    Raises InputError if SurfaceTopography is not installed, or cannot read the file.
     """
     try:
         from SurfaceTopography.IO import open_topography  # noqa: PLC0415 (an extra, one second)
@@ -105,19 +98,10 @@ def read_instrument(path: Path) -> RawMap:
 def read_netcdf(path: Path, variable: str | None) -> RawMap:
     """Return the heights of a NetCDF file, version 3 or 4.
 
-    Parameters
-    ----------
-    path : Path
-        With one variable of two dimensions, or several of which ``variable`` names one. Its
-        attribute ``units`` and coordinates count; the last dimension, or the one called x, is x.
-        Coordinates may fall, as y does in the order of images.
-    variable : str or None
-        Which one.
-
-    Raises
-    ------
-    InputError
-        If it cannot be read, or it is not clear what the heights are.
+    The file has one variable of two dimensions, or several of which ``variable`` names one. Its
+    attribute ``units`` and coordinates count; the last dimension, or the one called x, is x.
+    Coordinates may fall, as y does in the order of images. Raises InputError if the file cannot be
+    read, or it is not clear what the heights are.
     """
     import xarray as xr  # noqa: PLC0415 (a second, for this format only)
 
@@ -162,14 +146,18 @@ def _map_of(found: Any) -> RawMap:
     check_count(found.shape)
     if {"x", "y"} == set(found.dims):
         found = found.transpose("y", "x")
-    falling = [dim for dim in found.dims if _falls(_places(found, dim))]  # as rows of images
-    found = found.isel({dim: slice(None, None, -1) for dim in falling})
     steps: list[float | None] = []
     units: list[str | None] = []
     for dim, axis in zip(found.dims, "yx", strict=True):
-        along = _places(found, dim)
-        steps.append(None if along is None else step(along, axis))
-        units.append(None if along is None else _unit(found.coords[dim]))
+        if dim not in found.coords:
+            steps.append(None)
+            units.append(None)
+            continue
+        along = np.asarray(found.coords[dim].values, dtype=np.float64)
+        if along[-1:] < along[:1]:  # as rows of images
+            found, along = found.isel({dim: slice(None, None, -1)}), along[::-1]
+        steps.append(step(along, axis))
+        units.append(_unit(found.coords[dim]))
     return RawMap(
         heights=np.asarray(found.values, dtype=np.float64),
         kind=f"NetCDF, variable {found.name}",
@@ -177,17 +165,6 @@ def _map_of(found: Any) -> RawMap:
         pixel=(steps[1], steps[0]) if steps[0] and steps[1] else None,
         pixel_units=(units[1], units[0]),
     )
-
-
-def _falls(places: Array | None) -> bool:
-    return places is not None and places.size > 1 and bool(places[0] > places[-1])
-
-
-def _places(found: Any, dim: str) -> Array | None:
-    """Return the coordinates along a dimension; None where it has none."""
-    if dim not in found.coords:
-        return None
-    return np.asarray(found.coords[dim].values, dtype=np.float64)
 
 
 def _unit(variable: Any) -> str | None:

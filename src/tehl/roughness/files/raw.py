@@ -1,4 +1,4 @@
-"""What a file of heights says, before anything is made of it, and checks that all readers share."""
+"""Heights of a file before preparation, and checks that all readers share."""
 
 import math
 from dataclasses import dataclass
@@ -45,7 +45,7 @@ class RawMap:
 
 
 def check_count(shape: tuple[int, ...]) -> None:
-    """Refuse a map that is larger than memory should hold, before anything is allocated."""
+    """Reject a map that is too large for memory, before anything is allocated."""
     if len(shape) != 2:
         raise InputError(
             f"holds an array of shape {_times(shape)}, but heights are a table of rows and columns"
@@ -58,7 +58,15 @@ def check_count(shape: tuple[int, ...]) -> None:
 
 
 def check_bytes(there: int, needed: int, shape: tuple[int, ...]) -> None:
-    """Refuse a file whose header claims more than it holds."""
+    """Reject a file whose header claims more than it holds.
+
+    Parameters
+    ----------
+    there, needed : int
+        Bytes of the file, and of the points.
+    shape : (ny, nx)
+        Points that the header claims.
+    """
     if there < needed:
         raise InputError(
             f"is truncated: {_times(shape)} points take {needed} bytes, and {there} are there"
@@ -66,13 +74,7 @@ def check_bytes(there: int, needed: int, shape: tuple[int, ...]) -> None:
 
 
 def step(places: Array, axis: str) -> float:
-    """Return the distance of equidistant places.
-
-    Raises
-    ------
-    InputError
-        If they are not equidistant and rising, or fewer than two.
-    """
+    """Return the distance of at least two equidistant places; raise InputError for others."""
     distances = np.diff(places)
     if distances.size == 0:
         raise InputError(f"has one point along {axis}, which is not a map")
@@ -83,13 +85,7 @@ def step(places: Array, axis: str) -> float:
 
 
 def check_hdf5(path: Path) -> None:
-    """Refuse HDF5 with data in other files; raise what h5py does where h5netcdf would warn.
-
-    Raises
-    ------
-    InputError
-        If a part of the file lies in another one, which a map must not read.
-    """
+    """Reject HDF5 with data in other files; raise what h5py does where h5netcdf would warn."""
     import h5py  # noqa: PLC0415
 
     def leads_out(_: str, link: Any) -> bool | None:
@@ -109,10 +105,10 @@ def check_hdf5(path: Path) -> None:
             )
 
 
-def shown(path: str | Path) -> str:
-    """Return a path for a message: on one line, its middle left out when it is long."""
-    text = "".join(c if c.isprintable() else "?" for c in str(path))
-    return text if len(text) <= 160 else f"{text[:60]}...{text[-80:]}"
+def shown(text: object, longest: int = 160) -> str:
+    """Return a path or a text for a message: printable, its middle left out when it is long."""
+    line = "".join(c if c.isprintable() else "?" for c in str(text))
+    return line if len(line) <= longest else f"{line[: longest // 2 - 3]}...{line[-longest // 2 :]}"
 
 
 def _times(shape: tuple[int, ...]) -> str:

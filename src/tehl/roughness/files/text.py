@@ -1,14 +1,14 @@
-"""Heights as text: a table of them, or columns x, y and z. One is never taken for the other."""
+"""Heights as text: a table of heights, or columns x, y and z; ambiguous files are rejected."""
 
 import re
-from dataclasses import dataclass, field
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Literal
 
 import numpy as np
 
 from tehl.errors import InputError
-from tehl.roughness.files.raw import LARGEST_MAP, RawMap, check_count, step
+from tehl.roughness.files.raw import LARGEST_MAP, RawMap, check_count, shown, step
 from tehl.typing import Array
 
 Layout = Literal["auto", "matrix", "xyz"]
@@ -23,20 +23,11 @@ _DIGITS = 1e-6
 def read_text(path: Path, layout: Layout) -> RawMap:
     """Return the heights of a text file.
 
-    Parameters
-    ----------
-    path : Path
-        Numbers parted by commas, semicolons, tabs or blanks; lines that begin with ``#``, ``%`` or
-        ``//`` and one line of names are skipped; nothing and ``nan`` are points without a height,
-        but a mark at the end of a row that is as long as the others without it is nothing more.
-    layout : {"auto", "matrix", "xyz"}
-        What the numbers are. "auto" takes three columns as x, y and z only if the first two make
-        a lattice, and as a table never.
-
-    Raises
-    ------
-    InputError
-        If it holds anything else; the message has the line.
+    Numbers are separated by commas, semicolons, tabs or blanks; lines that begin with ``#``, ``%``
+    or ``//`` and one line of names are skipped; nothing and ``nan`` are points without a height,
+    but a mark at the end of a row that is as long as the others without it is not a point.
+    ``layout`` = "auto" takes three columns as x, y and z if the first two make a lattice, and never
+    as a table. Raises InputError, with the line, if the file holds anything else.
     """
     table = _table(path)
     if layout == "matrix" or (layout == "auto" and table.shape[1] != 3):
@@ -50,68 +41,56 @@ def read_text(path: Path, layout: Layout) -> RawMap:
 def _table(path: Path) -> Array:
     if path.stat().st_size > _LARGEST_TEXT:
         raise InputError(f"is a text of more than {_LARGEST_TEXT // 10**9} GB: store it as .npy")
-    rows = _Rows()
-    names_may_come = True
-    with path.open(encoding="utf-8-sig", errors="strict") as file:
-        try:
+    rows: list[Array] = []
+    marked: list[bool] = []
+    numbers: list[int] = []
+    for number, cells in _lines(path):
+        marked.append(not cells[-1] and len(cells) > 1)
+        rows.append(_row(cells[:-1] if marked[-1] else cells, number))
+        numbers.append(number)
+        if len(rows) * rows[0].size > 3 * LARGEST_MAP:
+            raise InputError(
+                f"holds more than {LARGEST_MAP // 10**6} million heights: crop it before"
+            )
+    if not rows:
+        raise InputError("holds no numbers")
+    return _evened(rows, marked, numbers)
+
+
+def _lines(path: Path) -> Iterator[tuple[int, list[str]]]:
+    """Yield the number and the cells of each line of data."""
+    is_first = True
+    try:
+        with path.open(encoding="utf-8-sig", errors="strict") as file:
             for number, line in enumerate(file, start=1):
                 text = line.strip("\r\n \0")
-                if _is_blank(text) or text.lstrip().startswith(_COMMENT):
+                is_blank = not text.strip() and text.count("\t") < 2  # tabs: missing points
+                if is_blank or text.lstrip().startswith(_COMMENT):
                     continue
-                if names_may_come and _are_names(text):
-                    names_may_come = False
-                    continue
-                names_may_come = False
-                rows.add(_cells(text), number)
-        except UnicodeDecodeError:
-            raise InputError("is not a text in UTF-8") from None
-    if not rows.found:
-        raise InputError("holds no numbers")
-    return np.array(rows.found)
+                cells = _cells(text)
+                if not (is_first and len(text) < 400 and _are_names(cells)):
+                    yield number, cells
+                is_first = False
+    except UnicodeDecodeError:
+        raise InputError("is not a text in UTF-8") from None
 
 
-@dataclass(slots=True)
-class _Rows:
-    """Rows of one length, as they come.
+def _evened(rows: list[Array], marked: list[bool], numbers: list[int]) -> Array:
+    """Return rows of one length.
 
-    What ends with a mark may lack its last height, or be ended by the mark: only the length of
-    the other rows tells. Where all rows end with one, it ends them.
+    A row with a mark at its end may lack its last height, or be ended by the mark, as the length of
+    the rows without one decides. Where all rows end with a mark, it ends them.
     """
-
-    found: list[Array] = field(default_factory=list)
-    all_end_with_a_mark: bool = True
-
-    def add(self, cells: list[str], number: int) -> None:
-        """Add the cells of a line.
-
-        Raises
-        ------
-        InputError
-            If one is not a number, or their count differs from that of the lines before.
-        """
-        ends_with_a_mark = not cells[-1] and len(cells) > 1
-        row = _row(cells[:-1] if ends_with_a_mark else cells, number)
-        lacking = row.size - self.found[0].size if self.found else 0
-        if lacking == 1 and self.all_end_with_a_mark and not ends_with_a_mark:
-            self.found = [np.append(one, np.nan) for one in self.found]
-        elif lacking == -1 and ends_with_a_mark and not self.all_end_with_a_mark:
-            row = np.append(row, np.nan)
-        self.found.append(row)
-        self.all_end_with_a_mark &= ends_with_a_mark
-        _check_row(self.found, number)
-
-
-def _check_row(rows: list[Array], number: int) -> None:
-    first, last = rows[0].size, rows[-1].size
-    if first != last:
-        raise InputError(f"line {number} has {last} numbers, but the lines before have {first}")
-    if len(rows) * first > 3 * LARGEST_MAP:
-        raise InputError(f"holds more than {LARGEST_MAP // 10**6} million heights: crop it before")
-
-
-def _is_blank(text: str) -> bool:
-    """Return whether a line is empty; several tabs are a row of missing points."""
-    return not text.strip() and text.count("\t") < 2
+    full = next((row.size for row, mark in zip(rows, marked, strict=True) if not mark), 0)
+    for place, mark in enumerate(marked):
+        if mark and rows[place].size == full - 1:
+            rows[place] = np.append(rows[place], np.nan)
+        if rows[place].size != rows[0].size:
+            raise InputError(
+                f"line {numbers[place]} has {rows[place].size} numbers, but the lines before have "
+                f"{rows[0].size}"
+            )
+    return np.array(rows)
 
 
 def _cells(text: str) -> list[str]:
@@ -133,7 +112,7 @@ def _row(cells: list[str], number: int) -> Array:
     cells = [_MISSING.get(cell.lower(), cell) for cell in cells]
     for cell in cells:
         if not _is_number(cell):
-            raise InputError(f"line {number} has {_short(cell)}, which is not a number")
+            raise InputError(f"line {number} has {shown(cell, 40)!r}, which is not a number")
     return np.array(cells, dtype=np.float64)
 
 
@@ -145,22 +124,14 @@ def _is_number(cell: str) -> bool:
     return "_" not in cell
 
 
-def _are_names(text: str) -> bool:
-    """Return whether a line is one of column names: short words, none a number or a gap."""
-    cells = _cells(text)
-    cells = cells if cells[-1] else cells[:-1]
-    return len(text) < 400 and all(map(_is_name, cells))
-
-
-def _is_name(cell: str) -> bool:
-    if cell.lower() in _MISSING or _is_number(cell):  # nan and inf are numbers
-        return False
-    return re.fullmatch(r"[^\W\d][\w .()\[\]/µ]{0,30}", cell) is not None
-
-
-def _short(cell: str) -> str:
-    text = "".join(c if c.isprintable() else "?" for c in cell)
-    return repr(text if len(text) <= 40 else f"{text[:37]}...")
+def _are_names(cells: list[str]) -> bool:
+    """Return whether cells are column names: short words, none a number or a gap."""
+    return all(
+        re.fullmatch(r"[^\W\d][\w .()\[\]/µ]{0,30}", cell)
+        and cell.lower() not in _MISSING
+        and not _is_number(cell)  # nan and inf are numbers
+        for cell in (cells if cells[-1] else cells[:-1])
+    )
 
 
 def _lattice(table: Array) -> RawMap:

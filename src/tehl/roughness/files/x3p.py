@@ -35,16 +35,9 @@ _TYPES = {"I": "<i2", "L": "<i4", "F": "<f4", "D": "<f8"}
 
 
 def read_x3p(path: Path) -> RawMap:
-    """Return the heights of an x3p file.
+    """Return the heights of an x3p file (ISO 25178-72).
 
-    Raises
-    ------
-    InputError
-        If it is damaged, its checksums do not match, or it holds no map.
-
-    References
-    ----------
-    .. [1] ISO 25178-72, XML file format x3p.
+    Raises InputError if it is damaged, its checksums do not match, or it holds no map.
     """
     try:
         with zipfile.ZipFile(path) as archive:
@@ -123,7 +116,7 @@ def _member(archive: zipfile.ZipFile, name: str, most: int) -> bytes:
             content = file.read(most + 1)
     except KeyError:
         raise InputError(f"is an x3p file without {name[:60]}") from None
-    except RuntimeError:  # what zipfile says of a password
+    except RuntimeError:  # as zipfile reports a password
         raise InputError("is an x3p file that is locked with a password") from None
     if len(content) > most:
         raise InputError(f"has a member {name[:60]} that is larger than its header allows")
@@ -159,18 +152,18 @@ def _check_sum(content: bytes, stated: str | None, name: str) -> None:
 def _parsed(header: bytes) -> ElementTree.Element:
     """Return the root of an XML text that declares no types and no entities."""
 
-    def refuse(*_: object) -> None:
+    def reject(*_: object) -> None:
         raise InputError("has a header with a document type or entities, which x3p has not")
 
     scout = expat.ParserCreate()
-    scout.StartDoctypeDeclHandler = refuse
-    scout.EntityDeclHandler = refuse
+    scout.StartDoctypeDeclHandler = reject
+    scout.EntityDeclHandler = reject
     try:
         scout.Parse(header, True)
         return ElementTree.fromstring(header)
     except (expat.ExpatError, ElementTree.ParseError) as error:
         raise InputError(f"has a header that is not XML: {error}") from None
-    except (LookupError, ValueError) as error:  # what codecs say of a foreign name
+    except (LookupError, ValueError) as error:  # as codecs report an unknown name
         reason = str(error).split(";", maxsplit=1)[0][:60]
         raise InputError(
             f"has a header in an encoding that cannot be read, {reason}: it must be UTF-8"

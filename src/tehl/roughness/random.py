@@ -1,16 +1,18 @@
 """Random surfaces by their spectrum."""
 
 import math
+from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from tehl.roughness.model import Roughness, RoughnessModel, Wavelength, check_gentle, direction
+from tehl.errors import InputError
+from tehl.roughness.model import TileModel, Wavelength, check_gentle, direction, wavelength_of
+from tehl.typing import Array, np
 from tehl.units import Angle, Height, Number, PositiveNumber
 
 if TYPE_CHECKING:
     from tehl.roughness.tile import Tile
-    from tehl.typing import Array
 
 _PER_LENGTH, _POINTS = 4, 1024
 """Points per correlation length or cut-off, and of the lattice."""
@@ -18,11 +20,13 @@ _WIDE, _WIDEST = 16.0, 64.0
 _LENGTHS = ("correlation_length", "roll_off")
 _SHORTEST, _LONGEST = 1e-12, 1e6
 _LARGEST_KURTOSIS = 20.0
+_BINS, _STARTS, _MISSED = 4001, (0.0, 1.0, 3.0), 1e-3
+"""Of the fit of skewness and kurtosis: bins, first shifts, and the largest error that is left."""
 
 Seed = Annotated[int, Field(strict=True, ge=0, le=2**53)]
 
 
-class Random(RoughnessModel):
+class Random(TileModel):
     r"""A random surface with a given spectrum.
 
     The power spectral density is, with wave numbers :math:`q_u` and :math:`q_v` along and across
@@ -36,8 +40,8 @@ class Random(RoughnessModel):
     .. math:: C \sim 1,\ \kappa < 1; \quad \kappa^{-2(1+H)},\ \kappa \ge 1 \quad
               \text{("self-affine")}
 
-    up to the cut-off. The surface has a lattice of its own and repeats: it is the same on whatever
-    mesh it is sampled.
+    up to the cut-off. The surface is defined on its own lattice and repeats: it is the same on
+    every mesh.
 
     Attributes
     ----------
@@ -173,12 +177,12 @@ class Random(RoughnessModel):
         along, across = self._slopes
         cosine, sine = (value**2 for value in direction(self.angle))
         squares = (along * cosine + across * sine, along * sine + across * cosine)
-        return _length(squares[0]), _length(squares[1])
+        return wavelength_of(math.sqrt(squares[0])), wavelength_of(math.sqrt(squares[1]))
 
     @property
     def shortest_wavelength(self) -> float:
         """Return the wavelength 2 pi Sq / Sq' where it is shortest [m]."""
-        return _length(max(self._slopes))
+        return wavelength_of(math.sqrt(max(self._slopes)))
 
     @property
     def _slopes(self) -> tuple[float, float]:
@@ -197,16 +201,7 @@ class Random(RoughnessModel):
 
     @property
     def _tile(self) -> "Tile":
-        from tehl.roughness.random_heights import tile_of  # noqa: PLC0415 (scipy)
-
-        return tile_of(self)
-
-    def _at_rest(self, x: "Array", y: "Array") -> "Array":
-        return self._tile.height(x, y)
-
-    def resolved_on(self, dx: float, dy: float) -> Roughness:
-        """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
-        return self._tile.resolved_on(dx, dy)
+        return _tile_of(self)
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
         """Return a sentence if the surface repeats within a contact of these lengths [m]."""
@@ -218,10 +213,8 @@ class Random(RoughnessModel):
             f"{width * 1e6:.3g} x {length * 1e6:.3g} um: it has very short waves",
         )
 
-    def density(self, along: "Array", across: "Array") -> "Array":
+    def density(self, along: Array, across: Array) -> Array:
         """Return the power spectral density, one at zero, by wave numbers along u and v [rad/m]."""
-        import numpy as np  # noqa: PLC0415 (a case is stated without arrays)
-
         first, second = self._lengths
         if self.spectrum == "gaussian":
             return np.exp(-((along * first) ** 2 + (across * second) ** 2) / 4.0)
@@ -230,5 +223,58 @@ class Random(RoughnessModel):
         return np.where(number <= self._band, falling, 0.0)
 
 
-def _length(square: float) -> float:
-    return 2.0 * math.pi / math.sqrt(square) if square > 0 else math.inf
+@lru_cache(maxsize=4)
+def _tile_of(surface: Random) -> "Tile":
+    """Return one period of a random surface."""
+    from scipy import fft  # noqa: PLC0415 (a case needs no scipy)
+
+    from tehl.roughness.tile import Tile  # noqa: PLC0415
+
+    points, pixel = surface.lattice
+    noise = np.random.default_rng(surface.seed).standard_normal((points, points))
+    along, across = (2.0 * np.pi / step for step in pixel)
+    density = surface.density(
+        along * fft.rfftfreq(points), across * fft.fftfreq(points)[:, np.newaxis]
+    )
+    density[0, 0] = 0.0
+    heights = fft.irfft2(fft.rfft2(noise) * np.sqrt(density), (points, points))
+    heights /= np.sqrt(np.mean(np.square(heights)))
+    if (surface.skewness, surface.kurtosis) != (0.0, 3.0):
+        heights = _with_moments(heights, surface.skewness, surface.kurtosis)
+    return Tile(heights=surface.rms * heights, pixel=pixel, angle=surface.angle)
+
+
+def _with_moments(heights: Array, skewness: float, kurtosis: float) -> Array:
+    r"""Return heights with given moments by a monotone transformation: each peak stays one.
+
+    .. math:: t(z) = \sinh\frac{\operatorname{arsinh} z + \epsilon}{\delta}
+
+    with the two parameters that these heights need, not those of a Gaussian distribution. Mean and
+    mean square stay zero and one.
+    """
+    from scipy.optimize import least_squares  # noqa: PLC0415
+
+    count, edges = np.histogram(heights, bins=_BINS)
+    places, share = 0.5 * (edges[1:] + edges[:-1]), count / count.sum()
+
+    def transformed(heights: Array, parameters: Array) -> Array:
+        return np.sinh((np.arcsinh(heights) + parameters[0]) * np.exp(-parameters[1]))
+
+    def missed(parameters: Array) -> Array:
+        changed = transformed(places, parameters)
+        off = changed - np.sum(share * changed)
+        off /= np.sqrt(np.sum(share * off**2))
+        return np.array([np.sum(share * off**3) - skewness, np.sum(share * off**4) - kurtosis])
+
+    fits = [
+        least_squares(missed, (start * np.sign(skewness), 0.0), bounds=([-30, -3], [30, 3]))
+        for start in (_STARTS if skewness else _STARTS[:1])
+    ]
+    best = min(fits, key=lambda fit: float(fit.cost))
+    if not np.abs(best.fun).max() < _MISSED:
+        raise InputError(
+            f"kurtosis = {kurtosis:g} with skewness = {skewness:g} cannot be made of these heights"
+        )
+    changed = transformed(heights, best.x)
+    changed -= changed.mean()
+    return changed / np.sqrt(np.mean(np.square(changed)))
