@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tehl.cli import COMMANDS, main
-from tehl.io.templates import study_templates, template_text, templates
+from tehl.io.templates import template_text, templates
 
 HEAVY = ("numba", "scipy", "xarray", "matplotlib", "h5py", "pandas")
 
@@ -65,7 +65,7 @@ def test_explain_of_a_wave_loads_no_machinery(tmp_path: Path):
 
 def test_new_lists_its_templates(monkeypatch, capsys):
     assert run(monkeypatch, "new", "--list") == 0
-    assert len(capsys.readouterr().out.splitlines()) == len(templates()) + len(study_templates())
+    assert len(capsys.readouterr().out.splitlines()) == len(templates()) + len(templates("studies"))
 
 
 def test_explain_speaks_to_people_and_to_programs(monkeypatch, capsys, case: Path):

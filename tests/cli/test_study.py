@@ -12,7 +12,7 @@ import pytest
 
 from tehl import cli
 from tehl.io import atomic
-from tehl.io.templates import study_templates, template_text
+from tehl.io.templates import template_text, templates
 from tehl.result import Cost
 from tehl.studies import Row, runner
 from tehl.studies.file import read_study
@@ -484,11 +484,11 @@ def test_a_wrong_command_is_one_sentence(folder, run, words, message):
     assert done.err.count("\n") == 1
 
 
-@pytest.mark.parametrize("name", list(study_templates()))
+@pytest.mark.parametrize("name", list(templates("studies")))
 def test_every_template_of_a_study_is_one(name, tmp_path):
     path = tmp_path / f"{name}.toml"
     path.write_text(template_text(name), encoding="utf-8")
     study = study_of(read_study(path))
     assert 20 < len(study.cases) < 100
     assert study.plan.pictures
-    assert len(study_templates()[name]) > 20
+    assert len(templates("studies")[name]) > 20

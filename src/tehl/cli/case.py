@@ -12,14 +12,14 @@ def new(
     show_list: Annotated[bool, typer.Option("--list", help="List the templates.")] = False,
 ) -> None:
     """Print a commented case or study file to edit."""
-    from tehl.io.templates import study_templates, template_text, templates
+    from tehl.io.templates import template_text, templates
 
     if not show_list:
         typer.echo(template_text(template), nl=False)
         return
     for name, title in templates().items():
         typer.echo(f"{name:<14} {title}")
-    for name, title in study_templates().items():
+    for name, title in templates("studies").items():
         typer.echo(f"{name:<14} {title} (a study)")
 
 
