@@ -1,10 +1,11 @@
 """``tehl new``, ``explain`` and ``schema``: case files before they are solved."""
 
 import json
-from pathlib import Path
 from typing import Annotated
 
 import typer
+
+from tehl.cli.arguments import AsJson, CaseFile, Overrides
 
 
 def new(
@@ -23,13 +24,7 @@ def new(
         typer.echo(f"{name:<14} {title} (a study)")
 
 
-def explain(
-    case: Annotated[Path, typer.Argument(help="Case file.", show_default=False)],
-    overrides: Annotated[
-        list[str], typer.Option("--set", metavar="KEY=VALUE", help="Override a key of the case.")
-    ] = [],  # noqa: B006 (typer reads the default, nothing writes it)
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
-) -> None:
+def explain(case: CaseFile, *, overrides: Overrides, as_json: AsJson = False) -> None:
     """Show what a case means: Hertz, groups, formulas, unusual values."""
     from tehl.io.case import read_case_and_options
     from tehl.report.explain import as_summary

@@ -17,7 +17,6 @@ from tehl.memory import check_memory
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import Result
-from tehl.scaling import scales
 from tehl.transient_result import TransientResult
 
 COMPARED_TO = 1e-4
@@ -29,15 +28,20 @@ class Job:
     """Arguments of the command."""
 
     case: Path
-    overrides: list[str]
-    target: Path
+    output: Path | None
     plot: Path | None
     as_json: bool
+    overrides: list[str]
     certify: bool
-    isothermal: bool
-    smooth: bool
+    with_isothermal: bool
+    with_smooth: bool
     quiet: bool
     resume: bool
+
+    @property
+    def target(self) -> Path:
+        """The result file."""
+        return Path(f"{self.case.stem}.nc") if self.output is None else self.output
 
 
 def run(job: Job) -> bool:
@@ -52,12 +56,14 @@ def run(job: Job) -> bool:
     _check_outputs(job)
     check_memory(options, problem)
     _check_arguments(problem, job)
-    references = reference_cases(problem, isothermal=job.isothermal, smooth=job.smooth)
+    references = reference_cases(problem, isothermal=job.with_isothermal, smooth=job.with_smooth)
     if references and options.accuracy != "tight":
         options = options.model_copy(update={"accuracy": "tight", "tolerance": COMPARED_TO})
     result, failure = _solved(problem, options, job)
     if job.as_json and problem.transient is None and isinstance(result, Result):
-        result = _with_work(result)
+        from tehl.solver import with_work
+
+        result = with_work(result)  # takes a moment, so for programs only
     save(result, job.target)
     compared = Comparisons()
     if isinstance(result, TransientResult):
@@ -73,7 +79,7 @@ def run(job: Job) -> bool:
 def _check_outputs(job: Job) -> None:
     target, folder = job.target, job.plot
     check_writable(target, sources=(job.case,))
-    if job.smooth:
+    if job.with_smooth:
         check_writable(smooth_file(target), sources=(job.case,))
     if folder is not None:
         check_folder(folder)
@@ -84,7 +90,10 @@ def _check_outputs(job: Job) -> None:
 
 def _check_arguments(problem: ContactProblem, job: Job) -> None:
     """Raise if an argument does not apply to the case, or two exclude each other."""
-    for option, given in (("--with-isothermal", job.isothermal), ("--with-smooth", job.smooth)):
+    for option, given in (
+        ("--with-isothermal", job.with_isothermal),
+        ("--with-smooth", job.with_smooth),
+    ):
         if given and problem.transient is not None:
             raise InputError(f"{option} is for steady cases: remove it or [transient]")
     if job.resume and problem.transient is None:
@@ -117,8 +126,7 @@ def _steady(problem: ContactProblem, options: Options, job: Job) -> Result | Tra
     from tehl.cli.progress import progress
 
     work = solver.certify if job.certify else solver.solve
-    thermal, coupled = problem.thermal is not None, problem.is_coupled
-    with progress(quiet=job.quiet, thermal=thermal, coupled=coupled) as monitor:
+    with progress(problem, quiet=job.quiet) as monitor:
         return work(problem, options, monitor=monitor)
 
 
@@ -126,24 +134,14 @@ def _transient(problem: ContactProblem, options: Options, job: Job) -> Result | 
     """Solve a transient case; when it is interrupted, a checkpoint is left beside the target."""
     from tehl import solver
     from tehl.cli.checkpoint import Keeper
-    from tehl.cli.progress import step_progress
+    from tehl.cli.progress import progress
 
     keep = Keeper(checkpoint_of(job.target), fingerprint(problem, options))
-    start, coupled = keep.begin(resume=job.resume), problem.is_coupled
-    with (
-        keep.on_interrupt(),
-        step_progress(scales(problem), quiet=job.quiet, coupled=coupled) as monitor,
-    ):
+    start = keep.begin(resume=job.resume)
+    with keep.on_interrupt(), progress(problem, quiet=job.quiet) as monitor:
         if job.certify:
             return solver.certify_transient(problem, options, monitor=monitor)
         return solver.solve_transient(problem, options, monitor=monitor, resume=start, keep=keep)
-
-
-def _with_work(result: Result) -> Result:
-    """Measure the unit of work too: for programs only, as it takes a moment."""
-    from tehl.solver import with_work
-
-    return with_work(result)
 
 
 def _compared(result: Result, cases: dict[str, ContactProblem], job: Job) -> Comparisons:

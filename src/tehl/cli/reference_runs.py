@@ -82,17 +82,16 @@ def compare(
     solve : callable
         Returns the result of a case, given its name too; None if it did not converge.
     """
+    found = {name: solve(case, name) for name, case in cases.items()}
+    cold, smooth = found.get(ISOTHERMAL), found.get(SMOOTH)
+    heat = None if cold is None else thermal_effect.thermal_effect(result, cold)
+    roughness = None if smooth is None else micro_film.roughness_effect(result, smooth)
+    rough = None if smooth is None else rough_film(result, smooth)
     blocks: dict[str, Any] = {}
-    heat = roughness = rough = smooth = None
     if ISOTHERMAL in cases:
-        cold = solve(cases[ISOTHERMAL], ISOTHERMAL)
-        heat = None if cold is None else thermal_effect.thermal_effect(result, cold)
         blocks["thermal_effect"] = heat and thermal_effect.effect_block(heat)
     if SMOOTH in cases:
-        smooth = solve(cases[SMOOTH], SMOOTH)
-        roughness = None if smooth is None else micro_film.roughness_effect(result, smooth)
         blocks["roughness_effect"] = roughness and micro_film.effect_block(roughness)
-        rough = None if smooth is None else rough_film(result, smooth)
     if rough is not None:
         blocks["roughness"] = roughness_block(rough)
     return Comparisons(
