@@ -100,24 +100,12 @@ def _check_kind(path: str | Path) -> None:
 
 
 def check_folder(folder: str | Path) -> None:
-    """Raise if an output folder could not be made or written; make nothing yet.
-
-    Raises
-    ------
-    InputError
-        If a file is in the way or the place is not writable.
-    """
+    """Raise an InputError if an output folder could not be made or written; make nothing yet."""
     _check_takes_files(check_place(folder))
 
 
 def check_place(folder: str | Path) -> Path:
-    """Raise if a file is in the way of a folder; return the part of its path that exists.
-
-    Raises
-    ------
-    InputError
-        If a file or a broken link is in the way.
-    """
+    """Return the existing part of the path of a folder; raise an InputError if it is a file."""
     place, shown = Path(folder), shortened(folder)
     try:
         while not place.exists():

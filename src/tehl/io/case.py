@@ -24,16 +24,8 @@ Model = TypeVar("Model", bound=BaseModel)
 
 
 def read_case(path: str | Path) -> ContactProblem:
-    """Return the problem of a case file; its ``[numerics]`` are checked and dropped.
-
-    Raises
-    ------
-    InputError
-        If the file is not a valid case file; the message names key, value, unit and what is
-        expected.
-    """
-    problem, _ = read_case_and_options(path)
-    return problem
+    """Return the problem of a case file as :func:`read_case_and_options`, without its options."""
+    return read_case_and_options(path)[0]
 
 
 def read_case_and_options(
@@ -69,19 +61,9 @@ def read_case_and_options(
 def case_from_tables(
     tables: Mapping[str, Any], folder: Path | None = None
 ) -> tuple[ContactProblem, Options]:
-    """Return problem and options of the parsed tables of a case.
+    """Return problem and options of the parsed tables of a case, checked as those of a file.
 
-    Parameters
-    ----------
-    tables : mapping
-        As a case file has them.
-    folder : Path
-        Folder of relative paths of measured surfaces; the working directory by default.
-
-    Raises
-    ------
-    InputError
-        As :func:`read_case`.
+    Relative paths of measured surfaces begin in ``folder``, by default the working directory.
     """
     physics = {key: value for key, value in tables.items() if key != NUMERICS}
     problem = _validated(ContactProblem, physics, prefix="", folder=folder)
