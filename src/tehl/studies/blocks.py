@@ -22,16 +22,9 @@ _LARGEST = 50_000_000
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Block:
-    """Columns that vary together.
+    """Columns that vary together: paths in the case, names in the table, rows of values.
 
-    Attributes
-    ----------
-    paths, names : tuple of str
-        Of the columns: where in the case, and in the table.
-    rows : tuple of tuple of Setting or None
-        The values, one per column; None leaves the base case as it is.
-    titles : tuple of str
-        Names of the rows, empty if they have none.
+    A value None keeps that of the base case. ``titles`` names the rows, if they have names.
     """
 
     paths: tuple[str, ...]
@@ -52,7 +45,7 @@ def groups_of(axes: Sequence[Axis]) -> list[list[Axis]]:
 def count_of(group: Sequence[Axis], sample: Sample | None) -> int:
     """Return the number of rows of a group of axes, before they are made.
 
-    Refuses zipped axes of different lengths, and sampled ones without a sample.
+    Raises a ValueError for zipped axes of different lengths, and sampled ones without a sample.
     """
     first = group[0]
     if first.is_sampled:
@@ -86,7 +79,7 @@ def block_of_file(path: Path) -> Block:
     """Return the cases listed in a CSV file as a block.
 
     The first line has dotted paths, optionally with a unit: ``contact.load [N]``; a column ``name``
-    names the cases. An empty cell leaves the base case as it is.
+    names the cases. An empty cell keeps the value of the base case.
     """
     shown = shortened(path)
     lines = _lines(path, shown)
@@ -95,11 +88,12 @@ def block_of_file(path: Path) -> Block:
     columns = [_column(cell) for cell in lines[0]]
     paths = [path for path, _ in columns]
     if "" in lines[0] or len(set(lines[0])) < len(lines[0]):
-        raise InputError(f"{shown}: each column needs a path of its own in the first line")
+        raise InputError(f"{shown}: each column needs a different path in the first line")
     varied = [number for number, path in enumerate(paths) if path != _NAME]
+    stated = tuple(paths[k] for k in varied)
     return Block(
-        paths=tuple(paths[k] for k in varied),
-        names=tuple(paths[k] for k in varied),
+        paths=stated,
+        names=stated,
         rows=tuple(tuple(_setting(line[k], columns[k][1]) for k in varied) for line in lines[1:]),
         titles=tuple(line[paths.index(_NAME)] for line in lines[1:]) if _NAME in paths else (),
     )
@@ -142,11 +136,15 @@ def _setting(cell: str, unit: str) -> Setting | None:
 
 
 def check_axes(blocks: Sequence[Block]) -> None:
-    """Refuse axes that vary the same key, one key of another, or are named as another column."""
+    """Raise for axes of the same key, of a key within another's, or named as another column."""
     names = [name for block in blocks for name in block.names]
-    paths = [_tidy(path) for block in blocks for path in block.paths]
-    _check_repeated("path", paths, "zip different ones")
-    _check_repeated("name", names, 'give each a name of its own, name = "load"')
+    paths = [".".join(map(str.strip, path.split("."))) for b in blocks for path in b.paths]
+    for what, words, remedy in (
+        ("path", paths, "zip different ones"),
+        ("name", names, 'give each a different name, name = "load"'),
+    ):
+        if twice := [word for word in words if words.count(word) > 1]:
+            raise InputError(f"has two axes with the {what} {twice[0]}: {remedy}")
     for path in paths:
         if path.split(".")[0] in ("title", "transient"):
             raise InputError(f"axis {path}: a study of steady films does not vary it")
@@ -154,19 +152,12 @@ def check_axes(blocks: Sequence[Block]) -> None:
         if inner.startswith(f"{outer}."):
             raise InputError(
                 f"has an axis {outer} and an axis {inner}, which is a key of it, so one would "
-                "undo the other: vary the key within the tables of the first, or take single keys"
+                "override the other: vary the key within the tables of the first, or take single "
+                "keys"
             )
     if reserved := [name for name in names if is_reserved(name)]:
         raise InputError(
             f'has an axis with the name "{reserved[0]}", which is another column of the table: '
-            'give a name of its own, name = "my oil"'
+            'give another name, name = "my oil"'
         )
 
-
-def _tidy(path: str) -> str:
-    return ".".join(part.strip() for part in path.split("."))
-
-
-def _check_repeated(what: str, words: list[str], remedy: str) -> None:
-    if twice := [word for word in words if words.count(word) > 1]:
-        raise InputError(f"has two axes with the {what} {twice[0]}: {remedy}")

@@ -104,9 +104,9 @@ def engine_of(
 class Pool(Engine):
     """Processes of this machine.
 
-    Each has its own connection and one task at a time, so one that dies loses its own task only.
-    Each loads the solver itself or, ``forked`` on Linux, is forked from a server of one thread that
-    has loaded it with the kernels of Newtonian films: Python's ``forkserver``, one per program.
+    Each has its own connection and one task at a time, so a crash loses one task only. Each loads
+    the solver itself or, ``forked`` on Linux, is forked from a server of one thread that has loaded
+    it with the kernels of Newtonian films: Python's ``forkserver``, one per program.
     """
 
     task_seconds = 0.2

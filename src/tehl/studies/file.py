@@ -70,7 +70,7 @@ def read_study(path: str | Path, overrides: Sequence[str] = (), *, unlimited: bo
 
 
 def _study_tables(path: Path) -> dict[str, Any]:
-    """Return the tables of a file; explain one bracket for two, and a case for a study."""
+    """Return the tables of a file; detect ``[axes]`` for ``[[axes]]``, and a case for a study."""
     try:
         tables = toml_tables(path)
     except InputError as error:
@@ -101,12 +101,7 @@ def plan_of(
     folder : Path
         Where relative paths begin.
     overrides, unlimited
-        As of :func:`read_study`.
-
-    Raises
-    ------
-    InputError, ValueError
-        If the study is not valid.
+        As of :func:`read_study`; an invalid study raises an InputError or ValueError.
     """
     groups = groups_of(stated.axes)
     listed = () if stated.cases is None else (block_of_file(folder / stated.cases),)
@@ -131,7 +126,7 @@ def plan_of(
 
 
 def _check_keys(stated: StudyFile, count: int, *, unlimited: bool) -> None:
-    """Refuse too many cases, and keys without those that they need."""
+    """Raise for too many cases, and for keys without those that they need."""
     limit = stated.largest or _LARGEST
     if count > limit and not unlimited:
         raise InputError(
@@ -146,14 +141,13 @@ def _check_keys(stated: StudyFile, count: int, *, unlimited: bool) -> None:
 
 def _base(stated: StudyFile, folder: Path, overrides: Sequence[str]) -> tuple[dict[str, Any], Path]:
     """Return the tables of the base case with the overrides, and the folder of its files."""
-    if isinstance(stated.case, str):
-        path = folder / stated.case
+    base, place = copy.deepcopy(stated.case), folder
+    if isinstance(base, str):
+        path = folder / base
         try:
             base, place = toml_tables(path), path.parent
         except InputError as error:
             raise InputError(f"case {shortened(path)}: {error}") from None
-    else:
-        base, place = copy.deepcopy(stated.case), folder
     for override in overrides:
         change(base, override)
     return base, place

@@ -4,7 +4,7 @@ import json
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from itertools import product
+from itertools import islice, product
 from pathlib import Path
 from typing import Any, get_args
 
@@ -29,18 +29,10 @@ _LONGEST = 60
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Plan:
-    """A study before its cases are made.
+    """A study before its cases are made, with the keys of a study file.
 
-    Attributes
-    ----------
-    base : mapping
-        Tables of the base case.
-    folder : Path
-        Where relative paths of measured surfaces begin.
-    blocks : tuple of Block
-        The cases are their grid, the last one the fastest.
-    title, certify, keep, warm_start, store, pictures
-        As in a study file.
+    ``base`` has the tables of the base case, whose relative paths begin in ``folder``; the cases
+    are the grid of ``blocks``, the last one the fastest.
     """
 
     title: str
@@ -183,11 +175,10 @@ def _label(stated: Any, found: Any) -> Label:
     return json.dumps(stated, ensure_ascii=False, default=str)[:_LONGEST]
 
 
-def _phrases(labels: Mapping[str, Label], units: Mapping[str, str]) -> list[str]:
-    """Return the first labels for the name of a case: load = 20 N."""
-    phrases = []
-    for name, value in list(labels.items())[:_SHOWN]:
-        number = f"{value:.6g}" if isinstance(value, float) else value
-        unit = units.get(name, "1") if isinstance(value, float) else "1"
-        phrases.append(f"{name.rpartition('.')[2]} = {number}{'' if unit == '1' else f' {unit}'}")
-    return phrases
+def _phrases(labels: Mapping[str, Label], units: Mapping[str, str]) -> Iterator[str]:
+    """Yield the first labels for the name of a case: load = 20 N."""
+    for name, value in islice(labels.items(), _SHOWN):
+        number, unit = str(value), ""
+        if isinstance(value, float):
+            number, unit = f"{value:.6g}", f" {units.get(name, '1')}".removesuffix(" 1")
+        yield f"{name.rpartition('.')[2]} = {number}{unit}"
