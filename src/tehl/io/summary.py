@@ -37,10 +37,7 @@ def summary(result: Result | TransientResult) -> Block:
         title, kind, content = result.start.problem.title, {"kind": "transient"}, _transient(result)
     else:
         title, kind, content = result.problem.title, {}, _steady(result)
-    head = {
-        **{"title": title, "status": status.kind, "cause": status.cause},
-        **{"message": status.message, "hint": status.hint},
-    }
+    head = {"title": title, "status": status.kind} | _picked(status, "cause", "message", "hint")
     found: Block = plain(kind | head | content)
     return found
 

@@ -160,4 +160,3 @@ def check_axes(blocks: Sequence[Block]) -> None:
             f'has an axis with the name "{reserved[0]}", which is another column of the table: '
             'give another name, name = "my oil"'
         )
-
