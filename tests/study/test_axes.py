@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from tehl.errors import InputError
 from tehl.studies import Axis, Sample, cases_of
-from tehl.studies.blocks import block_of
+from tehl.studies.axes import block_of
 from tehl.studies.plan import changed
 from tests.study.contacts import QUICK, problem
 

@@ -11,8 +11,7 @@ from tehl.errors import FileFormatError, InputError
 from tehl.options import Options
 from tehl.result import Cost
 from tehl.studies import Row, Store
-from tehl.studies.axes import Setting
-from tehl.studies.blocks import Block
+from tehl.studies.axes import Block, Setting
 from tehl.studies.case import Case
 from tehl.studies.folder import load_plan, save_plan
 from tehl.studies.forecast import Forecast, check_memory_of, forecast

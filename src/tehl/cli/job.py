@@ -47,10 +47,7 @@ class Job:
 def run(job: Job) -> bool:
     """Solve the case, store and print the result; return whether it converged.
 
-    Raises
-    ------
-    InputError
-        If case, overrides, outputs or arguments are invalid; nothing is solved then.
+    Invalid case, overrides, outputs or arguments are an InputError before anything is solved.
     """
     problem, options = read_case_and_options(job.case, job.overrides)
     _check_outputs(job)

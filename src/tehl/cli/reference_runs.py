@@ -20,18 +20,10 @@ ISOTHERMAL, SMOOTH = "without heat", "with smooth surfaces"
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Comparisons:
-    """A result compared with its reference runs; None where there is none that converged.
+    """What heat and roughness change; None where no reference run was made or it did not converge.
 
-    Attributes
-    ----------
-    heat, roughness : ThermalEffect, RoughnessEffect or None
-        What heat and roughness change.
-    rough_film : RoughFilm or None
-        Numbers of the rough film with the smooth film subtracted.
-    smooth : Result or None
-        The film between smooth surfaces.
-    blocks : dict
-        Extra blocks of the summary; null for a reference run that did not converge.
+    ``rough_film`` are the numbers of the rough film with the film ``smooth`` between smooth
+    surfaces subtracted, ``blocks`` extra blocks of the summary.
     """
 
     heat: thermal_effect.ThermalEffect | None = None

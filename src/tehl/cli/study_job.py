@@ -66,12 +66,8 @@ class StudyJob:
 def run(job: StudyJob) -> bool:
     """Do what the arguments state; return whether no case failed.
 
-    Raises
-    ------
-    InputError
-        If study, folder or arguments are invalid; nothing is solved then.
-    OSError
-        If the folder is in use or not writable, or no worker starts; finished cases are kept.
+    Invalid study, folder or arguments are an InputError before anything is solved; a folder in use
+    or not writable, or workers that do not start, an OSError, and finished cases are kept.
     """
     workers, pictures = _workers(job.jobs), [picture_of(words) for words in job.plots]
     plan, folder = _plan(job)

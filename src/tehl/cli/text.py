@@ -3,12 +3,14 @@
 import math
 from collections.abc import Callable, Iterator
 
+import numpy as np
+
 from tehl.cli.reference_runs import Comparisons
 from tehl.post.film import no_film
 from tehl.post.roughness import RoughFilm
 from tehl.post.waves import WaveResponse
 from tehl.report.readable import UNTITLED, length, length_unit, seconds
-from tehl.result import Estimate, Result, Status
+from tehl.result import Result, Status
 from tehl.transient_result import TransientResult
 from tehl.typing import Array
 
@@ -203,7 +205,9 @@ def _transient_rows(run: TransientResult) -> Rows:
         yield "load", _between(history.load * start.problem.load, lambda load: f"{load:.4g} N")
     yield "groups", f"{_groups(start)}, SRR = {start.problem.slide_roll_ratio:g}"
     yield "grid", f"{_grid(start)}, {len(run.frames.step)} fields kept"
-    yield "effort", _steps(run)
+    cycles = history.cycles[1:] if steps else np.zeros(1)
+    effort = f"{cycles.mean():.3g} cycles per step, {cycles.max():.0f} at most"
+    yield "effort", f"{effort}, {run.cost.cpu_seconds:.3g} s"
     yield from _trust(run)
 
 
@@ -217,12 +221,6 @@ def _film_history(run: TransientResult) -> Rows:
     for which in ("least", "largest"):
         if bar := _bar(run, f"film_central_{which}"):
             yield "", which + bar
-
-
-def _steps(run: TransientResult) -> str:
-    cycles = run.history.cycles[1:]
-    mean, most = (float(cycles.mean()), int(cycles.max())) if cycles.size else (0.0, 0)
-    return f"{mean:.3g} cycles per step, {most} at most, {run.cost.cpu_seconds:.3g} s"
 
 
 def _trust(run: TransientResult) -> Rows:
@@ -272,18 +270,15 @@ def _bar(result: Result | TransientResult, name: str, unit: Unit | None = None) 
     """
     estimate = result.uncertainty.get(name)
     if estimate is not None:
-        return f"   {_certified(estimate, unit or length_unit(estimate.value))}"
+        factor, symbol = unit or length_unit(estimate.value)
+        parts = (
+            f"grid {estimate.discretisation * factor:.2g}, domain {estimate.domain * factor:.2g}"
+        )
+        bar = f"{estimate.value * factor:.5g} +- {estimate.uncertainty * factor:.2g} {symbol}"
+        return f"   certified {bar} ({parts})"
     errors = None if isinstance(result, TransientResult) else result.errors
     error = getattr(errors, f"discretisation_{name.removeprefix('film_')}", None)
     if error is None:
         return ""
     percent = 100.0 * abs(error)
     return f"   grid error about {percent:{'.2g' if percent < 99.5 else '.0f'}} %"
-
-
-def _certified(estimate: Estimate, unit: Unit) -> str:
-    """Return a certified value with its error bar and the parts of the bar."""
-    factor, name = unit
-    value, width = estimate.value * factor, estimate.uncertainty * factor
-    grid, domain = estimate.discretisation * factor, estimate.domain * factor
-    return f"certified {value:.5g} +- {width:.2g} {name} (grid {grid:.2g}, domain {domain:.2g})"

@@ -93,13 +93,7 @@ def case_schema() -> dict[str, Any]:
 
 
 def toml_tables(path: Path) -> dict[str, Any]:
-    """Return the tables of a TOML file, unchecked.
-
-    Raises
-    ------
-    InputError
-        If it cannot be read as TOML; the message does not name the file.
-    """
+    """Return the tables of a TOML file, unchecked; messages of errors do not name the file."""
     text = _text(path)
     try:
         return tomllib.loads(text)
@@ -141,13 +135,7 @@ def _syntax(message: str, text: str) -> str:
 
 
 def change(tables: dict[str, Any], override: str) -> None:
-    """Apply one override ``key.path=value`` in place.
-
-    Raises
-    ------
-    InputError
-        If it is not an override.
-    """
+    """Apply one override ``key.path=value`` in place; raise an InputError if it is invalid."""
     key, equals, text = (part.strip() for part in override.partition("="))
     names = key.split(".")
     if not equals or not all(names):

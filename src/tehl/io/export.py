@@ -104,13 +104,7 @@ def _arrays(result: Result | TransientResult) -> dict[str, NDArray[Any]]:
 
 
 def ending_of(result: Result | TransientResult, to: str | None) -> str:
-    """Return the usual ending of a file of format ``to``.
-
-    Raises
-    ------
-    InputError
-        If the format is unknown or None.
-    """
+    """Return the usual ending of a file of format ``to``; raise an InputError if it is unknown."""
     known = _FORMATS[type(result)]
     for ending, kind in known.items():
         if kind == to:

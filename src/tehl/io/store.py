@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tehl.errors import FileFormatError, InputError
 from tehl.io.atomic import replacing
@@ -179,7 +178,10 @@ def _read(source: Path) -> tuple[Arrays, Attributes]:
     try:
         with h5py.File(source, "r") as file:
             attrs = {name: _plain(value) for name, value in file.attrs.items()}
-            arrays = {name: _array(data) for name, data in file.items()}
+            arrays = {
+                name: np.asarray(data.asstr()[...] if data.dtype.kind == "O" else data[...])
+                for name, data in file.items()
+            }
     except Exception as error:  # on a broken file these libraries raise anything
         raise _damaged(source, error) from None
     if "tehl_format" not in attrs:
@@ -218,10 +220,6 @@ def _check_kind(source: Path, attrs: Attributes) -> None:
             f"{source} is a tehl result of kind {attrs.get('tehl_kind')!r}; "
             f"expected {' or '.join(KINDS)}"
         )
-
-
-def _array(data: Any) -> NDArray[Any]:
-    return np.asarray(data[...] if data.dtype.kind != "O" else data.asstr()[...])
 
 
 def _plain(value: Any) -> Any:

@@ -25,13 +25,7 @@ def templates(kind: str = "cases") -> dict[str, str]:
 
 
 def template_text(name: str) -> str:
-    """Return a commented case file or study file.
-
-    Raises
-    ------
-    InputError
-        If there is no such template; the message lists those there are.
-    """
+    """Return a commented case file or study file; the InputError for another name lists all."""
     if name in _FILES:
         return _FILES[name].read_text(encoding="utf-8")
     close = difflib.get_close_matches(name, _FILES, n=1)

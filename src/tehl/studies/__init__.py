@@ -11,9 +11,8 @@
 from tehl import SOLVER_VERSION
 from tehl.studies.axes import Axis, Sample
 from tehl.studies.case import Case, Row
-from tehl.studies.file import read_study
+from tehl.studies.file import cases_of, read_study, study
 from tehl.studies.plan import Study, study_of
-from tehl.studies.quick import cases_of, study
 from tehl.studies.runner import Outcome, StudyMonitor, run
 from tehl.studies.store import Store
 from tehl.studies.tables import table

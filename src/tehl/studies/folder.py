@@ -32,7 +32,7 @@ def store_of(plan: Plan, folder: Path) -> Store:
 
 
 def check_can_write(folder: Path) -> None:
-    """Refuse a file in the place of a folder (InputError), and a read-only folder (OSError)."""
+    """Raise an InputError for a file in the place of a folder, an OSError for a read-only one."""
     check_place(folder)
     try:
         check_folder(folder)
@@ -91,7 +91,7 @@ def save_plan(plan: Plan, folder: Path) -> bool:
 
 
 def load_plan(folder: Path) -> Plan:
-    """Return the plan in the folder of a study; refuse damaged ones and those of other versions."""
+    """Return the plan in the folder of a study; raise if it is damaged or of another version."""
     path = folder / PLAN
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
@@ -109,7 +109,7 @@ def load_plan(folder: Path) -> Plan:
 
 
 def check_same(plan: Plan, folder: Path) -> None:
-    """Refuse a folder that holds a study with another base case or other axes.
+    """Raise if a folder holds a study with another base case or other axes.
 
     Other values along the same axes, and another title, are accepted.
     """
@@ -164,12 +164,8 @@ def write_table(frame: "pd.DataFrame", folder: Path) -> list[Path]:
 def _for_parquet(frame: "pd.DataFrame") -> "pd.DataFrame":
     """Return the table with columns of one kind: those of mixed labels become text."""
     mixed = {
-        name: frame[name].map(_text, na_action="ignore")
+        name: frame[name].map(lambda v: f"{v:.12g}" if isinstance(v, float) else str(v), "ignore")
         for name in frame
         if frame[name].dtype == object and len({type(v) for v in frame[name].dropna()}) > 1
     }
     return frame.assign(**mixed)
-
-
-def _text(value: object) -> str:
-    return f"{value:.12g}" if isinstance(value, float) else str(value)

@@ -8,7 +8,6 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from tehl.errors import InputError
 from tehl.io.atomic import replacing
-from tehl.studies.blocks import Block
 from tehl.studies.tables import missing_column
 
 if TYPE_CHECKING:
@@ -74,13 +73,24 @@ def picture_of(words: str) -> Picture:
 
 
 def checked_pictures(
-    pictures: Sequence[Picture], blocks: Sequence[Block], folder: Path
+    pictures: Sequence[Picture], labels: Sequence[str], folder: Path
 ) -> tuple[Picture, ...]:
-    """Return the pictures of a study, identical ones once, with overlays in its folder.
+    """Return the pictures of a study, identical ones once.
 
-    Refuses a column that the table will not have, and two pictures with one file.
+    Parameters
+    ----------
+    pictures : sequence of Picture
+        As the study file states them.
+    labels : sequence of str
+        Names of the axes.
+    folder : Path
+        Where paths of overlays begin.
+
+    Raises
+    ------
+    InputError
+        If the table will not have a column, or two pictures have one file.
     """
-    labels = [name for block in blocks for name in block.names]
     numbers: dict[str, int] = {}
     different = tuple(dict.fromkeys(pictures))
     for picture in different:
@@ -93,7 +103,7 @@ def checked_pictures(
         if file in numbers:
             raise InputError(
                 f"pictures[{numbers[file]}] and pictures[{number}] would both be {file}: give one "
-                'of them a name of its own, file = "other"'
+                'of them another name, file = "other"'
             )
         numbers[file] = number
     return tuple(

@@ -14,8 +14,7 @@ from tehl.errors import InputError
 from tehl.io.case import case_from_tables
 from tehl.options import Options, check_certifiable
 from tehl.problem import ContactProblem
-from tehl.studies.axes import Setting
-from tehl.studies.blocks import Block
+from tehl.studies.axes import Block, Setting
 from tehl.studies.case import Case, Label
 from tehl.studies.pictures import Picture
 from tehl.studies.store import Keep
