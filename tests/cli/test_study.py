@@ -400,7 +400,9 @@ WRONG = {
 
 
 @pytest.mark.parametrize("what", WRONG)
-def test_a_wrong_study_is_one_sentence_before_any_work(folder, run, monkeypatch, what):
+def test_an_invalid_study_is_reported_in_one_sentence_before_any_work(
+    folder, run, monkeypatch, what
+):
     text, words = WRONG[what]
     monkeypatch.setattr(runner, "work", None)
     (folder / "wrong.toml").write_text(text)
@@ -446,7 +448,7 @@ def test_identical_pictures_are_drawn_once(folder, run):
     assert len(read_study("drawn.toml").pictures) == 1
 
 
-def test_many_cases_can_be_meant(folder, run):
+def test_many_cases_can_be_intended(folder, run):
     text = STUDY.replace("4]", "5001]")
     (folder / "many.toml").write_text(text)
     assert run("many.toml", "--dry-run").code == 2
@@ -474,7 +476,7 @@ def test_many_cases_can_be_meant(folder, run):
         (["loads.toml", "-o", "fresh", "--table"], "no case of the study is finished"),
     ],
 )
-def test_a_wrong_command_is_one_sentence(folder, run, words, message):
+def test_a_wrong_command_is_reported_in_one_sentence(folder, run, words, message):
     (folder / "empty").mkdir()
     if words[0] == "out":
         run("loads.toml", "-o", "out", "--jobs", "1")

@@ -44,6 +44,6 @@ def test_a_study_file_gives_its_cases(tmp_path):
     assert [case.labels for case in study.cases] == [{"M": 5.0}, {"M": 6.0}]
 
 
-def test_an_axis_without_values_is_refused():
+def test_an_axis_without_values_is_rejected():
     with pytest.raises(InputError, match="empty list"):
         tehl.study(problem(), {"contact.moes_load": []}, QUICK)

@@ -165,7 +165,7 @@ def _solved(study: Study, folder: Path, workers: int, job: StudyJob) -> Outcome:
 def _check_resources(
     study: Study, finished: Mapping[str, Row], workers: int, scheduler: str | None
 ) -> None:
-    """Refuse workers that do not fit into the memory of this machine."""
+    """Raise if the workers do not fit into the memory of this machine."""
     if scheduler is None:
         check_memory_of(forecast(study.cases, finished, jobs=workers, fields=False), workers)
     else:

@@ -71,7 +71,7 @@ class Engine:
         return finished
 
     def close(self) -> None:
-        """End the workers, whatever they do."""
+        """End the workers, busy or idle."""
 
 
 @contextmanager

@@ -113,7 +113,7 @@ def checked_pictures(
 
 
 def draw(picture: Picture, table: "pd.DataFrame") -> "Figure":
-    """Return a picture of a table; refuse missing columns and a table without converged cases."""
+    """Draw a table; raise for missing columns and for a table without converged cases."""
     from tehl.plots.table_curves import curves, overlay  # noqa: PLC0415 (matplotlib)
     from tehl.plots.table_maps import contour_map, moes_map  # noqa: PLC0415
 

@@ -1,7 +1,7 @@
 """Finished cases on disk: rows in one SQLite file, fields in one NetCDF file per case.
 
 Only the process that runs a study writes rows, one transaction per task; workers write fields,
-each file whole or not at all. A kill at any time costs the tasks in work and no row.
+each file whole or not at all. A kill at any time loses the tasks in work and no row.
 """
 
 import errno
