@@ -54,7 +54,6 @@ def _outcome(error: BaseException) -> tuple[str, str, int]:
 
 
 def _lacking(error: BaseException) -> str:
-    """Return what the environment lacks."""
     if isinstance(error, OSError):
         reason = error.strerror or str(error)
         return f"{error.filename}: {reason}" if error.filename else reason

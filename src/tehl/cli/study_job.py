@@ -106,7 +106,6 @@ def _workers(jobs: str | None) -> int:
 
 
 def _plan(job: StudyJob) -> tuple[Plan, Path]:
-    """Return the plan and the folder of the study."""
     source, output = job.source, job.output
     if not source.is_dir():
         folder = Path(source.stem) if output is None else output
@@ -173,7 +172,6 @@ def _check_resources(
 
 
 def _table(study: Study, folder: Path) -> "pd.DataFrame":
-    """Return the table of what is finished."""
     with closing(store_of(study.plan, folder)) as store:
         return table(study.cases, store, study.units)
 

@@ -77,14 +77,12 @@ def surface(  # noqa: PLR0913, PLR0917 (the options of the command)
 
 
 def _pair(text: str | None) -> list[str] | str | None:
-    """Return one or two lengths of an option."""
     if text is None or "," not in text:
         return text
     return [part.strip() for part in text.split(",")]
 
 
 def _map(file: Path, keys: dict[str, Any], overrides: list[str]) -> "Map":
-    """Return the map that the options state."""
     from pydantic import ValidationError
 
     from tehl.errors import InputError
@@ -102,7 +100,6 @@ def _map(file: Path, keys: dict[str, Any], overrides: list[str]) -> "Map":
 
 
 def _mesh(contact: Path | None, half_width: str | None, points: int | None) -> "Mesh | None":
-    """Return the grid to compare with."""
     from tehl.errors import InputError
     from tehl.roughness.preview import Mesh
     from tehl.units import Length, quantity

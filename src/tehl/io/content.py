@@ -53,7 +53,6 @@ _NOT_SCALAR = {
 
 
 def _scalars(kind: type) -> type[BaseModel]:
-    """Return a model of the other fields of a class."""
     scalar = (field for field in fields(kind) if field.name not in _NOT_SCALAR[kind])
     found: dict[str, Any] = {field.name: (field.type, ...) for field in scalar}
     # Infinities and NaN become strings, which pydantic reads back as floats.

@@ -155,7 +155,6 @@ def _stated(number: float, unit: str) -> End:
 
 
 def _split(end: End) -> tuple[float, str]:
-    """Return number and unit of an end."""
     match = _NUMBER.fullmatch(str(end))
     if not match:
         raise ValueError(f'has an end "{str(end)[:40]}" that does not begin with a number')
@@ -306,7 +305,6 @@ def _lines(path: Path, shown: str) -> list[list[str]]:
 
 
 def _column(cell: str) -> tuple[str, str]:
-    """Return path and unit of a column."""
     match = _UNIT.fullmatch(cell)
     return (match[1], match[2].strip()) if match else (cell, "")
 

@@ -263,7 +263,6 @@ class _Run:
             raise error
 
     def _keep(self, cases: list[Case], rows: list[Row]) -> None:
-        """Keep the rows of the first of some cases."""
         self.store.put(*rows)
         for case, row in zip(cases, rows, strict=False):
             if row.has_fields:  # the time of a case rejected at once is not typical

@@ -204,7 +204,6 @@ class Store:
 
 
 def _line(row: Row) -> tuple[str | float | None, ...]:
-    """Return a row as the columns of the table."""
     words = (row.cause, row.message, row.hint)
     return (
         row.key,
