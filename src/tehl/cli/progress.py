@@ -71,9 +71,9 @@ def progress(problem: "ContactProblem", *, quiet: bool) -> Iterator[Any]:
     _announce_compiling(coupled=problem.is_coupled)
     shown: Callable[[Live | None], Any]
     if problem.transient is None:
-        shown = partial(CycleProgress, thermal=problem.thermal is not None)
+        shown = partial(_CycleProgress, thermal=problem.thermal is not None)
     else:
-        shown = partial(StepProgress, units=scales(problem))
+        shown = partial(_StepProgress, units=scales(problem))
     if not _is_terminal():
         yield shown(None)
         return
@@ -135,9 +135,7 @@ class _Shown:
         return table
 
 
-class CycleProgress(_Shown):
-    """The monitor of a steady solve."""
-
+class _CycleProgress(_Shown):
     def __init__(self, live: Live | None, *, thermal: bool = False) -> None:
         super().__init__(live, {k: v for k, v in _CYCLE.items() if thermal or k != _HEAT})
         self._rows = None if live is None else self._table()
@@ -157,9 +155,7 @@ class CycleProgress(_Shown):
         self._grid = report.points
 
 
-class StepProgress(_Shown):
-    """The monitor of a transient run."""
-
+class _StepProgress(_Shown):
     def __init__(self, live: Live | None, units: "Scales") -> None:
         super().__init__(live, _STEP)
         self._units = units

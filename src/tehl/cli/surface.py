@@ -73,9 +73,6 @@ def surface(  # noqa: PLR0913, PLR0917 (the options of the command)
         echo(output, err=as_json)
 
 
-# ---- input
-
-
 def _pair(text: str | None) -> list[str] | str | None:
     if text is None or "," not in text:
         return text
@@ -137,9 +134,6 @@ def _mesh_of_case(case: Path, points: int | None) -> "Mesh":
         half_widths=(hertz.half_width_x, hertz.half_width_y),
         points=(nx, ny),
     )
-
-
-# ---- output
 
 
 def as_text(found: "Preview") -> str:

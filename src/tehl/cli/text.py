@@ -255,9 +255,6 @@ def _at_start(text: str, first: str) -> str:
     return f"{text}   (at the start {first})"
 
 
-# ---- words
-
-
 def _clean(value: float) -> str:
     """Return a number, rounding errors as zero."""
     return "0" if abs(value) < 1e-12 else f"{value:.4g}"

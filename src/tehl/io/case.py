@@ -89,9 +89,6 @@ def case_schema() -> dict[str, Any]:
     return schema
 
 
-# ---- TOML
-
-
 def toml_tables(path: Path) -> dict[str, Any]:
     """Return the tables of a TOML file, unchecked; messages of errors do not name the file."""
     text = _text(path)

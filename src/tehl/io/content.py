@@ -70,9 +70,6 @@ def _loaded(kind: type, text: str) -> dict[str, Any]:
     return dict(_scalars(kind).model_validate_json(text))
 
 
-# ---- to a file
-
-
 def variables(result: Result | TransientResult) -> Iterator[Variable]:
     """Yield the arrays of a result; of a transient one those of its start too, by usual names."""
     if isinstance(result, TransientResult):
@@ -160,9 +157,6 @@ def attributes(result: Result | TransientResult) -> Attributes:
 
 def _json(model: BaseModel) -> str:
     return json.dumps(model.model_dump(mode="json"), allow_nan=False)
-
-
-# ---- from a file
 
 
 def rebuild(arrays: Arrays, attrs: Attributes) -> Result | TransientResult:

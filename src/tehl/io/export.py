@@ -189,16 +189,16 @@ def _rows(columns: list[NDArray[Any]]) -> Iterator[tuple[Any, ...]]:
 def _write_maps(result: Result, path: Path) -> None:
     """Write the maps of a steady result over the plane of the film, or over its volume."""
     maps = {v.name: v.data for v in _over(("y", "x"), result) if v.name not in COORDINATES}
-    numbers = {"converged": float(result.status.converged)}
     if path.suffix.lower() == ".vts":
-        text = _volume(result, maps, numbers)
+        text = _volume(result, maps)
     else:
-        text = rectilinear_grid((result.x, result.y, np.zeros(1)), maps, field_data=numbers)
+        axes = (result.x, result.y, np.zeros(1))
+        text = rectilinear_grid(axes, maps, converged=result.status.converged)
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="ascii")
 
 
-def _volume(result: Result, maps: dict[str, NDArray[Any]], numbers: dict[str, float]) -> str:
+def _volume(result: Result, maps: dict[str, NDArray[Any]]) -> str:
     """Return the film as a structured grid; maps are the same on each layer."""
     heat, film = result.heat, result.film_thickness
     zeta = np.array([0.0, 1.0]) if heat is None else heat.zeta
@@ -207,7 +207,7 @@ def _volume(result: Result, maps: dict[str, NDArray[Any]], numbers: dict[str, fl
     points = np.stack(np.broadcast_arrays(result.x, result.y[:, None], height), axis=-1)
     fields = {} if heat is None else {"temperature": heat.temperature}
     fields |= {name: np.broadcast_to(field, shape) for name, field in maps.items()}
-    return structured_grid(points, fields, field_data=numbers)
+    return structured_grid(points, fields, converged=result.status.converged)
 
 
 def _write_frames(run: TransientResult, target: Path) -> list[Path]:
@@ -216,7 +216,7 @@ def _write_frames(run: TransientResult, target: Path) -> list[Path]:
     if not frames.step.size:
         raise InputError("the result has no frames to export (transient.frames = 0)")
     check_writable(target)
-    axes, numbers = (run.x, run.y, np.zeros(1)), {"converged": float(run.status.converged)}
+    axes = (run.x, run.y, np.zeros(1))
     times: dict[Path, float] = {}
     for number, step in enumerate(frames.step):
         maps = {
@@ -226,8 +226,9 @@ def _write_frames(run: TransientResult, target: Path) -> list[Path]:
         }
         plane = target.with_name(f"{target.stem}_{number:04d}.vtr")
         times[plane] = float(run.history.time[step])
+        text = rectilinear_grid(axes, maps, converged=run.status.converged)
         with replacing(plane) as temporary:
-            temporary.write_text(rectilinear_grid(axes, maps, field_data=numbers), encoding="ascii")
+            temporary.write_text(text, encoding="ascii")
     with replacing(target) as temporary:
         named = {plane.name: time for plane, time in times.items()}
         temporary.write_text(collection(named), encoding="utf-8")

@@ -52,9 +52,6 @@ def to_dataset(result: Result | TransientResult) -> "xr.Dataset":
     return xr.Dataset(packed, coords=coords, attrs=attributes(result))
 
 
-# ---- writing
-
-
 def save(
     result: Result | TransientResult, path: str | Path, *, extra: dict[str, Any] | None = None
 ) -> None:
@@ -112,9 +109,6 @@ def _write(file: "h5netcdf.File", variable: Variable) -> None:
         packing = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
         packing |= {"chunks": chunks, "fletcher32": True}
     file.create_variable(variable.name, dims, kind, data=data, **packing)
-
-
-# ---- reading
 
 
 def load(path: str | Path) -> Result | TransientResult:

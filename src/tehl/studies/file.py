@@ -196,9 +196,6 @@ def first_mistake(error: ValidationError, tables: Mapping[str, Any]) -> str:
     return name + rest + "".join(_NEEDED[key] for key in missing)
 
 
-# ---- without a file
-
-
 def cases_of(
     problem: ContactProblem,
     axes: Axes,
