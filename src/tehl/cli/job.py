@@ -6,7 +6,7 @@ from pathlib import Path
 
 import typer
 
-from tehl.cli.reference_runs import Comparisons, compare, reference_cases, smooth_file
+from tehl.cli.reference_runs import REFERENCES, Comparisons, compare, smooth_file
 from tehl.cli.text import as_text, failure_text
 from tehl.errors import ConvergenceError, InputError
 from tehl.io.atomic import check_folder, check_writable, remove_with_parts
@@ -53,7 +53,8 @@ def run(job: Job) -> bool:
     _check_outputs(job)
     check_memory(options, problem)
     _check_arguments(problem, job)
-    references = reference_cases(problem, isothermal=job.with_isothermal, smooth=job.with_smooth)
+    wanted = zip(REFERENCES, (job.with_isothermal, job.with_smooth), strict=True)
+    references = {name: REFERENCES[name](problem) for name, is_wanted in wanted if is_wanted}
     if references and options.accuracy != "tight":
         options = options.model_copy(update={"accuracy": "tight", "tolerance": COMPARED_TO})
     result, failure = _solved(problem, options, job)
@@ -143,17 +144,15 @@ def _transient(problem: ContactProblem, options: Options, job: Job) -> Result | 
 
 def _compared(result: Result, cases: dict[str, ContactProblem], job: Job) -> Comparisons:
     """Make the reference runs, and store the comparisons and the smooth film."""
-
-    def solved(problem: ContactProblem, what: str) -> Result | None:
+    found: dict[str, Result | None] = {}
+    for what, problem in cases.items():
         if not job.quiet:
             typer.echo(f"reference run {what}", err=True)
         other, failure = _solved(problem, result.options, replace(job, certify=False))
-        if failure is None and isinstance(other, Result):
-            return other
-        typer.echo(f"tehl: reference run {what} did not converge: {failure}", err=True)
-        return None
-
-    compared = compare(result, cases, solved)
+        found[what] = other if failure is None and isinstance(other, Result) else None
+        if found[what] is None:
+            typer.echo(f"tehl: reference run {what} did not converge: {failure}", err=True)
+    compared = compare(result, found)
     save(result, job.target, extra=compared.blocks)
     if compared.smooth is not None:
         save(compared.smooth, smooth_file(job.target))

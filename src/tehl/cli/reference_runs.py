@@ -1,6 +1,5 @@
 """Reference runs of a steady case, without heat or with smooth surfaces, and comparisons."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -10,12 +9,12 @@ from tehl.io.store import load_as
 from tehl.io.summary import plain, roughness_block
 from tehl.post import micro_film, thermal_effect
 from tehl.post.roughness import RoughFilm, rough_film
-from tehl.problem import ContactProblem
 from tehl.result import Result
 from tehl.transient_result import TransientResult
 
 ISOTHERMAL, SMOOTH = "without heat", "with smooth surfaces"
-"""Reference runs."""
+REFERENCES = {ISOTHERMAL: thermal_effect.isothermal_reference, SMOOTH: micro_film.smooth_reference}
+"""Reference runs, and what makes their cases; an InputError without heat or roughness."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -33,56 +32,16 @@ class Comparisons:
     blocks: dict[str, Any] = field(default_factory=dict)
 
 
-def reference_cases(
-    problem: ContactProblem, *, isothermal: bool, smooth: bool
-) -> dict[str, ContactProblem]:
-    """Return the cases to solve for comparison, by the name of the reference run.
-
-    Parameters
-    ----------
-    problem : ContactProblem
-        The case itself.
-    isothermal, smooth : bool
-        Leave out its heat; leave out its roughness.
-
-    Raises
-    ------
-    InputError
-        If the case has no heat or no roughness to leave out.
-    """
-    cases = {}
-    if isothermal:
-        cases[ISOTHERMAL] = thermal_effect.isothermal_reference(problem)
-    if smooth:
-        cases[SMOOTH] = micro_film.smooth_reference(problem)
-    return cases
-
-
-def compare(
-    result: Result,
-    cases: dict[str, ContactProblem],
-    solve: Callable[[ContactProblem, str], Result | None],
-) -> Comparisons:
-    """Solve the reference cases and compare a result with them.
-
-    Parameters
-    ----------
-    result : Result
-        Of the case itself, converged.
-    cases : dict
-        What :func:`reference_cases` returned.
-    solve : callable
-        Returns the result of a case, given its name too; None if it did not converge.
-    """
-    found = {name: solve(case, name) for name, case in cases.items()}
-    cold, smooth = found.get(ISOTHERMAL), found.get(SMOOTH)
+def compare(result: Result, references: dict[str, Result | None]) -> Comparisons:
+    """Compare a converged result with its reference runs; None is one that did not converge."""
+    cold, smooth = references.get(ISOTHERMAL), references.get(SMOOTH)
     heat = None if cold is None else thermal_effect.thermal_effect(result, cold)
     roughness = None if smooth is None else micro_film.roughness_effect(result, smooth)
     rough = None if smooth is None else rough_film(result, smooth)
     blocks: dict[str, Any] = {}
-    if ISOTHERMAL in cases:
+    if ISOTHERMAL in references:
         blocks["thermal_effect"] = heat and thermal_effect.effect_block(heat)
-    if SMOOTH in cases:
+    if SMOOTH in references:
         blocks["roughness_effect"] = roughness and micro_film.effect_block(roughness)
     if rough is not None:
         blocks["roughness"] = roughness_block(rough)

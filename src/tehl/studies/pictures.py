@@ -130,7 +130,17 @@ def draw(picture: Picture, table: "pd.DataFrame") -> "Figure":
 
 
 def save(picture: Picture, table: "pd.DataFrame", folder: Path) -> Path:
-    """Draw a picture into a folder; return its file, which appears whole or not at all."""
+    """Draw a picture into a folder and return its file.
+
+    Parameters
+    ----------
+    picture : Picture
+        What to draw.
+    table : pandas.DataFrame
+        Table of a study.
+    folder : Path
+        Where the file appears, whole or not at all.
+    """
     figure, path = draw(picture, table), folder / picture.file_name
     with replacing(path) as temporary:
         figure.savefig(temporary, dpi=_DPI, format=picture.format)

@@ -109,9 +109,16 @@ def _settings(plan: Plan, rows: tuple[int, ...]) -> Iterator[tuple[str, str, Set
 
 
 def changed(tables: Mapping[str, Any], path: str, value: Any) -> dict[str, Any]:
-    """Return tables with ``value`` at a dotted path; ``false`` leaves the key out.
+    """Return a copy of tables with another value at a path.
 
-    A name on the way, such as that of an oil, becomes the table with this name.
+    Parameters
+    ----------
+    tables : mapping
+        Tables of a case.
+    path : str
+        Dotted path; a name on the way, such as that of an oil, becomes the table with this name.
+    value
+        The value; ``False`` removes the key.
     """
     key, _, deeper = (part.strip() for part in path.partition("."))
     after = dict(tables)

@@ -51,8 +51,19 @@ def _end_with_parent() -> None:
 def solve_in_turn(solve: Solve, task: list[tuple[Case, Files]], seconds: float) -> list[Row]:
     """Return the rows of the first cases of a task, of one at least.
 
-    The others are left after a number of seconds, or where the fields of one cannot be written:
-    that is raised when the case is the first of a task.
+    Parameters
+    ----------
+    solve : callable
+        As :func:`work`.
+    task : list of (Case, Files)
+        The cases, and the files of their fields.
+    seconds : float
+        Time after which the remaining cases are left.
+
+    Raises
+    ------
+    OSError, InputError
+        If the fields of the first case cannot be written; a later one is left with those after it.
     """
     start, rows = time.perf_counter(), list[Row]()
     for case, files in task:
