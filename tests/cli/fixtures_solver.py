@@ -1,4 +1,4 @@
-"""A solver that answers at once, so that the commands can be tested alone."""
+"""A solver that returns at once, so that the commands can be tested alone."""
 
 import sys
 from dataclasses import replace
@@ -22,12 +22,12 @@ class FakeSolver:
         self.calls: list[SimpleNamespace] = []
 
     def solve(self, problem, options, *, monitor=None):
-        return self._answer("solve", problem, options, monitor or Silent())
+        return self._result("solve", problem, options, monitor or Silent())
 
     def certify(self, problem, options, *, monitor=None):
-        return self._answer("certify", problem, options, monitor)
+        return self._result("certify", problem, options, monitor)
 
-    def _answer(self, kind, problem, options, monitor):
+    def _result(self, kind, problem, options, monitor):
         self.calls.append(SimpleNamespace(kind=kind, problem=problem, options=options))
         result = replace(make_result(33), problem=problem, options=options)
         monitor.message("hello")

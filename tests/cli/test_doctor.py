@@ -1,5 +1,5 @@
 # ruff: noqa: ARG001 (fixtures that prepare and are not read)
-"""``tehl doctor``: facts, checks and the exit code, with a solver that answers at once."""
+"""``tehl doctor``: facts, checks and the exit code, with a solver that returns at once."""
 
 import json
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tehl.cli import COMMANDS, main
-from tehl.io.templates import study_templates, template_text, templates
+from tehl.io.templates import template_text, templates
 
 HEAVY = ("numba", "scipy", "xarray", "matplotlib", "h5py", "pandas")
 
@@ -22,7 +22,7 @@ def run(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> int:
 
 
 def loaded(*arguments: str) -> set[str]:
-    """Return the top-level modules that ``tehl`` loads in a process of its own."""
+    """Return the top-level modules that ``tehl`` loads in a separate process."""
     script = (
         "import sys\n"
         "from tehl.cli import main\n"
@@ -65,10 +65,10 @@ def test_explain_of_a_wave_loads_no_machinery(tmp_path: Path):
 
 def test_new_lists_its_templates(monkeypatch, capsys):
     assert run(monkeypatch, "new", "--list") == 0
-    assert len(capsys.readouterr().out.splitlines()) == len(templates()) + len(study_templates())
+    assert len(capsys.readouterr().out.splitlines()) == len(templates()) + len(templates("studies"))
 
 
-def test_explain_speaks_to_people_and_to_programs(monkeypatch, capsys, case: Path):
+def test_explain_prints_text_or_json(monkeypatch, capsys, case: Path):
     assert run(monkeypatch, "explain", str(case)) == 0
     assert capsys.readouterr().out
     assert run(monkeypatch, "explain", str(case), "--json", "--set", "contact.load=100 N") == 0
@@ -87,17 +87,17 @@ def test_the_version_is_printed(monkeypatch, capsys):
 
 def test_bad_input_is_one_line_and_exit_code_2(monkeypatch, capsys, case: Path):
     assert run(monkeypatch, "explain", str(case), "--set", "contact.load=80 mm") == 2
-    told = capsys.readouterr()
-    assert told.out == ""
-    assert len(told.err.splitlines()) == 1
-    assert "contact.load" in told.err
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert len(printed.err.splitlines()) == 1
+    assert "contact.load" in printed.err
 
 
 def test_bad_input_is_an_object_with_json(monkeypatch, capsys, tmp_path: Path):
     assert run(monkeypatch, "explain", str(tmp_path / "none.toml"), "--json") == 2
-    told = json.loads(capsys.readouterr().out)
-    assert told["status"] == "bad_input"
-    assert "case file does not exist" in told["message"]
+    printed = json.loads(capsys.readouterr().out)
+    assert printed["status"] == "bad_input"
+    assert "case file does not exist" in printed["message"]
 
 
 @pytest.mark.parametrize("arguments", [("explain",), ("explain", "--nonsense"), ("nonsense",)])
@@ -117,15 +117,15 @@ def test_a_wrong_command_line_is_exit_code_2(monkeypatch, arguments: tuple[str, 
 )
 def test_a_wrong_command_line_is_one_line_and_an_object(monkeypatch, capsys, arguments, what):
     assert run(monkeypatch, *arguments, "--json") == 2
-    told = capsys.readouterr()
-    assert len(told.err.splitlines()) == 1
-    assert len(told.err) < 400
-    assert "--help" in told.err
-    assert json.loads(told.out)["status"] == "bad_input"
-    assert what in told.err
+    printed = capsys.readouterr()
+    assert len(printed.err.splitlines()) == 1
+    assert len(printed.err) < 400
+    assert "--help" in printed.err
+    assert json.loads(printed.out)["status"] == "bad_input"
+    assert what in printed.err
 
 
-def test_a_reader_who_leaves_is_no_failure_of_ours():
+def test_a_closed_pipe_is_not_an_error():
     command = f"{sys.executable} -m tehl schema | {sys.executable} -c pass; exit ${{PIPESTATUS[0]}}"
     done = subprocess.run(
         ["bash", "-c", command], capture_output=True, text=True, check=False, timeout=60
@@ -135,7 +135,7 @@ def test_a_reader_who_leaves_is_no_failure_of_ours():
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
-def test_a_full_disk_behind_stdout_is_told_in_one_line():
+def test_a_full_disk_behind_stdout_is_reported_in_one_line():
     command = f"{sys.executable} -m tehl schema > /dev/full"
     done = subprocess.run(
         ["bash", "-c", command], capture_output=True, text=True, check=False, timeout=60

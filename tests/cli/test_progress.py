@@ -7,11 +7,15 @@ from collections.abc import Callable
 
 import pytest
 
-from tehl.cli.progress import StudyProgress, duration, progress, step_progress, study_progress
+from tehl.cli.progress import StudyProgress, duration, progress, study_progress
+from tehl.heat import Thermal
 from tehl.studies import Row
 from tehl.transient_result import StepReport
 from tests.fixtures_result import make_result
+from tests.fixtures_transient import make_transient
 from tests.study.contacts import cases
+
+HEATED = make_result(33).problem.model_copy(update={"thermal": Thermal()})
 
 
 @pytest.fixture(autouse=True)
@@ -56,7 +60,7 @@ def report(step: int) -> StepReport:
 
 def test_a_terminal_gets_a_table_of_cycles_without_temperatures(terminal, result):
     shown = terminal()
-    with progress(quiet=False) as monitor:
+    with progress(result.problem, quiet=False) as monitor:
         for one in result.history:
             monitor.cycle(one)
     assert "65 x 65" in shown.getvalue()
@@ -65,7 +69,7 @@ def test_a_terminal_gets_a_table_of_cycles_without_temperatures(terminal, result
 
 def test_the_table_of_a_thermal_run_has_one_more_column(terminal, thermal):
     shown = terminal()
-    with progress(quiet=False, thermal=True) as monitor:
+    with progress(HEATED, quiet=False) as monitor:
         for one in thermal.history:
             monitor.cycle(one)
     assert "dT [K]" in shown.getvalue()
@@ -75,9 +79,9 @@ def test_the_table_of_a_thermal_run_has_one_more_column(terminal, thermal):
 @pytest.mark.parametrize("place", ["terminal", "pipe"])
 def test_rows_fit_80_columns_and_keep_their_numbers(place, request, capsys, thermal):
     shown = request.getfixturevalue("terminal")() if place == "terminal" else None
-    with progress(quiet=False, thermal=True) as monitor:
+    with progress(HEATED, quiet=False) as monitor:
         monitor.cycle(thermal.history[-1])
-    with step_progress(make_result(33).scales, quiet=False) as monitor:
+    with progress(make_transient().start.problem, quiet=False) as monitor:
         monitor.step(report(199))
     lines = plain(shown.getvalue() if shown else capsys.readouterr().err)
     assert all(len(line) <= 80 for line in lines)
@@ -89,7 +93,7 @@ def test_rows_fit_80_columns_and_keep_their_numbers(place, request, capsys, ther
 
 
 def test_steps_are_about_twenty_plain_lines_on_a_pipe(capsys):
-    with step_progress(make_result(33).scales, quiet=False) as monitor:
+    with progress(make_transient().start.problem, quiet=False) as monitor:
         for step in range(1, 201):
             monitor.step(report(step))
     shown = capsys.readouterr().err
@@ -98,7 +102,7 @@ def test_steps_are_about_twenty_plain_lines_on_a_pipe(capsys):
 
 
 def test_steps_begin_again_with_each_run_of_a_certification(capsys):
-    with step_progress(make_result(33).scales, quiet=False) as monitor:
+    with progress(make_transient().start.problem, quiet=False) as monitor:
         for _ in range(2):
             monitor.message("certify: a grid")
             for step in range(1, 201):
@@ -108,7 +112,7 @@ def test_steps_begin_again_with_each_run_of_a_certification(capsys):
 
 def test_a_terminal_shows_the_last_steps(terminal):
     shown = terminal()
-    with step_progress(make_result(33).scales, quiet=False) as monitor:
+    with progress(make_transient().start.problem, quiet=False) as monitor:
         monitor.cycle(make_result(33).history[0])
         for step in range(1, 31):
             monitor.step(report(step))

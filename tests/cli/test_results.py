@@ -36,26 +36,26 @@ def stored(result, tmp_path):
     [("csv", "ball.csv"), ("vtk", "ball.vtr"), ("npz", "ball.npz"), ("mat", "ball.mat")],
 )
 def test_exports_land_beside_the_result(stored, run, kind, name):
-    answer = run("export", str(stored), "--to", kind)
-    assert answer.code == 0
+    done = run("export", str(stored), "--to", kind)
+    assert done.code == 0
     assert sorted(path.name for path in stored.parent.iterdir()) == sorted(["ball.nc", name])
 
 
-def test_csv_fields_can_be_asked_for(stored, run):
+def test_csv_fields_are_written_on_request(stored, run):
     run("export", str(stored), "--to", "csv", "--what", "fields", "-o", str(stored) + ".csv")
     assert len((stored.parent / "ball.nc.csv").read_text().splitlines()) == 1 + 65**2
 
 
-def test_the_ending_of_the_output_tells_the_format(stored, run):
+def test_the_ending_of_the_output_selects_the_format(stored, run):
     assert run("export", str(stored), "-o", str(stored.parent / "film.vtr")).code == 0
     assert (stored.parent / "film.vtr").read_text().startswith("<?xml")
 
 
 @pytest.mark.parametrize("words", [[], ["-o", "film.txt"], ["--to", "vtk", "-o", "film.vtk"]])
 def test_a_format_that_is_missing_or_does_not_match_is_bad_input(stored, run, words):
-    answer = run("export", str(stored), *words)
-    assert answer.code == 2
-    assert answer.err.count("\n") == 1
+    done = run("export", str(stored), *words)
+    assert done.code == 2
+    assert done.err.count("\n") == 1
 
 
 def test_an_unknown_format_is_bad_input(stored, run):
@@ -102,23 +102,23 @@ def test_the_report_of_a_rough_result_shows_what_roughness_does(
 def test_the_result_itself_is_never_replaced(stored, run, command):
     stored = stored.rename(stored.with_suffix(".csv"))
     before = stored.read_bytes()
-    answer = run(command[0], str(stored), *command[1:], "-o", str(stored))
-    assert answer.code == 2
-    assert "same file as the input" in answer.err
+    done = run(command[0], str(stored), *command[1:], "-o", str(stored))
+    assert done.code == 2
+    assert "same file as the input" in done.err
     assert stored.read_bytes() == before
 
 
 @pytest.mark.parametrize("command", [["plot"], ["export", "--to", "csv"], ["report"]])
 @pytest.mark.parametrize("damage", ["truncated", "foreign", "missing"])
-def test_a_file_that_is_no_result_is_bad_input(stored, run, command, damage):
+def test_a_file_that_is_not_a_result_is_bad_input(stored, run, command, damage):
     content = {"truncated": stored.read_bytes()[:5000], "foreign": b"title = 1"}
     stored.unlink()
     if damage in content:
         stored.write_bytes(content[damage])
-    answer = run(command[0], str(stored), *command[1:])
-    assert answer.code == 2
-    assert "ball.nc" in answer.err
-    assert answer.err.count("\n") == 1
+    done = run(command[0], str(stored), *command[1:])
+    assert done.code == 2
+    assert "ball.nc" in done.err
+    assert done.err.count("\n") == 1
     assert len(list(stored.parent.iterdir())) == (damage in content)
 
 
@@ -133,7 +133,7 @@ def test_a_file_that_is_no_result_is_bad_input(stored, run, command, damage):
 def test_a_transient_result_is_exported_too(tmp_path, run, monkeypatch, words, names):
     monkeypatch.chdir(tmp_path)
     make_transient().save("run.nc")
-    answer = run("export", "run.nc", *words)
-    assert answer.code == 0
-    assert answer.out.split() == names
+    done = run("export", "run.nc", *words)
+    assert done.code == 0
+    assert done.out.split() == names
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted(["run.nc", *names])

@@ -1,5 +1,5 @@
 # ruff: noqa: ARG001 (fixtures that prepare and are not read)
-"""``tehl solve``: what it writes, prints and returns, with a solver that answers at once."""
+"""``tehl solve``: what it writes, prints and returns, with a solver that returns at once."""
 
 import errno
 import json
@@ -90,20 +90,20 @@ def names(folder) -> list[str]:
 
 
 def test_the_result_is_stored_under_the_name_of_the_case(folder, solver, run):
-    answer = run("solve", "ball.toml")
-    assert answer.code == 0
+    done = run("solve", "ball.toml")
+    assert done.code == 0
     assert names(folder) == ["ball.nc", "ball.toml"]
     assert load("ball.nc").status.converged
-    assert "minimum film" in answer.out
-    assert "Ball - converged" in answer.out
+    assert "minimum film" in done.out
+    assert "Ball - converged" in done.out
 
 
 def test_progress_goes_to_stderr_in_plain_lines(folder, solver, run):
-    answer = run("solve", "ball.toml")
-    assert "hello" in answer.err
-    assert "33 x 33" in answer.err
-    assert "\x1b" not in answer.err
-    assert "33 x 33 on" in answer.out
+    done = run("solve", "ball.toml")
+    assert "hello" in done.err
+    assert "33 x 33" in done.err
+    assert "\x1b" not in done.err
+    assert "33 x 33 on" in done.out
 
 
 def test_quiet_shows_no_progress(folder, solver, run):
@@ -111,18 +111,18 @@ def test_quiet_shows_no_progress(folder, solver, run):
 
 
 def test_json_prints_one_object_and_nothing_else(folder, solver, run):
-    answer = run("solve", "ball.toml", "--json")
-    assert json.loads(answer.out)["status"] == "converged"
-    assert answer.out.count("\n") == 1
+    done = run("solve", "ball.toml", "--json")
+    assert json.loads(done.out)["status"] == "converged"
+    assert done.out.count("\n") == 1
 
 
-def test_changes_reach_the_solver(folder, solver, run):
+def test_overrides_reach_the_solver(folder, solver, run):
     run("solve", "ball.toml", "--set", "numerics.points=129", "--set", "contact.load=40 N")
     assert solver.calls[0].options.points == 129
     assert solver.calls[0].problem.load == 40.0
 
 
-def test_certify_takes_the_other_way(folder, solver, run):
+def test_certify_calls_the_certified_solve(folder, solver, run):
     run("solve", "ball.toml", "--certify")
     assert [call.kind for call in solver.calls] == ["certify"]
 
@@ -131,18 +131,18 @@ def test_a_failure_is_stored_marked_and_explained(folder, solver, run):
     solver.outcome = Status(
         kind="stalled", cause="grid_too_coarse", message="the grid is too coarse", hint="take 513"
     )
-    answer = run("solve", "ball.toml", "-o", "bad.nc")
-    assert answer.code == 1
+    done = run("solve", "ball.toml", "-o", "bad.nc")
+    assert done.code == 1
     assert load("bad.nc").status == solver.outcome
-    assert "the grid is too coarse" in answer.err
-    assert "hint: take 513" in answer.err
+    assert "the grid is too coarse" in done.err
+    assert "hint: take 513" in done.err
 
 
 def test_a_failure_as_json_names_cause_and_hint(folder, solver, run):
     solver.outcome = Status(kind="diverged", cause="diverged", message="m", hint="h")
-    answer = run("solve", "ball.toml", "--json")
-    content = json.loads(answer.out)
-    assert answer.code == 1
+    done = run("solve", "ball.toml", "--json")
+    content = json.loads(done.out)
+    assert done.code == 1
     assert (content["status"], content["hint"]) == ("diverged", "h")
 
 
@@ -152,32 +152,32 @@ def test_a_thermal_run_shows_how_the_temperature_changes(warm, solver, run):
 
 
 def test_the_isothermal_reference_enters_at_the_same_temperature(warm, solver, run):
-    answer = run("solve", "warm.toml", "--with-isothermal", "--json")
+    done = run("solve", "warm.toml", "--with-isothermal", "--json")
     first, second = (call.problem for call in solver.calls)
     assert first.thermal is not None
     assert second.thermal is None
     assert first.inlet_temperature == second.inlet_temperature == 333.15
     assert first.ambient_viscosity == second.ambient_viscosity
-    effect = json.loads(answer.out)["thermal_effect"]
+    effect = json.loads(done.out)["thermal_effect"]
     assert effect["central"] == effect["minimum"] == 1.0
     factors = {factor["formula"]: factor["factor"] for factor in effect["inlet_factors"]}
     assert 0 < factors["Wilson-Sheu"] < 1
     with h5netcdf.File("warm.nc") as file:
-        assert json.loads(file.attrs["summary"]) == json.loads(answer.out)
+        assert json.loads(file.attrs["summary"]) == json.loads(done.out)
 
 
 def test_the_effect_of_heat_is_printed(warm, solver, run):
-    answer = run("solve", "warm.toml", "--with-isothermal")
-    assert "over isothermal  1.0000 of the central" in answer.out
-    assert "without heat" in answer.err
+    done = run("solve", "warm.toml", "--with-isothermal")
+    assert "over isothermal  1.0000 of the central" in done.out
+    assert "without heat" in done.err
 
 
 def test_a_reference_run_that_fails_spoils_nothing(warm, solver, run):
     solver.cold = Status(kind="stalled", cause="grid_too_coarse", message="too coarse", hint="h")
-    answer = run("solve", "warm.toml", "--with-isothermal", "--json")
-    assert answer.code == 0
-    assert "reference run without heat did not converge" in answer.err
-    assert json.loads(answer.out)["thermal_effect"] is None
+    done = run("solve", "warm.toml", "--with-isothermal", "--json")
+    assert done.code == 0
+    assert "reference run without heat did not converge" in done.err
+    assert json.loads(done.out)["thermal_effect"] is None
     assert load("warm.nc").status.converged
 
 
@@ -187,26 +187,26 @@ def test_without_the_flag_there_is_no_reference_run(warm, solver, run):
 
 
 def test_the_smooth_reference_is_solved_stored_and_compared(wavy, solver, run):
-    answer = run("solve", "wavy.toml", "--with-smooth")
+    done = run("solve", "wavy.toml", "--with-smooth")
     first, second = (call.problem for call in solver.calls)
     assert first.is_rough
     assert not second.is_rough
     assert solver.calls[1].options == solver.calls[0].options
     assert solver.calls[0].options.accuracy == "tight"
-    assert "over smooth      1.0000 of the central" in answer.out
-    assert "with smooth surfaces" in answer.err
+    assert "over smooth      1.0000 of the central" in done.out
+    assert "with smooth surfaces" in done.err
     assert not load("wavy.smooth.nc").problem.is_rough
-    assert "written: wavy.smooth.nc" in answer.err
+    assert "written: wavy.smooth.nc" in done.err
 
 
 def test_heat_and_roughness_may_be_left_out_in_one_command(wavy, solver, run):
-    answer = run("solve", "both.toml", "--with-smooth", "--with-isothermal", "--json")
+    done = run("solve", "both.toml", "--with-smooth", "--with-isothermal", "--json")
     rough, cold, smooth = (call.problem for call in solver.calls)
     assert (rough.is_rough, cold.is_rough, smooth.is_rough) == (True, True, False)
     assert (rough.thermal is None, cold.thermal is None, smooth.thermal is None) == (
         False, True, False
     )  # fmt: skip
-    content = json.loads(answer.out)
+    content = json.loads(done.out)
     assert content["thermal_effect"]["central"] == content["roughness_effect"]["central"] == 1.0
     with h5netcdf.File("both.nc") as file:
         assert json.loads(file.attrs["summary"]) == content
@@ -214,10 +214,10 @@ def test_heat_and_roughness_may_be_left_out_in_one_command(wavy, solver, run):
 
 def test_a_smooth_reference_that_fails_spoils_nothing(wavy, solver, run):
     solver.cold = Status(kind="stalled", cause="grid_too_coarse", message="too coarse", hint="h")
-    answer = run("solve", "wavy.toml", "--with-smooth", "--json")
-    assert answer.code == 0
-    assert "reference run with smooth surfaces did not converge" in answer.err
-    assert json.loads(answer.out)["roughness_effect"] is None
+    done = run("solve", "wavy.toml", "--with-smooth", "--json")
+    assert done.code == 0
+    assert "reference run with smooth surfaces did not converge" in done.err
+    assert json.loads(done.out)["roughness_effect"] is None
     assert not Path("wavy.smooth.nc").exists()
 
 
@@ -237,7 +237,7 @@ def test_a_failure_makes_no_reference_runs(wavy, solver, run):
         (["ball.toml", "-o", "."], "is a folder"),
         (["ball.toml", "-o", "ball.toml"], "same file as the input ball.toml"),
         (["ball.toml", "-o", "link.toml"], "same file as the input"),
-        (["ball.toml", "-o", "twin.toml"], "same file as the input"),
+        (["ball.toml", "-o", "hard_link.toml"], "same file as the input"),
         (["ball.toml", "-o", "pipe"], "is a pipe, not a file"),
         (["ball.toml", "-o", "to_pipe"], "is a pipe, not a file"),
         (["ball.toml", "-o", "loop"], "cannot be written"),
@@ -252,26 +252,26 @@ def test_a_failure_makes_no_reference_runs(wavy, solver, run):
 )
 def test_bad_input_writes_nothing_and_solves_nothing(folder, solver, run, words, reason):
     (folder / "link.toml").symlink_to("ball.toml")
-    (folder / "twin.toml").hardlink_to(folder / "ball.toml")
+    (folder / "hard_link.toml").hardlink_to(folder / "ball.toml")
     os.mkfifo(folder / "pipe")
     (folder / "to_pipe").symlink_to("pipe")
     (folder / "loop").symlink_to("loop")
     (folder / "dangling").symlink_to("nowhere")
     before = names(folder)
-    answer = run("solve", *words)
-    assert answer.code == 2
-    assert reason in answer.err
-    assert answer.err.count("\n") == 1
+    done = run("solve", *words)
+    assert done.code == 2
+    assert reason in done.err
+    assert done.err.count("\n") == 1
     assert solver.calls == []
     assert names(folder) == before
 
 
-def test_a_grid_beyond_the_memory_is_refused(folder, solver, run, monkeypatch):
+def test_a_grid_beyond_the_memory_is_rejected(folder, solver, run, monkeypatch):
     monkeypatch.setattr("tehl.memory.available_memory", lambda: 1e9)
-    answer = run("solve", "ball.toml", "--set", "numerics.points=16385")
-    assert answer.code == 2
-    assert "16385 x 16385: needs about 48 GB" in answer.err
-    assert "take 2305 or fewer" in answer.err
+    done = run("solve", "ball.toml", "--set", "numerics.points=16385")
+    assert done.code == 2
+    assert "16385 x 16385: needs about 48 GB" in done.err
+    assert "take 2305 or fewer" in done.err
     assert solver.calls == []
 
 
@@ -293,22 +293,22 @@ def test_a_full_disk_names_the_file_and_leaves_nothing(folder, solver, run, monk
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr(Path, "write_bytes", full)
-    answer = run("solve", "ball.toml", "-o", "out.nc")
-    assert answer.code == 3
-    assert "tehl: out.nc: No space left on device\n" in answer.err
+    done = run("solve", "ball.toml", "-o", "out.nc")
+    assert done.code == 3
+    assert "tehl: out.nc: No space left on device\n" in done.err
     assert names(folder) == ["ball.toml"]
 
 
 def test_bad_input_as_json(folder, solver, run):
-    answer = run("solve", "none.toml", "--json")
-    assert answer.code == 2
-    assert json.loads(answer.out)["status"] == "bad_input"
+    done = run("solve", "none.toml", "--json")
+    assert done.code == 2
+    assert json.loads(done.out)["status"] == "bad_input"
 
 
 def test_an_interrupt_leaves_nothing(folder, solver, run):
     solver.outcome = KeyboardInterrupt()
-    answer = run("solve", "ball.toml")
-    assert answer.code == 130
+    done = run("solve", "ball.toml")
+    assert done.code == 130
     assert names(folder) == ["ball.toml"]
 
 
@@ -317,9 +317,9 @@ def test_a_kill_while_writing_leaves_nothing(folder, solver, run, monkeypatch):
         signal.raise_signal(signal.SIGTERM)
 
     monkeypatch.setattr(store, "_write", killed)
-    answer = run("solve", "ball.toml")
-    assert answer.code == 143
-    assert "tehl: ended by SIGTERM, no file is left half-written\n" in answer.err
+    done = run("solve", "ball.toml")
+    assert done.code == 143
+    assert "tehl: ended by SIGTERM, no file is left half-written\n" in done.err
     assert names(folder) == ["ball.toml"]
 
 

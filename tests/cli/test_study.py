@@ -12,7 +12,7 @@ import pytest
 
 from tehl import cli
 from tehl.io import atomic
-from tehl.io.templates import study_templates, template_text
+from tehl.io.templates import template_text, templates
 from tehl.result import Cost
 from tehl.studies import Row, runner
 from tehl.studies.file import read_study
@@ -400,7 +400,9 @@ WRONG = {
 
 
 @pytest.mark.parametrize("what", WRONG)
-def test_a_wrong_study_is_one_sentence_before_any_work(folder, run, monkeypatch, what):
+def test_an_invalid_study_is_reported_in_one_sentence_before_any_work(
+    folder, run, monkeypatch, what
+):
     text, words = WRONG[what]
     monkeypatch.setattr(runner, "work", None)
     (folder / "wrong.toml").write_text(text)
@@ -446,7 +448,7 @@ def test_identical_pictures_are_drawn_once(folder, run):
     assert len(read_study("drawn.toml").pictures) == 1
 
 
-def test_many_cases_can_be_meant(folder, run):
+def test_many_cases_can_be_intended(folder, run):
     text = STUDY.replace("4]", "5001]")
     (folder / "many.toml").write_text(text)
     assert run("many.toml", "--dry-run").code == 2
@@ -474,7 +476,7 @@ def test_many_cases_can_be_meant(folder, run):
         (["loads.toml", "-o", "fresh", "--table"], "no case of the study is finished"),
     ],
 )
-def test_a_wrong_command_is_one_sentence(folder, run, words, message):
+def test_a_wrong_command_is_reported_in_one_sentence(folder, run, words, message):
     (folder / "empty").mkdir()
     if words[0] == "out":
         run("loads.toml", "-o", "out", "--jobs", "1")
@@ -484,11 +486,11 @@ def test_a_wrong_command_is_one_sentence(folder, run, words, message):
     assert done.err.count("\n") == 1
 
 
-@pytest.mark.parametrize("name", list(study_templates()))
+@pytest.mark.parametrize("name", list(templates("studies")))
 def test_every_template_of_a_study_is_one(name, tmp_path):
     path = tmp_path / f"{name}.toml"
     path.write_text(template_text(name), encoding="utf-8")
     study = study_of(read_study(path))
     assert 20 < len(study.cases) < 100
     assert study.plan.pictures
-    assert len(study_templates()[name]) > 20
+    assert len(templates("studies")[name]) > 20

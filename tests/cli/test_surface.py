@@ -76,7 +76,7 @@ def test_keys_of_tables_have_dots_as_in_a_case(monkeypatch, capsys, file):
     assert found["size_m"] == pytest.approx([64e-6, 32e-6])
 
 
-def test_a_turned_and_moved_map_is_told(monkeypatch, capsys, file):
+def test_a_turned_and_moved_map_is_reported(monkeypatch, capsys, file):
     keys = ("--set", "rotate=30 deg", "--set", "x=0.1 mm")
     assert run(monkeypatch, "surface", file, *STATED, *keys) == 0
     words = capsys.readouterr().out
@@ -89,7 +89,7 @@ def test_a_turned_and_moved_map_is_told(monkeypatch, capsys, file):
     assert "placed" not in capsys.readouterr().out
 
 
-def test_what_was_taken_off_is_told(monkeypatch, capsys, file):
+def test_the_form_that_was_removed_is_reported(monkeypatch, capsys, file):
     keys = ("--level", "quadratic", "--set", "lambda_s=12 um")
     assert run(monkeypatch, "surface", file, *STATED, *keys) == 0
     words = capsys.readouterr().out
@@ -103,7 +103,7 @@ def test_what_was_taken_off_is_told(monkeypatch, capsys, file):
 
 
 @pytest.mark.parametrize("beside", [(), ("--half-width", "40 um")])
-def test_a_form_that_is_left_is_asked_for(monkeypatch, capsys, tmp_path, beside):
+def test_a_remaining_form_is_reported(monkeypatch, capsys, tmp_path, beside):
     x = (np.arange(64) - 31.5) * 2e-6
     np.save(tmp_path / "ball.npy", 1e6 * (-(x**2) / 0.04 - (x[:48, None]) ** 2 / 0.04))
     found = numbers(monkeypatch, capsys, str(tmp_path / "ball.npy"), *STATED, *beside)
@@ -167,15 +167,15 @@ def test_the_picture_has_map_histogram_and_spectrum(tmp_path, shape):
         (("/",), "is a folder"),
     ],
 )
-def test_wrong_input_is_one_sentence(monkeypatch, capsys, file, arguments, words):
+def test_invalid_input_is_reported_in_one_sentence(monkeypatch, capsys, file, arguments, words):
     assert run(monkeypatch, "surface", *(part.format(file) for part in arguments)) == 2
-    told = capsys.readouterr()
-    assert words in told.err
-    assert told.err.count("\n") == 1
-    assert told.out == ""
+    printed = capsys.readouterr()
+    assert words in printed.err
+    assert printed.err.count("\n") == 1
+    assert printed.out == ""
 
 
-def test_damaged_files_are_one_sentence(monkeypatch, capsys, tmp_path):
+def test_damaged_files_are_reported_in_one_sentence(monkeypatch, capsys, tmp_path):
     write_x3p(tmp_path / "a.x3p", relief(), method=zipfile.ZIP_LZMA)
     whole = (tmp_path / "a.x3p").read_bytes()
     place = whole.index(b"bindata/data.bin") + 16 + 40
@@ -186,6 +186,6 @@ def test_damaged_files_are_one_sentence(monkeypatch, capsys, tmp_path):
         np.lib.format.write_array_header_1_0(file, header)
     for name in ("a.x3p", "b.x3p", "c.npy"):
         assert run(monkeypatch, "surface", str(tmp_path / name), *STATED) == 2
-        told = capsys.readouterr()
-        assert name in told.err
-        assert (told.out, told.err.count("\n")) == ("", 1)
+        printed = capsys.readouterr()
+        assert name in printed.err
+        assert (printed.out, printed.err.count("\n")) == ("", 1)

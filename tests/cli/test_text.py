@@ -144,6 +144,6 @@ def test_a_failure_has_its_hint_in_a_second_line():
 
 
 def test_a_certified_run_reports_how_its_grids_ended(result):
-    told = "Grids of the error bars: 65 x 65 too coarse for the film."
-    assert told in as_text(replace(result, status=Status(kind="converged", message=told)))
-    assert told in report_text(replace(result, status=Status(kind="converged", message=told)))
+    message = "Grids of the error bars: 65 x 65 too coarse for the film."
+    assert message in as_text(replace(result, status=Status(kind="converged", message=message)))
+    assert message in report_text(replace(result, status=Status(kind="converged", message=message)))

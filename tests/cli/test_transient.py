@@ -17,7 +17,7 @@ import tehl
 from tehl import cli
 from tehl.cli.checkpoint import Keeper
 from tehl.errors import ConvergenceError
-from tehl.io.checkpoint import Fingerprint, read_checkpoint
+from tehl.io.checkpoint import Fingerprint
 from tehl.plots import animation
 from tests.fixtures_result import make_result
 from tests.fixtures_transient import make_certified, make_transient
@@ -82,6 +82,11 @@ def equal(one: tehl.TransientResult, other: tehl.TransientResult) -> bool:
     return all(np.array_equal(*pair) for pair in pairs)
 
 
+def steps_in(checkpoint) -> int:
+    with np.load(checkpoint) as state:
+        return len(state["rows"])
+
+
 def stopped_by(number: int, folder, step: int) -> subprocess.Popen:
     """Start a run, and end it by a signal once its checkpoint has come so far."""
     job = subprocess.Popen(
@@ -89,7 +94,7 @@ def stopped_by(number: int, folder, step: int) -> subprocess.Popen:
     )
     kept, deadline = folder / "wave.nc.checkpoint", time.monotonic() + 120
     while time.monotonic() < deadline and job.poll() is None:
-        if kept.exists() and len(read_checkpoint(kept)[1]["rows"]) > step:
+        if kept.exists() and steps_in(kept) > step:
             break
         time.sleep(0.01)
     job.send_signal(number)
@@ -112,7 +117,7 @@ points = 65
 
 
 @pytest.mark.parametrize("warm", [False, True])
-def test_a_killed_run_goes_on_bit_by_bit(folder, run, warm):
+def test_a_killed_run_continues_bit_by_bit(folder, run, warm):
     if warm:
         oil = CASE.replace('"22 1/GPa" }', '"22 1/GPa", gamma = "0.042 1/K" }')
         text = oil.partition("[transient]")[0].rstrip() + HEAT
@@ -122,41 +127,41 @@ def test_a_killed_run_goes_on_bit_by_bit(folder, run, warm):
     assert job.returncode == -signal.SIGKILL
     assert not (folder / "wave.nc").exists()
     (folder / ".wave.nc.checkpoint.0123456789ab.part").write_bytes(b"killed while it was written")
-    refused = run("solve", "wave.toml")
-    assert refused.code == 2
-    assert "continue it with --resume" in refused.err
+    rejected = run("solve", "wave.toml")
+    assert rejected.code == 2
+    assert "continue it with --resume" in rejected.err
     other = run("solve", "wave.toml", "--resume", "--set", "contact.moes_load=11")
     assert other.code == 2
     assert "belongs to another case" in other.err
-    answer = run("solve", "wave.toml", "--resume")
-    assert answer.code == 0
-    assert "continuing after step" in answer.err
+    done = run("solve", "wave.toml", "--resume")
+    assert done.code == 0
+    assert "continuing after step" in done.err
     assert equal(tehl.load("whole.nc"), tehl.load("wave.nc"))
     assert names(folder) == ["wave.nc", "wave.toml", "whole.nc"]
 
 
 @pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
-def test_a_run_that_is_asked_to_end_keeps_its_last_step(folder, number):
+def test_a_terminated_run_keeps_its_last_step(folder, number):
     job = stopped_by(number, folder, 2)
     assert job.returncode == 128 + number
     assert "tehl solve --resume continues from it" in job.err
     assert names(folder) == ["wave.nc.checkpoint", "wave.toml"]
 
 
-def test_a_checkpoint_of_another_version_is_refused(folder, run, monkeypatch):
+def test_a_checkpoint_of_another_version_is_rejected(folder, run, monkeypatch):
     stopped_by(signal.SIGTERM, folder, 2)
     monkeypatch.setattr(tehl, "__version__", "9.9.9")
-    answer = run("solve", "wave.toml", "--resume")
-    assert answer.code == 2
-    assert "and this is 9.9.9" in answer.err
+    done = run("solve", "wave.toml", "--resume")
+    assert done.code == 2
+    assert "and this is 9.9.9" in done.err
 
 
-def test_a_broken_checkpoint_is_refused(folder, run):
+def test_a_broken_checkpoint_is_rejected(folder, run):
     (folder / "wave.nc.checkpoint").write_bytes(b"PK\x03\x04 and then nothing")
-    answer = run("solve", "wave.toml", "--resume")
-    assert answer.code == 2
-    assert "is not a whole checkpoint" in answer.err
+    done = run("solve", "wave.toml", "--resume")
+    assert done.code == 2
+    assert "is not a whole checkpoint" in done.err
 
 
 @pytest.fixture
@@ -176,12 +181,12 @@ def solved(monkeypatch):
     return give
 
 
-def test_the_numbers_of_a_run_are_told(folder, run, solved):
+def test_the_numbers_of_a_run_are_printed(folder, run, solved):
     solved(make_transient())
-    answer = run("solve", "wave.toml", "--plot", "pictures")
-    assert answer.code == 0
-    assert "60 steps" in answer.out
-    assert "minimum film" in answer.out
+    done = run("solve", "wave.toml", "--plot", "pictures")
+    assert done.code == 0
+    assert "60 steps" in done.out
+    assert "minimum film" in done.out
     assert names(folder / "pictures") == [
         "history.png",
         "moments.png",
@@ -192,54 +197,54 @@ def test_the_numbers_of_a_run_are_told(folder, run, solved):
 
 def test_json_prints_one_object(folder, run, solved):
     solved(make_transient())
-    answer = run("solve", "wave.toml", "--json")
-    assert json.loads(answer.out)["time"]["steps"] == 60
+    done = run("solve", "wave.toml", "--json")
+    assert json.loads(done.out)["time"]["steps"] == 60
 
 
-def test_a_run_without_an_end_is_stored_marked_and_exits_with_1(folder, run, solved):
+def test_an_unfinished_run_is_stored_marked_and_exits_with_1(folder, run, solved):
     status = tehl.result.Status(
         kind="not_converged", cause="asperity_contact", message="they touch", hint="go faster"
     )
     solved(replace(make_transient(), status=status))
-    answer = run("solve", "wave.toml")
-    assert answer.code == 1
-    assert "they touch" in answer.err
-    assert "hint: go faster" in answer.err
+    done = run("solve", "wave.toml")
+    assert done.code == 1
+    assert "they touch" in done.err
+    assert "hint: go faster" in done.err
     assert tehl.load("wave.nc").status == status
 
 
-def test_a_beginning_that_is_not_reached_is_stored_and_exits_with_1(folder, run, solved):
+def test_a_start_that_does_not_converge_is_stored_and_exits_with_1(folder, run, solved):
     solved(ConvergenceError("the steady film at time zero was not reached", make_result(33)))
-    answer = run("solve", "wave.toml")
-    assert answer.code == 1
+    done = run("solve", "wave.toml")
+    assert done.code == 1
     assert isinstance(tehl.load("wave.nc"), tehl.Result)
 
 
-def test_a_beginning_that_diverges_is_told_as_a_steady_case_that_does(folder, run):
+def test_a_start_that_diverges_is_reported_as_a_diverged_steady_case(folder, run):
     standing = [
         "--set",
         'transient.start="standing"',
         "--set",
         "surface_1.roughness.amplitude=3e-6",
     ]
-    answer = run("solve", "wave.toml", *standing, "--json", "--plot", "pictures")
-    assert answer.code == 1
-    assert "not converged (diverged): The steady film at time zero did not converge" in answer.err
-    assert "hint: Take lower or longer asperities" in answer.err
-    told = json.loads(answer.out)
-    assert told["status"] == "diverged"
-    assert told["cause"] == "grid_too_coarse"
-    assert told["hint"]
-    assert told["message"].startswith("The steady film at time zero")
-    assert tehl.load("wave.nc").status.hint == told["hint"]
+    done = run("solve", "wave.toml", *standing, "--json", "--plot", "pictures")
+    assert done.code == 1
+    assert "not converged (diverged): The steady film at time zero did not converge" in done.err
+    assert "hint: Take lower or longer asperities" in done.err
+    summary = json.loads(done.out)
+    assert summary["status"] == "diverged"
+    assert summary["cause"] == "grid_too_coarse"
+    assert summary["hint"]
+    assert summary["message"].startswith("The steady film at time zero")
+    assert tehl.load("wave.nc").status.hint == summary["hint"]
     assert "film.png" in names(folder / "pictures")
 
 
 @pytest.mark.parametrize("option", ["--with-smooth", "--with-isothermal"])
-def test_options_of_steady_cases_are_refused(folder, run, option):
-    answer = run("solve", "wave.toml", option)
-    assert answer.code == 2
-    assert f"{option} is for steady cases" in answer.err
+def test_options_of_steady_cases_are_rejected(folder, run, option):
+    done = run("solve", "wave.toml", option)
+    assert done.code == 2
+    assert f"{option} is for steady cases" in done.err
 
 
 @pytest.fixture
@@ -254,22 +259,22 @@ def certified(monkeypatch):
 
 def test_a_certified_run_prints_its_bars_and_keeps_no_checkpoint(folder, run, certified):
     certified(make_certified())
-    answer = run("solve", "wave.toml", "--certify")
-    assert answer.code == 0
-    rows = {line[2:19].strip(): line[19:] for line in answer.out.splitlines()[1:]}
+    done = run("solve", "wave.toml", "--certify")
+    assert done.code == 0
+    rows = {line[2:19].strip(): line[19:] for line in done.out.splitlines()[1:]}
     assert "certified 0.79148 +- 0.04 GPa (grid 0.032, domain 0.024)" in rows["largest pressure"]
     assert " nm (grid " in rows["minimum film"]
     assert "+- 0.0025 at the extreme" in rows["traction"]
     assert "at 16 times" in rows["over time"]
     assert "33 x 33 converged" in rows["certified"]
-    assert sum("least   certified" in line for line in answer.out.splitlines()) == 1
+    assert sum("least   certified" in line for line in done.out.splitlines()) == 1
     assert names(folder) == ["wave.nc", "wave.toml"]
 
 
 def test_a_certified_run_has_its_bars_in_json(folder, run, certified):
     certified(make_certified())
-    told = json.loads(run("solve", "wave.toml", "--certify", "--json").out)
-    assert told["uncertainty"]["film"]["h_min_m"]["value"]["uncertainty"] > 0
+    summary = json.loads(run("solve", "wave.toml", "--certify", "--json").out)
+    assert summary["uncertainty"]["film"]["h_min_m"]["value"]["uncertainty"] > 0
 
 
 def test_a_run_that_has_no_error_bar_exits_with_1_and_is_kept(folder, run, certified):
@@ -277,41 +282,41 @@ def test_a_run_that_has_no_error_bar_exits_with_1_and_is_kept(folder, run, certi
         kind="not_converged", cause="not_certified", message="no bar follows", hint="more points"
     )
     certified(replace(make_transient(), status=status))
-    answer = run("solve", "wave.toml", "--certify")
-    assert answer.code == 1
-    assert "no bar follows" in answer.err
-    assert "hint: more points" in answer.err
+    done = run("solve", "wave.toml", "--certify")
+    assert done.code == 1
+    assert "no bar follows" in done.err
+    assert "hint: more points" in done.err
     assert tehl.load("wave.nc").status.cause == "not_certified"
 
 
 def test_a_certified_run_cannot_be_resumed_nor_passes_over_a_checkpoint(folder, run, certified):
     certified(make_certified())
-    answer = run("solve", "wave.toml", "--certify", "--resume")
-    assert answer.code == 2
-    assert "--certify makes several runs and keeps no checkpoint" in answer.err
+    done = run("solve", "wave.toml", "--certify", "--resume")
+    assert done.code == 2
+    assert "--certify makes several runs and keeps no checkpoint" in done.err
     (folder / "wave.nc.checkpoint").write_bytes(b"of another run")
-    answer = run("solve", "wave.toml", "--certify")
-    assert answer.code == 2
-    assert "holds an unfinished run" in answer.err
+    done = run("solve", "wave.toml", "--certify")
+    assert done.code == 2
+    assert "holds an unfinished run" in done.err
     assert names(folder) == ["wave.nc.checkpoint", "wave.toml"]
 
 
 def test_a_certified_run_of_the_solver_shows_each_of_its_runs(folder, run):
-    answer = run("solve", "wave.toml", "--certify", "--set", "contact.moes_load=10")
-    assert answer.code == 0
-    assert "certify: 65 x 65 nodes, as stated" in answer.err
-    assert "certify: 33 x 33 nodes, half the intervals" in answer.err
-    assert "17 x 17 has too few nodes" in answer.out
-    assert " +- " in answer.out
+    done = run("solve", "wave.toml", "--certify", "--set", "contact.moes_load=10")
+    assert done.code == 0
+    assert "certify: 65 x 65 nodes, as stated" in done.err
+    assert "certify: 33 x 33 nodes, half the intervals" in done.err
+    assert "17 x 17 has too few nodes" in done.out
+    assert " +- " in done.out
 
 
 def test_a_steady_case_has_nothing_to_resume(folder, run):
     (folder / "steady.toml").write_text(
         CASE.replace('[transient]\nframes = 3\nduration = "0.8 ms"\n', "")
     )
-    answer = run("solve", "steady.toml", "--resume")
-    assert answer.code == 2
-    assert "the case has no [transient]" in answer.err
+    done = run("solve", "steady.toml", "--resume")
+    assert done.code == 2
+    assert "the case has no [transient]" in done.err
 
 
 def test_a_full_disk_does_not_end_a_run(folder, capsys, monkeypatch):
@@ -323,7 +328,7 @@ def test_a_full_disk_does_not_end_a_run(folder, capsys, monkeypatch):
     assert capsys.readouterr().err.count("checkpoint not written") == 1
 
 
-def test_a_moving_picture_of_a_stored_run(folder, run):
+def test_a_stored_run_is_animated(folder, run):
     make_transient().save("run.nc")
     assert run("animate", "run.nc", "--dpi", "30").code == 0
     assert (folder / "run.gif").read_bytes()[:6] == b"GIF89a"
@@ -332,23 +337,23 @@ def test_a_moving_picture_of_a_stored_run(folder, run):
     assert names(folder) == ["run.gif", "run.html", "run.nc", "wave.toml"]
 
 
-def test_a_moving_picture_without_ffmpeg_is_refused_before_any_work(folder, run, monkeypatch):
+def test_an_animation_without_ffmpeg_is_rejected_before_any_work(folder, run, monkeypatch):
     monkeypatch.setattr(animation.shutil, "which", lambda _: None)
-    answer = run("animate", "none.nc", "-o", "run.mp4")
-    assert answer.code == 2
-    assert "ffmpeg, which is not installed" in answer.err
+    done = run("animate", "none.nc", "-o", "run.mp4")
+    assert done.code == 2
+    assert "ffmpeg, which is not installed" in done.err
     assert "ends in .gif, .mp4, .html" in run("animate", "none.nc", "-o", "run.avi").err
 
 
-def test_a_steady_film_does_not_move(folder, run):
+def test_a_steady_result_is_not_animated(folder, run):
     make_result(33).save("film.nc")
-    answer = run("animate", "film.nc")
-    assert answer.code == 2
-    assert "holds a steady result; expected a transient one" in answer.err
+    done = run("animate", "film.nc")
+    assert done.code == 2
+    assert "holds a steady result; expected a transient one" in done.err
 
 
 def test_plot_draws_what_the_file_holds(folder, run):
     make_transient().save("run.nc")
-    answer = run("plot", "run.nc")
-    assert answer.code == 0
+    done = run("plot", "run.nc")
+    assert done.code == 0
     assert "space_time.png" in names(folder / "run_plots")

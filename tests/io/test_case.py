@@ -210,7 +210,9 @@ MISTAKES = [
 
 
 @pytest.mark.parametrize(("change", "what", "right"), MISTAKES)
-def test_a_mistake_is_one_sentence_with_its_key(case: Path, change: str, what: str, right: str):
+def test_a_mistake_is_reported_in_one_sentence_with_its_key(
+    case: Path, change: str, what: str, right: str
+):
     with pytest.raises(InputError) as caught:
         read_case_and_options(case, [change])
     message = str(caught.value)
@@ -255,7 +257,7 @@ def test_surfaces_that_do_not_curve_apart_are_named():
         case_from_tables(ball_tables(contact=contact, surface_1=hollow, surface_2=flat))
 
 
-def test_flat_on_flat_is_refused():
+def test_flat_on_flat_is_rejected():
     flat = {"material": "steel", "radius": "inf"}
     contact = {"load": "80 N", "entrainment_speed": 1}
     with pytest.raises(InputError, match="flat on flat"):
@@ -272,7 +274,7 @@ def test_flat_on_flat_is_refused():
         ("x = '''abc", 1, "abc"),
     ],
 )
-def test_a_slip_in_toml_shows_its_line(tmp_path: Path, text: str, number: int, shown: str):
+def test_a_toml_syntax_error_shows_its_line(tmp_path: Path, text: str, number: int, shown: str):
     path = tmp_path / "slip.toml"
     path.write_text(text, encoding="utf-8")
     with pytest.raises(InputError) as caught:
@@ -321,7 +323,7 @@ def test_a_byte_order_mark_is_accepted(case: Path):
     assert read_case(case).load == 80.0
 
 
-def test_a_named_pipe_is_refused_at_once(tmp_path: Path):
+def test_a_named_pipe_is_rejected_at_once(tmp_path: Path):
     os.mkfifo(tmp_path / "pipe.toml")
     with pytest.raises(InputError, match="not a regular file"):
         read_case(tmp_path / "pipe.toml")
@@ -341,7 +343,7 @@ def test_an_invalid_override_is_reported(case: Path, change: str):
         read_case_and_options(case, [change])
 
 
-def test_the_schema_knows_every_table_and_refuses_others():
+def test_the_schema_has_every_table_and_forbids_others():
     schema = json.loads(json.dumps(case_schema()))
     tables = {"title", "contact", "surface_1", "surface_2", "lubricant", "thermal", "transient"}
     assert set(schema["properties"]) == tables | {"numerics"}
@@ -350,7 +352,7 @@ def test_the_schema_knows_every_table_and_refuses_others():
     assert "string" in named
 
 
-def test_the_schema_knows_every_law_and_the_thermal_keys():
+def test_the_schema_has_every_law_and_the_thermal_keys():
     parts = json.loads(json.dumps(case_schema()))["$defs"]
     laws = {part["properties"]["law"]["const"] for part in parts.values() if _is_law(part)}
     viscosity = {"roelands", "roelands-exponential", "barus", "walther", "tait-doolittle"}

@@ -67,7 +67,7 @@ def test_a_thermal_file_explains_itself(thermal, tmp_path):
 
 
 @pytest.mark.parametrize(("name", "points"), [("temperature", (9, 65, 65)), ("zeta", (9,))])
-def test_layers_that_cannot_be_are_refused(thermal, tmp_path, name, points):
+def test_impossible_layers_are_rejected(thermal, tmp_path, name, points):
     save(thermal, tmp_path / "out.nc")
     with h5netcdf.File(tmp_path / "out.nc", "a") as file:
         file.variables[name][...] = np.full(points, np.nan)
@@ -146,7 +146,7 @@ def test_xarray_reads_the_file_as_the_dataset(result, tmp_path):
         assert all({"units", "long_name"} <= set(v.attrs) for v in stored.variables.values())
 
 
-def test_the_dataset_says_what_was_asked(result):
+def test_the_dataset_has_the_case_as_attributes(result):
     attrs = to_dataset(result).attrs
     assert json.loads(attrs["summary"]) == result.summary()
     assert json.loads(attrs["options"])["points"] == 65
@@ -184,14 +184,14 @@ def test_flipped_bits_in_a_field_are_seen(result, tmp_path):
         (b"\x89HDF\r\n\x1a\n" + bytes(10), "truncated or damaged"),
     ],
 )
-def test_foreign_files_are_refused_with_their_name(tmp_path, content, reason):
+def test_foreign_files_are_rejected_with_their_name(tmp_path, content, reason):
     path = tmp_path / "foreign.nc"
     path.write_bytes(content)
     with pytest.raises(FileFormatError, match=rf"foreign\.nc.*{reason}"):
         load(path)
 
 
-def test_a_netcdf_file_of_another_program_is_refused(tmp_path):
+def test_a_netcdf_file_of_another_program_is_rejected(tmp_path):
     with h5netcdf.File(tmp_path / "other.nc", "w") as file:
         file.dimensions = {"x": 3}
         file.create_variable("a", ("x",), data=np.ones(3))
@@ -246,7 +246,7 @@ def test_a_broken_write_keeps_the_older_file(result, tmp_path, monkeypatch):
     assert len(list(tmp_path.iterdir())) == 1
 
 
-def test_a_place_that_takes_no_file_is_refused(tmp_path):
+def test_a_place_that_is_not_writable_is_rejected(tmp_path):
     with pytest.raises(InputError, match="does not exist"):
         check_writable(tmp_path / "none" / "out.nc")
     with pytest.raises(InputError, match="is a folder"):
@@ -266,11 +266,11 @@ def test_saving_and_loading_import_no_compiler_and_no_xarray(result, tmp_path):
         "print([m for m in ('numba', 'xarray', 'pandas', 'scipy') if m in sys.modules])"
     )
     run = [sys.executable, "-c", code, str(tmp_path / "out.nc")]
-    answer = subprocess.run(run, capture_output=True, text=True, check=True)
-    assert answer.stdout.strip() == "[]"
+    done = subprocess.run(run, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
 
 
-def test_a_damaged_byte_anywhere_is_told_in_one_line_or_does_no_harm(result, tmp_path):
+def test_a_damaged_byte_anywhere_is_reported_in_one_line_or_harmless(result, tmp_path):
     save(result, tmp_path / "out.nc")
     whole = (tmp_path / "out.nc").read_bytes()
     for place in range(8, min(len(whole), 4000), 61):

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from tehl.errors import InputError
 from tehl.studies import Axis, Sample, cases_of
-from tehl.studies.blocks import block_of
+from tehl.studies.axes import block_of
 from tehl.studies.plan import changed
 from tests.study.contacts import QUICK, problem
 
@@ -95,7 +95,7 @@ def test_labels_are_in_si_with_their_unit():
     assert study.units["contact.radius"] == "m"
 
 
-def test_tables_are_values_and_names_tell_them_apart():
+def test_tables_are_values_and_names_distinguish_them():
     laws = [{"law": "newtonian"}, {"law": "eyring", "stress": "5 MPa"}]
     study = cases_of(problem(), {"lubricant.shear": laws}, QUICK)
     assert [case.labels["lubricant.shear"] for case in study.cases] == ["newtonian", "eyring"]
@@ -152,7 +152,7 @@ def test_a_change_is_found_where_it_was_made(path, value):
         ({"surface_1.material.young_modulus.x": [1]}, "goes through young_modulus"),
     ],
 )
-def test_a_wrong_axis_is_one_sentence(axes, words):
+def test_an_invalid_axis_is_reported_in_one_sentence(axes, words):
     with pytest.raises(InputError, match=words.replace("(", r"\(")) as error:
         cases_of(problem(), axes, QUICK)
     assert "\n" not in str(error.value)

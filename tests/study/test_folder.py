@@ -11,8 +11,7 @@ from tehl.errors import FileFormatError, InputError
 from tehl.options import Options
 from tehl.result import Cost
 from tehl.studies import Row, Store
-from tehl.studies.axes import Setting
-from tehl.studies.blocks import Block
+from tehl.studies.axes import Block, Setting
 from tehl.studies.case import Case
 from tehl.studies.folder import load_plan, save_plan
 from tehl.studies.forecast import Forecast, check_memory_of, forecast
@@ -37,7 +36,7 @@ PLAN = Plan(
 )
 
 
-def test_a_plan_comes_back_from_its_folder(tmp_path):
+def test_a_plan_is_read_back_from_its_folder(tmp_path):
     plan = replace(PLAN, folder=tmp_path)
     save_plan(plan, tmp_path / "out")
     again = load_plan(tmp_path / "out")
@@ -48,7 +47,7 @@ def test_a_plan_comes_back_from_its_folder(tmp_path):
 
 
 @pytest.mark.parametrize("text", ["", "{}", '{"tehl_study": 9}', '{"tehl_study": 1, "plan": {}}'])
-def test_a_damaged_plan_is_refused(tmp_path, text):
+def test_a_damaged_plan_is_rejected(tmp_path, text):
     (tmp_path / "study.json").write_text(text)
     with pytest.raises(FileFormatError, match=r"study\.json"):
         load_plan(tmp_path)
@@ -92,7 +91,7 @@ def test_rows_of_a_task_are_kept_all_or_none(tmp_path):
     assert len(store.rows([first, second])) == 2
 
 
-def test_half_a_letter_in_a_message_is_replaced(tmp_path):
+def test_an_unpaired_surrogate_in_a_message_is_replaced(tmp_path):
     store, case = Store(tmp_path), cases(1)[0]
     store.put(Row(key=case.key, status="failed", message="no file \udcff.csv"))
     assert store.row(case).message == "no file ?.csv"
@@ -124,7 +123,7 @@ def test_certification_and_heat_cost_more():
     assert finer.memory_bytes > plain.memory_bytes
 
 
-def test_workers_that_do_not_fit_into_the_memory_are_refused():
+def test_workers_that_do_not_fit_into_the_memory_are_rejected():
     numbers = {"cases": 9, "open": 9, "cpu_seconds": 1.0, "wall_seconds": 1.0, "disk_bytes": 1.0}
     check_memory_of(Forecast(**numbers, memory_bytes=1e6), 8)
     with pytest.raises(InputError, match="8 workers take about 1e"):

@@ -36,7 +36,7 @@ def is_like(frame, undisturbed) -> bool:
     return frame.equals(undisturbed.head(len(frame)))
 
 
-def test_a_case_that_kills_its_worker_costs_itself_only(tmp_path, monkeypatch, undisturbed):
+def test_a_case_that_kills_its_worker_fails_alone(tmp_path, monkeypatch, undisturbed):
     monkeypatch.setattr(runner, "work", mishaps.deadly)
     store = Store(tmp_path)
     outcome = run(cases(COUNT), store, jobs=2)
@@ -51,7 +51,7 @@ def test_a_case_that_kills_its_worker_costs_itself_only(tmp_path, monkeypatch, u
     assert is_like(table(cases(COUNT), store), undisturbed)
 
 
-def test_a_worker_that_is_killed_from_outside_costs_nothing(tmp_path, monkeypatch, undisturbed):
+def test_a_worker_killed_from_outside_loses_no_case(tmp_path, monkeypatch, undisturbed):
     monkeypatch.setattr(runner, "work", mishaps.once)
     store, notes = Store(tmp_path, keep="fields"), Notes()
     outcome = run(cases(COUNT), store, jobs=2, monitor=notes)
@@ -61,7 +61,7 @@ def test_a_worker_that_is_killed_from_outside_costs_nothing(tmp_path, monkeypatc
 
 
 @ON_LINUX
-def test_a_killed_server_of_workers_costs_nothing(tmp_path, monkeypatch, undisturbed):
+def test_a_killed_fork_server_loses_no_case(tmp_path, monkeypatch, undisturbed):
     monkeypatch.setattr(runner, "work", mishaps.orphaned)
     store, notes = Store(tmp_path, keep="fields"), Notes()
     assert run(cases(COUNT), store, jobs=2, forked=True, monitor=notes).failed == ()
@@ -71,7 +71,7 @@ def test_a_killed_server_of_workers_costs_nothing(tmp_path, monkeypatch, undistu
 
 @ON_LINUX
 @pytest.mark.parametrize("server", ["begins", "has loaded the solver"])
-def test_a_server_that_is_killed_before_it_has_workers_costs_nothing(
+def test_a_fork_server_killed_before_it_has_workers_loses_no_case(
     tmp_path, monkeypatch, undisturbed, server
 ):
     monkeypatch.setattr(runner, "work", mishaps.quick)
@@ -154,7 +154,7 @@ def finished(folder: Path) -> int:
         (signal.SIGINT, "forked"),
     ],
 )
-def test_a_program_that_is_killed_goes_on_where_it_stopped(tmp_path, undisturbed, how, forked):
+def test_a_killed_program_continues_where_it_stopped(tmp_path, undisturbed, how, forked):
     process = program(str(tmp_path), "2", "60", forked, stderr=subprocess.DEVNULL)
     wait_for(lambda: (tmp_path / "rows.sqlite").exists() and finished(tmp_path) >= 4)
     process.send_signal(how)
@@ -234,7 +234,7 @@ def test_a_full_disk_under_the_fields_does_not_fail_the_case(
     assert is_like(table(cases(COUNT), store), undisturbed)
 
 
-def test_what_killed_workers_left_of_their_files_goes_away(tmp_path, monkeypatch):
+def test_incomplete_files_of_killed_workers_are_removed(tmp_path, monkeypatch):
     monkeypatch.setattr(runner, "work", mishaps.quick)
     store = Store(tmp_path, keep="fields")
     store.prepare()
@@ -279,7 +279,7 @@ def test_a_file_of_the_current_folder_is_not_taken_for_a_library(tmp_path):
 
 
 @pytest.mark.parametrize("content", [b"", b"no store at all, but more than a hundred bytes " * 5])
-def test_a_file_that_is_not_a_store_is_refused(tmp_path, content):
+def test_a_file_that_is_not_a_store_is_rejected(tmp_path, content):
     (tmp_path / "rows.sqlite").write_bytes(content)
     if not content:
         assert Store(tmp_path).rows(cases(1)) == {}  # as SQLite makes it, before anything is in
@@ -288,7 +288,7 @@ def test_a_file_that_is_not_a_store_is_refused(tmp_path, content):
         Store(tmp_path)
 
 
-def test_a_store_of_another_format_is_refused(tmp_path):
+def test_a_store_of_another_format_is_rejected(tmp_path):
     with sqlite3.connect(tmp_path / "rows.sqlite") as connection:
         connection.execute("PRAGMA user_version = 99")
     with pytest.raises(FileFormatError, match="format 99"):

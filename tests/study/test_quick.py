@@ -32,10 +32,7 @@ def test_nothing_is_left_behind_without_a_store(tmp_path, monkeypatch):
 
 def test_the_module_has_the_parts():
     assert tehl.studies.study is tehl.study
-    assert dir(tehl.studies) == sorted(tehl.studies.__all__)
     assert all(getattr(tehl.studies, name) is not None for name in tehl.studies.__all__)
-    with pytest.raises(AttributeError, match="nonsense"):
-        _ = tehl.studies.nonsense
 
 
 def test_a_study_file_gives_its_cases(tmp_path):
@@ -47,6 +44,6 @@ def test_a_study_file_gives_its_cases(tmp_path):
     assert [case.labels for case in study.cases] == [{"M": 5.0}, {"M": 6.0}]
 
 
-def test_an_axis_without_values_is_refused():
+def test_an_axis_without_values_is_rejected():
     with pytest.raises(InputError, match="empty list"):
         tehl.study(problem(), {"contact.moes_load": []}, QUICK)

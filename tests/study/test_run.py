@@ -72,7 +72,7 @@ def test_quick_cases_are_bundled_and_the_last_ones_shared_out(tmp_path, monkeypa
     monkeypatch.setattr(runner, "solve_in_turn", in_no_time)
     monkeypatch.setattr(runner, "engine_of", lambda *_, **__: nullcontext(Cluster()))
     assert run(cases(400), Store(tmp_path)).converged == 400
-    assert sizes[:64] == [1] * 64  # nothing is known yet
+    assert sizes[:64] == [1] * 64  # no time of a case is known yet
     assert sizes[64] == 15
     assert sizes[64:] == sorted(sizes[64:], reverse=True)
     assert sizes[-1] == 1
@@ -114,7 +114,7 @@ def test_a_failure_is_tried_again_on_request_only(tmp_path):
     assert again.names == [("too coarse", "not_converged")]
 
 
-def test_what_the_solver_refuses_is_a_row_too(tmp_path):
+def test_a_case_that_the_solver_rejects_is_a_row_too(tmp_path):
     few = replace(cases(1)[0], certify=True)  # 65 nodes cannot be halved twice
     store = Store(tmp_path)
     run([few], store)
@@ -137,7 +137,7 @@ def test_a_fault_of_the_program_is_a_row_too(tmp_path, monkeypatch):
     assert outcome.converged == 0
 
 
-def test_cases_that_ask_the_same_are_solved_once(tmp_path):
+def test_identical_cases_are_solved_once(tmp_path):
     same = [replace(cases(1)[0], name=name, labels={"way": name}) for name in "ab"]
     store, notes = Store(tmp_path), Notes()
     assert run(same, store, monitor=notes).total == 1
@@ -186,11 +186,11 @@ def test_nested_tables_and_lists_become_dotted_names():
         ("heat.shear_w", "W"),
     ],
 )
-def test_the_name_of_a_number_tells_its_unit(name, unit):
+def test_the_name_of_a_number_gives_its_unit(name, unit):
     assert unit_of(name) == unit
 
 
-def test_a_worker_count_that_cannot_be_is_refused(tmp_path):
+def test_an_impossible_worker_count_is_rejected(tmp_path):
     with pytest.raises(InputError, match="jobs = 0"):
         run(cases(1), Store(tmp_path), jobs=0)
 

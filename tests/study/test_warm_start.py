@@ -48,7 +48,7 @@ def test_a_guess_on_another_grid_and_a_far_one_do_no_harm():
         assert warm.film.minimum == pytest.approx(cold.film.minimum, rel=10 * TIGHT.tolerance)
 
 
-def test_a_usual_run_does_not_look_at_a_guess():
+def test_a_run_at_default_accuracy_ignores_a_guess():
     first, usual = solve(sliding(0.0), TIGHT), Options(points=65)
     cold, warm = solve(sliding(0.2), usual), solve(sliding(0.2), usual, guess=first)
     assert np.array_equal(cold.scaled.pressure, warm.scaled.pressure)

@@ -57,7 +57,6 @@ def main() -> NoReturn:
 
 
 def _run() -> int:
-    """Return the exit code of the command."""
     with ending():
         try:
             code = application()(prog_name="tehl", standalone_mode=False)

@@ -1,10 +1,11 @@
 """``tehl new``, ``explain`` and ``schema``: case files before they are solved."""
 
 import json
-from pathlib import Path
 from typing import Annotated
 
 import typer
+
+from tehl.cli.arguments import AsJson, CaseFile, Overrides
 
 
 def new(
@@ -12,24 +13,18 @@ def new(
     show_list: Annotated[bool, typer.Option("--list", help="List the templates.")] = False,
 ) -> None:
     """Print a commented case or study file to edit."""
-    from tehl.io.templates import study_templates, template_text, templates
+    from tehl.io.templates import template_text, templates
 
     if not show_list:
         typer.echo(template_text(template), nl=False)
         return
     for name, title in templates().items():
         typer.echo(f"{name:<14} {title}")
-    for name, title in study_templates().items():
+    for name, title in templates("studies").items():
         typer.echo(f"{name:<14} {title} (a study)")
 
 
-def explain(
-    case: Annotated[Path, typer.Argument(help="Case file.", show_default=False)],
-    overrides: Annotated[
-        list[str], typer.Option("--set", metavar="KEY=VALUE", help="Override a key of the case.")
-    ] = [],  # noqa: B006 (typer reads the default, nothing writes it)
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
-) -> None:
+def explain(case: CaseFile, *, overrides: Overrides, as_json: AsJson = False) -> None:
     """Show what a case means: Hertz, groups, formulas, unusual values."""
     from tehl.io.case import read_case_and_options
     from tehl.report.explain import as_summary

@@ -9,7 +9,7 @@ import typer
 
 from tehl.errors import InputError
 from tehl.io.atomic import check_writable
-from tehl.io.checkpoint import Fingerprint, check_owner, read_checkpoint, write_checkpoint
+from tehl.io.checkpoint import Fingerprint, read_checkpoint, write_checkpoint
 from tehl.solver.transient.snapshot import Snapshot, pack, unpack
 
 CHECKPOINT_SECONDS = 30.0
@@ -17,15 +17,7 @@ CHECKPOINT_SECONDS = 30.0
 
 
 class Keeper:
-    """Takes the snapshot of each step, and writes a checkpoint from time to time.
-
-    Parameters
-    ----------
-    path : Path
-        The checkpoint.
-    owner : Fingerprint
-        Of the run.
-    """
+    """Takes the snapshot of each step of a run, and writes its checkpoint from time to time."""
 
     def __init__(self, path: Path, owner: Fingerprint) -> None:
         self.path, self.owner = path, owner
@@ -33,7 +25,7 @@ class Keeper:
         self._written, self._reported = time.process_time(), False
 
     def __call__(self, snapshot: Snapshot) -> None:
-        """Take the state after a step."""
+        """Keep the state after a step."""
         self.last = snapshot.copy()
         if time.process_time() - self._written >= CHECKPOINT_SECONDS:
             self.write()
@@ -69,12 +61,7 @@ class Keeper:
     def begin(self, *, resume: bool) -> Snapshot | None:
         """Return the state to continue from, None at time zero.
 
-        Raises
-        ------
-        InputError
-            If there is a checkpoint of another run, or one and no ``resume``.
-        FileFormatError
-            If it cannot be read.
+        Raises an InputError for a checkpoint without ``resume``, or one of another run.
         """
         check_writable(self.path)
         if not self.path.exists():
@@ -88,9 +75,7 @@ class Keeper:
                 f"{self.path} holds an unfinished run: continue it with --resume, or remove it to "
                 "start again"
             )
-        found, arrays = read_checkpoint(self.path)
-        check_owner(self.path, found, self.owner)
-        snapshot = unpack(arrays)
+        snapshot = unpack(read_checkpoint(self.path, self.owner))
         typer.echo(f"continuing after step {_step(snapshot)} of {self.path}", err=True)
         return snapshot
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
+from tehl.cli.arguments import AsJson
 from tehl.cli.ending import ENVIRONMENT
 
 if TYPE_CHECKING:
@@ -44,7 +45,7 @@ def doctor(
     warm: Annotated[
         bool, typer.Option("--warm", help="Compile all kernels now, so that no solve has to.")
     ] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
+    as_json: AsJson = False,
 ) -> None:
     """Show versions and the kernel cache, and check the package against known numbers.
 

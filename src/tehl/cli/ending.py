@@ -31,7 +31,6 @@ _LONGEST = 300
 def fail(error: BaseException) -> NoReturn:
     """Print an error to stderr, with ``--json`` also as an object to stdout, and exit."""
     message, status, code = _outcome(error)
-    message = " ".join(message.split())
     with suppress(OSError):
         typer.echo(f"tehl: {message}", err=True)
     if "--json" in sys.argv[1:]:
@@ -43,20 +42,24 @@ def fail(error: BaseException) -> NoReturn:
 
 
 def _outcome(error: BaseException) -> tuple[str, str, int]:
-    """Return message, status and exit code of an error."""
+    """Return the message in one line, status and exit code of an error."""
+    message, status, code = str(error), "bad_input", BAD_INPUT
     if isinstance(error, _WrongCommandLine):
-        return _usage(error), "bad_input", BAD_INPUT
-    if isinstance(error, ConvergenceError):
-        return str(error), error.result.status.kind, NOT_CONVERGED
-    if isinstance(error, TehlError):
-        return str(error), "bad_input", BAD_INPUT
+        message = _usage(error)
+    elif isinstance(error, ConvergenceError):
+        status, code = error.result.status.kind, NOT_CONVERGED
+    elif not isinstance(error, TehlError):
+        message, status, code = _lacking(error), "environment", ENVIRONMENT
+    return " ".join(message.split()), status, code
+
+
+def _lacking(error: BaseException) -> str:
     if isinstance(error, OSError):
         reason = error.strerror or str(error)
-        named = f"{error.filename}: {reason}" if error.filename else reason
-        return named, "environment", ENVIRONMENT
+        return f"{error.filename}: {reason}" if error.filename else reason
     if isinstance(error, ModuleNotFoundError):
-        return f"{error.name} is not installed; see tehl doctor", "environment", ENVIRONMENT
-    return "not enough memory: take fewer points", "environment", ENVIRONMENT
+        return f"{error.name} is not installed; see tehl doctor"
+    return "not enough memory: take fewer points"
 
 
 def _usage(error: Any) -> str:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import typer
 
-from tehl.cli.reference_runs import Comparisons, compare, reference_cases, smooth_file
+from tehl.cli.reference_runs import REFERENCES, Comparisons, compare, smooth_file
 from tehl.cli.text import as_text, failure_text
 from tehl.errors import ConvergenceError, InputError
 from tehl.io.atomic import check_folder, check_writable, remove_with_parts
@@ -17,7 +17,6 @@ from tehl.memory import check_memory
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import Result
-from tehl.scaling import scales
 from tehl.transient_result import TransientResult
 
 COMPARED_TO = 1e-4
@@ -29,35 +28,40 @@ class Job:
     """Arguments of the command."""
 
     case: Path
-    overrides: list[str]
-    target: Path
+    output: Path | None
     plot: Path | None
     as_json: bool
+    overrides: list[str]
     certify: bool
-    isothermal: bool
-    smooth: bool
+    with_isothermal: bool
+    with_smooth: bool
     quiet: bool
     resume: bool
+
+    @property
+    def target(self) -> Path:
+        """The result file."""
+        return Path(f"{self.case.stem}.nc") if self.output is None else self.output
 
 
 def run(job: Job) -> bool:
     """Solve the case, store and print the result; return whether it converged.
 
-    Raises
-    ------
-    InputError
-        If case, overrides, outputs or arguments are invalid; nothing is solved then.
+    Invalid case, overrides, outputs or arguments are an InputError before anything is solved.
     """
     problem, options = read_case_and_options(job.case, job.overrides)
     _check_outputs(job)
     check_memory(options, problem)
     _check_arguments(problem, job)
-    references = reference_cases(problem, isothermal=job.isothermal, smooth=job.smooth)
+    wanted = zip(REFERENCES, (job.with_isothermal, job.with_smooth), strict=True)
+    references = {name: REFERENCES[name](problem) for name, is_wanted in wanted if is_wanted}
     if references and options.accuracy != "tight":
         options = options.model_copy(update={"accuracy": "tight", "tolerance": COMPARED_TO})
     result, failure = _solved(problem, options, job)
     if job.as_json and problem.transient is None and isinstance(result, Result):
-        result = _with_work(result)
+        from tehl.solver import with_work
+
+        result = with_work(result)  # takes a moment, so for programs only
     save(result, job.target)
     compared = Comparisons()
     if isinstance(result, TransientResult):
@@ -73,7 +77,7 @@ def run(job: Job) -> bool:
 def _check_outputs(job: Job) -> None:
     target, folder = job.target, job.plot
     check_writable(target, sources=(job.case,))
-    if job.smooth:
+    if job.with_smooth:
         check_writable(smooth_file(target), sources=(job.case,))
     if folder is not None:
         check_folder(folder)
@@ -84,7 +88,10 @@ def _check_outputs(job: Job) -> None:
 
 def _check_arguments(problem: ContactProblem, job: Job) -> None:
     """Raise if an argument does not apply to the case, or two exclude each other."""
-    for option, given in (("--with-isothermal", job.isothermal), ("--with-smooth", job.smooth)):
+    for option, given in (
+        ("--with-isothermal", job.with_isothermal),
+        ("--with-smooth", job.with_smooth),
+    ):
         if given and problem.transient is not None:
             raise InputError(f"{option} is for steady cases: remove it or [transient]")
     if job.resume and problem.transient is None:
@@ -117,8 +124,7 @@ def _steady(problem: ContactProblem, options: Options, job: Job) -> Result | Tra
     from tehl.cli.progress import progress
 
     work = solver.certify if job.certify else solver.solve
-    thermal, coupled = problem.thermal is not None, problem.is_coupled
-    with progress(quiet=job.quiet, thermal=thermal, coupled=coupled) as monitor:
+    with progress(problem, quiet=job.quiet) as monitor:
         return work(problem, options, monitor=monitor)
 
 
@@ -126,39 +132,27 @@ def _transient(problem: ContactProblem, options: Options, job: Job) -> Result | 
     """Solve a transient case; when it is interrupted, a checkpoint is left beside the target."""
     from tehl import solver
     from tehl.cli.checkpoint import Keeper
-    from tehl.cli.progress import step_progress
+    from tehl.cli.progress import progress
 
     keep = Keeper(checkpoint_of(job.target), fingerprint(problem, options))
-    start, coupled = keep.begin(resume=job.resume), problem.is_coupled
-    with (
-        keep.on_interrupt(),
-        step_progress(scales(problem), quiet=job.quiet, coupled=coupled) as monitor,
-    ):
+    start = keep.begin(resume=job.resume)
+    with keep.on_interrupt(), progress(problem, quiet=job.quiet) as monitor:
         if job.certify:
             return solver.certify_transient(problem, options, monitor=monitor)
         return solver.solve_transient(problem, options, monitor=monitor, resume=start, keep=keep)
 
 
-def _with_work(result: Result) -> Result:
-    """Measure the unit of work too: for programs only, as it takes a moment."""
-    from tehl.solver import with_work
-
-    return with_work(result)
-
-
 def _compared(result: Result, cases: dict[str, ContactProblem], job: Job) -> Comparisons:
     """Make the reference runs, and store the comparisons and the smooth film."""
-
-    def solved(problem: ContactProblem, what: str) -> Result | None:
+    found: dict[str, Result | None] = {}
+    for what, problem in cases.items():
         if not job.quiet:
             typer.echo(f"reference run {what}", err=True)
         other, failure = _solved(problem, result.options, replace(job, certify=False))
-        if failure is None and isinstance(other, Result):
-            return other
-        typer.echo(f"tehl: reference run {what} did not converge: {failure}", err=True)
-        return None
-
-    compared = compare(result, cases, solved)
+        found[what] = other if failure is None and isinstance(other, Result) else None
+        if found[what] is None:
+            typer.echo(f"tehl: reference run {what} did not converge: {failure}", err=True)
+    compared = compare(result, found)
     save(result, job.target, extra=compared.blocks)
     if compared.smooth is not None:
         save(compared.smooth, smooth_file(job.target))

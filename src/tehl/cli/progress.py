@@ -4,7 +4,7 @@ import sys
 import time
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -18,9 +18,9 @@ from rich.progress_bar import ProgressBar
 from rich.table import Table
 
 if TYPE_CHECKING:
+    from tehl.problem import ContactProblem
     from tehl.result import CycleReport
     from tehl.scaling import Scales
-    from tehl.solver.monitor import Monitor, StepMonitor
     from tehl.studies import Case, Row, StudyMonitor
     from tehl.transient_result import StepReport
 
@@ -59,47 +59,21 @@ SHOWN = 20
 """Failed cases that are named."""
 
 
-def progress(
-    *, quiet: bool, thermal: bool = False, coupled: bool = False
-) -> AbstractContextManager["Monitor"]:
-    """Return the monitor of a steady solve: a row per cycle.
-
-    Parameters
-    ----------
-    quiet : bool
-        Show nothing.
-    thermal : bool
-        Show the change of the temperature.
-    coupled : bool
-        The film is heated or thins in shear, which takes more kernels.
-    """
-    return _monitor(partial(CycleProgress, thermal=thermal), quiet=quiet, coupled=coupled)
-
-
-def step_progress(
-    units: "Scales", *, quiet: bool, coupled: bool = False
-) -> AbstractContextManager["StepMonitor"]:
-    """Return the monitor of a transient run: a row per time step.
-
-    Parameters
-    ----------
-    units : Scales
-        Of the film and the pressure.
-    quiet, coupled : bool
-        As in :func:`progress`.
-    """
-    return _monitor(partial(StepProgress, units=units), quiet=quiet, coupled=coupled)
-
-
 @contextmanager
-def _monitor(shown: Callable[..., Any], *, quiet: bool, coupled: bool) -> Iterator[Any]:
-    """Yield a monitor with a live view on a terminal, with None elsewhere."""
+def progress(problem: "ContactProblem", *, quiet: bool) -> Iterator[Any]:
+    """Yield the monitor of a solve: a row per multigrid cycle, of a transient run per time step."""
+    from tehl.scaling import scales
     from tehl.solver.monitor import SILENT
 
     if quiet:
         yield SILENT
         return
-    _announce_compiling(coupled=coupled)
+    _announce_compiling(coupled=problem.is_coupled)
+    shown: Callable[[Live | None], Any]
+    if problem.transient is None:
+        shown = partial(_CycleProgress, thermal=problem.thermal is not None)
+    else:
+        shown = partial(_StepProgress, units=scales(problem))
     if not _is_terminal():
         yield shown(None)
         return
@@ -161,16 +135,14 @@ class _Shown:
         return table
 
 
-class CycleProgress(_Shown):
-    """The monitor of a steady solve."""
-
+class _CycleProgress(_Shown):
     def __init__(self, live: Live | None, *, thermal: bool = False) -> None:
         super().__init__(live, {k: v for k, v in _CYCLE.items() if thermal or k != _HEAT})
         self._rows = None if live is None else self._table()
         self._grid: tuple[int, int] | None = None
 
     def cycle(self, report: "CycleReport") -> None:
-        """Show a cycle: below a heading if it is the first, a rule if the grid is another."""
+        """Show a cycle: the first below a heading, the first of each finer grid below a rule."""
         if self._rows is None:
             if self._grid is None:
                 self._line(self._columns)
@@ -183,9 +155,7 @@ class CycleProgress(_Shown):
         self._grid = report.points
 
 
-class StepProgress(_Shown):
-    """The monitor of a transient run."""
-
+class _StepProgress(_Shown):
     def __init__(self, live: Live | None, units: "Scales") -> None:
         super().__init__(live, _STEP)
         self._units = units
@@ -195,7 +165,7 @@ class StepProgress(_Shown):
         self._steady = False
 
     def cycle(self, report: "CycleReport") -> None:
-        """Show that the steady film at time zero is being found."""
+        """Show that the steady film at time zero is being solved."""
         if self._view is not None:
             state = "{0.points[0]} x {0.points[1]}, cycle {0.cycle}, {0.residual:.1e}"
             self._view.update(f"steady film at time zero: {state.format(report)}", refresh=True)
@@ -204,7 +174,7 @@ class StepProgress(_Shown):
         self._steady = True
 
     def step(self, report: "StepReport") -> None:
-        """Show a step; as a plain line only if the last one is a twentieth of the run behind."""
+        """Show a step in the live view, or as a plain line once per twentieth of the run."""
         film, left = self._units.film_thickness * 1e9, self._left(report)
         cells = self._cells(
             report,
@@ -242,13 +212,7 @@ class StepProgress(_Shown):
 
 
 class StudyProgress(_Shown):
-    """The monitor of a study.
-
-    Attributes
-    ----------
-    total, reused, done, failed : int
-        Cases: all, finished before, finished now, and failed now.
-    """
+    """The monitor of a study; counts all cases, those finished before and now, and failed now."""
 
     def __init__(self, bar: Progress | None, clock: Callable[[], float] = time.monotonic) -> None:
         super().__init__(bar, {})

@@ -1,6 +1,5 @@
 """Reference runs of a steady case, without heat or with smooth surfaces, and comparisons."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -10,28 +9,20 @@ from tehl.io.store import load_as
 from tehl.io.summary import plain, roughness_block
 from tehl.post import micro_film, thermal_effect
 from tehl.post.roughness import RoughFilm, rough_film
-from tehl.problem import ContactProblem
 from tehl.result import Result
 from tehl.transient_result import TransientResult
 
 ISOTHERMAL, SMOOTH = "without heat", "with smooth surfaces"
-"""Reference runs."""
+REFERENCES = {ISOTHERMAL: thermal_effect.isothermal_reference, SMOOTH: micro_film.smooth_reference}
+"""Reference runs, and what makes their cases; an InputError without heat or roughness."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Comparisons:
-    """A result compared with its reference runs; None where there is none that converged.
+    """What heat and roughness change; None where no reference run was made or it did not converge.
 
-    Attributes
-    ----------
-    heat, roughness : ThermalEffect, RoughnessEffect or None
-        What heat and roughness change.
-    rough_film : RoughFilm or None
-        Numbers of the rough film with the smooth film subtracted.
-    smooth : Result or None
-        The film between smooth surfaces.
-    blocks : dict
-        Extra blocks of the summary; null for a reference run that did not converge.
+    ``rough_film`` are the numbers of the rough film with the film ``smooth`` between smooth
+    surfaces subtracted, ``blocks`` extra blocks of the summary.
     """
 
     heat: thermal_effect.ThermalEffect | None = None
@@ -41,58 +32,17 @@ class Comparisons:
     blocks: dict[str, Any] = field(default_factory=dict)
 
 
-def reference_cases(
-    problem: ContactProblem, *, isothermal: bool, smooth: bool
-) -> dict[str, ContactProblem]:
-    """Return the cases to solve for comparison, by the name of the reference run.
-
-    Parameters
-    ----------
-    problem : ContactProblem
-        The case itself.
-    isothermal, smooth : bool
-        Leave out its heat; leave out its roughness.
-
-    Raises
-    ------
-    InputError
-        If the case has no heat or no roughness to leave out.
-    """
-    cases = {}
-    if isothermal:
-        cases[ISOTHERMAL] = thermal_effect.isothermal_reference(problem)
-    if smooth:
-        cases[SMOOTH] = micro_film.smooth_reference(problem)
-    return cases
-
-
-def compare(
-    result: Result,
-    cases: dict[str, ContactProblem],
-    solve: Callable[[ContactProblem, str], Result | None],
-) -> Comparisons:
-    """Solve the reference cases and compare a result with them.
-
-    Parameters
-    ----------
-    result : Result
-        Of the case itself, converged.
-    cases : dict
-        What :func:`reference_cases` returned.
-    solve : callable
-        Returns the result of a case, given its name too; None if it did not converge.
-    """
+def compare(result: Result, references: dict[str, Result | None]) -> Comparisons:
+    """Compare a converged result with its reference runs; None is one that did not converge."""
+    cold, smooth = references.get(ISOTHERMAL), references.get(SMOOTH)
+    heat = None if cold is None else thermal_effect.thermal_effect(result, cold)
+    roughness = None if smooth is None else micro_film.roughness_effect(result, smooth)
+    rough = None if smooth is None else rough_film(result, smooth)
     blocks: dict[str, Any] = {}
-    heat = roughness = rough = smooth = None
-    if ISOTHERMAL in cases:
-        cold = solve(cases[ISOTHERMAL], ISOTHERMAL)
-        heat = None if cold is None else thermal_effect.thermal_effect(result, cold)
+    if ISOTHERMAL in references:
         blocks["thermal_effect"] = heat and thermal_effect.effect_block(heat)
-    if SMOOTH in cases:
-        smooth = solve(cases[SMOOTH], SMOOTH)
-        roughness = None if smooth is None else micro_film.roughness_effect(result, smooth)
+    if SMOOTH in references:
         blocks["roughness_effect"] = roughness and micro_film.effect_block(roughness)
-        rough = None if smooth is None else rough_film(result, smooth)
     if rough is not None:
         blocks["roughness"] = roughness_block(rough)
     return Comparisons(

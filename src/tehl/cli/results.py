@@ -4,35 +4,21 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
-import typer
+from typer import Option, echo
 
-Stored = Annotated[Path, typer.Argument(metavar="RESULT", help="Result file (.nc).")]
+from tehl.cli.arguments import Stored
 
-
-class Format(StrEnum):
-    """Format of an export."""
-
-    csv = "csv"
-    vtk = "vtk"
-    npz = "npz"
-    mat = "mat"
-
-
-class What(StrEnum):
-    """Rows of a CSV table."""
-
-    lines = "lines"
-    fields = "fields"
-    history = "history"
+Format = StrEnum("Format", ["csv", "vtk", "npz", "mat"])
+What = StrEnum("What", ["lines", "fields", "history"])
 
 
 def plot(
     stored: Stored,
     output: Annotated[
         Path | None,
-        typer.Option("-o", "--output", metavar="DIR", help="Folder; RESULT_plots if left out."),
+        Option("-o", "--output", metavar="DIR", help="Folder; RESULT_plots if left out."),
     ] = None,
-    dpi: Annotated[int, typer.Option(min=30, max=1200, help="Dots per inch.")] = 150,
+    dpi: Annotated[int, Option(min=30, max=1200, help="Dots per inch.")] = 150,
 ) -> None:
     """Draw all pictures of a stored result, steady or transient; nothing is solved."""
     from tehl.cli.reference_runs import smooth_beside
@@ -44,21 +30,19 @@ def plot(
     check_folder(folder)
     result = load(stored)
     for path in save_all(result, folder, dpi=dpi, smooth=smooth_beside(stored, result)):
-        typer.echo(path)
+        echo(path)
 
 
 def animate(
-    stored: Annotated[
-        Path, typer.Argument(metavar="RESULT", help="File of a transient result (.nc).")
-    ],
+    stored: Stored,
     output: Annotated[
         Path | None,
-        typer.Option("-o", "--output", help="File: .gif, .mp4 or .html; RESULT.gif if left out."),
+        Option("-o", "--output", help="File: .gif, .mp4 or .html; RESULT.gif if left out."),
     ] = None,
     per_second: Annotated[
-        int, typer.Option("--fps", min=1, max=100, help="Frames shown per second.")
+        int, Option("--fps", min=1, max=100, help="Frames shown per second.")
     ] = 10,
-    dpi: Annotated[int, typer.Option(min=30, max=600, help="Dots per inch.")] = 100,
+    dpi: Annotated[int, Option(min=30, max=600, help="Dots per inch.")] = 100,
 ) -> None:
     """Animate a stored transient result; nothing is solved.
 
@@ -73,20 +57,20 @@ def animate(
     animation.check_format(target)
     check_writable(target, sources=(stored,))
     animation.animate(load_as(TransientResult, stored), target, per_second=per_second, dpi=dpi)
-    typer.echo(target)
+    echo(target)
 
 
 def export(
     stored: Stored,
     to: Annotated[
-        Format | None, typer.Option("--to", help="Format; by the ending of -o if left out.")
+        Format | None, Option("--to", help="Format; by the ending of -o if left out.")
     ] = None,
     output: Annotated[
-        Path | None, typer.Option("-o", "--output", help="File; beside RESULT if left out.")
+        Path | None, Option("-o", "--output", help="File; beside RESULT if left out.")
     ] = None,
     what: Annotated[
         What | None,
-        typer.Option(
+        Option(
             help="csv only: centre lines (default), fields at all nodes, or the history of the "
             "cycles or time steps (default of a transient result)."
         ),
@@ -106,13 +90,13 @@ def export(
     path = stored.with_suffix(ending_of(result, to)) if output is None else output
     check_writable(path, sources=(stored,))
     for written in write(result, path, to, what or ""):
-        typer.echo(written)
+        echo(written)
 
 
 def report(
     stored: Stored,
     output: Annotated[
-        Path | None, typer.Option("-o", "--output", help="HTML file; beside RESULT if left out.")
+        Path | None, Option("-o", "--output", help="HTML file; beside RESULT if left out.")
     ] = None,
 ) -> None:
     """Write one self-contained HTML page of a steady or transient result.
@@ -136,4 +120,4 @@ def report(
         roughness=micro_film.stored_effect(summary),
         smooth=smooth_beside(stored, result),
     )
-    typer.echo(path)
+    echo(path)

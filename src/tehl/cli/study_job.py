@@ -5,8 +5,8 @@ import logging
 import os
 import shlex
 from collections import Counter
-from collections.abc import Iterator, Mapping
-from contextlib import closing, contextmanager, suppress
+from collections.abc import Mapping
+from contextlib import closing
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,7 +19,6 @@ from tehl.io.atomic import check_place, shortened
 from tehl.studies.case import Row
 from tehl.studies.file import read_study
 from tehl.studies.folder import (
-    LOCK,
     PLAN,
     TABLE,
     check_can_write,
@@ -59,7 +58,7 @@ class StudyJob:
     replace: bool
     table_only: bool
     plots: list[str]
-    unlimited: bool
+    yes: bool
     as_json: bool
     quiet: bool
 
@@ -67,17 +66,16 @@ class StudyJob:
 def run(job: StudyJob) -> bool:
     """Do what the arguments state; return whether no case failed.
 
-    Raises
-    ------
-    InputError
-        If study, folder or arguments are invalid; nothing is solved then.
-    OSError
-        If the folder is in use or not writable, or no worker starts; finished cases are kept.
+    Invalid study, folder or arguments are an InputError before anything is solved; a folder in use
+    or not writable, or workers that do not start, an OSError, and finished cases are kept.
     """
     workers, pictures = _workers(job.jobs), [picture_of(words) for words in job.plots]
     plan, folder = _plan(job)
     _check_folder(folder, job.source)
-    study = _study(plan, job.source)
+    try:
+        study = study_of(plan)
+    except InputError as error:
+        raise InputError(f"{shortened(job.source)}: {error}") from None
     show_only = job.table_only or bool(pictures)
     if show_only or not job.replace:
         check_same(plan, folder)
@@ -86,7 +84,7 @@ def run(job: StudyJob) -> bool:
         return True
     if show_only:
         return _show_finished(study, folder, pictures, job)
-    with _locked(folder):
+    with locked(folder):
         outcome = _solved(study, folder, workers, job)
         written = _write(_table(study, folder), folder, plan.pictures)
     if job.as_json:
@@ -108,11 +106,10 @@ def _workers(jobs: str | None) -> int:
 
 
 def _plan(job: StudyJob) -> tuple[Plan, Path]:
-    """Return the plan and the folder of the study."""
     source, output = job.source, job.output
     if not source.is_dir():
         folder = Path(source.stem) if output is None else output
-        return read_study(source, job.overrides, unlimited=job.unlimited), folder
+        return read_study(source, job.overrides, unlimited=job.yes), folder
     if output is not None or job.overrides:
         raise InputError(
             f"{source} is the folder of a study that is planned already: -o and --set go with a "
@@ -121,16 +118,8 @@ def _plan(job: StudyJob) -> tuple[Plan, Path]:
     return load_plan(source), source
 
 
-def _study(plan: Plan, source: Path) -> Study:
-    """Return all cases, checked."""
-    try:
-        return study_of(plan)
-    except InputError as error:
-        raise InputError(f"{shortened(source)}: {error}") from None
-
-
 def _check_folder(folder: Path, source: Path) -> None:
-    """Refuse a folder with a table or fields of something else."""
+    """Raise if a folder has a table or fields that are not of a study."""
     check_place(folder)
     if folder.is_dir() and not (folder / PLAN).exists() and folder != source:
         foreign = [path.name for path in folder.iterdir() if path.name in (TABLE, "fields")]
@@ -138,23 +127,6 @@ def _check_folder(folder: Path, source: Path) -> None:
             raise InputError(
                 f"the folder {folder} has a {foreign[0]} that is not of a study: take another -o"
             )
-
-
-@contextmanager
-def _locked(folder: Path) -> Iterator[None]:
-    """Make the folder and keep other runs out of it; remove it if nothing came of it."""
-    check_can_write(folder)
-    missing = [place for place in (folder, *folder.parents) if not place.exists()]
-    folder.mkdir(parents=True, exist_ok=True)
-    with locked(folder):
-        try:
-            yield
-        finally:
-            if missing and {path.name for path in folder.iterdir()} <= {LOCK}:
-                (folder / LOCK).unlink(missing_ok=True)
-                for place in missing:
-                    with suppress(OSError):
-                        place.rmdir()
 
 
 def _solved(study: Study, folder: Path, workers: int, job: StudyJob) -> Outcome:
@@ -192,7 +164,7 @@ def _solved(study: Study, folder: Path, workers: int, job: StudyJob) -> Outcome:
 def _check_resources(
     study: Study, finished: Mapping[str, Row], workers: int, scheduler: str | None
 ) -> None:
-    """Refuse workers that do not fit into the memory of this machine."""
+    """Raise if the workers do not fit into the memory of this machine."""
     if scheduler is None:
         check_memory_of(forecast(study.cases, finished, jobs=workers, fields=False), workers)
     else:
@@ -200,7 +172,6 @@ def _check_resources(
 
 
 def _table(study: Study, folder: Path) -> "pd.DataFrame":
-    """Return the table of what is finished."""
     with closing(store_of(study.plan, folder)) as store:
         return table(study.cases, store, study.units)
 
@@ -255,14 +226,12 @@ def _outcome_as_json(outcome: Outcome, written: Written) -> str:
         {"name": case.name} | {key: getattr(row, key) for key in words}
         for case, row in outcome.failed
     ]
+    counts = ("reused", "converged", "cpu_seconds", "wall_seconds")
     found = {
         "status": "not_converged" if failed else "converged",
         "cases": outcome.total,
-        "reused": outcome.reused,
-        "converged": outcome.converged,
         "failed": failed,
-        "cpu_seconds": outcome.cpu_seconds,
-        "wall_seconds": outcome.wall_seconds,
+        **{name: getattr(outcome, name) for name in counts},
     }
     return json.dumps(found | written)
 

@@ -5,7 +5,9 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
+from typer import Argument, Option, echo
+
+from tehl.cli.arguments import AsJson
 
 if TYPE_CHECKING:
     from tehl.roughness import Map
@@ -13,6 +15,7 @@ if TYPE_CHECKING:
 
 _DOMAIN = 6.0
 """Length of the usual domain in half-widths."""
+_ROUGHNESS = ("Sq_m", "Sa_m", "Sz_m", "Ssk", "Sku", "Sdq")
 _LEVELS = {
     "none": "nothing",
     "mean": "the mean",
@@ -22,37 +25,37 @@ _LEVELS = {
 
 
 def surface(  # noqa: PLR0913, PLR0917 (the options of the command)
-    file: Annotated[Path, typer.Argument(help="Measured heights.", show_default=False)],
-    unit: Annotated[str | None, typer.Option(help="Unit of the heights, um.")] = None,
+    file: Annotated[Path, Argument(help="Measured heights.", show_default=False)],
+    unit: Annotated[str | None, Option(help="Unit of the heights, um.")] = None,
     pixel: Annotated[
-        str | None, typer.Option(help='Distance of the points, "2 um" or "2 um, 3 um".')
+        str | None, Option(help='Distance of the points, "2 um" or "2 um, 3 um".')
     ] = None,
     size: Annotated[
-        str | None, typer.Option(help='Edges along x and y, "1 mm" or "1 mm, 0.5 mm".')
+        str | None, Option(help='Edges along x and y, "1 mm" or "1 mm, 0.5 mm".')
     ] = None,
     level: Annotated[
-        str | None, typer.Option(help="What is taken off: none, mean, plane, quadratic.")
+        str | None, Option(help="What is taken off: none, mean, plane, quadratic.")
     ] = None,
     overrides: Annotated[
         list[str],
-        typer.Option("--set", metavar="KEY=VALUE", help="Another key of a map, lambda_s=10 um."),
-    ] = [],  # noqa: B006 (typer reads the default, nothing writes it)
+        Option("--set", metavar="KEY=VALUE", help="Another key of a map, lambda_s=10 um."),
+    ] = [],  # noqa: B006 (nothing writes it)
     contact: Annotated[
-        Path | None, typer.Option(metavar="CASE", help="Case whose contact and grid to compare.")
+        Path | None, Option(metavar="CASE", help="Case whose contact and grid to compare.")
     ] = None,
     half_width: Annotated[
-        str | None, typer.Option(help='Half-width of a contact to compare, "0.2 mm".')
+        str | None, Option(help='Half-width of a contact to compare, "0.2 mm".')
     ] = None,
     points: Annotated[
-        int | None, typer.Option(min=9, help="Nodes per direction of the grid; 257 if left out.")
+        int | None, Option(min=9, help="Nodes per direction of the grid; 257 if left out.")
     ] = None,
     output: Annotated[
-        Path | None, typer.Option("-o", "--output", metavar="PNG", help="Picture to draw.")
+        Path | None, Option("-o", "--output", metavar="PNG", help="Picture to draw.")
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
+    as_json: AsJson = False,
 ) -> None:
     """Show a measured surface: size, unit, roughness, spectrum, and what a grid resolves of it."""
-    from tehl.io.atomic import check_writable
+    from tehl.io.atomic import check_writable, replacing
     from tehl.roughness.preview import preview
 
     if output is not None:
@@ -61,32 +64,22 @@ def surface(  # noqa: PLR0913, PLR0917 (the options of the command)
     keys = {key: value for key, value in stated.items() if value is not None}
     mesh = _mesh(contact, half_width, points)
     found = preview(_map(file, keys, overrides), mesh)
-    typer.echo(json.dumps(as_summary(found)) if as_json else as_text(found))
+    echo(json.dumps(as_summary(found)) if as_json else as_text(found))
     if output is not None:
-        _draw(found, output)
-        typer.echo(output, err=as_json)
+        from tehl.plots.surface import surface_preview
 
-
-def _draw(found: "Preview", output: Path) -> None:
-    from tehl.io.atomic import replacing
-    from tehl.plots.surface import surface_preview
-
-    with replacing(output) as temporary:
-        surface_preview(found).savefig(temporary, dpi=150, format="png")
-
-
-# ---- input
+        with replacing(output) as temporary:
+            surface_preview(found).savefig(temporary, dpi=150, format="png")
+        echo(output, err=as_json)
 
 
 def _pair(text: str | None) -> list[str] | str | None:
-    """Return one or two lengths of an option."""
     if text is None or "," not in text:
         return text
     return [part.strip() for part in text.split(",")]
 
 
 def _map(file: Path, keys: dict[str, Any], overrides: list[str]) -> "Map":
-    """Return the map that the options state."""
     from pydantic import ValidationError
 
     from tehl.errors import InputError
@@ -104,7 +97,6 @@ def _map(file: Path, keys: dict[str, Any], overrides: list[str]) -> "Map":
 
 
 def _mesh(contact: Path | None, half_width: str | None, points: int | None) -> "Mesh | None":
-    """Return the grid to compare with."""
     from tehl.errors import InputError
     from tehl.roughness.preview import Mesh
     from tehl.units import Length, quantity
@@ -133,19 +125,15 @@ def _mesh_of_case(case: Path, points: int | None) -> "Mesh":
 
     changes = [] if points is None else [f"numerics.points={points}"]
     problem, options = read_case_and_options(case, changes)
-    domain, (ny, nx) = explain(problem, options).domain, options.shape
-    widths = (problem.hertz.half_width_x, problem.hertz.half_width_y)
+    domain, (ny, nx), hertz = explain(problem, options).domain, options.shape, problem.hertz
     return Mesh(
         spacing=(
-            (domain.x[1] - domain.x[0]) * widths[0] / (nx - 1),
-            (domain.y[1] - domain.y[0]) * widths[1] / (ny - 1),
+            (domain.x[1] - domain.x[0]) * hertz.half_width_x / (nx - 1),
+            (domain.y[1] - domain.y[0]) * hertz.half_width_y / (ny - 1),
         ),
-        half_widths=widths,
+        half_widths=(hertz.half_width_x, hertz.half_width_y),
         points=(nx, ny),
     )
-
-
-# ---- output
 
 
 def as_text(found: "Preview") -> str:
@@ -153,21 +141,20 @@ def as_text(found: "Preview") -> str:
     values, numbers = found.heights, found.statistics
     ny, nx = values.values.shape
     axes = "its x and y" if found.surface.rotate else "x and y"
+    both = numbers.correlation_lengths
+    lengths = (f"{one * 1e6:.4g} um" if one < 1e300 else "none" for one in both)
     missing = found.missing / math.prod(found.raw_shape)
     rows = [
         ("file", f"{found.kind}, {found.raw_shape[1]} x {found.raw_shape[0]} points"),
         ("size", f"{_micro(*values.size)}, {nx} x {ny} points {_micro(*values.pixel)} apart"),
         *_placed(found.surface),
-        (
-            "missing points",
-            f"{found.missing} ({100 * missing:.2g} %)",
-        ),
+        ("missing points", f"{found.missing} ({100 * missing:.2g} %)"),
         ("taken off", f'{_LEVELS[found.surface.level]} (level = "{found.surface.level}")'),
         *_filters(found.surface),
         ("Sq, Sa, Sz", f"{_metres(numbers.sq)}, {_metres(numbers.sa)}, {_metres(numbers.sz)}"),
         ("Ssk, Sku", f"{numbers.ssk:.3g}, {numbers.sku:.3g}"),
         ("Sdq", f"{numbers.sdq:.3g}"),
-        ("correlation", f"{_correlation(numbers.correlation_lengths)} (1/e, along {axes})"),
+        ("correlation", f"{', '.join(lengths)} (1/e, along {axes})"),
         ("mean wavelength", f"{found.shortest_wavelength * 1e6:.4g} um (2 pi Sq / Sq')"),
         *_on_the_mesh(found),
         *(("note", note) for note in values.notes),
@@ -205,31 +192,26 @@ def _on_the_mesh(found: "Preview") -> list[tuple[str, str]]:
 
 def as_summary(found: "Preview") -> dict[str, Any]:
     """Return the numbers of a preview, in SI, for programs."""
-    numbers = found.statistics
+    surface, heights, numbers = found.surface, found.heights, found.statistics
     lengths = [length if length < 1e300 else None for length in numbers.correlation_lengths]
     return {
         "file": found.file,
         "kind": found.kind,
-        "points": list(reversed(found.heights.values.shape)),
-        "size_m": list(found.heights.size),
-        "pixel_m": list(found.heights.pixel),
-        "rotate_rad": found.surface.rotate,
-        "middle_m": [found.surface.x, found.surface.y],
+        "points": list(reversed(heights.values.shape)),
+        "size_m": list(heights.size),
+        "pixel_m": list(heights.pixel),
+        "rotate_rad": surface.rotate,
+        "middle_m": [surface.x, surface.y],
         "missing": found.missing,
-        "level": found.surface.level,
-        "lambda_c_m": found.surface.lambda_c,
-        "lambda_s_m": found.surface.lambda_s,
-        "Sq_m": numbers.sq,
-        "Sa_m": numbers.sa,
-        "Sz_m": numbers.sz,
-        "Ssk": numbers.ssk,
-        "Sku": numbers.sku,
-        "Sdq": numbers.sdq,
+        "level": surface.level,
+        "lambda_c_m": surface.lambda_c,
+        "lambda_s_m": surface.lambda_s,
+        **{key: getattr(numbers, key.removesuffix("_m").lower()) for key in _ROUGHNESS},
         "correlation_lengths_m": lengths,
         "mean_wavelength_m": found.shortest_wavelength,
         "mesh_m": None if found.mesh is None else list(found.mesh.spacing),
         "lost_share": found.lost,
-        "notes": list(found.heights.notes),
+        "notes": list(heights.notes),
         "questions": list(found.sentences),
     }
 
@@ -240,8 +222,3 @@ def _micro(first: float, second: float) -> str:
 
 def _metres(length: float) -> str:
     return f"{length * 1e9:.4g} nm" if abs(length) < 1e-7 else f"{length * 1e6:.4g} um"
-
-
-def _correlation(lengths: tuple[float, float]) -> str:
-    words = [f"{length * 1e6:.4g} um" if length < 1e300 else "none" for length in lengths]
-    return ", ".join(words)

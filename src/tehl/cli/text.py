@@ -3,12 +3,14 @@
 import math
 from collections.abc import Callable, Iterator
 
+import numpy as np
+
 from tehl.cli.reference_runs import Comparisons
 from tehl.post.film import no_film
 from tehl.post.roughness import RoughFilm
 from tehl.post.waves import WaveResponse
 from tehl.report.readable import UNTITLED, length, length_unit, seconds
-from tehl.result import Estimate, Result, Status
+from tehl.result import Result, Status
 from tehl.transient_result import TransientResult
 from tehl.typing import Array
 
@@ -23,15 +25,7 @@ _GPA: Unit = (1e-9, "GPa")
 
 
 def as_text(result: Result | TransientResult, compared: Comparisons | None = None) -> str:
-    """Return the main numbers of a result, one per line.
-
-    Parameters
-    ----------
-    result : Result or TransientResult
-        What a solve returned or a file held.
-    compared : Comparisons or None
-        Comparisons of a steady result with its reference runs.
-    """
+    """Return the main numbers of a result and its comparisons with reference runs, one per line."""
     if isinstance(result, TransientResult):
         title, rows = result.start.problem.title, _transient_rows(result)
     else:
@@ -88,21 +82,16 @@ def _heat(result: Result) -> Rows:
     if heat is None or found is None:
         return
     x, y, zeta = found.film_rise_max_at
-    yield (
-        "film temperature",
+    rise = (
         f"rise {found.film_rise_max:.4g} K at most (X = {x:.3g}, Y = {y:.3g}, z/h = {zeta:.3g}), "
         f"{found.mid_film_rise_central:.4g} K central, over {found.inlet - 273.15:.4g} degC"
-        + _bar(result, "film_rise_max", (1.0, "K")),
     )
-    first, second = found.surface_1_rise_max, found.surface_2_rise_max
-    yield (
-        "surfaces",
-        f"rise {first:.4g} K and {second:.4g} K at most over the oil (surface 1 and 2)",
-    )
+    yield "film temperature", rise + _bar(result, "film_rise_max", (1.0, "K"))
+    both = f"{found.surface_1_rise_max:.4g} K and {found.surface_2_rise_max:.4g} K"
+    yield "surfaces", f"rise {both} at most over the oil (surface 1 and 2)"
     error = heat.balance.error
-    doubt = (
-        "   (more than usual: the inlet is not resolved)" if abs(error) > UNUSUAL_BALANCE else ""
-    )
+    unusual = abs(error) > UNUSUAL_BALANCE
+    doubt = "   (more than usual: the inlet is not resolved)" if unusual else ""
     yield "heat balance", f"error {100 * error:.2g} %{doubt}"
 
 
@@ -110,12 +99,11 @@ def _traction(result: Result) -> Rows:
     found = result.traction
     if found is None:
         return
-    yield (
-        "traction",
+    text = (
         f"{found.surface_1:.4g} on surface 1, {_clean(found.mid_film)} at mid-film, "
         f"{found.surface_2:.4g} on surface 2"
-        + _bar(result, "traction_mid_film", (1.0, "at mid-film")),
     )
+    yield "traction", text + _bar(result, "traction_mid_film", (1.0, "at mid-film"))
     yield from _excessive_traction(result)
 
 
@@ -182,21 +170,16 @@ def _effort(result: Result) -> str:
 def _compared(compared: Comparisons) -> Rows:
     heat, rough = compared.heat, compared.roughness
     if heat is not None:
-        yield (
-            "over isothermal",
-            f"{heat.central:.4f} of the central, {heat.minimum:.4f} of the minimum film "
-            "without heat",
-        )
+        films = f"{heat.central:.4f} of the central, {heat.minimum:.4f} of the minimum film"
+        yield "over isothermal", f"{films} without heat"
         if heat.inlet_factors:
             factors = ", ".join(f"{one.factor:.4f} {one.formula}" for one in heat.inlet_factors)
             yield "inlet heating", f"by formula {factors}"
     if rough is not None:
+        films = f"{rough.central:.4f} of the central, {rough.minimum:.4f} of the minimum film"
         traction = "" if rough.traction is None else f", {rough.traction:.4f} of the traction"
-        yield (
-            "over smooth",
-            f"{rough.central:.4f} of the central, {rough.minimum:.4f} of the minimum film, "
-            f"{rough.largest_pressure:.4f} of the largest pressure{traction}",
-        )
+        pressure = f"{rough.largest_pressure:.4f} of the largest pressure"
+        yield "over smooth", f"{films}, {pressure}{traction}"
 
 
 # ---- transient results
@@ -206,11 +189,8 @@ def _transient_rows(run: TransientResult) -> Rows:
     history, start = run.history, run.start
     steps, end = history.time.size - 1, float(history.time[-1])
     moved = end * start.scales.speed / start.scales.half_width_x
-    yield (
-        "duration",
-        f"{seconds(end)} in {steps} steps of {seconds(run.time_step)}; the mean "
-        f"of both surfaces moves on by {moved:.3g} half-widths",
-    )
+    duration = f"{seconds(end)} in {steps} steps of {seconds(run.time_step)}"
+    yield "duration", f"{duration}; the mean of both surfaces moves on by {moved:.3g} half-widths"
     yield from _film_history(run)
     largest = _peak(history.pressure_max, history.time, _GPA)
     yield "largest pressure", largest + _bar(run, "pressure_max", _GPA)
@@ -225,7 +205,9 @@ def _transient_rows(run: TransientResult) -> Rows:
         yield "load", _between(history.load * start.problem.load, lambda load: f"{load:.4g} N")
     yield "groups", f"{_groups(start)}, SRR = {start.problem.slide_roll_ratio:g}"
     yield "grid", f"{_grid(start)}, {len(run.frames.step)} fields kept"
-    yield "effort", _steps(run)
+    cycles = history.cycles[1:] if steps else np.zeros(1)
+    effort = f"{cycles.mean():.3g} cycles per step, {cycles.max():.0f} at most"
+    yield "effort", f"{effort}, {run.cost.cpu_seconds:.3g} s"
     yield from _trust(run)
 
 
@@ -233,18 +215,12 @@ def _film_history(run: TransientResult) -> Rows:
     film, time = run.history.film_minimum, run.history.time
     thinnest = int(film.argmin())
     when = _at_start(seconds(time[thinnest]), length(film[0]))
-    bar = _film_bar(run, "film_minimum")
+    bar = _bar(run, "film_minimum")
     yield "minimum film", f"{length(film[thinnest])} at the least, at {when}{bar}"
     yield "central film", _between(run.history.film_central, length)
     for which in ("least", "largest"):
-        if bar := _film_bar(run, f"film_central_{which}"):
+        if bar := _bar(run, f"film_central_{which}"):
             yield "", which + bar
-
-
-def _steps(run: TransientResult) -> str:
-    cycles = run.history.cycles[1:]
-    mean, most = (float(cycles.mean()), int(cycles.max())) if cycles.size else (0.0, 0)
-    return f"{mean:.3g} cycles per step, {most} at most, {run.cost.cpu_seconds:.3g} s"
 
 
 def _trust(run: TransientResult) -> Rows:
@@ -261,13 +237,7 @@ def _trust(run: TransientResult) -> Rows:
     if run.uncertainty and status.converged:
         yield "certified", str(status.message)
     if status.is_vague:
-        yield "uncertain", str(status.message)
-        yield "hint", str(status.hint)
-
-
-def _film_bar(run: TransientResult, name: str) -> str:
-    found = run.uncertainty.get(name)
-    return "" if found is None else _bar(run, name, length_unit(found.value))
+        yield from (("uncertain", str(status.message)), ("hint", str(status.hint)))
 
 
 def _peak(values: Array, time: Array, unit: Unit, most: str = "") -> str:
@@ -285,31 +255,27 @@ def _at_start(text: str, first: str) -> str:
     return f"{text}   (at the start {first})"
 
 
-# ---- words
-
-
 def _clean(value: float) -> str:
     """Return a number, rounding errors as zero."""
     return "0" if abs(value) < 1e-12 else f"{value:.4g}"
 
 
-def _bar(result: Result | TransientResult, name: str, unit: Unit) -> str:
-    """Return the error bar of a certified value, else the estimated error of the grid if known."""
+def _bar(result: Result | TransientResult, name: str, unit: Unit | None = None) -> str:
+    """Return the error bar of a certified value, else the estimated error of the grid if known.
+
+    A value without ``unit`` is a length in metres.
+    """
     estimate = result.uncertainty.get(name)
     if estimate is not None:
-        return f"   {_certified(estimate, unit)}"
+        factor, symbol = unit or length_unit(estimate.value)
+        parts = (
+            f"grid {estimate.discretisation * factor:.2g}, domain {estimate.domain * factor:.2g}"
+        )
+        bar = f"{estimate.value * factor:.5g} +- {estimate.uncertainty * factor:.2g} {symbol}"
+        return f"   certified {bar} ({parts})"
     errors = None if isinstance(result, TransientResult) else result.errors
     error = getattr(errors, f"discretisation_{name.removeprefix('film_')}", None)
     if error is None:
         return ""
     percent = 100.0 * abs(error)
     return f"   grid error about {percent:{'.2g' if percent < 99.5 else '.0f'}} %"
-
-
-def _certified(estimate: Estimate, unit: Unit) -> str:
-    """Return a certified value with its error bar and the parts of the bar."""
-    factor, name = unit
-    bar = (estimate.uncertainty, estimate.discretisation, estimate.domain)
-    width, grid, domain = (part * factor for part in bar)
-    parts = f"grid {grid:.2g}, domain {domain:.2g}"
-    return f"certified {estimate.value * factor:.5g} +- {width:.2g} {name} ({parts})"

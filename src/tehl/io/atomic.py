@@ -20,14 +20,8 @@ def replacing(path: str | Path) -> Iterator[Path]:
     """Yield a temporary path beside ``path``, which replaces ``path`` unless there is an exception.
 
     On any exception, an interrupt included, the temporary file is removed and ``path`` is
-    unchanged. A link stays a link: the file that it points to is replaced.
-
-    Raises
-    ------
-    InputError
-        If the folder of ``path`` is not writable.
-    OSError
-        If writing fails, with the name of the file: a full disk, a quota.
+    unchanged. A link stays a link: the file that it points to is replaced. A folder that is not
+    writable is an InputError, a full disk an OSError with the name of the file.
     """
     check_writable(path)
     target = Path(os.path.realpath(path))
@@ -54,20 +48,10 @@ def remove_with_parts(path: str | Path) -> None:
 
 
 def check_writable(path: str | Path, *, sources: tuple[str | Path, ...] = ()) -> None:
-    """Raise if an output file could not be written, before any work is done for it.
+    """Raise an InputError if an output file could not be written, before any work for it.
 
-    Parameters
-    ----------
-    path : str or Path
-        The file to be written later.
-    sources : tuple of str or Path
-        Files that are read for it, which it must not replace.
-
-    Raises
-    ------
-    InputError
-        If ``path`` is a source, not a regular file or write-protected, or its folder is missing
-        or not writable.
+    That is if ``path`` is one of the ``sources`` read for it, not a regular file or
+    write-protected, or if its folder is missing or not writable.
     """
     shown, target = shortened(path), Path(os.path.realpath(path))
     _check_kind(path)
@@ -100,24 +84,12 @@ def _check_kind(path: str | Path) -> None:
 
 
 def check_folder(folder: str | Path) -> None:
-    """Raise if an output folder could not be made or written; make nothing yet.
-
-    Raises
-    ------
-    InputError
-        If a file is in the way or the place is not writable.
-    """
+    """Raise an InputError if an output folder could not be made or written; make nothing yet."""
     _check_takes_files(check_place(folder))
 
 
 def check_place(folder: str | Path) -> Path:
-    """Raise if a file is in the way of a folder; return the part of its path that exists.
-
-    Raises
-    ------
-    InputError
-        If a file or a broken link is in the way.
-    """
+    """Return the existing part of the path of a folder; raise an InputError if it is a file."""
     place, shown = Path(folder), shortened(folder)
     try:
         while not place.exists():

@@ -24,16 +24,8 @@ Model = TypeVar("Model", bound=BaseModel)
 
 
 def read_case(path: str | Path) -> ContactProblem:
-    """Return the problem of a case file; its ``[numerics]`` are checked and dropped.
-
-    Raises
-    ------
-    InputError
-        If the file is not a valid case file; the message names key, value, unit and what is
-        expected.
-    """
-    problem, _ = read_case_and_options(path)
-    return problem
+    """Return the problem of a case file as :func:`read_case_and_options`, without its options."""
+    return read_case_and_options(path)[0]
 
 
 def read_case_and_options(
@@ -69,19 +61,9 @@ def read_case_and_options(
 def case_from_tables(
     tables: Mapping[str, Any], folder: Path | None = None
 ) -> tuple[ContactProblem, Options]:
-    """Return problem and options of the parsed tables of a case.
+    """Return problem and options of the parsed tables of a case, checked as those of a file.
 
-    Parameters
-    ----------
-    tables : mapping
-        As a case file has them.
-    folder : Path
-        Folder of relative paths of measured surfaces; the working directory by default.
-
-    Raises
-    ------
-    InputError
-        As :func:`read_case`.
+    Relative paths of measured surfaces begin in ``folder``, by default the working directory.
     """
     physics = {key: value for key, value in tables.items() if key != NUMERICS}
     problem = _validated(ContactProblem, physics, prefix="", folder=folder)
@@ -107,17 +89,8 @@ def case_schema() -> dict[str, Any]:
     return schema
 
 
-# ---- TOML
-
-
 def toml_tables(path: Path) -> dict[str, Any]:
-    """Return the tables of a TOML file, unchecked.
-
-    Raises
-    ------
-    InputError
-        If it cannot be read as TOML; the message does not name the file.
-    """
+    """Return the tables of a TOML file, unchecked; messages of errors do not name the file."""
     text = _text(path)
     try:
         return tomllib.loads(text)
@@ -159,13 +132,7 @@ def _syntax(message: str, text: str) -> str:
 
 
 def change(tables: dict[str, Any], override: str) -> None:
-    """Apply one override ``key.path=value`` in place.
-
-    Raises
-    ------
-    InputError
-        If it is not an override.
-    """
+    """Apply one override ``key.path=value`` in place; raise an InputError if it is invalid."""
     key, equals, text = (part.strip() for part in override.partition("="))
     names = key.split(".")
     if not equals or not all(names):

@@ -3,9 +3,8 @@
 import hashlib
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,30 +15,19 @@ from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.roughness import Map, Sum
 
-Arrays = dict[str, NDArray[Any]]
-
 _LABEL, _LAYOUT = "tehl_checkpoint", 4
 """Array that marks such a file; version, to be raised when the arrays of a state change."""
 
 
-@dataclass(frozen=True, slots=True)
-class Fingerprint:
-    """The run that a checkpoint belongs to.
-
-    Attributes
-    ----------
-    version : str
-        Of this package.
-    input : str
-        SHA-256 sum of the case, its options and the measured surfaces that it reads.
-    """
+class Fingerprint(NamedTuple):
+    """The run of a checkpoint: version of this package, SHA-256 sum of the input."""
 
     version: str
     input: str
 
 
 def fingerprint(problem: ContactProblem, options: Options) -> Fingerprint:
-    """Return the fingerprint of a case, which does not depend on how its file is written."""
+    """Return the fingerprint of case, options and measured surfaces, however they are written."""
     from tehl import SOLVER_VERSION, __version__  # noqa: PLC0415 (the package is being imported before)
 
     maps = [one.fingerprint for one in _maps(problem)]
@@ -58,17 +46,16 @@ def _maps(problem: ContactProblem) -> Iterator[Map]:
 
 def checkpoint_of(output: str | Path) -> Path:
     """Return the checkpoint beside an output file."""
-    target = Path(output)
-    return target.with_name(f"{target.name}.checkpoint")
+    return Path(f"{output}.checkpoint")
 
 
 def write_checkpoint(path: str | Path, owner: Fingerprint, arrays: Mapping[str, Any]) -> None:
-    """Write the state of a run; whole, or the older one stays.
+    """Write the state of a run; on an error the older file stays.
 
     Parameters
     ----------
     path : str or Path
-        The file; an older one is replaced.
+        The file.
     owner : Fingerprint
         Of the run.
     arrays : mapping
@@ -79,13 +66,13 @@ def write_checkpoint(path: str | Path, owner: Fingerprint, arrays: Mapping[str, 
         np.savez(file, allow_pickle=False, **{_LABEL: label}, **arrays)
 
 
-def read_checkpoint(path: str | Path) -> tuple[Fingerprint, Arrays]:
-    """Return the owner of a checkpoint, and the state.
+def read_checkpoint(path: str | Path, owner: Fingerprint) -> dict[str, NDArray[Any]]:
+    """Return the state of a run from its checkpoint, numbers and arrays by name.
 
     Raises
     ------
     InputError
-        If the file does not exist.
+        If the file does not exist, or is of another version of this package or of another case.
     FileFormatError
         If it is not a whole checkpoint.
     """
@@ -99,31 +86,14 @@ def read_checkpoint(path: str | Path) -> tuple[Fingerprint, Arrays]:
         raise FileFormatError(
             f"{path} is not a whole checkpoint: remove it to start again"
         ) from None
-    return Fingerprint(version, case), arrays
-
-
-def check_owner(path: str | Path, found: Fingerprint, wanted: Fingerprint) -> None:
-    """Raise if a checkpoint belongs to another run.
-
-    Parameters
-    ----------
-    path : str or Path
-        The checkpoint, for the message.
-    found, wanted : Fingerprint
-        Of the checkpoint, and of the run.
-
-    Raises
-    ------
-    InputError
-        If it is of another version of this package, or of another case.
-    """
-    if found.version != wanted.version:
+    if version != owner.version:
         raise InputError(
-            f"{path} was written by tehl {found.version}, and this is {wanted.version}: continue "
+            f"{path} was written by tehl {version}, and this is {owner.version}: continue "
             "with that version, or remove the checkpoint to start again"
         )
-    if found.input != wanted.input:
+    if case != owner.input:
         raise InputError(
             f"{path} belongs to another case, other options or another measured surface: continue "
             "with the unchanged case, or remove the checkpoint to start again"
         )
+    return arrays

@@ -32,19 +32,7 @@ Part = TypeVar("Part")
 
 @dataclass(frozen=True, slots=True)
 class Variable:
-    """One array of a result file.
-
-    Attributes
-    ----------
-    name : str
-        Its name in the file.
-    dims : tuple of str
-        Names of its dimensions: ``"zeta"``, ``"y"``, ``"x"``, ``"cycle"``, ``"time"``, ...
-    data : array
-        Numbers or words.
-    units, long_name : str
-        Unit, ``"1"`` if dimensionless, and description.
-    """
+    """One array of a result file, numbers or words; ``units`` is ``"1"`` if dimensionless."""
 
     name: str
     dims: tuple[str, ...]
@@ -53,6 +41,9 @@ class Variable:
     long_name: str
 
 
+_AXES = {"x": "X", "y": "Y", "zeta": "zeta", "time": "time"}
+_AXES |= {"frame": "frame_step", "bar": "bar_time"}
+"""Array that gives the size of each dimension."""
 _NOT_SCALAR = {
     Result: ("problem", "options", "scaled", "history", "shear", "heat", "heights"),
     FilmHeat: tuple(column.field for column in tables.HEAT),
@@ -62,7 +53,6 @@ _NOT_SCALAR = {
 
 
 def _scalars(kind: type) -> type[BaseModel]:
-    """Return a model of the other fields of a class."""
     scalar = (field for field in fields(kind) if field.name not in _NOT_SCALAR[kind])
     found: dict[str, Any] = {field.name: (field.type, ...) for field in scalar}
     # Infinities and NaN become strings, which pydantic reads back as floats.
@@ -78,9 +68,6 @@ def _dumped(part: Any) -> str:
 
 def _loaded(kind: type, text: str) -> dict[str, Any]:
     return dict(_scalars(kind).model_validate_json(text))
-
-
-# ---- to a file
 
 
 def variables(result: Result | TransientResult) -> Iterator[Variable]:
@@ -172,18 +159,8 @@ def _json(model: BaseModel) -> str:
     return json.dumps(model.model_dump(mode="json"), allow_nan=False)
 
 
-# ---- from a file
-
-
 def rebuild(arrays: Arrays, attrs: Attributes) -> Result | TransientResult:
-    """Return the result that ``arrays`` and ``attrs`` describe.
-
-    Parameters
-    ----------
-    arrays : dict of str to array
-        By name, as :func:`variables` gives them.
-    attrs : dict
-        As :func:`attributes` gives them.
+    """Return the result of arrays as :func:`variables` and attributes as :func:`attributes` gives.
 
     Raises
     ------
@@ -251,15 +228,7 @@ def _cycles(arrays: Arrays) -> tuple[CycleReport, ...]:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Reader:
-    """Takes arrays from a file and checks that they fit together.
-
-    Attributes
-    ----------
-    arrays : dict of str to array
-        All of the file, by name.
-    finite : bool
-        Whether all numbers must be finite: those of a converged result.
-    """
+    """Takes arrays from a file and checks that they fit; those of a converged result are finite."""
 
     arrays: Arrays
     finite: bool
@@ -285,14 +254,3 @@ class Reader:
         if self.finite and not np.isfinite(values).all():
             raise ValueError(f"{column.name} has non-finite values in a converged result")
         return values
-
-
-_AXES = {
-    "x": "X",
-    "y": "Y",
-    "zeta": "zeta",
-    "time": "time",
-    "frame": "frame_step",
-    "bar": "bar_time",
-}
-"""Array that gives the size of each dimension."""

@@ -20,11 +20,12 @@ from tehl.result import Result
 from tehl.transient_result import TransientResult
 
 _ENDINGS = {".csv": "csv", ".npz": "npz", ".mat": "mat"}
-_STEADY = _ENDINGS | {".vtr": "vtk", ".vts": "vtk"}
-_TRANSIENT = _ENDINGS | {".pvd": "vtk"}
+_FORMATS = {
+    Result: _ENDINGS | {".vtr": "vtk", ".vts": "vtk"},
+    TransientResult: _ENDINGS | {".pvd": "vtk"},
+}
+"""Format by the ending of a file; programs choose a reader by the ending."""
 _MEANINGS = {".vtr": " (plane)", ".vts": " (volume)", ".pvd": " (collection of frames)"}
-"""Endings of the formats; programs choose a reader by the ending."""
-
 _ROWS = {
     Result: {"lines": ("y", "x"), "fields": ("y", "x"), "history": ("cycle",)},
     TransientResult: {"history": ("time",), "lines": ("time", "x"), "fields": ("frame", "y", "x")},
@@ -39,26 +40,39 @@ def export(
 ) -> list[Path]:
     """Write a result in the format of another program.
 
-    CSV has one row per node, cycle or step, see :func:`write_csv`. npz (numpy) and mat (MATLAB)
-    have all arrays of the NetCDF file under the same names, and its ``summary`` as JSON text. VTK
-    (ParaView) has the maps of a steady result, see :func:`write_vtk`, or the frames of a transient
-    one, see :func:`write_frames`.
+    CSV is a table as any spreadsheet reads it; numbers read back bit by bit. Columns are named as
+    the variables of the NetCDF file, with their unit as ending. ``"lines"`` of a steady result are
+    the grid lines nearest to the axes: first those with ``line = x`` (along entrainment, Y = 0),
+    then ``line = y`` (across, X = 0); ``"fields"`` are all nodes, x running fastest, and
+    ``"history"`` the multigrid cycles. Of a transient result ``"history"`` has a row per step,
+    ``"lines"`` the nodes of the line y = 0 at each step, and ``"fields"`` all nodes of each frame.
+
+    npz (numpy) and mat (MATLAB) have all arrays of the NetCDF file under the same names, and its
+    ``summary`` as JSON text.
+
+    VTK (ParaView): of a steady result the ending ``.vtr`` gives a rectilinear grid, the plane z = 0
+    with x and y in metres and all maps as point arrays in SI ("warp by scalar" raises a film to a
+    surface); ``.vts`` gives a structured grid that fills the film, with nodes at (x, y, zeta h) in
+    metres and ``temperature`` [K] at each, without temperatures the two surfaces only (raise the
+    scale of z to see it). Of a transient result ``NAME.pvd`` opens as one animation; its frames are
+    the files ``NAME_0000.vtr`` ... beside it, with pressure [Pa], film thickness [m] and the
+    heights of both surfaces [m].
 
     Parameters
     ----------
     result : Result or TransientResult
         What to write.
     path : str or Path
-        The file; an existing one is replaced.
+        The file; existing files are replaced.
     to : {"csv", "npz", "vtk", "mat"}, optional
         Format; by default that of the ending of ``path``.
     what : {"lines", "fields", "history"}, optional
-        Rows of a CSV table.
+        Rows of a CSV table; lines of a steady result and the history of a transient one by default.
 
     Returns
     -------
     list of Path
-        The files written.
+        The files written, a collection before its frames.
 
     Raises
     ------
@@ -66,9 +80,9 @@ def export(
         If format and ending do not match, if the result does not have what is to be written, or if
         a file cannot be written.
     """
-    kind = format_of(result, path, to)
+    kind, path = _format_of(result, path, to), Path(path)
     if kind == "csv":
-        write_csv(result, path, what)
+        _write_csv(result, path, what)
     elif kind == "npz":
         with replacing(path) as temporary, temporary.open("wb") as file:
             np.savez_compressed(file, allow_pickle=False, **_arrays(result))
@@ -78,10 +92,10 @@ def export(
         with replacing(path) as temporary, temporary.open("wb") as file:
             savemat(file, _arrays(result), do_compression=True, oned_as="column")
     elif isinstance(result, TransientResult):
-        return write_frames(result, path)
+        return _write_frames(result, path)
     else:
-        write_vtk(result, path)
-    return [Path(path)]
+        _write_maps(result, path)
+    return [path]
 
 
 def _arrays(result: Result | TransientResult) -> dict[str, NDArray[Any]]:
@@ -90,14 +104,8 @@ def _arrays(result: Result | TransientResult) -> dict[str, NDArray[Any]]:
 
 
 def ending_of(result: Result | TransientResult, to: str | None) -> str:
-    """Return the usual ending of a file of format ``to``.
-
-    Raises
-    ------
-    InputError
-        If the format is unknown or None.
-    """
-    known = _endings(result)
+    """Return the usual ending of a file of format ``to``; raise an InputError if it is unknown."""
+    known = _FORMATS[type(result)]
     for ending, kind in known.items():
         if kind == to:
             return ending
@@ -106,24 +114,9 @@ def ending_of(result: Result | TransientResult, to: str | None) -> str:
     raise InputError(f"{stated}; expected --to {listed}, or -o with the ending {', '.join(known)}")
 
 
-def format_of(result: Result | TransientResult, path: str | Path, to: str | None = None) -> str:
-    """Return the format of an export.
-
-    Parameters
-    ----------
-    result : Result or TransientResult
-        What to write.
-    path : str or Path
-        The file.
-    to : {"csv", "npz", "vtk", "mat"}, optional
-        The stated format.
-
-    Raises
-    ------
-    InputError
-        If the ending of ``path`` is unknown or does not match the format ``to``.
-    """
-    known = _endings(result)
+def _format_of(result: Result | TransientResult, path: str | Path, to: str | None) -> str:
+    """Return the format ``to`` or that of the ending; raise if they do not match."""
+    known = _FORMATS[type(result)]
     kind = known.get(Path(path).suffix.lower())
     if to is not None:
         ending_of(result, to)
@@ -136,43 +129,13 @@ def format_of(result: Result | TransientResult, path: str | Path, to: str | None
     raise InputError(f"output {path}: a file{of_format} ends in {' or '.join(fitting)}")
 
 
-def _endings(result: Result | TransientResult) -> dict[str, str]:
-    return _TRANSIENT if isinstance(result, TransientResult) else _STEADY
-
-
 # ---- CSV
 
 
-def write_csv(result: Result | TransientResult, path: str | Path, what: str = "") -> None:
-    """Write a table, as any spreadsheet reads it.
-
-    Columns are named as the variables of the NetCDF file, with their unit as ending. Numbers are
-    written so that reading them gives the same bits.
-
-    ``"lines"`` of a steady result are the grid lines nearest to the axes: first those with ``line =
-    x`` (along entrainment, Y = 0), then ``line = y`` (across, X = 0); ``"fields"`` are all nodes, x
-    running fastest, and ``"history"`` the multigrid cycles. Of a transient result ``"history"`` has
-    a row per step, ``"lines"`` the nodes of the line y = 0 at each step, and ``"fields"`` all nodes
-    of each frame.
-
-    Parameters
-    ----------
-    result : Result or TransientResult
-        What to write.
-    path : str or Path
-        The file; an existing one is replaced.
-    what : {"lines", "fields", "history"}
-        Which rows; lines of a steady result and the history of a transient one by default.
-
-    Raises
-    ------
-    InputError
-        If the result has no such rows, or the file cannot be written.
-    """
+def _write_csv(result: Result | TransientResult, path: Path, what: str) -> None:
     known = _ROWS[type(result)]
     what = what or next(iter(known))
-    dims = known.get(what, ())
-    columns = {v.name + _SUFFIXES[v.units]: v.data for v in _over(dims, result)}
+    columns = {v.name + _SUFFIXES[v.units]: v.data for v in _over(known.get(what, ()), result)}
     if not columns:
         raise InputError(f"the result has no {what} to export; expected {' or '.join(known)}")
     names: Iterable[str] = columns
@@ -211,8 +174,7 @@ def _layers(result: Result, all_layers: Variable) -> Iterator[Variable]:
 
 
 def _line_rows(result: Result, columns: list[NDArray[Any]]) -> Iterator[tuple[Any, ...]]:
-    row = int(np.argmin(np.abs(result.scaled.y)))
-    column = int(np.argmin(np.abs(result.scaled.x)))
+    row, column = (int(np.abs(axis).argmin()) for axis in (result.scaled.y, result.scaled.x))
     for name, line in (("x", np.s_[row, :]), ("y", np.s_[:, column])):
         yield from ((name, *numbers) for numbers in _rows([field[line] for field in columns]))
 
@@ -224,76 +186,37 @@ def _rows(columns: list[NDArray[Any]]) -> Iterator[tuple[Any, ...]]:
 # ---- VTK
 
 
-def write_vtk(result: Result, path: str | Path) -> None:
-    """Write the maps of a steady result as a VTK grid: the plane of the film, or its volume.
-
-    The ending ``.vtr`` gives a rectilinear grid, the plane z = 0 with x and y in metres, and the
-    maps of :func:`write_csv` in SI as point arrays. "Warp by scalar" raises a film to a surface.
-
-    The ending ``.vts`` gives a structured grid that fills the film, with nodes at (x, y, zeta h) in
-    metres and ``temperature`` [K] at each; without temperatures it has the two surfaces only. Raise
-    the scale of z to see it.
-
-    Parameters
-    ----------
-    result : Result
-        What to write.
-    path : str or Path
-        The file; an existing one is replaced.
-    """
+def _write_maps(result: Result, path: Path) -> None:
+    """Write the maps of a steady result over the plane of the film, or over its volume."""
     maps = {v.name: v.data for v in _over(("y", "x"), result) if v.name not in COORDINATES}
-    numbers = {"converged": float(result.status.converged)}
-    if Path(path).suffix.lower() == ".vts":
-        text = _volume(result, maps, numbers)
+    if path.suffix.lower() == ".vts":
+        text = _volume(result, maps)
     else:
-        text = rectilinear_grid((result.x, result.y, np.zeros(1)), maps, field_data=numbers)
+        axes = (result.x, result.y, np.zeros(1))
+        text = rectilinear_grid(axes, maps, converged=result.status.converged)
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="ascii")
 
 
-def _volume(result: Result, maps: dict[str, NDArray[Any]], numbers: dict[str, float]) -> str:
+def _volume(result: Result, maps: dict[str, NDArray[Any]]) -> str:
     """Return the film as a structured grid; maps are the same on each layer."""
     heat, film = result.heat, result.film_thickness
     zeta = np.array([0.0, 1.0]) if heat is None else heat.zeta
     shape = (zeta.size, *film.shape)
-    points = np.empty((*shape, 3))
-    points[..., 0] = result.x
-    points[..., 1] = result.y[:, None]
-    points[..., 2] = zeta[:, None, None] * film
+    height = zeta[:, None, None] * film
+    points = np.stack(np.broadcast_arrays(result.x, result.y[:, None], height), axis=-1)
     fields = {} if heat is None else {"temperature": heat.temperature}
     fields |= {name: np.broadcast_to(field, shape) for name, field in maps.items()}
-    return structured_grid(points, fields, field_data=numbers)
+    return structured_grid(points, fields, converged=result.status.converged)
 
 
-def write_frames(run: TransientResult, path: str | Path) -> list[Path]:
-    """Write each frame of a transient result as a plane, and a collection that lists them.
-
-    ParaView opens the collection ``NAME.pvd`` as one animation; its frames are the files
-    ``NAME_0000.vtr`` ... beside it, with pressure [Pa], film thickness [m] and the heights of both
-    surfaces [m] as point arrays.
-
-    Parameters
-    ----------
-    run : TransientResult
-        With frames (``transient.frames`` of its case).
-    path : str or Path
-        The collection; existing files are replaced.
-
-    Returns
-    -------
-    list of Path
-        All files, the collection first.
-
-    Raises
-    ------
-    InputError
-        If the result has no frames, or a file cannot be written.
-    """
-    target, frames = Path(path), run.frames
+def _write_frames(run: TransientResult, target: Path) -> list[Path]:
+    """Write each frame of a transient result as a plane, and a collection that lists them."""
+    frames = run.frames
     if not frames.step.size:
         raise InputError("the result has no frames to export (transient.frames = 0)")
     check_writable(target)
-    axes, numbers = (run.x, run.y, np.zeros(1)), {"converged": float(run.status.converged)}
+    axes = (run.x, run.y, np.zeros(1))
     times: dict[Path, float] = {}
     for number, step in enumerate(frames.step):
         maps = {
@@ -303,8 +226,9 @@ def write_frames(run: TransientResult, path: str | Path) -> list[Path]:
         }
         plane = target.with_name(f"{target.stem}_{number:04d}.vtr")
         times[plane] = float(run.history.time[step])
+        text = rectilinear_grid(axes, maps, converged=run.status.converged)
         with replacing(plane) as temporary:
-            temporary.write_text(rectilinear_grid(axes, maps, field_data=numbers), encoding="ascii")
+            temporary.write_text(text, encoding="ascii")
     with replacing(target) as temporary:
         named = {plane.name: time for plane, time in times.items()}
         temporary.write_text(collection(named), encoding="utf-8")

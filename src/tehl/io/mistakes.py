@@ -22,10 +22,10 @@ KeyPath = tuple[str | int, ...]
 
 
 class _Mistake(NamedTuple):
-    """One mistake: its key path as text and as keys, and what pydantic found.
+    """One mistake: its key path as text and as keys, and the error of pydantic.
 
-    ``models`` are the possible models of each step of ``path``, the root first; ``table`` is what
-    was given where the last key of ``path`` belongs.
+    ``models`` are the possible models of each step of ``path``, the root first; ``table`` is the
+    table of the last key of ``path``.
     """
 
     name: str
@@ -136,7 +136,8 @@ def _unknown_key(mistake: _Mistake) -> str:
         known.append(NUMERICS)
     near = difflib.get_close_matches(word, known, n=1, cutoff=0.55)
     of_case = mistake.models[0][0] in (ContactProblem, Options)
-    elsewhere = [path for path in _key_paths() if of_case and path.split(".")[-1] == word]
+    paths = (*_key_paths(ContactProblem), *_key_paths(Options, f"{NUMERICS}."))
+    elsewhere = [path for path in paths if of_case and path.split(".")[-1] == word]
     moved = elsewhere and not near and len(word) > 1
     suggestion = f"did you mean {elsewhere[0]}?" if moved else _suggest(word, known)
     return f"{mistake.name} is not a known key; {suggestion}"
@@ -319,17 +320,12 @@ def example(field: FieldInfo) -> str | None:
 # ---- words
 
 
-def _key_paths() -> Iterator[str]:
-    """Yield the path of every key of a case."""
-    yield from _paths_below(ContactProblem, "")
-    yield from _paths_below(Options, f"{NUMERICS}.")
-
-
-def _paths_below(model: Model, prefix: str) -> Iterator[str]:
+def _key_paths(model: Model, prefix: str = "") -> Iterator[str]:
+    """Yield the paths of all keys of a model, those of tables in it included."""
     for key, field in model.model_fields.items():
         yield f"{prefix}{key}"
         for deeper in _models(field.annotation):
-            yield from _paths_below(deeper, f"{prefix}{key}.")
+            yield from _key_paths(deeper, f"{prefix}{key}.")
 
 
 def _suggest(word: str, known: list[str]) -> str:

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tehl.errors import FileFormatError, InputError
 from tehl.io.atomic import replacing
@@ -38,19 +37,10 @@ _HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 def to_dataset(result: Result | TransientResult) -> "xr.Dataset":
     """Return a result as a dataset.
 
-    Parameters
-    ----------
-    result : Result or TransientResult
-        What a solve returned or :func:`load` read.
-
-    Returns
-    -------
-    xarray.Dataset
-        Fields over ``(y, x)``, temperature over ``(zeta, y, x)``, multigrid cycles over ``cycle``;
-        of a transient result these are those of its start, and it has the numbers of each step over
-        ``time``, the line y = 0 over ``(time, x)`` and frames over ``(frame, y, x)``. ``units`` and
-        ``long_name`` on each variable; inputs, groups, status, definitions and versions as
-        attributes.
+    Fields are over ``(y, x)``, temperature over ``(zeta, y, x)``, multigrid cycles over ``cycle``;
+    of a transient result these are those of its start, and it has the numbers of each step over
+    ``time``, the line y = 0 over ``(time, x)`` and frames over ``(frame, y, x)``. Each variable has
+    ``units`` and ``long_name``; inputs, groups, status, definitions and versions are attributes.
     """
     import xarray as xr  # noqa: PLC0415 (1 s of import, not needed to save or load)
 
@@ -60,9 +50,6 @@ def to_dataset(result: Result | TransientResult) -> "xr.Dataset":
     }
     coords = {name: packed.pop(name) for name in COORDINATES if name in packed}
     return xr.Dataset(packed, coords=coords, attrs=attributes(result))
-
-
-# ---- writing
 
 
 def save(
@@ -113,40 +100,19 @@ def _image(arrays: Iterable[Variable], attrs: Mapping[str, Any]) -> bytes:
 def _write(file: "h5netcdf.File", variable: Variable) -> None:
     import h5py  # noqa: PLC0415 (0.1 s)
 
-    name, dims, data = variable.name, variable.dims, variable.data
+    dims, data = variable.dims, variable.data
+    kind, packing = data.dtype, dict[str, Any]()
     if data.dtype.kind == "U":
-        file.create_variable(name, dims, h5py.string_dtype(), data=data.astype(object))
-    elif data.ndim < 2:
-        file.create_variable(name, dims, data.dtype, data=data)
-    else:
-        file.create_variable(
-            name,
-            dims,
-            data.dtype,
-            data=data,
-            chunks=(1, *data.shape[1:]) if dims[0] == "frame" else data.shape,
-            compression="gzip",
-            compression_opts=1,
-            shuffle=True,
-            fletcher32=True,
-        )
-
-
-# ---- reading
+        kind, data = h5py.string_dtype(), data.astype(object)
+    elif data.ndim > 1:
+        chunks = (1, *data.shape[1:]) if dims[0] == "frame" else data.shape
+        packing = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
+        packing |= {"chunks": chunks, "fletcher32": True}
+    file.create_variable(variable.name, dims, kind, data=data, **packing)
 
 
 def load(path: str | Path) -> Result | TransientResult:
-    """Read a result that :func:`save` wrote; nothing is compiled.
-
-    Parameters
-    ----------
-    path : str or Path
-        The file.
-
-    Returns
-    -------
-    Result or TransientResult
-        As the file says; equal to the one saved, its fields bit by bit.
+    """Read a result that :func:`save` wrote, with its fields bit by bit; nothing is compiled.
 
     Raises
     ------
@@ -171,14 +137,7 @@ def load(path: str | Path) -> Result | TransientResult:
 
 
 def load_as(kind: type[Kind], path: str | Path) -> Kind:
-    """Read a result of one kind.
-
-    Parameters
-    ----------
-    kind : type
-        `Result` or `TransientResult`.
-    path : str or Path
-        The file.
+    """Read a result of one kind, `Result` or `TransientResult`.
 
     Raises
     ------
@@ -195,20 +154,7 @@ def load_as(kind: type[Kind], path: str | Path) -> Kind:
 
 
 def load_summary(path: str | Path) -> dict[str, Any]:
-    """Read the summary of a result file, with its extra blocks.
-
-    Parameters
-    ----------
-    path : str or Path
-        The file.
-
-    Raises
-    ------
-    InputError
-        If the file does not exist.
-    FileFormatError
-        If it is not a result file, or its summary cannot be read.
-    """
+    """Read the summary of a result file, with its extra blocks; raise as :func:`load`."""
     source = Path(path)
     attrs = _read(source)[1]
     try:
@@ -226,7 +172,10 @@ def _read(source: Path) -> tuple[Arrays, Attributes]:
     try:
         with h5py.File(source, "r") as file:
             attrs = {name: _plain(value) for name, value in file.attrs.items()}
-            arrays = {name: _array(data) for name, data in file.items()}
+            arrays = {
+                name: np.asarray(data.asstr()[...] if data.dtype.kind == "O" else data[...])
+                for name, data in file.items()
+            }
     except Exception as error:  # on a broken file these libraries raise anything
         raise _damaged(source, error) from None
     if "tehl_format" not in attrs:
@@ -265,10 +214,6 @@ def _check_kind(source: Path, attrs: Attributes) -> None:
             f"{source} is a tehl result of kind {attrs.get('tehl_kind')!r}; "
             f"expected {' or '.join(KINDS)}"
         )
-
-
-def _array(data: Any) -> NDArray[Any]:
-    return np.asarray(data[...] if data.dtype.kind != "O" else data.asstr()[...])
 
 
 def _plain(value: Any) -> Any:

@@ -31,34 +31,20 @@ def summary(result: Result | TransientResult) -> Block:
 
     A transient result has ``"kind": "transient"``, extremes with their times, and under ``start``
     the summary of the steady film at its start.
-
-    Parameters
-    ----------
-    result : Result or TransientResult
-        What a solve returned or a file held.
     """
+    status = result.status
     if isinstance(result, TransientResult):
-        content = _transient(result)
+        title, kind, content = result.start.problem.title, {"kind": "transient"}, _transient(result)
     else:
-        content = _head(result, result.problem.title) | _steady(result)
-    plain_content: Block = plain(content)
-    return plain_content
+        title, kind, content = result.problem.title, {}, _steady(result)
+    head = {"title": title, "status": status.kind} | _picked(status, "cause", "message", "hint")
+    found: Block = plain(kind | head | content)
+    return found
 
 
 def _picked(owner: object, *keys: str) -> Block:
-    """Return attributes of ``owner`` by keys, which are their names and perhaps an SI unit."""
+    """Return attributes of ``owner`` by keys: their names, with the SI unit as ending if any."""
     return {key: getattr(owner, _UNIT.sub("", key)) for key in keys}
-
-
-def _head(result: Result | TransientResult, title: str) -> Block:
-    status = result.status
-    return {
-        "title": title,
-        "status": status.kind,
-        "cause": status.cause,
-        "message": status.message,
-        "hint": status.hint,
-    }
 
 
 def plain(value: Any) -> Any:
@@ -105,19 +91,14 @@ def _mirrored(
             block = blocks
             for parent in parents:
                 block = block.setdefault(parent, {})
-            block[key] = asdict(_in_unit(result.uncertainty[name], units.get(key, 1.0)))
+            block[key] = _in_unit(result.uncertainty[name], units.get(key, 1.0))
     return blocks
 
 
-def _in_unit(estimate: Estimate, unit: float) -> Estimate:
-    return Estimate(
-        value=estimate.value * unit,
-        uncertainty=estimate.uncertainty * unit,
-        discretisation=estimate.discretisation * unit,
-        domain=estimate.domain * unit,
-        observed_order=estimate.observed_order,
-        values=tuple(value * unit for value in estimate.values),
-    )
+def _in_unit(estimate: Estimate, unit: float) -> Block:
+    parts = ("value", "uncertainty", "discretisation", "domain", "values")
+    scaled = {part: (np.asarray(getattr(estimate, part)) * unit).tolist() for part in parts}
+    return scaled | {"observed_order": estimate.observed_order}
 
 
 # ---- steady results
@@ -205,12 +186,8 @@ def _pressure(result: Result) -> Block:
 def _temperature(found: Temperature) -> Block:
     return {"film_rise_max_at": found.film_rise_max_at} | _picked(
         found,
-        "film_rise_max_k",
-        "mid_film_rise_central_k",
-        "mean_rise_central_k",
-        "surface_1_rise_max_k",
-        "surface_2_rise_max_k",
-        "inlet_k",
+        *("film_rise_max_k", "mid_film_rise_central_k", "mean_rise_central_k"),
+        *("surface_1_rise_max_k", "surface_2_rise_max_k", "inlet_k"),
     )
 
 
@@ -228,13 +205,7 @@ def _heat(heat: FilmHeat) -> Block:
 
 
 def roughness_block(found: RoughFilm) -> Block:
-    """Return the block ``roughness`` of a summary.
-
-    Parameters
-    ----------
-    found : RoughFilm
-        As :attr:`tehl.result.Result.roughness` gives it, or with the smooth film subtracted.
-    """
+    """Return the block ``roughness`` of a summary from the numbers of a rough film."""
     return {
         "surface_1_sq_m": found.sq[0],
         "surface_2_sq_m": found.sq[1],
@@ -271,11 +242,9 @@ def _wave(wave: WaveResponse) -> Block:
 def _convergence(result: Result) -> Block:
     history, names = result.history, ("residual", "change", "load_error")
     finest = [report for report in history if report.points == history[-1].points]
-    return {
-        "cycles": len(finest),
-        **{name: getattr(finest[-1], name) if finest else None for name in names},
-        "heat_balance_error": None if result.heat is None else result.heat.balance.error,
-    }
+    last = _picked(finest[-1], *names) if finest else dict.fromkeys(names)
+    balance = None if result.heat is None else result.heat.balance.error
+    return {"cycles": len(finest), **last, "heat_balance_error": balance}
 
 
 # ---- transient results
@@ -284,9 +253,8 @@ def _convergence(result: Result) -> Block:
 def _transient(run: TransientResult) -> Block:
     history, times = run.history, run.history.time
     rise = _extreme(history.temperature_rise, times, np.argmax)
-    content = {
-        "kind": "transient",
-        **_head(run, run.start.problem.title),
+    cycles = history.cycles[1:].astype(float) if history.cycles.size > 1 else np.zeros(1)
+    content: Block = {
         "time": {
             "duration_s": float(times[-1]),
             "step_s": run.time_step,
@@ -301,7 +269,7 @@ def _transient(run: TransientResult) -> Block:
         "temperature": None if run.start.heat is None else {"film_rise_max_k": rise},
         "traction": _range(history.traction),
         "load_factor": _range(history.load),
-        "cycles": _cycles(run),
+        "cycles": {"per_step": cycles.mean(), "most": cycles.max(), "total": cycles.sum()},
         "cost": asdict(run.cost),
         "start": summary(run.start),
     }
@@ -312,33 +280,19 @@ def _transient(run: TransientResult) -> Block:
     return content
 
 
-def _extreme(values: Array, times: Array, find: Any) -> dict[str, float]:
-    place = int(find(values))
-    return {"value": float(values[place]), "time_s": float(times[place]), "start": float(values[0])}
+def _extreme(values: Array, times: Array, find: Any) -> Block:
+    place = find(values)
+    return {"value": values[place], "time_s": times[place], "start": values[0]}
 
 
-def _range(values: Array) -> dict[str, float]:
-    return {
-        "least": float(values.min()),
-        "largest": float(values.max()),
-        "start": float(values[0]),
-        "end": float(values[-1]),
-    }
+def _range(values: Array) -> Block:
+    return {"least": values.min(), "largest": values.max(), "start": values[0], "end": values[-1]}
 
 
-def _cycles(run: TransientResult) -> dict[str, float]:
-    cycles = run.history.cycles[1:] if run.history.cycles.size > 1 else np.zeros(1)
-    return {
-        "per_step": float(cycles.mean()),
-        "most": float(cycles.max()),
-        "total": float(cycles.sum()),
-    }
-
-
-def _history_bars(bars: HistoryBars) -> dict[str, float]:
+def _history_bars(bars: HistoryBars) -> Block:
     return {
         "instants": len(bars.time),
-        "h_central_m": float(bars.film_central.max()),
-        "h_min_m": float(bars.film_minimum.max()),
-        "p_max_pa": float(bars.pressure_max.max()),
+        "h_central_m": bars.film_central.max(),
+        "h_min_m": bars.film_minimum.max(),
+        "p_max_pa": bars.pressure_max.max(),
     }

@@ -13,7 +13,7 @@ Maps = dict[str, NDArray[Any]]
 
 
 def rectilinear_grid(
-    coordinates: tuple[Array, Array, Array], point_data: Maps, *, field_data: dict[str, float]
+    coordinates: tuple[Array, Array, Array], point_data: Maps, *, converged: bool
 ) -> str:
     """Return the text of a ``.vtr`` file, numbers as base64 of little-endian doubles.
 
@@ -23,30 +23,28 @@ def rectilinear_grid(
         Grid lines.
     point_data : dict of str to (nz * ny * nx) array
         Arrays by name, x running fastest.
-    field_data : dict of str to float
-        Numbers about the whole grid.
+    converged : bool
+        Stored as field data, 1 or 0.
     """
     sizes = [axis.size for axis in coordinates]
-    root, piece = _grid("RectilinearGrid", sizes, point_data, field_data)
+    root, piece = _grid("RectilinearGrid", sizes, point_data, converged)
     lines = ET.SubElement(piece, "Coordinates")
     for name, axis in zip("xyz", coordinates, strict=True):
         _array(lines, name, axis)
     return _text(root)
 
 
-def structured_grid(points: Array, point_data: Maps, *, field_data: dict[str, float]) -> str:
-    """Return the text of a ``.vts`` file, numbers as base64 of little-endian doubles.
+def structured_grid(points: Array, point_data: Maps, *, converged: bool) -> str:
+    """Return the text of a ``.vts`` file, otherwise as :func:`rectilinear_grid`.
 
     Parameters
     ----------
     points : (nz, ny, nx, 3) array
         Places of the nodes.
-    point_data : dict of str to (nz, ny, nx) array
-        Arrays by name.
-    field_data : dict of str to float
-        Numbers about the whole grid.
+    point_data, converged
+        As for a ``.vtr`` file.
     """
-    root, piece = _grid("StructuredGrid", list(points.shape[2::-1]), point_data, field_data)
+    root, piece = _grid("StructuredGrid", list(points.shape[2::-1]), point_data, converged)
     _array(ET.SubElement(piece, "Points"), "points", points).set("NumberOfComponents", "3")
     return _text(root)
 
@@ -61,7 +59,7 @@ def collection(times: dict[str, float]) -> str:
 
 
 def _grid(
-    kind: str, sizes: list[int], point_data: Maps, field_data: dict[str, float]
+    kind: str, sizes: list[int], point_data: Maps, converged: bool
 ) -> tuple[ET.Element, ET.Element]:
     """Return the root of a file and the piece that takes its nodes."""
     extent = " ".join(f"0 {size - 1}" for size in sizes)
@@ -70,8 +68,7 @@ def _grid(
     )
     grid = ET.SubElement(root, kind, WholeExtent=extent)
     general = ET.SubElement(grid, "FieldData")
-    for name, value in field_data.items():
-        _array(general, name, np.array([value])).set("NumberOfTuples", "1")
+    _array(general, "converged", np.array([converged])).set("NumberOfTuples", "1")
     piece = ET.SubElement(grid, "Piece", Extent=extent)
     values = ET.SubElement(piece, "PointData", Scalars=next(iter(point_data)))
     for name, field in point_data.items():

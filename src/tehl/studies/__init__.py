@@ -8,37 +8,14 @@
     table(cases, store)
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
-
 from tehl import SOLVER_VERSION
-
-if TYPE_CHECKING:
-    from tehl.studies.axes import Axis, Sample
-    from tehl.studies.case import Case, Row
-    from tehl.studies.file import read_study
-    from tehl.studies.plan import Study, study_of
-    from tehl.studies.quick import cases_of, study
-    from tehl.studies.runner import Outcome, StudyMonitor, run
-    from tehl.studies.store import Store
-    from tehl.studies.tables import table
-
-_HOMES = {
-    "Axis": "axes",
-    "Case": "case",
-    "Outcome": "runner",
-    "Row": "case",
-    "Sample": "axes",
-    "Store": "store",
-    "Study": "plan",
-    "StudyMonitor": "runner",
-    "cases_of": "quick",
-    "read_study": "file",
-    "run": "runner",
-    "study": "quick",
-    "study_of": "plan",
-    "table": "tables",
-}
+from tehl.studies.axes import Axis, Sample
+from tehl.studies.case import Case, Row
+from tehl.studies.file import cases_of, read_study, study
+from tehl.studies.plan import Study, study_of
+from tehl.studies.runner import Outcome, StudyMonitor, run
+from tehl.studies.store import Store
+from tehl.studies.tables import table
 
 __all__ = [
     "SOLVER_VERSION",
@@ -57,15 +34,3 @@ __all__ = [
     "study_of",
     "table",
 ]
-
-
-def __getattr__(name: str) -> Any:
-    """Load an export from where it lives."""
-    if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
-
-
-def __dir__() -> list[str]:
-    """List the exports, loaded or not."""
-    return sorted(__all__)

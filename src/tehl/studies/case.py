@@ -98,7 +98,7 @@ class Row:
     key : str
         Of the case.
     status : str
-        As of a result; ``"bad_input"`` where the solver refused the case, ``"failed"`` where it
+        As of a result; ``"bad_input"`` where the solver rejected the case, ``"failed"`` where it
         returned nothing.
     cause, message, hint : str or None
         Why it failed, as a word and in sentences; message and hint also of a converged case whose

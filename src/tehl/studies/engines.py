@@ -71,7 +71,7 @@ class Engine:
         return finished
 
     def close(self) -> None:
-        """End the workers, whatever they do."""
+        """End the workers, busy or idle."""
 
 
 @contextmanager
@@ -92,21 +92,21 @@ def engine_of(
         As in :func:`tehl.studies.run`.
     """
     if scheduler is not None:
-        with _client(scheduler) as client, closing(Cluster(client)) as cluster:
+        with _client(scheduler) as client, closing(_Cluster(client)) as cluster:
             yield cluster
         return
     if not jobs >= 1:
         raise InputError(f"jobs = {jobs} must be at least 1")
-    with closing(Engine() if jobs == 1 else Pool(min(jobs, cases), forked=forked)) as engine:
+    with closing(Engine() if jobs == 1 else _Pool(min(jobs, cases), forked=forked)) as engine:
         yield engine
 
 
-class Pool(Engine):
+class _Pool(Engine):
     """Processes of this machine.
 
-    Each has its own connection and one task at a time, so one that dies loses its own task only.
-    Each loads the solver itself or, ``forked`` on Linux, is forked from a server of one thread that
-    has loaded it with the kernels of Newtonian films: Python's ``forkserver``, one per program.
+    Each has its own connection and one task at a time, so a crash loses one task only. Each loads
+    the solver itself or, ``forked`` on Linux, is forked from a server of one thread that has loaded
+    it with the kernels of Newtonian films: Python's ``forkserver``, one per program.
     """
 
     task_seconds = 0.2
@@ -120,11 +120,9 @@ class Pool(Engine):
             self._context.set_forkserver_preload(["tehl.studies.ready"])
 
     def workers(self) -> int:
-        """Return the number of processes."""
         return self._jobs
 
     def submit(self, ticket: Ticket, function: Callable[..., Any], *arguments: Any) -> None:
-        """Send the function to an idle worker; start those that are missing."""
         if not self._idle:
             self._idle = self._started(self._jobs - len(self._busy))
         worker = self._idle.pop()
@@ -147,7 +145,6 @@ class Pool(Engine):
         return finished
 
     def close(self) -> None:
-        """Terminate the processes."""
         _end([*self._idle, *(worker for worker, _ in self._busy.values())])
 
     def _started(self, count: int) -> list["_Worker"]:
@@ -203,7 +200,7 @@ def _undisturbed() -> Iterator[None]:
         os.environ.update(before)
 
 
-class Cluster(Engine):
+class _Cluster(Engine):
     """A running dask cluster; 64 tasks make it grow if it can."""
 
     local, task_seconds, ahead, least = False, 1.0, 3, 64
@@ -217,11 +214,9 @@ class Cluster(Engine):
         return sum(self._client.nthreads().values())
 
     def submit(self, ticket: Ticket, function: Callable[..., Any], *arguments: Any) -> None:
-        """Send the function to the scheduler."""
         self._futures[self._executor.submit(function, *arguments)] = ticket
 
     def take(self) -> Finished:
-        """Wait until some tasks are finished; return them."""
         done, _ = wait_for(self._futures, return_when=FIRST_COMPLETED)
         return [(self._futures.pop(future), attempt(_value, future)) for future in done]
 

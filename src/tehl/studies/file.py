@@ -1,11 +1,13 @@
-"""Study files: TOML in, a plan out; every mistake is one sentence before any work."""
+"""Studies from TOML files or from Python; every mistake is one sentence before any work."""
 
 import copy
 import math
 import re
 from collections.abc import Mapping, Sequence
+from contextlib import closing, nullcontext
 from pathlib import Path
-from typing import Annotated, Any
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, StrictBool, ValidationError
 
@@ -13,11 +15,27 @@ from tehl.errors import InputError
 from tehl.io.atomic import shortened
 from tehl.io.case import change, toml_tables
 from tehl.io.mistakes import describe, short
-from tehl.studies.axes import Axis, Sample
-from tehl.studies.blocks import block_of, block_of_file, check_axes, count_of, groups_of
+from tehl.options import Options
+from tehl.problem import ContactProblem
+from tehl.studies.axes import (
+    Axis,
+    Sample,
+    block_of,
+    block_of_file,
+    check_axes,
+    count_of,
+    groups_of,
+)
 from tehl.studies.pictures import Picture, checked_pictures
-from tehl.studies.plan import Plan
-from tehl.studies.store import Keep
+from tehl.studies.plan import Plan, Study, study_of
+from tehl.studies.runner import run
+from tehl.studies.store import Keep, Store
+from tehl.studies.tables import table
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Axes = Mapping[str, Sequence[Any]] | Sequence[Axis]
 
 _LARGEST = 10_000
 """Cases of a study that does not state ``largest``."""
@@ -70,7 +88,7 @@ def read_study(path: str | Path, overrides: Sequence[str] = (), *, unlimited: bo
 
 
 def _study_tables(path: Path) -> dict[str, Any]:
-    """Return the tables of a file; explain one bracket for two, and a case for a study."""
+    """Return the tables of a file; detect ``[axes]`` for ``[[axes]]``, and a case for a study."""
     try:
         tables = toml_tables(path)
     except InputError as error:
@@ -101,12 +119,7 @@ def plan_of(
     folder : Path
         Where relative paths begin.
     overrides, unlimited
-        As of :func:`read_study`.
-
-    Raises
-    ------
-    InputError, ValueError
-        If the study is not valid.
+        As of :func:`read_study`; an invalid study raises an InputError or ValueError.
     """
     groups = groups_of(stated.axes)
     listed = () if stated.cases is None else (block_of_file(folder / stated.cases),)
@@ -115,7 +128,8 @@ def plan_of(
     _check_keys(stated, count, unlimited=unlimited)
     blocks = (*listed, *(block_of(group, stated.sample) for group in groups))
     check_axes(blocks)
-    pictures = checked_pictures(stated.pictures, blocks, folder)
+    labels = [name for block in blocks for name in block.names]
+    pictures = checked_pictures(stated.pictures, labels, folder)
     base, place = _base(stated, folder, overrides)
     return Plan(
         title=stated.title or str(base.get("title", "")),
@@ -131,7 +145,7 @@ def plan_of(
 
 
 def _check_keys(stated: StudyFile, count: int, *, unlimited: bool) -> None:
-    """Refuse too many cases, and keys without those that they need."""
+    """Raise for too many cases, and for keys without those that they need."""
     limit = stated.largest or _LARGEST
     if count > limit and not unlimited:
         raise InputError(
@@ -146,14 +160,13 @@ def _check_keys(stated: StudyFile, count: int, *, unlimited: bool) -> None:
 
 def _base(stated: StudyFile, folder: Path, overrides: Sequence[str]) -> tuple[dict[str, Any], Path]:
     """Return the tables of the base case with the overrides, and the folder of its files."""
-    if isinstance(stated.case, str):
-        path = folder / stated.case
+    base, place = copy.deepcopy(stated.case), folder
+    if isinstance(base, str):
+        path = folder / base
         try:
             base, place = toml_tables(path), path.parent
         except InputError as error:
             raise InputError(f"case {shortened(path)}: {error}") from None
-    else:
-        base, place = copy.deepcopy(stated.case), folder
     for override in overrides:
         change(base, override)
     return base, place
@@ -181,3 +194,90 @@ def first_mistake(error: ValidationError, tables: Mapping[str, Any]) -> str:
         rest = rest.replace("two numbers", "first, last and number")
     name = f"{kind}[{number + 1}]{place[3]}{f' ({short(str(path))})' if path else ''}"
     return name + rest + "".join(_NEEDED[key] for key in missing)
+
+
+def cases_of(
+    problem: ContactProblem,
+    axes: Axes,
+    options: Options | None = None,
+    *,
+    sample: Sample | None = None,
+    certify: bool = False,
+) -> Study:
+    """Return the cases of a problem along axes, and the units of their labels.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        The base case.
+    axes : mapping of str to sequence, or sequence of Axis
+        Dotted paths of the case with their values, numbers in SI or strings with units:
+        ``{"contact.load": ["20 N", "50 N"]}``. The cases are their grid, the last axis the
+        fastest. An :class:`Axis` can be sampled and zipped too.
+    options : Options
+        Numerical options; paths that begin with ``numerics`` change them.
+    sample : Sample or None
+        How sampled axes take their values.
+    certify : bool
+        Error bars for each case.
+
+    Raises
+    ------
+    InputError
+        If an axis is not valid; the message names it.
+    """
+    base = problem.model_dump(mode="json", exclude_unset=True)
+    base["numerics"] = (options or Options()).model_dump(mode="json", exclude_unset=True)
+    try:
+        if isinstance(axes, Mapping):
+            axes = [Axis(path=path, values=list(values)) for path, values in axes.items()]
+        stated = StudyFile(
+            case=base, axes=list(axes), sample=sample, certify=certify, title=problem.title
+        )
+        return study_of(plan_of(stated, Path(), unlimited=True))
+    except ValidationError as error:
+        raise InputError(first_mistake(error, {})) from None
+    except ValueError as error:
+        raise InputError(str(error)) from None
+
+
+def study(
+    problem: ContactProblem,
+    axes: Axes,
+    options: Options | None = None,
+    *,
+    store: Store | str | Path | None = None,
+    jobs: int = 1,
+    certify: bool = False,
+) -> "pd.DataFrame":
+    """Solve a problem along axes; return one row per case.
+
+    For clusters, sampled axes and kept fields, take its parts :func:`cases_of`, :func:`run` and
+    :func:`table`.
+
+    Parameters
+    ----------
+    problem, axes, options, certify
+        As in :func:`cases_of`.
+    store : Store, str, Path or None
+        Where finished cases are kept and found again; nowhere if left out.
+    jobs : int
+        Processes. With more than one, a script needs ``if __name__ == "__main__":``.
+
+    Returns
+    -------
+    pandas.DataFrame
+        As :func:`table` returns it: ``frame.attrs["units"]`` has the units. Of a full grid,
+        ``frame.set_index(list(axes)).to_xarray()`` is the dataset over the axes.
+
+    Raises
+    ------
+    InputError
+        If an axis is not valid; the message names it.
+    """
+    found = cases_of(problem, axes, options, certify=certify)
+    with TemporaryDirectory() if store is None else nullcontext(store) as place:
+        kept = place if isinstance(place, Store) else Store(place)
+        with closing(kept):
+            run(found.cases, kept, jobs=jobs)
+            return table(found.cases, kept, found.units)

@@ -3,10 +3,10 @@
 import errno
 import json
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any
 
 from pydantic import TypeAdapter
 
@@ -18,7 +18,7 @@ from tehl.studies.store import Store
 if TYPE_CHECKING:
     import pandas as pd
 
-PLAN, LOCK, TABLE = "study.json", "study.lock", "table.csv"
+PLAN, TABLE, LOCK = "study.json", "table.csv", "study.lock"
 _PARQUET, _UNITS = "table.parquet", "units.json"
 _FORMAT = 1
 _REMEDY = (
@@ -32,7 +32,7 @@ def store_of(plan: Plan, folder: Path) -> Store:
 
 
 def check_can_write(folder: Path) -> None:
-    """Refuse a file in the place of a folder (InputError), and a read-only folder (OSError)."""
+    """Raise an InputError for a file in the place of a folder, an OSError for a read-only one."""
     check_place(folder)
     try:
         check_folder(folder)
@@ -42,24 +42,39 @@ def check_can_write(folder: Path) -> None:
 
 @contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Hold the lock of a folder, which the system releases however the program ends.
+    """Make a folder and hold its lock; remove the folder if nothing came of it.
 
-    Where the system has no locks (Windows, some network drives), nothing is held.
+    The system releases the lock however the program ends. Where it has no locks (Windows, some
+    network drives), nothing is held.
     """
+    check_can_write(folder)
+    missing = [place for place in (folder, *folder.parents) if not place.exists()]
+    folder.mkdir(parents=True, exist_ok=True)
     with (folder / LOCK).open("ab") as file:
+        _lock(file, folder)
         try:
-            import fcntl  # noqa: PLC0415 (not on Windows)
+            yield
+        finally:
+            if missing and {path.name for path in folder.iterdir()} <= {LOCK}:
+                (folder / LOCK).unlink(missing_ok=True)
+                for place in missing:
+                    with suppress(OSError):
+                        place.rmdir()
 
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except ModuleNotFoundError:
-            pass
-        except OSError as error:
-            if error.errno in (errno.EAGAIN, errno.EACCES):
-                raise OSError(
-                    f"another tehl study runs in {folder}: wait until it ends, or take another "
-                    "folder with -o"
-                ) from None
-        yield
+
+def _lock(file: IO[bytes], folder: Path) -> None:
+    try:
+        import fcntl  # noqa: PLC0415 (not on Windows)
+
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except ModuleNotFoundError:
+        pass
+    except OSError as error:
+        if error.errno in (errno.EAGAIN, errno.EACCES):
+            raise OSError(
+                f"another tehl study runs in {folder}: wait until it ends, or take another "
+                "folder with -o"
+            ) from None
 
 
 def save_plan(plan: Plan, folder: Path) -> bool:
@@ -76,7 +91,7 @@ def save_plan(plan: Plan, folder: Path) -> bool:
 
 
 def load_plan(folder: Path) -> Plan:
-    """Return the plan in the folder of a study; refuse damaged ones and those of other versions."""
+    """Return the plan in the folder of a study; raise if it is damaged or of another version."""
     path = folder / PLAN
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
@@ -94,7 +109,7 @@ def load_plan(folder: Path) -> Plan:
 
 
 def check_same(plan: Plan, folder: Path) -> None:
-    """Refuse a folder that holds a study with another base case or other axes.
+    """Raise if a folder holds a study with another base case or other axes.
 
     Other values along the same axes, and another title, are accepted.
     """
@@ -149,12 +164,8 @@ def write_table(frame: "pd.DataFrame", folder: Path) -> list[Path]:
 def _for_parquet(frame: "pd.DataFrame") -> "pd.DataFrame":
     """Return the table with columns of one kind: those of mixed labels become text."""
     mixed = {
-        name: frame[name].map(_text, na_action="ignore")
+        name: frame[name].map(lambda v: f"{v:.12g}" if isinstance(v, float) else str(v), "ignore")
         for name in frame
         if frame[name].dtype == object and len({type(v) for v in frame[name].dropna()}) > 1
     }
     return frame.assign(**mixed)
-
-
-def _text(value: object) -> str:
-    return f"{value:.12g}" if isinstance(value, float) else str(value)

@@ -1,5 +1,6 @@
 """Time, memory and disk that a study will take, before any work."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -22,19 +23,7 @@ _ENOUGH = 3
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Forecast:
-    """Estimates of a study.
-
-    Attributes
-    ----------
-    cases, open : int
-        All of them, and those not finished yet.
-    cpu_seconds, wall_seconds : float
-        For those not finished.
-    disk_bytes : float
-        When all are finished.
-    memory_bytes : float
-        Upper limit of all workers together.
-    """
+    """Estimates of a study: times of the open cases, disk of all, memory of all workers at most."""
 
     cases: int
     open: int
@@ -52,23 +41,19 @@ def forecast(
     Parameters
     ----------
     cases : sequence of Case
-        All of the study.
+        All cases of the study.
     finished : mapping of str to Row
-        Finished cases by key; the time that they took calibrates the estimate for the others.
+        Finished cases by key; their times calibrate the estimate for the others.
     jobs : int
-        Workers.
+        Number of workers.
     fields : bool
         Whether fields are kept.
     """
     every = {case.key: case for case in cases}
     waiting = [case for key, case in every.items() if key not in finished]
-    known = [
-        (row.cost.cpu_seconds, _seconds(every[key]))
-        for key, row in finished.items()
-        if row.cost.cpu_seconds > 0
-    ]
-    taken, estimated = (sum(column) for column in zip(*known, strict=True)) if known else (1, 1)
-    slowness = taken / estimated if len(known) >= _ENOUGH else 1.0
+    known = {key: row.cost.cpu_seconds for key, row in finished.items() if row.cost.cpu_seconds > 0}
+    estimated = sum(_seconds(every[key]) for key in known)
+    slowness = sum(known.values()) / estimated if len(known) >= _ENOUGH else 1.0
     seconds = [slowness * _seconds(case) for case in waiting]
     workers = max(1, min(jobs, len(waiting)))
     disk = sum(_ROW_BYTES + (_field_bytes(case) if fields else 0) for case in every.values())
@@ -85,7 +70,7 @@ def forecast(
 
 
 def check_memory_of(forecast: Forecast, jobs: int) -> None:
-    """Refuse a study whose workers together need more memory than there is."""
+    """Raise an InputError if all workers together need more memory than is available."""
     available = available_memory()
     if available is None or forecast.memory_bytes <= available or jobs < 2:
         return
@@ -95,17 +80,13 @@ def check_memory_of(forecast: Forecast, jobs: int) -> None:
     )
 
 
-def _nodes(case: Case) -> int:
-    ny, nx = case.options.shape
-    return ny * nx
-
-
 def _seconds(case: Case) -> float:
     each = SECONDS_COUPLED if case.problem.is_coupled else SECONDS_PER_NODE
-    return (each * _nodes(case) + _BASE_SECONDS) * (_CERTIFIED if case.certify else 1.0)
+    seconds = each * math.prod(case.options.shape) + _BASE_SECONDS
+    return seconds * (_CERTIFIED if case.certify else 1.0)
 
 
 def _field_bytes(case: Case) -> int:
     thermal = case.problem.thermal
     layers = 0 if thermal is None else thermal.nodes + 2
-    return (_FIELD_BYTES + _LAYER_BYTES * layers) * _nodes(case) + _FILE_BYTES
+    return (_FIELD_BYTES + _LAYER_BYTES * layers) * math.prod(case.options.shape) + _FILE_BYTES

@@ -8,7 +8,6 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from tehl.errors import InputError
 from tehl.io.atomic import replacing
-from tehl.studies.blocks import Block
 from tehl.studies.tables import missing_column
 
 if TYPE_CHECKING:
@@ -74,13 +73,24 @@ def picture_of(words: str) -> Picture:
 
 
 def checked_pictures(
-    pictures: Sequence[Picture], blocks: Sequence[Block], folder: Path
+    pictures: Sequence[Picture], labels: Sequence[str], folder: Path
 ) -> tuple[Picture, ...]:
-    """Return the pictures of a study, identical ones once, with overlays in its folder.
+    """Return the pictures of a study, identical ones once.
 
-    Refuses a column that the table will not have, and two pictures with one file.
+    Parameters
+    ----------
+    pictures : sequence of Picture
+        As the study file states them.
+    labels : sequence of str
+        Names of the axes.
+    folder : Path
+        Where paths of overlays begin.
+
+    Raises
+    ------
+    InputError
+        If the table will not have a column, or two pictures have one file.
     """
-    labels = [name for block in blocks for name in block.names]
     numbers: dict[str, int] = {}
     different = tuple(dict.fromkeys(pictures))
     for picture in different:
@@ -93,7 +103,7 @@ def checked_pictures(
         if file in numbers:
             raise InputError(
                 f"pictures[{numbers[file]}] and pictures[{number}] would both be {file}: give one "
-                'of them a name of its own, file = "other"'
+                'of them another name, file = "other"'
             )
         numbers[file] = number
     return tuple(
@@ -103,7 +113,7 @@ def checked_pictures(
 
 
 def draw(picture: Picture, table: "pd.DataFrame") -> "Figure":
-    """Return a picture of a table; refuse missing columns and a table without converged cases."""
+    """Draw a table; raise for missing columns and for a table without converged cases."""
     from tehl.plots.table_curves import curves, overlay  # noqa: PLC0415 (matplotlib)
     from tehl.plots.table_maps import contour_map, moes_map  # noqa: PLC0415
 
@@ -120,7 +130,17 @@ def draw(picture: Picture, table: "pd.DataFrame") -> "Figure":
 
 
 def save(picture: Picture, table: "pd.DataFrame", folder: Path) -> Path:
-    """Draw a picture into a folder; return its file, which appears whole or not at all."""
+    """Draw a picture into a folder and return its file.
+
+    Parameters
+    ----------
+    picture : Picture
+        What to draw.
+    table : pandas.DataFrame
+        Table of a study.
+    folder : Path
+        Where the file appears, whole or not at all.
+    """
     figure, path = draw(picture, table), folder / picture.file_name
     with replacing(path) as temporary:
         figure.savefig(temporary, dpi=_DPI, format=picture.format)

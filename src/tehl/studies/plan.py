@@ -4,7 +4,7 @@ import json
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from itertools import product
+from itertools import islice, product
 from pathlib import Path
 from typing import Any, get_args
 
@@ -14,8 +14,7 @@ from tehl.errors import InputError
 from tehl.io.case import case_from_tables
 from tehl.options import Options, check_certifiable
 from tehl.problem import ContactProblem
-from tehl.studies.axes import Setting
-from tehl.studies.blocks import Block
+from tehl.studies.axes import Block, Setting
 from tehl.studies.case import Case, Label
 from tehl.studies.pictures import Picture
 from tehl.studies.store import Keep
@@ -29,18 +28,10 @@ _LONGEST = 60
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Plan:
-    """A study before its cases are made.
+    """A study before its cases are made, with the keys of a study file.
 
-    Attributes
-    ----------
-    base : mapping
-        Tables of the base case.
-    folder : Path
-        Where relative paths of measured surfaces begin.
-    blocks : tuple of Block
-        The cases are their grid, the last one the fastest.
-    title, certify, keep, warm_start, store, pictures
-        As in a study file.
+    ``base`` has the tables of the base case, whose relative paths begin in ``folder``; the cases
+    are the grid of ``blocks``, the last one the fastest.
     """
 
     title: str
@@ -118,9 +109,16 @@ def _settings(plan: Plan, rows: tuple[int, ...]) -> Iterator[tuple[str, str, Set
 
 
 def changed(tables: Mapping[str, Any], path: str, value: Any) -> dict[str, Any]:
-    """Return tables with ``value`` at a dotted path; ``false`` leaves the key out.
+    """Return a copy of tables with another value at a path.
 
-    A name on the way, such as that of an oil, becomes the table with this name.
+    Parameters
+    ----------
+    tables : mapping
+        Tables of a case.
+    path : str
+        Dotted path; a name on the way, such as that of an oil, becomes the table with this name.
+    value
+        The value; ``False`` removes the key.
     """
     key, _, deeper = (part.strip() for part in path.partition("."))
     after = dict(tables)
@@ -183,11 +181,10 @@ def _label(stated: Any, found: Any) -> Label:
     return json.dumps(stated, ensure_ascii=False, default=str)[:_LONGEST]
 
 
-def _phrases(labels: Mapping[str, Label], units: Mapping[str, str]) -> list[str]:
-    """Return the first labels for the name of a case: load = 20 N."""
-    phrases = []
-    for name, value in list(labels.items())[:_SHOWN]:
-        number = f"{value:.6g}" if isinstance(value, float) else value
-        unit = units.get(name, "1") if isinstance(value, float) else "1"
-        phrases.append(f"{name.rpartition('.')[2]} = {number}{'' if unit == '1' else f' {unit}'}")
-    return phrases
+def _phrases(labels: Mapping[str, Label], units: Mapping[str, str]) -> Iterator[str]:
+    """Yield the first labels for the name of a case: load = 20 N."""
+    for name, value in islice(labels.items(), _SHOWN):
+        number, unit = str(value), ""
+        if isinstance(value, float):
+            number, unit = f"{value:.6g}", f" {units.get(name, '1')}".removesuffix(" 1")
+        yield f"{name.rpartition('.')[2]} = {number}{unit}"

@@ -22,7 +22,7 @@ _SHARES = 4
 _SMALL = 1e-12
 """A label below it is next to zero."""
 _DIED = (
-    "the process that solved this case died, and died again when it solved nothing else; the "
+    "the process that solved this case died, and died again with no other case in work; the "
     "system may have ended it for lack of memory"
 )
 
@@ -187,9 +187,9 @@ def _kind_and_place(case: Case) -> tuple[object, tuple[float, ...]]:
 class _Run:
     """The cases on their way through an engine.
 
-    The cases of a worker that dies are suspects: each is solved again with nothing else in work,
-    so that the one that kills its worker is known by doing it twice. (A cluster cannot tell which
-    of the tasks that it had sent to a worker was in work.)
+    The cases of a worker that crashes are suspects: each is solved again with no other in work, and
+    fails if its worker crashes again. (A cluster does not report which of the tasks that it had
+    sent to a worker was in work.)
     """
 
     def __init__(
@@ -228,7 +228,7 @@ class _Run:
             self.submitted += 1
 
     def _task_size(self, engine: Engine, workers: int) -> int:
-        """Return how many of the next cases make a task; those that take too long come back."""
+        """Return the number of cases of the next task; those that take too long come back."""
         in_order = self.neighbours is not None and engine.local  # each starts from the one before
         if self.alone or in_order or not self.solved:
             return 1
@@ -263,10 +263,9 @@ class _Run:
             raise error
 
     def _keep(self, cases: list[Case], rows: list[Row]) -> None:
-        """Keep the rows of the first of some cases."""
         self.store.put(*rows)
         for case, row in zip(cases, rows, strict=False):
-            if row.has_fields:  # a case refused at once says nothing about the time of others
+            if row.has_fields:  # the time of a case rejected at once is not typical
                 self.seconds += row.cost.wall_seconds
                 self.solved += 1
             self.rows[case.key] = replace(row, summary={})  # thousands would fill the memory

@@ -1,7 +1,7 @@
 """Finished cases on disk: rows in one SQLite file, fields in one NetCDF file per case.
 
 Only the process that runs a study writes rows, one transaction per task; workers write fields,
-each file whole or not at all. A kill at any time costs the tasks in work and no row.
+each file whole or not at all. A kill at any time loses the tasks in work and no row.
 """
 
 import errno
@@ -25,8 +25,6 @@ _FORMAT = 1
 _TIMEOUT = 60.0
 """Seconds to wait for another study that writes into the same store."""
 _REMEDY = "bring back a copy of it, or remove it and all its cases are solved again"
-_KEYS = 500
-"""Keys of one query."""
 _COLUMNS = "key, status, cause, message, hint, summary, cpu_seconds, wall_seconds"
 _READABLE = "CASE WHEN json_valid(summary) THEN json_type(summary) = 'object' ELSE 0 END"
 """Whether the summary of a row can be read; a row where it cannot is not finished."""
@@ -97,18 +95,15 @@ class Store:
         A case whose row is damaged is not finished.
         """
         columns = _COLUMNS if summaries else _COLUMNS.replace("summary", "'{}'")
-        keys = list(dict.fromkeys(case.key for case in cases))
-        found: dict[str, Row] = {}
+        keys = json.dumps([case.key for case in cases])
         if self._connection is None and not self.exists:
-            return found
+            return {}
+        which = f"{_READABLE} AND key IN (SELECT value FROM json_each(?))"
         with self._connected() as connection:
-            for start in range(0, len(keys), _KEYS):
-                some = keys[start : start + _KEYS]
-                marks = ", ".join("?" * len(some))
-                query = f"SELECT {columns} FROM rows WHERE key IN ({marks}) AND {_READABLE}"
-                rows = map(_row, connection.execute(query, some))
-                found |= {row.key: row for row in rows if row is not None}
-        return found
+            rows = map(
+                _row, connection.execute(f"SELECT {columns} FROM rows WHERE {which}", [keys])
+            )
+            return {row.key: row for row in rows if row is not None}
 
     def finished(self, cases: Iterable[Case]) -> dict[str, Row]:
         """Return the rows of the cases that need no work, by key, without their summaries.
@@ -175,10 +170,8 @@ class Store:
             version = connection.execute("PRAGMA user_version").fetchone()[0]
             if version not in (0, _FORMAT):
                 self.close()
-                raise FileFormatError(
-                    f"{self._file} is a store of format {version}, this tehl reads {_FORMAT}: "
-                    f"{_REMEDY}"
-                )
+                found = f"{self._file} is a store of format {version}"
+                raise FileFormatError(f"{found}, this tehl reads {_FORMAT}: {_REMEDY}")
             # a kill loses nothing that was committed, and no commit waits for the disk
             with suppress(sqlite3.OperationalError):  # file systems without shared memory
                 connection.execute("PRAGMA journal_mode = WAL")
@@ -198,13 +191,11 @@ class Store:
             code = errno.ENOSPC if "full" in str(error) else errno.EIO
             raise OSError(code, f"{error}", str(self._file)) from error
         except sqlite3.DatabaseError as error:
-            raise FileFormatError(
-                f"{self._file} is not a store of a study ({error}): {_REMEDY}"
-            ) from None
+            message = f"{self._file} is not a store of a study ({error}): {_REMEDY}"
+            raise FileFormatError(message) from None
 
 
 def _line(row: Row) -> tuple[str | float | None, ...]:
-    """Return a row as the columns of the table."""
     words = (row.cause, row.message, row.hint)
     return (
         row.key,

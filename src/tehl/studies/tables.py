@@ -43,7 +43,7 @@ _BLOCKS = {
     "errors": "discretisation_central discretisation_minimum iteration_central iteration_minimum",
     "cost": "points.0 cpu_seconds wall_seconds work",
 }
-"""Columns of the summary by their blocks; of a list, the first entry stands for all."""
+"""Columns of the summary by their blocks; of a list, those of its first entry."""
 _MIRROR = "uncertainty"
 """Block that repeats the names of others."""
 _NUMBERS = tuple(f"{block}.{key}" for block, keys in _BLOCKS.items() for key in keys.split())

@@ -23,7 +23,7 @@ Solve = Callable[[Case, Path | None, Path | None], Row]
 
 
 def serve(connection: Connection) -> None:
-    """Report that the process is ready; then call what comes and send back what it gave."""
+    """Report that the process is ready; then call each function received and return its outcome."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the parent, which ends this one
     Thread(target=_end_with_parent, daemon=True).start()
     with suppress(EOFError, ConnectionError):  # the parent is gone or has closed
@@ -41,7 +41,7 @@ def attempt(function: Callable[..., Any], *arguments: Any) -> Any:
 
 
 def _end_with_parent() -> None:
-    """End this process when its parent has ended, in the midst of a solve too."""
+    """End this process when its parent has ended, even during a solve."""
     parent = parent_process()
     if parent is not None:
         wait([parent.sentinel])
@@ -51,8 +51,19 @@ def _end_with_parent() -> None:
 def solve_in_turn(solve: Solve, task: list[tuple[Case, Files]], seconds: float) -> list[Row]:
     """Return the rows of the first cases of a task, of one at least.
 
-    The others are left after a number of seconds, or where the fields of one cannot be written:
-    that is raised when the case is the first of a task.
+    Parameters
+    ----------
+    solve : callable
+        As :func:`work`.
+    task : list of (Case, Files)
+        The cases, and the files of their fields.
+    seconds : float
+        Time after which the remaining cases are left.
+
+    Raises
+    ------
+    OSError, InputError
+        If the fields of the first case cannot be written; a later one is left with those after it.
     """
     start, rows = time.perf_counter(), list[Row]()
     for case, files in task:
@@ -68,7 +79,7 @@ def solve_in_turn(solve: Solve, task: list[tuple[Case, Files]], seconds: float) 
 
 
 def work(case: Case, fields: Path | None, guess: Path | None = None) -> Row:
-    """Return the row of a case; whatever goes wrong with the case is in the row.
+    """Return the row of a case; an error of the case is in the row.
 
     Parameters
     ----------
@@ -82,7 +93,7 @@ def work(case: Case, fields: Path | None, guess: Path | None = None) -> Row:
     Raises
     ------
     OSError, InputError
-        If the fields cannot be written, which is not a fault of the case.
+        If the fields cannot be written, which is not an error of the case.
     """
     wall, cpu = time.perf_counter(), time.process_time()
     try:
