@@ -12,7 +12,7 @@ from matplotlib.text import Text
 
 from tehl import plots
 from tehl.errors import InputError
-from tehl.plots.save import HEAT_PICTURES, PICTURES, SHEAR_PICTURES, pictures_of
+from tehl.plots import HEAT_PICTURES, PICTURES, SHEAR_PICTURES, pictures_of
 from tests.fixtures_result import CASE, make_result
 from tests.fixtures_thermal import with_heat, with_shear
 
@@ -43,7 +43,7 @@ def test_a_thermal_run_has_all_pictures(thermal):
 
 
 def test_all_of_them_go_to_the_folder(thermal, tmp_path, monkeypatch):
-    monkeypatch.setattr("tehl.plots.save.PICTURES", {})
+    monkeypatch.setattr("tehl.plots.PICTURES", {})
     paths = plots.save_all(thermal, tmp_path, dpi=40)
     assert [path.stem for path in paths] == list(OURS)
 

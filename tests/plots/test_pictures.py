@@ -12,7 +12,7 @@ from matplotlib.text import Text
 from tehl import plots
 from tehl.io.store import save
 from tehl.plots.maps import film_levels
-from tehl.plots.save import PICTURES
+from tehl.plots import PICTURES
 
 MAPS = ("film_map", "pressure_map", "interferogram")
 

@@ -8,7 +8,7 @@ from matplotlib.collections import QuadMesh
 
 from tehl import plots
 from tehl.errors import InputError
-from tehl.plots.save import PICTURES, pictures_of
+from tehl.plots import PICTURES, pictures_of
 from tests.fixtures_result import CASE
 from tests.plots.test_pictures import texts
 
@@ -73,6 +73,6 @@ def test_a_smooth_result_has_nothing_to_draw(result, draw):
 
 
 def test_pictures_use_the_reference_run_that_is_given(rough, smooth, tmp_path, monkeypatch):
-    monkeypatch.setattr("tehl.plots.save.PICTURES", {})
+    monkeypatch.setattr("tehl.plots.PICTURES", {})
     paths = plots.save_all(rough, tmp_path, dpi=40, smooth=smooth)
     assert [path.stem for path in paths] == list(OURS)

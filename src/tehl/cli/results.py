@@ -38,7 +38,7 @@ def plot(
     from tehl.cli.reference_runs import smooth_beside
     from tehl.io.atomic import check_folder
     from tehl.io.store import load
-    from tehl.plots.save import save_all
+    from tehl.plots import save_all
 
     folder = stored.with_name(f"{stored.stem}_plots") if output is None else output
     check_folder(folder)

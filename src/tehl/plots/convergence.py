@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator, NullFormatter
 
-from tehl.plots.frame import BLUE, GREEN, ORANGE, figure, plain_legend
+from tehl.plots.frame import BLUE, GREEN, ORANGE, PLAIN, figure
 from tehl.result import Result
 
 _CURVES = (
@@ -44,8 +44,8 @@ def residual_history(result: Result) -> Figure:
         _align_decades(axes, right)
     _separate_grids(axes, [report.points for report in result.history])
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-    columns = 3 if len(lines) == 3 else 2
-    plain_legend(axes, "upper center", (0.5, -0.13), handles=lines, ncols=columns)
+    place = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.13)}
+    axes.legend(handles=lines, ncols=3 if len(lines) == 3 else 2, **place, **PLAIN)
     return picture
 
 

@@ -14,7 +14,7 @@ from tehl.errors import InputError
 from tehl.film_formulas import film_estimates
 from tehl.io.atomic import check_writable, replacing
 from tehl.io.tables import DEFINITIONS
-from tehl.plots.save import Pictures, pictures_of
+from tehl.plots import Pictures, pictures_of
 from tehl.post.film import no_film
 from tehl.post.micro_film import RoughnessEffect
 from tehl.post.roughness import rough_film
