@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 from tehl.errors import InputError
 from tehl.plots import transient
@@ -62,7 +63,7 @@ def test_moments_are_those_in_which_the_dent_is_inside():
 
 def test_the_body_lies_below_the_film():
     run = make_transient()
-    lines = transient.CentreLines(run)
+    lines = transient.CentreLines(run, Figure().add_subplot())
     for step in (0, 20, 40):
         assert (lines.ground + lines.heights[step]).max() < 0.0
         assert (lines.ground + lines.heights[step]).min() >= lines.bottom
@@ -92,7 +93,7 @@ def test_a_movie_shows_the_kept_fields():
     step = run.frames.step[2]
     assert f"{run.history.time[step] * 1e6:.4g}" in movie.caption.get_text()
     np.testing.assert_allclose(
-        movie.moving.film.get_ydata(), run.profiles.film[step, movie.lines.part] * 1e6
+        movie.lines.film.get_ydata(), run.profiles.film[step, movie.lines.part] * 1e6
     )
     assert movie.pixels(0).shape == (222, 186, 3)
 

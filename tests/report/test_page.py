@@ -11,7 +11,7 @@ from tehl.post.thermal_effect import ThermalEffect
 from tehl.post.transient import largest_change
 from tehl.post.waves import passing_wave
 from tehl.report import page as module
-from tehl.report.page import report_text, write_report
+from tehl.report.page import report_text
 from tehl.report.readable import input_rows
 from tehl.result import Status
 from tests.fixtures_transient import make_certified, make_transient, passing
@@ -192,12 +192,6 @@ def test_a_failure_is_shown_with_its_hint(stalled):
     assert "Stalled: grid too coarse" in words
     assert "take points = 513" in words
     assert "No error could be estimated" in words
-
-
-@pytest.mark.usefixtures("one_picture")
-def test_one_file_is_written(result, tmp_path):
-    write_report(result, tmp_path / "report.html")
-    assert [path.name for path in tmp_path.iterdir()] == ["report.html"]
 
 
 def test_inputs_carry_their_units(result):

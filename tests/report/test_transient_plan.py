@@ -21,7 +21,8 @@ def plan(**changes):
     )
     tables["contact"] = tables["contact"] | changes
     problem, options = case_from_tables(tables)
-    found = transient_plan(ScaledProblem.of(problem), options, options.domain)
+    mesh = 4.0 / 256 * problem.hertz.half_width_x, 4.0 / 256 * problem.hertz.half_width_y
+    found = transient_plan(ScaledProblem.of(problem), options, mesh)
     return found, problem, options
 
 

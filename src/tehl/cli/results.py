@@ -120,20 +120,21 @@ def report(
     It has numbers, pictures, formulas, inputs, groups, errors and convergence.
     """
     from tehl.cli.reference_runs import smooth_beside
-    from tehl.io.atomic import check_writable
+    from tehl.io.atomic import check_writable, replacing
     from tehl.io.store import load, load_summary
     from tehl.post import micro_film, thermal_effect
-    from tehl.report.page import write_report
+    from tehl.report.page import report_text
 
     path = stored.with_suffix(".html") if output is None else output
     check_writable(path, sources=(stored,))
     result = load(stored)
     summary = load_summary(stored)
-    write_report(
+    page = report_text(
         result,
-        path,
         effect=thermal_effect.stored_effect(summary),
         roughness=micro_film.stored_effect(summary),
         smooth=smooth_beside(stored, result),
     )
+    with replacing(path) as temporary:
+        temporary.write_text(page, encoding="utf-8")
     typer.echo(path)
