@@ -12,11 +12,17 @@ from matplotlib.text import Text
 
 from tehl import plots
 from tehl.errors import InputError
-from tehl.plots import HEAT_PICTURES, PICTURES, SHEAR_PICTURES, pictures_of
+from tehl.plots import PICTURES, pictures_of
 from tests.fixtures_result import CASE, make_result
 from tests.fixtures_thermal import with_heat, with_shear
 
-OURS = SHEAR_PICTURES | HEAT_PICTURES
+OURS = {
+    "shear_stress": plots.shear_stress_map,
+    "temperature": plots.mid_film_temperature,
+    "temperature_layers": plots.temperature_layers,
+    "temperature_section": plots.temperature_section,
+    "surface_heat": plots.surface_heat,
+}
 
 
 def texts(figure) -> str:

@@ -11,8 +11,8 @@ from matplotlib.text import Text
 
 from tehl import plots
 from tehl.io.store import save
-from tehl.plots.maps import film_levels
 from tehl.plots import PICTURES
+from tehl.plots.maps import film_levels
 
 MAPS = ("film_map", "pressure_map", "interferogram")
 

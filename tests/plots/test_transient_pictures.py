@@ -7,9 +7,8 @@ import pytest
 from matplotlib.figure import Figure
 
 from tehl.errors import InputError
-from tehl.plots import transient
+from tehl.plots import save_all, transient
 from tehl.plots.animation import Movie, animate
-from tehl.plots import save_all
 from tehl.result import Status
 from tests.fixtures_transient import make_certified, make_transient
 

@@ -68,22 +68,6 @@ PICTURES: Pictures = {
     },
 }
 """Pictures of every steady result."""
-SHEAR_PICTURES: Pictures = {"shear_stress": shear_stress_map}
-"""Pictures of a film that slides."""
-HEAT_PICTURES: Pictures = {
-    "temperature": mid_film_temperature,
-    "temperature_layers": temperature_layers,
-    "temperature_section": temperature_section,
-    "surface_heat": surface_heat,
-}
-"""Pictures of a thermal result."""
-TRANSIENT_PICTURES: Pictures = {
-    "history": history,
-    "space_time": space_time,
-    "moments": moments,
-    "passage": passage,
-}
-"""Pictures of a transient result."""
 
 
 def pictures_of(result: Result | TransientResult, smooth: Result | None = None) -> Pictures:
@@ -92,7 +76,12 @@ def pictures_of(result: Result | TransientResult, smooth: Result | None = None) 
     ``smooth`` is the smooth reference run on the same grid, for pictures of ripples.
     """
     if isinstance(result, TransientResult):
-        return TRANSIENT_PICTURES
+        return {
+            "history": history,
+            "space_time": space_time,
+            "moments": moments,
+            "passage": passage,
+        }
     found = dict(PICTURES)
     if result.roughness is not None:
         if result.heights is not None:
@@ -101,8 +90,13 @@ def pictures_of(result: Result | TransientResult, smooth: Result | None = None) 
             found["rough_centre_line"] = partial(rough_centre_line, smooth=smooth)
         found["film_distribution"] = film_distribution
     if result.shear is not None and result.problem.slide_roll_ratio != 0:
-        found |= SHEAR_PICTURES
-    return found | HEAT_PICTURES if result.heat is not None else found
+        found["shear_stress"] = shear_stress_map
+    if result.heat is not None:
+        found["temperature"] = mid_film_temperature
+        found["temperature_layers"] = temperature_layers
+        found["temperature_section"] = temperature_section
+        found["surface_heat"] = surface_heat
+    return found
 
 
 def save_all(

@@ -25,7 +25,6 @@ from tehl.plots.frame import (
 )
 from tehl.plots.transient import CentreLines, time_unit
 from tehl.transient_result import TransientResult
-from tehl.typing import Array
 
 FORMATS = (".gif", ".mp4", ".html")
 MOST = 200
@@ -158,16 +157,13 @@ def _film_image(axes: Axes, run: TransientResult) -> AxesImage:
     films = run.frames.film[:, rows, columns]
     inside = np.hypot(scaled.x[None, columns], scaled.y[rows, None]) < 0.8
     low, high = float(films.min()) * MICRO, float(films[:, inside].max()) * MICRO
-    (west, east), (south, north) = map(_edges, window_places(run.start))
-    top, extent = high + 0.15 * (high - low), (west, east, south, north)
-    style: dict[str, Any] = {"origin": "lower", "interpolation": "bilinear"}
-    image = axes.imshow(films[0] * MICRO, extent=extent, vmin=low, vmax=top, **style)
+    edges = []
+    for axis in window_places(run.start):
+        half = 0.5 * float(axis[1] - axis[0])
+        edges += [float(axis[0]) - half, float(axis[-1]) + half]
+    style: dict[str, Any] = {"origin": "lower", "interpolation": "bilinear", "extent": edges}
+    top = high + 0.15 * (high - low)
+    image = axes.imshow(films[0] * MICRO, vmin=low, vmax=top, **style)
     dress_contact(axes, run.start)
     axes.figure.colorbar(image, cax=colour_axes(axes), extend="max", label="film h [µm]")
     return image
-
-
-def _edges(axis: Array) -> tuple[float, float]:
-    """Return the outer edges of the first and of the last cell."""
-    half = 0.5 * float(axis[1] - axis[0])
-    return float(axis[0]) - half, float(axis[-1]) + half

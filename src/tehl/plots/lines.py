@@ -25,7 +25,7 @@ from tehl.plots.frame import (
     span_part,
 )
 from tehl.plots.maps import FILTERED, heights_of
-from tehl.plots.temperature import Line, temperature_lines
+from tehl.plots.temperature import Line, rises
 from tehl.post.film import Profile, hertz_pressure, profile_x, profile_y
 from tehl.post.micro_film import micro_film
 from tehl.post.roughness import film_histogram, rough_film
@@ -54,7 +54,9 @@ def centre_lines(result: Result) -> Figure:
         place, scaled = profile.coordinate * MICRO, profile.scaled_coordinate
         curves = [_pressure_and_film(panels[0], result, profile)]
         if thermal:
-            temperature_lines(panels[1], place, line, result)
+            for rise, style in rises(result, line):
+                panels[1].plot(place, rise, **style)
+            panels[1].set_ylabel("temperature rise [K]")
             panels[1].grid(axis="y", lw=0.3)
             curves.append(panels[1].lines)
         shown = place[(scaled >= low) & (scaled <= high)]

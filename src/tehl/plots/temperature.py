@@ -185,7 +185,9 @@ def surface_heat(result: Result) -> Figure:
     x = result.x * MICRO
     picture = figure(result, (7.2, 6.6))
     upper, lower = picture.subplots(2, 1, sharex=True)
-    temperature_lines(upper, x, (row, slice(None)), result)
+    for rise, style in rises(result, (row, slice(None))):
+        upper.plot(x, rise, **style)
+    upper.set_ylabel("temperature rise [K]")
     for flux, name, colour in ((heat.flux_1, "1", BLUE), (heat.flux_2, "2", GREEN)):
         lower.plot(x, flux[row] * 1e-6, color=colour, lw=1.4, label=f"into surface {name}")
     lower.set_ylabel("heat flux [MW/m²]")
@@ -199,26 +201,15 @@ def surface_heat(result: Result) -> Figure:
     return picture
 
 
-def temperature_lines(axes: Axes, place: Array, line: Line, result: Result) -> None:
-    """Draw the rises of both surfaces, of the mid-film and of the mean along a grid line.
-
-    Parameters
-    ----------
-    axes : Axes
-        Where to draw.
-    place : array
-        Coordinate along the line, in the unit of the axes.
-    line : index
-        The line in the fields.
-    result : Result
-        Of a thermal run.
-    """
+def rises(result: Result, line: Line) -> list[tuple[Array, dict[str, Any]]]:
+    """Return the temperature rises along a grid line [K], and the style of the curve of each."""
     heat, found = _heat_of(result)
-    for field, name, colour, style in (
-        (found.mid_film, "mid-film", ORANGE, "-"),
-        (found.mean, "mean across film", "0.35", "--"),
-        (heat.temperature[0], "surface 1", BLUE, "-"),
-        (heat.temperature[-1], "surface 2", GREEN, "-"),
-    ):
-        axes.plot(place, field[line] - found.inlet, color=colour, ls=style, lw=1.3, label=name)
-    axes.set_ylabel("temperature rise [K]")
+    return [
+        (field[line] - found.inlet, {"label": name, "color": colour, "ls": style, "lw": 1.3})
+        for field, name, colour, style in (
+            (found.mid_film, "mid-film", ORANGE, "-"),
+            (found.mean, "mean across film", "0.35", "--"),
+            (heat.temperature[0], "surface 1", BLUE, "-"),
+            (heat.temperature[-1], "surface 2", GREEN, "-"),
+        )
+    ]

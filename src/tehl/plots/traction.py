@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tehl.errors import InputError
-from tehl.plots.frame import BLUE, GIGA, ORANGE
+from tehl.plots.frame import BLUE, GIGA, ORANGE, PLAIN
 from tehl.result import Result
 from tehl.typing import Array
 
@@ -49,17 +49,11 @@ def traction_curve(runs: Sequence[Result] | Mapping[str, Any]) -> Figure:
             chosen = (table["thermal"] == thermal) & (table["case"] == case)
             if not chosen.any():
                 continue
-            order = np.argsort(table["slide_roll_ratio"][chosen], kind="stable")
-            axes.plot(
-                100.0 * table["slide_roll_ratio"][chosen][order],
-                -table["traction"][chosen][order],
-                style,
-                color=colour,
-                alpha=_FADING[number % len(_FADING)],
-                ms=4.5,
-                lw=1.3,
-                label=f"{word}, {case}" if case and len(cases) > 1 else word,
-            )
+            ratio, traction = table["slide_roll_ratio"][chosen], table["traction"][chosen]
+            order = np.argsort(ratio, kind="stable")
+            label = f"{word}, {case}" if case and len(cases) > 1 else word
+            look = {"color": colour, "alpha": _FADING[number % len(_FADING)], "ms": 4.5, "lw": 1.3}
+            axes.plot(100.0 * ratio[order], -traction[order], style, label=label, **look)
     _dress(axes, table, cases)
     return picture
 
@@ -77,7 +71,7 @@ def _dress(axes: Any, table: dict[str, Array], cases: list[str]) -> None:
     if len(cases) == 1 and cases[0]:
         axes.set_title(cases[0].replace("$", r"\$"), fontsize=9)
     axes.grid(lw=0.3)
-    axes.legend(fontsize=8, frameon=False)
+    axes.legend(**PLAIN)
 
 
 def _of_results(results: Sequence[Result]) -> dict[str, Array]:
