@@ -194,9 +194,10 @@ def finish_map(
 
 def mark_levels(bar: Colorbar, lines: QuadContourSet) -> None:
     """Mark contour lines and zero on a colour bar."""
-    if len(lines.levels):
+    levels = np.asarray(lines.levels)
+    if levels.size:
         bar.add_lines(lines)
-    bar.set_ticks(sorted({0.0, *lines.levels}))
+    bar.set_ticks(sorted({0.0, *levels}))
 
 
 def legend_above(axes: Axes, *others: Line2D) -> None:

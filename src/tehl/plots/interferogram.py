@@ -20,6 +20,8 @@ from tehl.result import Result
 from tehl.typing import Array
 
 Light = Literal["white", "dichromatic", "monochromatic"]
+_PIXELS = 900
+"""Pixels along x; the film is interpolated so that fringes stay clean."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -104,29 +106,14 @@ class Optics:
         return f"synthetic interferogram: {light}, n = {self.refractive_index:g} at ambient{spacer}"
 
 
-def interferogram(result: Result, optics: Optics | None = None, *, pixels: int = 900) -> Figure:
-    """Draw the film as an optical rig shows it.
-
-    Parameters
-    ----------
-    result : Result
-        What to draw.
-    optics : Optics, optional
-        Light and layers; white light by default.
-    pixels : int
-        Pixels along x; the film is interpolated so that fringes stay clean.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The picture, in micrometres.
-    """
+def interferogram(result: Result, optics: Optics | None = None) -> Figure:
+    """Draw the film as an optical rig shows it; in white light if ``optics`` is left out."""
     from scipy.interpolate import RectBivariateSpline  # noqa: PLC0415 (0.3 s)
 
     chosen, part = Optics() if optics is None else optics, window_part(result)
     x, y = result.x[part[1]], result.y[part[0]]
-    fine_x = np.linspace(x[0], x[-1], pixels)
-    fine_y = np.linspace(y[0], y[-1], max(2, round(pixels * np.ptp(y) / np.ptp(x))))
+    fine_x = np.linspace(x[0], x[-1], _PIXELS)
+    fine_y = np.linspace(y[0], y[-1], max(2, round(_PIXELS * np.ptp(y) / np.ptp(x))))
     film, pressure = (
         np.nan_to_num(field[part], nan=0.0, posinf=0.0, neginf=0.0)
         for field in (result.film_thickness, result.pressure)

@@ -72,18 +72,17 @@ def curves(
         raise InputError(f"{len(hues) * len(styles)} curves are too many for a picture")
     picture = Figure(figsize=(7.0, 5.0), layout="constrained")
     axes = picture.add_subplot()
-    for i, colour in enumerate(hues):
-        for k, line in enumerate(styles):
-            chosen, name = _chosen(rows, ((hue, colour), (style, line)))
+    for i, one in enumerate(hues):
+        for k, other in enumerate(styles):
+            chosen, name = _chosen(rows, ((hue, one), (style, other)))
             chosen &= np.isfinite(across.values) & np.isfinite(up.values)
             if not chosen.any():
                 continue
             order = np.flatnonzero(chosen)[np.argsort(across.values[chosen], kind="stable")]
-            look = {"ls": _LINES[k % len(_LINES)], "marker": _MARKS[k % len(_MARKS)], "ms": 4.0}
-            look |= {"color": COLOURS[i % len(COLOURS)], "lw": 1.3, "capsize": 2.5}
-            error = None if bars is None else bars[order]
-            points = across.values[order], up.values[order]
-            axes.errorbar(*points, yerr=error, label=name, **look)
+            look: dict[str, Any] = {"ls": _LINES[k % len(_LINES)], "lw": 1.3, "capsize": 2.5}
+            look |= {"marker": _MARKS[k % len(_MARKS)], "ms": 4.0, "label": name}
+            colour, error = COLOURS[i % len(COLOURS)], None if bars is None else bars[order]
+            axes.errorbar(across.values[order], up.values[order], error, color=colour, **look)
     dress(axes, table, (across, up), log)
     _legend(axes)
     return picture
@@ -150,9 +149,9 @@ def overlay(picture: Figure, table: "pd.DataFrame", x: str, y: str, *, path: Pat
     axes = picture.axes[0]
     for number, name in enumerate(dict.fromkeys(series)):
         chosen = np.asarray(series == name)
-        look = {"fmt": f"k{_POINTS[number % len(_POINTS)]}", "ms": 6.0, "capsize": 2.0, "lw": 1.0}
-        error = None if errors is None else errors[chosen]
-        axes.errorbar(x_values[chosen], y_values[chosen], yerr=error, label=name, **look)
+        look: dict[str, Any] = {"ms": 6.0, "capsize": 2.0, "lw": 1.0, "label": name}
+        error, mark = None if errors is None else errors[chosen], _POINTS[number % len(_POINTS)]
+        axes.errorbar(x_values[chosen], y_values[chosen], error, fmt=f"k{mark}", **look)
     _legend(axes)
 
 

@@ -69,21 +69,9 @@ def contour_map(table: "pd.DataFrame", x: str, y: str, z: str, log: str = "") ->
 def moes_map(table: "pd.DataFrame") -> Figure:
     """Draw the deviation of film formulas from the computed films, over the Moes numbers M and L.
 
-    Parameters
-    ----------
-    table : pandas.DataFrame
-        As :func:`tehl.studies.table` returns it, of contacts with many M and L.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The computed central film in Moes form, and for each formula its film over the computed
-        one less one, in per cent. Crosses are failed cases.
-
-    Raises
-    ------
-    InputError
-        If the points span no area.
+    The table is that of :func:`tehl.studies.table`, of contacts with many M and L. The panels have
+    the computed central film in Moes form, and for each formula its film over the computed one
+    less one, in per cent; crosses are failed cases. Raises InputError if the points span no area.
     """
     rows = converged(table)
     load, speed = numbers(rows, "groups.M").values, numbers(rows, "groups.L").values

@@ -25,7 +25,7 @@ from tehl.post.transient import envelope, passing_features
 from tehl.transient_result import HistoryBars, TransientResult
 from tehl.typing import Array
 
-MOMENTS = 4
+_MOMENTS = 4
 """Moments in one picture."""
 _TALLEST = 2.2
 """Height of the film axis, over the largest film in the contact."""
@@ -157,15 +157,15 @@ def moments(run: TransientResult, times: Sequence[float] | None = None) -> Figur
     return picture
 
 
-def moments_of(run: TransientResult, count: int = MOMENTS) -> list[int]:
+def moments_of(run: TransientResult) -> list[int]:
     """Return equidistant steps at which there is roughness inside the contact."""
     inside = np.abs(run.start.scaled.x) <= 1.0
     heights = (run.profiles.height_1 + run.profiles.height_2)[:, inside]
     present = np.ptp(heights, axis=1)
     steps = np.flatnonzero(present >= 0.5 * present.max())
     first, last = int(steps[0]), int(steps[-1])
-    every = np.linspace(first, last, count + 2)[1:-1] if last - first > count else (first, last)
-    return sorted({round(float(step)) for step in every})
+    every = np.linspace(first, last, _MOMENTS + 2)[1:-1]
+    return sorted({round(step) for step in (every if last - first > _MOMENTS else (first, last))})
 
 
 class CentreLines:
