@@ -21,7 +21,7 @@ VOID = {"meta", "img", "br"}
 
 
 class Page(HTMLParser):
-    """Collects tags, links and text; complains of tags that are not closed in order."""
+    """Tags, links and text of a page; fails if tags are not closed in order."""
 
     def __init__(self, text: str) -> None:
         super().__init__()
@@ -62,7 +62,7 @@ def one_picture(monkeypatch):
     monkeypatch.setattr(module, "CAPTIONS", {"residuals": "Convergence."})
 
 
-def test_pictures_are_inside_and_nothing_is_remote(page):
+def test_pictures_are_embedded_and_all_links_are_local(page):
     assert len(page.sources) == 7
     assert all(source.startswith("data:image/png;base64,") for source in page.sources)
 
@@ -89,7 +89,7 @@ def test_a_thermal_run_has_sections_of_heat_and_traction(thermal, result):
     assert not any(word in cold for word in ("Traction", "Temperature", "ΔT"))
 
 
-def test_pictures_of_heat_are_inside(thermal):
+def test_pictures_of_heat_are_embedded(thermal):
     page = Page(report_text(thermal, dpi=30))
     assert len(page.sources) == 12
     assert any("plane y = 0" in word for word in page.words)
@@ -211,7 +211,7 @@ def test_a_certified_value_stands_first_with_its_bar(certified):
 
 
 @pytest.mark.usefixtures("one_picture")
-def test_a_negative_film_is_no_result(stalled):
+def test_a_negative_film_is_not_reported_as_a_result(stalled):
     numbers = replace(stalled.film_scaled, central=0.1, minimum=-0.1)
     text = report_text(replace(stalled, film_scaled=numbers), dpi=40)
     assert "There is no film to report" in text

@@ -69,13 +69,17 @@ def history(run: TransientResult) -> Figure:
         axes.grid(lw=0.3)
         axes.margins(x=0)
     panels[-1].set_xlabel(f"time [{unit}]")
-    scale = run.start.scales.speed / run.start.scales.half_width_x / factor
-    there_and_back: Any = (lambda time: time * scale, lambda distance: distance / scale)
-    distance = panels[0].secondary_xaxis("top", functions=there_and_back)
-    distance.set_xlabel(r"$u_m t / a$", fontsize=8)
-    distance.tick_params(labelsize=8)
+    _add_distance_axis(panels[0], run, factor)
     picture.align_ylabels(panels)
     return picture
+
+
+def _add_distance_axis(axes: Axes, run: TransientResult, factor: float) -> None:
+    scale = run.start.scales.speed / run.start.scales.half_width_x / factor
+    there_and_back: Any = (lambda time: time * scale, lambda distance: distance / scale)
+    distance = axes.secondary_xaxis("top", functions=there_and_back)
+    distance.set_xlabel(r"$u_m t / a$", fontsize=8)
+    distance.tick_params(labelsize=8)
 
 
 def _draw_error_bars(panels: Sequence[Axes], run: TransientResult, bars: HistoryBars) -> None:

@@ -92,7 +92,6 @@ def explain(problem: ContactProblem, options: Options) -> Explanation:
     bodies = body_effect(scaled)
     heat = expected_heat(scaled, bodies)
     thinnest = bodies.groups if bodies is not None and bodies.ratio < 1 else groups
-    stated = problem.heat.sources if isinstance(problem.heat, FilmEnergy) else "auto"
     return Explanation(
         scaled=scaled,
         options=options,
@@ -101,9 +100,7 @@ def explain(problem: ContactProblem, options: Options) -> Explanation:
         lambda_ratio=film / rough if rough > 0 else None,
         roughness=heights,
         peclet=tuple(None if one is None else abs(one) for one in problem.solid_peclet),
-        sources=tuple(
-            None if one is None else source_form(stated, one) for one in problem.solid_peclet
-        ),
+        sources=_sources(problem),
         bodies=bodies,
         heat=heat,
         domain=domain,
@@ -115,6 +112,11 @@ def explain(problem: ContactProblem, options: Options) -> Explanation:
         questions=questions(scaled, options, heat, bodies, heights)
         + (plan.questions if plan else ()),
     )
+
+
+def _sources(problem: ContactProblem) -> tuple[str | None, ...]:
+    stated = problem.heat.sources if isinstance(problem.heat, FilmEnergy) else "auto"
+    return tuple(None if one is None else source_form(stated, one) for one in problem.solid_peclet)
 
 
 def as_summary(case: Explanation) -> dict[str, Any]:
