@@ -8,12 +8,7 @@ import pytest
 from tehl.film_formulas import expected_film
 from tehl.inlet_heating import inlet_heating_factor
 from tehl.problem import ContactProblem
-from tehl.report.expected_heat import (
-    ASSUMED_TRACTION,
-    ExpectedHeat,
-    body_effect,
-    expected_heat,
-)
+from tehl.report.expected_heat import ASSUMED_TRACTION, ExpectedHeat, body_effect, expected_heat
 from tehl.scaling import ScaledProblem
 from tests.cases import ball_tables
 

@@ -98,7 +98,7 @@ def test_pictures_of_heat_are_embedded(thermal):
 @pytest.mark.usefixtures("one_picture")
 def test_traction_alone_has_its_section(sheared):
     words = " ".join(Page(report_text(sheared, dpi=40)).words)
-    assert "the film holds it back" in words
+    assert "the film brakes it" in words
     assert "moving source" not in words
     assert "More than oils can transmit" not in words
     shear = replace(sheared.shear, mid_film=5 * sheared.shear.mid_film)

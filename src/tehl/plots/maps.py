@@ -34,7 +34,7 @@ from tehl.result import Result
 from tehl.typing import Array
 
 FILTERED = 0.75
-"""Half-widths within which ripples by a filter are shown: at the rim the filter sees the rim."""
+"""Half-widths within which filtered ripples are shown: the filter smears the rim of the contact."""
 _SHOWN = (0.5, 99.5)
 """Percentiles of the heights between which colours change."""
 _LINES: dict[str, Any] = {"colors": "black", "linewidths": 0.6}

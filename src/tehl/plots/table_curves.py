@@ -9,14 +9,7 @@ from matplotlib.figure import Figure
 
 from tehl.errors import InputError
 from tehl.plots.frame import BLUE, ORANGE, PLAIN
-from tehl.plots.table_columns import (
-    Column,
-    certified,
-    converged,
-    dress,
-    find_column,
-    numbers,
-)
+from tehl.plots.table_columns import Column, certified, converged, dress, find_column, numbers
 from tehl.typing import Array
 from tehl.units import Quantity
 

@@ -10,12 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.tri import Triangulation
 
 from tehl.errors import InputError
-from tehl.film_formulas import (
-    FilmRatio,
-    chittenden,
-    hamrock_dowson,
-    nijenbanning_venner_moes,
-)
+from tehl.film_formulas import FilmRatio, chittenden, hamrock_dowson, nijenbanning_venner_moes
 from tehl.plots.table_columns import FAILED, converged, dress, numbers
 from tehl.scaling import Groups
 from tehl.typing import Array

@@ -11,7 +11,7 @@ from tehl.problem import ContactProblem
 from tehl.roughness import AnyRoughness, Bump, Dimple, Ridge, WaveVector
 from tehl.wave_theory import LinearTheory, expected_waves
 
-CONVERGES, ANSWERS = 8, 16
+CONVERGES, RESOLVES = 8, 16
 """Nodes on the shortest wave with which runs converge, and with which ripples are right to 3 %."""
 LARGEST = 16385
 """Nodes per direction beyond which no number is proposed."""
@@ -104,7 +104,7 @@ def asperities(
         shortest_wave=waves[axis],
         points_per_wave=fewest,
         points_to_converge=_needed(options, fewest, axis, CONVERGES),
-        points_to_answer=_needed(options, fewest, axis, ANSWERS),
+        points_to_answer=_needed(options, fewest, axis, RESOLVES),
         stands=problem.transient is None,
         waves=tuple(expected_waves(problem, film)),
         remarks=tuple(
@@ -131,7 +131,7 @@ def _look(roughness: AnyRoughness, problem: ContactProblem, mesh: tuple[float, f
     resolved, hertz = roughness.resolved_on(*mesh), problem.hertz
     widths, waves = (hertz.half_width_x, hertz.half_width_y), resolved.shortest_wavelengths
     finest = max(2.0 * width / wave for width, wave in zip(widths, waves, strict=True))
-    count = int(min(max(_SAMPLES[0], ANSWERS * finest), _SAMPLES[1]))
+    count = int(min(max(_SAMPLES[0], RESOLVES * finest), _SAMPLES[1]))
     x, y = (np.linspace(-width, width, count) for width in widths)
     heights = np.broadcast_to(resolved.height(x[None, :], y[:, None]), (count, count))
     slopes = np.hypot(*np.gradient(heights, y, x))

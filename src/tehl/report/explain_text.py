@@ -8,7 +8,7 @@ from tehl.film_formulas import regime
 from tehl.inlet_heating import inlet_factors, thermal_loading
 from tehl.memory import available_memory
 from tehl.options import Domain
-from tehl.report.asperities import ANSWERS, CONVERGES, Asperities
+from tehl.report.asperities import CONVERGES, RESOLVES, Asperities
 from tehl.report.explain import Explanation
 from tehl.report.readable import UNTITLED, length, seconds
 from tehl.report.transient_plan import TransientPlan
@@ -114,7 +114,7 @@ def _roughness(found: Asperities) -> Iterator[str]:
         f"{length(found.shortest_wave)} along an axis",
         f"{found.points_per_wave:.3g} nodes on it",
         f"({CONVERGES} to converge: {found.points_to_converge}, "
-        f"{ANSWERS} for its ripples: {found.points_to_answer} nodes)",
+        f"{RESOLVES} for its ripples: {found.points_to_answer} nodes)",
     )
     for wave, theory in found.waves:
         yield _row("wave", *_wave(wave, theory))

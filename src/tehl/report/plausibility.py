@@ -1,4 +1,4 @@
-"""Plausibility of a case: typical ranges of its values, combinations that are seldom meant."""
+"""Plausibility of a case: typical ranges of its values, unusual combinations."""
 
 import math
 from collections.abc import Iterator
@@ -17,16 +17,16 @@ from tehl.heat import FAR_BODY, LAYERS
 from tehl.lubricant import Limiting, Roelands, RoelandsExponential, Walther
 from tehl.options import Domain, Options, coarsenable
 from tehl.problem import ContactProblem, Surface
-from tehl.report.asperities import ANSWERS, CONVERGES, LARGEST, Asperities
+from tehl.report.asperities import CONVERGES, LARGEST, RESOLVES, Asperities
 from tehl.report.expected_heat import NOTICEABLE, BodyEffect, ExpectedHeat
 from tehl.scaling import Groups, ScaledProblem
 
 SLIDING = 0.02
 """Slide-roll ratio from which on surfaces count as sliding."""
 WARM = 5.0
-"""Temperature rise from which on an isothermal film is questionable [K]."""
+"""Temperature rise from which on an isothermal film is not plausible [K]."""
 UNPHYSICAL = 0.8e9
-"""Hertz pressure from which on a sliding Newtonian film is questionable [Pa]."""
+"""Hertz pressure from which on a sliding Newtonian film is not plausible [Pa]."""
 FEW_LAYERS = 15
 """Uniform layers below which a temperature profile is under-resolved."""
 SLOWEST_LINE = 5.0
@@ -216,8 +216,8 @@ def _about_heat(problem: ContactProblem, heat: ExpectedHeat | None) -> Iterator[
         )
     elif thermal is None and newtonian and abs(problem.slide_roll_ratio) > SLIDING:
         yield (
-            "the surfaces slide, which an isothermal Newtonian film does not feel: heat would thin "
-            "it, and its traction is far too high"
+            "the surfaces slide, but the film is isothermal and Newtonian: heat would thin it, and "
+            "its traction is far too high"
         )
     if thermal is None:
         return
@@ -298,7 +298,7 @@ def _about_heights(scaled: ScaledProblem, options: Options, found: Asperities) -
         yield (
             f"numerics.points = {min(options.shape)}: {found.points_per_wave:.2g} nodes on the "
             f"shortest wave of the surfaces ({found.shortest_wave * 1e6:.3g} um), so a run may not "
-            f"converge; {enough} put {CONVERGES} on it, {better} the {ANSWERS} that its ripples "
+            f"converge; {enough} put {CONVERGES} on it, {better} the {RESOLVES} that its ripples "
             "need"
         )
     if found.steepest > STEEP:

@@ -96,10 +96,7 @@ def transient_plan(
 
 
 def _questions(
-    scaled: ScaledProblem,
-    duration: float,
-    points: tuple[float, float],
-    shifts: tuple[float, float],
+    scaled: ScaledProblem, duration: float, points: tuple[float, float], shifts: tuple[float, float]
 ) -> Iterator[str]:
     """Yield what is not plausible, a sentence each."""
     stride = scaled.problem.transient.stride if scaled.problem.transient else 1
@@ -121,6 +118,6 @@ def _questions(
             )
         if shift > LARGEST_PART * one:
             yield (
-                f"{name} moves by {shift / one:.2g} of its shortest wave per step: solve refuses "
-                "more than a quarter, and filters such waves off a measured or random surface"
+                f"{name} moves by {shift / one:.2g} of its shortest wave per step: solve accepts "
+                "at most a quarter, and filters such waves off a measured or random surface"
             )
