@@ -174,9 +174,8 @@ def _shared(result: Result | TransientResult, pictures: Pictures, dpi: int) -> d
 def _inputs(result: Result) -> dict[str, list[tuple[str, str]]]:
     """Return key and value of each input, by table of the case file."""
     tables: dict[str, list[tuple[str, str]]] = {}
-    for row in (*input_rows(result.problem), *input_rows(result.options, "numerics.")):
-        table = row.path.split(".")[0].replace("_", " ")
-        tables.setdefault(table, []).append((row.path, f"{row.value} {row.unit}".strip()))
+    for path, value in (*input_rows(result.problem), *input_rows(result.options, "numerics.")):
+        tables.setdefault(path.split(".")[0].replace("_", " "), []).append((path, value))
     tables.pop("title", None)
     return tables
 
