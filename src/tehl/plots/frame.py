@@ -1,6 +1,5 @@
 """Parts that the pictures of a contact share: title, banner, window, map, colour bar, legend."""
 
-from collections.abc import Sequence
 from textwrap import fill
 from typing import Any
 
@@ -86,13 +85,18 @@ def length(metres: float) -> str:
 
 
 def map_figure(result: Result, note: str = "") -> tuple[Figure, Axes]:
-    """Return a figure for one map, shaped as the contact, and its axes; ``note`` ends the title."""
+    """Return a figure for one map, shaped as the contact, and its axes with arrow and legend.
+
+    ``note`` ends the title.
+    """
     ratio = slenderness(result)
     longest = 4.9 if 0.5 < ratio < 2.0 else _LONGEST
     width, height = (longest, longest * ratio) if ratio < 1 else (longest / ratio, longest)
     picture = figure(result, (max(width + 1.8, 5.6), max(height + 1.6, 3.4)), note)
     axes = picture.add_subplot()
     dress_contact(axes, result)
+    entrainment_arrow(axes)
+    legend_above(axes)
     return picture, axes
 
 
@@ -155,41 +159,6 @@ def dress_contact(axes: Axes, result: Result) -> None:
     style: dict[str, Any] = {"color": "white", "ls": "--", "lw": 1.1, "zorder": 5}
     rim = Ellipse((0, 0), 2 * widths[0], 2 * widths[1], fill=False, **style)
     axes.add_patch(rim).set_path_effects(outline("0.25", 1.9))
-
-
-def finish_map(
-    picture: Figure,
-    mesh: Any,
-    label: str,
-    *,
-    lines: QuadContourSet | None = None,
-    marks: Sequence[Line2D] = (),
-    extend: Any = None,
-) -> Colorbar:
-    """Add the arrow of entrainment, the legend and the colour bar to the map of a picture.
-
-    Parameters
-    ----------
-    picture : Figure
-        Made by :func:`map_figure`.
-    mesh : ScalarMappable
-        Provides the colours.
-    label : str
-        Quantity and unit of the colour bar.
-    lines : QuadContourSet, optional
-        Contour lines to mark on the colour bar, beside zero.
-    marks : sequence of Line2D
-        More entries of the legend.
-    extend : {"neither", "both", "min", "max"}, optional
-        Ends of the colour bar beyond which there are values.
-    """
-    axes = picture.axes[0]
-    entrainment_arrow(axes)
-    legend_above(axes, *marks)
-    bar = picture.colorbar(mesh, cax=colour_axes(axes), extend=extend, label=label)
-    if lines is not None:
-        mark_levels(bar, lines)
-    return bar
 
 
 def mark_levels(bar: Colorbar, lines: QuadContourSet) -> None:

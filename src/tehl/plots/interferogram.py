@@ -15,7 +15,7 @@ from typing import Literal
 import numpy as np
 from matplotlib.figure import Figure
 
-from tehl.plots.frame import MICRO, entrainment_arrow, legend_above, map_figure, window_part
+from tehl.plots.frame import MICRO, map_figure, window_part
 from tehl.result import Result
 from tehl.typing import Array
 
@@ -126,8 +126,6 @@ def interferogram(result: Result, optics: Optics | None = None) -> Figure:
     limits = {"xlim": axes.get_xlim(), "ylim": axes.get_ylim()}
     axes.imshow(colours(thickness, chosen), extent=extent, origin="lower", interpolation="bilinear")
     axes.set(**limits)
-    entrainment_arrow(axes)
-    legend_above(axes)
     return picture
 
 

@@ -16,13 +16,15 @@ from tehl.plots.frame import (
     MAP,
     MICRO,
     STEPS,
+    colour_axes,
     dress_contact,
     entrainment_arrow,
     figure,
-    finish_map,
     inner_levels,
+    legend_above,
     length,
     map_figure,
+    mark_levels,
     nice_levels,
     slenderness,
     window_part,
@@ -59,8 +61,9 @@ def film_map(result: Result) -> Figure:
     if 0.5 < slenderness(result) < 2.0:  # slender contacts have no room for labels
         axes.clabel(lines, inner[1::2], fontsize=7, fmt="%.3g")
         axes.clabel(outside, fontsize=7, fmt="%.3g")
-    marks = _mark_minimum(axes, result)
-    bar = finish_map(picture, mesh, "film thickness h [µm]", marks=marks, extend="max")
+    legend_above(axes, *_mark_minimum(axes, result))
+    label = "film thickness h [µm]"
+    bar = picture.colorbar(mesh, cax=colour_axes(axes), extend="max", label=label)
     bar.ax.yaxis.set_minor_locator(NullLocator())
     bar.ax.yaxis.set_minor_formatter(NullFormatter())
     ticks = nice_levels((low, top), 8)
@@ -110,7 +113,7 @@ def pressure_map(result: Result) -> Figure:
     picture, axes = map_figure(result)
     mesh = axes.pcolormesh(*places, pressure, cmap="cividis", **MAP)
     lines = axes.contour(*places, _smoothed(pressure), levels=levels, **_LINES)
-    finish_map(picture, mesh, "pressure p [GPa]", lines=lines)
+    mark_levels(picture.colorbar(mesh, cax=colour_axes(axes), label="pressure p [GPa]"), lines)
     return picture
 
 
@@ -144,7 +147,8 @@ def shear_stress_map(result: Result) -> Figure:
     span = (0.0, top if top > 0 else 1.0)
     mesh = axes.pcolormesh(*places, stress, cmap="cividis", clim=span, **MAP)
     lines = axes.contour(*places, stress, levels=inner_levels((0.0, top)), **_LINES)
-    finish_map(picture, mesh, "magnitude of the shear stress at mid-film [MPa]", lines=lines)
+    label = "magnitude of the shear stress at mid-film [MPa]"
+    mark_levels(picture.colorbar(mesh, cax=colour_axes(axes), label=label), lines)
     return picture
 
 
@@ -170,10 +174,10 @@ def heights_map(result: Result) -> Figure:
     low, high = (low, high) if high > low else (low - 0.5, high + 0.5)
     mesh = axes.pcolormesh(*window_places(result), heights, clim=(low, high), **MAP)
     slack = 1e-3 * (high - low)
-    beyond = bool(heights.min() < low - slack), bool(heights.max() > high + slack)
     ends = {(True, True): "both", (True, False): "min", (False, True): "max"}
+    beyond = ends.get((bool(heights.min() < low - slack), bool(heights.max() > high + slack)))
     label = "height of both surfaces, outwards [nm]"
-    finish_map(picture, mesh, label, extend=ends.get(beyond, "neither"))
+    picture.colorbar(mesh, cax=colour_axes(axes), extend=beyond or "neither", label=label)
     return picture
 
 

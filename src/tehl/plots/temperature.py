@@ -28,10 +28,10 @@ from tehl.plots.frame import (
     WINDOW,
     Span,
     centre_row,
+    colour_axes,
     dress_contact,
     entrainment_arrow,
     figure,
-    finish_map,
     inner_levels,
     map_figure,
     mark_levels,
@@ -67,7 +67,8 @@ def mid_film_temperature(result: Result) -> Figure:
     picture, axes = map_figure(result, note)
     rise = (found.mid_film - found.inlet)[window_part(result)]
     mesh, lines = _coloured(axes, window_places(result), rise, _span(rise))
-    finish_map(picture, mesh, "mid-film temperature rise [K]", lines=lines)
+    label = "mid-film temperature rise [K]"
+    mark_levels(picture.colorbar(mesh, cax=colour_axes(axes), label=label), lines)
     return picture
 
 
