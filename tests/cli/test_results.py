@@ -63,7 +63,7 @@ def test_an_unknown_format_is_bad_input(stored, run):
 
 
 def test_plots_land_in_the_folder(stored, run, monkeypatch):
-    monkeypatch.setattr("tehl.plots.save.PICTURES", {"film": film_map})
+    monkeypatch.setattr("tehl.plots.PICTURES", {"film": film_map})
     assert run("plot", str(stored), "-o", str(stored.parent / "pictures"), "--dpi", "40").code == 0
     assert [p.name for p in (stored.parent / "pictures").iterdir()] == ["film.png"]
 

@@ -324,7 +324,7 @@ def test_a_kill_while_writing_leaves_nothing(folder, solver, run, monkeypatch):
 
 
 def test_pictures_are_drawn_on_demand(folder, solver, run, monkeypatch):
-    monkeypatch.setattr("tehl.plots.save.PICTURES", {})
+    monkeypatch.setattr("tehl.plots.PICTURES", {})
     assert run("solve", "ball.toml", "--plot", "pictures").code == 0
     assert (folder / "pictures").is_dir()
 

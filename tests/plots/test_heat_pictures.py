@@ -1,4 +1,4 @@
-"""Pictures of shear and heat: drawn where they apply, true to the numbers, whole for any state."""
+"""Pictures of shear and heat: drawn where they apply, with the right numbers, for any state."""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -12,11 +12,17 @@ from matplotlib.text import Text
 
 from tehl import plots
 from tehl.errors import InputError
-from tehl.plots.save import HEAT_PICTURES, PICTURES, SHEAR_PICTURES, pictures_of
+from tehl.plots import PICTURES, pictures_of
 from tests.fixtures_result import CASE, make_result
 from tests.fixtures_thermal import with_heat, with_shear
 
-OURS = SHEAR_PICTURES | HEAT_PICTURES
+OURS = {
+    "shear_stress": plots.shear_stress_map,
+    "temperature": plots.mid_film_temperature,
+    "temperature_layers": plots.temperature_layers,
+    "temperature_section": plots.temperature_section,
+    "surface_heat": plots.surface_heat,
+}
 
 
 def texts(figure) -> str:
@@ -24,7 +30,7 @@ def texts(figure) -> str:
     return " | ".join(artist.get_text() for artist in figure.findobj(Text))
 
 
-def test_an_isothermal_run_has_the_old_pictures(result):
+def test_an_isothermal_run_has_the_basic_pictures(result):
     assert list(pictures_of(result)) == list(PICTURES)
 
 
@@ -42,8 +48,8 @@ def test_a_thermal_run_has_all_pictures(thermal):
     assert list(pictures_of(thermal)) == [*PICTURES, *OURS]
 
 
-def test_all_of_them_go_to_the_folder(thermal, tmp_path, monkeypatch):
-    monkeypatch.setattr("tehl.plots.save.PICTURES", {})
+def test_all_pictures_of_heat_are_saved(thermal, tmp_path, monkeypatch):
+    monkeypatch.setattr("tehl.plots.PICTURES", {})
     paths = plots.save_all(thermal, tmp_path, dpi=40)
     assert [path.stem for path in paths] == list(OURS)
 
@@ -56,13 +62,13 @@ def test_each_picture_names_the_case_and_its_groups(thermal, draw):
 
 
 @pytest.mark.parametrize("draw", OURS.values(), ids=OURS)
-def test_an_isothermal_run_is_refused_in_a_sentence(result, draw):
+def test_an_isothermal_run_raises_an_input_error(result, draw):
     with pytest.raises(InputError, match="to draw"):
         draw(result)
 
 
 @pytest.mark.parametrize("draw", OURS.values(), ids=OURS)
-def test_a_state_that_is_not_finite_is_still_drawn(thermal, stalled, draw):
+def test_a_non_finite_state_is_still_drawn(thermal, stalled, draw):
     field = np.full_like(thermal.scaled.film, np.nan)
     broken = replace(
         thermal,
@@ -124,7 +130,7 @@ def test_surface_heat_shows_fluxes_in_megawatts(thermal):
     assert "MW" in lower.get_ylabel()
 
 
-def test_centre_lines_gain_temperatures(thermal, result):
+def test_centre_lines_of_a_thermal_run_show_temperatures(thermal, result):
     assert len(plots.centre_lines(result).axes) == 4
     figure = plots.centre_lines(thermal)
     labels = [line.get_label() for axes in figure.axes for line in axes.lines]
@@ -133,7 +139,7 @@ def test_centre_lines_gain_temperatures(thermal, result):
     assert labels.count("film") == 2
 
 
-def test_the_history_shows_the_temperature_on_an_axis_of_its_own_in_kelvin(thermal, result):
+def test_the_history_shows_the_temperature_change_on_a_separate_axis_in_kelvin(thermal, result):
     left, right = plots.residual_history(thermal).axes
     assert "K" not in left.get_ylabel()
     assert "[K]" in right.get_ylabel()
@@ -197,13 +203,13 @@ def test_traction_is_drawn_as_friction_over_sliding(result):
     assert axes.get_xlim()[0] == 0.0
 
 
-def test_a_table_will_do():
+def test_a_table_is_drawn_as_well():
     table = {"slide_roll_ratio": [0.1, -0.1], "traction": [-0.03, 0.03]}
     line = plots.traction_curve(table).axes[0].lines[0]
     assert line.get_ydata() == pytest.approx([-0.03, 0.03])
 
 
-def test_contacts_that_differ_have_curves_of_their_own():
+def test_contacts_that_differ_have_separate_curves():
     table = {
         "slide_roll_ratio": [0.1, 0.2, 0.1, 0.2],
         "traction": [-0.03, -0.04, -0.05, -0.06],
@@ -214,6 +220,6 @@ def test_contacts_that_differ_have_curves_of_their_own():
 
 
 @pytest.mark.parametrize("runs", [[], {"slide_roll_ratio": []}, {"traction": [], "SRR": []}])
-def test_nothing_to_draw_is_said(runs):
+def test_nothing_to_draw_raises_an_input_error(runs):
     with pytest.raises(InputError, match="no"):
         plots.traction_curve(runs)

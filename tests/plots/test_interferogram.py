@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tehl.plots.interferogram import Optics, colours, optical_thickness, reflectance
+from tehl.plots.interferogram import Optics, colours
 
 NM = 1e-9
 
@@ -12,7 +12,7 @@ NM = 1e-9
 def test_fringes_follow_each_other_at_half_a_wavelength_in_the_oil(wavelength):
     optics = Optics(refractive_index=1.5)
     film = np.linspace(0, 2e-6, 200001)
-    light = reflectance(optical_thickness(film, optics), wavelength, optics)
+    light = optics.reflectance(optics.thickness(film), wavelength)
     peaks = film[1:-1][(light[1:-1] > light[:-2]) & (light[1:-1] > light[2:])]
     assert np.diff(peaks) == pytest.approx(wavelength / (2 * 1.5), rel=1e-3)
 
@@ -20,7 +20,7 @@ def test_fringes_follow_each_other_at_half_a_wavelength_in_the_oil(wavelength):
 def test_contact_is_dark_and_the_first_bright_fringe_is_a_quarter_wave_away():
     optics = Optics()
     thickness = np.array([0.0, 0.25 * 600 * NM])
-    dark, bright = reflectance(thickness, 600 * NM, optics)
+    dark, bright = optics.reflectance(thickness, 600 * NM)
     first, second = 0.2, 0.55**2 * 0.6
     assert dark == pytest.approx((first**0.5 - second**0.5) ** 2)
     assert bright == pytest.approx((first**0.5 + second**0.5) ** 2)
@@ -28,13 +28,13 @@ def test_contact_is_dark_and_the_first_bright_fringe_is_a_quarter_wave_away():
 
 def test_a_spacer_shifts_the_order():
     optics = Optics(spacer_thickness=150 * NM, spacer_index=1.46)
-    assert optical_thickness(np.array([0.0]), optics) == pytest.approx(219 * NM)
+    assert optics.thickness(np.array([0.0])) == pytest.approx(219 * NM)
 
 
 def test_the_index_grows_with_the_density():
     optics = Optics(refractive_index=1.48)
     q = 1.2 * (1.48**2 - 1) / (1.48**2 + 2)
-    index = optical_thickness(np.array([1.0]), optics, 1.2)
+    index = optics.thickness(np.array([1.0]), 1.2)
     assert index**2 == pytest.approx((1 + 2 * q) / (1 - q))
     assert index == pytest.approx(1.598, abs=2e-3)
 

@@ -11,8 +11,8 @@ from matplotlib.text import Text
 
 from tehl import plots
 from tehl.io.store import save
+from tehl.plots import PICTURES
 from tehl.plots.maps import film_levels
-from tehl.plots.save import PICTURES
 
 MAPS = ("film_map", "pressure_map", "interferogram")
 
@@ -45,7 +45,7 @@ def test_each_picture_of_a_failure_carries_a_banner(stalled, draw):
     assert "NOT CONVERGED: stalled: grid too coarse" in texts(draw(stalled))
 
 
-def test_dollar_signs_in_a_title_are_no_formula(result):
+def test_dollar_signs_in_a_title_are_not_a_formula(result):
     problem = result.problem.model_copy(update={"title": "costs $5 and $6 \\frac"})
     figure = plots.film_map(replace(result, problem=problem))
     figure.canvas.draw()
@@ -73,7 +73,7 @@ def test_a_film_with_holes_is_still_drawn(stalled):
         draw(broken).draw_without_rendering()
 
 
-def test_a_state_that_is_not_finite_is_still_drawn(stalled):
+def test_a_non_finite_state_is_still_drawn(stalled):
     film = np.full_like(stalled.scaled.film, np.nan)
     fields = replace(stalled.scaled, film=film, pressure=film)
     numbers = replace(stalled.film_scaled, central=np.nan, minimum=np.nan)
@@ -82,11 +82,11 @@ def test_a_state_that_is_not_finite_is_still_drawn(stalled):
         draw(broken).draw_without_rendering()
 
 
-def test_an_empty_history_is_said(result):
+def test_an_empty_history_is_reported(result):
     assert "no cycles" in texts(plots.residual_history(replace(result, history=())))
 
 
-def test_all_pictures_go_to_the_folder(result, tmp_path):
+def test_all_pictures_are_saved(result, tmp_path):
     paths = plots.save_all(result, tmp_path / "new" / "folder", dpi=40)
     assert [path.stem for path in paths] == list(PICTURES)
     assert all(path.read_bytes().startswith(b"\x89PNG") for path in paths)
@@ -101,8 +101,8 @@ def test_plotting_imports_no_compiler_and_no_global_pyplot(result, tmp_path):
         "print([m for m in ('numba', 'matplotlib.pyplot', 'xarray') if m in sys.modules])"
     )
     run = [sys.executable, "-c", code, str(tmp_path / "out.nc")]
-    answer = subprocess.run(run, capture_output=True, text=True, check=True)
-    assert answer.stdout.strip() == "[]"
+    done = subprocess.run(run, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
 
 
 def test_both_minima_of_a_symmetric_contact_are_marked(result):
@@ -112,7 +112,7 @@ def test_both_minima_of_a_symmetric_contact_are_marked(result):
     assert len(marks.get_ydata()) == 2
 
 
-def test_the_colours_of_the_film_are_spent_on_the_contact(result):
+def test_the_colours_of_the_film_span_the_contact(result):
     mesh = plots.film_map(result).axes[0].collections[0]
     low, high = mesh.get_clim()
     assert high == pytest.approx(1.6e6 * result.film.central)

@@ -8,7 +8,7 @@ from matplotlib.collections import QuadMesh
 
 from tehl import plots
 from tehl.errors import InputError
-from tehl.plots.save import PICTURES, pictures_of
+from tehl.plots import PICTURES, pictures_of
 from tests.fixtures_result import CASE
 from tests.plots.test_pictures import texts
 
@@ -45,7 +45,7 @@ def test_ripples_are_those_of_the_reference_run_if_there_is_one(rough, smooth):
     with_reference, without = plots.micro_film_map(rough, smooth), plots.micro_film_map(rough)
     assert "less that of smooth surfaces" in texts(with_reference)
     assert "less its long waves" in texts(without)
-    # without the reference run ripples mean nothing outside the contact
+    # without the reference run ripples outside the contact are left blank
     assert not np.ma.getmaskarray(with_reference.axes[0].findobj(QuadMesh)[0].get_array()).any()
     assert np.ma.getmaskarray(without.axes[0].findobj(QuadMesh)[0].get_array()).any()
 
@@ -67,12 +67,12 @@ def test_the_distribution_marks_sq(rough):
     "draw",
     [plots.heights_map, plots.micro_film_map, plots.rough_centre_line, plots.film_distribution],
 )
-def test_a_smooth_result_has_nothing_to_draw(result, draw):
+def test_a_smooth_result_raises_an_input_error(result, draw):
     with pytest.raises(InputError, match=r"smooth|rough"):
         draw(result)
 
 
 def test_pictures_use_the_reference_run_that_is_given(rough, smooth, tmp_path, monkeypatch):
-    monkeypatch.setattr("tehl.plots.save.PICTURES", {})
+    monkeypatch.setattr("tehl.plots.PICTURES", {})
     paths = plots.save_all(rough, tmp_path, dpi=40, smooth=smooth)
     assert [path.stem for path in paths] == list(OURS)

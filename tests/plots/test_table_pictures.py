@@ -52,13 +52,13 @@ def test_a_curve_runs_along_x_with_certified_values_and_their_bars(table):
     assert figure.get_supxlabel() == "1 of 6 cases failed and are left out"
 
 
-def test_a_minus_turns_the_sign_and_short_names_will_do(table):
+def test_a_minus_turns_the_sign_and_short_names_suffice(table):
     figure = curves(table, "load", "-mid_film", hue="shear", log="xy")
     assert drawn(figure)[0][1] == pytest.approx([0.02, 0.04, 0.08])
     assert figure.axes[0].get_xscale() == "log"
 
 
-def test_an_axis_comes_before_a_number_of_the_same_name(table):
+def test_an_axis_precedes_a_number_of_the_same_name(table):
     assert find_column(table, "shear") == "lubricant.shear"
     assert find_column(table, "h_min_m") == "film.h_min_m"
 
@@ -71,12 +71,12 @@ def test_an_axis_comes_before_a_number_of_the_same_name(table):
         ("load", "laws.shear", "does not hold numbers"),
     ],
 )
-def test_columns_that_cannot_be_drawn_are_refused(table, x, y, words):
+def test_columns_that_cannot_be_drawn_raise_an_input_error(table, x, y, words):
     with pytest.raises(InputError, match=words):
         curves(table, x, y)
 
 
-def test_a_column_that_is_nearly_right_is_suggested(table):
+def test_a_similar_column_is_suggested(table):
     with pytest.raises(InputError, match=r"did you mean film\.h_min_m"):
         curves(table, "load", "h_min")
 
@@ -88,7 +88,7 @@ def test_a_table_without_converged_cases_has_no_picture(table):
 
 
 @pytest.mark.parametrize(("limit", "unit", "factor"), [(2e-8, "nm", 1e9), (2e-6, "µm", 1e6)])
-def test_lengths_are_shown_in_a_unit_that_suits(table, limit, unit, factor):
+def test_lengths_are_shown_in_a_fitting_unit(table, limit, unit, factor):
     table["film.h_min_m"] = np.linspace(0.0, limit, 6)
     column = numbers(table, "film.h_min_m")
     assert (column.unit, column.factor) == (unit, factor)
@@ -113,7 +113,7 @@ def test_measured_points_are_converted_to_the_units_of_the_picture(table, tmp_pa
         ("", "cannot be read"),
     ],
 )
-def test_wrong_measured_points_are_refused(table, tmp_path, text, words):
+def test_invalid_measured_points_raise_an_input_error(table, tmp_path, text, words):
     path = tmp_path / "lab.csv"
     path.write_text(text)
     with pytest.raises(InputError, match=words):

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 from tehl.errors import InputError
-from tehl.plots import transient
+from tehl.plots import save_all, transient
 from tehl.plots.animation import Movie, animate
-from tehl.plots.save import save_all
 from tehl.result import Status
 from tests.fixtures_transient import make_certified, make_transient
 
@@ -57,18 +57,18 @@ def test_moments_are_those_in_which_the_dent_is_inside():
     place = -2e-4 + run.start.problem.motion.speed_1 * run.history.time[steps]
     assert np.abs(place).max() < 1.2 * run.start.scales.half_width_x
     picture = transient.moments(run, times=[0.0, float(run.history.time[-1])])
-    assert len(picture.axes) == 4  # pressure has an axis of its own in each
+    assert len(picture.axes) == 4  # one for pressure and one for film in each panel
 
 
 def test_the_body_lies_below_the_film():
     run = make_transient()
-    lines = transient.CentreLines(run)
+    lines = transient.CentreLines(run, Figure().add_subplot())
     for step in (0, 20, 40):
         assert (lines.ground + lines.heights[step]).max() < 0.0
         assert (lines.ground + lines.heights[step]).min() >= lines.bottom
 
 
-def test_a_run_without_an_end_says_so():
+def test_a_run_that_stopped_carries_a_banner():
     run = replace(make_transient(), status=Status(kind="stalled", cause="step_not_settled"))
     assert "NOT CONVERGED" in transient.passage(run).get_supxlabel()
 
@@ -84,7 +84,7 @@ def test_all_pictures_are_files(tmp_path):
     assert all(path.read_bytes()[:4] == b"\x89PNG" for path in paths)
 
 
-def test_a_movie_shows_the_kept_fields():
+def test_a_movie_shows_the_stored_fields():
     run = make_transient()
     movie = Movie(run, dpi=30)
     assert list(movie.steps) == list(run.frames.step)
@@ -92,7 +92,7 @@ def test_a_movie_shows_the_kept_fields():
     step = run.frames.step[2]
     assert f"{run.history.time[step] * 1e6:.4g}" in movie.caption.get_text()
     np.testing.assert_allclose(
-        movie.moving.film.get_ydata(), run.profiles.film[step, movie.lines.part] * 1e6
+        movie.lines.film.get_ydata(), run.profiles.film[step, movie.lines.part] * 1e6
     )
     assert movie.pixels(0).shape == (222, 186, 3)
 
@@ -101,6 +101,6 @@ def test_a_run_without_fields_shows_its_line_at_all_steps():
     assert len(Movie(make_transient(frames=False), dpi=30).steps) == 61
 
 
-def test_a_speed_that_cannot_be_is_refused(tmp_path):
+def test_a_frame_rate_of_zero_raises_an_input_error(tmp_path):
     with pytest.raises(InputError, match="per_second = 0: must be positive"):
         animate(make_transient(), tmp_path / "film.gif", per_second=0)

@@ -1,4 +1,4 @@
-"""What is said about rough surfaces before the solve."""
+"""Explanation of rough surfaces before the solve."""
 
 import json
 import math
@@ -22,7 +22,7 @@ def explained(roughness: Any, **tables: Any) -> Explanation:
     return explain(*case_from_tables(ball_tables(surface_2=surface) | tables))
 
 
-def test_smooth_surfaces_have_none():
+def test_smooth_surfaces_have_no_section():
     case = explain(*case_from_tables(ball_tables()))
     assert case.roughness is None
     assert "Roughness" not in as_text(case)
@@ -41,7 +41,7 @@ def test_a_wave_has_its_sq_slope_and_lambda_ratio():
     json.dumps(as_summary(case), allow_nan=False)
 
 
-def test_the_nodes_that_are_told_carry_eight_and_sixteen_of_a_wave():
+def test_the_proposed_nodes_put_eight_and_sixteen_on_a_wave():
     found = explained(WAVE).roughness
     for points, wanted in ((found.points_to_converge, 8), (found.points_to_answer, 16)):
         there = explained(WAVE, numerics={"points": points}).roughness.points_per_wave
@@ -69,7 +69,7 @@ def test_theory_flattens_a_transverse_wave_and_leaves_a_longitudinal_one_to_the_
         {"lubricant": ball_tables()["lubricant"] | {"shear": {"law": "eyring", "stress": "5 MPa"}}},
     ],
 )
-def test_nothing_is_promised_of_waves_in_heated_or_shear_thinning_films(tables):
+def test_heated_or_shear_thinning_films_have_no_theory_of_waves(tables):
     case = explained(WAVE, **tables)
     shown = as_text(case)
     assert "% left in the film" not in shown
@@ -80,7 +80,7 @@ def test_nothing_is_promised_of_waves_in_heated_or_shear_thinning_films(tables):
     assert "depends on the inlet" in as_text(explained(WAVE | {"angle": "90 deg"}, **tables))
 
 
-def test_it_is_told_whether_the_roughness_stands_or_moves():
+def test_the_text_states_whether_the_roughness_stands_or_moves():
     assert "quasi-steady" in as_text(explained(WAVE))
     assert "moves with its surfaces" in as_text(explained(WAVE, transient={}))
 
@@ -109,11 +109,11 @@ ODD = [
 
 
 @pytest.mark.parametrize(("roughness", "tables", "words"), ODD)
-def test_odd_heights_are_questioned(roughness: Any, tables: Any, words: str):
+def test_implausible_heights_are_reported(roughness: Any, tables: Any, words: str):
     assert any(words in question for question in explained(roughness, **tables).questions)
 
 
-def test_a_map_that_is_not_there_is_bad_input():
+def test_a_missing_map_raises_an_input_error():
     missing = {"type": "map", "file": "none.npy", "unit": "um", "pixel": "1 um"}
     with pytest.raises(InputError, match=r"none\.npy"):
         explained(missing)

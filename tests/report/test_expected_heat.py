@@ -8,12 +8,7 @@ import pytest
 from tehl.film_formulas import expected_film
 from tehl.inlet_heating import inlet_heating_factor
 from tehl.problem import ContactProblem
-from tehl.report.expected_heat import (
-    ASSUMED_TRACTION,
-    ExpectedHeat,
-    body_effect,
-    expected_heat,
-)
+from tehl.report.expected_heat import ASSUMED_TRACTION, ExpectedHeat, body_effect, expected_heat
 from tehl.scaling import ScaledProblem
 from tests.cases import ball_tables
 
@@ -77,7 +72,7 @@ def test_heat_limits_the_traction_and_a_shear_law_limits_it_more():
     assert heat(1.5).traction < heat(0.5).traction
 
 
-def test_an_oil_without_temperature_gets_a_usual_traction():
+def test_an_oil_of_constant_viscosity_has_an_assumed_traction():
     expected = heat(lubricant=ball_tables()["lubricant"])
     assert expected.assumed
     assert expected.traction == ASSUMED_TRACTION

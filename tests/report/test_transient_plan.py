@@ -1,4 +1,4 @@
-"""What is said of a transient run before it is made."""
+"""Plan of a transient run before the solve."""
 
 import pytest
 
@@ -21,7 +21,8 @@ def plan(**changes):
     )
     tables["contact"] = tables["contact"] | changes
     problem, options = case_from_tables(tables)
-    found = transient_plan(ScaledProblem.of(problem), options, options.domain)
+    mesh = 4.0 / 256 * problem.hertz.half_width_x, 4.0 / 256 * problem.hertz.half_width_y
+    found = transient_plan(ScaledProblem.of(problem), options, mesh)
     return found, problem, options
 
 
@@ -43,21 +44,21 @@ def test_speeds_are_those_of_both_surfaces():
     assert found.shift == pytest.approx((1.5, 0.5))
 
 
-def test_a_wave_of_few_points_is_questioned():
+def test_a_wave_of_few_points_is_reported():
     found, *_ = plan(roughness=WAVE | {"wavelength": "30 um"})
     assert any("points on its shortest wave" in one for one in found.questions)
 
 
-def test_asperities_that_jump_are_questioned():
+def test_asperities_that_jump_are_reported():
     found, *_ = plan(slide_roll_ratio=1.5, transient={"stride": 2})
     assert any("1.5 mesh widths per step ahead of" in one for one in found.questions)
 
 
-def test_an_explanation_tells_of_time_only_where_there_is_some():
+def test_an_explanation_has_a_plan_only_of_a_transient_run():
     _, problem, options = plan()
-    told = explain(problem, options)
-    assert "points per wave" in as_text(told)
-    assert as_summary(told)["time"]["points_per_wave"][1] is None
+    case = explain(problem, options)
+    assert "points per wave" in as_text(case)
+    assert as_summary(case)["time"]["points_per_wave"][1] is None
     steady = problem.model_copy(update={"transient": None})
     assert as_summary(explain(steady, options))["time"] is None
 

@@ -24,7 +24,7 @@ def plot(
     from tehl.cli.reference_runs import smooth_beside
     from tehl.io.atomic import check_folder
     from tehl.io.store import load
-    from tehl.plots.save import save_all
+    from tehl.plots import save_all
 
     folder = stored.with_name(f"{stored.stem}_plots") if output is None else output
     check_folder(folder)
@@ -104,20 +104,21 @@ def report(
     It has numbers, pictures, formulas, inputs, groups, errors and convergence.
     """
     from tehl.cli.reference_runs import smooth_beside
-    from tehl.io.atomic import check_writable
+    from tehl.io.atomic import check_writable, replacing
     from tehl.io.store import load, load_summary
     from tehl.post import micro_film, thermal_effect
-    from tehl.report.page import write_report
+    from tehl.report.page import report_text
 
     path = stored.with_suffix(".html") if output is None else output
     check_writable(path, sources=(stored,))
     result = load(stored)
     summary = load_summary(stored)
-    write_report(
+    page = report_text(
         result,
-        path,
         effect=thermal_effect.stored_effect(summary),
         roughness=micro_film.stored_effect(summary),
         smooth=smooth_beside(stored, result),
     )
+    with replacing(path) as temporary:
+        temporary.write_text(page, encoding="utf-8")
     echo(path)

@@ -1,16 +1,20 @@
-"""Pictures of a result; each function returns a matplotlib figure and touches no global state."""
+"""Pictures of a result; each function returns a matplotlib figure and touches no global state.
 
+Those of one result are also here by name, to draw all of them.
+"""
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from matplotlib.figure import Figure
+
+from tehl.io.atomic import check_folder, replacing
 from tehl.plots.convergence import residual_history
 from tehl.plots.interferogram import Optics, interferogram
 from tehl.plots.lines import centre_lines, film_distribution, pressure_surface, rough_centre_line
-from tehl.plots.maps import (
-    film_map,
-    heights_map,
-    micro_film_map,
-    pressure_map,
-    shear_stress_map,
-)
-from tehl.plots.save import save_all
+from tehl.plots.maps import film_map, heights_map, micro_film_map, pressure_map, shear_stress_map
 from tehl.plots.table_curves import curves
 from tehl.plots.table_maps import contour_map, film_deviations, moes_map
 from tehl.plots.temperature import (
@@ -20,6 +24,9 @@ from tehl.plots.temperature import (
     temperature_section,
 )
 from tehl.plots.traction import traction_curve
+from tehl.plots.transient import history, moments, passage, space_time
+from tehl.result import Result
+from tehl.transient_result import TransientResult
 
 __all__ = [
     "Optics",
@@ -45,3 +52,89 @@ __all__ = [
     "temperature_section",
     "traction_curve",
 ]
+
+Pictures = dict[str, Callable[[Any], Figure]]
+"""Functions that draw a result, by name."""
+
+PICTURES: Pictures = {
+    "film": film_map,
+    "pressure": pressure_map,
+    "pressure_surface": pressure_surface,
+    "centre_lines": centre_lines,
+    "residuals": residual_history,
+    **{
+        f"interferogram_{light}": partial(interferogram, optics=Optics(light=light))
+        for light in ("white", "dichromatic", "monochromatic")
+    },
+}
+"""Pictures of every steady result."""
+
+
+def pictures_of(result: Result | TransientResult, smooth: Result | None = None) -> Pictures:
+    """Return the functions that draw ``result``, by name, in the order of drawing.
+
+    ``smooth`` is the smooth reference run on the same grid, for pictures of ripples.
+    """
+    if isinstance(result, TransientResult):
+        return {
+            "history": history,
+            "space_time": space_time,
+            "moments": moments,
+            "passage": passage,
+        }
+    found = dict(PICTURES)
+    if result.roughness is not None:
+        if result.heights is not None:
+            found["heights"] = heights_map
+            found["micro_film"] = partial(micro_film_map, smooth=smooth)
+            found["rough_centre_line"] = partial(rough_centre_line, smooth=smooth)
+        found["film_distribution"] = film_distribution
+    if result.shear is not None and result.problem.slide_roll_ratio != 0:
+        found["shear_stress"] = shear_stress_map
+    if result.heat is not None:
+        found["temperature"] = mid_film_temperature
+        found["temperature_layers"] = temperature_layers
+        found["temperature_section"] = temperature_section
+        found["surface_heat"] = surface_heat
+    return found
+
+
+def save_all(
+    result: Result | TransientResult,
+    folder: str | Path,
+    *,
+    dpi: int = 150,
+    smooth: Result | None = None,
+) -> list[Path]:
+    """Draw all pictures of ``result`` as PNG files; each appears whole or not at all.
+
+    Parameters
+    ----------
+    result : Result or TransientResult
+        What to draw.
+    folder : str or Path
+        Where; made if it is missing.
+    dpi : int
+        Dots per inch.
+    smooth : Result or None
+        Smooth reference run on the same grid, for pictures of ripples.
+
+    Returns
+    -------
+    list of Path
+        The files, in the order of drawing.
+
+    Raises
+    ------
+    InputError
+        If the folder cannot be written.
+    """
+    place = Path(folder)
+    check_folder(place)
+    place.mkdir(parents=True, exist_ok=True)
+    paths = []
+    for name, draw in pictures_of(result, smooth).items():
+        paths.append(place / f"{name}.png")
+        with replacing(paths[-1]) as temporary:
+            draw(result).savefig(temporary, dpi=dpi, format="png")
+    return paths

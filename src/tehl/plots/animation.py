@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.image import AxesImage
 from numpy.typing import NDArray
+from PIL import Image
 
 from tehl.errors import InputError
 from tehl.io.atomic import replacing
@@ -24,8 +25,8 @@ from tehl.plots.frame import (
 )
 from tehl.plots.transient import CentreLines, time_unit
 from tehl.transient_result import TransientResult
-from tehl.typing import Array
 
+FORMATS = (".gif", ".mp4", ".html")
 MOST = 200
 """Largest number of moments in an animation of the line y = 0 alone."""
 _UPPER, _LOWER = (0.13, 0.41, 0.69, 0.51), (0.13, 0.07, 0.75, 0.255)
@@ -67,37 +68,29 @@ def animate(
     with replacing(path) as temporary:
         made = temporary.with_suffix(ending)  # the writers choose the format by the extension
         try:
-            _WRITERS[ending](movie, made, per_second)
+            _write(movie, made, per_second)
             made.replace(temporary)
         finally:
             made.unlink(missing_ok=True)
 
 
-def _write_gif(movie: "Movie", path: Path, per_second: int) -> None:
-    """Write the moments with Pillow: the writer of matplotlib draws each of them three times."""
-    from PIL import Image  # noqa: PLC0415 (0.1 s, for this format only)
-
-    first, *others = (Image.fromarray(movie.pixels(number)) for number in range(len(movie.steps)))
-    first.save(path, save_all=True, append_images=others, duration=round(1e3 / per_second), loop=0)
-
-
-def _write_html(movie: "Movie", path: Path, per_second: int) -> None:
-    style: dict[str, Any] = {"embed_frames": True, "default_mode": "loop"}
-    _write(movie, path, HTMLWriter(fps=per_second, embed_limit=_LARGEST_PAGE, **style))
-
-
-def _write_mp4(movie: "Movie", path: Path, per_second: int) -> None:
-    _write(movie, path, FFMpegWriter(fps=per_second))
-
-
-def _write(movie: "Movie", path: Path, writer: AbstractMovieWriter) -> None:
+def _write(movie: "Movie", path: Path, per_second: int) -> None:
+    numbers = range(len(movie.steps))
+    if path.suffix == ".gif":  # with Pillow: the writer of matplotlib draws each moment three times
+        first, *others = (Image.fromarray(movie.pixels(number)) for number in numbers)
+        duration = round(1e3 / per_second)
+        first.save(path, save_all=True, append_images=others, duration=duration, loop=0)
+        return
+    page: dict[str, Any] = {"embed_frames": True, "embed_limit": _LARGEST_PAGE}
+    writer: AbstractMovieWriter = (
+        HTMLWriter(fps=per_second, default_mode="loop", **page)
+        if path.suffix == ".html"
+        else FFMpegWriter(fps=per_second)
+    )
     with writer.saving(movie.picture, str(path), movie.picture.dpi):
-        for number in range(len(movie.steps)):
+        for number in numbers:
             movie.show(number)
             writer.grab_frame()
-
-
-_WRITERS = {".gif": _write_gif, ".mp4": _write_mp4, ".html": _write_html}
 
 
 def check_format(path: str | Path) -> str:
@@ -106,9 +99,9 @@ def check_format(path: str | Path) -> str:
     Raises InputError if the format is not supported, or needs a program that is not installed.
     """
     ending = Path(path).suffix.lower()
-    if ending not in _WRITERS:
+    if ending not in FORMATS:
         raise InputError(
-            f"output {path}: format not supported; an animation ends in {', '.join(_WRITERS)}"
+            f"output {path}: format not supported; an animation ends in {', '.join(FORMATS)}"
         )
     if ending == ".mp4" and shutil.which("ffmpeg") is None:
         raise InputError(
@@ -122,8 +115,8 @@ class Movie:
     """One figure that can show each moment of a run, with the map of the film if it is stored."""
 
     def __init__(self, run: TransientResult, *, dpi: int = 100) -> None:
-        self.run, self.lines = run, CentreLines(run)
-        has_fields, count = run.frames.step.size >= 2, len(run.history.time)
+        self.run, count = run, len(run.history.time)
+        has_fields = run.frames.step.size >= 2
         shown = np.unique(np.linspace(0, count - 1, min(count, MOST)).round().astype(np.int64))
         self.steps = run.frames.step if has_fields else shown
         self.picture = figure(run, (6.2, 7.4 if has_fields else 3.4))
@@ -134,7 +127,7 @@ class Movie:
             self.picture.set_layout_engine("none")
             self.film = _film_image(self.picture.add_axes(_UPPER), run)
         lower = self.picture.add_axes(_LOWER) if has_fields else self.picture.add_subplot()
-        self.moving = self.lines.draw(lower, int(self.steps[0]))
+        self.lines = CentreLines(run, lower)
         lower.set_xlabel(ALONG_X)
         self.caption = lower.set_title(" ", fontsize=9, loc="left")
         self.show(0)
@@ -146,7 +139,7 @@ class Movie:
         step = int(self.steps[number])
         factor, unit = time_unit(self.run)
         self.caption.set_text(f"t = {self.run.history.time[step] * factor:.4g} {unit}")
-        self.lines.move(self.moving, step)
+        self.lines.show(step)
         if self.film is not None:
             shown = self.run.frames.film[number][window_part(self.run.start)]
             self.film.set_data(shown * np.float32(MICRO))
@@ -164,16 +157,13 @@ def _film_image(axes: Axes, run: TransientResult) -> AxesImage:
     films = run.frames.film[:, rows, columns]
     inside = np.hypot(scaled.x[None, columns], scaled.y[rows, None]) < 0.8
     low, high = float(films.min()) * MICRO, float(films[:, inside].max()) * MICRO
-    (west, east), (south, north) = map(_edges, window_places(run.start))
-    top, extent = high + 0.15 * (high - low), (west, east, south, north)
-    style: dict[str, Any] = {"origin": "lower", "interpolation": "bilinear"}
-    image = axes.imshow(films[0] * MICRO, extent=extent, vmin=low, vmax=top, **style)
+    edges = []
+    for axis in window_places(run.start):
+        half = 0.5 * float(axis[1] - axis[0])
+        edges += [float(axis[0]) - half, float(axis[-1]) + half]
+    style: dict[str, Any] = {"origin": "lower", "interpolation": "bilinear", "extent": edges}
+    top = high + 0.15 * (high - low)
+    image = axes.imshow(films[0] * MICRO, vmin=low, vmax=top, **style)
     dress_contact(axes, run.start)
     axes.figure.colorbar(image, cax=colour_axes(axes), extend="max", label="film h [µm]")
     return image
-
-
-def _edges(axis: Array) -> tuple[float, float]:
-    """Return the outer edges of the first and of the last cell."""
-    half = 0.5 * float(axis[1] - axis[0])
-    return float(axis[0]) - half, float(axis[-1]) + half

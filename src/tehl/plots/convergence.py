@@ -1,6 +1,7 @@
 """Convergence of the iteration."""
 
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -8,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator, NullFormatter
 
-from tehl.plots.frame import BLUE, GREEN, ORANGE, figure, plain_legend
+from tehl.plots.frame import BLUE, GREEN, ORANGE, PLAIN, figure
 from tehl.result import Result
 
 _CURVES = (
@@ -44,8 +45,8 @@ def residual_history(result: Result) -> Figure:
         _align_decades(axes, right)
     _separate_grids(axes, [report.points for report in result.history])
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-    columns = 3 if len(lines) == 3 else 2
-    plain_legend(axes, "upper center", (0.5, -0.13), handles=lines, ncols=columns)
+    below: dict[str, Any] = {"bbox_to_anchor": (0.5, -0.13), "ncols": 3 if len(lines) == 3 else 2}
+    axes.legend(handles=lines, loc="upper center", **below, **PLAIN)
     return picture
 
 
@@ -66,9 +67,8 @@ def _align_decades(left: Axes, right: Axes) -> None:
     low, high = left.get_ylim()
     apart = 10.0 ** np.ceil(np.log10(values.max() / high))
     low = min(low, 0.5 * float(values.min()) / apart)
-    left.set_ylim(low, high)
-    right.set_ylim(low * apart, high * apart)
-    for axes in (left, right):
+    for axes, factor in ((left, 1.0), (right, apart)):
+        axes.set_ylim(low * factor, high * factor)
         axes.yaxis.set_minor_formatter(NullFormatter())
 
 

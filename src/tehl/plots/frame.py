@@ -1,11 +1,9 @@
 """Parts that the pictures of a contact share: title, banner, window, map, colour bar, legend."""
 
-from collections.abc import Sequence
 from textwrap import fill
 from typing import Any
 
 import numpy as np
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colorbar import Colorbar
 from matplotlib.contour import QuadContourSet
@@ -20,8 +18,7 @@ from tehl.result import Result
 from tehl.transient_result import TransientResult
 from tehl.typing import Array
 
-MICRO = 1e6
-GIGA = 1e-9
+MICRO, GIGA = 1e6, 1e-9
 WINDOW = ((-2.2, 1.6), (-1.7, 1.7))
 """Part of the domain that is shown, along x and y [Hertz half-widths]."""
 STEPS = (1, 2, 2.5, 5, 10)
@@ -30,6 +27,10 @@ PRESSURE, FILM = BLUE, ORANGE
 """Colours of pressure and film."""
 ALONG_X = "x along entrainment [µm]  (y = 0)"
 """Label of the axis of a centre line."""
+MAP: dict[str, Any] = {"shading": "gouraud", "rasterized": True}
+"""Style of the colours of a map."""
+PLAIN: dict[str, Any] = {"fontsize": 8, "frameon": False}
+"""Style of a small legend."""
 _LONGEST = 5.8
 _SLENDER = 6.0
 
@@ -53,7 +54,7 @@ def figure(
     start = result.start if isinstance(result, TransientResult) else result
     title = fill(start.problem.title, 80).replace("$", r"\$") or "Lubricated point contact"
     picture = Figure(figsize=size, layout="constrained")
-    picture.suptitle(f"{title}\n{_subtitle(result)}\n{note}".strip(), fontsize=9)
+    picture.suptitle(f"{title}\n{_subtitle(result, start)}\n{note}".strip(), fontsize=9)
     if not result.status.converged:
         cause = result.status.outcome.removeprefix("not converged").removeprefix(": ")
         style: dict[str, Any] = {"color": "white", "backgroundcolor": "#b3001b", "weight": "bold"}
@@ -61,9 +62,8 @@ def figure(
     return picture
 
 
-def _subtitle(result: Result | TransientResult) -> str:
+def _subtitle(result: Result | TransientResult, start: Result) -> str:
     """Return groups, and the film of a steady result or the sliding of a transient one."""
-    start = result.start if isinstance(result, TransientResult) else result
     groups, film, scaled = start.groups, start.film, start.film_scaled
     about = (
         f"M = {groups.M:.4g}, L = {groups.L:.4g}, "
@@ -85,13 +85,18 @@ def length(metres: float) -> str:
 
 
 def map_figure(result: Result, note: str = "") -> tuple[Figure, Axes]:
-    """Return a figure for one map, shaped as the contact, and its axes; ``note`` ends the title."""
+    """Return a figure for one map, shaped as the contact, and its axes with arrow and legend.
+
+    ``note`` ends the title.
+    """
     ratio = slenderness(result)
     longest = 4.9 if 0.5 < ratio < 2.0 else _LONGEST
     width, height = (longest, longest * ratio) if ratio < 1 else (longest / ratio, longest)
     picture = figure(result, (max(width + 1.8, 5.6), max(height + 1.6, 3.4)), note)
     axes = picture.add_subplot()
     dress_contact(axes, result)
+    entrainment_arrow(axes)
+    legend_above(axes)
     return picture, axes
 
 
@@ -115,20 +120,26 @@ def window(result: Result) -> tuple[Span, Span]:
 
 def slenderness(result: Result) -> float:
     """Return the height of the window over its width."""
-    (west, east), (south, north) = window(result)
-    return (north - south) / (east - west) * result.groups.ellipticity
+    x, y = window(result)
+    return float(np.ptp(y) / np.ptp(x) * result.groups.ellipticity)
 
 
 def window_part(result: Result) -> tuple[slice, slice]:
     """Return the part (rows, columns) of the fields inside the window, and one node around it."""
     x, y = window(result)
-    return span_part(result.scaled.y, *y), span_part(result.scaled.x, *x)
+    return span_part(result.scaled.y, y), span_part(result.scaled.x, x)
 
 
-def span_part(axis: Array, low: float, high: float) -> slice:
+def span_part(axis: Array, span: Span) -> slice:
     """Return the nodes of ``axis`` between two places, and one on either side."""
-    inside = np.flatnonzero((axis >= low) & (axis <= high))
+    inside = np.flatnonzero((axis >= span[0]) & (axis <= span[1]))
     return slice(max(int(inside[0]) - 1, 0), int(inside[-1]) + 2)
+
+
+def window_places(result: Result) -> tuple[Array, Array]:
+    """Return x and y [um] of the nodes that :func:`window_part` shows."""
+    rows, columns = window_part(result)
+    return result.x[columns] * MICRO, result.y[rows] * MICRO
 
 
 def centre_row(result: Result) -> int:
@@ -139,12 +150,10 @@ def centre_row(result: Result) -> int:
 def dress_contact(axes: Axes, result: Result) -> None:
     """Give axes micrometres, equal aspect, the window and the Hertz ellipse of ``result``."""
     widths = (result.scales.half_width_x * MICRO, result.scales.half_width_y * MICRO)
+    x, y = ((low * a, high * a) for (low, high), a in zip(window(result), widths, strict=True))
     axes.set_aspect("equal")
-    axes.set(xlabel="x along entrainment [µm]", ylabel="y [µm]")
-    spans = zip(window(result), widths, strict=True)
-    limits = [(low * width, high * width) for (low, high), width in spans]
-    axes.set(xlim=limits[0], ylim=limits[1])
-    slender = np.ptp(limits[1]) / np.ptp(limits[0])
+    axes.set(xlabel="x along entrainment [µm]", ylabel="y [µm]", xlim=x, ylim=y)
+    slender = np.ptp(y) / np.ptp(x)
     axes.xaxis.set_major_locator(MaxNLocator(3 if slender > 2 else 8, steps=STEPS))
     axes.yaxis.set_major_locator(MaxNLocator(3 if slender < 0.5 else 8, steps=STEPS))
     style: dict[str, Any] = {"color": "white", "ls": "--", "lw": 1.1, "zorder": 5}
@@ -152,55 +161,9 @@ def dress_contact(axes: Axes, result: Result) -> None:
     axes.add_patch(rim).set_path_effects(outline("0.25", 1.9))
 
 
-def coloured(axes: Axes, result: Result, shown: Array, **style: Any) -> Any:
-    """Draw the part of a field inside the window as colours; ``style`` is that of pcolormesh."""
-    places = window_places(result)
-    return axes.pcolormesh(*places, shown, shading="gouraud", rasterized=True, **style)
-
-
-def window_places(result: Result) -> tuple[Array, Array]:
-    """Return x and y [um] of the nodes that :func:`window_part` shows."""
-    rows, columns = window_part(result)
-    return result.x[columns] * MICRO, result.y[rows] * MICRO
-
-
-def finish_map(
-    picture: Figure,
-    mesh: Any,
-    label: str,
-    *,
-    lines: tuple[QuadContourSet, Array] | None = None,
-    marks: Sequence[Line2D] = (),
-    extend: Any = None,
-) -> Colorbar:
-    """Add the arrow of entrainment, the legend and the colour bar to the map of a picture.
-
-    Parameters
-    ----------
-    picture : Figure
-        Made by :func:`map_figure`.
-    mesh : ScalarMappable
-        What the colours belong to.
-    label : str
-        Quantity and unit of the colour bar.
-    lines : (QuadContourSet, array), optional
-        Contour lines and their values, shown on the colour bar beside zero.
-    marks : sequence of Line2D
-        More entries of the legend.
-    extend : {"neither", "both", "min", "max"}, optional
-        Ends of the colour bar that stand for values beyond.
-    """
-    axes = picture.axes[0]
-    entrainment_arrow(axes)
-    legend_above(axes, *marks)
-    bar = picture.colorbar(mesh, cax=colour_axes(axes), extend=extend, label=label)
-    if lines is not None:
-        rule(bar, *lines)
-    return bar
-
-
-def rule(bar: Colorbar, lines: QuadContourSet, levels: Array) -> None:
+def mark_levels(bar: Colorbar, lines: QuadContourSet) -> None:
     """Mark contour lines and zero on a colour bar."""
+    levels = np.asarray(lines.levels)
     if levels.size:
         bar.add_lines(lines)
     bar.set_ticks(sorted({0.0, *levels}))
@@ -209,57 +172,41 @@ def rule(bar: Colorbar, lines: QuadContourSet, levels: Array) -> None:
 def legend_above(axes: Axes, *others: Line2D) -> None:
     """Put a legend of the Hertz contact and of ``others`` above the map, where it hides nothing."""
     rim = Line2D([], [], label="Hertz contact", color="white", ls="--", lw=1.3)
-    axes.legend(
-        handles=[rim, *others],
-        loc="lower center",
-        bbox_to_anchor=(0.5, 1.0),
-        ncols=2,
-        fontsize=8,
-        facecolor="0.78",
-        edgecolor="none",
-        handlelength=2.6,
-    )
-
-
-def plain_legend(axes: Axes, place: Any, anchor: tuple[float, float], **style: Any) -> None:
-    """Put a small legend without a frame at ``anchor``, in parts of the axes."""
-    axes.legend(loc=place, bbox_to_anchor=anchor, fontsize=8, frameon=False, **style)
+    style: dict[str, Any] = {"facecolor": "0.78", "edgecolor": "none", "handlelength": 2.6}
+    place: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "ncols": 2}
+    axes.legend(handles=[rim, *others], fontsize=8, **place, **style)
 
 
 def colour_axes(axes: Axes) -> Axes:
     """Return axes for a colour bar at the right of a map, as tall as the map."""
-    (west, east), (south, north) = axes.get_xlim(), axes.get_ylim()
-    thick = 0.045 * max((north - south) / (east - west), 1.0)
+    thick = 0.045 * max(float(np.ptp(axes.get_ylim()) / np.ptp(axes.get_xlim())), 1.0)
     return axes.inset_axes((1.0 + 0.8 * thick, 0.0, thick, 1.0))
 
 
 def entrainment_arrow(axes: Axes) -> None:
     """Draw the direction of entrainment, in one size on all maps."""
-    place: dict[str, Any] = {"xycoords": "axes points", "color": "white", "fontsize": 8}
+    place: dict[str, Any] = {"xycoords": "axes points", "zorder": 6}
     style = {"arrowstyle": "-|>", "color": "white", "lw": 1.6, "shrinkA": 0, "shrinkB": 0}
-    arrow = axes.annotate(
-        "", (46, 9), (6, 9), "axes points", "axes points", arrowprops=style, zorder=6
-    )
-    words = axes.annotate("oil enters", (6, 15), **place, zorder=6)
-    for part, width in ((arrow.arrow_patch, 3.2), (words, 2.4)):
-        if isinstance(part, Artist):
-            part.set_path_effects(outline("0.15", width))
+    arrow: Any = axes.annotate("", (46, 9), (6, 9), arrowprops=style, **place)
+    arrow.arrow_patch.set_path_effects(outline("0.15", 3.2))
+    words = axes.annotate("oil enters", (6, 15), color="white", fontsize=8, **place)
+    words.set_path_effects(outline("0.15", 2.4))
 
 
-def outline(colour: str = "black", width: float = 2.4) -> list[AbstractPathEffect]:
+def outline(colour: str, width: float) -> list[AbstractPathEffect]:
     """Return path effects that keep a thin line or a text legible on any ground."""
     return [withStroke(linewidth=width, foreground=colour)]
 
 
-def nice_levels(low: float, high: float, count: int) -> Array:
-    """Return about ``count`` round values from ``low`` to ``high`` or a little beyond."""
-    locator = MaxNLocator(count, steps=STEPS)
-    return np.asarray(locator.tick_values(low, high), dtype=np.float64)
+def nice_levels(span: Span, count: int) -> Array:
+    """Return about ``count`` round values from end to end of ``span`` or a little beyond."""
+    return np.asarray(MaxNLocator(count, steps=STEPS).tick_values(*span), dtype=np.float64)
 
 
-def inner_levels(low: float, high: float, count: int = 10) -> Array:
-    """Return about ``count`` round values between ``low`` and ``high``; none if they are equal."""
+def inner_levels(span: Span) -> Array:
+    """Return about ten round values inside ``span``; none if its ends are equal."""
+    low, high = span
     if not high > low:
         return np.empty(0)
-    levels = nice_levels(low, high, count)
+    levels = nice_levels(span, 10)
     return levels[(levels > low) & (levels < high)]

@@ -15,11 +15,13 @@ from typing import Literal
 import numpy as np
 from matplotlib.figure import Figure
 
-from tehl.plots.frame import MICRO, entrainment_arrow, legend_above, map_figure, window_part
+from tehl.plots.frame import MICRO, map_figure, window_part
 from tehl.result import Result
 from tehl.typing import Array
 
 Light = Literal["white", "dichromatic", "monochromatic"]
+_PIXELS = 900
+"""Pixels along x; the film is interpolated so that fringes stay clean."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -60,102 +62,71 @@ class Optics:
     ball_reflectance: float = 0.60
     phase: float = np.pi
 
+    def thickness(self, film: Array, density_ratio: Array | float = 1.0) -> Array:
+        r"""Return the optical thickness ``n h + n_s h_s`` [m] of a film [m] and the spacer.
 
-def interferogram(result: Result, optics: Optics | None = None, *, pixels: int = 900) -> Figure:
-    """Draw the film as an optical rig shows it.
+        The index n of the oil follows its density, ``density_ratio`` times that at ambient
+        pressure, after Lorentz and Lorenz, :math:`(n^2 - 1)/(n^2 + 2) \propto \rho`: some 8 % more
+        at 0.8 GPa.
+        """
+        squared = self.refractive_index**2
+        refraction = (squared - 1.0) / (squared + 2.0) * density_ratio
+        index = np.sqrt((1.0 + 2.0 * refraction) / (1.0 - refraction))
+        return index * film + self.spacer_index * self.spacer_thickness
 
-    Parameters
-    ----------
-    result : Result
-        What to draw.
-    optics : Optics, optional
-        Light and layers; white light by default.
-    pixels : int
-        Pixels along x; the film is interpolated so that fringes stay clean.
+    def reflectance(self, thickness: Array, wavelength: Array | float) -> Array:
+        """Return the reflected part of light of a wavelength in vacuum [m], by two beams.
 
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The picture, in micrometres.
-    """
-    chosen = Optics() if optics is None else optics
-    x, y, thickness = _fine(result, chosen, pixels)
-    picture, axes = map_figure(result, _caption(chosen))
-    extent = (x[0] * MICRO, x[-1] * MICRO, y[0] * MICRO, y[-1] * MICRO)
-    window = (axes.get_xlim(), axes.get_ylim())
-    axes.imshow(colours(thickness, chosen), extent=extent, origin="lower", interpolation="bilinear")
-    axes.set(xlim=window[0], ylim=window[1])
-    entrainment_arrow(axes)
-    legend_above(axes)
-    return picture
+        ``thickness`` is the optical one [m]; both are broadcast against each other.
+        """
+        first = self.chromium_reflectance
+        second = self.chromium_transmittance**2 * self.ball_reflectance
+        turn = 4.0 * np.pi * thickness / wavelength + self.phase
+        return first + second + 2.0 * np.sqrt(first * second) * np.cos(turn)
 
+    def spectrum(self, wavelength: Array) -> Array:
+        """Return the light of the lamp at each wavelength [m], on any scale."""
+        if self.light == "white":
+            hc_over_k = 1.438777e-2
+            return wavelength**-5 / np.expm1(hc_over_k / (wavelength * self.colour_temperature))
+        lines = self.wavelengths[: 1 if self.light == "monochromatic" else 2]
+        shapes = [np.exp(-0.5 * ((wavelength - line) / self.bandwidth) ** 2) for line in lines]
+        luminosity = _observer(wavelength * 1e9)[:, 1]
+        return np.sum([shape / (shape @ luminosity) for shape in shapes], axis=0)
 
-def _caption(optics: Optics) -> str:
-    lines = [f"{wavelength * 1e9:.0f} nm" for wavelength in optics.wavelengths]
-    light = {
-        "white": f"white light, {optics.colour_temperature:.0f} K, balanced",
-        "dichromatic": f"{lines[0]} and {lines[1]}",
-        "monochromatic": lines[0],
-    }[optics.light]
-    spacer = f", spacer {optics.spacer_thickness * 1e9:.0f} nm" if optics.spacer_thickness else ""
-    return f"synthetic interferogram: {light}, n = {optics.refractive_index:g} at ambient{spacer}"
+    def caption(self) -> str:
+        """Return light, index and spacer in words."""
+        red, green = (f"{wavelength * 1e9:.0f} nm" for wavelength in self.wavelengths)
+        light = {
+            "white": f"white light, {self.colour_temperature:.0f} K, balanced",
+            "dichromatic": f"{red} and {green}",
+            "monochromatic": red,
+        }[self.light]
+        spacer = f", spacer {self.spacer_thickness * 1e9:.0f} nm" if self.spacer_thickness else ""
+        return f"synthetic interferogram: {light}, n = {self.refractive_index:g} at ambient{spacer}"
 
 
-def _fine(result: Result, optics: Optics, pixels: int) -> tuple[Array, Array, Array]:
-    """Return x, y [m] and the optical thickness [m] of the window on a grid of ``pixels``."""
+def interferogram(result: Result, optics: Optics | None = None) -> Figure:
+    """Draw the film as an optical rig shows it; in white light if ``optics`` is left out."""
     from scipy.interpolate import RectBivariateSpline  # noqa: PLC0415 (0.3 s)
 
-    part = window_part(result)
+    chosen, part = Optics() if optics is None else optics, window_part(result)
     x, y = result.x[part[1]], result.y[part[0]]
-    fine_x = np.linspace(x[0], x[-1], pixels)
-    fine_y = np.linspace(y[0], y[-1], max(2, round(pixels * np.ptp(y) / np.ptp(x))))
+    fine_x = np.linspace(x[0], x[-1], _PIXELS)
+    fine_y = np.linspace(y[0], y[-1], max(2, round(_PIXELS * np.ptp(y) / np.ptp(x))))
     film, pressure = (
         np.nan_to_num(field[part], nan=0.0, posinf=0.0, neginf=0.0)
         for field in (result.film_thickness, result.pressure)
     )
     law = result.problem.lubricant.density
     ratio = law.density(pressure, result.scales.temperature) / result.scales.density
-    thickness = optical_thickness(film, optics, ratio)
-    return fine_x, fine_y, RectBivariateSpline(y, x, thickness)(fine_y, fine_x)
-
-
-def optical_thickness(film: Array, optics: Optics, density_ratio: Array | float = 1.0) -> Array:
-    r"""Return the optical thickness ``n h + n_s h_s`` [m] of a film and the spacer.
-
-    The index n of the oil follows its density after Lorentz and Lorenz,
-    :math:`(n^2 - 1)/(n^2 + 2) \propto \rho`: some 8 % more at 0.8 GPa.
-
-    Parameters
-    ----------
-    film : array
-        Film thickness [m].
-    optics : Optics
-        The layers.
-    density_ratio : array or float
-        Density of the oil over that at ambient pressure [-].
-    """
-    squared = optics.refractive_index**2
-    refraction = (squared - 1.0) / (squared + 2.0) * density_ratio
-    index = np.sqrt((1.0 + 2.0 * refraction) / (1.0 - refraction))
-    return index * film + optics.spacer_index * optics.spacer_thickness
-
-
-def reflectance(thickness: Array, wavelength: Array | float, optics: Optics) -> Array:
-    """Return the reflected part of the light, by interference of two beams.
-
-    Parameters
-    ----------
-    thickness : array
-        Optical thickness [m].
-    wavelength : array or float
-        In vacuum [m]; broadcast against ``thickness``.
-    optics : Optics
-        The layers.
-    """
-    first = optics.chromium_reflectance
-    second = optics.chromium_transmittance**2 * optics.ball_reflectance
-    turn = 4.0 * np.pi * thickness / wavelength + optics.phase
-    return first + second + 2.0 * np.sqrt(first * second) * np.cos(turn)
+    thickness = RectBivariateSpline(y, x, chosen.thickness(film, ratio))(fine_y, fine_x)
+    picture, axes = map_figure(result, chosen.caption())
+    extent = (x[0] * MICRO, x[-1] * MICRO, y[0] * MICRO, y[-1] * MICRO)
+    limits = {"xlim": axes.get_xlim(), "ylim": axes.get_ylim()}
+    axes.imshow(colours(thickness, chosen), extent=extent, origin="lower", interpolation="bilinear")
+    axes.set(**limits)
+    return picture
 
 
 def colours(thickness: Array, optics: Optics) -> Array:
@@ -165,30 +136,15 @@ def colours(thickness: Array, optics: Optics) -> Array:
     """
     top = max(float(np.max(thickness)), 1e-6)
     table = np.linspace(0.0, top, int(np.clip(top / 1e-9, 500, 20000)))
-    linear = _linear_rgb(table, optics)
-    linear = np.clip(linear / linear.max(), 0.0, 1.0)
-    screen = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
-    return np.stack([np.interp(thickness, table, channel) for channel in screen.T], axis=-1)
-
-
-def _linear_rgb(thickness: Array, optics: Optics) -> Array:
     wavelength = np.arange(380.0, 781.0) * 1e-9
-    weights = _spectrum(wavelength, optics)[:, None] * _observer(wavelength * 1e9) @ _SRGB.T
-    spectra = reflectance(thickness[:, None], wavelength[None, :], optics)
+    weights = optics.spectrum(wavelength)[:, None] * _observer(wavelength * 1e9) @ _SRGB.T
     if optics.light == "white":
         weights = weights / weights.sum(axis=0)
-    return np.maximum(spectra @ weights, 0.0)
-
-
-def _spectrum(wavelength: Array, optics: Optics) -> Array:
-    """Return the light of the lamp at each wavelength, on any scale."""
-    if optics.light == "white":
-        hc_over_k = 1.438777e-2
-        return wavelength**-5 / np.expm1(hc_over_k / (wavelength * optics.colour_temperature))
-    lines = optics.wavelengths[: 1 if optics.light == "monochromatic" else 2]
-    shapes = [np.exp(-0.5 * ((wavelength - line) / optics.bandwidth) ** 2) for line in lines]
-    luminosity = _observer(wavelength * 1e9)[:, 1]
-    return np.sum([shape / (shape @ luminosity) for shape in shapes], axis=0)
+    spectra = optics.reflectance(table[:, None], wavelength[None, :])
+    linear = np.maximum(spectra @ weights, 0.0)
+    linear = linear / linear.max()
+    screen = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+    return np.stack([np.interp(thickness, table, channel) for channel in screen.T], axis=-1)
 
 
 def _observer(nm: Array) -> Array:

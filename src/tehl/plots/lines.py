@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from tehl.errors import InputError
 from tehl.plots.frame import (
@@ -15,27 +16,25 @@ from tehl.plots.frame import (
     GIGA,
     GREEN,
     MICRO,
+    PLAIN,
     PRESSURE,
     STEPS,
     WINDOW,
-    Span,
     centre_row,
     figure,
-    plain_legend,
     span_part,
 )
 from tehl.plots.maps import FILTERED, heights_of
-from tehl.plots.temperature import Line, temperature_lines
+from tehl.plots.temperature import Line, rises
 from tehl.post.film import Profile, hertz_pressure, profile_x, profile_y
 from tehl.post.micro_film import micro_film
 from tehl.post.roughness import film_histogram, rough_film
 from tehl.result import Result
-from tehl.typing import Array
 
 _REACH = 1.25
 """Half-widths of the centre line between rough surfaces, on each side."""
-_AROUND = 1.4
-"""Half-widths of the pressure profiles, on each side."""
+_AROUND = (-1.4, 1.4)
+"""Part of both axes with profiles of the pressure [half-widths]."""
 _PROFILES = 45
 
 
@@ -51,36 +50,34 @@ def centre_lines(result: Result) -> Figure:
     column = int(np.argmin(np.abs(result.scaled.x)))
     lines: tuple[Line, Line] = ((centre_row(result), slice(None)), (slice(None), column))
     profiles = (profile_x(result), profile_y(result))
-    for panels, profile, window, line in zip(grid, profiles, WINDOW, lines, strict=True):
+    for panels, profile, (low, high), line in zip(grid, profiles, WINDOW, lines, strict=True):
+        place, scaled = profile.coordinate * MICRO, profile.scaled_coordinate
         curves = [_pressure_and_film(panels[0], result, profile)]
         if thermal:
-            temperature_lines(panels[1], profile.coordinate * MICRO, line, result)
+            for rise, style in rises(result, line):
+                panels[1].plot(place, rise, **style)
+            panels[1].set_ylabel("temperature rise [K]")
             panels[1].grid(axis="y", lw=0.3)
             curves.append(panels[1].lines)
+        shown = place[(scaled >= low) & (scaled <= high)]
         for axes in panels:
-            axes.set_xlim(_limits(profile, window))
+            axes.set_xlim(shown[0], shown[-1])
     for (upper, lower), handles in zip(grid.T, curves, strict=True):
         upper.set_xlabel(ALONG_X)
         lower.set_xlabel("y [µm]  (x = 0)")
-        plain_legend(lower, "upper center", (0.5, -0.15), handles=handles, ncols=4)
+        below: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.15)}
+        lower.legend(handles=handles, ncols=4, **below, **PLAIN)
     return picture
-
-
-def _limits(profile: Profile, window: Span) -> tuple[float, float]:
-    inside = (profile.scaled_coordinate >= window[0]) & (profile.scaled_coordinate <= window[1])
-    shown = profile.coordinate[inside] * MICRO
-    return float(shown[0]), float(shown[-1])
 
 
 def _pressure_and_film(axes: Axes, result: Result, profile: Profile) -> list[Any]:
     """Draw pressure and film along a line; return the curves."""
-    place = profile.coordinate * MICRO
+    place, film = profile.coordinate * MICRO, axes.twinx()
     dry: dict[str, Any] = {"color": "0.45", "lw": 1.0, "ls": "--", "label": "dry Hertz"}
     axes.plot(place, profile.hertz_pressure * GIGA, **dry)
     axes.plot(place, profile.pressure * GIGA, color=PRESSURE, lw=1.4, label="pressure")
     axes.set_ylabel("pressure p [GPa]", color=PRESSURE)
     axes.set_ylim(bottom=0.0)
-    film = axes.twinx()
     film.plot(place, profile.dry_gap * MICRO, color=FILM, lw=0.8, ls=":", label="dry gap")
     film.plot(place, profile.film_thickness * MICRO, color=FILM, lw=1.4, label="film")
     _show_film_behind(axes, film, result, 4.0)
@@ -126,7 +123,7 @@ def rough_centre_line(result: Result, smooth: Result | None = None) -> Figure:
     ripple = np.where(shown, micro_film(result, smooth).film[row, inside] * 1e9, np.nan)
     lower.plot(place, ripple, color=FILM, lw=1.2, label="ripple of the film")
     lower.set(xlabel=ALONG_X, ylabel="deviation from the mean [nm]", xlim=(place[0], place[-1]))
-    plain_legend(lower, "upper left", (0.0, -0.22), ncols=2)
+    lower.legend(loc="upper left", bbox_to_anchor=(0.0, -0.22), ncols=2, **PLAIN)
     return picture
 
 
@@ -155,7 +152,7 @@ def film_distribution(result: Result) -> Figure:
     median = dict(found.quantiles)[0.5]
     if math.isfinite(median):
         axes.axvline(median * 1e9, color="0.3", lw=1.0, label="median film")
-    plain_legend(axes, "lower center", (0.5, 1.0), ncols=2)
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, **PLAIN)
     return picture
 
 
@@ -167,13 +164,19 @@ def pressure_surface(result: Result) -> Figure:
     """
     picture = figure(result, (7.0, 5.4))
     axes: Any = picture.add_subplot(projection="3d", computed_zorder=False)
-    columns = span_part(result.scaled.x, -_AROUND, _AROUND)
-    every = np.arange(result.scaled.y.size)[span_part(result.scaled.y, -_AROUND, _AROUND)]
+    columns = span_part(result.scaled.x, _AROUND)
+    every = np.arange(result.scaled.y.size)[span_part(result.scaled.y, _AROUND)]
     rows = np.unique(np.linspace(every[0], every[-1], _PROFILES).round().astype(int))
     x, y = result.x[columns] * MICRO, result.y[rows] * MICRO
     pressure = np.nan_to_num(result.pressure[rows][:, columns] * GIGA)
     top = max(float(pressure.max()), 1e-9)
-    axes.add_collection3d(_curtains(x, y, pressure))
+    ends = np.concatenate([x[:1], x, x[-1:]])
+    curtains = [
+        np.column_stack([ends, np.full(ends.size, place), np.pad(row, 1)])
+        for place, row in zip(y, pressure, strict=True)
+    ]
+    style: dict[str, Any] = {"facecolors": "#dbe6f2", "edgecolors": "#16325c", "linewidths": 0.6}
+    axes.add_collection3d(Poly3DCollection(curtains, **style))
     axes.set(xlim=x[[0, -1]], ylim=y[[0, -1]], zlim=(0.0, 1.02 * top))
     axes.set_xlabel("x [µm]", labelpad=3)
     axes.set_ylabel("y [µm]", labelpad=5)
@@ -184,15 +187,3 @@ def pressure_surface(result: Result) -> Figure:
         axis.set_major_locator(MaxNLocator(4, steps=STEPS))
     axes.view_init(elev=27, azim=-52)
     return picture
-
-
-def _curtains(x: Array, y: Array, pressure: Array) -> Any:
-    """Return one polygon below each profile."""
-    from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # noqa: PLC0415 (0.1 s)
-
-    ends = np.concatenate([x[:1], x, x[-1:]])
-    curtains = [
-        np.column_stack([ends, np.full(ends.size, place), np.pad(row, 1)])
-        for place, row in zip(y, pressure, strict=True)
-    ]
-    return Poly3DCollection(curtains, facecolors="#dbe6f2", edgecolors="#16325c", linewidths=0.6)

@@ -13,32 +13,33 @@ from tehl.errors import InputError
 from tehl.fields import SurfaceHeights
 from tehl.plots.frame import (
     GIGA,
+    MAP,
     MICRO,
     STEPS,
-    Span,
-    coloured,
+    colour_axes,
     dress_contact,
     entrainment_arrow,
     figure,
-    finish_map,
     inner_levels,
+    legend_above,
     length,
     map_figure,
+    mark_levels,
     nice_levels,
     slenderness,
     window_part,
     window_places,
 )
-from tehl.post.micro_film import MicroFilm, micro_film
+from tehl.post.micro_film import micro_film
 from tehl.post.roughness import in_contact, rough_film
 from tehl.result import Result
 from tehl.typing import Array
 
 FILTERED = 0.75
-"""Half-widths within which ripples by a filter are shown: at the rim the filter sees the rim."""
+"""Half-widths within which filtered ripples are shown: the filter smears the rim of the contact."""
 _SHOWN = (0.5, 99.5)
 """Percentiles of the heights between which colours change."""
-_RIPPLES = {"film": (1e9, "nm"), "pressure": (1e-6, "MPa")}
+_LINES: dict[str, Any] = {"colors": "black", "linewidths": 0.6}
 
 
 def film_map(result: Result) -> Figure:
@@ -49,31 +50,26 @@ def film_map(result: Result) -> Figure:
     lobes show.
     """
     picture, axes = map_figure(result)
-    film = result.film_thickness[window_part(result)] * MICRO
+    places, film = window_places(result), result.film_thickness[window_part(result)] * MICRO
     low, central = _film_range(result, film)
     bottom, top = 0.95 * low, 1.6 * central
-    mesh = coloured(axes, result, film.clip(bottom, top), norm=LogNorm(bottom, top))
-    _film_contours(axes, window_places(result), film, film_levels(low, central))
-    marks = _mark_minimum(axes, result)
-    bar = finish_map(picture, mesh, "film thickness h [µm]", marks=marks, extend="max")
-    ticks = nice_levels(low, top, 8)
+    norm = LogNorm(bottom, top)
+    mesh = axes.pcolormesh(*places, film.clip(bottom, top), norm=norm, **MAP)
+    inner, outer = film_levels(low, central)
+    lines = axes.contour(*places, film, levels=inner, colors="white", linewidths=0.7)
+    outside = axes.contour(*places, film, levels=outer, colors="black", linewidths=0.5, alpha=0.6)
+    if 0.5 < slenderness(result) < 2.0:  # slender contacts have no room for labels
+        axes.clabel(lines, inner[1::2], fontsize=7, fmt="%.3g")
+        axes.clabel(outside, fontsize=7, fmt="%.3g")
+    legend_above(axes, *_mark_minimum(axes, result))
+    label = "film thickness h [µm]"
+    bar = picture.colorbar(mesh, cax=colour_axes(axes), extend="max", label=label)
     bar.ax.yaxis.set_minor_locator(NullLocator())
     bar.ax.yaxis.set_minor_formatter(NullFormatter())
+    ticks = nice_levels((low, top), 8)
     ticks = ticks[(ticks >= bottom) & (ticks <= top)]
     bar.ax.set_yticks(ticks, [f"{tick:.4g}" for tick in ticks], fontsize=8)
     return picture
-
-
-def _film_contours(
-    axes: Axes, places: tuple[Array, Array], film: Array, levels: tuple[Array, Array]
-) -> None:
-    """Draw the contour lines; slender contacts have no room for labels."""
-    inner, outer = levels
-    lines = axes.contour(*places, film, levels=inner, colors="white", linewidths=0.7)
-    outside = axes.contour(*places, film, levels=outer, colors="black", linewidths=0.5, alpha=0.6)
-    if 0.5 < np.ptp(axes.get_ylim()) / np.ptp(axes.get_xlim()) < 2.0:
-        axes.clabel(lines, inner[1::2], fontsize=7, fmt="%.3g")
-        axes.clabel(outside, fontsize=7, fmt="%.3g")
 
 
 def _film_range(result: Result, film: Array) -> tuple[float, float]:
@@ -88,11 +84,9 @@ def _film_range(result: Result, film: Array) -> tuple[float, float]:
 
 def film_levels(low: float, central: float) -> tuple[Array, Array]:
     """Return contour levels: close ones up to 1.1 central films, wide ones up to three."""
-    fine = nice_levels(low, 1.1 * central, 6)
-    inner = fine[(fine > low) & (fine <= 1.1 * central)]
-    wide = nice_levels(1.1 * central, 3.0 * central, 5)
-    outer = wide[(wide > 1.1 * central) & (wide <= 3.0 * central)]
-    return inner, outer
+    middle, top = 1.1 * central, 3.0 * central
+    fine, wide = nice_levels((low, middle), 6), nice_levels((middle, top), 5)
+    return fine[(fine > low) & (fine <= middle)], wide[(wide > middle) & (wide <= top)]
 
 
 def _mark_minimum(axes: Axes, result: Result) -> list[Line2D]:
@@ -102,15 +96,9 @@ def _mark_minimum(axes: Axes, result: Result) -> list[Line2D]:
     x, y = result.film_scaled.minimum_at
     film = result.scaled.film
     across = (y, -y) if y and np.allclose(film, film[::-1], equal_nan=True) else (y,)
-    return axes.plot(
-        np.full(len(across), x * result.scales.half_width_x * MICRO),
-        np.array(across) * result.scales.half_width_y * MICRO,
-        "r+",
-        ms=6,
-        mew=1.3,
-        zorder=7,
-        label="minimum film",
-    )
+    widths = result.scales.half_width_x * MICRO, result.scales.half_width_y * MICRO
+    places = np.full(len(across), x * widths[0]), np.array(across) * widths[1]
+    return axes.plot(*places, "r+", ms=6, mew=1.3, zorder=7, label="minimum film")
 
 
 def pressure_map(result: Result) -> Figure:
@@ -118,20 +106,15 @@ def pressure_map(result: Result) -> Figure:
 
     Lines follow a slightly smoothed copy of the pressure.
     """
-    pressure = result.pressure[window_part(result)] * GIGA
+    places, pressure = window_places(result), result.pressure[window_part(result)] * GIGA
     top = float(np.max(pressure, initial=0.0, where=np.isfinite(pressure)))
-    levels = nice_levels(0.0, top if top > 0 else 1.0, 8)
+    levels = nice_levels((0.0, top if top > 0 else 1.0), 8)
     levels = levels[(levels > 0) & (levels < top)] if top > 0 else levels[1:]
     picture, axes = map_figure(result)
-    mesh = coloured(axes, result, pressure, cmap="cividis")
-    lines = _contours(axes, result, _smoothed(pressure), levels)
-    finish_map(picture, mesh, "pressure p [GPa]", lines=(lines, levels))
+    mesh = axes.pcolormesh(*places, pressure, cmap="cividis", **MAP)
+    lines = axes.contour(*places, _smoothed(pressure), levels=levels, **_LINES)
+    mark_levels(picture.colorbar(mesh, cax=colour_axes(axes), label="pressure p [GPa]"), lines)
     return picture
-
-
-def _contours(axes: Axes, result: Result, shown: Array, levels: Array) -> Any:
-    places = window_places(result)
-    return axes.contour(*places, shown, levels=levels, colors="black", linewidths=0.6)
 
 
 def _smoothed(field: Array) -> Array:
@@ -139,12 +122,9 @@ def _smoothed(field: Array) -> Array:
 
     The contour lines of a ridge narrower than a few nodes would otherwise break into islands.
     """
-    for axis in (0, 1):
-        for _ in range(2):
-            wide = np.pad(field, [(1, 1) if axis == side else (0, 0) for side in (0, 1)], "edge")
-            count = field.shape[axis]
-            below, here, above = (wide.take(range(i, i + count), axis) for i in range(3))
-            field = 0.25 * below + 0.5 * here + 0.25 * above
+    for _ in range(4):  # along one axis, then the other
+        wide = np.pad(field, ((0, 0), (1, 1)), "edge")
+        field = (0.25 * wide[:, :-2] + 0.5 * field + 0.25 * wide[:, 2:]).T
     return field
 
 
@@ -161,14 +141,14 @@ def shear_stress_map(result: Result) -> Figure:
         f"at mid-film, {traction.surface_1:.4g} and {traction.surface_2:.4g} on surfaces 1 and 2"
     )
     picture, axes = map_figure(result, note)
+    places = window_places(result)
     stress = np.hypot(shear.mid_film, shear.across)[window_part(result)] * 1e-6
     top = float(np.max(stress, initial=0.0, where=np.isfinite(stress)))
-    levels = inner_levels(0.0, top)
-    mesh = coloured(axes, result, stress, cmap="cividis", clim=(0.0, top if top > 0 else 1.0))
-    lines = _contours(axes, result, stress, levels)
-    finish_map(
-        picture, mesh, "magnitude of the shear stress at mid-film [MPa]", lines=(lines, levels)
-    )
+    span = (0.0, top if top > 0 else 1.0)
+    mesh = axes.pcolormesh(*places, stress, cmap="cividis", clim=span, **MAP)
+    lines = axes.contour(*places, stress, levels=inner_levels((0.0, top)), **_LINES)
+    label = "magnitude of the shear stress at mid-film [MPa]"
+    mark_levels(picture.colorbar(mesh, cax=colour_axes(axes), label=label), lines)
     return picture
 
 
@@ -185,25 +165,20 @@ def heights_map(result: Result) -> Figure:
     Peaks narrow the film. Raises InputError if both surfaces are smooth.
     """
     heights = heights_of(result).together[window_part(result)] * 1e9
-    found = rough_film(result)
-    note = ""
+    found, note = rough_film(result), ""
     if found is not None:
-        note = f"Sq = {length(found.composite)} of both surfaces, "
-        note += f"lambda ratio {found.lambda_ratio:.3g}"
+        sq = length(found.composite)
+        note = f"Sq = {sq} of both surfaces, lambda ratio {found.lambda_ratio:.3g}"
     picture, axes = map_figure(result, note)
     low, high = (float(value) for value in np.percentile(heights, _SHOWN))
-    span = (low, high) if high > low else (low - 0.5, high + 0.5)
-    mesh = coloured(axes, result, heights, clim=span)
+    low, high = (low, high) if high > low else (low - 0.5, high + 0.5)
+    mesh = axes.pcolormesh(*window_places(result), heights, clim=(low, high), **MAP)
+    slack = 1e-3 * (high - low)
+    ends = {(True, True): "both", (True, False): "min", (False, True): "max"}
+    beyond = ends.get((bool(heights.min() < low - slack), bool(heights.max() > high + slack)))
     label = "height of both surfaces, outwards [nm]"
-    finish_map(picture, mesh, label, extend=_ends(heights, span))
+    picture.colorbar(mesh, cax=colour_axes(axes), extend=beyond or "neither", label=label)
     return picture
-
-
-def _ends(shown: Array, span: Span) -> str:
-    """Return the ends of a colour bar beyond which there are values."""
-    slack = 1e-3 * (span[1] - span[0])
-    below, above = bool(shown.min() < span[0] - slack), bool(shown.max() > span[1] + slack)
-    return ("both" if above else "min") if below else ("max" if above else "neither")
 
 
 def micro_film_map(result: Result, smooth: Result | None = None) -> Figure:
@@ -215,30 +190,26 @@ def micro_film_map(result: Result, smooth: Result | None = None) -> Figure:
     """
     heights_of(result)
     ripples = micro_film(result, smooth)
+    contact = in_contact(result, 1.0 if ripples.by_reference else FILTERED)
+    part, places = window_part(result), window_places(result)
     side_by_side = slenderness(result) > 0.5
     picture = figure(result, (9.6, 5.2) if side_by_side else (6.4, 6.4))
-    rows, columns = (1, 2) if side_by_side else (2, 1)
-    panels = picture.subplots(rows, columns, squeeze=False).ravel()
-    _ripple_panel(panels[0], result, ripples, "film")
-    _ripple_panel(panels[1], result, ripples, "pressure")
+    panels = picture.subplots(*((1, 2) if side_by_side else (2, 1)))
+    less = "less that of smooth surfaces" if ripples.by_reference else "less its long waves"
+    for axes, name, values, unit in (
+        (panels[0], "film", ripples.film * 1e9, "nm"),
+        (panels[1], "pressure", ripples.pressure * 1e-6, "MPa"),
+    ):
+        reach = float(np.percentile(np.abs(values[contact]), 99.0)) or 1.0
+        shown = values if ripples.by_reference else np.where(contact, values, np.nan)
+        dress_contact(axes, result)
+        style = {"cmap": "RdBu_r", "clim": (-reach, reach), **MAP}
+        mesh = axes.pcolormesh(*places, shown[part], **style)
+        axes.set_title(f"{name} {less}", fontsize=9)
+        axes.xaxis.set_major_locator(MaxNLocator(5, steps=STEPS))
+        bar: dict[str, Any] = {"extend": "both", "shrink": 0.9, "aspect": 32}
+        picture.colorbar(mesh, ax=axes, location="bottom", label=f"{name} ripple [{unit}]", **bar)
+        entrainment_arrow(axes)
     if side_by_side:
         panels[1].set_ylabel("")
     return picture
-
-
-def _ripple_panel(axes: Axes, result: Result, ripples: MicroFilm, name: str) -> None:
-    factor, unit = _RIPPLES[name]
-    contact = in_contact(result, 1.0 if ripples.by_reference else FILTERED)
-    values = getattr(ripples, name) * factor
-    reach = float(np.percentile(np.abs(values[contact]), 99.0)) or 1.0
-    shown = values if ripples.by_reference else np.where(contact, values, np.nan)
-    dress_contact(axes, result)
-    part, span = window_part(result), (-reach, reach)
-    mesh = coloured(axes, result, shown[part], cmap="RdBu_r", clim=span)
-    less = "less that of smooth surfaces" if ripples.by_reference else "less its long waves"
-    axes.set_title(f"{name} {less}", fontsize=9)
-    axes.xaxis.set_major_locator(MaxNLocator(5, steps=STEPS))
-    label = f"{name} ripple [{unit}]"
-    bar: dict[str, Any] = {"extend": "both", "shrink": 0.9, "aspect": 32}
-    axes.figure.colorbar(mesh, ax=axes, location="bottom", label=label, **bar)
-    entrainment_arrow(axes)

@@ -9,9 +9,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Ellipse, Polygon
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from tehl.plots.frame import BLUE, MICRO, ORANGE, STEPS, outline
+from tehl.plots.frame import BLUE, MICRO, ORANGE, PLAIN, STEPS, outline
 from tehl.roughness.preview import Preview, View, view
-from tehl.typing import Array
 
 _CLIPPED, _COUNTED = 0.1, 10**6
 """Percentile of the heights that colours leave out, and the number of heights it is found from."""
@@ -37,20 +36,17 @@ def surface_preview(preview: Preview) -> Figure:
         parts = picture.subfigures(1, 2, squeeze=False, width_ratios=shares)[0]
         panels = parts[1].subplots(2, 1)
         picture.set_figwidth(_NARROW if slender else _SIZE[0])
-    picture.suptitle(_title(preview), fontsize=9)
+    found, name = preview.statistics, preview.file.rpartition("/")[2].replace("$", r"\$")
+    heights = ", ".join(
+        f"{word} = {_height(value)}"
+        for word, value in (("Sq", found.sq), ("Sa", found.sa), ("Sz", found.sz))
+    )
+    shape = f"Ssk = {found.ssk:.2f}, Sku = {found.sku:.2f}"
+    picture.suptitle(f"{name}\n{heights}, {shape}", fontsize=9)
     _draw_map(parts[0].add_subplot(), preview, seen)
     _draw_heights(panels[0], preview)
     _draw_spectrum(panels[1], preview)
     return picture
-
-
-def _title(preview: Preview) -> str:
-    found = preview.statistics
-    return (
-        f"{preview.file.rpartition('/')[2]}\n"
-        f"Sq = {_height(found.sq)}, Sa = {_height(found.sa)}, Sz = {_height(found.sz)}, "
-        f"Ssk = {found.ssk:.2f}, Sku = {found.sku:.2f}"
-    ).replace("$", r"\$")
 
 
 def _height(metres: float) -> str:
@@ -68,16 +64,9 @@ def _draw_map(axes: Axes, preview: Preview, seen: View) -> None:
     few = preview.heights.values.ravel()
     few = few[:: max(1, few.size // _COUNTED)]
     low, high = np.percentile(few, [_CLIPPED, 100 - _CLIPPED]) * factor
-    image = axes.imshow(
-        seen.values * factor,
-        origin="lower",
-        extent=(left * MICRO, right * MICRO, bottom * MICRO, top * MICRO),
-        aspect="equal",
-        interpolation="nearest",
-        vmin=low,
-        vmax=high,
-        cmap="viridis",
-    )
+    extent = (left * MICRO, right * MICRO, bottom * MICRO, top * MICRO)
+    style: dict[str, Any] = {"origin": "lower", "interpolation": "nearest", "cmap": "viridis"}
+    image = axes.imshow(seen.values * factor, extent=extent, vmin=low, vmax=high, **style)
     axes.set(xlabel="x along entrainment [µm]", ylabel="y [µm]")
     for axis, slender in ((axes.xaxis, height / width), (axes.yaxis, width / height)):
         axis.set_major_locator(MaxNLocator(2 if slender > _SLENDER else 6, steps=STEPS))
@@ -88,18 +77,14 @@ def _draw_map(axes: Axes, preview: Preview, seen: View) -> None:
     labels = []
     if preview.mesh is not None:
         labels.append(_draw_contact(axes, preview.mesh.half_widths))
-    if seen.corners is not None and _is_part(seen):
-        outlined = Polygon(seen.corners * MICRO, fill=False, color="white", lw=0.8)
-        axes.add_patch(outlined).set_path_effects(outline("0.2", 1.6))
-        labels.append("thin: edges of the map")
+    if seen.corners is not None:
+        corners = {tuple(corner) for corner in np.round(seen.corners * 1e9)}
+        window = {tuple(np.round(np.array(place) * 1e9)) for place in product(*seen.window)}
+        if corners != window:  # the map is a part of its window, or rotated in it
+            edges = Polygon(seen.corners * MICRO, fill=False, color="white", lw=0.8)
+            axes.add_patch(edges).set_path_effects(outline("0.2", 1.6))
+            labels.append("thin: edges of the map")
     axes.set_title(", ".join(labels), fontsize=8)
-
-
-def _is_part(seen: View) -> bool:
-    """Return whether the map is a part of its window, or rotated in it."""
-    corners = {tuple(corner) for corner in np.round(np.array(seen.corners) * 1e9)}
-    window = {tuple(np.round(np.array(place) * 1e9)) for place in product(*seen.window)}
-    return corners != window
 
 
 def _draw_contact(axes: Axes, half_widths: tuple[float, float]) -> str:
@@ -125,39 +110,30 @@ def _draw_heights(axes: Axes, preview: Preview) -> None:
     axes.plot(places, normal, color="0.25", lw=1.0, ls="--", label="normal, same Sq")
     axes.set(xlabel=f"height outwards [{unit}]", ylabel=f"share [1/{unit}]", xlim=(-reach, reach))
     axes.set(yscale="log", ylim=(3e-5 / sq, 2.0 / sq))
-    axes.legend(fontsize=8, frameon=False, loc="upper left")
+    axes.legend(loc="upper left", **PLAIN)
 
 
 def _draw_spectrum(axes: Axes, preview: Preview) -> None:
-    found = preview.spectrum
-    lengths = 2.0 * np.pi / found.wave_number * MICRO
+    found, mesh = preview.spectrum, preview.mesh
     seen = found.density > 0
-    axes.loglog(lengths[seen], found.density[seen] * MICRO**4, color=BLUE, lw=1.3)
+    lengths, density = 2.0 * np.pi / found.wave_number * MICRO, found.density[seen] * MICRO**4
+    axes.loglog(lengths[seen], density, color=BLUE, lw=1.3)
     axes.set(xlabel="wavelength [µm]", ylabel="power density [µm$^4$]")
     axes.xaxis.set_major_formatter(FuncFormatter(lambda length, _: f"{length:g}"))
-    axes.set_ylim(*_decades(found.density[seen] * MICRO**4))
+    axes.set_ylim(1e-12, 1.0)
+    if density.size:  # without the rounding errors of filtered waves
+        top = density.max()
+        axes.set_ylim(max(0.5 * density.min(), 1e-12 * top), 3.0 * top)
     axes.invert_xaxis()
     axes.grid(which="major", lw=0.3)
-    if preview.mesh is not None and preview.lost is not None:
-        _mark_mesh(axes, preview)
-
-
-def _decades(density: Array) -> tuple[float, float]:
-    """Return limits that leave out the rounding errors of filtered waves."""
-    if not density.size:
-        return 1e-12, 1.0
-    return max(0.5 * float(density.min()), 1e-12 * float(density.max())), 3.0 * float(density.max())
-
-
-def _mark_mesh(axes: Axes, preview: Preview) -> None:
-    if preview.mesh is None or preview.lost is None:
+    if mesh is None or preview.lost is None:
         return
-    cut_off = 2.0 * max(preview.mesh.spacing) * MICRO
+    cut_off = 2.0 * max(mesh.spacing) * MICRO
     longest, shortest = axes.get_xlim()
-    nx, ny = preview.mesh.points
-    label = f"lost on {nx} x {ny} nodes: {100 * preview.lost:.2g} % of Sq²"
     if cut_off > shortest:
         axes.axvspan(min(cut_off, longest), shortest, color=ORANGE, alpha=0.15, lw=0)
         axes.axvline(cut_off, color=ORANGE, lw=1.0)
     axes.set_xlim(max(longest, 1.1 * cut_off), shortest)
-    axes.set_title(label, fontsize=8, color=ORANGE)
+    nodes = "{} x {} nodes".format(*mesh.points)
+    lost = f"lost on {nodes}: {100 * preview.lost:.2g} % of Sq²"
+    axes.set_title(lost, fontsize=8, color=ORANGE)

@@ -1,9 +1,10 @@
 """Columns of a table as they are shown: names, units that suit, axes."""
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from tehl.errors import InputError
@@ -11,10 +12,9 @@ from tehl.typing import Array
 
 if TYPE_CHECKING:
     import pandas as pd
-    from matplotlib.axes import Axes
 
 FAILED = "#b3001b"
-"""Colour of what is said of cases that did not converge."""
+"""Colour of notes on cases that did not converge."""
 _TITLES = {
     "film.h_central_m": "central film thickness $h_c$",
     "film.h_min_m": "minimum film thickness $h_{min}$",
@@ -123,16 +123,28 @@ def certified(rows: "pd.DataFrame", column: Column) -> tuple[Column, Array | Non
 
 
 def converged(table: "pd.DataFrame") -> "pd.DataFrame":
-    """Return the rows that converged; refuse a table that has none."""
+    """Return the rows that converged; raise InputError if there are none."""
     found = table[table["status"] == "converged"]
     if not len(found):
         raise InputError("the table has no case that converged, so nothing to draw")
     return found
 
 
-def label_axes(axes: "Axes", x: Column, y: Column, log: str) -> None:
-    """Give axes their titles, scales and a light grid."""
-    axes.set(xlabel=x.title, ylabel=y.title)
+def dress(axes: Axes, table: "pd.DataFrame", columns: tuple[Column, Column], log: str) -> None:
+    """Give axes their titles, scales, a light grid, and a note on cases that are not shown.
+
+    Parameters
+    ----------
+    axes : Axes
+        With everything drawn.
+    table : pandas.DataFrame
+        All cases; those that failed or are not finished are counted below the axes.
+    columns : (Column, Column)
+        Along x and y.
+    log : {"", "x", "y", "xy"}
+        Axes with a logarithmic scale.
+    """
+    axes.set(xlabel=columns[0].title, ylabel=columns[1].title)
     for letter in log:
         axes.set(**{f"{letter}scale": "log"})
         axis = axes.xaxis if letter == "x" else axes.yaxis
@@ -142,21 +154,9 @@ def label_axes(axes: "Axes", x: Column, y: Column, log: str) -> None:
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axis.set_minor_formatter(NullFormatter())
     axes.grid(lw=0.3, which="both" if log else "major")
-
-
-def note_missing(axes: "Axes", table: "pd.DataFrame") -> None:
-    """Write below the axes how many cases failed or are not finished, and are not shown."""
     open_cases = int((table["status"] == "open").sum())
     failed = int((table["status"] != "converged").sum()) - open_cases
     notes = [f"{failed} of {len(table)} cases failed and are left out"] if failed else []
     notes += [f"{open_cases} of {len(table)} are not finished yet"] if open_cases else []
     if notes:
         axes.figure.supxlabel("; ".join(notes), fontsize=8, color=FAILED)
-
-
-def distinct(table: "pd.DataFrame", name: str | None) -> list[Any]:
-    """Return the different values of a column in their order; one None without a column."""
-    if name is None:
-        return [None]
-    values = table[find_column(table, name)].dropna().unique().tolist()
-    return sorted(values) if all(isinstance(v, int | float) for v in values) else values

@@ -8,23 +8,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tehl.errors import InputError
-from tehl.plots.table_columns import (
-    Column,
-    certified,
-    converged,
-    distinct,
-    find_column,
-    label_axes,
-    note_missing,
-    numbers,
-)
+from tehl.plots.frame import BLUE, ORANGE, PLAIN
+from tehl.plots.table_columns import Column, certified, converged, dress, find_column, numbers
 from tehl.typing import Array
 from tehl.units import Quantity
 
 if TYPE_CHECKING:
     import pandas as pd
 
-COLOURS = ("#1f4e9c", "#c2410c", "#2f7d32", "#7b3fa0", "#b58900", "#0f8b8d", "#a3123f", "#555555")
+COLOURS = (BLUE, ORANGE, "#2f7d32", "#7b3fa0", "#b58900", "#0f8b8d", "#a3123f", "#555555")
 _LINES = ("-", "--", ":", "-.")
 _MARKS = ("o", "s", "^", "D", "v", "P")
 _POINTS = "x+*1"
@@ -68,34 +60,33 @@ def curves(
     rows = converged(table)
     across = numbers(rows, x)
     up, bars = certified(rows, numbers(rows, y))
-    hues, styles = distinct(rows, hue), distinct(rows, style)
+    hues, styles = _distinct(rows, hue), _distinct(rows, style)
     if len(hues) * len(styles) > _MOST_CURVES:
         raise InputError(f"{len(hues) * len(styles)} curves are too many for a picture")
     picture = Figure(figsize=(7.0, 5.0), layout="constrained")
     axes = picture.add_subplot()
-    for i, colour in enumerate(hues):
-        for k, line in enumerate(styles):
-            chosen, name = _chosen(rows, ((hue, colour), (style, line)))
+    for i, one in enumerate(hues):
+        for k, other in enumerate(styles):
+            chosen, name = _chosen(rows, ((hue, one), (style, other)))
             chosen &= np.isfinite(across.values) & np.isfinite(up.values)
             if not chosen.any():
                 continue
             order = np.flatnonzero(chosen)[np.argsort(across.values[chosen], kind="stable")]
-            axes.errorbar(
-                across.values[order],
-                up.values[order],
-                yerr=None if bars is None else bars[order],
-                color=COLOURS[i % len(COLOURS)],
-                ls=_LINES[k % len(_LINES)],
-                marker=_MARKS[k % len(_MARKS)],
-                ms=4.0,
-                lw=1.3,
-                capsize=2.5,
-                label=name,
-            )
-    label_axes(axes, across, up, log)
-    note_missing(axes, table)
+            look: dict[str, Any] = {"ls": _LINES[k % len(_LINES)], "lw": 1.3, "capsize": 2.5}
+            look |= {"marker": _MARKS[k % len(_MARKS)], "ms": 4.0, "label": name}
+            colour, error = COLOURS[i % len(COLOURS)], None if bars is None else bars[order]
+            axes.errorbar(across.values[order], up.values[order], error, color=colour, **look)
+    dress(axes, table, (across, up), log)
     _legend(axes)
     return picture
+
+
+def _distinct(table: "pd.DataFrame", name: str | None) -> list[Any]:
+    """Return the different values of a column in their order; one None without a column."""
+    if name is None:
+        return [None]
+    values = table[find_column(table, name)].dropna().unique().tolist()
+    return sorted(values) if all(isinstance(v, int | float) for v in values) else values
 
 
 def _chosen(
@@ -140,27 +131,20 @@ def overlay(picture: Figure, table: "pd.DataFrame", x: str, y: str, *, path: Pat
         If it cannot be read as such; the message names it.
     """
     points, rows = _points(path), converged(table)
-    across, up = numbers(rows, x), numbers(rows, y)
+    columns = numbers(rows, x), numbers(rows, y)
     names = [str(name) for name in points.columns]
-    places = [
-        _as_shown(points, name, column, path)
-        for name, column in zip(names, (across, up), strict=False)
-    ]
-    bars = [_as_shown(points, n, up, path) for n in names[2:] if n.split("[")[0].strip() == "error"]
+    x_values, y_values = (
+        _as_shown(points, *pair, path) for pair in zip(names, columns, strict=False)
+    )
+    bars = [n for n in names[2:] if n.split("[")[0].strip() == "error"]
+    errors = _as_shown(points, bars[0], columns[1], path) if bars else None
     series = points["name"].astype(str) if "name" in names else np.full(len(points), "measured")
     axes = picture.axes[0]
     for number, name in enumerate(dict.fromkeys(series)):
         chosen = np.asarray(series == name)
-        axes.errorbar(
-            places[0][chosen],
-            places[1][chosen],
-            yerr=bars[0][chosen] if bars else None,
-            fmt=f"k{_POINTS[number % len(_POINTS)]}",
-            ms=6.0,
-            capsize=2.0,
-            lw=1.0,
-            label=name,
-        )
+        look: dict[str, Any] = {"ms": 6.0, "capsize": 2.0, "lw": 1.0, "label": name}
+        error, mark = None if errors is None else errors[chosen], _POINTS[number % len(_POINTS)]
+        axes.errorbar(x_values[chosen], y_values[chosen], error, fmt=f"k{mark}", **look)
     _legend(axes)
 
 
@@ -201,4 +185,4 @@ def _as_shown(points: "pd.DataFrame", name: str, column: Column, path: Path) -> 
 
 def _legend(axes: Axes) -> None:
     if axes.get_legend_handles_labels()[1]:
-        axes.legend(fontsize=8, frameon=False)
+        axes.legend(**PLAIN)

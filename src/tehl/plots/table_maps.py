@@ -10,13 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.tri import Triangulation
 
 from tehl.errors import InputError
-from tehl.film_formulas import (
-    FilmRatio,
-    chittenden,
-    hamrock_dowson,
-    nijenbanning_venner_moes,
-)
-from tehl.plots.table_columns import FAILED, converged, label_axes, note_missing, numbers
+from tehl.film_formulas import FilmRatio, chittenden, hamrock_dowson, nijenbanning_venner_moes
+from tehl.plots.table_columns import FAILED, converged, dress, numbers
 from tehl.scaling import Groups
 from tehl.typing import Array
 
@@ -62,36 +57,28 @@ def contour_map(table: "pd.DataFrame", x: str, y: str, z: str, log: str = "") ->
     filled = axes.tricontourf(mesh, shown.values[known], 14, cmap="viridis")
     picture.colorbar(filled, ax=axes, label=shown.title)
     axes.plot(across.values, up.values, "k.", ms=1.5, alpha=0.5)
-    label_axes(axes, across, up, log)
-    note_missing(axes, table)
+    dress(axes, table, (across, up), log)
     return picture
 
 
 def moes_map(table: "pd.DataFrame") -> Figure:
     """Draw the deviation of film formulas from the computed films, over the Moes numbers M and L.
 
-    Parameters
-    ----------
-    table : pandas.DataFrame
-        As :func:`tehl.studies.table` returns it, of contacts with many M and L.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        The computed central film in Moes form, and for each formula its film over the computed
-        one less one, in per cent. Crosses are failed cases.
-
-    Raises
-    ------
-    InputError
-        If the points span no area.
+    The table is that of :func:`tehl.studies.table`, of contacts with many M and L. The panels have
+    the computed central film in Moes form, and for each formula its film over the computed one
+    less one, in per cent; crosses are failed cases. Raises InputError if the points span no area.
     """
     rows = converged(table)
     load, speed = numbers(rows, "groups.M").values, numbers(rows, "groups.L").values
     mesh = _mesh(load, speed, "xy")
     picture = Figure(figsize=(11.5, 6.8), layout="constrained")
     panels = picture.subplots(2, 3, sharex=True, sharey=True).ravel()
-    _film_panel(panels[0], mesh, numbers(rows, "film.H_central_moes").values)
+    film = np.log10(numbers(rows, "film.H_central_moes").values)
+    panels[0].tricontourf(mesh, film, 14, cmap="viridis")
+    levels = np.linspace(film.min(), film.max(), 8)[1:-1]
+    lines = panels[0].tricontour(mesh, film, levels, colors="white", linewidths=0.7)
+    panels[0].clabel(lines, fmt=lambda level: f"{10**level:.2g}", fontsize=7)
+    panels[0].set_title("computed central film, $h_c/R_x \\, (2U)^{-1/2}$", fontsize=9)
     for axes, (title, off) in zip(panels[1:], film_deviations(rows).items(), strict=True):
         axes.tricontourf(mesh, np.clip(off, -99, 99), LEVELS, cmap="RdBu_r", extend="both")
         lines = axes.tricontour(mesh, off, (-10, -5, 5, 10), colors="0.25", linewidths=0.6)
@@ -108,29 +95,18 @@ def film_deviations(table: "pd.DataFrame") -> dict[str, Array]:
 
     Each array has a value for each converged case, in their order.
     """
-    rows = converged(table)
-    return {name: _deviation(rows, formula, which) for name, formula, which in _FORMULAS}
-
-
-def _deviation(rows: "pd.DataFrame", formula: Callable[[Groups], FilmRatio], which: str) -> Array:
-    computed = rows[_COMPUTED[which]].to_numpy(np.float64, na_value=np.nan)
-    columns = [rows[f"groups.{name}"] for name in _GROUPS]
-    ratios = []
-    for line in zip(*columns, strict=True):
-        groups = Groups(**dict(zip(_GROUPS, line, strict=True)), deflection_factor=math.nan)
-        film = getattr(formula(groups), which)
-        ratios.append(math.nan if film is None else film / math.sqrt(2.0 * groups.U))
-    off: Array = 100.0 * (np.array(ratios) / computed - 1.0)
-    return off
-
-
-def _film_panel(axes: Axes, mesh: Triangulation, film: Array) -> None:
-    axes.tricontourf(mesh, np.log10(film), 14, cmap="viridis")
-    low, high = float(np.log10(film).min()), float(np.log10(film).max())
-    levels = np.linspace(low, high, 8)[1:-1]
-    lines = axes.tricontour(mesh, np.log10(film), levels, colors="white", linewidths=0.7)
-    axes.clabel(lines, fmt=lambda level: f"{10**level:.2g}", fontsize=7)
-    axes.set_title("computed central film, $h_c/R_x \\, (2U)^{-1/2}$", fontsize=9)
+    rows, deviations = converged(table), {}
+    columns = (rows[f"groups.{name}"] for name in _GROUPS)
+    cases = [
+        Groups(**dict(zip(_GROUPS, case, strict=True)), deflection_factor=math.nan)
+        for case in zip(*columns, strict=True)
+    ]
+    for name, formula, which in _FORMULAS:
+        films = [getattr(formula(groups), which) or math.nan for groups in cases]
+        by_formula = np.array(films) / np.sqrt([2.0 * groups.U for groups in cases])
+        computed = rows[_COMPUTED[which]].to_numpy(np.float64, na_value=np.nan)
+        deviations[name] = 100.0 * (by_formula / computed - 1.0)
+    return deviations
 
 
 def _mark(panels: Sequence[Axes], table: "pd.DataFrame", points: tuple[Array, Array]) -> None:
@@ -147,7 +123,7 @@ def _mark(panels: Sequence[Axes], table: "pd.DataFrame", points: tuple[Array, Ar
 
 
 def _mesh(x: Array, y: Array, log: str) -> Triangulation:
-    """Return triangles between points, made in the scale of the axes; refuse points in a line."""
+    """Return triangles between points in the scale of the axes; raise InputError for a line."""
     places: list[Any] = []
     for letter, values in (("x", x), ("y", y)):
         if letter in log and not (values > 0).all():

@@ -20,20 +20,21 @@ from tehl.plots.frame import (
     ALONG_X,
     BLUE,
     GREEN,
+    MAP,
     MICRO,
     ORANGE,
+    PLAIN,
     STEPS,
     WINDOW,
     Span,
     centre_row,
+    colour_axes,
     dress_contact,
     entrainment_arrow,
     figure,
-    finish_map,
     inner_levels,
     map_figure,
-    plain_legend,
-    rule,
+    mark_levels,
     slenderness,
     span_part,
     window,
@@ -65,9 +66,9 @@ def mid_film_temperature(result: Result) -> Figure:
     )
     picture, axes = map_figure(result, note)
     rise = (found.mid_film - found.inlet)[window_part(result)]
-    span = _span(rise)
-    mesh, lines = _coloured(axes, np.meshgrid(*window_places(result)), rise, span)
-    finish_map(picture, mesh, "mid-film temperature rise [K]", lines=(lines, inner_levels(*span)))
+    mesh, lines = _coloured(axes, window_places(result), rise, _span(rise))
+    label = "mid-film temperature rise [K]"
+    mark_levels(picture.colorbar(mesh, cax=colour_axes(axes), label=label), lines)
     return picture
 
 
@@ -90,9 +91,8 @@ def _coloured(
     axes: Axes, places: Sequence[Array], rise: Array, span: Span
 ) -> tuple[QuadMesh, QuadContourSet]:
     """Draw a rise as colours and contour lines; return both."""
-    style: dict[str, Any] = {"shading": "gouraud", "cmap": "inferno", "rasterized": True}
-    mesh = axes.pcolormesh(*places, rise, clim=span, **style)
-    levels = inner_levels(*span)
+    mesh = axes.pcolormesh(*places, rise, clim=span, cmap="inferno", **MAP)
+    levels = inner_levels(span)
     levels = levels[np.abs(levels) > _FLAT * (span[1] - span[0])]
     line: dict[str, Any] = {"colors": "white", "linewidths": 0.6, "alpha": 0.75}
     return mesh, axes.contour(*places, np.nan_to_num(rise), levels=levels, **line)
@@ -110,7 +110,7 @@ def temperature_layers(result: Result) -> Figure:
     picture = figure(result, (8.6, height))
     picture.set_layout_engine("compressed")  # closes the gaps that equal aspects leave
     grid = picture.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
-    part, places = window_part(result), np.meshgrid(*window_places(result))
+    part, places = window_part(result), window_places(result)
     rises = [field[part] - found.inlet for field in layers.values()]
     span = _span(np.stack(rises))
     for axes, name, rise in zip(grid.flat, layers, rises, strict=True):
@@ -121,22 +121,19 @@ def temperature_layers(result: Result) -> Figure:
         axes.label_outer()
         axes.set_title(name, fontsize=9)
     entrainment_arrow(grid[0, 0])
-    bar = picture.colorbar(mesh, ax=grid, label="temperature rise [K]", pad=0.02)
-    rule(bar, lines, inner_levels(*span))
+    mark_levels(picture.colorbar(mesh, ax=grid, label="temperature rise [K]", pad=0.02), lines)
     return picture
 
 
 def _layers(result: Result) -> dict[str, Array]:
-    """Return the layers to draw, by their names."""
+    """Return the temperatures of both surfaces, of three layers and their mean, by name."""
     heat, found = _heat_of(result)
-    quarters = [int(np.argmin(np.abs(heat.zeta - place))) for place in (0.25, 0.75)]
-    low, high = (heat.temperature[layer] for layer in quarters)
-    names = [f"z = {heat.zeta[layer]:.2g} h" for layer in quarters]
+    low, high = (int(np.argmin(np.abs(heat.zeta - place))) for place in (0.25, 0.75))
     return {
         "surface 1": heat.temperature[0],
-        names[0]: low,
+        f"z = {heat.zeta[low]:.2g} h": heat.temperature[low],
         "mid-film": found.mid_film,
-        names[1]: high,
+        f"z = {heat.zeta[high]:.2g} h": heat.temperature[high],
         "surface 2": heat.temperature[-1],
         "mean": found.mean,
     }
@@ -147,45 +144,38 @@ def temperature_section(result: Result) -> Figure:
 
     Between its nodes across the film the temperature is a cubic spline.
     """
+    from scipy.interpolate import CubicSpline  # noqa: PLC0415 (0.3 s)
+
     heat, found = _heat_of(result)
-    row = centre_row(result)
-    columns = span_part(result.scaled.x, *window(result)[0])
+    row, columns = centre_row(result), span_part(result.scaled.x, window(result)[0])
     x, film = result.x[columns] * MICRO, np.nan_to_num(result.film_thickness[row, columns] * 1e9)
-    zeta, rise = _refined(heat, row, columns, found.inlet)
-    span = _span(rise)
+    zeta = np.linspace(0.0, 1.0, _ACROSS)
+    rise = np.nan_to_num(heat.temperature[:, row, columns] - found.inlet)
+    rise = CubicSpline(heat.zeta, rise, axis=0)(zeta)
     picture = figure(result, (7.6, 7.0))
     upper, lower = picture.subplots(2, 1, sharex=True)
     along = np.broadcast_to(x, rise.shape)
-    _coloured(upper, (along, np.outer(zeta, np.ones(x.size))), rise, span)
-    upper.set(ylabel="z / h", ylim=(0.0, 1.0))
-    mesh, lines = _coloured(lower, (along, np.outer(zeta, film)), rise, span)
+    for axes, height in ((upper, np.ones_like(x)), (lower, film)):
+        mesh, lines = _coloured(axes, (along, np.outer(zeta, height)), rise, _span(rise))
     lower.plot(x, film, color="black", lw=0.9)
     top = _HIGHEST * result.film.central * 1e9
     lower.set(ylabel="z [nm]", ylim=(0.0, top if top > 0 else 1.0), facecolor="0.88")
     lower.set(xlabel=ALONG_X, xlim=(x[0], x[-1]))
+    upper.set(ylabel="z / h", ylim=(0.0, 1.0))
     for axes in (upper, lower):
         _mark_ends(axes, result, "white", 1.0)
-    for word, place, side in (("surface 2", 0.97, "top"), ("surface 1", 0.03, "bottom")):
-        style = {"transform": upper.transAxes, "color": "white", "fontsize": 8}
-        upper.text(0.99, place, word, ha="right", va=side, **style)
+    style = {"transform": upper.transAxes, "color": "white", "fontsize": 8, "ha": "right"}
+    upper.text(0.99, 0.97, "surface 2", va="top", **style)
+    upper.text(0.99, 0.03, "surface 1", va="bottom", **style)
     bar = picture.colorbar(mesh, ax=[upper, lower], label="temperature rise [K]", pad=0.02)
-    rule(bar, lines, inner_levels(*span))
+    mark_levels(bar, lines)
     return picture
-
-
-def _refined(heat: FilmHeat, row: int, columns: slice, inlet: float) -> tuple[Array, Array]:
-    """Return zeta and the rises on one row, interpolated to a smooth picture."""
-    from scipy.interpolate import CubicSpline  # noqa: PLC0415 (0.3 s)
-
-    zeta = np.linspace(0.0, 1.0, _ACROSS)
-    rise = np.nan_to_num(heat.temperature[:, row, columns] - inlet)
-    return zeta, CubicSpline(heat.zeta, rise, axis=0)(zeta)
 
 
 def _mark_ends(axes: Axes, result: Result, colour: str, width: float) -> None:
     """Mark where the Hertz contact begins and ends."""
-    for side in (-1.0, 1.0):
-        place = side * result.scales.half_width_x * MICRO
+    half = result.scales.half_width_x * MICRO
+    for place in (-half, half):
         axes.axvline(place, color=colour, lw=width, ls="--")
 
 
@@ -196,40 +186,31 @@ def surface_heat(result: Result) -> Figure:
     x = result.x * MICRO
     picture = figure(result, (7.2, 6.6))
     upper, lower = picture.subplots(2, 1, sharex=True)
-    temperature_lines(upper, x, (row, slice(None)), result)
+    for rise, style in rises(result, (row, slice(None))):
+        upper.plot(x, rise, **style)
+    upper.set_ylabel("temperature rise [K]")
     for flux, name, colour in ((heat.flux_1, "1", BLUE), (heat.flux_2, "2", GREEN)):
         lower.plot(x, flux[row] * 1e-6, color=colour, lw=1.4, label=f"into surface {name}")
     lower.set_ylabel("heat flux [MW/m²]")
     lower.axhline(0.0, color="0.6", lw=0.6)
-    inside = span_part(result.scaled.x, *WINDOW[0])
-    lower.set(xlabel=ALONG_X, xlim=(x[inside][0], x[inside][-1]))
+    inside = x[span_part(result.scaled.x, WINDOW[0])]
+    lower.set(xlabel=ALONG_X, xlim=(inside[0], inside[-1]))
     for axes in (upper, lower):
         axes.grid(axis="y", lw=0.3)
-        plain_legend(axes, "lower center", (0.5, 0.98), ncols=4)
+        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 0.98), ncols=4, **PLAIN)
         _mark_ends(axes, result, "0.6", 0.8)
     return picture
 
 
-def temperature_lines(axes: Axes, place: Array, line: Line, result: Result) -> None:
-    """Draw the rises of both surfaces, of the mid-film and of the mean along a grid line.
-
-    Parameters
-    ----------
-    axes : Axes
-        Where to draw.
-    place : array
-        Coordinate along the line, in the unit of the axes.
-    line : index
-        The line in the fields.
-    result : Result
-        Of a thermal run.
-    """
+def rises(result: Result, line: Line) -> list[tuple[Array, dict[str, Any]]]:
+    """Return the temperature rises along a grid line [K], and the style of the curve of each."""
     heat, found = _heat_of(result)
-    for field, name, colour, style in (
-        (found.mid_film, "mid-film", ORANGE, "-"),
-        (found.mean, "mean across film", "0.35", "--"),
-        (heat.temperature[0], "surface 1", BLUE, "-"),
-        (heat.temperature[-1], "surface 2", GREEN, "-"),
-    ):
-        axes.plot(place, field[line] - found.inlet, color=colour, ls=style, lw=1.3, label=name)
-    axes.set_ylabel("temperature rise [K]")
+    return [
+        (field[line] - found.inlet, {"label": name, "color": colour, "ls": style, "lw": 1.3})
+        for field, name, colour, style in (
+            (found.mid_film, "mid-film", ORANGE, "-"),
+            (found.mean, "mean across film", "0.35", "--"),
+            (heat.temperature[0], "surface 1", BLUE, "-"),
+            (heat.temperature[-1], "surface 2", GREEN, "-"),
+        )
+    ]

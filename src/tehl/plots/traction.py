@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tehl.errors import InputError
-from tehl.plots.frame import BLUE, GIGA, ORANGE
+from tehl.plots.frame import BLUE, GIGA, ORANGE, PLAIN
 from tehl.result import Result
 from tehl.typing import Array
 
@@ -20,25 +20,13 @@ def traction_curve(runs: Sequence[Result] | Mapping[str, Any]) -> Figure:
 
     The coefficient is drawn as friction: positive where surface 1 is the faster, so with the sign
     of the slide-to-roll ratio, against that of the stress. Contacts that differ in anything but
-    sliding and heat have curves of their own.
+    sliding and heat have curves of their own: circles are thermal, squares isothermal runs.
 
-    Parameters
-    ----------
-    runs : sequence of Result, or table
-        Results with shear stresses; or anything with columns ``slide_roll_ratio`` and ``traction``
-        (at mid-film, with its sign) and perhaps ``thermal`` (true or false) and ``case`` (a name).
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        One panel; circles are thermal, squares isothermal runs.
-
-    Raises
-    ------
-    InputError
-        If a column is missing or nothing has a traction.
+    ``runs`` are results with shear stresses; or a table, anything with columns ``slide_roll_ratio``
+    and ``traction`` (at mid-film, with its sign) and perhaps ``thermal`` (true or false) and
+    ``case`` (a name). Raises InputError if a column is missing or nothing has a traction.
     """
-    table = _of_results(runs) if isinstance(runs, Sequence) else _columns(runs)
+    table = _columns(_of_results(runs) if isinstance(runs, Sequence) else runs)
     if not table["slide_roll_ratio"].size:
         raise InputError("there is no traction to draw: no run has shear stresses")
     picture = Figure(figsize=(7.0, 5.0), layout="constrained")
@@ -49,17 +37,12 @@ def traction_curve(runs: Sequence[Result] | Mapping[str, Any]) -> Figure:
             chosen = (table["thermal"] == thermal) & (table["case"] == case)
             if not chosen.any():
                 continue
-            order = np.argsort(table["slide_roll_ratio"][chosen], kind="stable")
-            axes.plot(
-                100.0 * table["slide_roll_ratio"][chosen][order],
-                -table["traction"][chosen][order],
-                style,
-                color=colour,
-                alpha=_FADING[number % len(_FADING)],
-                ms=4.5,
-                lw=1.3,
-                label=f"{word}, {case}" if case and len(cases) > 1 else word,
-            )
+            ratio, traction = table["slide_roll_ratio"][chosen], table["traction"][chosen]
+            order = np.argsort(ratio, kind="stable")
+            label = f"{word}, {case}" if case and len(cases) > 1 else word
+            look: dict[str, Any] = {"color": colour, "ms": 4.5, "lw": 1.3, "label": label}
+            alpha = _FADING[number % len(_FADING)]
+            axes.plot(100.0 * ratio[order], -traction[order], style, alpha=alpha, **look)
     _dress(axes, table, cases)
     return picture
 
@@ -77,26 +60,24 @@ def _dress(axes: Any, table: dict[str, Array], cases: list[str]) -> None:
     if len(cases) == 1 and cases[0]:
         axes.set_title(cases[0].replace("$", r"\$"), fontsize=9)
     axes.grid(lw=0.3)
-    axes.legend(fontsize=8, frameon=False)
+    axes.legend(**PLAIN)
 
 
-def _of_results(results: Sequence[Result]) -> dict[str, Array]:
-    """Return the columns of results; those without stresses are left out."""
-    found = [result for result in results if result.traction is not None]
-    columns = {
-        "slide_roll_ratio": [result.problem.slide_roll_ratio for result in found],
-        "traction": [one.traction.mid_film for one in found if one.traction is not None],
-        "thermal": [result.heat is not None for result in found],
-        "case": [_name(result) for result in found],
-    }
-    return {name: np.array(values) for name, values in columns.items()}
+def _of_results(results: Sequence[Result]) -> dict[str, list[Any]]:
+    """Return the columns of results; those without stresses are left out.
 
-
-def _name(result: Result) -> str:
-    """Return groups, pressure and shear law: the same for any sliding."""
-    groups, law = result.groups, result.problem.lubricant.shear.law
-    pressure = result.scales.hertz_pressure * GIGA
-    return f"M = {groups.M:.4g}, L = {groups.L:.4g}, p_h = {pressure:.3g} GPa, {law}"
+    A case has the same groups, pressure and shear law at any sliding.
+    """
+    rows = []
+    for one in results:
+        if one.traction is not None:
+            groups, law = one.groups, one.problem.lubricant.shear.law
+            pressure = f"p_h = {one.scales.hertz_pressure * GIGA:.3g} GPa"
+            case = f"M = {groups.M:.4g}, L = {groups.L:.4g}, {pressure}, {law}"
+            ratio = one.problem.slide_roll_ratio
+            rows.append((ratio, one.traction.mid_film, one.heat is not None, case))
+    names = ("slide_roll_ratio", "traction", "thermal", "case")
+    return {name: [row[i] for row in rows] for i, name in enumerate(names)}
 
 
 def _columns(table: Mapping[str, Any]) -> dict[str, Array]:

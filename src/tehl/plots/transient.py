@@ -1,14 +1,11 @@
 """Pictures of a transient run: its history, the line y = 0 over time, and a few moments."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from tehl.plots.frame import (
@@ -17,6 +14,7 @@ from tehl.plots.frame import (
     GIGA,
     GREEN,
     MICRO,
+    PLAIN,
     PRESSURE,
     WINDOW,
     figure,
@@ -24,10 +22,10 @@ from tehl.plots.frame import (
     span_part,
 )
 from tehl.post.transient import envelope, passing_features
-from tehl.transient_result import TransientResult
-from tehl.typing import BoolArray
+from tehl.transient_result import HistoryBars, TransientResult
+from tehl.typing import Array
 
-MOMENTS = 4
+_MOMENTS = 4
 """Moments in one picture."""
 _TALLEST = 2.2
 """Height of the film axis, over the largest film in the contact."""
@@ -61,11 +59,12 @@ def history(run: TransientResult) -> Figure:
     panels[0].plot(time, numbers.film_central * MICRO, color=FILM, label="central")
     panels[0].plot(time, numbers.film_minimum * MICRO, color=FILM, ls="--", label="minimum")
     panels[0].set_ylabel("film h [µm]")
-    panels[0].legend(fontsize=8, ncols=2, frameon=False)
+    panels[0].legend(ncols=2, **PLAIN)
     for axes, (label, values, colour) in zip(panels[1:], curves, strict=True):
         axes.plot(time, values, color=colour)
         axes.set_ylabel(label)
-    _draw_error_bars(panels[:2], run, factor)
+    if run.bars is not None:
+        _draw_error_bars(panels, run, run.bars)
     for axes in panels:
         axes.grid(lw=0.3)
         axes.margins(x=0)
@@ -75,11 +74,17 @@ def history(run: TransientResult) -> Figure:
     return picture
 
 
-def _draw_error_bars(panels: Sequence[Axes], run: TransientResult, factor: float) -> None:
+def _add_distance_axis(axes: Axes, run: TransientResult, factor: float) -> None:
+    scale = run.start.scales.speed / run.start.scales.half_width_x / factor
+    there_and_back: Any = (lambda time: time * scale, lambda distance: distance / scale)
+    distance = axes.secondary_xaxis("top", functions=there_and_back)
+    distance.set_xlabel(r"$u_m t / a$", fontsize=8)
+    distance.tick_params(labelsize=8)
+
+
+def _draw_error_bars(panels: Sequence[Axes], run: TransientResult, bars: HistoryBars) -> None:
     """Fill the error bars around film and largest pressure of a certified run."""
-    bars = run.bars
-    if bars is None:
-        return
+    time = bars.time * time_unit(run)[0]
     for axes, name, unit, colour in (
         (panels[0], "film_central", MICRO, FILM),
         (panels[0], "film_minimum", MICRO, FILM),
@@ -87,16 +92,7 @@ def _draw_error_bars(panels: Sequence[Axes], run: TransientResult, factor: float
     ):
         middle = np.interp(bars.time, run.history.time, getattr(run.history, name))
         low, high = ((middle + sign * getattr(bars, name)) * unit for sign in (-1, 1))
-        axes.fill_between(bars.time * factor, low, high, color=colour, alpha=0.25, lw=0)
-
-
-def _add_distance_axis(axes: Axes, run: TransientResult, factor: float) -> None:
-    """Add an axis above with the distance of the mean motion in half-widths."""
-    scale = run.start.scales.speed / run.start.scales.half_width_x / factor
-    there_and_back: Any = (lambda time: time * scale, lambda distance: distance / scale)
-    other = axes.secondary_xaxis("top", functions=there_and_back)
-    other.set_xlabel(r"$u_m t / a$", fontsize=8)
-    other.tick_params(labelsize=8)
+        axes.fill_between(time, low, high, color=colour, alpha=0.25, lw=0)
 
 
 def space_time(run: TransientResult) -> Figure:
@@ -111,7 +107,7 @@ def space_time(run: TransientResult) -> Figure:
     film, pressure = run.profiles.film[:, part] * MICRO, run.profiles.pressure[:, part] * GIGA
     picture = figure(run, (8.4, 4.8))
     left, right = picture.subplots(1, 2, sharey=True)
-    low, high = float(film.min()), float(film[:, _inside(run)[part]].max())
+    low, high = float(film.min()), _largest_inside(run, run.profiles.film)
     top = high + 0.25 * (high - low)
     style: dict[str, Any] = {"shading": "nearest", "rasterized": True}
     mesh = left.pcolormesh(x, time, film.clip(low, top), vmin=low, vmax=top, **style)
@@ -152,100 +148,78 @@ def moments(run: TransientResult, times: Sequence[float] | None = None) -> Figur
     steady film at the start is dotted. Below zero, on the scale of the film, are the heights of
     both bodies together.
     """
-    steps = (
-        moments_of(run)
-        if times is None
-        else [int(np.argmin(np.abs(run.history.time - time))) for time in times]
-    )
-    factor, unit = time_unit(run)
+    reached, (factor, unit) = run.history.time, time_unit(run)
+    steps = moments_of(run)
+    if times is not None:
+        steps = [int(np.argmin(np.abs(reached - time))) for time in times]
     picture = figure(run, (7.2, 0.9 + 1.75 * len(steps)))
     panels = picture.subplots(len(steps), 1, sharex=True, squeeze=False)[:, 0]
-    lines = CentreLines(run)
     for axes, step in zip(panels, steps, strict=True):
-        lines.draw(axes, step)
-        time = run.history.time[step]
-        axes.set_title(f"t = {time * factor:.4g} {unit}", fontsize=8, loc="left", pad=3)
+        CentreLines(run, axes).show(step)
+        axes.set_title(f"t = {reached[step] * factor:.4g} {unit}", fontsize=8, loc="left", pad=3)
     panels[-1].set_xlabel(ALONG_X)
     return picture
 
 
-def moments_of(run: TransientResult, count: int = MOMENTS) -> list[int]:
+def moments_of(run: TransientResult) -> list[int]:
     """Return equidistant steps at which there is roughness inside the contact."""
     inside = np.abs(run.start.scaled.x) <= 1.0
     heights = (run.profiles.height_1 + run.profiles.height_2)[:, inside]
     present = np.ptp(heights, axis=1)
     steps = np.flatnonzero(present >= 0.5 * present.max())
     first, last = int(steps[0]), int(steps[-1])
-    every = np.linspace(first, last, count + 2)[1:-1] if last - first > count else (first, last)
-    return sorted({round(float(step)) for step in every})
+    every = np.linspace(first, last, _MOMENTS + 2)[1:-1]
+    return sorted({round(step) for step in (every if last - first > _MOMENTS else (first, last))})
 
 
 class CentreLines:
-    """Draws pressure, film and the rough body along y = 0, at any step on the same scales."""
+    """Pressure, film and the rough body along y = 0 in one panel, at any step on the same scales.
 
-    def __init__(self, run: TransientResult) -> None:
-        self.run, self.part = run, _window(run)
-        self.x = run.x[self.part] * MICRO
-        lines = run.profiles
-        self.heights = (lines.height_1 + lines.height_2)[:, self.part] * MICRO
-        self.top = _TALLEST * float(lines.film[:, _inside(run)].max()) * MICRO
-        self.ground = -0.08 * self.top - float(self.heights.max())
-        self.bottom = -0.16 * self.top - float(np.ptp(self.heights))
-        self.largest = 1.08 * float(lines.pressure.max()) * GIGA
+    The film is at the left, the pressure at the right; what the steady start has is dotted.
+    """
 
-    def draw(self, axes: Axes, step: int) -> "MovingLines":
-        """Draw one step, film at the left and pressure at the right; return what moves."""
-        lines, part = self.run.profiles, self.part
-        right = axes.twinx()
-        axes.plot(self.x, lines.film[0, part] * MICRO, color=FILM, lw=0.8, ls=":")
-        right.plot(self.x, lines.pressure[0, part] * GIGA, color=PRESSURE, lw=0.8, ls=":")
-        axes.set(xlim=(self.x[0], self.x[-1]), ylim=(self.bottom, self.top))
-        share = self.bottom / (self.top - self.bottom)
-        right.set_ylim(share / (1.0 + share) * self.largest, self.largest)
+    def __init__(self, run: TransientResult, axes: Axes) -> None:
+        self.lines, self.part = run.profiles, _window(run)
+        self.x, right = run.x[self.part] * MICRO, axes.twinx()
+        self.heights = (self.lines.height_1 + self.lines.height_2)[:, self.part] * MICRO
+        top = _TALLEST * _largest_inside(run, self.lines.film)
+        self.ground = -0.08 * top - float(self.heights.max())
+        self.bottom = -0.16 * top - float(np.ptp(self.heights))
+        largest = 1.08 * float(self.lines.pressure.max()) * GIGA
+        start: dict[str, Any] = {"lw": 0.8, "ls": ":"}
+        axes.plot(self.x, self.lines.film[0, self.part] * MICRO, color=FILM, **start)
+        right.plot(self.x, self.lines.pressure[0, self.part] * GIGA, color=PRESSURE, **start)
+        axes.set(xlim=(self.x[0], self.x[-1]), ylim=(self.bottom, top))
+        right.set_ylim(self.bottom / top * largest, largest)
         axes.axhline(0.0, color="0.4", lw=0.5)
         axes.set_ylabel("film h [µm]", color=FILM, fontsize=8)
         right.set_ylabel("pressure p [GPa]", color=PRESSURE, fontsize=8)
-        for one, largest in ((axes, self.top), (right, self.largest)):
-            ticks = MaxNLocator(4).tick_values(0.0, largest)
-            one.set_yticks([tick for tick in ticks if 0.0 <= tick <= largest])
+        for one, end in ((axes, top), (right, largest)):
+            ticks = MaxNLocator(4).tick_values(0.0, end)
+            one.set_yticks([tick for tick in ticks if 0.0 <= tick <= end])
             one.tick_params(labelsize=8)
-        moving = MovingLines(
-            body=axes.fill_between(self.x, self.bottom, self.x, color="0.72", lw=0),
-            edge=axes.plot([], [], color="0.3", lw=0.8)[0],
-            film=axes.plot([], [], color=FILM, lw=1.4)[0],
-            pressure=right.plot([], [], color=PRESSURE, lw=1.2)[0],
-        )
-        self.move(moving, step)
-        return moving
+        self.body = axes.fill_between(self.x, self.bottom, self.x, color="0.72", lw=0)
+        self.edge = axes.plot([], [], color="0.3", lw=0.8)[0]
+        self.film = axes.plot([], [], color=FILM, lw=1.4)[0]
+        self.pressure = right.plot([], [], color=PRESSURE, lw=1.2)[0]
 
-    def move(self, moving: "MovingLines", step: int) -> None:
-        """Show another step."""
-        lines, part = self.run.profiles, self.part
+    def show(self, step: int) -> None:
+        """Show the state at a step."""
         profile = self.ground + self.heights[step]
         around = (np.r_[self.x, self.x[::-1]], np.r_[profile, np.full_like(profile, self.bottom)])
-        moving.body.set_verts([np.column_stack(around)])
-        moving.edge.set_data(self.x, profile)
-        moving.film.set_data(self.x, lines.film[step, part] * MICRO)
-        moving.pressure.set_data(self.x, lines.pressure[step, part] * GIGA)
-
-
-@dataclass(frozen=True, slots=True)
-class MovingLines:
-    """What changes from step to step in a picture of :class:`CentreLines`."""
-
-    body: PolyCollection
-    edge: Line2D
-    film: Line2D
-    pressure: Line2D
+        self.body.set_verts([np.column_stack(around)])
+        self.edge.set_data(self.x, profile)
+        self.film.set_data(self.x, self.lines.film[step, self.part] * MICRO)
+        self.pressure.set_data(self.x, self.lines.pressure[step, self.part] * GIGA)
 
 
 def _window(run: TransientResult) -> slice:
-    return span_part(run.start.scaled.x, *WINDOW[0])
+    return span_part(run.start.scaled.x, WINDOW[0])
 
 
-def _inside(run: TransientResult) -> BoolArray:
-    """Return which nodes of y = 0 lie well inside the contact."""
-    return np.abs(run.start.scaled.x) < 0.8
+def _largest_inside(run: TransientResult, film: Array) -> float:
+    """Return the largest film [um] well inside the contact, of (steps, x) or (x,) along y = 0."""
+    return float(film[..., np.abs(run.start.scaled.x) < 0.8].max()) * MICRO
 
 
 def passage(run: TransientResult) -> Figure:
@@ -263,8 +237,8 @@ def passage(run: TransientResult) -> Figure:
         axes.fill_between(x, low, high, label="least to largest of the run", **style)
         axes.plot(x, first[part] * unit, color=colour, lw=1.3, label="steady film at the start")
         axes.grid(axis="y", lw=0.3)
-        axes.legend(fontsize=8, frameon=False)
-    lower.set_ylim(0.0, _TALLEST * float(found.film_largest[_inside(run)].max()) * MICRO)
+        axes.legend(**PLAIN)
+    lower.set_ylim(0.0, _TALLEST * _largest_inside(run, found.film_largest))
     upper.set(ylabel="pressure p [GPa]", xlim=(x[0], x[-1]))
     upper.set_ylim(bottom=0.0)
     lower.set(ylabel="film h [µm]", xlabel=ALONG_X)

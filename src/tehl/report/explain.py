@@ -5,23 +5,18 @@ from math import isfinite
 from typing import Any
 
 from tehl.domain import needed_points, recommended_domain
-from tehl.film_formulas import (
-    FilmEstimate,
-    Regime,
-    expected_film,
-    film_estimates,
-    regime,
-)
+from tehl.film_formulas import FilmEstimate, expected_film, film_estimates, regime
+from tehl.grid import Grid
 from tehl.heat import FilmEnergy, source_form
-from tehl.inlet_heating import InletFactor, inlet_factors, inlet_heating_factor, thermal_loading
+from tehl.inlet_heating import inlet_factors, inlet_heating_factor, thermal_loading
 from tehl.memory import needed_memory
 from tehl.options import Domain, Options, coarsenable
 from tehl.problem import ContactProblem
-from tehl.report.asperities import Asperities, asperities, odd_asperities
+from tehl.report.asperities import Asperities, asperities
 from tehl.report.expected_heat import BodyEffect, ExpectedHeat, body_effect, expected_heat
 from tehl.report.plausibility import questions
 from tehl.report.transient_plan import TransientPlan, transient_plan
-from tehl.scaling import Groups, ScaledProblem, Scales
+from tehl.scaling import ScaledProblem
 
 SECONDS_PER_NODE = 1.5e-6
 SECONDS_COUPLED = 6e-6
@@ -34,12 +29,10 @@ class Explanation:
 
     Attributes
     ----------
-    problem, options : ContactProblem, Options
-        The case.
-    groups, scales : Groups, Scales
-        Its groups and units.
-    regime : str
-        Lubrication regime.
+    scaled : ScaledProblem
+        The contact with its groups and scales.
+    options : Options
+        Its numerics.
     central_film : float
         Central film to expect [m].
     films : tuple of FilmEstimate
@@ -50,22 +43,14 @@ class Explanation:
         Heights of the surfaces in this contact; None where both are smooth.
     peclet : tuple of (float or None)
         ``|u_s| a_x / (2 diffusivity)`` of both solids [-]; None where a property is not stated.
-    inlet_heating : float or None
-        Factor by which inlet shear heating thins the film, after Wilson and Sheu [-].
-    inlet_factors : tuple of InletFactor
-        The same by each formula.
-    thermal_loading : float or None
-        eta_0 b u_m^2 / k [-]; None where a property is not stated.
+    sources : tuple of ({"line", "full"} or None)
+        Moving source of either surface in a thermal run; None where a property is missing.
     bodies : BodyEffect or None
         Effect of bodies that are not at the temperature of the oil; None if they are.
     heat : ExpectedHeat or None
         Temperature rises to expect; None where the solids state too little.
-    sources : tuple of ({"line", "full"} or None)
-        Moving source of either surface in a thermal run; None where a property is missing.
-    domain : Domain
-        The domain of the solve: the one stated, else the recommended one.
-    recommended_domain : Domain
-        From the load.
+    domain, recommended_domain : Domain
+        The domain of the solve, stated or recommended, and the one recommended for the load.
     needed_points : int
         Nodes per direction that give the central film to about three percent.
     memory, seconds : float
@@ -76,22 +61,16 @@ class Explanation:
         Values that are not plausible.
     """
 
-    problem: ContactProblem
+    scaled: ScaledProblem
     options: Options
-    groups: Groups
-    scales: Scales
-    regime: Regime
     central_film: float
     films: tuple[FilmEstimate, ...]
     lambda_ratio: float | None
     roughness: Asperities | None
-    peclet: tuple[float | None, float | None]
-    inlet_heating: float | None
-    inlet_factors: tuple[InletFactor, ...]
-    thermal_loading: float | None
+    peclet: tuple[float | None, ...]
+    sources: tuple[str | None, ...]
     bodies: BodyEffect | None
     heat: ExpectedHeat | None
-    sources: tuple[str | None, str | None]
     domain: Domain
     recommended_domain: Domain
     needed_points: int
@@ -103,74 +82,58 @@ class Explanation:
 
 def explain(problem: ContactProblem, options: Options) -> Explanation:
     """Return what formulas say about a case, without solving it."""
-    scaled = ScaledProblem.of(problem)
+    scaled, (ny, nx) = ScaledProblem.of(problem), options.shape
     groups, film, wanted = scaled.groups, expected_film(scaled), recommended_domain(scaled.groups)
     domain = options.domain if isinstance(options.domain, Domain) else wanted
-    heights = asperities(problem, options, domain, film)
+    grid = Grid(nx=nx, ny=ny, domain=domain, mirror=False)
+    mesh = (grid.dx * scaled.scales.half_width_x, grid.dy * scaled.scales.half_width_y)
+    heights, plan = asperities(problem, options, mesh, film), transient_plan(scaled, options, mesh)
     rough = problem.rms_roughness if heights is None else heights.composite
-    bodies, plan = body_effect(scaled), transient_plan(scaled, options, domain)
+    bodies = body_effect(scaled)
     heat = expected_heat(scaled, bodies)
     thinnest = bodies.groups if bodies is not None and bodies.ratio < 1 else groups
-    seconds_per_node = SECONDS_COUPLED if problem.is_coupled else SECONDS_PER_NODE
-    suspects = questions(scaled, options, heat, bodies)
-    suspects += tuple(odd_asperities(heights, problem, options, film))
     return Explanation(
-        problem=problem,
+        scaled=scaled,
         options=options,
-        groups=groups,
-        scales=scaled.scales,
         central_film=film,
+        films=film_estimates(groups, scaled.scales),
         lambda_ratio=film / rough if rough > 0 else None,
         roughness=heights,
+        peclet=tuple(None if one is None else abs(one) for one in problem.solid_peclet),
+        sources=_sources(problem),
         bodies=bodies,
         heat=heat,
         domain=domain,
         recommended_domain=wanted,
         needed_points=coarsenable(needed_points(thinnest) - 2)[1],
         memory=needed_memory(options, problem),
-        seconds=seconds_per_node * (options.shape[0] * options.shape[1]),
+        seconds=(SECONDS_COUPLED if problem.is_coupled else SECONDS_PER_NODE) * (ny * nx),
         time=plan,
-        questions=suspects + (plan.questions if plan else ()),
-        **_by_formulas(scaled),
+        questions=questions(scaled, options, heat, bodies, heights)
+        + (plan.questions if plan else ()),
     )
 
 
-def _by_formulas(scaled: ScaledProblem) -> dict[str, Any]:
-    """Return the fields of an explanation that follow from published formulas alone."""
-    problem = scaled.problem
-    first, second = problem.solid_peclet
-    return {
-        "regime": regime(scaled.groups),
-        "films": film_estimates(scaled.groups, scaled.scales),
-        "peclet": tuple(None if one is None else abs(one) for one in (first, second)),
-        "inlet_heating": inlet_heating_factor(problem),
-        "inlet_factors": inlet_factors(problem),
-        "thermal_loading": thermal_loading(problem),
-        "sources": (_source(problem, first), _source(problem, second)),
-    }
-
-
-def _source(problem: ContactProblem, peclet: float | None) -> str | None:
-    heat = problem.heat
-    stated = heat.sources if isinstance(heat, FilmEnergy) else "auto"
-    return None if peclet is None else source_form(stated, peclet)
+def _sources(problem: ContactProblem) -> tuple[str | None, ...]:
+    stated = problem.heat.sources if isinstance(problem.heat, FilmEnergy) else "auto"
+    return tuple(None if one is None else source_form(stated, one) for one in problem.solid_peclet)
 
 
 def as_summary(case: Explanation) -> dict[str, Any]:
     """Return an explanation as one JSON object."""
-    problem, roughness = case.problem, case.roughness
+    problem, roughness = case.scaled.problem, case.roughness
     bodies, heat = (None if one is None else asdict(one) for one in (case.bodies, case.heat))
     return {
         **_contact_as_summary(case),
-        "regime": case.regime,
+        "regime": regime(case.scaled.groups),
         "central_film_m": case.central_film,
         "films": [asdict(film) | {"valid": film.valid} for film in case.films],
         "lambda_ratio": case.lambda_ratio,
         "roughness": None if roughness is None else roughness.summary(),
         "solid_peclet": list(case.peclet),
-        "inlet_heating_factor": case.inlet_heating,
-        "inlet_factors": [asdict(factor) for factor in case.inlet_factors],
-        "thermal_loading": case.thermal_loading,
+        "inlet_heating_factor": inlet_heating_factor(problem),
+        "inlet_factors": [asdict(factor) for factor in inlet_factors(problem)],
+        "thermal_loading": thermal_loading(problem),
         "bodies": bodies,
         "expected_heat": heat,
         "sources": list(case.sources),
@@ -189,11 +152,11 @@ def as_summary(case: Explanation) -> dict[str, Any]:
 
 
 def _contact_as_summary(case: Explanation) -> dict[str, Any]:
-    problem, hertz = case.problem, case.problem.hertz
+    problem, hertz = case.scaled.problem, case.scaled.problem.hertz
     groups = {"hertz_pressure_pa": hertz.pressure, "hertz_half_width_m": hertz.half_width_x}
     return {
         "title": problem.title,
-        "groups": asdict(case.groups) | groups,
+        "groups": asdict(case.scaled.groups) | groups,
         "hertz": asdict(hertz),
         "load_n": problem.load,
         "entrainment_speed_m_s": problem.entrainment_speed,

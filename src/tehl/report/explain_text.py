@@ -4,9 +4,11 @@ from collections.abc import Iterator
 from math import degrees, isfinite
 
 from tehl.domain import AIM
+from tehl.film_formulas import regime
+from tehl.inlet_heating import inlet_factors, thermal_loading
 from tehl.memory import available_memory
 from tehl.options import Domain
-from tehl.report.asperities import ANSWERS, CONVERGES, Asperities
+from tehl.report.asperities import CONVERGES, RESOLVES, Asperities
 from tehl.report.explain import Explanation
 from tehl.report.readable import UNTITLED, length, seconds
 from tehl.report.transient_plan import TransientPlan
@@ -37,8 +39,8 @@ def _row(name: str, *values: str) -> str:
 
 
 def _case(case: Explanation) -> Iterator[str]:
-    problem, hertz, oil = case.problem, case.problem.hertz, case.problem.lubricant
-    motion = problem.motion
+    problem, motion = case.scaled.problem, case.scaled.problem.motion
+    hertz, oil = problem.hertz, problem.lubricant
     yield problem.title or UNTITLED
     yield _row("load", f"{problem.load:.4g} N")
     yield _row(
@@ -68,18 +70,18 @@ def _case(case: Explanation) -> Iterator[str]:
 
 
 def _groups(case: Explanation) -> Iterator[str]:
-    group = case.groups
+    group = case.scaled.groups
     yield "Groups (mean speed, R_x)"
     yield _row("Moes", f"M = {group.M:.4g}", f"L = {group.L:.4g}")
     yield _row("Hamrock-Dowson", f"U = {group.U:.4g}", f"W = {group.W:.4g}", f"G = {group.G:.4g}")
     reynolds = (f"lambda_bar = {group.lambda_bar:.4g}", f"alpha_bar = {group.alpha_bar:.4g}")
     yield _row("Reynolds", *reynolds)
     yield _row("shape", f"a_y/a_x = {group.ellipticity:.4g}", f"R_x/R_y = {group.radius_ratio:.4g}")
-    yield _row("regime", case.regime)
+    yield _row("regime", regime(group))
 
 
 def _film(case: Explanation) -> Iterator[str]:
-    inlet, bodies = case.problem.inlet_temperature - 273.15, case.bodies
+    inlet, bodies = case.scaled.problem.inlet_temperature - 273.15, case.bodies
     with_oil = "" if bodies is None else f", with oil of {inlet:.4g} degC at the inlet"
     yield f"{'Film by formulas':<28}{'central':<24}minimum{with_oil}"
     for film in case.films:
@@ -102,10 +104,8 @@ def _film(case: Explanation) -> Iterator[str]:
 
 
 def _roughness(found: Asperities) -> Iterator[str]:
-    if found.stands:
-        yield "Roughness (without [transient] it stands still in the contact: quasi-steady)"
-    else:
-        yield "Roughness (moves with its surfaces)"
+    stands = "without [transient] it stands still in the contact: quasi-steady"
+    yield f"Roughness ({stands if found.stands else 'moves with its surfaces'})"
     first, second = map(length, found.sq)
     yield _row("Sq", f"surface 1 {first}", f"surface 2 {second}", f"both {length(found.composite)}")
     yield _row("steepest slope", f"{found.steepest:.2g}")
@@ -114,14 +114,13 @@ def _roughness(found: Asperities) -> Iterator[str]:
         f"{length(found.shortest_wave)} along an axis",
         f"{found.points_per_wave:.3g} nodes on it",
         f"({CONVERGES} to converge: {found.points_to_converge}, "
-        f"{ANSWERS} for its ripples: {found.points_to_answer} nodes)",
+        f"{RESOLVES} for its ripples: {found.points_to_answer} nodes)",
     )
     for wave, theory in found.waves:
         yield _row("wave", *_wave(wave, theory))
 
 
 def _wave(wave: WaveVector, theory: LinearTheory) -> Iterator[str]:
-    giga = 1e-9
     yield f"{length(wave.wavelength)} at {degrees(wave.angle) + 0.0:.3g} deg"
     if theory.left_to_inlet:
         yield "its amplitude depends on the inlet"
@@ -129,12 +128,13 @@ def _wave(wave: WaveVector, theory: LinearTheory) -> Iterator[str]:
         yield "no theory of its amplitude in the film: it covers isothermal Newtonian films"
     else:
         yield f"{100 * theory.film_ratio:.3g} % left in the film"
-        yield f"pressure +-{theory.pressure * giga:.2g} GPa"
-    yield f"({theory.elastic_pressure * giga:.2g} GPa flatten it)"
+        yield f"pressure +-{theory.pressure * 1e-9:.2g} GPa"
+    yield f"({theory.elastic_pressure * 1e-9:.2g} GPa flatten it)"
 
 
 def _heat(case: Explanation) -> Iterator[str]:
-    problem, thermal = case.problem, case.problem.thermal
+    problem, thermal = case.scaled.problem, case.scaled.problem.thermal
+    loading, formulas = thermal_loading(problem), inlet_factors(problem)
     fall = problem.temperature_coefficient
     yield f"Heat ({'computed' if thermal else 'not computed: an isothermal film'})"
     yield _row(
@@ -146,12 +146,11 @@ def _heat(case: Explanation) -> Iterator[str]:
     if thermal:
         across = f"{thermal.nodes} {thermal.scheme} nodes across the film"
         yield _row("model", f"{thermal.reynolds} Reynolds equation", across)
-    if case.thermal_loading is not None:
-        yield _row("thermal loading", f"eta_0 b u_m^2 / k = {case.thermal_loading:.3g}")
-    if case.inlet_factors:
-        factors = (f"{one.factor:.3f} {one.formula}" for one in case.inlet_factors)
-        yield _row("film by inlet heat", *factors)
-    for one in case.inlet_factors:
+    if loading is not None:
+        yield _row("thermal loading", f"eta_0 b u_m^2 / k = {loading:.3g}")
+    if formulas:
+        yield _row("film by inlet heat", *(f"{one.factor:.3f} {one.formula}" for one in formulas))
+    for one in formulas:
         yield from (f"      {one.formula}: {remark}" for remark in one.remarks)
     yield from _rises(case)
     numbers = []

@@ -3,8 +3,8 @@
 import base64
 import io
 import math
-from collections.abc import Callable, Iterator
-from pathlib import Path
+from collections.abc import Iterator
+from functools import partial
 from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
@@ -12,9 +12,8 @@ from matplotlib.figure import Figure
 
 from tehl.errors import InputError
 from tehl.film_formulas import film_estimates
-from tehl.io.atomic import check_writable, replacing
 from tehl.io.tables import DEFINITIONS
-from tehl.plots.save import Pictures, pictures_of
+from tehl.plots import Pictures, pictures_of
 from tehl.post.film import no_film
 from tehl.post.micro_film import RoughnessEffect
 from tehl.post.roughness import rough_film
@@ -70,40 +69,6 @@ _CERTIFIED = {
 """Units of certified values; the others are films, in nanometres."""
 
 
-def write_report(
-    result: Result | TransientResult,
-    path: str | Path,
-    *,
-    effect: ThermalEffect | None = None,
-    roughness: RoughnessEffect | None = None,
-    smooth: Result | None = None,
-) -> None:
-    """Write ``result`` as one HTML file with its pictures inside; whole, or not at all.
-
-    Parameters
-    ----------
-    result : Result or TransientResult
-        Converged or not.
-    path : str or Path
-        The file; an older one is replaced.
-    effect : ThermalEffect or None
-        Effect of heat on a steady film, from an isothermal reference run.
-    roughness : RoughnessEffect or None
-        Effect of roughness on a steady film, from a smooth reference run.
-    smooth : Result or None
-        That reference run, for the pictures.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be written there.
-    """
-    check_writable(path)
-    text = report_text(result, effect=effect, roughness=roughness, smooth=smooth)
-    with replacing(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
-
-
 def report_text(
     result: Result | TransientResult,
     *,
@@ -112,7 +77,7 @@ def report_text(
     roughness: RoughnessEffect | None = None,
     smooth: Result | None = None,
 ) -> str:
-    """Return the page as text.
+    """Return ``result`` as one HTML page with its pictures inside.
 
     Parameters
     ----------
@@ -120,8 +85,12 @@ def report_text(
         Converged or not.
     dpi : int
         Dots per inch of the pictures.
-    effect, roughness, smooth : ThermalEffect, RoughnessEffect and Result, or None
-        As of :func:`write_report`.
+    effect : ThermalEffect or None
+        Effect of heat on a steady film, from an isothermal reference run.
+    roughness : RoughnessEffect or None
+        Effect of roughness on a steady film, from a smooth reference run.
+    smooth : Result or None
+        That reference run, for the pictures.
     """
     content = _shared(result, pictures_of(result, smooth), dpi)
     if isinstance(result, TransientResult):
@@ -145,27 +114,23 @@ def environment() -> Environment:
         trim_blocks=True,
         undefined=StrictUndefined,
     )
-    found.filters |= {name: _unit_filter(name) for name in _UNITS} | {
+    found.filters |= {name: partial(_in_unit, name) for name in _UNITS} | {
         "bar": _bar,
         "celsius": lambda kelvin: f"{kelvin - 273.15:.4g} °C",
         "degrees": math.degrees,
         "g": lambda value, digits=4: f"{value:.{digits}g}",
-        "metres": lambda value: _in_unit(value, "nm" if value < 1e-6 else "um"),
+        "metres": lambda value: _in_unit("nm" if value < 1e-6 else "um", value),
         "off": lambda formula, value: f"{100 * (formula / value - 1):+.1f} %",
         "percent": lambda part, digits=2: f"{100 * part:.{digits}g} %",
         "seconds": lambda time: seconds(time).replace("us", "µs"),
-        "unit": _in_unit,
+        "unit": lambda value, name: _in_unit(name, value),
     }
     found.tests["numeral"] = _is_numeral
     found.globals["zip"] = zip
     return found
 
 
-def _unit_filter(name: str) -> Callable[..., str]:
-    return lambda value, digits=4: _in_unit(value, name, digits)
-
-
-def _in_unit(value: float, name: str, digits: int = 4) -> str:
+def _in_unit(name: str, value: float, digits: int = 4) -> str:
     """Return a value in SI with its unit."""
     factor, word = _UNITS[name]
     return f"{value * factor:.{digits}g}{word}"
@@ -209,9 +174,8 @@ def _shared(result: Result | TransientResult, pictures: Pictures, dpi: int) -> d
 def _inputs(result: Result) -> dict[str, list[tuple[str, str]]]:
     """Return key and value of each input, by table of the case file."""
     tables: dict[str, list[tuple[str, str]]] = {}
-    for row in (*input_rows(result.problem), *input_rows(result.options, "numerics.")):
-        table = row.path.split(".")[0].replace("_", " ")
-        tables.setdefault(table, []).append((row.path, f"{row.value} {row.unit}".strip()))
+    for path, value in (*input_rows(result.problem), *input_rows(result.options, "numerics.")):
+        tables.setdefault(path.split(".")[0].replace("_", " "), []).append((path, value))
     tables.pop("title", None)
     return tables
 

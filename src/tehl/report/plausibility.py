@@ -1,4 +1,4 @@
-"""Plausibility of a case: typical ranges of its values, combinations that are seldom meant."""
+"""Plausibility of a case: typical ranges of its values, unusual combinations."""
 
 import math
 from collections.abc import Iterator
@@ -17,21 +17,24 @@ from tehl.heat import FAR_BODY, LAYERS
 from tehl.lubricant import Limiting, Roelands, RoelandsExponential, Walther
 from tehl.options import Domain, Options, coarsenable
 from tehl.problem import ContactProblem, Surface
+from tehl.report.asperities import CONVERGES, LARGEST, RESOLVES, Asperities
 from tehl.report.expected_heat import NOTICEABLE, BodyEffect, ExpectedHeat
 from tehl.scaling import Groups, ScaledProblem
 
 SLIDING = 0.02
 """Slide-roll ratio from which on surfaces count as sliding."""
 WARM = 5.0
-"""Temperature rise from which on an isothermal film is questionable [K]."""
+"""Temperature rise from which on an isothermal film is not plausible [K]."""
 UNPHYSICAL = 0.8e9
-"""Hertz pressure from which on a sliding Newtonian film is questionable [Pa]."""
+"""Hertz pressure from which on a sliding Newtonian film is not plausible [Pa]."""
 FEW_LAYERS = 15
 """Uniform layers below which a temperature profile is under-resolved."""
 SLOWEST_LINE = 5.0
 """Solid Peclet number below which a line source deviates by more than four per cent."""
 MOLECULAR = 5e-9
 """Film below which the oil is not a continuum [m]."""
+STEEP = 0.1
+"""Slope from which on Reynolds' equation does not hold."""
 ROUNDING = 1e-9
 """Part of a limit by which a value may miss it: groups are computed from SI with rounding."""
 
@@ -71,6 +74,7 @@ def questions(
     options: Options,
     heat: ExpectedHeat | None,
     bodies: BodyEffect | None,
+    heights: Asperities | None,
 ) -> tuple[str, ...]:
     """Return the values of a case that are not plausible, a sentence each.
 
@@ -84,6 +88,8 @@ def questions(
         Temperature rises to expect.
     bodies : BodyEffect or None
         Effect of bodies that are not at the temperature of the oil.
+    heights : Asperities or None
+        Heights of rough surfaces.
     """
     thinner = bodies.groups if bodies is not None and bodies.ratio < 1 else scaled.groups
     ranges = (one.question() for one in typical_ranges(scaled))
@@ -95,6 +101,7 @@ def questions(
         *_about_bodies(bodies),
         *_about_domain(options, scaled.groups),
         *_about_grid(options, thinner),
+        *(_about_heights(scaled, options, heights) if heights else ()),
     )
 
 
@@ -159,11 +166,7 @@ def _ranges_of_oil(problem: ContactProblem) -> Iterator[Typical]:
         Typical("lubricant.heat_capacity", capacity, 800, 4300, "J/kg/K", kilo),
     )
     yield from (one for one in stated if one.value > 0)
-    yield from _ranges_of_flow(problem)
-
-
-def _ranges_of_flow(problem: ContactProblem) -> Iterator[Typical]:
-    shear, pressure = problem.lubricant.shear, problem.hertz.pressure
+    shear, pressure = oil.shear, problem.hertz.pressure
     if isinstance(shear, Limiting):
         part = (shear.stress + shear.slope * pressure) / pressure
         hint = "most oils slip at 0.03 to 0.1 of the pressure"
@@ -213,8 +216,8 @@ def _about_heat(problem: ContactProblem, heat: ExpectedHeat | None) -> Iterator[
         )
     elif thermal is None and newtonian and abs(problem.slide_roll_ratio) > SLIDING:
         yield (
-            "the surfaces slide, which an isothermal Newtonian film does not feel: heat would thin "
-            "it, and its traction is far too high"
+            "the surfaces slide, but the film is isothermal and Newtonian: heat would thin it, and "
+            "its traction is far too high"
         )
     if thermal is None:
         return
@@ -282,3 +285,36 @@ def _about_grid(options: Options, groups: Groups) -> Iterator[str]:
         f"{percent:g} %, the minimum by several times as much, or the run may not converge; "
         f"{coarsenable(needed - 2)[1]} nodes keep the central film within about {100 * AIM:.0f} %"
     )
+
+
+def _about_heights(scaled: ScaledProblem, options: Options, found: Asperities) -> Iterator[str]:
+    film, pressure = expected_film(scaled), scaled.problem.hertz.pressure
+    yield from found.remarks
+    if found.points_per_wave < CONVERGES:
+        enough, better = (
+            f"{'more than ' if points > LARGEST else ''}{min(points, LARGEST)} nodes"
+            for points in (found.points_to_converge, found.points_to_answer)
+        )
+        yield (
+            f"numerics.points = {min(options.shape)}: {found.points_per_wave:.2g} nodes on the "
+            f"shortest wave of the surfaces ({found.shortest_wave * 1e6:.3g} um), so a run may not "
+            f"converge; {enough} put {CONVERGES} on it, {better} the {RESOLVES} that its ripples "
+            "need"
+        )
+    if found.steepest > STEEP:
+        yield (
+            f"the surfaces have slopes up to {found.steepest:.2g}: Reynolds' equation needs gentle "
+            "ones, check the units of height and length"
+        )
+    if film < found.composite:
+        yield (
+            f"the film is {film / found.composite:.2g} times Sq: asperities may touch, and the "
+            "result shows where there is no film"
+        )
+    pressures = (t.elastic_pressure if t.pressure is None else t.pressure for _, t in found.waves)
+    largest = max(pressures, default=0.0)
+    if largest > pressure:
+        yield (
+            f"flattening a wave needs {largest / pressure:.2g} Hertz pressures: its valleys will "
+            "cavitate, and a run may not converge"
+        )

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator
-from typing import Any, NamedTuple, get_args
+from typing import Any, get_args
 
 from pydantic import BaseModel
 
@@ -22,14 +22,6 @@ _INPUTS = {
 """By SI unit, from the largest: smallest magnitude, factor and unit."""
 
 
-class InputRow(NamedTuple):
-    """One stated value: its key path (``"contact.load"``), value and unit as text."""
-
-    path: str
-    value: str
-    unit: str
-
-
 def length_unit(metres: float) -> tuple[float, str]:
     """Return the factor from metres to a fitting unit (mm, um or nm), and that unit."""
     return next(((f, unit) for least, f, unit in _LENGTHS if abs(metres) >= least), (1.0, "m"))
@@ -47,24 +39,28 @@ def seconds(time: float) -> str:
     return f"{time * factor:.4g} {unit}"
 
 
-def input_rows(model: BaseModel, prefix: str = "") -> Iterator[InputRow]:
-    """Yield the stated values of a model and of the models in it, their paths after ``prefix``."""
+def input_rows(model: BaseModel, prefix: str = "") -> Iterator[tuple[str, str]]:
+    """Yield key path (``contact.load``) and value with unit of each value that a model states.
+
+    Paths of the models in it follow after ``prefix``.
+    """
     for name, field in type(model).model_fields.items():
         value = getattr(model, name)
         if isinstance(value, BaseModel):
             yield from input_rows(value, f"{prefix}{name}.")
         elif value is not None and value != "":
-            yield _row(f"{prefix}{name}", value, _unit(field.annotation, field.metadata))
+            yield f"{prefix}{name}", _with_unit(value, _unit(field.annotation, field.metadata))
 
 
-def _row(path: str, value: Any, unit: str) -> InputRow:
-    """Return a row, its value with an SI prefix where that is shorter."""
-    if isinstance(value, float) and math.isinf(value):
-        return InputRow(path, _shown(value), "")
-    for least, factor, better in _INPUTS.get(unit, ()) if isinstance(value, float) else ():
-        if abs(value) >= least:
-            return InputRow(path, _shown(value * factor), better)
-    return InputRow(path, _shown(value), unit)
+def _with_unit(value: Any, unit: str) -> str:
+    """Return a value with its unit, with an SI prefix where that is shorter."""
+    if isinstance(value, float):
+        if math.isinf(value):
+            return _shown(value)
+        for least, factor, better in _INPUTS.get(unit, ()):
+            if abs(value) >= least:
+                return f"{_shown(value * factor)} {better}"
+    return f"{_shown(value)} {unit}".strip()
 
 
 def _unit(annotation: Any, metadata: list[Any]) -> str:

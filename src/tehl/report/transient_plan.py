@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from tehl.duration import duration_of, misplaced, number_of_steps
-from tehl.options import Domain, Options
+from tehl.options import Options
 from tehl.scaling import ScaledProblem
 
 SECONDS_PER_STEP = 0.014
@@ -57,7 +57,9 @@ class TransientPlan:
     questions: tuple[str, ...]
 
 
-def transient_plan(scaled: ScaledProblem, options: Options, domain: Domain) -> TransientPlan | None:
+def transient_plan(
+    scaled: ScaledProblem, options: Options, mesh: tuple[float, float]
+) -> TransientPlan | None:
     """Return the plan of a transient run, None for a steady case.
 
     Parameters
@@ -66,15 +68,13 @@ def transient_plan(scaled: ScaledProblem, options: Options, domain: Domain) -> T
         The contact.
     options : Options
         Its numerics.
-    domain : Domain
-        The domain of the solve.
+    mesh : (float, float)
+        Mesh widths of the finest grid along x and y [m].
     """
     problem, units, transient = scaled.problem, scaled.scales, scaled.problem.transient
     if transient is None:
         return None
-    ny, nx = options.shape
-    dx = (domain.x[1] - domain.x[0]) / (nx - 1) * units.half_width_x
-    dy = (domain.y[1] - domain.y[0]) / (ny - 1) * units.half_width_y
+    (ny, nx), (dx, dy) = options.shape, mesh
     step, duration = transient.stride * dx / units.speed, duration_of(scaled)
     steps = number_of_steps(scaled, step)
     cost = SECONDS_COUPLED if problem.is_coupled else SECONDS_PER_NODE
@@ -96,10 +96,7 @@ def transient_plan(scaled: ScaledProblem, options: Options, domain: Domain) -> T
 
 
 def _questions(
-    scaled: ScaledProblem,
-    duration: float,
-    points: tuple[float, float],
-    shifts: tuple[float, float],
+    scaled: ScaledProblem, duration: float, points: tuple[float, float], shifts: tuple[float, float]
 ) -> Iterator[str]:
     """Yield what is not plausible, a sentence each."""
     stride = scaled.problem.transient.stride if scaled.problem.transient else 1
@@ -121,6 +118,6 @@ def _questions(
             )
         if shift > LARGEST_PART * one:
             yield (
-                f"{name} moves by {shift / one:.2g} of its shortest wave per step: solve refuses "
-                "more than a quarter, and filters such waves off a measured or random surface"
+                f"{name} moves by {shift / one:.2g} of its shortest wave per step: solve accepts "
+                "at most a quarter, and filters such waves off a measured or random surface"
             )
