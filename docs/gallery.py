@@ -31,8 +31,7 @@ It prints
 
 INDEX = """# Gallery
 
-Each page shows a script of the folder `examples` with its output and pictures, made when this documentation was
-built.
+Each page shows a script of the folder `examples` with the output and the pictures of its last run.
 
 ```{{toctree}}
 :maxdepth: 1

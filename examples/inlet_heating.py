@@ -2,8 +2,8 @@
 
 In pure rolling, too, oil flows back in the inlet and is sheared. At high speed this heats the oil,
 and since the inlet determines the film, it is thinner than without heat. Three formulas give the
-factor as a function of the thermal loading parameter eta_0 b u_m^2 / k (b is the fall of ln eta with
-temperature, k the conductivity of the oil).
+factor as a function of the thermal loading parameter eta_0 b u_m^2 / k (b is the fall of ln eta
+with temperature, k the conductivity of the oil).
 
 Each speed is solved with heat and without. The computed reduction is a quarter (1 m/s) to two
 thirds (16 m/s) of that of the formulas. The formulas are fits with an accuracy of 10 to 15 % in the

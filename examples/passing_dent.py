@@ -11,8 +11,8 @@ depth, and the pressure hardly changes.
 **With sliding they separate.** The oil in the contact is too viscous to be moved by the pressure:
 it moves at the mean speed of both surfaces, and so does the thick film that the dent made in the
 inlet. The dent moves with its surface: if that is the fast one (SRR = 0.5), the thick film falls
-behind, if it is the slow one (SRR = -0.5), it runs ahead. The dent without its oil is flattened: the
-pressure is low over the dent, and over the thick film up to half as high again as in the smooth
+behind, if it is the slow one (SRR = -0.5), it runs ahead. The dent without its oil is flattened:
+the pressure is low over the dent, and over the thick film up to half as high again as in the smooth
 contact. The picture of place and time shows both paths.
 
 The oil is Newtonian and isothermal: films and pressures are realistic, the traction is not.

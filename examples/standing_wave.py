@@ -10,9 +10,9 @@ bodies. What remains is due to the compressibility of the oil: `C / (1 + C)` wit
 `C = h E' pi / (2 lambda B)` and the bulk modulus B in linear theory, with which the computation
 agrees to two and three per cent.
 
-**The film has streaks along the flow**: a crest in the inlet reduces the flow and a valley increases
-it, and the film carries both unchanged through the contact. The minimum film falls by 11 and 13 per
-cent. The films agree with those of an independent program on the same grid to 0.1 %.
+**The film has streaks along the flow**: a crest in the inlet reduces the flow and a valley
+increases it, and the film carries both unchanged through the contact. The minimum film falls by 11
+and 13 per cent. The films agree with those of an independent program on the same grid to 0.1 %.
 """
 
 import math
