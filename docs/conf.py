@@ -33,7 +33,6 @@ napoleon_use_rtype = False
 autodoc_typehints = "none"
 autodoc_member_order = "bysource"
 toc_object_entries_show_parents = "hide"
-add_module_names = False
 exclude_patterns = ["_build"]
 
 html_theme = "pydata_sphinx_theme"
