@@ -1,7 +1,7 @@
 """Benchmarks: ``python -m benchmarks [TOPIC ...] [--quick] [--points N] [--json FILE]``.
 
-``heat`` also takes ``--judge``, which solves each contact of its sweep on a twice finer grid, and
-``--jobs 2``, which solves two at a time.
+``heat --judge`` also solves each contact of its sweep on a grid twice as fine; ``heat --jobs 2``
+solves two contacts at a time.
 """
 
 import argparse
@@ -39,7 +39,7 @@ BY_DEFAULT = ("speed", "rate", "deformation")
 
 
 def arguments() -> argparse.Namespace:
-    """Return what was asked on the command line."""
+    """Return the arguments of the command line."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
     parser.add_argument("topics", nargs="*", help=f"of {', '.join(TOPICS)}")
     parser.add_argument("--quick", action="store_true", help="small grids, few cases")
@@ -47,30 +47,30 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--judge", action="store_true", help="heat: judge by twice finer grids")
     parser.add_argument("--jobs", type=int, default=1, help="heat: processes of the sweep")
     parser.add_argument("--json", type=Path, help="also write the tables to this file")
-    asked = parser.parse_args()
-    for topic in asked.topics:
+    given = parser.parse_args()
+    for topic in given.topics:
         if topic not in TOPICS:
             parser.error(f"no topic {topic!r}: choose from {', '.join(TOPICS)}")
-    return asked
+    return given
 
 
 def main() -> None:
-    """Measure what was asked and print one table per topic."""
-    asked = arguments()
+    """Measure the given topics and print one table each."""
+    given = arguments()
     tables = []
-    for topic in asked.topics or BY_DEFAULT:
+    for topic in given.topics or BY_DEFAULT:
         make = TOPICS[topic]
         if topic in ("robustness", "rough", "asperities"):
-            make = partial(make, asked.points)
+            make = partial(make, given.points)
         if topic == "heat":
-            make = partial(make, asked.points, finer=asked.judge, jobs=asked.jobs)
-        made = make(quick=asked.quick)
+            make = partial(make, given.points, finer=given.judge, jobs=given.jobs)
+        made = make(quick=given.quick)
         for table in [made] if isinstance(made, Table) else made:
             tables.append(table.as_dict())
             sys.stdout.write(table.text() + "\n")
             sys.stdout.flush()
-    if asked.json is not None:
-        asked.json.write_text(json.dumps(tables, indent=1), encoding="utf-8")
+    if given.json is not None:
+        given.json.write_text(json.dumps(tables, indent=1), encoding="utf-8")
 
 
 if __name__ == "__main__":

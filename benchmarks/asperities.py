@@ -1,4 +1,4 @@
-"""What asperities cost: waves that stand in a contact, and a dent that passes, in FFT units.
+"""Cost of asperities: a standing wave and a passing dent, in FFT units.
 
 Amplitudes are in units of a^2/R, lengths in half-widths a; the unit of work is
 `benchmarks.measure.fft_unit`.
@@ -24,15 +24,15 @@ from tehl.result import Result
 from tehl.transient_result import TransientResult
 
 SHAPE = (0.03, 0.5, 45)
-"""Amplitude, wavelength and angle of the wave that stands."""
+"""Amplitude, wavelength and angle of the standing wave."""
 SLIDES = (0.0, 0.5)
 STEPS = 400
-"""Steps of the run that is asked about."""
+"""Number of steps that the cost is stated for."""
 REPEATS = 3
 
 
 def standing_row(load: float, speed: float, points: int) -> tuple[Cell, ...]:
-    """Solve for the film of a wave that stands, and return its row."""
+    """Solve the film of a standing wave and return its row."""
     problem = wave(load, speed, SHAPE).problem()
     options = Options(points=points, domain=DOMAIN)
     attempt(problem, options)  # compiles
@@ -56,7 +56,7 @@ def attempt(problem: ContactProblem, options: Options) -> Result:
 
 
 def passing_row(slide: float, run: TransientResult, unit: float) -> tuple[Cell, ...]:
-    """Return the row of a dent that passes: what its steps cost, without the steady beginning.
+    """Return the row of a passing dent: the cost of its steps, without the steady start.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def passing_row(slide: float, run: TransientResult, unit: float) -> tuple[Cell, 
 
 
 def dent(slide: float, points: int) -> TransientResult:
-    """Follow the dent of the template."""
+    """Solve the passing dent of the template."""
     given = tomllib.loads(template_text("passing-dent"))
     changed = {"contact": {"slide_roll_ratio": slide}, "numerics": {"points": points}}
     return solve_transient(
@@ -84,11 +84,11 @@ def dent(slide: float, points: int) -> TransientResult:
 
 
 def tables(points: int, *, quick: bool = False) -> Iterator[Table]:
-    """Yield a table of waves that stand, and one of a dent that passes."""
+    """Yield a table of standing waves and one of a passing dent."""
     amplitude, length, angle = SHAPE
     grid = f"{points} x {points} nodes, one thread"
     standing = Table(
-        title=f"Asperities: a wave that stands, {amplitude:g} a^2/R, {length:g} a, {angle} deg, "
+        title=f"Asperities: a standing wave, {amplitude:g} a^2/R, {length:g} a, {angle} deg, "
         f"{grid}",
         columns=("M", "L", "status", "smoother", "cycles", "CPU s", "work"),
     )
@@ -96,7 +96,7 @@ def tables(points: int, *, quick: bool = False) -> Iterator[Table]:
         standing.rows.append(standing_row(load, speed, points))
     yield standing
     passing = Table(
-        title=f"Asperities: a dent that passes, tehl new passing-dent, {grid}",
+        title=f"Asperities: a passing dent, tehl new passing-dent, {grid}",
         columns=("SRR", "status", "steps", "cycles per step", "at most", "work per step",
                  f"CPU s of {STEPS} steps", "CPU s of the start"),
     )  # fmt: skip

@@ -1,4 +1,4 @@
-"""What the edges of the default domain do to the film."""
+"""Error of the film by the edges of the default domain."""
 
 from tests.reference import DOMAIN, moes_contact
 
@@ -29,7 +29,7 @@ def widened(problem: ContactProblem, run: Result) -> Result:
 
 
 def change(run: Result, wide: Result, name: str) -> Cell:
-    """Return in percent how far a film is from that of the larger domain, or why not."""
+    """Return the difference to the film of the larger domain [%], or the cause of a failure."""
     for result in (run, wide):
         if not result.status.converged:
             return result.status.cause
@@ -42,7 +42,7 @@ def table(*, quick: bool = False) -> Table:
     made = Table(
         title=f"Domain: default and stated against twice as large, {POINTS} points, L = 10",
         columns=("M", "X_in", "|Y|", "H_central", "default %", "H_min %", "[-4.5, 1.5] x 3 %"),
-        notes=["the part of the default domain must stay below 0.3 % of H_central"],
+        notes=["the error of the default domain must stay below 0.3 % of H_central"],
     )
     tight = {"points": POINTS, "accuracy": "tight", "tolerance": 1e-5}
     for load in (5, 20, 100) if quick else LOADS:

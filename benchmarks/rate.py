@@ -1,4 +1,4 @@
-"""Convergence rate: how much one V(2,2) cycle after full multigrid takes off the error of H."""
+"""Convergence rate: reduction of the error of H per V(2,2) cycle after full multigrid."""
 
 from itertools import pairwise
 
@@ -16,7 +16,7 @@ CASES = ((20, 10), (57.21, 10.52), (100, 12.04), (200, 10), (500, 10), (1000, 10
 SIZES = (129, 257, 513)
 CYCLES = 5
 MORE_CYCLES = 20
-"""Cycles after those that are measured, which give the solution of the same grid."""
+"""Further cycles, which give the converged solution of the same grid."""
 RADIUS = 1.2
 
 

@@ -1,4 +1,4 @@
-"""Sixty cases over all features, stored by one checkout and compared with another.
+"""Cases over all features, stored by one checkout and compared with another.
 
 ``python -m benchmarks.regression store DIR`` runs them through the ``tehl`` command of this
 environment and keeps the JSON summary and all fields of each; ``python -m benchmarks.regression
@@ -133,7 +133,7 @@ def fields_of(folder: Path) -> Iterator[tuple[str, np.ndarray]]:
 
 
 def store(folder: Path, names: list[str]) -> None:
-    """Run the cases and keep what they give."""
+    """Run the cases and store their results."""
     folder.mkdir(parents=True, exist_ok=True)
     for case in chosen(names):
         with tempfile.TemporaryDirectory() as scratch:
@@ -185,7 +185,7 @@ def distances(before: dict[str, Any], now: dict[str, Any]) -> Iterator[tuple[str
 
 
 def is_iteration_error(key: str) -> bool:
-    """Whether a number is itself a small difference, whose last digits mean nothing."""
+    """Whether a quantity is a small difference without meaningful last digits."""
     return any(word in key for word in ("residual", "load_error", "iteration", "change", "balance"))
 
 
@@ -213,16 +213,16 @@ def show(name: str, text: str) -> None:
 
 
 def main() -> None:
-    """Store or compare, as the command line says."""
+    """Store or compare, by the command line."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.regression", description=__doc__)
     parser.add_argument("action", choices=("store", "compare"))
     parser.add_argument("folder", type=Path)
     parser.add_argument("names", nargs="*", help="of the cases; all if left out")
-    asked = parser.parse_args()
-    if asked.action == "store":
-        store(asked.folder, asked.names)
+    given = parser.parse_args()
+    if given.action == "store":
+        store(given.folder, given.names)
         return
-    raise SystemExit(1 if compare(asked.folder, asked.names) else 0)
+    raise SystemExit(1 if compare(given.folder, given.names) else 0)
 
 
 if __name__ == "__main__":

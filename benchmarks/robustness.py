@@ -1,6 +1,6 @@
 """Which contacts converge from a cold start, and whether the stated error bars hold.
 
-A result is *wrong* when it is called converged and its film differs from that of the twice finer
+A result is *wrong* if its status is converged and its film differs from that of the twice finer
 grid by more than its own error bar (discretisation and iteration).
 """
 
@@ -49,7 +49,7 @@ class Outcome:
 
     @property
     def wrong(self) -> bool:
-        """Whether a film called converged lies outside its error bar."""
+        """Whether a converged film lies outside its error bar."""
         return self.judged and not (self.excess("central") <= 1 and self.excess("minimum") <= 1)
 
     def row(self) -> tuple[Cell, ...]:
@@ -117,5 +117,5 @@ def table(points: int, *, quick: bool = False) -> Table:
     made.notes.append("status: " + ", ".join(f"{n} {name}" for name, n in counts.most_common()))
     wrong = [o for o in found if o.wrong]
     judged = sum(o.judged for o in found)
-    made.notes.append(f"wrong: {len(wrong)} of {judged} that a twice finer run could judge")
+    made.notes.append(f"wrong: {len(wrong)} of {judged} that converged on both grids")
     return made

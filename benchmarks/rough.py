@@ -1,4 +1,4 @@
-"""Rough contacts that stand still, defaults, cold: which of them converge, and what the rest says.
+"""Convergence of rough contacts at rest, from a cold start with the defaults.
 
 Amplitudes are in units of a^2/R, lengths in half-widths a, angles 0 for transverse waves.
 """
@@ -62,7 +62,7 @@ def in_metres(table: dict[str, Any], units: Scales) -> dict[str, Any]:
 
 
 def waves(points: int) -> Iterator[Case]:
-    """Yield the waves that a grid carries with eight nodes each or more."""
+    """Yield the waves with eight nodes or more on a grid."""
     mesh = (DOMAIN.x[1] - DOMAIN.x[0]) / (points - 1)
     for load, speed in CONTACTS:
         for amplitude in AMPLITUDES:

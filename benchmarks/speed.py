@@ -41,8 +41,7 @@ print(json.dumps([before, peak() - before]))
 def solve_and_unit(problem: ContactProblem, points: int) -> tuple[float, float, float]:
     """Return median CPU seconds of a whole solve, of the FFT unit, and of their ratio.
 
-    Solves and units take turns, so that a busy machine slows both; kernels are set up anew in each
-    solve, and only compiling is left out.
+    Solves and units alternate, so that a busy machine slows both; compiling is not counted.
     """
     options = Options(points=points, domain=DOMAIN)
     solve(problem, options)
@@ -58,7 +57,7 @@ def solve_and_unit(problem: ContactProblem, points: int) -> tuple[float, float, 
 def memory(points: int) -> tuple[float, float] | tuple[None, None]:
     """Return MB after import and warm-up, and the peak of a solve above it, in a new process.
 
-    Neither is known on a system without ``/proc``.
+    Requires ``/proc``; None on other systems.
     """
     if not Path("/proc/self/status").exists():
         return None, None

@@ -12,7 +12,7 @@ class Table:
     Attributes
     ----------
     title : str
-        What was measured.
+        What the rows measure.
     columns : tuple of str
         Names with units.
     rows : list of tuple

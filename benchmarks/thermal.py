@@ -1,7 +1,7 @@
-"""Heated and thinning films: what they cost, and which of them converge from a cold start.
+"""Cost and convergence of heated and shear-thinning films.
 
-A result is *wrong* as in `benchmarks.robustness`: called converged, and its film differs from that
-of the twice finer grid by more than its own error bar.
+A result is *wrong* as in `benchmarks.robustness`: its status is converged and its film differs from
+that of the grid twice as fine by more than its own error bar.
 """
 
 import multiprocessing
@@ -88,7 +88,7 @@ def speed_contact(reynolds: str | None, shear: dict[str, Any] | None) -> Contact
 
 
 def cost(problem: ContactProblem, points: int) -> tuple[Result, float, float]:
-    """Return a result with its median cost, and the parts of it that went into energy sweeps.
+    """Return a result with its median cost, and the parts of it spent in energy sweeps.
 
     The first is that of all CPU seconds, the second that of sweeps and cycles on the finest grid.
     """
@@ -105,7 +105,7 @@ def cost(problem: ContactProblem, points: int) -> tuple[Result, float, float]:
 
 
 def speed(*, quick: bool = False) -> Table:
-    """Return what a heated, thinning film costs by grid, beside an isothermal Newtonian one."""
+    """Return the cost of a heated, thinning film and of an isothermal Newtonian one by grid."""
     made = Table(
         title="Heat: cost at M = 100, SRR 0.5, Eyring 10 MPa, X in [-4.5, 1.5], Y in [-3, 3]",
         columns=(
@@ -127,7 +127,7 @@ def speed(*, quick: bool = False) -> Table:
 
 
 def outcome(run: Result) -> str:
-    """Return how a run ended, in one word."""
+    """Return the status or the cause of failure of a run."""
     return run.status.cause or run.status.kind
 
 
@@ -137,7 +137,7 @@ def cycles(run: Result) -> int:
 
 
 def heat_cells(run: Result) -> tuple[Cell, Cell, Cell]:
-    """Return mid-film rise [K], traction coefficient and what the heat balance misses [%]."""
+    """Return mid-film rise [K], traction coefficient and error of the heat balance [%]."""
     temperature, traction, heat = run.temperature, run.traction, run.heat
     return (
         temperature.mid_film_rise_central if temperature else None,
@@ -162,7 +162,7 @@ class Case:
 
     @property
     def problem(self) -> ContactProblem:
-        """The contact, with everything that a case may leave out left out."""
+        """Return the contact, without any optional key."""
         load = {"moes_load": self.moes} if self.hertz is None else {"hertz_pressure": self.hertz}
         return heated_contact(
             self.slide, shear=LAWS[self.law], solids=self.solids, sources="auto", **load
@@ -170,14 +170,14 @@ class Case:
 
     @property
     def cells(self) -> tuple[Cell, ...]:
-        """The first cells of its row."""
+        """Return the first cells of its row."""
         load = f"M = {self.moes:g}" if self.hertz is None else f"{self.hertz / 1e9:g} GPa"
         return self.law, "/".join(self.solids), load, self.slide, self.points
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Judged:
-    """One contact with how it ended."""
+    """One contact with its outcome."""
 
     case: Case
     status: str
@@ -210,11 +210,11 @@ def cases(points: int, *, quick: bool) -> Iterator[Case]:
 
 
 def judge(case: Case, *, finer: bool) -> Judged:
-    """Solve a case with the defaults, on request once more on twice as many intervals."""
+    """Solve a case with the defaults, optionally also on twice as many intervals."""
     try:
         run = attempt(case.problem, Options(points=case.points))
         twice = attempt(case.problem, Options(points=2 * case.points - 1)) if finer else None
-    except Exception as error:  # a sweep of hundreds of cases goes on, and says so
+    except Exception as error:  # a sweep of hundreds of cases continues after a crash
         status = f"crashed: {type(error).__name__}"
         blanks = (None,) * (len(COLUMNS) - len(case.cells) - 1)
         return Judged(case=case, status=status, row=(*case.cells, status, *blanks))
@@ -238,7 +238,7 @@ def judge(case: Case, *, finer: bool) -> Judged:
 
 
 def judged_by(wanted: Iterable[Case], jobs: int, *, finer: bool) -> Iterator[Judged]:
-    """Yield the outcomes in order, from as many processes as asked."""
+    """Yield the outcomes in order, solved by ``jobs`` processes."""
     work = partial(judge, finer=finer)
     if jobs == 1:
         yield from map(work, wanted)

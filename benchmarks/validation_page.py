@@ -1,7 +1,7 @@
 """Make docs/validation.md: ``python -m benchmarks.validation_page``.
 
-Each number is computed anew and put beside its reference; the references, with their sources, are
-in ``tests/reference``.
+Each number is computed and compared with its reference; the references and their sources are in
+``tests/reference``.
 """
 
 import math
@@ -24,27 +24,29 @@ GRIDS = (129, 257, 513)
 HEAD = """\
 # Validation
 
-This page is made by `python -m benchmarks.validation_page`; `make validate` asserts the same
-comparisons. H = h R_x / a_x², central film at X = Y = 0, minimum film between the nodes. Domain
-X in [-4.5, 1.5], Y in [-3, 3]; Roelands' law with α = 22 /GPa and η₀ = 0.04 Pa s; the density
-constants are stated with each table, because two roundings of the law in use differ by 0.4 % in the
-film.
+Results of tehl against independent solutions, theory and published curves. `python -m
+benchmarks.validation_page` makes this page; `make validate` asserts the same comparisons.
+
+H = h R_x / a_x², central film at X = Y = 0, minimum film between the nodes. Domain X in
+[-4.5, 1.5], Y in [-3, 3]; Roelands' law with α = 22 /GPa and η₀ = 0.04 Pa s. The density constants
+are stated with each table, because two roundings of the law in use differ by 0.4 % in the film.
 """
 HEATED_TOLERANCE = 1e-5
 HEATED = """\
 Roelands' law with γ = 0.042 /K at T₀ = 313 K, ρ = ρ₀ [1 + 0.6 p / (1 + 1.7 p) - 6.5e-4 (T - T₀)]
 with p in GPa; oil 0.14 W/m/K, 2000 J/kg/K, 890 kg/m³; both solids 46 W/m/K, 470 J/kg/K,
 7850 kg/m³; p_h = 0.5 GPa, R = 20 mm, u_m = 1.5 m/s, E' = 226 GPa, oil and solids enter at T₀.
-Newtonian film, nine nodes across it, `sources = "line"`. Rise of the mid-film temperature at
-X = Y = 0; traction is the integral of τ_zx over the pressurised film over the load: surface 1 where
-the film only rolls, else mid-film. `tests/reference/thermal.toml` is the whole contact.
+Newtonian film, nine nodes across it, `sources = "line"`. The rise is that of the mid-film
+temperature at X = Y = 0; the traction is the integral of τ_zx over the pressurised film, over the
+load, at surface 1 in pure rolling, else at mid-film. The contact is in
+`tests/reference/thermal.toml`.
 """
 ONE = """\
 
-One row by hand, for M = 200, L = 10 (`tehl new moes > case.toml` writes the same lubricant, domain
-and density):
+To compute one row, M = 200, L = 10 (`tehl new moes > case.toml` has the same lubricant, domain and
+density):
 
-```
+```sh
 tehl solve case.toml --set contact.moes_load=200 --set contact.moes_speed=10 \\
      --set numerics.points=513 --certify -o out.nc
 ```
@@ -72,7 +74,7 @@ def independent(table: dict[str, Any]) -> Iterator[str]:
     yield "\n## Extrapolated films against an independent solver\n"
     yield f"{table['source']} Density constants {constants(table)}.\n"
     yield from head(
-        "M", "L", "film", *(f"{n}²" for n in GRIDS), "order", "ours", "reference", "difference"
+        "M", "L", "film", *(f"{n}²" for n in GRIDS), "order", "tehl", "reference", "difference"
     )
     density = (table["density_slope"], table["density_saturation"])
     for case in table["case"]:
@@ -89,26 +91,26 @@ def independent(table: dict[str, Any]) -> Iterator[str]:
                 f"{there['value']:.5f} ± {there['error']:.5f}",
                 f"{100 * (found.value / there['value'] - 1):+.3f} %",
             )  # fmt: skip
-    yield "\nHeld to 0.1 % (central) and 0.3 % (minimum), orders 1.8-2.2 and 1.6-2.5."
+    yield "\nTolerances: 0.1 % (central) and 0.3 % (minimum), orders 1.8-2.2 and 1.6-2.5."
 
 
 def c_program(table: dict[str, Any]) -> Iterator[str]:
     """Yield the comparison on one grid with the C program."""
     yield "\n## Films on 257 x 257 nodes against a C program\n"
     yield f"{table['source']} Density constants {constants(table)}.\n"
-    yield from head("M", "L", "film", "ours", "reference", "difference")
+    yield from head("M", "L", "film", "tehl", "reference", "difference")
     density = (table["density_slope"], table["density_saturation"])
     for case in table["case"]:
         run = film(case, table["points"], density).film_scaled
-        for label, ours, there in (
+        for label, here, there in (
             ("central", run.central, case["h_central"]),
             ("smallest node", run.minimum_node, case["h_minimum_node"]),
         ):
             yield row(
-                f"{case['M']:g}", f"{case['L']:g}", label, f"{ours:.6f}", f"{there:.6f}",
-                f"{100 * (ours / there - 1):+.2f} %",
+                f"{case['M']:g}", f"{case['L']:g}", label, f"{here:.6f}", f"{there:.6f}",
+                f"{100 * (here / there - 1):+.2f} %",
             )  # fmt: skip
-    yield "\nHeld to 0.1 % (central) and 0.5 % (minimum)."
+    yield "\nTolerances: 0.1 % (central) and 0.5 % (minimum)."
 
 
 def heated_film(case: dict[str, Any], points: int) -> Result:
@@ -119,7 +121,7 @@ def heated_film(case: dict[str, Any], points: int) -> Result:
 
 
 def heated_quantities(case: dict[str, Any], run: Result) -> dict[str, float]:
-    """Return what is compared, by its key in the reference."""
+    """Return the quantities to compare, by their keys in the reference."""
     temperature, traction = run.temperature, run.traction
     if temperature is None or traction is None:
         raise ValueError("the reference films are heated")
@@ -137,14 +139,14 @@ def heated_quantities(case: dict[str, Any], run: Result) -> dict[str, float]:
 
 
 WAVY = """\
-A wave of height stands on surface 2. Ripples of film and pressure are fitted where |X|, |Y| < 0.4
-after the smooth film was subtracted, an oblique wave together with the streaks that it makes in the
-inlet and the film carries along x. Theory (Greenwood and Morales-Espejel, Proc. IMechE J 208
-(1994), 121-132; Hooke 2006, as Morales-Espejel and Brizmer, Tribology Transactions 54 (2011),
-625-643, have it) in the limit of the large viscosity of the
-contact: the film keeps C/(1 + C) of the wave and the pressure has 1/(1 + C) of π E' A/(2 λ), which
-flattens it, with C = h E' π/(2 λ B) and the bulk modulus B by the density law. 513 x 513 nodes on
-[-2.5, 1.5] x [-2, 2], so that 19 to 90 nodes lie on a wave; density constants 0.6 and 1.7 /GPa.
+A wave stands on surface 2. Its ripples in film and pressure are fitted where |X|, |Y| < 0.4 after
+the smooth film is subtracted; the fit of an oblique wave includes the streaks from the inlet.
+[Theory](theory/roughness.md#linear-theory-of-a-wave) in the limit of large viscosity (Greenwood and
+Morales-Espejel, Proc. IMechE J 208 (1994), 121-132; Hooke 2006 in the form of Morales-Espejel and
+Brizmer, Tribology Transactions 54 (2011), 625-643): the film keeps C/(1 + C) of the wave, and the
+pressure has 1/(1 + C) of π E' A/(2 λ), which flattens it, with C = h E' π/(2 λ B) and the bulk
+modulus B of the density law. 513 x 513 nodes on [-2.5, 1.5] x [-2, 2], 19 to 90 nodes per
+wavelength; density constants 0.6 and 1.7 /GPa.
 """
 LOADS = ((200.0, 10.0), (500.0, 12.34))
 WAVES = (0.15, 0.25, 0.35, 0.5)
@@ -152,25 +154,24 @@ ANGLES = (0.0, 45.0, 60.0, 90.0)
 HEIGHT, WAVY_POINTS = 0.004, 513
 
 PASSING = """\
-Surface 1 brings in a wave; its harmonic in the film at the centre is fitted over two periods.
-The curve is 1/(1 + 0.15 ∇ + 0.015 ∇²) with ∇ = (λ/a) √(M/L) (Venner and Lubrecht, Proc.
-IMechE J 214 (2000), 43-62, eq. 29), a fit to computations. 257 x 257 nodes on [-2.5, 1.5] x
-[-2, 2], where a step of time moves the surfaces by a mesh width; extrapolated with 129 x 129
-to order two. Amplitudes of the waves are 5 % of the film.
+A wave on surface 1 passes the contact in pure rolling; its harmonic in the film at the centre is
+fitted over two periods. The curve is 1/(1 + 0.15 ∇ + 0.015 ∇²) with ∇ = (λ/a) √(M/L) (Venner and
+Lubrecht, Proc. IMechE J 214 (2000), 43-62, eq. 29), a fit to computations. 257 x 257 nodes on
+[-2.5, 1.5] x [-2, 2], time steps of one mesh width; Richardson extrapolation of second order with
+129 x 129 nodes. The amplitude of the waves is 5 % of the film.
 """
 PASSED = """
-All within 16 % of the curve, which lies below its own source where ∇ is about 2: the one value
-printed there, 0.739 (M = 1007.6, L = 12.05, λ = a/4, isotropic), is 5 % above it and 2 % below
-ours; transverse waves keep a little more than isotropic ones, of which the curve knows nothing.
-Dashes: 129 nodes are too few for the film."""
+All amplitudes are within 16 % of the curve. The one value printed in its source, 0.739 (M = 1007.6,
+L = 12.05, λ = a/4, isotropic), is 5 % above the curve and 2 % below this computation. The curve
+does not distinguish transverse waves, which keep a little more, from isotropic ones. Dashes: 129
+nodes are too few for the film."""
 COLLAPSE = """
-Twice the wavelength at a quarter of the load has the same ∇, and is the same wave in the inlet.
-What differs is its length beside the contact, most for those that are longer than it; both are
-extrapolated:
+Twice the wavelength at a quarter of the load has the same ∇ and is the same wave in the inlet, but
+its length relative to the contact differs. Extrapolated amplitudes:
 """
 ORDER = """
-Order in space and time together (M = 50, L = 10, λ = a on [-4.5, 1.5], 65, 129 and 257 nodes):
-{0:.4f}, {1:.4f}, {2:.4f}, which is {order:.1f}."""
+Order in space and time together, M = 50, L = 10, λ = a on [-4.5, 1.5], 65, 129 and 257 nodes:
+{0:.4f}, {1:.4f}, {2:.4f}, order {order:.1f}."""
 LONG_WAVES = (0.5, 0.75, 1.0, 1.25, 1.5)
 BALANCE_GRIDS, BALANCE_LAYERS = (65, 129, 257), (9, 13, 21)
 LABELS = {
@@ -180,7 +181,7 @@ LABELS = {
     "traction_surface_1": ("traction at surface 1", 7),
     "traction_mid_film": ("traction at mid-film", 5),
 }
-"""How each quantity is called, and its digits."""
+"""Label and digits of each quantity."""
 
 
 def heated(table: dict[str, Any]) -> Iterator[str]:
@@ -190,20 +191,20 @@ def heated(table: dict[str, Any]) -> Iterator[str]:
     yield HEATED
     runs = [(case, [heated_film(case, points) for points in GRIDS]) for case in table["case"]]
     yield from head(
-        "Reynolds", "SRR", "quantity", *(f"{n}²" for n in GRIDS), "order", "ours",
+        "Reynolds", "SRR", "quantity", *(f"{n}²" for n in GRIDS), "order", "tehl",
         "reference", "difference",
     )  # fmt: skip
     for case, films in runs:
         yield from heated_rows(case, films)
     yield (
-        "\nHeld to 0.2 % (films), 1 % or 0.01 K (rise) and 1.5 % or 2e-5 (traction). The traction "
-        "of both converges with an observed order between one and two."
+        "\nTolerances: 0.2 % (films), 1 % or 0.01 K (rise) and 1.5 % or 2e-5 (traction). The "
+        "traction of both codes converges with an observed order between one and two."
     )
-    yield "\n## Balance of heat\n"
+    yield "\n## Heat balance\n"
     yield (
-        "What is missing from shear heat + compression = heat into both solids + enthalpy carried "
-        "out, over the heat, in per cent. The enthalpy is the divergence by central differences, "
-        "which the solver does not use.\n"
+        "Relative error, in per cent, of shear heat + compression = heat into both solids + "
+        "enthalpy carried out. The enthalpy is the divergence by central differences, which the "
+        "solver does not use.\n"
     )
     yield from head(
         "Reynolds", "SRR", *(f"{n}²" for n in GRIDS), "shear heat [W]", "into solids [W]"
@@ -211,8 +212,8 @@ def heated(table: dict[str, Any]) -> Iterator[str]:
     for case, films in runs:
         yield balance_row(case, films)
     yield (
-        "\nHeld to 0.2 %. Halving the mesh width alone does not halve it, for the walls' share of "
-        "nine nodes is 3e-4. With both finer, sliding at SRR 0.5:\n"
+        "\nTolerance 0.2 %. Halving the mesh width alone does not halve the error, because nine "
+        "nodes across the film contribute 3e-4. Both refined, at SRR 0.5:\n"
     )
     yield from head("nodes across", *(f"{n}²" for n in BALANCE_GRIDS))
     for layers in BALANCE_LAYERS:
@@ -221,7 +222,7 @@ def heated(table: dict[str, Any]) -> Iterator[str]:
 
 
 def balance_error(points: int, layers: int) -> float:
-    """Return what the heat balance of the sliding reference film misses, over the heat."""
+    """Return the relative error of the heat balance of the sliding reference film."""
     options = Options(points=points, domain=DOMAIN, accuracy="tight", tolerance=HEATED_TOLERANCE)
     heat = solve(heated_contact(0.5, layers=layers), options).heat
     return heat.balance.error if heat else math.nan
@@ -272,10 +273,10 @@ def wavy() -> Iterator[str]:
                 (found,) = wave_responses(solve(case, options), smooth)
                 yield wavy_row(groups, wavelength, angle, found)
     yield (
-        "\nHeld to 3 %, also for 30° and for amplitudes of 0.003 and 0.005 a²/R. Crests along the "
-        "entrainment (90°) are left to the inlet, of which this theory knows nothing; what the "
-        "film does not keep of them is flattened by the pressure. Without the smooth film "
-        "subtracted, a quadratic background costs up to 5 % at λ = a/2 and 2 % at shorter waves."
+        "\nTolerance 3 %, also for 30° and for amplitudes of 0.003 and 0.005 a²/R. Crests along "
+        "the entrainment (90°) depend on the inlet, which this theory does not include. With a "
+        "quadratic background instead of the smooth film the error is up to 5 % at λ = a/2 and 2 % "
+        "at shorter waves."
     )
 
 
@@ -300,7 +301,7 @@ def wavy_row(
 
 
 def passing() -> Iterator[str]:
-    """Yield the amplitudes of waves that pass in pure rolling, beside the published curve."""
+    """Yield the amplitudes of waves that pass in pure rolling, and the published curve."""
     yield "\n## Waves that pass\n"
     yield PASSING
     made = waves.table()
@@ -329,7 +330,7 @@ def collapse_row(isotropic: bool, wavelength: float) -> str:
     )
     one, other = waves.extrapolated(long), waves.extrapolated(short)
     if one is None or other is None:
-        raise RuntimeError("a wave did not come to its end")
+        raise RuntimeError("a run with a wave failed")
     return row(
         "isotropic" if isotropic else "transverse",
         f"{long.nabla:.3f}",

@@ -1,9 +1,9 @@
-"""Waves that pass in pure rolling: how much of them is left in the film.
+"""Amplitude of waves that pass the contact in pure rolling.
 
-The amplitude of the film at the centre of the contact, by a harmonic fit over whole periods, beside
-the curve of Venner and Lubrecht (2000), Proc. IMechE J 214, 43-62, eq. (29): a fit to their own
-computations, whose one value they print (M = 1007.6, L = 12.05, wavelength a/4, isotropic: 0.739)
-lies 5 % above it.
+The amplitude of the film at the centre, by a harmonic fit over whole periods, is compared with the
+curve of Venner and Lubrecht (2000), Proc. IMechE J 214, 43-62, eq. (29), a fit to their
+computations. The one value that they print (M = 1007.6, L = 12.05, wavelength a/4, isotropic:
+0.739) lies 5 % above the curve.
 """
 
 import math
@@ -25,21 +25,21 @@ from tehl.wave_theory import amplitude_reduction, nabla_of
 
 DOMAIN = Domain(x=(-2.5, 1.5), y=(-2.0, 2.0))
 ENTRANCE = 1.7
-"""Where waves come in: far enough upstream for the pressure to be low there [a_x]."""
+"""Distance upstream at which waves start, where the pressure is low [a_x]."""
 TOLERANCE = 1e-5
-"""Of P per step, at which the amplitudes are within 2e-4 of those at 3e-6; 1e-3 and 1e-4 move them
-by up to 3e-3 (M = 1000, wavelength 1.2)."""
+"""Change of P per step, at which the amplitudes are within 2e-4 of those at 3e-6; 1e-3 and 1e-4
+change them by up to 3e-3 (M = 1000, wavelength 1.2)."""
 PERIODS = 2
-"""Over which the harmonic is fitted."""
+"""Periods over which the harmonic is fitted."""
 WHOLE = Domain(x=(-4.5, 1.5), y=(-3.0, 3.0))
-"""On which coarse grids too have a film: for the order of the scheme."""
+"""Domain on which coarse grids have a film too, for the order of the scheme."""
 SMALL = 0.05
 """Amplitude of the waves over the central film."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Passing:
-    """A wave that passes: M, L, wavelength [a_x], its form, and how it is followed."""
+    """A passing wave: M, L, wavelength [a_x], form, and settings of the run."""
 
     load: float
     speed: float
@@ -117,7 +117,7 @@ def cases(*, quick: bool) -> Iterator[Passing]:
 
 
 def table(*, quick: bool = False, points: int = 257) -> Table:
-    """Return the amplitudes of waves that pass, on a grid and on one of half its intervals."""
+    """Return the amplitudes of passing waves on a grid and on one with half its intervals."""
     made = Table(
         title=f"Waves that pass in pure rolling, {points} x {points} nodes, X in [-2.5, 1.5]",
         columns=("form", "M", "L", "wavelength [a]", "nabla", "points per wave", "amplitude",
@@ -132,7 +132,7 @@ def table(*, quick: bool = False, points: int = 257) -> Table:
              case.wavelength, case.nabla, case.wavelength / 4.0 * (points - 1), fine, coarse, limit,
              case.curve, None if limit is None else limit / case.curve, seconds)
         )  # fmt: skip
-    made.notes.append("extrapolated: with order two in space and time, whose steps go together")
+    made.notes.append("extrapolated: order two in space and time together")
     return made
 
 
@@ -142,12 +142,12 @@ def half(points: int) -> int:
 
 
 def in_the_limit(fine: float | None, coarse: float | None) -> float | None:
-    """Return what a value converges to with order two; None if one of the two is not known."""
+    """Return the Richardson extrapolation of order two; None if a value is missing."""
     return None if fine is None or coarse is None else fine + (fine - coarse) / 3.0
 
 
 def extrapolated(case: Passing, points: int = 257) -> float | None:
-    """Return the amplitude in the limit of small meshes and steps; None if it was not found."""
+    """Return the extrapolated amplitude; None if a run failed."""
     return in_the_limit(measured(case, points)[0], measured(case, half(points))[0])
 
 
@@ -157,18 +157,18 @@ def refined() -> tuple[list[float], float]:
     Raises
     ------
     RuntimeError
-        If one of them was not found.
+        If one of the runs failed.
     """
     case = Passing(load=50, speed=10, wavelength=1.0, domain=WHOLE, entrance=2.5)
     found = [value for points in (65, 129, 257) if (value := measured(case, points)[0])]
     if len(found) < 3:
-        raise RuntimeError("a wave did not come to its end")
+        raise RuntimeError("a run with a wave failed")
     coarse, middle, fine = found
     return found, math.log2((coarse - middle) / (middle - fine))
 
 
 def measured(case: Passing, points: int) -> tuple[float | None, float]:
-    """Return the amplitude and the CPU seconds; None where the run did not come to its end."""
+    """Return the amplitude and the CPU seconds; None if the run failed."""
     try:
         run = solve_transient(case.problem(), Options(points=points, domain=case.domain))
     except ConvergenceError:

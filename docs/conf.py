@@ -1,4 +1,4 @@
-"""Settings of the documentation; ``make docs`` builds it with warnings as errors."""
+"""Sphinx settings; ``make docs`` builds the documentation with warnings as errors."""
 
 import re
 import sys
@@ -23,7 +23,7 @@ extensions = [
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
     "sphinx.ext.mathjax",
-    "sphinx-mathjax-offline",  # formulas without a network
+    "sphinx-mathjax-offline",  # formulas need no network
 ]
 myst_enable_extensions = ["dollarmath", "amsmath", "deflist", "colon_fence"]
 myst_heading_anchors = 3
@@ -33,7 +33,6 @@ napoleon_use_rtype = False
 autodoc_typehints = "none"
 autodoc_member_order = "bysource"
 toc_object_entries_show_parents = "hide"
-add_module_names = False
 exclude_patterns = ["_build"]
 
 html_theme = "pydata_sphinx_theme"
@@ -48,11 +47,8 @@ html_theme_options = {
 }
 
 
-def mend(*arguments: Any) -> None:
-    """Give the sources of a docstring numbers, and keep names that share a line together.
-
-    Magnitudes such as ``|u_s|`` are no substitutions.
-    """
+def adapt(*arguments: Any) -> None:
+    """Adapt a numpydoc docstring to napoleon: references, names that share a line, ``|u_s|``."""
     lines = arguments[-1]
     lines[:] = [re.sub(r"(?<![`\w])\|(\w+)\|(?![`\w])", r"\|\1\|", line) for line in lines]
     lines[:] = [re.sub(r"^\.\. \[(\d+)\] ", r"\1. ", line).replace("]_", "]") for line in lines]
@@ -60,8 +56,8 @@ def mend(*arguments: Any) -> None:
 
 
 def setup(app: Any) -> None:
-    """Connect before the docstrings are parsed."""
-    app.connect("autodoc-process-docstring", mend, priority=400)
+    """Connect the hooks that run before docstrings are parsed."""
+    app.connect("autodoc-process-docstring", adapt, priority=400)
     app.connect(
         "autodoc-process-signature", lambda _app, what, *_: ("", None) if what == "class" else None
     )

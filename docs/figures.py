@@ -1,4 +1,4 @@
-"""Drawings of the theory pages, made by the package from a solved contact."""
+"""Draw the figures of the theory pages from solved contacts."""
 
 from pathlib import Path
 
@@ -35,7 +35,7 @@ def make(folder: Path) -> None:
 
 
 def problem(load: float = 100.0) -> tehl.ContactProblem:
-    """Return the contact of the drawings: L = 10, and M = 100 if not said."""
+    """Return the contact of the figures, at L = 10."""
     return tehl.ContactProblem(
         contact=tehl.Contact(radius="20 mm", moes_load=load, moes_speed=10.0),
         surface_1=tehl.Surface(material="steel"),
@@ -45,7 +45,7 @@ def problem(load: float = 100.0) -> tehl.ContactProblem:
 
 
 def level() -> Level:
-    """Return the solved contact as the grid that the relaxation sees."""
+    """Return the level of the finest grid of the solved contact."""
     case, options = problem(), tehl.Options(points=POINTS, half_domain="never")
     result = tehl.solve(case, options)
     scaled = ScaledProblem.of(case)
@@ -58,7 +58,7 @@ def level() -> Level:
 
 
 def regions() -> Figure:
-    """Draw which nodes relax as points, which as dipoles, and which are cavitated."""
+    """Draw the nodes that relax as points and as dipoles, and the cavitated ones."""
     here = level()
     smoother = here.smoother
     assert isinstance(smoother, LineSmoother)
@@ -83,7 +83,7 @@ def regions() -> Figure:
 
 
 def dipoles() -> Figure:
-    """Draw how far a change of one node and a dipole reach."""
+    """Draw the change of the film by one node and by a dipole, over the distance."""
     scaled = ScaledProblem.of(problem())
     grid = finest_grid(scaled, tehl.Options(points=POINTS))
     point, dipole = line_influence(influence_of(grid, scaled.groups))
@@ -98,13 +98,13 @@ def dipoles() -> Figure:
 
 
 class Visitor:
-    """A level that only notes when it is visited."""
+    """A level that records its visits."""
 
     def __init__(self, number: int, path: list[int]) -> None:
         self.number, self.path = number, path
 
     def relax(self, sweeps: int) -> None:
-        """Note the visit; none without sweeps."""
+        """Record a visit with sweeps."""
         if sweeps:
             self.path.append(self.number)
 
@@ -134,10 +134,10 @@ def visits() -> Figure:
 
 
 def ripples() -> Figure:
-    """Draw what is left in the film of standing waves, computed and by theory."""
+    """Draw the part of standing waves that remains in the film, computed and by theory."""
     lengths = (0.25, 0.35, 0.5)
     figure = Figure(figsize=(5.6, 3.8), layout="constrained")
-    axes = figure.add_subplot(xlabel="wavelength / a", ylabel="left in the film / wave")
+    axes = figure.add_subplot(xlabel="wavelength / a", ylabel="ripple of the film / wave")
     options = tehl.Options(points=257, domain=tehl.Domain(x=(-2.5, 1.5), y=(-2.0, 2.0)))
     smooth = tehl.solve(problem(200.0), options)
     for angle, mark in ((0.0, "o"), (45.0, "+"), (90.0, "^")):
@@ -154,7 +154,7 @@ def ripples() -> Figure:
 def response(
     length: float, angle: float, options: tehl.Options, smooth: tehl.Result
 ) -> WaveResponse:
-    """Return what is left of a standing wave of ``length`` [a] at ``angle`` [degree]."""
+    """Return the response to a standing wave of ``length`` [a] at ``angle`` [degree]."""
     case = problem(200.0)
     a = case.hertz.half_width_x
     height = 0.004 * a**2 / case.radius_x

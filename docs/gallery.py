@@ -1,4 +1,4 @@
-"""The gallery: run each example, show its text, what it printed and what it drew."""
+"""Make the gallery: run each example; show its text, its output and its pictures."""
 
 import ast
 import subprocess
@@ -31,7 +31,7 @@ It prints
 
 INDEX = """# Gallery
 
-Each page is a script of the folder `examples`; this documentation was built by running them.
+Each page shows a script of the folder `examples` with the output and the pictures of its last run.
 
 ```{{toctree}}
 :maxdepth: 1
@@ -42,7 +42,7 @@ Each page is a script of the folder `examples`; this documentation was built by 
 
 
 def make(examples: Path, folder: Path) -> None:
-    """Write one page per example into ``folder``, and an index; run what is out of date."""
+    """Write one page per example into ``folder``, and an index; run only outdated examples."""
     folder.mkdir(exist_ok=True)
     scripts = sorted(examples.glob("*.py"))
     for script in scripts:
@@ -56,7 +56,7 @@ def make(examples: Path, folder: Path) -> None:
 
 
 def newest(script: Path) -> float:
-    """Return when the script, this file or the package last changed."""
+    """Return the time of the last change of the script, this file or the package."""
     sources = [script, Path(__file__), *Path(tehl.__file__).parent.rglob("*.py")]
     return max(path.stat().st_mtime for path in sources)
 

@@ -1,11 +1,11 @@
 """A steel ball on a steel disc.
 
-The contact of `make demo`, stated in Python: a ball of 20 mm radius runs on a flat disc of the
-same steel, both surfaces at 1.5 m/s, under 80 N. Fields of a model read strings with units, so a
-case looks in Python as it does in a case file.
+The contact of `make demo`, stated in Python: a ball of 20 mm radius on a flat disc of the same
+steel, both surfaces at 1.5 m/s, under 80 N. Fields of a model accept strings with units, as a case
+file does.
 
-The film map shows what every elastohydrodynamic point contact shows: a plateau of nearly constant
-thickness, and a horseshoe around its outlet with the smallest film in the two side lobes.
+The film has the typical features of an elastohydrodynamic point contact: a plateau of nearly
+constant thickness, and a horseshoe around its outlet with the smallest film in the two side lobes.
 """
 
 import sys

@@ -1,17 +1,17 @@
 """A dent and a bump in the contact.
 
 A bump and a dent of 0.2 um, both 20 um in radius, stand in the middle of a ball on a disc. The oil
-around them is so stiff that it cannot flow aside.
+around them is too viscous to flow aside.
 
-**The bump is pressed flat**, by a pressure of more than twice that of Hertz: a tenth of it is left
-in the film, by which the oil gives way. Nothing else changes.
+**The bump is flattened** by a pressure of more than twice the Hertz pressure; a tenth of its height
+remains in the film, due to the compressibility of the oil. The rest of the film does not change.
 
-**The dent is not filled as easily.** The pressure above it falls to a third, the oil there becomes
-thin and flows, and three tenths of the depth are left. What flows out of it is carried along:
-behind the dent the film is thicker all the way to the outlet, and the pressure higher.
+**The dent is filled less.** The pressure above it falls to a third, the oil there becomes thin and
+flows, and three tenths of the depth remain. The oil that leaves the dent is carried downstream: the
+film behind it is thicker up to the outlet, and the pressure higher.
 
-They stand still here, as on a surface at rest. Features that travel with their surface are a run in
-time, with a table `[transient]`.
+The features stand still, as on a surface at rest. Features that move with their surface need a
+transient run, with a table `[transient]`.
 """
 
 import sys

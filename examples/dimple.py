@@ -1,20 +1,18 @@
-"""The dimple: heat may press a dent into the middle of a film.
+"""A dimple: heat can thicken the middle of a film.
 
-A steel ball and a glass disc slide against each other: the ball runs backwards slowly, the disc
-forwards fast. Glass conducts heat forty times worse than steel, so its surface is by far the
-warmer. The oil beside it is thin and shears; that beside the cooler steel stays stiff and moves
-with the steel: backwards. So less oil is carried through the contact than the mean speed says, and
-the film grows until as much passes as the inlet delivers. That is the temperature-viscosity wedge.
-The film is thicker in the middle than ahead of it: a dimple.
+A steel ball and a glass disc slide: the ball moves slowly backwards, the disc fast forwards. Glass
+conducts heat forty times worse than steel, so its surface is far warmer. The oil at the glass is
+thin and shears; the oil at the cooler steel stays viscous and moves with it, backwards. The contact
+then carries less oil than the mean speed suggests, and the film grows until the flow equals that of
+the inlet: the temperature-viscosity wedge. The film is thicker in the middle than upstream of it.
 
-**The cooler surface has to be the slow one.** Change the sign of the slide-to-roll ratio, so that
-the glass is the slow surface: the stiff oil now runs forwards with the fast steel, more oil is
-carried than the mean speed says, and the film stays thin, without a dimple. With properties at the
-mean temperature of the film (`reynolds = "mean"`) the Reynolds equation knows no wedge, and there
-is no dimple either.
+**The cooler surface must be the slow one.** With the opposite slide-to-roll ratio the viscous oil
+moves forwards with the fast steel, the contact carries more oil, and the film stays thin without a
+dimple. With properties at the mean temperature of the film (`reynolds = "mean"`) the Reynolds
+equation has no such wedge, and there is no dimple either.
 
-A slow surface or one at rest has no upstream history that could be marched along: its temperature
-comes from the full moving source, which `sources = "auto"` takes by itself.
+The surface temperature of a slow surface, or one at rest, cannot be marched downstream; with
+`sources = "auto"` it comes from the full moving source.
 """
 
 import sys
@@ -55,7 +53,7 @@ def centre_line(result: tehl.Result) -> tuple[np.ndarray, np.ndarray]:
 
 
 def dimple(result: tehl.Result) -> float:
-    """Return how much a maximum in the middle exceeds the least film ahead of it [nm]."""
+    """Return the excess of a maximum in the middle over the least film upstream of it [nm]."""
     x, film = centre_line(result)
     inner = [i for i in np.flatnonzero(np.abs(x) < 0.5) if film[i] > max(film[i - 1], film[i + 1])]
     return max((float(film[i] - film[:i].min()) for i in inner), default=0.0)

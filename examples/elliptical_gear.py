@@ -1,11 +1,10 @@
 """Crowned gear teeth: an elliptical contact.
 
-Two crowned teeth touch on an ellipse, here with a radius of 12 mm along the entrainment and of
-60 mm across it. The case is the template `gear-ellipse`, read as a case file is, with the radius
-across made five times the one along. Nothing in the solver is special to a circle or an ellipse:
-lengths are scaled with the half-width of their own direction, so that the ellipse becomes a circle.
+Two crowned teeth touch on an ellipse, with a radius of 12 mm along the entrainment and of 60 mm
+across it: the template `gear-ellipse`. Lengths are scaled with the half-width of their direction,
+so the solver treats circles and ellipses alike.
 
-The oil that enters a wide ellipse can hardly escape sideways: the smallest film, still in the side
+Oil that enters a wide ellipse can hardly escape sideways: the smallest film, still in the side
 lobes, is much nearer to the central film than in a circular contact.
 """
 

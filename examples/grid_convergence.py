@@ -1,12 +1,11 @@
 """How the error falls with the grid.
 
-The scheme is of second order: each halving of the mesh width divides the error of the film by
-four. Four grids show it for M = 20, L = 10. The order comes from the last three, and with it a
-value for the infinitely fine grid after Richardson. `tehl solve --certify` does the same, and adds
-a run on a larger domain.
+The scheme is of second order: halving the mesh width divides the error of the film by four. Four
+grids show it for M = 20, L = 10. The last three give the order and, by Richardson extrapolation,
+the film on an infinitely fine grid. `tehl solve --certify` does the same, and adds a run on a
+larger domain.
 
-Each grid is iterated until nothing moves (`accuracy = "tight"`), so that the grid is all that
-differs.
+Each grid is iterated to a tight tolerance (`accuracy = "tight"`), so that only the grid differs.
 """
 
 import math

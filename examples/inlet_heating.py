@@ -1,14 +1,13 @@
-"""Heat in the inlet: how much a fast film is thinned though nothing slides.
+"""Heat in the inlet: how it thins a fast film in pure rolling.
 
-Even where both surfaces run equally fast, oil flows back in the inlet and is sheared. At high speed
-that heats it, and as the film is made in the inlet, it is thinner than an isothermal calculation
-says. Three formulas give a factor for it, over the thermal loading parameter
-eta_0 b u_m^2 / k (b is the fall of ln eta with temperature, k the conductivity of the oil).
+In pure rolling, too, oil flows back in the inlet and is sheared. At high speed this heats the oil,
+and since the inlet determines the film, it is thinner than without heat. Three formulas give the
+factor as a function of the thermal loading parameter eta_0 b u_m^2 / k (b is the fall of ln eta
+with temperature, k the conductivity of the oil).
 
-Each speed is solved with heat and without. Computed film and formulas fall in the same way, but
-the computed one loses only a quarter (1 m/s) to three quarters (16 m/s) of what the formulas take
-off. They are fits, and 10 to 15 % in the film is what they promise: up to 8 m/s that is what they
-keep.
+Each speed is solved with heat and without. The computed reduction is a quarter (1 m/s) to two
+thirds (16 m/s) of that of the formulas. The formulas are fits with an accuracy of 10 to 15 % in the
+film, which they keep up to 8 m/s.
 """
 
 import sys
@@ -37,7 +36,7 @@ def problem(speed: float) -> tehl.ContactProblem:
 
 @cache
 def effect(speed: float) -> ThermalEffect:
-    """Return what heat does to the film at one speed [m/s]."""
+    """Return the effect of heat on the film at one speed [m/s]."""
     case, options = problem(speed), tehl.Options(points=129)
     return thermal_effect(
         tehl.solve(case, options), tehl.solve(isothermal_reference(case), options)

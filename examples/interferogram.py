@@ -1,10 +1,10 @@
-"""What a microscope would see: interferograms.
+"""Synthetic interferograms.
 
-Film thickness is measured through a glass disc with a semi-reflecting chromium layer: light that
-returns from there and from the steel ball interferes, and colours or fringes tell the film. The
-package draws what such a rig would show, so that a computed film can be laid beside a photograph.
+Film thickness is measured through a glass disc with a semi-reflecting chromium layer: light
+reflected by the layer and by the steel ball interferes, and colours or fringes give the film. The
+package draws the image that such a rig would show, for comparison with a photograph.
 
-Three speeds, one load. The central film grows with a power of the speed; film formulas have 0.67
+Three speeds at one load: the central film grows with a power of the speed, in film formulas 0.67
 or 0.68.
 """
 

@@ -1,13 +1,12 @@
 """A measured surface on a ball.
 
-An instrument gives heights on a lattice. Here a honed surface is made up and written as a table of
-micrometres, as any instrument can export it; then it is read as if somebody had measured it: its
-unit and the distance of its points are stated, as the file does not say, the mean plane is taken
-off, and waves shorter than 10 um are filtered away.
+The script makes a honed surface and writes it as a table of micrometres, as instruments export it.
+The case then states unit and point distance, which the file does not contain, removes the mean
+plane, and filters out waves shorter than 10 um.
 
-`tehl surface honed.csv --unit um --pixel "2 um"` shows the map, and what a grid sees of it. On the
-ball it stands in the contact: grooves along the entrainment stay in the film, what lies across is
-pressed flat.
+`tehl surface honed.csv --unit um --pixel "2 um"` shows the map and what a grid resolves of it. In
+the contact, grooves along the entrainment remain in the film, and asperities across it are
+flattened.
 """
 
 import sys
@@ -26,7 +25,7 @@ DOMAIN = tehl.Domain(x=(-4.5, 1.5), y=(-3.0, 3.0))
 
 
 def honed(columns: int = 280, rows: int = 240) -> np.ndarray:
-    """Return heights of grooves along x and a little noise [m], on a plane that leans."""
+    """Return heights of grooves along x with noise on a tilted plane [m]."""
     generator = np.random.default_rng(3)
     x, y = np.meshgrid(PIXEL * np.arange(columns), PIXEL * np.arange(rows))
     heights = np.zeros_like(x)
@@ -59,7 +58,7 @@ def solved(*, rough: bool) -> tehl.Result:
 
 
 def main() -> dict[str, float]:
-    """Return Sq of the map in the contact [nm] and what it does to the film."""
+    """Return Sq of the map in the contact [nm] and its effect on the film."""
     rough, smooth = solved(rough=True), solved(rough=False)
     if rough.heights is None:
         raise RuntimeError("the surface is smooth")

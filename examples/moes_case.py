@@ -1,11 +1,11 @@
-"""The Moes numbers M and L, and the film formulas.
+"""The Moes numbers M and L, and film formulas.
 
-Papers state a circular contact by its load number M and its speed number L. This script walks from
-light to heavy load at L = 10 and sets the computed central film beside the formulas of Hamrock and
-Dowson and of Nijenbanning, Venner and Moes.
+Papers state a circular contact by its load number M and its speed number L. This script compares
+the computed central film with the formulas of Hamrock and Dowson, of Chittenden et al., and of
+Nijenbanning, Venner and Moes, from light to heavy load at L = 10.
 
-M and L do not fix a contact with Roelands' law: the pressure coefficient and with it the Hertz
-pressure count too. Here alpha is 22 per GPa and the viscosity 0.04 Pa s.
+With Roelands' law a contact also depends on the pressure coefficient, here 22 per GPa, and on the
+Hertz pressure. The viscosity is 0.04 Pa s.
 """
 
 import sys

@@ -1,21 +1,21 @@
-"""Film formulas over the Moes map: where each of them can be trusted.
+"""Errors of film formulas over the Moes numbers.
 
-A study solves circular contacts over the Moes numbers M (load) and L (speed and lubricant), and
-the picture shows the central film in Moes form and by how much each formula is off it.
+A study solves circular contacts over the Moes numbers M (load) and L (speed and lubricant). The
+picture shows the central film in Moes form and the error of each formula.
 
-The central film of Nijenbanning, Venner and Moes is the one to trust over the widest range: from
-M = 10 on it is within 5 % where L stays below 5 and M below 200, isoviscous contacts included.
-Where both numbers are large it gets too thick: 11 % at M = 200 and L = 10, 28 % at M = 2000 and L
-= 20. At M = 5 it is 15 to 34 % too thick. Chittenden's central film is the best guess in the
-elastic-piezoviscous middle: within 6 % for L from 3.5 on and M from 20 to 500, within 10 % to M =
-2000. That of Hamrock and Dowson lies 2 to 9 % above it. Neither was made for L = 1, where both
-are 10 to 20 % too thin, nor for M = 5, where both are up to a third too thick. Their minimum
-films hardly know the load: 10 to 50 % too thin up to M = 10, right about M = 50 to 100, a third
-too thick at M = 200 and twice as thick as computed at M = 2000. Take no formula for the minimum
-above M = 100.
+- Central film of Nijenbanning, Venner and Moes: within 5 % for M = 10 to 200 and L up to 5,
+  isoviscous contacts included. It is 11 % too thick at M = 200, L = 10, 28 % at M = 2000, L = 20,
+  and 15 to 34 % at M = 5.
+- Central film of Chittenden et al.: within 6 % for M = 20 to 500 and L from 3.5 on, within 10 % to
+  M = 2000; 10 to 20 % too thin at L = 1, up to a third too thick at M = 5.
+- Central film of Hamrock and Dowson: 2 to 9 % above that of Chittenden.
+- Minimum films of both: 10 to 50 % too thin up to M = 10, right at M = 50 to 100, a third too thick
+  at M = 200, twice the computed film at M = 2000.
 
-The computed films are those of one grid each and known to 1 to 4 %, the minimum at M = 2000 to 8
-%.
+Use no formula for the minimum film above M = 100.
+
+The computed films are those of one grid each, with errors of 1 to 4 %, at M = 2000 of 8 % in the
+minimum.
 """
 
 import sys
@@ -50,7 +50,7 @@ def films(loads: tuple[float, ...], speeds: tuple[float, ...], jobs: int = 1):
 
 
 def main() -> dict[tuple[float, float], dict[str, float]]:
-    """Return how far central films by formula are off at some M and L [%]."""
+    """Return the errors of central films by formula at some M and L [%]."""
     table = films((10, 100), (2, 10))
     off = plots.film_deviations(table)
     return {

@@ -1,22 +1,21 @@
-"""A dent passes: the film that it lets in travels at the mean speed.
+"""A dent passes through a contact.
 
 A ball has a dent in its surface, 0.3 um deep and about as wide as half of the contact's radius; the
-film is 0.32 um thick. The contact is followed in time while the dent comes in, passes and leaves
-(the template `passing-dent`). Each picture shows four moments: the film over the line y = 0, the
-pressure, and below them the surface as it would be without load.
+film is 0.32 um thick. The run follows the dent through the contact (the template `passing-dent`).
+Each picture shows four moments: the film along y = 0, the pressure, and below them the undeformed
+surface.
 
-**In pure rolling** the dent and the oil in it move on together. The film keeps more than half of
-the dent's depth, and the pressure knows little of it.
+**In pure rolling** the dent and the oil in it move together. The film keeps more than half of the
+depth, and the pressure hardly changes.
 
-**When the surfaces slide they part.** The oil in the contact is far too stiff to be moved by the
-pressure: it moves on at the mean speed of both surfaces, and so does the thick film that the dent
-let in at the inlet. The dent itself moves with its surface. If that is the fast one (SRR = 0.5) the
-thick film falls behind, if it is the slow one (SRR = -0.5) it runs ahead. What remains of the dent
-away from its oil is flattened, and the pressure shows it: low over the dent, and up to half as high
-again as in the smooth contact over the thick film. The picture of place and time shows the two
-paths: the thick film along that of the mean speed, the dent along that of its surface.
+**With sliding they separate.** The oil in the contact is too viscous to be moved by the pressure:
+it moves at the mean speed of both surfaces, and so does the thick film that the dent made in the
+inlet. The dent moves with its surface: if that is the fast one (SRR = 0.5), the thick film falls
+behind, if it is the slow one (SRR = -0.5), it runs ahead. The dent without its oil is flattened:
+the pressure is low over the dent, and over the thick film up to half as high again as in the smooth
+contact. The picture of place and time shows both paths.
 
-A Newtonian film without heat tells how a dent changes film and pressure, but not the traction.
+The oil is Newtonian and isothermal: films and pressures are realistic, the traction is not.
 """
 
 import sys
@@ -44,7 +43,7 @@ def followed(slide: float, points: int = 129) -> tehl.TransientResult:
 
 
 def numbers(run: tehl.TransientResult) -> dict[str, float]:
-    """Return what one passage does along y = 0 inside the contact."""
+    """Return extremes of film and pressure over the smooth ones, and the lead of the thick film."""
     inside = np.abs(run.start.scaled.x) < 0.7
     limits, smooth = envelope(run), run.profiles.film[0]
     seen = moving_profiles(run, 1)
@@ -62,7 +61,7 @@ def numbers(run: tehl.TransientResult) -> dict[str, float]:
 
 
 def main() -> dict[float, dict[str, float]]:
-    """Return what a passage does, by slide-to-roll ratio."""
+    """Return the numbers of each passage, by slide-to-roll ratio."""
     return {slide: numbers(followed(slide)) for slide in SLIDES}
 
 

@@ -1,12 +1,12 @@
 """Why plain Gauss-Seidel fails in a loaded contact.
 
-Textbooks first relax the Reynolds equation point by point: change the pressure of a node until its
-own residual vanishes, go on to the next. That works while the film is hardly deformed. Under load
-the film under a node follows the pressure of all others, so that each step disturbs its
-neighbours by more than it mends, and the iteration wanders about.
+The simplest relaxation changes the pressure of one node until its residual vanishes, then that of
+the next. This converges while the film is hardly deformed. Under load the film at a node depends on
+all pressures: each change increases the residual of the neighbours by more than it reduces that of
+the node, and the iteration does not converge.
 
-The hybrid line relaxation solves whole lines at a time, with the film that moves along, and
-changes the contact by dipoles, whose effect stays local. Both run in the same multigrid cycle on
+The hybrid line relaxation solves whole lines with the film that changes along, and changes the
+pressure in the contact by dipoles, whose effect is local. Both run in the same multigrid cycle on
 the same grid; only `smoother` differs.
 """
 

@@ -1,19 +1,18 @@
-"""A wave stands in the contact, askew to the flow.
+"""A standing wave, oblique to the flow.
 
-One surface has a wave at 45 degrees to the entrainment, half a Hertz radius long. It is a quarter
-of the central film high at M = 126 and most of it at M = 500, L = 12.34. It stands still: a
-quasi-steady film, as on a surface at rest.
+One surface has a wave at 45 degrees to the entrainment, half a Hertz radius long. Its amplitude is
+a quarter of the central film at M = 126 and most of it at M = 500, L = 12.34. The wave stands
+still: a quasi-steady film.
 
-**Inside the contact little is left of the wave**, 8 % at M = 126 and 2.5 % at M = 500. The oil is
-so stiff there that hardly any flows along the pressure, so what narrows the gap is flattened: the
-pressure rises and falls by nearly as much as it takes to flatten the wave between dry bodies. What
-remains is the part by which the oil gives way, `C / (1 + C)` with `C = h E' pi / (2 lambda B)`, B
-being its bulk modulus: linear theory, met here to two and three per cent.
+**Little of the wave remains in the contact**, 8 % at M = 126 and 2.5 % at M = 500. The viscous oil
+hardly flows along the pressure gradient, so the pressure flattens the wave, nearly as between dry
+bodies. What remains is due to the compressibility of the oil: `C / (1 + C)` with
+`C = h E' pi / (2 lambda B)` and the bulk modulus B in linear theory, with which the computation
+agrees to two and three per cent.
 
-**The film is striped all the same**, along the flow: where a crest stands in the inlet less oil is
-drawn in, and where a valley stands more, and the film carries both unchanged through the contact.
-The minimum film falls by 11 and 13 per cent. The films agree to 0.1 % with an independent program
-on the same grid.
+**The film has streaks along the flow**: a crest in the inlet reduces the flow and a valley
+increases it, and the film carries both unchanged through the contact. The minimum film falls by 11
+and 13 per cent. The films agree with those of an independent program on the same grid to 0.1 %.
 """
 
 import math
@@ -54,7 +53,7 @@ def solved(load: float, amplitude: float = AMPLITUDE, points: int = 257) -> tehl
 
 
 def main() -> dict[float, dict[str, float]]:
-    """Return films [-], what the wave does to them, and what is left of it, by Moes load."""
+    """Return, by Moes load, the films [-], the effect of the wave, and its ripple in the film."""
     table = {}
     for load in LOADS:
         rough, smooth = solved(load), solved(load, 0.0)
@@ -63,7 +62,7 @@ def main() -> dict[float, dict[str, float]]:
             "central film H": rough.film_scaled.central,
             "smallest node H": rough.film_scaled.minimum_node,
             "minimum over smooth": effect.minimum,
-            "left of the wave": wave.film_ratio,
+            "ripple over wave": wave.film_ratio,
             "by theory": wave.theory.film_ratio,
             "streaks over wave": wave.carried_amplitude / wave.amplitude,
             "pressure over flattening": wave.pressure_amplitude / wave.theory.elastic_pressure,

@@ -1,16 +1,15 @@
-"""A ball on a disc that slides: heat, traction and where the heat goes.
+"""A sliding ball on a disc: heat and traction.
 
-The template `thermal`, read as a case file is: a steel ball on a steel disc at a Hertz pressure of
-0.8 GPa, the ball faster than the disc by half the mean speed. The Eyring law bounds the shear
-stress, and its heat warms the film and both surfaces.
+The template `thermal`: a steel ball on a steel disc at a Hertz pressure of 0.8 GPa, the ball faster
+than the disc by half the mean speed. The Eyring law limits the shear stress, and its heat warms the
+film and both surfaces.
 
-The signs are those of the package: the traction is negative because the film holds surface 1, the
-faster one, back. Of the heat nearly all goes into the two solids. What the balance misses is the
-error of the mesh.
+The traction is negative because the film brakes surface 1, the faster one. Nearly all of the heat
+goes into the solids. The missing heat is the error of the mesh.
 
-The film is warmest half-way between the surfaces. The surfaces are heated on their way through the
-contact, the slower one more, so that they are warmest towards the outlet. In the inlet
-the oil is still cold: the film is hardly thinner than that of the same contact without heat.
+The film is warmest at mid-film. The surfaces heat up on their way through the contact, the slower
+one more, and are warmest towards the outlet. In the inlet the oil is still cold: the film is hardly
+thinner than without heat.
 """
 
 import sys

@@ -1,16 +1,16 @@
-"""Traction against sliding: what heat and shear thinning do to it.
+"""Traction curves: the effects of heat and shear thinning.
 
-Friction grows with sliding, at first like the shear rate. Then the oil thins under the stress, and
-then it is warm: the curve of a real oil rises, peaks and falls. Three laws at a Hertz pressure of
-0.8 GPa show what each effect does, with heat (circles) and without (squares).
+Friction grows with sliding, first in proportion to the shear rate. Then the oil thins under the
+stress and by heat: the curve of a real oil rises, peaks and falls. Three shear laws at a Hertz
+pressure of 0.8 GPa, with heat (circles) and without (squares):
 
-The Eyring law, whose stress grows like the logarithm of the rate, stays in the range of real
-oils; heat bends its curve down, so that it peaks at 0.04. A Carreau law with an exponent of 0.42
-does the same higher up. A Newtonian film is beyond belief at such a pressure: without heat it
-leaves the picture at once, for a traction of 18 at an SRR of one, and with heat it peaks above 0.2,
-twice what oils reach.
+- Eyring: the stress grows with the logarithm of the rate and stays in the range of real oils; with
+  heat the traction peaks at 0.04.
+- Carreau with an exponent of 0.42: the same at higher tractions.
+- Newtonian: unphysical at this pressure. Without heat the traction is 18 at an SRR of one, beyond
+  the picture; with heat it peaks above 0.2, twice what oils reach.
 
-The film hardly knows of all this: it is made in the inlet.
+The inlet determines the film, which is nearly the same in all cases.
 """
 
 import sys

@@ -125,7 +125,7 @@ def test_a_standing_wave_is_flattened_as_theory_says_and_leaves_stripes():
         assert table[load]["smallest node H"] == pytest.approx(smallest, rel=5e-3)
         assert table[load]["central film H"] == pytest.approx(central, rel=5e-3)
         # theory is linear, and this wave is no longer low
-        assert table[load]["left of the wave"] == pytest.approx(table[load]["by theory"], rel=0.05)
+        assert table[load]["ripple over wave"] == pytest.approx(table[load]["by theory"], rel=0.05)
         assert table[load]["streaks over wave"] > 0.3
 
 
