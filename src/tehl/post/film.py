@@ -100,7 +100,7 @@ def dry_gap(x: Array, y: Array, ellipticity: float) -> Array:
 
     References
     ----------
-    Johnson (1985), Contact Mechanics, section 3.3 (potential of an ellipsoidal pressure).
+    Johnson (1985), Contact Mechanics, section 3.5 (potential of an ellipsoidal pressure).
     """
     k2 = ellipticity**2
     x2, y2 = np.broadcast_arrays(np.square(x), k2 * np.square(y))
