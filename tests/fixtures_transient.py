@@ -26,20 +26,20 @@ def make_transient(*, points: int = 33, slide: float = 0.5, frames: bool = True)
 def make_certified() -> TransientResult:
     """Return the run of :func:`make_transient` with error bars at every fourth step."""
     run = make_transient()
-    told, every = run.history, slice(None, None, 4)
+    history, every = run.history, slice(None, None, 4)
     extremes = {
-        "film_minimum": told.film_minimum.min(),
-        "film_central_least": told.film_central.min(),
-        "film_central_largest": told.film_central.max(),
-        "pressure_max": told.pressure_max.max(),
+        "film_minimum": history.film_minimum.min(),
+        "film_central_least": history.film_central.min(),
+        "film_central_largest": history.film_central.max(),
+        "pressure_max": history.pressure_max.max(),
         "film_rise_max": 3.0,
-        "traction_extreme": told.traction.min(),
+        "traction_extreme": history.traction.min(),
     }
     bars = HistoryBars(
-        time=told.time[every].copy(),
-        film_central=0.02 * told.film_central[every],
-        film_minimum=0.03 * told.film_minimum[every],
-        pressure_max=0.04 * told.pressure_max[every],
+        time=history.time[every].copy(),
+        film_central=0.02 * history.film_central[every],
+        film_minimum=0.03 * history.film_minimum[every],
+        pressure_max=0.04 * history.pressure_max[every],
     )
     message = "Grids of the error bars: 9 x 9 converged, 17 x 17 converged, 33 x 33 converged."
     return replace(
