@@ -11,7 +11,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from tehl.kernels.energy import ETA_TERMS, RHO_TERMS, Laws
+from tehl.kernels.energy.records import ETA_TERMS, RHO_TERMS, Laws
 from tehl.lubricant import Lubricant
 from tehl.scaling import Scales
 from tehl.typing import Array

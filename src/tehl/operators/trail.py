@@ -11,7 +11,7 @@ interpolated to second order.
 
 import numpy as np
 
-from tehl.kernels import trail
+from tehl.kernels.energy import trail
 from tehl.operators.line_source import history
 from tehl.typing import Array
 

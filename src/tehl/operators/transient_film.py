@@ -4,14 +4,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tehl.kernels import energy
+from tehl.kernels.energy.records import GHOSTS, Fields, Surface, Surfaces
 from tehl.operators.trail import Trail
 from tehl.typing import Array
 
-GHOSTS = energy.GHOSTS
 
-
-class FilmInTime:
+class TransientFilm:
     """Former temperatures and pressures of a film, and the trails of both surfaces.
 
     The change at a place is backward of order two. What the density does to the flow through the
@@ -22,7 +20,7 @@ class FilmInTime:
     ----------
     fields : Fields
         Of the film, whose ``past`` and ``pressing`` are filled.
-    surfaces : (Surface, Surface)
+    surfaces : Surfaces
         With the steady flux.
     spacing, time_step : float
         Mesh width [a_x] and step [a_x / u_m].
@@ -32,8 +30,8 @@ class FilmInTime:
 
     def __init__(
         self,
-        fields: energy.Fields,
-        surfaces: tuple[energy.Surface, energy.Surface],
+        fields: Fields,
+        surfaces: Surfaces,
         spacing: float,
         time_step: float,
         paths: Sequence[tuple[float, float, float]],
@@ -50,12 +48,12 @@ class FilmInTime:
         ]
         self._remember()
 
-    def set_pressure(self, fields: energy.Fields) -> None:
+    def set_pressure(self) -> None:
         """Fill the change of the pressure with time."""
-        last, before = self.pressures
+        fields, (last, before) = self.fields, self.pressures
         fields.pressing[:] = (1.5 * fields.p - 2.0 * last + 0.5 * before) / self.time_step
 
-    def heat_surfaces(self, surfaces: tuple[energy.Surface, energy.Surface]) -> None:
+    def heat_surfaces(self, surfaces: Surfaces) -> None:
         """Give both surfaces the temperature that the heat upstream has made by now."""
         for surface, trail, (bulk, factor, _) in zip(
             surfaces, self.trails, self.paths, strict=True
@@ -78,7 +76,7 @@ class FilmInTime:
         self._inner()[:] = self.temperatures[0]
         self.fields.tau_x[:], self.fields.tau_y[:] = self.stresses
 
-    def memory(self) -> dict[str, Array]:
+    def pack(self) -> dict[str, Array]:
         """Return all of it, by name."""
         trails = {
             f"trail_{k}_{name}": getattr(trail, name)
@@ -94,8 +92,8 @@ class FilmInTime:
             **trails,
         }
 
-    def recall(self, known: dict[str, Array]) -> None:
-        """Take back what `memory` has returned."""
+    def unpack(self, known: dict[str, Array]) -> None:
+        """Take back what `pack` has returned."""
         for name in ("temperatures", "pressures", "stresses"):
             getattr(self, name)[:] = known[name]
         for k, trail in enumerate(self.trails):
@@ -111,3 +109,9 @@ class FilmInTime:
         """Fill what former temperatures bring to the derivative."""
         last, before = self.temperatures
         self.fields.past[:] = (2.0 * last - 0.5 * before) / self.time_step
+
+
+def without_history(surface: Surface) -> Surface:
+    """Return a surface without a line source to march: ``bulk`` is its whole temperature."""
+    nothing = np.zeros_like(surface.decay)
+    return surface._replace(next_=0.0, decay=nothing, older=nothing, newer=nothing)
