@@ -1,4 +1,4 @@
-"""Energy equation of the film on one grid: the state that the march over the film improves."""
+"""Energy equation of the film on one grid (docs/theory/thermal.md): its state and one sweep."""
 
 import numpy as np
 
@@ -13,14 +13,14 @@ from tehl.scaling import Groups
 from tehl.typing import Array
 
 FAR_FILM = 1e3
-"""Film of the rows that only fill the last block of columns: it hardly warms."""
+"""Film thickness in the rows that fill up the last block [-]: so thick that it hardly warms."""
 MIXED = 20.0
-"""Peclet number of the film times H^2 beyond which a thick film conducts as if it were mixed: far
-out in the inlet, where the nodes across it could not show the layers at the walls. From 5 to never,
-it moves the film by 2e-5 and the mid-film rise by 0.0015 K (0.5 and 0.8 GPa, SRR 0 and 0.5)."""
+"""Peclet number of the film times H^2 above which the conductivity is increased: far out in the
+inlet the nodes across the film cannot resolve the layers at the walls. Values from 5 to infinity
+change the film by 2e-5 and the mid-film rise by 0.0015 K (0.5 and 0.8 GPa, SRR 0 and 0.5)."""
 STIFFER, FLOWING = 2.0, 10.0
-"""Conductance of the film: over that of its oil at rest, for a warmer film makes less heat as well;
-and what the flow of a thick film adds to its square, over the Peclet number."""
+"""Conductance of the film over that of oil at rest, larger as a warmer film makes less heat; and
+what the flow of a thick film adds to its square, over the Peclet number."""
 
 
 class FilmState:
@@ -37,7 +37,7 @@ class FilmState:
     wedge_order : int
         Order of the upstream differences.
     finest : bool
-        Sum the full source also of surfaces that a line source heats nearly as well.
+        Use the full source also for surfaces that a line source heats nearly as accurately.
     thorough : bool
         March against x as well where oil flows back, in each sweep.
     """
@@ -61,7 +61,7 @@ class FilmState:
         self.thorough, self.is_first_grid, self.sweeps = thorough, not finest, 0
 
     def view(self, name: str) -> Array:
-        """Return a field of the film without the rows that only fill the last block, (nx, ny)."""
+        """Return a field of the film without the rows that fill up the last block, (nx, ny)."""
         field: Array = getattr(self.fields, name)
         return field[:, : self.grid.shape[0]]
 
@@ -80,20 +80,20 @@ class FilmState:
 
     @property
     def walls(self) -> tuple[Array, Array]:
-        """Temperature of both surfaces less what a line source does, (nx, ny) [K]."""
+        """Temperature of both surfaces without the rise by a line source, (nx, ny) [K]."""
         rows = slice(0, self.grid.shape[0])
         first, second = (surface.bulk[:, rows] for surface in self.surfaces)
         return first, second
 
     def set_film(self, pressure: Array, film: Array, floor: float = 0.0) -> None:
-        """Take pressure and film, and evaluate what depends on them alone.
+        """Set pressure and film, and evaluate the fields that depend on them only.
 
         Parameters
         ----------
         pressure, film : array of ``grid.shape``
             Dimensionless.
         floor : float
-            The film enters with no less than this.
+            Least film thickness.
         """
         grid, fields, scales = self.grid, self.fields, self.film.scaled.scales
         held = slice(0, pressure.shape[0])
@@ -123,16 +123,16 @@ class FilmState:
             wall[:] = midpoints(coarser)
 
     def slide(self, part: float) -> None:
-        """Let the surfaces slide at a part of their speed, at the same mean."""
+        """Set the sliding speed to a part of that of the contact, at the same mean speed."""
         full = -part * self.film.scaled.problem.slide_roll_ratio
         self._set_terms(self.model.terms._replace(slide=full, speed=1.0 - 0.5 * full))
 
     def sweep(self, steps: int) -> float:
         """March once; return the largest change of temperature [K].
 
-        Oil flows back in the inlet and along a counter-moving surface, and the march would carry it
-        on by one station per sweep. So a march against x goes before it: always if thorough, and in
-        the second sweep of the first grid, from which finer ones take the temperature.
+        Heat of oil that flows back, in the inlet and along a counter-moving surface, would move by
+        one station per sweep. So a march against x comes first: always if thorough, else in the
+        second sweep of the first grid, from which finer grids start.
 
         Parameters
         ----------
@@ -149,7 +149,7 @@ class FilmState:
         return change
 
     def begin_transient(self, time_step: float) -> None:
-        """Let the temperature change in time: the present film has been the same for ever.
+        """Make the energy equation transient, with the present film as steady history.
 
         Parameters
         ----------
@@ -169,7 +169,7 @@ class FilmState:
         self._set_terms(self.model.terms._replace(over_t=1.5 / time_step))
 
     def update_surfaces(self) -> None:
-        """Let the surfaces follow the heat that flows into them, as far as no line source does."""
+        """Update the temperature of surfaces without a line source from the heat flux."""
         if self.model.terms.heat:
             still = self.view("conductivity") / self.view("h")
             moving = FLOWING * self.model.terms.peclet
@@ -181,9 +181,9 @@ class FilmState:
 
 
 def initial_fields(grid: Grid, film: HeatedFilm) -> Fields:
-    """Return the fields of a thin film at rest: temperatures are linear across it.
+    """Return the fields of a film at rest, with temperatures linear across it.
 
-    Steps at the walls would give fluxes that no later sweep takes back.
+    Steps at the walls would cause fluxes that later sweeps do not correct.
     """
     nx, ny, heat = grid.nx, padded_rows(grid), film.heat
     whole = (nx + 2 * GHOSTS, heat.layers, ny + 2 * GHOSTS)

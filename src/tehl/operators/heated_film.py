@@ -1,4 +1,4 @@
-"""A contact in the energy equation, on any grid: dimensionless numbers, laws, surfaces, units."""
+"""The energy equation of a contact on any grid: dimensionless numbers, laws, surfaces, units."""
 
 import numpy as np
 
@@ -18,7 +18,7 @@ UPSTREAM = {1: (1.0, -1.0, 0.0), 2: (1.5, -2.0, 0.5)}
 
 
 class HeatedFilm:
-    """A contact in the energy equation, on any grid.
+    """The energy equation of a contact, on any grid.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ class HeatedFilm:
         return first, second
 
     def model(self, grid: Grid, wedge_order: int) -> Model:
-        """Return what the kernels have to know of the contact on a grid.
+        """Return the constants of the kernels on a grid.
 
         Parameters
         ----------
@@ -61,7 +61,7 @@ class HeatedFilm:
         return Model(self.across, self.laws, film_terms(grid, self.scaled, wedge_order))
 
     def surface(self, grid: Grid, side: Side) -> Surface:
-        """Return one surface on a grid and its line source, if it has one."""
+        """Return one surface on a grid with its line source, if any."""
         nx, ny = grid.nx, padded_rows(grid)
         factor = side.line_factor(self.scaled.scales, self.flux_unit) if side.marches else 0.0
         return Surface(
@@ -73,7 +73,7 @@ class HeatedFilm:
 
 
 def padded_rows(grid: Grid) -> int:
-    """Return the rows of ``grid``, filled up to whole blocks."""
+    """Return the rows of ``grid``, rounded up to whole blocks."""
     return -(-grid.shape[0] // BLOCK) * BLOCK
 
 

@@ -1,4 +1,7 @@
-"""What a heated film remembers of former steps of time: temperatures, pressures and wall heat."""
+"""History of a heated film in a transient run: temperatures, pressures and surface heat.
+
+Time derivatives are backward differences of second order (docs/theory/thermal.md, transient films).
+"""
 
 from collections.abc import Sequence
 
@@ -12,14 +15,13 @@ from tehl.typing import Array
 class TransientFilm:
     """Former temperatures and pressures of a film, and the trails of both surfaces.
 
-    The change at a place is backward of order two. What the density does to the flow through the
-    layers when it changes in time differently in each is left out: it is of the order of the
-    thermal expansion.
+    The flow through the layers that results from density changes in time is neglected; it is of the
+    order of the thermal expansion.
 
     Parameters
     ----------
     fields : Fields
-        Of the film, whose ``past`` and ``pressing`` are filled.
+        Of the film; ``past`` and ``pressing`` are output.
     surfaces : Surfaces
         With the steady flux.
     spacing, time_step : float
@@ -46,22 +48,22 @@ class TransientFilm:
             Trail(surface.flux[GHOSTS:-GHOSTS], spacing, lag)
             for surface, (_, _, lag) in zip(surfaces, paths, strict=True)
         ]
-        self._remember()
+        self._set_past()
 
     def set_pressure(self) -> None:
-        """Fill the change of the pressure with time."""
+        """Fill the time derivative of the pressure."""
         fields, (last, before) = self.fields, self.pressures
         fields.pressing[:] = (1.5 * fields.p - 2.0 * last + 0.5 * before) / self.time_step
 
     def heat_surfaces(self, surfaces: Surfaces) -> None:
-        """Give both surfaces the temperature that the heat upstream has made by now."""
+        """Set the temperature of both surfaces from bulk and the heat upstream."""
         for surface, trail, (bulk, factor, _) in zip(
             surfaces, self.trails, self.paths, strict=True
         ):
             surface.bulk[:] = bulk + factor * trail.update(surface.flux[GHOSTS:-GHOSTS])
 
     def advance(self) -> None:
-        """Let the present be the past of the next step."""
+        """Accept the present as the last time level of the next step."""
         self.temperatures[1] = self.temperatures[0]
         self.temperatures[0] = self._inner()
         self.pressures[1] = self.pressures[0]
@@ -69,44 +71,32 @@ class TransientFilm:
         self.stresses[:] = self.fields.tau_x, self.fields.tau_y
         for trail in self.trails:
             trail.advance()
-        self._remember()
+        self._set_past()
 
     def go_back(self) -> None:
-        """Take the temperature and stress of the last step again."""
+        """Restore temperature and stress of the last step."""
         self._inner()[:] = self.temperatures[0]
         self.fields.tau_x[:], self.fields.tau_y[:] = self.stresses
 
     def pack(self) -> dict[str, Array]:
-        """Return all of it, by name."""
-        trails = {
-            f"trail_{k}_{name}": getattr(trail, name)
-            for k, trail in enumerate(self.trails)
-            for name in ("modes", "fluxes")
-        }
-        fluxes = {f"flux_{k}": flux for k, flux in enumerate(self.fluxes)}
-        return {
-            **fluxes,
-            "temperatures": self.temperatures,
-            "pressures": self.pressures,
-            "stresses": self.stresses,
-            **trails,
-        }
+        """Return all arrays of the history by name."""
+        arrays = {name: getattr(self, name) for name in ("temperatures", "pressures", "stresses")}
+        for k, (flux, trail) in enumerate(zip(self.fluxes, self.trails, strict=True)):
+            arrays[f"flux_{k}"] = flux
+            arrays[f"trail_{k}_modes"], arrays[f"trail_{k}_fluxes"] = trail.modes, trail.fluxes
+        return arrays
 
     def unpack(self, known: dict[str, Array]) -> None:
-        """Take back what `pack` has returned."""
-        for name in ("temperatures", "pressures", "stresses"):
-            getattr(self, name)[:] = known[name]
-        for k, trail in enumerate(self.trails):
-            self.fluxes[k][:] = known[f"flux_{k}"]
-            for name in ("modes", "fluxes"):
-                getattr(trail, name)[:] = known[f"trail_{k}_{name}"]
-        self._remember()
+        """Restore the arrays that `pack` returned."""
+        for name, array in self.pack().items():
+            array[:] = known[name]
+        self._set_past()
 
     def _inner(self) -> Array:
         return self.fields.temperature[GHOSTS:-GHOSTS, :, GHOSTS:-GHOSTS]
 
-    def _remember(self) -> None:
-        """Fill what former temperatures bring to the derivative."""
+    def _set_past(self) -> None:
+        """Fill the contribution of former temperatures to the time derivative."""
         last, before = self.temperatures
         self.fields.past[:] = (2.0 * last - 0.5 * before) / self.time_step
 
