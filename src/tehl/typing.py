@@ -5,7 +5,7 @@ import ``np`` and ``Array`` from here, and numpy is loaded when ``np`` is first 
 """
 
 import importlib
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 if TYPE_CHECKING:
     import numpy as np
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     IntArray = NDArray[np.int64]
     BoolArray = NDArray[np.bool_]
     FlagArray = NDArray[np.uint8]
+    Record = np.record
+    Records = np.recarray[Any, Any]
 else:
 
     class _Numpy:
@@ -25,4 +27,8 @@ else:
             return getattr(importlib.import_module("numpy"), name)
 
     np = _Numpy()
-    Array = SingleArray = IntArray = BoolArray = FlagArray = Any
+    Array, SingleArray = Annotated[Any, "float64"], Annotated[Any, "float32"]
+    IntArray, BoolArray, FlagArray = (
+        Annotated[Any, "int64"], Annotated[Any, "bool"], Annotated[Any, "uint8"]
+    )  # fmt: skip
+    Record = Records = Any  # an element of a structured array, and the array

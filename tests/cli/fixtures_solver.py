@@ -62,6 +62,8 @@ def solver(monkeypatch) -> FakeSolver:
     monitor = SimpleNamespace(SILENT=Silent())
     monkeypatch.setitem(sys.modules, "tehl.solver.monitor", monitor)
     monkeypatch.setitem(
-        sys.modules, "tehl.kernels.cache", SimpleNamespace(is_cold=lambda **_: False)
+        sys.modules,
+        "tehl.kernels.cache",
+        SimpleNamespace(is_cold=lambda **_: False, folder=lambda: None),
     )
     return fake

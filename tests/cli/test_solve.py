@@ -333,4 +333,8 @@ def test_cold_kernels_are_announced(folder, solver, run, monkeypatch):
     monkeypatch.setitem(
         sys.modules, "tehl.kernels.cache", SimpleNamespace(is_cold=lambda **_: True)
     )
-    assert "compiling once" in run("solve", "ball.toml").err
+    compiled = []
+    module = SimpleNamespace(warm_up=lambda **settings: compiled.append(settings))
+    monkeypatch.setitem(sys.modules, "tehl.kernels.warmup", module)
+    assert "compiling the kernels once" in run("solve", "ball.toml").err
+    assert compiled == [{"coupled": False}]

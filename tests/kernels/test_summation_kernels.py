@@ -8,6 +8,8 @@ import pytest
 
 from tehl.kernels import summation
 from tehl.kernels.summation import Box
+from tehl.operators.multilevel import Stage
+from tests.kernels.from_python import from_python
 
 WEIGHTS = np.array([3.0, -25.0, 150.0, 150.0, -25.0, 3.0]) / 256.0
 OFFSETS = np.array([-5, -3, -1, 1, 3, 5])
@@ -38,6 +40,13 @@ def influence_matrix(box, row_step, column_step):
     return matrix
 
 
+def loaded(box, u, p):
+    """Sources of a grid, in the array ``u``."""
+    stage = Stage(box=box, source=u, total=np.zeros_like(u))
+    stage.load(p)
+    return stage
+
+
 def corrections(axis, reach, side):
     d, q = np.arange(reach + 1)[:, None], np.arange(side + 1)[None, :]
 
@@ -45,7 +54,8 @@ def corrections(axis, reach, side):
         return kernel(along, q) if axis == 0 else kernel(q, along)
 
     interpolated = sum(w * value(d + k) for w, k in zip(WEIGHTS, OFFSETS, strict=True))
-    return np.ascontiguousarray(value(d) - interpolated)
+    missed = value(d) - interpolated
+    return np.ascontiguousarray(missed if axis == 0 else missed.T)
 
 
 def halved(last):
@@ -57,8 +67,7 @@ def sum_by_one_halving(p, axis, mirror):
     """Sum with one coarser grid and patches that leave nothing out."""
     ny, nx = p.shape
     fine, u = box_of(0, ny - 1, 0, nx - 1, mirror)
-    summation.load(p, u, fine)
-    out, w = np.zeros_like(p), np.zeros_like(u)
+    finest = loaded(fine, u, p)
     farthest = 2 * ny + 8 if axis == 0 else nx + 8
     if axis == 0:
         first, last = halved(ny - 1)
@@ -68,20 +77,19 @@ def sum_by_one_halving(p, axis, mirror):
         table = corrections(0, farthest, nx)
     else:
         coarse, coarse_u = box_of(0, ny - 1, *halved(nx - 1), mirror)
-        even = np.zeros((u.shape[0], u.shape[1] // 2 + 2))
-        odd = np.zeros_like(even)
-        summation.split_columns(u, fine, even, odd)
-        summation.gather_columns(even, odd, fine, coarse_u, coarse)
         matrix = influence_matrix(coarse, 1, 2)
         table = corrections(1, farthest, 2 * ny)
+        columns = summation.columns_of(table, u.shape, fine, coarse)
+        summation.split_columns(u, fine, columns)
+        summation.gather_columns(columns, fine, coarse_u, coarse)
     coarse_w = np.zeros_like(coarse_u)
-    summation.direct(matrix, coarse_u, coarse, coarse_w)
+    summation.direct(matrix, coarse_u, coarse, coarse_w, np.zeros(len(matrix)))
     if axis == 0:
-        summation.spread_rows(u, table, fine, coarse_w, coarse, w)
+        folds = summation.row_folds(table, fine)
+        summation.spread_rows(u, table, folds, fine, coarse_w, coarse, finest.total)
     else:
-        summation.spread_columns(even, odd, table, fine, coarse_w, coarse, w)
-    summation.unload(w, fine, out)
-    return out
+        summation.spread_columns(columns, table, fine, coarse_w, coarse, finest.total)
+    return finest.nodes(finest.total)
 
 
 @pytest.mark.parametrize("mirror", [False, True])
@@ -100,7 +108,7 @@ def test_the_direct_sum_is_a_matrix_product():
     p, matrix = rng.random((4, 5)), rng.random((20, 20))
     u[PAD : PAD + 4, PAD : PAD + 5] = p
     w = np.zeros_like(u)
-    summation.direct(matrix, u, box, w)
+    summation.direct(matrix, u, box, w, np.zeros(20))
     total = w[PAD : PAD + 4, PAD : PAD + 5].ravel()
     np.testing.assert_allclose(total, matrix @ p.ravel(), rtol=1e-13)
 
@@ -108,7 +116,7 @@ def test_the_direct_sum_is_a_matrix_product():
 def test_loading_sources_reflects_them_about_the_mirror_line():
     p = np.arange(12.0).reshape(3, 4)
     box, u = box_of(0, 2, 0, 3, mirror=True)
-    summation.load(p, u, box)
+    loaded(box, u, p)
     np.testing.assert_array_equal(u[PAD - 2 : PAD + 3, PAD : PAD + 4], np.vstack([p[:0:-1], p]))
     assert u.sum() == p.sum() + p[1:].sum()
 
@@ -116,15 +124,15 @@ def test_loading_sources_reflects_them_about_the_mirror_line():
 def test_gathering_keeps_the_total_of_the_sources():
     p = np.random.default_rng(3).random((11, 15))
     fine, u = box_of(0, 10, 0, 14, mirror=False)
-    summation.load(p, u, fine)
+    loaded(fine, u, p)
     coarse, coarse_u = box_of(*halved(10), 0, 14, mirror=False)
     summation.gather_rows(u, fine, coarse_u, coarse)
     np.testing.assert_allclose(coarse_u.sum(), p.sum(), rtol=1e-13)
 
 
 def test_weighted_sums_of_rows_take_every_step_th_row():
-    rng = np.random.default_rng(4)
-    rows, weights, out = rng.random((9, 6)), rng.random(9), np.empty(6)
+    rng, weigh = np.random.default_rng(4), from_python(summation.weigh)
+    rows, table = rng.random((10, 6)), rng.random((9, 3))
     for first, step in ((0, 1), (1, 2)):
-        summation.weigh(rows, weights, first, step, out)
-        np.testing.assert_allclose(out, weights[first::step] @ rows[first::step], rtol=1e-13)
+        weigh(rows, table, 1, (first, step))
+        np.testing.assert_allclose(rows[9], table[first::step, 1] @ rows[first:9:step], rtol=1e-13)

@@ -13,7 +13,8 @@ import pytest
 from scipy.integrate import quad
 
 from tehl.grid import Grid
-from tehl.operators.energy import FilmState, HeatedFilm
+from tehl.operators.energy import FilmState
+from tehl.operators.heated_film import HeatedFilm
 from tehl.options import Domain
 from tehl.problem import ContactProblem
 from tehl.scaling import ScaledProblem
@@ -123,7 +124,7 @@ def brinkman(layer: Layer) -> float:
 def test_couette_flow_between_walls_heats_to_a_parabola(scheme, bulk, slide):
     layer = Layer(slide=slide, bulk=bulk, walls=KEPT, scheme=scheme)
     state = settled(layer.state(film=0.7))
-    zeta = state.across.zeta
+    zeta = state.film.across.zeta
     heated = 0.5 * brinkman(layer) * slide**2
     exact = bulk[0] - COLD + (bulk[1] - bulk[0]) * zeta + heated * zeta * (1.0 - zeta)
     # exact on either set of nodes; the walls conduct 1e8 times better than steel, not without end
@@ -201,7 +202,7 @@ def test_the_temperature_of_nahme_is_met_at_all_nodes():
     layer = nahme_layer(10.0, 9)
     state = settled(layer.state(), sweeps=400)
     c, _, _ = nahme(10.0)
-    exact = np.log((1.0 + 10.0 / 8.0) / np.cosh(c * (1.0 - 2.0 * state.across.zeta)) ** 2)
+    exact = np.log((1.0 + 10.0 / 8.0) / np.cosh(c * (1.0 - 2.0 * state.film.across.zeta)) ** 2)
     np.testing.assert_allclose(GAMMA * rise(state), exact, rtol=0, atol=TABLE)
 
 
@@ -212,8 +213,12 @@ def test_a_pressure_gradient_heats_to_the_fourth_power(scheme):
     def error(nodes: int) -> float:
         layer = Layer(walls=KEPT, scheme=scheme, nodes=nodes)
         state = settled(layer.state(film=film, slope=slope))
-        heated = brinkman(layer) * (12.0 / state.groups.lambda_bar * slope * film**2) ** 2 / 192.0
-        exact = heated * (1.0 - (1.0 - 2.0 * state.across.zeta) ** 4)
+        heated = (
+            brinkman(layer)
+            * (12.0 / state.film.scaled.groups.lambda_bar * slope * film**2) ** 2
+            / 192.0
+        )
+        exact = heated * (1.0 - (1.0 - 2.0 * state.film.across.zeta) ** 4)
         return float(np.abs(rise(state) - exact).max() / heated)
 
     if scheme == "chebyshev":
@@ -233,9 +238,9 @@ LAWS = [
 def test_a_thinning_film_bears_the_stress_of_its_law(shear):
     layer = Layer(slide=-0.4, walls=KEPT, shear=shear, eta_0=20.0)
     state = settled(layer.state(film=0.6))
-    scale = state.scales
+    scale = state.film.scaled.scales
     thickness, sliding = 0.6 * scale.film_thickness, 0.4 * scale.speed
-    law = state.problem.lubricant.shear
+    law = state.film.scaled.problem.lubricant.shear
     unit = float(law.stress_scale(np.zeros(1))[0])
     stress = unit * float(law.stress_at(np.array([20.0 * sliding / thickness / unit]))[0])
     found = state.view("tau_x")[8, 3] * scale.viscosity * scale.speed / scale.film_thickness
@@ -263,7 +268,7 @@ def test_a_slug_is_heated_along_its_way():
 
 def mean(state: FilmState, row: int) -> Array:
     """Rise of the mean temperature across the film, along it [K]."""
-    return (state.temperature[:, :, row] - COLD) @ state.across.weights
+    return (state.temperature[:, :, row] - COLD) @ state.film.across.weights
 
 
 def test_compression_heats_a_slug_as_its_expansion_says():
@@ -273,7 +278,9 @@ def test_compression_heats_a_slug_as_its_expansion_says():
     def error(points: int) -> float:
         state = settled(Layer(beta=beta, points=points, **SLUG).state(slope=slope))
         x = state.grid.x
-        pressure = state.scales.hertz_pressure * slope * (x - x[0] + 0.5 * state.grid.dx)
+        pressure = (
+            state.film.scaled.scales.hertz_pressure * slope * (x - x[0] + 0.5 * state.grid.dx)
+        )
         # rho^2 c dT = rho_0 beta T dp with rho = rho_0 (1 - beta (T - T_0)), integrated
         warm = np.linspace(COLD, COLD + 60.0, 2001)
         rate = 890.0 * 2000.0 * (1.0 - beta * (warm - COLD)) ** 2 / (beta * warm)
@@ -296,7 +303,7 @@ def test_oil_that_enters_between_warm_walls_is_warmed_to_second_order():
             eta_0=1e7, points=points,
         )  # fmt: skip
         state = settled(layer.state(film=film))
-        x, zeta = state.grid.x[:, None], state.across.zeta[None, :]
+        x, zeta = state.grid.x[:, None], state.film.across.zeta[None, :]
         way = (x - x[0] + 0.5 * state.grid.dx) / (state.model.terms.peclet * film**2)
         cold = sum(
             4.0 / (n * np.pi) * np.sin(n * np.pi * zeta) * np.exp(-((n * np.pi) ** 2) * way)
@@ -319,7 +326,7 @@ def test_constant_properties_give_back_the_isothermal_coefficients(reynolds, sli
     pressure = 0.2 + 0.5 * rng.random(shape)
     state.set_film(pressure, 0.5 + rng.random(shape))
     state.sweep(1)
-    eta = np.exp(15e-9 * state.scales.hertz_pressure * pressure)
+    eta = np.exp(15e-9 * state.film.scaled.scales.hertz_pressure * pressure)
     np.testing.assert_allclose(state.view("mobility").T * eta, 1.0, rtol=1e-5)
     np.testing.assert_allclose(state.view("density"), 1.0, rtol=1e-6)
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tehl.kernels import reynolds
+from tehl.kernels import properties
 from tehl.operators.flow import flow_table
 from tehl.scaling import ScaledProblem
 from tests.reference import moes_contact
@@ -16,11 +16,11 @@ SCALES, GROUPS = SCALED.scales, SCALED.groups
 FLOW = flow_table(SCALED)
 
 
-def properties(pressure: float, film: float, floor: float = 0.0) -> tuple[float, float, float]:
+def properties_of(pressure: float, film: float, floor: float = 0.0) -> tuple[float, float, float]:
     p, h = np.full((1, 1), pressure), np.full((1, 1), film)
     out = [np.empty((1, 1)) for _ in range(3)]
-    reynolds.properties(
-        reynolds.Film(p, h, *out, eps_x=out[0], eps_y=out[0]), FLOW.table, FLOW.step, floor
+    properties.properties(
+        properties.Film(p, h, *out, eps_x=out[0], eps_y=out[0]), FLOW.table, FLOW.step, floor
     )
     eps, rho, drho = (float(field[0, 0]) for field in out)
     return eps, rho, drho
@@ -32,7 +32,7 @@ def test_conductance_and_density_follow_the_laws(pressure):
     si, laws = pressure * SCALES.hertz_pressure, PROBLEM.lubricant
     rho = float(laws.density.density(np.float64(si), SCALES.temperature)) / SCALES.density
     eta = float(laws.viscosity.viscosity(np.float64(si), SCALES.temperature)) / SCALES.viscosity
-    eps, density, _ = properties(pressure, 0.1)
+    eps, density, _ = properties_of(pressure, 0.1)
     assert density == pytest.approx(rho, rel=1e-9)
     # cubic interpolation of exp(-50 P) over steps of 1/1024 leaves 1e-6
     assert eps == pytest.approx(rho / eta * 1e-3 / GROUPS.lambda_bar, rel=1e-6)
@@ -42,9 +42,10 @@ def test_conductance_and_density_follow_the_laws(pressure):
 @given(st.floats(0.01, 3.0))
 def test_the_slope_of_density_is_its_derivative(pressure):
     d = 1e-5
-    difference = (properties(pressure + d, 0.1)[1] - properties(pressure - d, 0.1)[1]) / (2 * d)
-    assert properties(pressure, 0.1)[2] == pytest.approx(difference, rel=1e-3)  # linear per step
+    higher, lower = (properties_of(pressure + shift, 0.1)[1] for shift in (d, -d))
+    difference = (higher - lower) / (2 * d)
+    assert properties_of(pressure, 0.1)[2] == pytest.approx(difference, rel=1e-3)  # linear per step
 
 
 def test_a_film_below_the_floor_conducts_like_the_floor():
-    assert properties(1.0, -0.5, floor=0.01)[0] == properties(1.0, 0.01)[0]
+    assert properties_of(1.0, -0.5, floor=0.01)[0] == properties_of(1.0, 0.01)[0]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tehl.grid import Grid
-from tehl.kernels import reynolds
+from tehl.kernels import properties, reynolds
 from tehl.operators.influence import influence_of
 from tehl.operators.reynolds import line_influence, stencil
 from tehl.options import Domain
@@ -18,7 +18,7 @@ def apply(grid: Grid, fields: dict[str, Array], *, ratio: float = 1.0, wedge: in
     """L(p) for given p, h, eps, rho."""
     mesh = stencil(grid, contact_groups(ratio), wedge)
     zero = np.zeros(grid.shape)
-    film = reynolds.Film(
+    film = properties.Film(
         p=fields.get("p", zero),
         h=fields.get("h", zero),
         eps=fields.get("eps", zero),

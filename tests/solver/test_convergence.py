@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tehl.kernels.reynolds import Factors
+from tehl.kernels.properties import Factors
 from tehl.solver.convergence import LEAST_CYCLES, LEAST_RATE, GridTrace, error_estimate
 from tehl.solver.thermal import damped
 

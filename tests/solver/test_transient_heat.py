@@ -5,7 +5,9 @@ import pytest
 
 from tehl import InputError, solve_transient
 from tehl.grid import Grid
-from tehl.operators.energy import FilmState, HeatedFilm
+from tehl.kernels.energy.records import Surfaces
+from tehl.operators.energy import FilmState
+from tehl.operators.heated_film import HeatedFilm
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.scaling import ScaledProblem, scales
@@ -89,7 +91,7 @@ def test_a_film_at_rest_cools_by_conduction_as_the_exact_solution():
     grid = Grid(nx=17, ny=17, domain=DOMAIN, mirror=True)
     film = HeatedFilm(ScaledProblem.of(problem))
     state = FilmState(grid, film, 2)
-    state.surfaces = tuple(surface._replace(factor=0.0) for surface in state.surfaces)
+    state.surfaces = Surfaces(*(surface._replace(factor=0.0) for surface in state.surfaces))
     terms = state.model.terms._replace(speed=0.0, slide=0.0, poiseuille=0.0, brinkman=0.0)
     state.model = state.model._replace(terms=terms)
     thick = 0.02  # so thin that no layer counts as mixed
@@ -101,14 +103,14 @@ def test_a_film_at_rest_cools_by_conduction_as_the_exact_solution():
         step = 1.0 / decay / steps
         bump = SMALL * np.sin(np.pi * zeta)[None, :, None]
         state.temperature[:] = 313.0 + bump
-        state.begin_time(step)
+        state.begin_transient(step)
         earlier = 313.0 + np.exp(decay * step) * bump
-        state.time.temperatures[1][:] = earlier
-        state.time.recall(state.time.memory())
+        state.transient.temperatures[1][:] = earlier
+        state.transient.unpack(state.transient.pack())
         for _ in range(steps):
             state.set_film(np.zeros(grid.shape), np.full(grid.shape, thick))
             state.sweep(1)
-            state.time.advance()
+            state.transient.advance()
         middle = state.temperature[8, zeta.size // 2, 3] - 313.0
         errors.append(abs(middle / SMALL - np.exp(-1.0)))
     assert errors[0] < 2e-3

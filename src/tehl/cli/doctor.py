@@ -2,7 +2,6 @@
 
 import json
 from collections.abc import Callable, Iterator
-from contextlib import suppress
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
@@ -74,13 +73,10 @@ def _show(rows: dict[str, str]) -> None:
 
 def _facts() -> Iterator[tuple[str, str]]:
     """Yield what this installation is, by name."""
-    import os
     import platform
     from importlib.metadata import PackageNotFoundError, version
-    from pathlib import Path
 
-    import tehl.kernels
-    from tehl.kernels.cache import is_cold
+    from tehl.kernels.cache import folder, is_cold
 
     yield "python", f"{platform.python_version()} ({platform.python_implementation()})"
     yield "platform", platform.platform()
@@ -89,22 +85,19 @@ def _facts() -> Iterator[tuple[str, str]]:
             yield name, version(name)
         except PackageNotFoundError:
             yield name, "missing"
-    beside = Path(tehl.kernels.__file__).parent / "__pycache__"
-    yield "kernel cache", os.environ.get("NUMBA_CACHE_DIR") or str(beside)
+    yield "kernel cache", str(folder() or "none: no folder can be written")
     cold = is_cold(coupled=True)
     yield "kernels compiled", "no, the first solve compiles once" if cold else "yes"
 
 
 def _warm() -> None:
-    """Compile what a solve needs, and plain Gauss-Seidel too."""
-    from tehl.errors import ConvergenceError
-    from tehl.options import Options
-    from tehl.solver import solve
-    from tehl.solver.warmup import warm_up
+    """Compile all kernels, also those that few films need."""
+    from tehl.cli.progress import compile_kernels
+    from tehl.kernels.samples import RARE
 
-    warm_up(coupled=True)
-    with suppress(ConvergenceError):
-        solve(_problem(), Options(points=33, smoother="gauss-seidel", max_cycles=1))
+    compile_kernels(coupled=True)
+    for sample in RARE:
+        sample.compile()
 
 
 def _problem() -> "ContactProblem":

@@ -13,11 +13,13 @@ from rich import box
 from rich.console import Console, Group
 from rich.live import Live
 from rich.markup import escape
-from rich.progress import BarColumn, Progress, TextColumn
+from rich.progress import BarColumn, Progress, ProgressColumn, Task, TextColumn
 from rich.progress_bar import ProgressBar
 from rich.table import Table
+from rich.text import Text
 
 if TYPE_CHECKING:
+    from tehl.kernels.warmup import Progress as CompileProgress
     from tehl.problem import ContactProblem
     from tehl.result import CycleReport
     from tehl.scaling import Scales
@@ -49,8 +51,6 @@ _STEP: Columns = {
     "p max [GPa]": (11, "{pressure:.4f}"),
     "left [s]": (8, "{left}"),
 }
-_COMPILE_SECONDS = 60
-"""Typical time to compile the kernels."""
 _LINES, _ROWS = 20, 10
 """Of a transient run: plain lines, and steps in the live view."""
 _EVERY = 10.0
@@ -68,7 +68,7 @@ def progress(problem: "ContactProblem", *, quiet: bool) -> Iterator[Any]:
     if quiet:
         yield SILENT
         return
-    _announce_compiling(coupled=problem.is_coupled)
+    compile_kernels(coupled=problem.is_coupled)
     shown: Callable[[Live | None], Any]
     if problem.transient is None:
         shown = partial(_CycleProgress, thermal=problem.thermal is not None)
@@ -97,11 +97,43 @@ def study_progress(*, quiet: bool) -> Iterator["StudyMonitor"]:
             yield StudyProgress(bar)
 
 
-def _announce_compiling(*, coupled: bool) -> None:
+def compile_kernels(*, coupled: bool) -> None:
+    """Compile the kernels that are not in the cache, and show which, and how long it takes.
+
+    Parameters
+    ----------
+    coupled : bool
+        Include the kernels of heated and shear-thinning films.
+    """
     from tehl.kernels.cache import is_cold
 
-    if is_cold(coupled=coupled):
-        typer.echo(f"compiling once, about {_COMPILE_SECONDS} s", err=True)
+    if not is_cold(coupled=coupled):
+        return
+    from tehl.kernels.warmup import warm_up
+
+    if not _is_terminal():
+        typer.echo("compiling the kernels once, which takes 10 to 60 s", err=True)
+        warm_up(coupled=coupled)
+        return
+    columns = (BarColumn(bar_width=20), _CountDown(), TextColumn("{task.description}"))
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("", total=None)
+
+        def report(now: "CompileProgress") -> None:
+            words = f"compiling once, {now.done} of {now.total} done, now {', '.join(now.names)}"
+            end = time.monotonic() + now.seconds_left
+            bar.update(task, total=now.total, completed=now.done, description=words, end=end)
+
+        warm_up(coupled=coupled, report=report)
+
+
+class _CountDown(ProgressColumn):
+    """The time until the task's field ``end``."""
+
+    def render(self, task: Task) -> Text:
+        """Return the time left, empty before the first report."""
+        end = task.fields.get("end")
+        return Text("" if end is None else f"{max(end - time.monotonic(), 0.0):.0f} s left")
 
 
 def _is_terminal() -> bool:

@@ -1,112 +1,208 @@
-"""Lanes: eight numbers side by side that compiled kernels treat as one.
+"""Lanes: eight numbers that a compiled kernel handles as one vector register.
 
-A kernel that handles the same formula at many points takes them by `LANES` at a time: it loads
-lanes from an array, computes with ``+ - * /`` as if they were single numbers (single numbers may
-stand beside them), and stores them. The compiler then has vector instructions to begin with and
-need not look for loops that it may rewrite, which makes both the program and its compilation fast.
+A kernel that applies a formula to many rows takes `LANES` of them at a time and states the formula
+as for one number. Interpreted, lanes are numpy arrays of eight numbers. Compiled, each operation is
+one vector instruction, so that LLVM has no loop to vectorise, which makes kernels and their
+compilation fast (docs/dev/kernels.md).
 
-Kernels of lanes know arrays by their `addresses`, as flat (C order), and positions in them as
-offsets of the first number: compiled code then counts no references to them. Nothing is checked:
-whoever uses lanes pads the arrays to whole lanes.
+Lanes support ``+ - * /``, comparisons, ``&`` of masks, ``abs(x)``, ``x[lane]`` and the functions
+below, also beside plain numbers. Raw arrays load and store them (`tehl.kernels.raw`).
 """
-# ruff: noqa: ARG001 (the compiler states the arguments)
 
 import operator
 from collections.abc import Callable
-from typing import Any, TypeVar
+from itertools import product
+from typing import Any
 
 import numpy as np
-from llvmlite import ir  # type: ignore[import-untyped]
-from numba import extending
+from llvmlite import ir
 from numba.core import types
 from numba.core.cgutils import get_or_insert_function
-from numba.extending import lower_builtin, models, register_model, type_callable
+from numba.core.typing.templates import AbstractTemplate, infer_global, signature
+from numba.extending import lower_builtin, lower_cast, models, register_model
+
+from tehl.typing import Array, BoolArray
 
 LANES = 8
 
-Record = TypeVar("Record")
-
-intrinsic: Any = extending.intrinsic  # what it makes of a function has other arguments
-
-_DOUBLE, _INT, _LONG = ir.DoubleType(), ir.IntType(32), ir.IntType(64)
-_VECTOR = ir.VectorType(_DOUBLE, LANES)
-_CONTRACT = ("contract",)  # a b + c may be one instruction
+Lanes = Array
+"""Eight numbers, (8,)."""
+Mask = BoolArray
+"""Eight truth values, (8,)."""
 
 
-def addresses(record: Record) -> Record:
-    """Return a record or tuple with the addresses of arrays in their place, however deep.
-
-    Whoever calls a kernel with it holds the arrays meanwhile.
-    """
-    if isinstance(record, np.ndarray):
-        if record.dtype != np.float64 or not record.flags.c_contiguous:
-            raise TypeError("lanes need contiguous arrays of float64")
-        return record.ctypes.data  # type: ignore[return-value]
-    if isinstance(record, tuple):
-        parts = [addresses(part) for part in record]
-        kind: Any = type(record)
-        return kind._make(parts) if hasattr(kind, "_make") else kind(parts)
-    return record
+def where(mask: Mask, yes: Lanes | float, no: Lanes | float) -> Lanes:
+    """Return ``yes`` where ``mask`` holds, ``no`` elsewhere."""
+    return np.where(mask, yes, no)
 
 
-class LanesType(types.Type):
-    """Type of lanes as the compiler knows it."""
-
-    def __init__(self) -> None:
-        super().__init__(name="Lanes")
+def lesser(a: Lanes | float, b: Lanes | float) -> Lanes:
+    """Return the smaller one, ``b`` where ``a`` is NaN."""
+    return np.where(np.less(a, b), a, b)
 
 
-LANES_TYPE = LanesType()
+def greater(a: Lanes | float, b: Lanes | float) -> Lanes:
+    """Return the larger one, ``b`` where ``a`` is NaN."""
+    return np.where(np.greater(a, b), a, b)
 
 
+def root(x: Lanes) -> Lanes:
+    """Return the square root."""
+    return np.sqrt(x)
+
+
+def log(x: Lanes) -> Lanes:
+    """Return the natural logarithm."""
+    return np.log(x)
+
+
+def truncate(x: Lanes) -> Lanes:
+    """Return the integer part."""
+    return np.trunc(x)
+
+
+def power_of_two(shifted: Lanes) -> Lanes:
+    """Return 2^n, n being the integer in the low bits of ``shifted`` (1.5 2^52 was added to it)."""
+    return ((shifted.view(np.int64) + 1023) << 52).view(np.float64)
+
+
+def largest(x: Lanes) -> float:
+    """Return the largest number."""
+    return float(max(x))
+
+
+def any_of(mask: Mask) -> bool:
+    """Return whether the mask holds in any lane."""
+    return bool(np.any(mask))
+
+
+def lookup(table: Array, rows: Lanes) -> tuple[Lanes, Lanes, Lanes, Lanes]:
+    """Return both columns of ``table`` (m, 2) in row ``int(rows)``, then in the row behind it."""
+    flat, first = table.ravel(), 2 * rows.astype(np.int64)
+    return flat[first], flat[first + 1], flat[first + 2], flat[first + 3]
+
+
+# The low-level extension interface of numba: a typing rule and LLVM instructions for each.
+
+DOUBLE, INT, LONG = ir.DoubleType(), ir.IntType(32), ir.IntType(64)
+VECTOR, LONGS = ir.VectorType(DOUBLE, LANES), ir.VectorType(LONG, LANES)
+CONTRACT = ("contract",)  # a b + c may be one instruction
+
+
+class VectorType(types.Type):
+    """Type of lanes or of a mask."""
+
+    def __init__(self, name: str, llvm: Any) -> None:
+        self.llvm = llvm
+        super().__init__(name=name)
+
+
+class LanesType(VectorType):
+    """Type of lanes."""
+
+
+LANES_TYPE = LanesType("Lanes", VECTOR)
+MASK_TYPE = VectorType("Mask", ir.VectorType(ir.IntType(1), LANES))
+
+
+@register_model(VectorType)
 @register_model(LanesType)
-class _LanesModel(models.PrimitiveModel):
-    def __init__(self, dmm: Any, fe_type: Any) -> None:
-        super().__init__(dmm, fe_type, _VECTOR)
+class _Model(models.PrimitiveModel):
+    def __init__(self, manager: Any, kind: Any) -> None:
+        super().__init__(manager, kind, kind.llvm)
 
 
-def _spread(builder: Any, number: Any) -> Any:
-    """Return lanes that all hold one number."""
-    first = builder.insert_element(ir.Constant(_VECTOR, ir.Undefined), number, ir.Constant(_INT, 0))
-    mask = ir.Constant(ir.VectorType(_INT, LANES), [0] * LANES)
-    return builder.shuffle_vector(first, ir.Constant(_VECTOR, ir.Undefined), mask)
+def typing_rule(symbol: Any, rule: Callable[..., Any]) -> None:
+    """Register ``rule(*operands)``, which returns the type of the result, or None."""
+
+    class Template(AbstractTemplate):
+        """Numba's form of the rule."""
+
+        def generic(self, operands: Any, keywords: Any) -> Any:
+            """Return the signature, or None."""
+            result = None if keywords else rule(*operands)
+            return None if result is None else signature(result, *operands)
+
+    infer_global(symbol)(Template)
 
 
-def _lanes(context: Any, builder: Any, kind: Any, value: Any) -> Any:
-    """Return any operand as lanes."""
-    if isinstance(kind, LanesType):
+def equal_constants(kind: Any, value: float) -> Any:
+    """Return a vector of equal constants."""
+    return ir.Constant(kind, [value] * LANES)
+
+
+def as_lanes(context: Any, builder: Any, kind: Any, value: Any) -> Any:
+    """Return an operand as a vector: a number in all lanes."""
+    if isinstance(kind, VectorType):
         return value
-    return _spread(builder, context.cast(builder, value, kind, types.float64))
+    number = context.cast(builder, value, kind, types.float64)
+    empty = ir.Constant(VECTOR, ir.Undefined)
+    first = builder.insert_element(empty, number, ir.Constant(INT, 0))
+    return builder.shuffle_vector(first, empty, equal_constants(ir.VectorType(INT, LANES), 0))
 
 
-def _define(symbol: Callable[..., Any], instruction: str) -> None:
-    """Let the compiler know an arithmetic operation on lanes, also with numbers beside them."""
+@lower_cast(types.Number, LanesType)
+def _cast(context: Any, builder: Any, kind: Any, _target: Any, value: Any) -> Any:
+    return as_lanes(context, builder, kind, value)
 
-    @type_callable(symbol)
-    def typed(context: Any) -> Callable[[Any, Any], Any]:
-        def check(a: Any, b: Any) -> Any:
-            known = (LanesType, types.Float, types.Integer)
-            if LANES_TYPE in (a, b) and isinstance(a, known) and isinstance(b, known):
-                return LANES_TYPE
-            return None
 
-        return check
+def _define(symbol: Any, result: Any, code: Callable[..., Any], operands: int = 2) -> None:
+    """Define ``symbol`` for vectors and numbers; ``code(builder, *vectors)`` emits it."""
+
+    def rule(*kinds: Any) -> Any:
+        known = all(isinstance(kind, VectorType | types.Number) for kind in kinds)
+        vectors = any(isinstance(kind, VectorType) for kind in kinds)
+        return result if known and vectors and len(kinds) == operands else None
 
     def lower(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        a, b = (
-            _lanes(context, builder, kind, value)
-            for kind, value in zip(signature.args, arguments, strict=True)
-        )
-        return getattr(builder, instruction)(a, b, flags=_CONTRACT)
+        pairs = zip(signature.args, arguments, strict=True)
+        return code(builder, *(as_lanes(context, builder, kind, value) for kind, value in pairs))
 
-    for first, second in (
-        (LanesType, LanesType),
-        (LanesType, types.Float),
-        (types.Float, LanesType),
-        (LanesType, types.Integer),
-        (types.Integer, LanesType),
-    ):
-        lower_builtin(symbol, first, second)(lower)
+    typing_rule(symbol, rule)
+    for kinds in product((VectorType, types.Number), repeat=operands):
+        if VectorType in kinds:  # numba looks the code up by classes
+            lower_builtin(symbol, *kinds)(lower)
+
+
+def _call(name: str) -> Callable[..., Any]:
+    """Return the code of a function of LLVM on lanes."""
+
+    def code(builder: Any, *values: Any) -> Any:
+        kind = ir.FunctionType(VECTOR, [VECTOR] * len(values))
+        function = get_or_insert_function(builder.module, kind, f"llvm.{name}.v{LANES}f64")
+        return builder.call(function, values)
+
+    return code
+
+
+def _arithmetic(instruction: str) -> Callable[..., Any]:
+    return lambda builder, a, b: getattr(builder, instruction)(a, b, flags=CONTRACT)
+
+
+def _choice(predicate: str) -> Callable[..., Any]:
+    return lambda builder, a, b: builder.select(builder.fcmp_ordered(predicate, a, b), a, b)
+
+
+def _comparison(predicate: str) -> Callable[..., Any]:
+    return lambda builder, a, b: builder.fcmp_ordered(predicate, a, b)
+
+
+def _power_of_two(builder: Any, shifted: Any) -> Any:
+    biased = builder.add(builder.bitcast(shifted, LONGS), equal_constants(LONGS, 1023))
+    return builder.bitcast(builder.shl(biased, equal_constants(LONGS, 52)), VECTOR)
+
+
+def _largest(builder: Any, x: Any) -> Any:
+    result = builder.extract_element(x, ir.Constant(INT, 0))
+    for lane in range(1, LANES):
+        value = builder.extract_element(x, ir.Constant(INT, lane))
+        result = builder.select(builder.fcmp_ordered(">", value, result), value, result)
+    return result
+
+
+def _any_of(builder: Any, mask: Any) -> Any:
+    bits = builder.bitcast(mask, ir.IntType(LANES))
+    return builder.icmp_unsigned("!=", bits, ir.Constant(ir.IntType(LANES), 0))
 
 
 for _symbol, _instruction in (
@@ -119,174 +215,22 @@ for _symbol, _instruction in (
     (operator.truediv, "fdiv"),
     (operator.itruediv, "fdiv"),
 ):
-    _define(_symbol, _instruction)
-
-
-def _pointer(builder: Any, address: Any, offset: Any) -> Any:
-    """Return where the number at ``offset`` of the array at ``address`` lies."""
-    return builder.gep(builder.inttoptr(address, _DOUBLE.as_pointer()), [offset])
-
-
-def _call(builder: Any, name: str, *values: Any) -> Any:
-    """Call a function of LLVM on lanes."""
-    kind = ir.FunctionType(_VECTOR, [_VECTOR] * len(values))
-    function = get_or_insert_function(builder.module, kind, f"llvm.{name}.v{LANES}f64")
-    return builder.call(function, values)
-
-
-@intrinsic
-def load(typing: Any, array: Any, offset: Any) -> Any:
-    """Return the lanes that begin at ``offset``."""
-
-    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        at = _pointer(builder, *arguments)
-        return builder.load(builder.bitcast(at, _VECTOR.as_pointer()), align=8)
-
-    return LANES_TYPE(types.intp, types.intp), code
-
-
-@intrinsic
-def store(typing: Any, array: Any, offset: Any, value: Any) -> Any:
-    """Write lanes, or one number to all of them, from ``offset`` on."""
-
-    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        lanes = _lanes(context, builder, signature.args[2], arguments[2])
-        at = _pointer(builder, *arguments[:2])
-        builder.store(lanes, builder.bitcast(at, _VECTOR.as_pointer()), align=8)
-        return context.get_dummy_value()
-
-    return types.void(types.intp, types.intp, value), code
-
-
-@intrinsic
-def number(typing: Any, array: Any, offset: Any) -> Any:
-    """Return the single number at ``offset``."""
-
-    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        return builder.load(_pointer(builder, *arguments))
-
-    return types.float64(types.intp, types.intp), code
-
-
-@intrinsic
-def put(typing: Any, array: Any, offset: Any, value: Any) -> Any:
-    """Write a single number at ``offset``."""
-
-    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        builder.store(arguments[2], _pointer(builder, *arguments[:2]))
-        return context.get_dummy_value()
-
-    return types.void(types.intp, types.intp, types.float64), code
-
-
-@intrinsic
-def gather(typing: Any, table: Any, rows: Any) -> Any:
-    """Return the four numbers from ``table[2 int(rows)]`` on, each lane by its own row of two."""
-
-    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        four = ir.VectorType(_DOUBLE, 4)
-        table, rows = arguments
-        indices = builder.fptosi(rows, ir.VectorType(_INT, LANES))
-        parts = []
-        for lane in range(LANES):
-            row = builder.sext(builder.extract_element(indices, ir.Constant(_INT, lane)), _LONG)
-            at = _pointer(builder, table, builder.shl(row, ir.Constant(_LONG, 1)))
-            parts.append(builder.load(builder.bitcast(at, four.as_pointer()), align=8))
-        while len(parts) > 1:  # one behind the other
-            parts = [
-                _shuffle(builder, first, second, range(2 * first.type.count))
-                for first, second in zip(parts[::2], parts[1::2], strict=True)
-            ]
-        columns = [_shuffle(builder, parts[0], parts[0], range(c, 4 * LANES, 4)) for c in range(4)]
-        return context.make_tuple(builder, signature.return_type, columns)
-
-    return types.UniTuple(LANES_TYPE, 4)(types.intp, LANES_TYPE), code
-
-
-def _shuffle(builder: Any, first: Any, second: Any, order: Any) -> Any:
-    mask = ir.Constant(ir.VectorType(_INT, len(order)), list(order))
-    return builder.shuffle_vector(first, second, mask)
-
-
-def _choice(predicate: str) -> Callable[[Any, Any, Any, Any], Any]:
-    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        a, b = (
-            _lanes(context, builder, kind, value)
-            for kind, value in zip(signature.args, arguments, strict=True)
-        )
-        return builder.select(builder.fcmp_ordered(predicate, a, b), a, b)
-
-    return code
-
-
-@intrinsic
-def lower(typing: Any, a: Any, b: Any) -> Any:
-    """Return the smaller one of ``a`` and ``b``, each lanes or a number; b where a is no number."""
-    return LANES_TYPE(a, b), _choice("<")
-
-
-@intrinsic
-def upper(typing: Any, a: Any, b: Any) -> Any:
-    """Return the larger one of ``a`` and ``b``, each lanes or a number; b where a is no number."""
-    return LANES_TYPE(a, b), _choice(">")
-
-
-@intrinsic
-def if_positive(typing: Any, test: Any, yes: Any, no: Any) -> Any:
-    """Return ``yes`` where ``test`` is positive, ``no`` elsewhere."""
-
-    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        test, yes, no = (
-            _lanes(context, builder, kind, value)
-            for kind, value in zip(signature.args, arguments, strict=True)
-        )
-        return builder.select(
-            builder.fcmp_ordered(">", test, _spread(builder, _DOUBLE(0.0))), yes, no
-        )
-
-    return LANES_TYPE(test, yes, no), code
-
-
-@intrinsic
-def root(typing: Any, x: Any) -> Any:
-    """Return the square root of lanes."""
-    return LANES_TYPE(x), lambda _c, builder, _s, values: _call(builder, "sqrt", values[0])
-
-
-@intrinsic
-def size(typing: Any, x: Any) -> Any:
-    """Return the absolute value of lanes."""
-    return LANES_TYPE(x), lambda _c, builder, _s, values: _call(builder, "fabs", values[0])
-
-
-@intrinsic
-def whole(typing: Any, x: Any) -> Any:
-    """Return lanes without their fractions."""
-    return LANES_TYPE(x), lambda _c, builder, _s, values: _call(builder, "trunc", values[0])
-
-
-@intrinsic
-def shifted_power(typing: Any, shifted: Any) -> Any:
-    """Return 2^n, n in the low bits of ``shifted``: 1.5 2^52 has been added to it."""
-
-    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        longs = ir.VectorType(_LONG, LANES)
-        bits = builder.bitcast(arguments[0], longs)
-        biased = builder.add(bits, ir.Constant(longs, [1023] * LANES))
-        return builder.bitcast(builder.shl(biased, ir.Constant(longs, [52] * LANES)), _VECTOR)
-
-    return LANES_TYPE(shifted), code
-
-
-@intrinsic
-def largest(typing: Any, x: Any) -> Any:
-    """Return the largest one of lanes as a number."""
-
-    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        result = builder.extract_element(arguments[0], ir.Constant(_INT, 0))
-        for lane in range(1, LANES):
-            value = builder.extract_element(arguments[0], ir.Constant(_INT, lane))
-            result = builder.select(builder.fcmp_ordered(">", value, result), value, result)
-        return result
-
-    return types.float64(x), code
+    _define(_symbol, LANES_TYPE, _arithmetic(_instruction))
+for _function, _name in ((abs, "fabs"), (root, "sqrt"), (log, "log"), (truncate, "trunc")):
+    _define(_function, LANES_TYPE, _call(_name), operands=1)
+for _symbol, _predicate in (
+    (operator.lt, "<"),
+    (operator.gt, ">"),
+    (operator.le, "<="),
+    (operator.ge, ">="),
+    (operator.eq, "=="),
+):
+    _define(_symbol, MASK_TYPE, _comparison(_predicate))
+_define(operator.neg, LANES_TYPE, lambda builder, x: builder.fneg(x), operands=1)
+_define(operator.and_, MASK_TYPE, lambda builder, a, b: builder.and_(a, b))
+_define(lesser, LANES_TYPE, _choice("<"))
+_define(greater, LANES_TYPE, _choice(">"))
+_define(where, LANES_TYPE, lambda builder, *operands: builder.select(*operands), operands=3)
+_define(power_of_two, LANES_TYPE, _power_of_two, operands=1)
+_define(largest, types.float64, _largest, operands=1)
+_define(any_of, types.boolean, _any_of, operands=1)

@@ -1,15 +1,18 @@
-"""Compiled Newton step for pressure and rigid approach together, on the coarsest grid.
+"""Newton step for pressure and rigid approach together, on the coarsest grid.
 
-Dense in the film: every conductance and density depends on every pressure. The nodes are numbered
-row by row; ``influence[m, k]`` is the film at node m per unit pressure at node k. The neighbours of
-a node are kept in the order here, east, west, north, south, far west.
+The Reynolds equation of `tehl.kernels.reynolds` is linearised, each conductance and density
+depending on all pressures through the film, and the load balance (Venner and Lubrecht 2000,
+chapter 6: the coarsest grid is solved with the load). The system is dense. Nodes are numbered row
+by row; ``influence[m, k]`` is the film at node m per unit pressure at node k. The neighbours of a
+node are kept in the order here, east, west, north, south, far west.
 """
 
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from tehl.kernels.compiled import helper, kernel
+from tehl.kernels.raw import raw
 from tehl.kernels.reynolds import Mesh
 from tehl.typing import Array, FlagArray, IntArray
 
@@ -35,7 +38,7 @@ class Coarse(NamedTuple):
 
 
 class System(NamedTuple):
-    """What the step solves besides the state.
+    """The equations to solve.
 
     ``residual`` (ny, nx) of the Reynolds equation, ``influence`` (n, n), ``frozen`` (ny, nx) of 0
     and 1, ``area`` of a cell and the load that is missing.
@@ -48,10 +51,50 @@ class System(NamedTuple):
     missing_load: float
 
 
-@njit(cache=True)
-def pivot_row(a: Array, b: Array, k: int) -> None:
+class Work(NamedTuple):
+    """Scratch: matrix, right-hand side, numbers of the active nodes, and data of one node."""
+
+    matrix: Array
+    rhs: Array
+    active: IntArray
+    full: Array
+    near: IntArray
+    by_p: Array
+    by_h: Array
+
+
+def newton_step(state: Coarse, mesh: Mesh, system: System, longest: float) -> float:
+    """Take one Newton step on ``state.p`` in place; return the change of the rigid approach.
+
+    Parameters
+    ----------
+    state : Coarse
+        Pressure and film with the derivatives of the conductance.
+    mesh : Mesh
+        Weights of the differences.
+    system : System
+        Residual, influence and load.
+    longest : float
+        Largest change of a pressure, to which the step is shortened [-].
+    """
+    nx, nodes = state.p.shape[1], state.p.size
+    work = Work(
+        matrix=np.empty((nodes + 1, nodes + 1)),
+        rhs=np.empty(nodes + 1),
+        active=np.empty(nodes, np.int64),
+        full=np.empty(nodes),
+        near=np.empty(6, np.int64),
+        by_p=np.empty(6),
+        by_h=np.empty(6),
+    )
+    flat = Coarse(*(np.ravel(field) for field in state))
+    flags = system._replace(residual=system.residual.ravel(), frozen=system.frozen.ravel())
+    return solve_step(flat, mesh, flags, work, (nx, longest))
+
+
+@helper
+def pivot_row(a: Array, b: Array, k: int, n: int) -> None:
     """Swap row ``k`` with the row below that has the largest entry in column ``k``."""
-    n = b.shape[0]
     pivot = k
     for i in range(k + 1, n):
         if abs(a[i, k]) > abs(a[pivot, k]):
@@ -61,56 +104,60 @@ def pivot_row(a: Array, b: Array, k: int) -> None:
     b[k], b[pivot] = b[pivot], b[k]
 
 
-@njit(cache=True)
-def solve_dense(a: Array, b: Array) -> None:
-    """Solve ``a x = b`` in place by elimination with row pivoting; ``b`` becomes x.
+@helper
+def solve_dense(a: Array, b: Array, n: int) -> None:
+    """Solve ``a x = b`` for ``n`` unknowns by elimination with row pivoting; ``b`` becomes x.
 
-    A singular matrix gives values that are not finite.
+    A singular matrix gives non-finite values.
     """
-    n = b.shape[0]
     for k in range(n):
-        pivot_row(a, b, k)
-        upper = a[k, k + 1 :]
+        pivot_row(a, b, k, n)
         for i in range(k + 1, n):
-            factor = a[i, k] / a[k, k] if a[k, k] != 0.0 else np.nan
-            row = a[i, k + 1 :]
-            for c in range(upper.shape[0]):
-                row[c] -= factor * upper[c]
+            factor = a[i, k] / a[k, k]
+            for c in range(k + 1, n):
+                a[i, c] -= factor * a[k, c]
             b[i] -= factor * b[k]
     for k in range(n - 1, -1, -1):
-        b[k] /= a[k, k] if a[k, k] != 0.0 else np.nan
+        b[k] /= a[k, k]
         for i in range(k):
             b[i] -= a[i, k] * b[k]
 
 
-@njit(cache=True)
-def find_active(p: Array, system: System, mirror: int) -> IntArray:
-    """Return the numbers of the nodes that may move: wet or ought to be, and not frozen."""
-    ny, nx = p.shape
-    active = np.empty(ny * nx, np.int64)
+@helper
+def find_active(state: Coarse, system: System, mirror: int, nx: int, active: IntArray) -> int:
+    """List the nodes with p > 0 or residual < 0 that are not frozen; return their count."""
     count = 0
-    for j in range(0 if mirror else 1, ny - 1):
-        for i in range(1, nx - 1):
-            wet = p[j, i] > 0.0 or system.residual[j, i] < 0.0
-            if wet and not system.frozen[j, i]:
-                active[count] = j * nx + i
+    for j in range(0 if mirror else 1, state.p.shape[0] // nx - 1):
+        for here in range(j * nx + 1, j * nx + nx - 1):
+            wet = state.p[here] > 0.0 or system.residual[here] < 0.0
+            if wet and not system.frozen[here]:
+                active[count] = here
                 count += 1
-    return active[:count]
+    return count
 
 
-@njit(cache=True)
-def slopes(state: Coarse, mesh: Mesh, near: IntArray, by_p: Array, by_h: Array) -> None:
+@helper
+def find_neighbours(here: int, nx: int, near: IntArray) -> None:
+    """Fill the numbers of a node and its neighbours."""
+    near[HERE], near[EAST], near[WEST] = here, here + 1, here - 1
+    near[NORTH], near[SOUTH] = here + nx, here - nx if here >= nx else here + nx
+    near[FAR] = max(here - 2, here // nx * nx)
+
+
+@helper
+def slopes(state: Coarse, mesh: Mesh, work: Work) -> None:
     """Fill the derivatives of L at node ``near[0]`` by pressure and film of its neighbours."""
-    p, eps = state.p.ravel(), state.eps.ravel()
-    eps_p, eps_h = state.eps_p.ravel(), state.eps_h.ravel()
-    by_p[:] = 0.0
-    by_h[:] = 0.0
-    here, stretch_x, stretch_y = near[HERE], state.stretch_x.ravel(), state.stretch_y.ravel()
+    near, by_p, by_h = work.near, work.by_p, work.by_h
+    p, eps, eps_p, eps_h = state.p, state.eps, state.eps_p, state.eps_h
+    for n in range(6):
+        by_p[n] = 0.0
+        by_h[n] = 0.0
+    here = near[HERE]
     for n in range(EAST, FAR):
         there, along = near[n], n <= WEST
         c = 0.5 * (mesh.cx if along else mesh.cy)
-        mine = c * (stretch_x[here] if along else stretch_y[here])
-        theirs = c * (stretch_x[there] if along else stretch_y[there])
+        mine = c * (state.stretch_x[here] if along else state.stretch_y[here])
+        theirs = c * (state.stretch_x[there] if along else state.stretch_y[there])
         face, drop = mine * eps[here] + theirs * eps[there], p[there] - p[here]
         by_p[HERE] += drop * mine * eps_p[here] - face
         by_h[HERE] += drop * mine * eps_h[here]
@@ -120,63 +167,64 @@ def slopes(state: Coarse, mesh: Mesh, near: IntArray, by_p: Array, by_h: Array) 
     w0 = mesh.w0 - mesh.w2 if first else mesh.w0
     w1 = mesh.w1 + 2.0 * mesh.w2 if first else mesh.w1
     w2 = 0.0 if first else mesh.w2
-    rho, drho, h = state.rho.ravel(), state.drho.ravel(), state.h.ravel()
     for n, w in ((HERE, w0), (WEST, w1), (FAR, w2)):
-        by_p[n] -= w * drho[near[n]] * h[near[n]]
-        by_h[n] -= w * rho[near[n]]
+        there = near[n]
+        by_p[n] -= w * state.drho[there] * state.h[there]
+        by_h[n] -= w * state.rho[there]
 
 
-@njit(cache=True)
-def assemble(state: Coarse, mesh: Mesh, system: System, active: IntArray) -> tuple[Array, Array]:
-    """Return matrix and right-hand side: a row per active node, the load balance as the last."""
-    ny, nx = state.p.shape
-    count = active.shape[0]
-    a, b = np.zeros((count + 1, count + 1)), np.zeros(count + 1)
-    near, by_p, by_h = np.empty(6, np.int64), np.empty(6), np.empty(6)
-    full = np.empty(ny * nx)
-    residual = system.residual.ravel()
-    for row in range(count):
-        here = active[row]
-        south = here - nx if here >= nx else here + nx
-        near[HERE], near[EAST], near[WEST] = here, here + 1, here - 1
-        near[NORTH], near[SOUTH] = here + nx, south
-        near[FAR] = max(here - 2, here // nx * nx)
-        slopes(state, mesh, near, by_p, by_h)
-        full[:] = 0.0
-        for n in range(6):
-            column = system.influence[near[n]]
-            for m in range(full.shape[0]):
-                full[m] += by_h[n] * column[m]
-        for n in range(6):
-            full[near[n]] += by_p[n]
-        for column_number in range(count):
-            a[row, column_number] = full[active[column_number]]
-        a[row, count] = by_h.sum()
-        b[row] = residual[here]
-    for column_number in range(count):
-        twice = mesh.mirror and active[column_number] >= nx
-        a[count, column_number] = system.area * (2.0 if twice else 1.0)
-    b[count] = system.missing_load
-    return a, b
+@helper
+def assemble_row(system: System, work: Work, row: int, count: int) -> None:
+    """Fill one row of the matrix from the derivatives by pressure and film at its node."""
+    full, near, by_p, by_h = work.full, work.near, work.by_p, work.by_h
+    for m in range(full.shape[0]):
+        full[m] = 0.0
+    for n in range(6):
+        for m in range(full.shape[0]):
+            full[m] += by_h[n] * system.influence[near[n], m]
+    approach = 0.0
+    for n in range(6):
+        full[near[n]] += by_p[n]
+        approach += by_h[n]
+    for column in range(count):
+        work.matrix[row, column] = full[work.active[column]]
+    work.matrix[row, count] = approach
+    work.rhs[row] = system.residual[near[HERE]]
 
 
-@njit(cache=True)
-def newton_step(state: Coarse, mesh: Mesh, system: System, longest: float) -> float:
-    """Take one Newton step on ``state.p`` in place; return the change of the rigid approach.
+@helper
+def assemble(state: Coarse, mesh: Mesh, system: System, work: Work, sizes: tuple[int, int]) -> None:
+    """Fill matrix and right-hand side: a row per active node, the load balance as the last.
 
-    The step is shortened so that no pressure moves by more than ``longest``; pressures are clipped
-    at zero.
+    ``sizes``: how many nodes are active, and how many nodes a row of the grid has.
     """
-    active = find_active(state.p, system, mesh.mirror)
-    a, b = assemble(state, mesh, system, active)
-    solve_dense(a, b)
-    count = active.shape[0]
-    largest = 0.0
+    count, nx = sizes
     for row in range(count):
-        largest = max(largest, abs(float(b[row])))
-    scale = min(1.0, longest / max(largest, 1e-300))
-    nx = state.p.shape[1]
+        find_neighbours(work.active[row], nx, work.near)
+        slopes(state, mesh, work)
+        assemble_row(system, work, row, count)
+    for column in range(count):
+        twice = mesh.mirror and work.active[column] >= nx
+        work.matrix[count, column] = system.area * (2.0 if twice else 1.0)
+    work.matrix[count, count] = 0.0
+    work.rhs[count] = system.missing_load
+
+
+@kernel
+def solve_step(
+    state: Coarse, mesh: Mesh, system: System, work: Work, settings: tuple[int, float]
+) -> float:
+    """Take the step of `newton_step` on flat fields; ``settings``: nodes per row, longest step."""
+    nx, longest = settings
+    state, system, work = raw((state, system, work))
+    count = find_active(state, system, mesh.mirror, nx, work.active)
+    assemble(state, mesh, system, work, (count, nx))
+    solve_dense(work.matrix, work.rhs, count + 1)
+    most = 0.0
     for row in range(count):
-        j, i = active[row] // nx, active[row] % nx
-        state.p[j, i] = max(state.p[j, i] + scale * b[row], 0.0)
-    return scale * float(b[count])
+        most = max(most, abs(work.rhs[row]))
+    scale = min(1.0, longest / max(most, 1e-300))
+    for row in range(count):
+        here = work.active[row]
+        state.p[here] = max(state.p[here] + scale * work.rhs[row], 0.0)
+    return scale * work.rhs[count]

@@ -1,18 +1,23 @@
-"""Compiled steps of multilevel multi-integration: w = K * u by coarsening one axis at a time.
+"""Sums of the elastic deflection w = K * p over all nodes.
 
-Brandt and Lubrecht (1990). Along the axis that is halved, odd values are interpolated to sixth
-order from even ones; where the kernel is not smooth the difference is put right on a patch of
-sources around each node (``table[d, q]``: error of the interpolated kernel at distance ``d`` along
-the axis and ``q`` across it). Sources are padded with zeros, so that no loop asks for bounds; a
-source array with a mirror line has its image in the rows before row 0. ``Box`` says where nodes
-lie in an array: node (j, i) is element ``[j + oy, i + ox]``.
+Multilevel multi-integration by coarsening one axis at a time (Brandt and Lubrecht 1990; Venner and
+Lubrecht 2000, chapter 5). Along the axis that is halved, odd values are interpolated to sixth order
+from even ones; near the singularity of the kernel a patch of sources around each node corrects the
+sum (``table[d, q]``: error of the interpolated kernel ``d`` rows and ``q`` columns away). Sources
+are padded with zeros, so that loops need no bounds; with a mirror line the rows before row 0 hold
+the image. ``Box`` says where nodes lie in an array: node (j, i)
+is element ``[j + oy, i + ox]``.
+
+With few lines the exact sum across them of the transforms along x is faster (`sum_across`).
 """
 
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from tehl.kernels.compiled import helper, kernel, summing_helper
+from tehl.kernels.lanes import LANES
+from tehl.kernels.raw import lanes, raw
 from tehl.typing import Array
 
 C1, C3, C5 = 150.0 / 256.0, -25.0 / 256.0, 3.0 / 256.0  # sixth-order midpoint interpolation
@@ -30,256 +35,282 @@ class Box(NamedTuple):
     mirror: int
 
 
-@njit(cache=True)
-def load(p: Array, u: Array, box: Box) -> None:
-    """Copy nodal sources ``p`` into the padded array ``u``."""
-    ny, nx = p.shape
-    u[box.oy : box.oy + ny, box.ox : box.ox + nx] = p
-    reflect(u, box)
+class Columns(NamedTuple):
+    """Sources of even and odd columns, and scratch for the sums of one row.
+
+    ``even[:, a]`` holds node 2a, ``odd[:, a]`` node 2a+1, both at a + ox/2. ``even_folds,
+    odd_folds``: see `folds`. ``sums`` (2, m): at even and at odd columns ``start`` to ``stop``,
+    with ``margin`` columns beside them.
+    """
+
+    even: Array
+    odd: Array
+    even_folds: Array
+    odd_folds: Array
+    sums: Array
+    start: int
+    stop: int
+    margin: int
 
 
-@njit(cache=True)
+def folds(table: Array, width: int) -> Array:
+    """Return scratch: sums of rows at equal distance by that distance, and their weighted sum."""
+    return np.zeros((table.shape[0] + 1, width))
+
+
+def row_folds(table: Array, fine: Box) -> Array:
+    """Return the scratch of sums on the nodes of a row."""
+    return folds(table, fine.i1 - fine.i0 + 2 * table.shape[1] - 1)
+
+
+def columns_of(table: Array, shape: tuple[int, int], fine: Box, coarse: Box) -> Columns:
+    """Return empty sources of even and odd columns for a source array of ``shape``."""
+    half, shift, margin = shape[1] // 2 + 2, fine.ox // 2, table.shape[1] // 2 + 2
+    start, stop = max(coarse.i0 + shift, margin), min(coarse.i1 + shift + 1, half - margin)
+    width = stop - start + 2 * margin
+    even, odd = np.zeros((2, shape[0], half))
+    two = folds(table, width), folds(table, width)
+    return Columns(even, odd, *two, np.zeros((2, width)), start, stop, margin)
+
+
+@helper
 def reflect(u: Array, box: Box) -> None:
     """Fill the rows before a mirror line with the image of those behind it."""
     if box.mirror:
         for j in range(1, box.oy + 1):
-            u[box.oy - j, :] = u[box.oy + j, :]
+            for x in range(u.shape[1]):
+                u[box.oy - j, x] = u[box.oy + j, x]
 
 
-@njit(cache=True, fastmath={"contract"})
+@kernel
 def gather_rows(u: Array, fine: Box, coarse_u: Array, coarse: Box) -> None:
-    """Send sources to even rows: the transpose of interpolation."""
-    a, b = fine.i0 + fine.ox, fine.i1 + fine.ox + 1
-    begin = fine.i0 + coarse.ox
+    """Restrict sources to even rows by the transpose of interpolation, P_c = I^T P."""
+    u, coarse_u = raw((u, coarse_u))
     for j in range(coarse.j0, coarse.j1 + 1):
-        f = 2 * j + fine.oy
-        target = coarse_u[j + coarse.oy, begin : begin + b - a]
-        mid, up1, down1 = u[f, a:b], u[f + 1, a:b], u[f - 1, a:b]
-        up3, down3, up5, down5 = u[f + 3, a:b], u[f - 3, a:b], u[f + 5, a:b], u[f - 5, a:b]
-        for x in range(b - a):
-            near = mid[x] + C1 * (up1[x] + down1[x])
-            target[x] = near + C3 * (up3[x] + down3[x]) + C5 * (up5[x] + down5[x])
+        f, target = 2 * j + fine.oy, j + coarse.oy
+        for x in range(fine.i0 + fine.ox, fine.i1 + fine.ox + 1):
+            near = u[f, x] + C1 * (u[f + 1, x] + u[f - 1, x])
+            middle = C3 * (u[f + 3, x] + u[f - 3, x])
+            coarse_u[target, x] = near + middle + C5 * (u[f + 5, x] + u[f - 5, x])
     reflect(coarse_u, coarse)
 
 
-@njit(cache=True, fastmath={"contract"})
-def fold(above: Array, below: Array, out: Array) -> None:
-    """Write the sum of two rows."""
-    for x in range(out.shape[0]):
-        out[x] = above[x] + below[x]
+@helper
+def fold(u: Array, row: int, start: int, d: int, folded: Array) -> None:
+    """Write the sum of the two rows ``d`` away from a row, from column ``start`` on."""
+    if d == 0:
+        for x in range(folded.shape[1]):
+            folded[0, x] = u[row, start + x]
+    else:
+        for x in range(folded.shape[1]):
+            folded[d, x] = u[row + d, start + x] + u[row - d, start + x]
 
 
-@njit(cache=True, fastmath={"contract"})
-def weigh(rows: Array, weights: Array, first: int, step: int, out: Array) -> None:
-    """Write the weighted sum of rows ``first, first + step, ...`` to ``out``, three at a time."""
-    n = weights.shape[0]
+@helper
+def weigh(folded: Array, table: Array, q: int, every: tuple[int, int]) -> None:
+    """Sum rows by ``table[:, q]`` to the last row, three at a time; ``every``: first row, step."""
+    first, step = every
+    n, width = table.shape[0], folded.shape[1]
+    for x in range(width):
+        folded[n, x] = 0.0
     k = first
-    out[:] = 0.0
     while k + 2 * step < n:
-        a, b, c = rows[k], rows[k + step], rows[k + 2 * step]
-        e0, e1, e2 = weights[k], weights[k + step], weights[k + 2 * step]
-        for x in range(out.shape[0]):
-            out[x] += e0 * a[x] + e1 * b[x] + e2 * c[x]
+        b, c = k + step, k + 2 * step
+        e0, e1, e2 = table[k, q], table[b, q], table[c, q]
+        for x in range(width):
+            folded[n, x] += e0 * folded[k, x] + e1 * folded[b, x] + e2 * folded[c, x]
         k += 3 * step
     while k < n:
-        a, e0 = rows[k], weights[k]
-        for x in range(out.shape[0]):
-            out[x] += e0 * a[x]
+        e0 = table[k, q]
+        for x in range(width):
+            folded[n, x] += e0 * folded[k, x]
         k += step
 
 
-@njit(cache=True)
-def add(one: Array, out: Array) -> None:
-    """Add a row to ``out``."""
-    for x in range(out.shape[0]):
-        out[x] += one[x]
-
-
-@njit(cache=True)
-def add_pair(one: Array, other: Array, out: Array) -> None:
-    """Add two rows to ``out``."""
-    for x in range(out.shape[0]):
-        out[x] += one[x] + other[x]
-
-
-@njit(cache=True)
-def add_patch_rows(
-    u: Array, table: Array, at: tuple[int, int, int], first: int, work: Array, out: Array
+@helper
+def add_shifted(
+    folded: Array, shifts: tuple[int, int], out: Array, place: tuple[int, int, int]
 ) -> None:
-    """Add the patch of sources around ``(row, start, stop) = at`` of ``u`` to ``out``.
+    """Add the last row of ``folded``, shifted both ways, to ``out``; ``place``: row and span."""
+    n, (left, right), (row, start, stop) = folded.shape[0] - 1, shifts, place
+    if left == right:
+        for x in range(start, stop):
+            out[row, x] += folded[n, x + left]
+    else:
+        for x in range(start, stop):
+            out[row, x] += folded[n, x + left] + folded[n, x + right]
 
-    Distances are all from 0 on (``first = 0``) or the odd ones (``first = 1``). ``work`` has
-    one row more than ``table`` and ``stop - start`` columns and those of the patch.
+
+@helper
+def add_patch_rows(
+    u: Array, table: Array, folded: Array, out: Array, place: tuple[int, int, int, int]
+) -> None:
+    """Add the patch of sources around a row of ``u`` to a row of ``out``.
+
+    ``place``: 0 for all distances, 1 for the odd ones, both rows, and the first column.
     """
-    row, start, stop = at
-    reach, side = table.shape[0] - 1, table.shape[1] - 1
-    low, high = start - side, stop + side
-    total = work[reach + 1]
-    if first == 0:
-        work[0, :] = u[row, low:high]
-    for d in range(1, reach + 1, 1 + first):
-        fold(u[row + d, low:high], u[row - d, low:high], work[d])
-    n = stop - start
+    first, row, target, start = place
+    side = table.shape[1] - 1
+    stop = start + folded.shape[1] - 2 * side
+    for d in range(first, table.shape[0], 1 + first):
+        fold(u, row, start - side, d, folded)
     for q in range(side + 1):
-        weigh(work, table[:, q], first, 1 + first, total)
-        if q == 0:
-            add(total[side : side + n], out[start:stop])
-        else:
-            add_pair(
-                total[side + q : side + q + n], total[side - q : side - q + n], out[start:stop]
-            )
+        weigh(folded, table, q, (first, 1 + first))
+        shifts = (side - start + q, side - start - q)
+        add_shifted(folded, shifts, out, (target, start, stop))
 
 
-@njit(cache=True, fastmath={"contract"})
-def interpolate_row(w: Array, box: Box, low: int, start: int, out: Array) -> None:
-    """Interpolate midway between rows ``low`` and ``low + 1``, from column ``start`` on."""
-    stop = start + out.shape[0]
-    below = low + box.oy, low - 1 + box.oy, low - 2 + box.oy
+@helper
+def interpolate_row(coarse_w: Array, box: Box, low: int, w: Array, target: int) -> None:
+    """Interpolate a row of ``w`` midway between rows ``low`` and ``low + 1``."""
+    a, b, c = low + box.oy, low - 1 + box.oy, low - 2 + box.oy
     if box.mirror:
-        below = low + box.oy, abs(low - 1) + box.oy, abs(low - 2) + box.oy
-    near_a, near_b = w[below[0], start:stop], w[low + 1 + box.oy, start:stop]
-    mid_a, mid_b = w[below[1], start:stop], w[low + 2 + box.oy, start:stop]
-    far_a, far_b = w[below[2], start:stop], w[low + 3 + box.oy, start:stop]
-    for x in range(stop - start):
-        near = C1 * (near_a[x] + near_b[x])
-        out[x] = near + C3 * (mid_a[x] + mid_b[x]) + C5 * (far_a[x] + far_b[x])
+        b, c = abs(low - 1) + box.oy, abs(low - 2) + box.oy
+    above = low + box.oy
+    for x in range(box.i0 + box.ox, box.i1 + box.ox + 1):
+        near = C1 * (coarse_w[a, x] + coarse_w[above + 1, x])
+        middle = C3 * (coarse_w[b, x] + coarse_w[above + 2, x])
+        w[target, x] = near + middle + C5 * (coarse_w[c, x] + coarse_w[above + 3, x])
 
 
-@njit(cache=True, fastmath={"contract"})
-def spread_rows(u: Array, table: Array, fine: Box, coarse_w: Array, coarse: Box, w: Array) -> None:
+@kernel
+def spread_rows(  # noqa: PLR0913, PLR0917
+    u: Array, table: Array, folded: Array, fine: Box, coarse_w: Array, coarse: Box, w: Array
+) -> None:
     """Correct the sums on even rows, interpolate the odd rows and correct them.
 
-    ``coarse_w`` and ``w`` have the shapes of the padded source arrays of their grids.
+    ``coarse_w`` and ``w`` have the shapes of the padded source arrays of their grids; ``folded``
+    is scratch.
     """
-    start, stop = fine.i0 + fine.ox, fine.i1 + fine.ox + 1
-    work = np.empty((table.shape[0] + 1, stop - start + 2 * table.shape[1] - 2))
+    u, table, folded, coarse_w, w = raw((u, table, folded, coarse_w, w))
+    start = fine.i0 + fine.ox
     for j in range(coarse.j0, coarse.j1 + 1):
-        place = (2 * j + fine.oy, start, stop)
-        add_patch_rows(u, table, place, 1, work, coarse_w[j + coarse.oy])
+        place = (1, 2 * j + fine.oy, j + coarse.oy, start)
+        add_patch_rows(u, table, folded, coarse_w, place)
     for j in range(fine.j0, fine.j1 + 1):
-        target = w[j + fine.oy]
+        row = j + fine.oy
         if j % 2 == 0:
-            target[start:stop] = coarse_w[j // 2 + coarse.oy, start:stop]
-            continue
-        interpolate_row(coarse_w, coarse, (j - 1) // 2, start, target[start:stop])
-        add_patch_rows(u, table, (j + fine.oy, start, stop), 0, work, target)
+            for x in range(start, fine.i1 + fine.ox + 1):
+                w[row, x] = coarse_w[j // 2 + coarse.oy, x]
+        else:
+            interpolate_row(coarse_w, coarse, (j - 1) // 2, w, row)
+            add_patch_rows(u, table, folded, w, (0, row, row, start))
 
 
-@njit(cache=True)
-def split_columns(u: Array, box: Box, even: Array, odd: Array) -> None:
-    """De-interleave: ``even[:, a]`` holds node 2a, ``odd[:, a]`` node 2a+1, both at a + ox/2."""
+@kernel
+def split_columns(u: Array, box: Box, columns: Columns) -> None:
+    """De-interleave the sources into even and odd columns."""
+    u, columns = raw((u, columns))
     parity = box.ox % 2
-    n = min(even.shape[1], (u.shape[1] - parity) // 2)
+    n = min(columns.even.shape[1], (u.shape[1] - parity) // 2)
     for y in range(u.shape[0]):
-        row, even_row, odd_row = u[y, parity:], even[y], odd[y]
         for a in range(n):
-            even_row[a] = row[2 * a]
-            odd_row[a] = row[2 * a + 1]
+            columns.even[y, a] = u[y, 2 * a + parity]
+            columns.odd[y, a] = u[y, 2 * a + parity + 1]
 
 
-@njit(cache=True, fastmath={"contract"})
-def gather_columns(even: Array, odd: Array, fine: Box, coarse_u: Array, coarse: Box) -> None:
-    """Send sources to even columns: the transpose of interpolation."""
-    a, n = coarse.i0 + fine.ox // 2, coarse.i1 - coarse.i0 + 1
-    begin = coarse.i0 + coarse.ox
+@kernel
+def gather_columns(columns: Columns, fine: Box, coarse_u: Array, coarse: Box) -> None:
+    """Restrict sources to even columns by the transpose of interpolation, P_c = I^T P."""
+    columns, coarse_u = raw((columns, coarse_u))
+    even, odd, shift = columns.even, columns.odd, coarse.ox - fine.ox // 2
     for j in range(coarse.j0, coarse.j1 + 1):
-        target = coarse_u[j + coarse.oy, begin : begin + n]
-        mid, side = even[j + fine.oy, a : a + n], odd[j + fine.oy, a - 3 : a + n + 2]
-        for i in range(n):
-            target[i] = (
-                mid[i]
-                + C1 * (side[i + 3] + side[i + 2])
-                + C3 * (side[i + 4] + side[i + 1])
-                + C5 * (side[i + 5] + side[i])
-            )
+        y, target = j + fine.oy, j + coarse.oy
+        for a in range(coarse.i0 + fine.ox // 2, coarse.i1 + fine.ox // 2 + 1):
+            near = even[y, a] + C1 * (odd[y, a] + odd[y, a - 1])
+            middle = C3 * (odd[y, a + 1] + odd[y, a - 2])
+            coarse_u[target, a + shift] = near + middle + C5 * (odd[y, a + 2] + odd[y, a - 3])
     reflect(coarse_u, coarse)
 
 
-@njit(cache=True, fastmath={"contract"})
-def add_patch_columns(
-    even: Array, odd: Array, table: Array, span: tuple[int, int], sum_e: Array, sum_o: Array
-) -> None:
-    """Add the patch of sources to elements ``span`` of the sums at even and at odd columns.
-
-    ``even`` and ``odd`` (side + 1, n) hold the sources folded about the row of the sums.
-    """
-    start, stop = span
-    total = np.empty(even.shape[1])
-    for d in range(table.shape[0]):
+@helper
+def add_patch_columns(columns: Columns, table: Array, start: int, stop: int) -> None:
+    """Add the patch of folded sources to a span of the sums at even and at odd columns."""
+    even, odd, sums = columns.even_folds, columns.odd_folds, columns.sums
+    in_even, in_odd = (0, start, stop), (1, start, stop)
+    for d in range(table.shape[1]):
         s = d // 2
-        weigh(odd, table[d], 0, 1, total)
-        if d == 0:
-            add(total[start:stop], sum_o[start:stop])
-        elif d % 2 == 0:
-            add_pair(total[start + s : stop + s], total[start - s : stop - s], sum_o[start:stop])
+        weigh(odd, table, d, (0, 1))
+        if d % 2 == 0:
+            add_shifted(odd, (s, -s), sums, in_odd)
         else:
-            add_pair(
-                total[start + s : stop + s],
-                total[start - s - 1 : stop - s - 1],
-                sum_e[start:stop],
-            )
-            weigh(even, table[d], 0, 1, total)
-            add_pair(
-                total[start + s + 1 : stop + s + 1],
-                total[start - s : stop - s],
-                sum_o[start:stop],
-            )
+            add_shifted(odd, (s, -s - 1), sums, in_even)
+            weigh(even, table, d, (0, 1))
+            add_shifted(even, (s + 1, -s), sums, in_odd)
 
 
-@njit(cache=True, fastmath={"contract"})
-def spread_columns(  # noqa: PLR0913, PLR0917
-    even: Array, odd: Array, table: Array, fine: Box, coarse_w: Array, coarse: Box, w: Array
+@kernel
+def spread_columns(
+    columns: Columns, table: Array, fine: Box, coarse_w: Array, coarse: Box, w: Array
 ) -> None:
     """Correct the sums on even columns, interpolate the odd ones, correct and interleave them."""
-    n, side = even.shape[1], table.shape[1] - 1
-    margin = table.shape[0] // 2 + 2
-    shift, parity = fine.ox // 2, fine.ox % 2
-    start, stop = max(coarse.i0 + shift, margin), min(coarse.i1 + shift + 1, n - margin)
-    wide = slice(start - margin, stop + margin)
-    m = stop - start + 2 * margin
-    fold_e, fold_o = np.empty((side + 1, m)), np.empty((side + 1, m))
-    sum_e, sum_o = np.empty(m), np.empty(m)
+    columns, table, coarse_w, w = raw((columns, table, coarse_w, w))
+    sums, start, stop, margin = columns.sums, columns.start, columns.stop, columns.margin
+    span = (margin, margin + stop - start)
+    first, target = coarse.ox - fine.ox // 2 + start, 2 * start + fine.ox % 2
     for j in range(fine.j0, fine.j1 + 1):
         y = j + fine.oy
-        fold_e[0, :], fold_o[0, :] = even[y, wide], odd[y, wide]
-        for q in range(1, side + 1):
-            fold(even[y + q, wide], even[y - q, wide], fold_e[q])
-            fold(odd[y + q, wide], odd[y - q, wide], fold_o[q])
-        sum_e[:] = 0.0
-        sum_o[:] = 0.0
-        begin = start - shift + coarse.ox
-        sum_e[margin : m - margin] = coarse_w[j + coarse.oy, begin : begin + stop - start]
-        add_patch_columns(fold_e, fold_o, table, (margin, m - margin), sum_e, sum_o)
-        for a in range(margin, m - margin):
-            sum_o[a] += (
-                C1 * (sum_e[a] + sum_e[a + 1])
-                + C3 * (sum_e[a - 1] + sum_e[a + 2])
-                + C5 * (sum_e[a - 2] + sum_e[a + 3])
-            )
-        target = w[y, 2 * start + parity :]
+        for q in range(table.shape[0]):
+            fold(columns.even, y, start - margin, q, columns.even_folds)
+            fold(columns.odd, y, start - margin, q, columns.odd_folds)
+        for x in range(sums.shape[1]):
+            sums[0, x] = 0.0
+            sums[1, x] = 0.0
         for a in range(stop - start):
-            target[2 * a] = sum_e[a + margin]
-            target[2 * a + 1] = sum_o[a + margin]
+            sums[0, margin + a] = coarse_w[j + coarse.oy, first + a]
+        add_patch_columns(columns, table, span[0], span[1])
+        for x in range(span[0], span[1]):
+            near = C1 * (sums[0, x] + sums[0, x + 1])
+            middle = C3 * (sums[0, x - 1] + sums[0, x + 2])
+            sums[1, x] += near + middle + C5 * (sums[0, x - 2] + sums[0, x + 3])
+        for a in range(stop - start):
+            w[y, target + 2 * a] = sums[0, margin + a]
+            w[y, target + 2 * a + 1] = sums[1, margin + a]
 
 
-@njit(cache=True, fastmath={"contract", "reassoc"})
-def direct(matrix: Array, u: Array, box: Box, w: Array) -> None:
-    """Sum by definition on the coarsest grid, nodes numbered row by row."""
+@summing_helper
+def row_product(matrix: Array, m: int, flat: Array) -> float:
+    """Return row ``m`` of a matrix times a vector."""
+    total = 0.0
+    for k in range(flat.shape[0]):
+        total += matrix[m, k] * flat[k]
+    return total
+
+
+@kernel
+def direct(matrix: Array, u: Array, box: Box, w: Array, flat: Array) -> None:
+    """Sum directly on the coarsest grid, nodes numbered row by row; ``flat`` is scratch."""
+    matrix, u, w, flat = raw((matrix, u, w, flat))
     nx = box.i1 - box.i0 + 1
-    n = matrix.shape[0]
-    flat = np.empty(n)
-    for k in range(n):
+    for k in range(flat.shape[0]):
         flat[k] = u[box.j0 + box.oy + k // nx, box.i0 + box.ox + k % nx]
-    for m in range(n):
-        total = 0.0
-        row = matrix[m]
-        for k in range(n):
-            total += row[k] * flat[k]
-        w[box.j0 + box.oy + m // nx, box.i0 + box.ox + m % nx] = total
+    for m in range(flat.shape[0]):
+        w[box.j0 + box.oy + m // nx, box.i0 + box.ox + m % nx] = row_product(matrix, m, flat)
 
 
-@njit(cache=True)
-def unload(w: Array, box: Box, out: Array) -> None:
-    """Copy the sums at the nodes of the grid into ``out`` (ny, nx)."""
-    ny, nx = out.shape
-    out[:, :] = w[box.oy : box.oy + ny, box.ox : box.ox + nx]
+@kernel
+def sum_across(lines: Array, kernel: Array, scratch: Array, out: Array, mirror: int) -> None:
+    """Write the transforms along x of w = K * p: for each wavenumber a sum over the lines.
+
+    ``lines, out`` (rows, modes) complex: transforms of p and of w; ``kernel`` (modes, width): that
+    of the kernel at row offsets -(rows - 1), ..., real as the kernel is even, then eight zeros;
+    ``scratch`` (2, rows). With ``mirror`` the images of rows 1, 2, ... contribute too.
+    """
+    lines, kernel, scratch, out = raw((lines, kernel, scratch, out))
+    rows, modes = lines.shape
+    for k in range(modes):
+        for j in range(rows):
+            scratch[0, j] = lines[j, k].real
+            scratch[1, j] = lines[j, k].imag
+        for first in range(0, rows, LANES):
+            at = rows - 1 + first
+            weight = kernel[k, lanes(at)]
+            real, imaginary = weight * scratch[0, 0], weight * scratch[1, 0]
+            for j in range(1, rows):
+                weight = kernel[k, lanes(at - j)]
+                if mirror:
+                    weight = weight + kernel[k, lanes(at + j)]
+                real += weight * scratch[0, j]
+                imaginary += weight * scratch[1, j]
+            for lane in range(min(LANES, rows - first)):
+                out[first + lane, k] = complex(real[lane], imaginary[lane])

@@ -1,15 +1,18 @@
-"""Compiled transfer between grids: full weighting, injection, guarded bilinear correction.
+"""Transfer between grids: full weighting, injection, bilinear interpolation of corrections.
+
+Venner and Lubrecht 2000, chapters 3 and 6; docs/theory/numerics.md on cavitation.
 
 Fine fields are (ny, nx), coarse ones ((ny+1)/2, (nx+1)/2); with ``mirror`` row 0 is a symmetry
 line and row -1 equals row 1.
 """
 
-from numba import njit
-
+from tehl.kernels.compiled import helper, kernel
+from tehl.kernels.raw import raw
+from tehl.kernels.reynolds import clear
 from tehl.typing import Array, FlagArray
 
 
-@njit(cache=True)
+@helper
 def weigh(fine: Array, j: int, i: int) -> float:
     """Full weighting of ``fine`` at fine node (j, i)."""
     south = j - 1 if j > 0 else 1
@@ -21,21 +24,23 @@ def weigh(fine: Array, j: int, i: int) -> float:
     )
 
 
-@njit(cache=True)
+@kernel
 def restrict_residual(fine: Array, mirror: int, coarse: Array) -> None:
     """Full weighting of the residual, zero on the edges."""
+    fine, coarse = raw((fine, coarse))
     ny, nx = coarse.shape
-    coarse[:] = 0.0
+    clear(coarse)
     for j in range(0 if mirror else 1, ny - 1):
         for i in range(1, nx - 1):
             coarse[j, i] = weigh(fine, 2 * j, 2 * i)
 
 
-@njit(cache=True)
+@kernel
 def restrict_pressure(fine: Array, mirror: int, coarse: Array) -> None:
     """Full weighting where all nine fine values are positive, injection elsewhere."""
+    fine, coarse = raw((fine, coarse))
     ny, nx = coarse.shape
-    coarse[:] = 0.0
+    clear(coarse)
     for j in range(0 if mirror else 1, ny - 1):
         for i in range(1, nx - 1):
             fj, fi = 2 * j, 2 * i
@@ -47,13 +52,14 @@ def restrict_pressure(fine: Array, mirror: int, coarse: Array) -> None:
             coarse[j, i] = weigh(fine, fj, fi) if smallest > 0.0 else fine[fj, fi]
 
 
-@njit(cache=True)
+@kernel
 def correct(p: Array, coarse: Array, before: Array, mirror: int, part: float, limit: float) -> None:
     """Add ``part`` of the bilinear interpolation of ``coarse - before`` to the wet nodes of ``p``.
 
-    A node is left alone when any coarse node it would use was cavitated: no correction crosses
-    the cavitation front. None changes by more than ``limit`` times its pressure.
+    A node keeps its pressure if any coarse node around it was cavitated: no correction crosses the
+    cavitation front. No pressure changes by more than ``limit`` times itself.
     """
+    p, coarse, before = raw((p, coarse, before))
     ny, nx = p.shape
     for j in range(0 if mirror else 1, ny - 1):
         low_j = j // 2
@@ -80,16 +86,17 @@ def correct(p: Array, coarse: Array, before: Array, mirror: int, part: float, li
                 p[j, i] = max(p[j, i] + change, 0.0)
 
 
-@njit(cache=True)
+@kernel
 def freeze(
     fine: Array, fine_frozen: FlagArray, coarse: Array, mirror: int, limit: float, out: FlagArray
 ) -> None:
-    """Mark coarse nodes beside a cavity and of low pressure: they keep it on the coarse grid.
+    """Mark coarse nodes below ``limit`` beside a cavity, whose pressure the coarse grid keeps.
 
-    Beside a cavity: one of the nine fine nodes is cavitated or frozen itself.
+    Beside a cavity: one of the nine fine nodes is cavitated or frozen.
     """
+    fine, fine_frozen, coarse, out = raw((fine, fine_frozen, coarse, out))
     ny, nx = coarse.shape
-    out[:] = 0
+    clear(out)
     for j in range(0 if mirror else 1, ny - 1):
         for i in range(1, nx - 1):
             if coarse[j, i] > limit:

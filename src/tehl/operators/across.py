@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tehl.kernels.energy import Across
+from tehl.kernels.energy.records import Across
 from tehl.typing import Array
 
 

@@ -8,8 +8,8 @@ from typing import Protocol
 import numpy as np
 
 from tehl.grid import Grid
-from tehl.kernels.lanes import LANES, addresses
-from tehl.kernels.lines import sum_across
+from tehl.kernels.lanes import LANES
+from tehl.kernels.summation import sum_across
 from tehl.operators.influence import dense_matrix, influence_of
 from tehl.operators.multilevel import MultilevelDeformation
 from tehl.scaling import Groups
@@ -86,15 +86,13 @@ class LineDeformation:
         self.kernel = np.zeros((nx, kernel.shape[1] + LANES))
         self.kernel[:, : kernel.shape[1]] = kernel
         self.transform, self.product = np.zeros((2, ny, nx), complex)
-        self.convolved, self.scratch = np.zeros((ny, self.period)), np.zeros(2 * (ny + LANES))
-        self.sizes = (ny, nx, self.kernel.shape[1], int(grid.mirror))
-        parts = (self.transform.view(float), self.kernel, self.scratch, self.product.view(float))
-        self.known = addresses(parts)
+        self.convolved, self.scratch = np.zeros((ny, self.period)), np.zeros((2, ny))
+        self.mirror = int(grid.mirror)
 
     def deflect(self, pressure: Array, out: Array) -> None:
         """Write the deflection under ``pressure`` to ``out``."""
         np.fft.rfft(pressure, self.period, out=self.transform)
-        sum_across(*self.known, self.sizes)
+        sum_across(self.transform, self.kernel, self.scratch, self.product, self.mirror)
         np.fft.irfft(self.product, self.period, out=self.convolved)
         out[:] = self.convolved[:, : pressure.shape[1]]
 

@@ -14,7 +14,8 @@ import numpy as np
 from scipy.sparse import csr_matrix, diags, kron
 
 from tehl.grid import Grid
-from tehl.kernels.reynolds import Film, Mesh
+from tehl.kernels.properties import Film
+from tehl.kernels.reynolds import Mesh
 from tehl.typing import Array, BoolArray
 
 

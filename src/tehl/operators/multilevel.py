@@ -39,15 +39,60 @@ class Stage:
     source: Array
     total: Array
 
+    def nodes(self, array: Array) -> Array:
+        """Return the part of a padded array from node (0, 0) to the last node."""
+        box = self.box
+        return array[box.oy : box.oy + box.j1 + 1, box.ox : box.ox + box.i1 + 1]
 
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Halving:
-    """One coarsening: halved axis (0: rows, 1: columns), patch corrections, work arrays."""
+    def load(self, pressure: Array) -> None:
+        """Copy nodal sources, with their image before a mirror line."""
+        self.nodes(self.source)[:] = pressure
+        if self.box.mirror:
+            below = self.source[: self.box.oy]
+            below[:] = self.source[2 * self.box.oy : self.box.oy : -1]
 
-    axis: int
+
+@dataclass(frozen=True, slots=True)
+class RowHalving:
+    """A step to a grid of half the rows, with the patch corrections (rows, columns)."""
+
     patch: Array
-    even: Array
-    odd: Array
+    folds: Array
+
+    def gather(self, fine: Stage, coarse: Stage) -> None:
+        """Restrict the sources: P_c = I^T P."""
+        summation.gather_rows(fine.source, fine.box, coarse.source, coarse.box)
+
+    def spread(self, fine: Stage, coarse: Stage) -> None:
+        """Interpolate the sums and add the patch corrections: w = I w_c + (K - I K_c I^T) P."""
+        grids = (fine.box, coarse.total, coarse.box, fine.total)
+        summation.spread_rows(fine.source, self.patch, self.folds, *grids)
+
+
+@dataclass(frozen=True, slots=True)
+class ColumnHalving:
+    """A step to a grid of half the columns, with the patch corrections (rows, columns)."""
+
+    patch: Array
+    columns: summation.Columns
+
+    def gather(self, fine: Stage, coarse: Stage) -> None:
+        """Restrict the sources: P_c = I^T P."""
+        summation.split_columns(fine.source, fine.box, self.columns)
+        summation.gather_columns(self.columns, fine.box, coarse.source, coarse.box)
+
+    def spread(self, fine: Stage, coarse: Stage) -> None:
+        """Interpolate the sums and add the patch corrections: w = I w_c + (K - I K_c I^T) P."""
+        grids = (fine.box, coarse.total, coarse.box, fine.total)
+        summation.spread_columns(self.columns, self.patch, *grids)
+
+
+def _halve(patch: Array, axis: int, fine: Stage, coarse: Stage) -> RowHalving | ColumnHalving:
+    """Return the step from ``fine`` to ``coarse``, which has half the nodes along ``axis``."""
+    if axis == 0:
+        return RowHalving(patch, summation.row_folds(patch, fine.box))
+    columns = summation.columns_of(patch, fine.source.shape, fine.box, coarse.box)
+    return ColumnHalving(patch, columns)
 
 
 class MultilevelDeformation:
@@ -64,37 +109,32 @@ class MultilevelDeformation:
     def __init__(self, grid: Grid, influence: Influence) -> None:
         ny, nx = grid.shape
         self.stages = [_stage(0, ny - 1, 0, nx - 1, grid.mirror)]
-        self.halvings: list[Halving] = []
+        self.halvings: list[RowHalving | ColumnHalving] = []
         stride, halved = [1, 1], [0, 0]
         while _count(self.stages[-1].box) > SMALLEST:
-            axis = finer_axis(influence, stride)
+            axis, fine = finer_axis(influence, stride), self.stages[-1]
             # an error on a coarse grid weighs as much as one on the finest: the patch grows
             patch = patch_corrections(influence, (axis, stride[0], stride[1]), halved[axis])
-            columns = self.stages[-1].source.shape[1] // 2 + 2
-            shape = (self.stages[-1].source.shape[0], columns) if axis == 1 else (0, 0)
-            self.halvings.append(
-                Halving(axis=axis, patch=patch, even=np.zeros(shape), odd=np.zeros(shape))
-            )
-            self.stages.append(_coarser(self.stages[-1].box, axis))
+            self.stages.append(_coarser(fine.box, axis))
+            self.halvings.append(_halve(patch, axis, fine, self.stages[-1]))
             stride[axis] *= 2
             halved[axis] += 1
         last = self.stages[-1].box
         nodes = (last.j1 - last.j0 + 1, last.i1 - last.i0 + 1)
         self.matrix = dense_matrix(nodes, grid.mirror, influence, (stride[0], stride[1]))
+        self.flat = np.zeros(nodes[0] * nodes[1])
 
     def deflect(self, pressure: Array, out: Array) -> None:
         """Write the deflection under ``pressure`` to ``out``."""
-        stages, halvings = self.stages, self.halvings
-        summation.load(pressure, stages[0].source, stages[0].box)
-        for halving, fine, coarse in zip(halvings, stages, stages[1:], strict=False):
-            _gather(halving, fine, coarse)
-        last = stages[-1]
-        summation.direct(self.matrix, last.source, last.box, last.total)
-        for halving, fine, coarse in reversed(
-            list(zip(halvings, stages, stages[1:], strict=False))
-        ):
-            _spread(halving, fine, coarse)
-        summation.unload(stages[0].total, stages[0].box, out)
+        finest, last = self.stages[0], self.stages[-1]
+        finest.load(pressure)
+        steps = list(zip(self.halvings, self.stages[:-1], self.stages[1:], strict=True))
+        for halving, fine, coarse in steps:
+            halving.gather(fine, coarse)
+        summation.direct(self.matrix, last.source, last.box, last.total, self.flat)
+        for halving, fine, coarse in reversed(steps):
+            halving.spread(fine, coarse)
+        out[:] = finest.nodes(finest.total)
 
 
 def finer_axis(influence: Influence, stride: list[int]) -> int:
@@ -104,27 +144,6 @@ def finer_axis(influence: Influence, stride: list[int]) -> int:
     choice keeps the patch narrow across it.
     """
     return int(influence.dy * stride[0] > 1.001 * influence.dx * stride[1])
-
-
-def _gather(halving: Halving, fine: Stage, coarse: Stage) -> None:
-    """Restrict the sources: P_c = I^T P."""
-    if halving.axis == 0:
-        summation.gather_rows(fine.source, fine.box, coarse.source, coarse.box)
-        return
-    summation.split_columns(fine.source, fine.box, halving.even, halving.odd)
-    summation.gather_columns(halving.even, halving.odd, fine.box, coarse.source, coarse.box)
-
-
-def _spread(halving: Halving, fine: Stage, coarse: Stage) -> None:
-    """Interpolate the sums and add the patch corrections: w = I w_c + (K - I K_c I^T) P."""
-    if halving.axis == 0:
-        summation.spread_rows(
-            fine.source, halving.patch, fine.box, coarse.total, coarse.box, fine.total
-        )
-        return
-    summation.spread_columns(
-        halving.even, halving.odd, halving.patch, fine.box, coarse.total, coarse.box, fine.total
-    )
 
 
 def _stage(j0: int, j1: int, i0: int, i1: int, mirror: bool) -> Stage:
@@ -178,4 +197,4 @@ def patch_corrections(influence: Influence, step: tuple[int, int, int], growth: 
     missed = kernel[nodes]
     for k, w in zip(STEPS, WEIGHTS, strict=True):
         missed -= w * (kernel[nodes + k] + kernel[np.abs(nodes - k)])
-    return np.ascontiguousarray(missed)
+    return np.ascontiguousarray(missed if axis == 0 else missed.T)

@@ -19,7 +19,7 @@ from tehl.heat import FilmEnergy, source_form
 from tehl.materials import Solid
 from tehl.operators.full_source import FullSource
 from tehl.operators.transfer import midpoints
-from tehl.scaling import Groups, ScaledProblem, Scales
+from tehl.scaling import ScaledProblem, Scales
 from tehl.typing import Array
 
 LEAST_LINE = 2.0
@@ -109,7 +109,7 @@ class Solids:
     ----------
     grid : Grid
         The nodes.
-    groups, scales : Groups, Scales
+    scaled : ScaledProblem
         Units.
     both : (Side, Side)
         The solids.
@@ -122,14 +122,13 @@ class Solids:
     def __init__(
         self,
         grid: Grid,
-        groups: Groups,
-        scales: Scales,
+        scaled: ScaledProblem,
         both: tuple[Side, Side],
         flux_unit: float,
         *,
         finest: bool,
     ) -> None:
-        self.both = both
+        self.both, groups, scales = both, scaled.groups, scaled.scales
         rows, columns = (n - 1 for n in grid.shape)
         fine = min(columns, 2 * rows if grid.mirror else rows) >= COARSENED_FROM
         self.stride = 2 if fine and rows % 2 == 0 and columns % 2 == 0 else 1

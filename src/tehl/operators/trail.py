@@ -1,22 +1,22 @@
-"""Surface temperature in time: each material point remembers the heat that it has taken up.
+"""Surface temperature in transient runs: material points carry the heat that they took up.
 
-The flux that has reached a surface at x came in upstream, when the material was there,
+Heat at x entered upstream, when the material was there (Carslaw and Jaeger 1959, section 10.7),
 
     T(x, t) - T_b = 1/sqrt(pi rho c k u_s) int q(s, t - (x - s)/u_s) / sqrt(x - s) ds,
 
-so that the exponentials of `tehl.operators.line_source` are carried on from a node to the next, and
-at the same time by the time that the surface takes for a mesh width. Between steps of time they are
-interpolated to second order.
+so that the exponentials of `tehl.operators.line_source` move from node to node with a lag, the time
+in which the surface moves by a mesh width. Between time levels they are interpolated to second
+order.
 """
 
 import numpy as np
 
-from tehl.kernels import trail
+from tehl.kernels.energy import trail
 from tehl.operators.line_source import history
 from tehl.typing import Array
 
 LONGEST_LAG = 2.0
-"""Steps that a surface may take for one mesh width: the former times that are kept."""
+"""Most time steps in which a surface may move by a mesh width: earlier levels are not stored."""
 
 
 class Trail:
@@ -29,7 +29,7 @@ class Trail:
     spacing : float
         Mesh width [a_x].
     lag : float
-        Steps of time that the surface takes for a mesh width, at most `LONGEST_LAG`.
+        Time steps in which the surface moves by a mesh width, at most `LONGEST_LAG`.
     """
 
     def __init__(self, flux: Array, spacing: float, lag: float) -> None:
@@ -45,18 +45,18 @@ class Trail:
         self.modes[1:] = self.modes[0]
 
     def update(self, flux: Array) -> Array:
-        """Return what the flux upstream has done to each node by now, (nx, ny)."""
+        """Return the rise of each node by the flux upstream, (nx, ny)."""
         self.fluxes[0] = flux
         trail.carry(self.modes, self.fluxes, self.weights, self.lags, self.past)
         return self.past
 
     def advance(self) -> None:
-        """Let the present be the past of the next step."""
+        """Accept the present as the last time level of the next step."""
         self.fluxes[1:] = self.fluxes[:-1].copy()
         self.modes[1:] = self.modes[:-1].copy()
 
 
 def lag_of(steps: float, first: int) -> trail.Lag:
-    """Return the weights of a time some ``steps`` ago: a parabola through three levels."""
+    """Return the weights of the time ``steps`` ago: a parabola through three levels."""
     s = steps - first
     return trail.Lag(first, 0.5 * (s - 1.0) * (s - 2.0), s * (2.0 - s), 0.5 * s * (s - 1.0))

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl.grid import Grid
-from tehl.kernels import reynolds, transfer
+from tehl.kernels import properties, reynolds, transfer
 from tehl.operators.film import hertz_pressure
 from tehl.operators.load import TARGET
 from tehl.operators.transfer import refine
@@ -60,14 +60,14 @@ class Level:
         self.equations = equations
         self.smoother = make_smoother(equations, relaxation)
         p, h, eps, rho, drho, f, g = (np.zeros(shape) for _ in range(7))
-        self.film = reynolds.Film(p, h, eps, rho, drho, eps_x=eps, eps_y=eps)
+        self.film = properties.Film(p, h, eps, rho, drho, eps_x=eps, eps_y=eps)
         self.rigid_approach = 0.0
         self.sources = Sources(f, g, equations.target)
         self.residual = np.zeros(shape)
         self.restricted = (np.zeros(shape), 0.0)
         self.heights: Array | None = None
         self.correction = Correction()
-        self.factors: reynolds.Factors | None = None
+        self.factors: properties.Factors | None = None
         self._is_stale = True
 
     @property
@@ -113,12 +113,12 @@ class Level:
         """Evaluate conductance and density for the present pressure and film."""
         self._evaluate(self.film)
 
-    def _evaluate(self, film: reynolds.Film) -> None:
+    def _evaluate(self, film: properties.Film) -> None:
         flow, floor = self.equations.flow, self.equations.floor
         if self.factors is None:
-            reynolds.properties(film, flow.table, flow.step, floor)
+            properties.properties(film, flow.table, flow.step, floor)
         else:
-            reynolds.heated_properties(film, self.factors, flow.table, flow.step, floor)
+            properties.heated_properties(film, self.factors, flow.table, flow.step, floor)
 
     def nodal_film(self) -> tuple[float, float]:
         """Return central and smallest nodal film [-]."""
@@ -128,14 +128,14 @@ class Level:
         """Return d eps/dP and d eps/dH at the present pressure and film, each ``grid.shape``."""
         film, floor = self.film, self.equations.floor
         scratch = (np.empty_like(film.p) for _ in range(5))
-        shifted = reynolds.Film(film.p + PRESSURE_STEP, film.h, *scratch)
+        shifted = properties.Film(film.p + PRESSURE_STEP, film.h, *scratch)
         self._evaluate(shifted)
         by_pressure = (shifted.eps - film.eps) / PRESSURE_STEP
         # eps grows as H^3 above the floor and is constant below it
         by_film = np.where(film.h > floor, 3.0 * film.eps / np.maximum(film.h, floor), 0.0)
         return by_pressure, by_film
 
-    def couple(self, factors: reynolds.Factors) -> None:
+    def couple(self, factors: properties.Factors) -> None:
         """Set the factors of heat and shear thinning on mobility and density."""
         if self.factors is None:
             eps_x, eps_y = np.empty(self.grid.shape), np.empty(self.grid.shape)

@@ -8,7 +8,8 @@ import numpy as np
 
 from tehl.fields import FilmHeat, FilmShear, HeatBalance
 from tehl.grid import Grid
-from tehl.operators.energy import FilmState, pressure_slopes, stress_unit
+from tehl.operators.energy import FilmState, pressure_slopes
+from tehl.operators.heated_film import stress_unit
 from tehl.scaling import ScaledProblem
 from tehl.solver.level import Level
 from tehl.typing import Array
@@ -44,7 +45,7 @@ def newtonian_sliding(level: Level, scaled: ScaledProblem) -> Array:
 def film_shear(state: FilmState) -> FilmShear:
     """Return the shear stress of a heated or shear-thinning film."""
     grid, sliding = state.grid, state.view("tau_x")
-    unit = stress_unit(state.scales)
+    unit = stress_unit(state.film.scaled.scales)
     rolling = 0.5 * state.model.terms.poiseuille * state.view("h") * state.view("px")
     return FilmShear(
         surface_1=_unfold(grid, unit * (sliding - rolling)),
@@ -61,16 +62,16 @@ def film_heat(state: FilmState) -> FilmHeat | None:
         return None
     grid, temperature = state.grid, state.temperature
     layers = [_unfold(grid, temperature[:, k]) for k in range(temperature.shape[1])]
-    unit = state.flux_unit
+    unit = state.film.flux_unit
     flux_1, flux_2 = (unit * flux for flux in state.fluxes)
     return FilmHeat(
-        zeta=state.across.zeta.copy(),
-        weights=state.across.weights.copy(),
+        zeta=state.film.across.zeta.copy(),
+        weights=state.film.across.weights.copy(),
         temperature=np.stack(layers),
         flux_1=_unfold(grid, flux_1),
         flux_2=_unfold(grid, flux_2),
         balance=heat_balance(state),
-        solid_peclet=state.solid_peclet,
+        solid_peclet=state.film.solid_peclet,
         sources=state.solids.forms,
     )
 
@@ -94,8 +95,8 @@ def heat_balance(state: FilmState) -> HeatBalance:
     if terms.mirror:
         area[1:-1, 0] = 1.0
     area[pressure <= 0.0] = 0.0  # the balance is that of the film under pressure
-    scales = state.scales
-    area *= grid.dx * grid.dy * scales.half_width_x * scales.half_width_y * state.flux_unit
+    scales = state.film.scaled.scales
+    area *= grid.dx * grid.dy * scales.half_width_x * scales.half_width_y * state.film.flux_unit
     powers = (view("shear"), view("work"), *state.fluxes, carried)
     shear, compression, first, second, out = (float((area * power).sum()) for power in powers)
     return HeatBalance(

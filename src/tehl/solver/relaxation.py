@@ -12,9 +12,9 @@ from typing import Protocol
 import numpy as np
 
 from tehl.grid import Grid
-from tehl.kernels import reynolds
-from tehl.kernels.gauss_seidel import relax_points
-from tehl.kernels.reynolds import Film, Mesh, relax_lines, stiffen
+from tehl.kernels import relaxation as kernels
+from tehl.kernels.properties import Film
+from tehl.kernels.reynolds import Mesh
 from tehl.operators.flow import FlowTable
 from tehl.operators.influence import Influence
 from tehl.operators.reynolds import line_influence
@@ -85,7 +85,7 @@ class LineSmoother:
     """Lines along x in two colours: points where the film conducts, dipoles in the contact.
 
     Each line is a linear complementarity problem, solved by policy iteration
-    (`tehl.kernels.reynolds.relax_lines`).
+    (`tehl.kernels.relaxation.relax_lines`).
     """
 
     def __init__(self, grid: Grid, influence: Influence, relaxation: Relaxation) -> None:
@@ -94,7 +94,8 @@ class LineSmoother:
         point += 2.0 * sum(others, np.zeros(point.size))  # lines on both sides move along
         self.frozen = np.zeros(grid.shape, np.uint8)
         self.steep = np.zeros(grid.shape)
-        self.workspace = reynolds.Relaxation(
+        rest, nodes, cells = kernels.workspace(grid.nx)
+        self.workspace = kernels.LineRelaxation(
             xi=relaxation.threshold,
             omega_point=relaxation.point,
             omega_dipole=relaxation.dipole,
@@ -104,14 +105,17 @@ class LineSmoother:
             delta=np.zeros(grid.shape),
             frozen=self.frozen,
             steep=self.steep,
+            rest=rest,
+            nodes=nodes,
+            cells=cells,
         )
         self.is_stiff = relaxation.stiff
 
     def sweep(self, film: Film, mesh: Mesh, rhs: Array, flow: FlowTable) -> None:
         """Relax ``film.p`` in place."""
         if self.is_stiff:
-            stiffen(film, mesh, flow.table, flow.step, self.steep)
-        relax_lines(film, mesh, rhs, self.workspace)
+            kernels.stiffen(film, mesh, flow.table, flow.step, self.steep)
+        kernels.relax_lines(film, mesh, rhs, self.workspace)
 
 
 class PointSmoother:
@@ -125,7 +129,7 @@ class PointSmoother:
     def sweep(self, film: Film, mesh: Mesh, rhs: Array, flow: FlowTable) -> None:
         """Relax ``film.p`` in place."""
         del flow
-        relax_points(film, mesh, rhs, self.point, self.omega)
+        kernels.relax_points(film, mesh, rhs, self.point, self.omega)
 
 
 def make_smoother(equations: Equations, relaxation: Relaxation) -> Smoother:

@@ -12,6 +12,7 @@ from tehl.domain import recommended_domain
 from tehl.errors import ConvergenceError, InputError
 from tehl.fields import Fields, FilmHeat, FilmShear, SurfaceHeights
 from tehl.grid import Grid, can_mirror
+from tehl.kernels.warmup import warm_up
 from tehl.memory import check_memory
 from tehl.operators.heights import Heights, heights_of
 from tehl.options import Domain, Options
@@ -28,7 +29,6 @@ from tehl.solver.ladder import ladder
 from tehl.solver.monitor import SILENT, Monitor, Recorder
 from tehl.solver.outputs import film_heat, film_shear, newtonian_shear
 from tehl.solver.verdict import touching, verdict
-from tehl.solver.warmup import warm_up
 
 GRID_CAUSES = ("grid_too_coarse", "domain_too_small", "inlet_too_short", "sides_too_close")
 """Causes of failure that no other strategy removes."""

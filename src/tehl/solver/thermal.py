@@ -9,8 +9,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tehl.kernels import reynolds
-from tehl.operators.energy import FilmState, HeatedFilm
+from tehl.kernels import properties
+from tehl.operators.energy import FilmState
+from tehl.operators.heated_film import HeatedFilm
 from tehl.operators.transfer import midpoints
 from tehl.options import Options
 from tehl.scaling import ScaledProblem
@@ -80,7 +81,7 @@ class Coupling:
         self.sweeps_left = RAMP if slide_in_steps else 0
         self.damping = damping if is_coupled else 1.0
         self.state: FilmState | None = None
-        self.factors: reynolds.Factors | None = None
+        self.factors: properties.Factors | None = None
         self.change, self.rise, self.skip = 0.0, 0.0, False
 
     def begin(self, levels: Sequence[Level], *, finest: bool, has_film: bool) -> bool:
@@ -113,7 +114,8 @@ class Coupling:
         if coarser is not None:
             state.refine_from(coarser)
             state.set_film(fine.film.p, fine.film.h, fine.equations.floor)
-            if not all(side.marches for side in state.sides):  # line sources march with the sweep
+            # line sources march with the sweep
+            if not all(side.marches for side in self.film.sides):
                 state.update_surfaces()
             self._set_factors(levels, refined(levels[-2]))
             return True
@@ -166,7 +168,7 @@ class Coupling:
         known = {f"factor_{name}": getattr(factors, name) for name in factors._fields}
         known |= {f"film_{name}": getattr(state.fields, name) for name in CARRIED}
         known["film_back"] = state.work.back  # extent of the next march against the flow
-        return known | (state.time.memory() if state.time is not None else {})
+        return known | (state.transient.pack() if state.transient is not None else {})
 
     def unpack(self, levels: Sequence[Level], fields: dict[str, Array]) -> None:
         """Restore the state that `pack` returned."""
@@ -175,17 +177,17 @@ class Coupling:
         for name in CARRIED:
             getattr(self.state.fields, name)[:] = fields[f"film_{name}"]
         self.state.work.back[:] = fields["film_back"]
-        if self.state.time is not None:
-            self.state.time.recall(fields)
-        names = reynolds.Factors._fields
-        self._set_factors(levels, reynolds.Factors(*(fields[f"factor_{name}"] for name in names)))
+        if self.state.transient is not None:
+            self.state.transient.unpack(fields)
+        names = properties.Factors._fields
+        self._set_factors(levels, properties.Factors(*(fields[f"factor_{name}"] for name in names)))
         self.factors = levels[-1].factors
 
     def begin_transient(self, levels: Sequence[Level], time_step: float) -> None:
         """Make the energy equation transient, in steps of ``time_step`` [a_x / u_m]."""
         self.factors = levels[-1].factors
         if self.state is not None and self.state.model.terms.heat:
-            self.state.begin_time(time_step)
+            self.state.begin_transient(time_step)
 
     def excess(self) -> Array | None:
         """Return 1 - rho_e/rho* at the temperatures of the last sweep, (ny, nx); None if zero.
@@ -202,13 +204,13 @@ class Coupling:
     def advance(self, levels: Sequence[Level]) -> None:
         """Accept temperatures, stresses and factors as those of the last time step."""
         self.factors = levels[-1].factors
-        if self.state is not None and self.state.time is not None:
-            self.state.time.advance()
+        if self.state is not None and self.state.transient is not None:
+            self.state.transient.advance()
 
     def revert(self, levels: Sequence[Level]) -> None:
         """Restore those of the last time step."""
-        if self.state is not None and self.state.time is not None:
-            self.state.time.go_back()
+        if self.state is not None and self.state.transient is not None:
+            self.state.transient.go_back()
         if self.factors is not None:
             self._set_factors(levels, self.factors)
 
@@ -226,31 +228,31 @@ class Coupling:
 
     def _couple(self, state: FilmState, levels: Sequence[Level]) -> None:
         """Compute the factors of heat and thinning and set them on all of ``levels``."""
-        fine, names = levels[-1], reynolds.Heated._fields
+        fine, names = levels[-1], properties.Heated._fields
         shape = fine.grid.shape
-        heated = reynolds.Heated(*(np.ascontiguousarray(state.view(name).T) for name in names))
+        heated = properties.Heated(*(np.ascontiguousarray(state.view(name).T) for name in names))
         heated.mobility[:] /= self.scaled.groups.lambda_bar
-        factors = reynolds.Factors(*np.empty((5, *shape)))
+        factors = properties.Factors(*np.empty((5, *shape)))
         # at H = 1 the conductance is the mobility: factors do not depend on the film
-        isothermal = reynolds.Film(fine.film.p, np.ones(shape), *np.empty((5, *shape)))
+        isothermal = properties.Film(fine.film.p, np.ones(shape), *np.empty((5, *shape)))
         flow = fine.equations.flow
-        reynolds.factors_of(heated, isothermal, flow.table, flow.step, factors)
+        properties.factors_of(heated, isothermal, flow.table, flow.step, factors)
         if fine.factors is not None and self.damping < 1.0:
             factors = damped(fine.factors, factors, self.damping)
         self._set_factors(levels, factors)
 
     @staticmethod
-    def _set_factors(levels: Sequence[Level], factors: reynolds.Factors) -> None:
+    def _set_factors(levels: Sequence[Level], factors: properties.Factors) -> None:
         """Set the factors of the last of ``levels``, and inject them to the coarser ones."""
         fine = levels[-1]
         for level in reversed(levels):
             level.couple(factors)
-            factors = reynolds.Factors(*(array[::2, ::2].copy() for array in factors))  # injected
+            factors = properties.Factors(*(array[::2, ::2].copy() for array in factors))  # injected
         fine.update_properties()
         fine.write_source()
 
 
-def damped(old: reynolds.Factors, new: reynolds.Factors, damping: float) -> reynolds.Factors:
+def damped(old: properties.Factors, new: properties.Factors, damping: float) -> properties.Factors:
     """Return factors between old and new ones, in logarithms.
 
     Parameters
@@ -262,11 +264,11 @@ def damped(old: reynolds.Factors, new: reynolds.Factors, damping: float) -> reyn
     """
     rest = old.rest + damping * (new.rest - old.rest)
     others = (a * (b / a) ** damping for a, b in zip(old[1:], new[1:], strict=True))
-    return reynolds.Factors(rest, *others)
+    return properties.Factors(rest, *others)
 
 
-def refined(coarse: Level) -> reynolds.Factors:
+def refined(coarse: Level) -> properties.Factors:
     """Return the factors of a level interpolated to the next finer grid."""
     if coarse.factors is None:
         raise ValueError("the level has no factors of heat and thinning")
-    return reynolds.Factors(*(midpoints(array) for array in coarse.factors))
+    return properties.Factors(*(midpoints(array) for array in coarse.factors))

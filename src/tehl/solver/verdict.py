@@ -246,7 +246,7 @@ def _heat_status(run: FilmSolver) -> Status:
     if state is None:
         return CONVERGED
     temperature = state.temperature
-    entering = min(state.scales.temperature, *(side.bulk for side in state.sides))
+    entering = min(state.film.scaled.scales.temperature, *(side.bulk for side in state.film.sides))
     missing = heat_balance(state).error if state.model.terms.heat else 0.0
     if not np.isfinite(temperature).all():
         message = "The temperature of the film is not finite."
@@ -268,9 +268,9 @@ def _heat_status(run: FilmSolver) -> Status:
 
 def _adiabatic_cooling(state: FilmState) -> float:
     """Return the cooling of oil that expands from p_h without conduction [K]."""
-    terms, inlet = state.model.terms, state.scales.temperature
+    terms, inlet = state.model.terms, state.film.scaled.scales.temperature
     if not terms.peclet > 0:
         return 0.0
-    ambient = state.problem.lubricant.density.ambient
+    ambient = state.film.scaled.problem.lubricant.density.ambient
     expansion = 1.0 - ambient(inlet + 1.0) / ambient(inlet)
     return expansion * inlet * terms.compression / terms.peclet

@@ -8,7 +8,8 @@ import os
 import sys
 from contextlib import suppress
 
-from tehl.solver.warmup import warm_up
+import tehl.solver  # noqa: F401 (loaded for all workers)
+from tehl.kernels.warmup import warm_up
 
 sys.excepthook = lambda *_: None  # the program reports a worker that does not start
 atexit.register(os._exit, 0)  # ends at once: readers of its output wait for its end

@@ -279,7 +279,7 @@ def _compile_once(cases: Iterable[Case], monitor: StudyMonitor) -> None:
     coupled = any(case.problem.is_coupled for case in cases)
     if not is_cold(coupled=coupled):
         return
-    from tehl.solver.warmup import warm_up  # noqa: PLC0415 (not needed once it is compiled)
+    from tehl.kernels.warmup import warm_up  # noqa: PLC0415 (not needed once it is compiled)
 
-    monitor.message("compiling once, about a minute")
+    monitor.message("compiling the kernels once, which takes 10 to 60 s")
     warm_up(coupled=coupled)

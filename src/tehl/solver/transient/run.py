@@ -7,8 +7,9 @@ import numpy as np
 
 from tehl.duration import misplaced, number_of_steps
 from tehl.errors import ConvergenceError, InputError
+from tehl.kernels.warmup import warm_up
 from tehl.memory import check_memory
-from tehl.operators.energy import stress_unit
+from tehl.operators.heated_film import stress_unit
 from tehl.operators.heights import MovingHeights
 from tehl.options import Options
 from tehl.problem import ContactProblem
@@ -23,7 +24,6 @@ from tehl.solver.steady import Attempt, finest_grid, try_strategies
 from tehl.solver.transient.checks import check_load, check_stride, check_waves
 from tehl.solver.transient.snapshot import ANEW, Record, Snapshot, kept_steps
 from tehl.solver.transient.step import StepEnd, StepError, Stepper
-from tehl.solver.warmup import warm_up
 from tehl.transient import Transient
 from tehl.transient_result import StepReport, TransientResult
 from tehl.typing import Array

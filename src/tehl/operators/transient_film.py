@@ -1,28 +1,28 @@
-"""What a heated film remembers of former steps of time: temperatures, pressures and wall heat."""
+"""History of a heated film in a transient run: temperatures, pressures and surface heat.
+
+Time derivatives are backward differences of second order (docs/theory/thermal.md, transient films).
+"""
 
 from collections.abc import Sequence
 
 import numpy as np
 
-from tehl.kernels import energy
+from tehl.kernels.energy.records import GHOSTS, Fields, Surface, Surfaces
 from tehl.operators.trail import Trail
 from tehl.typing import Array
 
-GHOSTS = energy.GHOSTS
 
-
-class FilmInTime:
+class TransientFilm:
     """Former temperatures and pressures of a film, and the trails of both surfaces.
 
-    The change at a place is backward of order two. What the density does to the flow through the
-    layers when it changes in time differently in each is left out: it is of the order of the
-    thermal expansion.
+    The flow through the layers that results from density changes in time is neglected; it is of the
+    order of the thermal expansion.
 
     Parameters
     ----------
     fields : Fields
-        Of the film, whose ``past`` and ``pressing`` are filled.
-    surfaces : (Surface, Surface)
+        Of the film; ``past`` and ``pressing`` are output.
+    surfaces : Surfaces
         With the steady flux.
     spacing, time_step : float
         Mesh width [a_x] and step [a_x / u_m].
@@ -32,8 +32,8 @@ class FilmInTime:
 
     def __init__(
         self,
-        fields: energy.Fields,
-        surfaces: tuple[energy.Surface, energy.Surface],
+        fields: Fields,
+        surfaces: Surfaces,
         spacing: float,
         time_step: float,
         paths: Sequence[tuple[float, float, float]],
@@ -48,22 +48,22 @@ class FilmInTime:
             Trail(surface.flux[GHOSTS:-GHOSTS], spacing, lag)
             for surface, (_, _, lag) in zip(surfaces, paths, strict=True)
         ]
-        self._remember()
+        self._set_past()
 
-    def set_pressure(self, fields: energy.Fields) -> None:
-        """Fill the change of the pressure with time."""
-        last, before = self.pressures
+    def set_pressure(self) -> None:
+        """Fill the time derivative of the pressure."""
+        fields, (last, before) = self.fields, self.pressures
         fields.pressing[:] = (1.5 * fields.p - 2.0 * last + 0.5 * before) / self.time_step
 
-    def heat_surfaces(self, surfaces: tuple[energy.Surface, energy.Surface]) -> None:
-        """Give both surfaces the temperature that the heat upstream has made by now."""
+    def heat_surfaces(self, surfaces: Surfaces) -> None:
+        """Set the temperature of both surfaces from bulk and the heat upstream."""
         for surface, trail, (bulk, factor, _) in zip(
             surfaces, self.trails, self.paths, strict=True
         ):
             surface.bulk[:] = bulk + factor * trail.update(surface.flux[GHOSTS:-GHOSTS])
 
     def advance(self) -> None:
-        """Let the present be the past of the next step."""
+        """Accept the present as the last time level of the next step."""
         self.temperatures[1] = self.temperatures[0]
         self.temperatures[0] = self._inner()
         self.pressures[1] = self.pressures[0]
@@ -71,43 +71,37 @@ class FilmInTime:
         self.stresses[:] = self.fields.tau_x, self.fields.tau_y
         for trail in self.trails:
             trail.advance()
-        self._remember()
+        self._set_past()
 
     def go_back(self) -> None:
-        """Take the temperature and stress of the last step again."""
+        """Restore temperature and stress of the last step."""
         self._inner()[:] = self.temperatures[0]
         self.fields.tau_x[:], self.fields.tau_y[:] = self.stresses
 
-    def memory(self) -> dict[str, Array]:
-        """Return all of it, by name."""
-        trails = {
-            f"trail_{k}_{name}": getattr(trail, name)
-            for k, trail in enumerate(self.trails)
-            for name in ("modes", "fluxes")
-        }
-        fluxes = {f"flux_{k}": flux for k, flux in enumerate(self.fluxes)}
-        return {
-            **fluxes,
-            "temperatures": self.temperatures,
-            "pressures": self.pressures,
-            "stresses": self.stresses,
-            **trails,
-        }
+    def pack(self) -> dict[str, Array]:
+        """Return all arrays of the history by name."""
+        arrays = {name: getattr(self, name) for name in ("temperatures", "pressures", "stresses")}
+        for k, (flux, trail) in enumerate(zip(self.fluxes, self.trails, strict=True)):
+            arrays[f"flux_{k}"] = flux
+            arrays[f"trail_{k}_modes"], arrays[f"trail_{k}_fluxes"] = trail.modes, trail.fluxes
+        return arrays
 
-    def recall(self, known: dict[str, Array]) -> None:
-        """Take back what `memory` has returned."""
-        for name in ("temperatures", "pressures", "stresses"):
-            getattr(self, name)[:] = known[name]
-        for k, trail in enumerate(self.trails):
-            self.fluxes[k][:] = known[f"flux_{k}"]
-            for name in ("modes", "fluxes"):
-                getattr(trail, name)[:] = known[f"trail_{k}_{name}"]
-        self._remember()
+    def unpack(self, known: dict[str, Array]) -> None:
+        """Restore the arrays that `pack` returned."""
+        for name, array in self.pack().items():
+            array[:] = known[name]
+        self._set_past()
 
     def _inner(self) -> Array:
         return self.fields.temperature[GHOSTS:-GHOSTS, :, GHOSTS:-GHOSTS]
 
-    def _remember(self) -> None:
-        """Fill what former temperatures bring to the derivative."""
+    def _set_past(self) -> None:
+        """Fill the contribution of former temperatures to the time derivative."""
         last, before = self.temperatures
         self.fields.past[:] = (2.0 * last - 0.5 * before) / self.time_step
+
+
+def without_history(surface: Surface) -> Surface:
+    """Return a surface without a line source to march: ``bulk`` is its whole temperature."""
+    nothing = np.zeros_like(surface.decay)
+    return surface._replace(next_=0.0, decay=nothing, older=nothing, newer=nothing)

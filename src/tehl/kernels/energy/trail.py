@@ -1,14 +1,17 @@
-"""Compiled history of heated surfaces in time: exponentials that travel with the surface."""
+"""History of heated surfaces in transient runs: exponentials that move with the surface.
+
+Equation and weights in `tehl.operators.trail`.
+"""
 
 from typing import NamedTuple
 
-from numba import njit
-
+from tehl.kernels.compiled import kernel
+from tehl.kernels.raw import raw
 from tehl.typing import Array
 
 
 class Lag(NamedTuple):
-    """Weights of three levels of time, the first of which is ``first`` steps ago."""
+    """Weights of three time levels, the first of which is ``first`` steps ago."""
 
     first: int
     now: float
@@ -25,19 +28,22 @@ class Weights(NamedTuple):
     newer: Array
 
 
-@njit(cache=True)
+@kernel
 def carry(
     modes: Array, fluxes: Array, weights: Weights, lags: tuple[Lag, Lag], past: Array
 ) -> None:
-    """Fill the exponentials of this time, and ``past``: what the flux upstream has done to a node.
+    """Fill the exponentials of this time level, and ``past``: the rise by the flux upstream.
 
-    ``modes`` (3, nx, m, ny) and ``fluxes`` (5, nx, ny) have this time first, then former ones; the
-    two ``lags`` are those of one and two mesh widths upstream. ``past`` (nx, ny).
+    ``modes`` (3, nx, m, ny) and ``fluxes`` (5, nx, ny) have the present first; the two ``lags``
+    are those of one and two mesh widths upstream. ``past`` (nx, ny).
     """
+    modes, fluxes, weights, past = raw((modes, fluxes, weights, past))
     _, nx, count, ny = modes.shape
     one, two = lags
-    modes[0, 0] = 0.0
-    past[0] = 0.0
+    for j in range(ny):
+        past[0, j] = 0.0
+        for m in range(count):
+            modes[0, 0, m, j] = 0.0
     for i in range(1, nx):
         for j in range(ny):
             q = one.now * fluxes[one.first, i - 1, j]

@@ -1,0 +1,1 @@
+"""The energy equation of the film (docs/theory/thermal.md): laws, shear, flow, columns, walls."""

@@ -1,0 +1,130 @@
+"""Flow properties of the film: conductance and density at its pressure and thickness.
+
+Dimensionless fields of shape (ny, nx), x along entrainment: ``p, h`` pressure and film,
+``eps = rho h^3/(eta lambda)`` the conductance, ``rho`` the density. The laws of the lubricant are
+cubic Hermite interpolation in a table over the pressure with columns rho/(eta lambda), its slope
+times ``step``, rho, its slope times ``step`` (`tehl.operators.flow`).
+"""
+
+from typing import NamedTuple
+
+from tehl.kernels.compiled import helper, kernel
+from tehl.kernels.raw import raw
+from tehl.typing import Array
+
+
+class Film(NamedTuple):
+    """Pressure, film and the frozen flow properties on one grid, each (ny, nx).
+
+    ``eps_x, eps_y`` are the conductances along x and y: ``eps`` itself, or those of a small change
+    of the pressure gradient at constant sliding speed if the film thins in shear; the right-hand
+    side subtracts the difference (`tehl.kernels.reynolds.tangent_source`).
+    """
+
+    p: Array
+    h: Array
+    eps: Array
+    rho: Array
+    drho: Array
+    eps_x: Array
+    eps_y: Array
+
+
+class Factors(NamedTuple):
+    """Effect of heat and shear thinning on the flow, each (ny, nx).
+
+    The mobility is ``rest`` plus ``mobility`` times the isothermal Newtonian one; the tangent
+    mobilities are ``stretch_x`` and ``stretch_y`` times that; ``density`` is a factor too
+    (docs/theory/thermal.md, coupling).
+    """
+
+    rest: Array
+    mobility: Array
+    density: Array
+    stretch_x: Array
+    stretch_y: Array
+
+
+class Heated(NamedTuple):
+    """Flow properties from the energy equation, each (ny, nx).
+
+    ``mobility``, rho/(eta lambda), and ``density`` of the heated, sheared film, scaled as those of
+    the table; ``steep`` the part of the mobility that is proportional to the isothermal one;
+    ``stretch_x, stretch_y`` as in `Factors`.
+    """
+
+    mobility: Array
+    density: Array
+    steep: Array
+    stretch_x: Array
+    stretch_y: Array
+
+
+@helper
+def line_properties(film: Film, table: Array, step: float, floor: float, j: int) -> None:
+    """Fill ``eps, rho, drho`` of line ``j``; see `properties`."""
+    last, per_step = table.shape[0] - 2, 1.0 / step
+    for i in range(film.p.shape[1]):
+        x = film.p[j, i] * per_step
+        x = 0.0 if x <= 0.0 else x
+        k = int(min(x, last))
+        t = min(x - k, 1.0)
+        s = 1.0 - t
+        start, rise, end, fall = table[k, 0], table[k, 1], table[k + 1, 0], table[k + 1, 1]
+        low, high = start + t * (rise + 2.0 * start), end + s * (2.0 * end - fall)
+        thick = max(film.h[j, i], floor)
+        film.eps[j, i] = (s * s * low + t * t * high) * (thick * thick * thick)
+        start, rise, end, fall = table[k, 2], table[k, 3], table[k + 1, 2], table[k + 1, 3]
+        low, high = start + t * (rise + 2.0 * start), end + s * (2.0 * end - fall)
+        film.rho[j, i] = s * s * low + t * t * high
+        film.drho[j, i] = (s * rise + t * fall) * per_step
+
+
+@kernel
+def properties(film: Film, table: Array, step: float, floor: float) -> None:
+    """Fill ``eps, rho, drho`` from ``p, h``; the film enters with no less than ``floor``."""
+    film, table = raw((film, table))
+    for j in range(film.p.shape[0]):
+        line_properties(film, table, step, floor, j)
+
+
+@kernel
+def factors_of(heated: Heated, film: Film, table: Array, step: float, factors: Factors) -> None:
+    """Fill ``factors`` at the pressures ``film.p``; ``eps, rho, drho`` are overwritten."""
+    heated, film, table, factors = raw((heated, film, table, factors))
+    for j in range(film.p.shape[0]):
+        line_properties(film, table, step, 0.0, j)
+        for i in range(film.p.shape[1]):
+            mobility, steep = heated.mobility[j, i], heated.steep[j, i]
+            factors.rest[j, i] = mobility * (1.0 - steep)
+            factors.mobility[j, i] = mobility * steep / film.eps[j, i]
+            factors.density[j, i] = heated.density[j, i] / film.rho[j, i]
+            factors.stretch_x[j, i] = heated.stretch_x[j, i]
+            factors.stretch_y[j, i] = heated.stretch_y[j, i]
+
+
+@kernel
+def heated_properties(
+    film: Film, factors: Factors, table: Array, step: float, floor: float
+) -> None:
+    """Fill ``eps, rho, drho, eps_x, eps_y`` of the heated, sheared film; see `properties`."""
+    film, factors, table = raw((film, factors, table))
+    for j in range(film.p.shape[0]):
+        line_properties(film, table, step, floor, j)
+        scale_line(film, factors, floor, j)
+
+
+@helper
+def scale_line(film: Film, factors: Factors, floor: float, j: int) -> None:
+    """Turn isothermal Newtonian properties of line ``j`` into those of the heated film."""
+    nx = film.p.shape[1]
+    for i in range(nx):
+        thick = max(film.h[j, i], floor)
+        rest = factors.rest[j, i] * (thick * thick * thick)
+        film.eps[j, i] = factors.mobility[j, i] * film.eps[j, i] + rest
+    for i in range(nx):
+        film.rho[j, i] *= factors.density[j, i]
+        film.drho[j, i] *= factors.density[j, i]
+    for i in range(nx):
+        film.eps_x[j, i] = factors.stretch_x[j, i] * film.eps[j, i]
+        film.eps_y[j, i] = factors.stretch_y[j, i] * film.eps[j, i]

@@ -1,0 +1,407 @@
+"""Relaxation of the Reynolds equation: hybrid relaxation by lines along x, and by points.
+
+Where the film conducts well, the points of a line change together (Gauss-Seidel by lines). In the
+contact, where the elastic deflection dominates, nodes change as dipoles: the pressure rises at one
+node and falls by a quarter at its four neighbours, which moves the film near it only (distributive
+relaxation; Venner and Lubrecht 2000, chapters 6 and 7; docs/theory/numerics.md). The changes u of
+a line satisfy six-diagonal systems with complementarity,
+
+    sum_s band_s(i) u(i + s) = r(i),  s = -3 .. 2,      or p + u = 0 with r <= 0,
+
+as the wedge reaches two nodes upstream. Policy iteration solves them: solve, cavitate the nodes of
+negative pressure, free the cavitated nodes with negative residual, and repeat. For the M-matrices
+of a line it ends after a few passes (Brennan and Schwartz 1977 for the tridiagonal case).
+
+Eight lines of one colour are solved at once (`tehl.kernels.lanes`).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tehl.kernels.compiled import helper, kernel
+from tehl.kernels.lanes import LANES, any_of, where
+from tehl.kernels.properties import Film
+from tehl.kernels.raw import raw
+from tehl.kernels.reynolds import Mesh, clear, line_operator, row_below
+from tehl.typing import Array, FlagArray, Records
+
+Span = tuple[int, int]
+
+PASSES = 6  # of the policy iteration, before clipping
+FREE, DRY, KEPT, WAS_DRY = 0.0, 1.0, 2.0, 3.0  # states of a node
+MARGIN = 3  # empty nodes on both sides of a line
+CHUNK = 32  # nodes copied at a time, so that they stay in the first cache
+LOADED = ("east", "across", "mass_p", "rho", "dipole", "rest", "p", "state")
+EAST, ACROSS, MASS_P, RHO, DIPOLE, REST, P, STATE = range(8)
+"""Copied from the fields for each node: conductance to the east and to both lines beside, d(rho
+h)/dp, density, 1 for a dipole, residual, pressure, and its state."""
+BAND = ("west_3", "west_2", "west_1", "centre", "east_1", "east_2")
+"""Coefficients of the unknowns at i - 3 .. i + 2."""
+FIELDS = (*LOADED, *BAND, "up_1", "up_2", "u")
+"""Fields of a node; the last three are the eliminated upper bands and the solution."""
+U = len(FIELDS) - 1
+NODE = np.dtype([(name, np.float64, (LANES,)) for name in FIELDS])
+
+
+class LineRelaxation(NamedTuple):
+    """Settings and workspace of the line relaxation.
+
+    ``point[m]`` and ``dipole[m]``: film at distance m along the line per unit change of a point
+    and of a dipole; ``kind`` (ny, nx) marks the dipoles; ``delta`` (ny, nx) stores them until both
+    colours are done; ``frozen`` (ny, nx) marks nodes of fixed pressure; ``steep`` (ny, nx) is the
+    contribution of the change of conductance to the diagonal (`stiffen`). ``rest`` (LANES, nx)
+    holds the residuals of eight lines, ``nodes`` (nx + 6,) their systems as records `NODE`;
+    ``cells`` (nx + 6, FIELDS, LANES) is a view of ``nodes`` as numbers.
+    """
+
+    xi: float
+    omega_point: float
+    omega_dipole: float
+    point: Array
+    dipole: Array
+    kind: FlagArray
+    delta: Array
+    frozen: FlagArray
+    steep: Array
+    rest: Array
+    nodes: Records
+    cells: Array
+
+
+def workspace(nx: int) -> tuple[Array, Records, Array]:
+    """Return ``rest, nodes, cells`` of a `LineRelaxation` for lines of ``nx`` nodes."""
+    cells = np.zeros((nx + 2 * MARGIN, len(FIELDS), LANES))
+    return np.zeros((LANES, nx)), cells.reshape(-1).view(NODE).view(np.recarray), cells
+
+
+@helper
+def mark_dipoles(film: Film, mesh: Mesh, relaxation: LineRelaxation) -> None:
+    """Mark the nodes that relax as dipoles: small conductance all round, nothing cavitated."""
+    ny, nx = film.p.shape
+    p, eps_x, eps_y, kind = film.p, film.eps_x, film.eps_y, relaxation.kind
+    limit = relaxation.xi / max(mesh.cx, mesh.cy)
+    clear(kind)
+    for j in range(0 if mesh.mirror else 1, ny - 1):
+        south = row_below(j)
+        for i in range(1, nx - 1):
+            along = max(eps_x[j, i], eps_x[j, i - 1], eps_x[j, i + 1])
+            across = max(eps_y[j, i], eps_y[south, i], eps_y[j + 1, i])
+            smallest = min(p[j, i], p[j, i - 1], p[j, i + 1], p[south, i], p[j + 1, i])
+            if max(along, across) <= limit and smallest > 0.0:
+                kind[j, i] = 1
+
+
+@kernel
+def stiffen(film: Film, mesh: Mesh, table: Array, step: float, out: Array) -> None:
+    """Write the contribution of the change of conductance with pressure to the diagonal to ``out``.
+
+    Where the pressure rises to a neighbour by many times the pressure 1/alpha that thickens the oil
+    by a factor of e, the flow between both depends on the conductance of the lower one more than on
+    the pressure difference. Columns of ``table`` as in `tehl.kernels.properties`.
+    """
+    film, table, out = raw((film, table, out))
+    ny, nx = film.p.shape
+    last = table.shape[0] - 2
+    clear(out)
+    for j in range(0 if mesh.mirror else 1, ny - 1):
+        south = row_below(j)
+        for i in range(1, nx - 1):
+            p = film.p[j, i]
+            k = int(min(p / step, last))
+            decay = max(-table[k, 1] / (table[k, 0] * step), 0.0)
+            along = max(film.p[j, i - 1] - p, 0.0) + max(film.p[j, i + 1] - p, 0.0)
+            across = max(film.p[south, i] - p, 0.0) + max(film.p[j + 1, i] - p, 0.0)
+            slope = mesh.cx * film.eps_x[j, i] * along + mesh.cy * film.eps_y[j, i] * across
+            out[j, i] = 0.5 * decay * slope
+
+
+@helper
+def wet_range(film: Film, relaxation: LineRelaxation, j: int, slot: int) -> Span:
+    """Return the first and last node of a line not cavitated or frozen; (nx, 0) if none."""
+    p, frozen, rest, nx = film.p, relaxation.frozen, relaxation.rest, film.p.shape[1]
+    low = 1
+    while (
+        low < nx - 1
+        and p[j, low] >= 0.0
+        and (frozen[j, low] or (p[j, low] == 0.0 and rest[slot, low] >= 0.0))
+    ):
+        low += 1
+    if low == nx - 1:
+        return nx, 0
+    high = nx - 2
+    while (
+        high > low
+        and p[j, high] >= 0.0
+        and (frozen[j, high] or (p[j, high] == 0.0 and rest[slot, high] >= 0.0))
+    ):
+        high -= 1
+    return low, high
+
+
+@helper
+def load_line(film: Film, mesh: Mesh, relaxation: LineRelaxation, place: Span, span: Span) -> None:
+    """Copy the fields of a span of nodes to a lane of the systems; ``place``: line and lane."""
+    (j, lane), south = place, row_below(place[0])
+    eps_x, eps_y, cells, rest = film.eps_x, film.eps_y, relaxation.cells, relaxation.rest
+    half_x, half_y = 0.5 * mesh.cx, 0.5 * mesh.cy
+    for i in range(span[0], span[1]):
+        at = i + MARGIN
+        cells[at, EAST, lane] = half_x * (eps_x[j, i] + eps_x[j, i + 1])
+        across = half_y * (2.0 * eps_y[j, i] + eps_y[j + 1, i] + eps_y[south, i])
+        cells[at, ACROSS, lane] = across + relaxation.steep[j, i]
+        cells[at, MASS_P, lane] = film.drho[j, i] * film.h[j, i]
+        cells[at, RHO, lane] = film.rho[j, i]
+        cells[at, DIPOLE, lane] = relaxation.kind[j, i]
+        cells[at, REST, lane] = rest[lane, i]
+        cells[at, P, lane] = film.p[j, i]
+        dry = DRY if film.p[j, i] <= 0.0 and rest[lane, i] >= 0.0 else FREE
+        cells[at, STATE, lane] = KEPT if relaxation.frozen[j, i] else dry
+
+
+@helper
+def leave_out(cells: Array, lane: int, span: Span) -> None:
+    """Fix the nodes of a lane that holds no line."""
+    for i in range(span[0], span[1]):
+        cells[i + MARGIN, STATE, lane] = KEPT
+
+
+@helper
+def fill_band(relaxation: LineRelaxation, mesh: Mesh, i: int) -> None:
+    """Fill the coefficients of node ``i``: change of L there per unit change of each unknown.
+
+    The column follows the type of the unknown: a point changes p at one node, a dipole at its
+    four neighbours too; both change the film along the line.
+    """
+    nodes, p, d = relaxation.nodes, relaxation.point, relaxation.dipole
+    d0, d1, d2, d3, d4 = d[0] - p[0], d[1] - p[1], d[2] - p[2], d[3] - p[3], d[4] - p[4]
+    w0, w1, w2 = mesh.w0, mesh.w1, mesh.w2
+    if i == 1:
+        w0, w1, w2 = w0 - w2, w1 + 2.0 * w2, 0.0
+    farthest, far, west, here, east, beyond = (
+        nodes[i], nodes[i + 1], nodes[i + 2], nodes[i + 3], nodes[i + 4], nodes[i + 5]
+    )  # fmt: skip
+    # dL/dp at i-2, i-1, i, i+1 and dL/dh at i-2, i-1, i
+    a_ww, a_w, a_e = -w2 * far.mass_p, west.east - w1 * west.mass_p, here.east
+    a_c = -a_e - west.east - here.across - w0 * here.mass_p
+    b_ww, b_w, b_c = -w2 * far.rho, -w1 * west.rho, -w0 * here.rho
+    # column of a point at i + s, then the difference if the node relaxes as a dipole
+    change = b_ww * d1 + b_w * d2 + b_c * d3 - 0.25 * a_ww
+    here.west_3 = b_ww * p[1] + b_w * p[2] + b_c * p[3] + farthest.dipole * change
+    change = b_ww * d0 + b_w * d1 + b_c * d2 - 0.25 * a_w
+    here.west_2 = a_ww + b_ww * p[0] + b_w * p[1] + b_c * p[2] + far.dipole * change
+    change = b_ww * d1 + b_w * d0 + b_c * d1 - 0.25 * (a_ww + a_c)
+    here.west_1 = a_w + b_ww * p[1] + b_w * p[0] + b_c * p[1] + west.dipole * change
+    change = b_ww * d2 + b_w * d1 + b_c * d0 - 0.25 * (a_w + a_e + here.across)
+    here.centre = a_c + b_ww * p[2] + b_w * p[1] + b_c * p[0] + here.dipole * change
+    change = b_ww * d3 + b_w * d2 + b_c * d1 - 0.25 * a_c
+    here.east_1 = a_e + b_ww * p[3] + b_w * p[2] + b_c * p[1] + east.dipole * change
+    change = b_ww * d4 + b_w * d3 + b_c * d2 - 0.25 * a_e
+    here.east_2 = b_ww * p[4] + b_w * p[3] + b_c * p[2] + beyond.dipole * change
+
+
+@helper
+def eliminate(nodes: Records, i: int) -> None:
+    """Eliminate upstream unknowns: u_i + up_1 u_{i+1} + up_2 u_{i+2} = ``u`` of the record.
+
+    No pivoting. Where a node is dry the row reads u = -p, where it is kept u = 0.
+    """
+    far, west_2, west, here = nodes[i], nodes[i + 1], nodes[i + 2], nodes[i + 3]
+    free = here.state == FREE
+    l_3 = here.west_3
+    l_2 = here.west_2 - l_3 * far.up_1
+    l_1 = here.west_1 - l_3 * far.up_2 - l_2 * west_2.up_1
+    diagonal = here.centre - l_2 * west_2.up_2 - l_1 * west.up_1
+    inverse = 1.0 / where(free, diagonal, 1.0)
+    rest = here.rest - l_3 * far.u - l_2 * west_2.u - l_1 * west.u
+    here.up_1 = where(free, (here.east_1 - l_1 * west.up_2) * inverse, 0.0)
+    here.up_2 = where(free, here.east_2 * inverse, 0.0)
+    here.u = where(free, rest * inverse, where(here.state == DRY, -here.p, 0.0))
+
+
+@helper
+def band_solve(nodes: Records, low: int, high: int) -> None:
+    """Solve the six-diagonal systems of all lanes for ``u`` on low..high, zero beside them."""
+    for beside in (low, low + 1, low + 2, high + 4, high + 5, high + 6):
+        node = nodes[beside]
+        node.up_1 = 0.0
+        node.up_2 = 0.0
+        node.u = 0.0
+    for i in range(low, high + 1):
+        eliminate(nodes, i)
+    for i in range(high + MARGIN, low + MARGIN - 1, -1):
+        here = nodes[i]
+        here.u = here.u - (here.up_1 * nodes[i + 1].u + here.up_2 * nodes[i + 2].u)
+
+
+@helper
+def dry_out(nodes: Records, i: int) -> tuple[bool, bool]:
+    """Cavitate the free lanes of negative pressure at node i.
+
+    Return whether there was one, and whether any lane was cavitated already.
+    """
+    here = nodes[i + MARGIN]
+    negative = (here.state == FREE) & (here.u < -here.p)
+    cavitated = here.state == DRY
+    here.state = where(negative, DRY, where(cavitated, WAS_DRY, here.state))
+    return any_of(negative), any_of(cavitated)
+
+
+@helper
+def wet_again(nodes: Records, i: int) -> bool:
+    """Free the cavitated lanes with negative residual at node i; return whether there was one."""
+    far, west_2, west = nodes[i], nodes[i + 1], nodes[i + 2]
+    here, east, east_2 = nodes[i + 3], nodes[i + 4], nodes[i + 5]
+    rest = (
+        here.rest
+        - here.west_3 * far.u
+        - here.west_2 * west_2.u
+        - here.west_1 * west.u
+        - here.centre * here.u
+        - here.east_1 * east.u
+        - here.east_2 * east_2.u
+    )
+    cavitated = here.state == WAS_DRY
+    refills = cavitated & (rest < 0.0)
+    here.state = where(refills, FREE, where(cavitated, DRY, here.state))
+    return any_of(refills)
+
+
+@helper
+def complementarity(nodes: Records, span: Span, last: int) -> Span:
+    """Solve the lines with p + u >= 0 by policy iteration over the cavitated nodes.
+
+    Nodes outside low..high are cavitated with p = 0 or kept; the range grows as nodes are
+    freed and is returned. ``last`` is the last inner node.
+    """
+    low, high = span
+    for _ in range(PASSES):
+        band_solve(nodes, low, high)
+        changed = False
+        for i in range(max(low - 2, 1), min(high + 3, last) + 1):
+            dried, cavitated = dry_out(nodes, i)
+            changed = changed or dried
+            if cavitated and wet_again(nodes, i):
+                low, high, changed = min(low, i), max(high, i), True
+        if not changed:
+            return low, high
+    band_solve(nodes, low, high)
+    return low, high
+
+
+@helper
+def store_line(film: Film, relaxation: LineRelaxation, place: Span, span: Span) -> None:
+    """Apply the solution of a line: points at once, dipoles to ``delta``."""
+    (j, lane), p = place, film.p
+    for i in range(span[0], span[1]):
+        u = relaxation.cells[i + MARGIN, U, lane]
+        moved = 0.0 if u <= -p[j, i] else p[j, i] + relaxation.omega_point * u
+        dipole = relaxation.omega_dipole * max(u, -p[j, i])
+        relaxation.delta[j, i] = dipole if relaxation.kind[j, i] else 0.0
+        p[j, i] = p[j, i] if relaxation.kind[j, i] else moved
+
+
+@helper
+def residual_of_line(
+    film: Film, mesh: Mesh, rhs: Array, rest: Array, place: tuple[int, int]
+) -> None:
+    """Write ``rhs - L(p)`` of a line to a row of ``rest``; ``place``: the numbers of both."""
+    j, slot = place
+    line_operator(film, mesh, j, rest, slot)
+    for i in range(1, film.p.shape[1] - 1):
+        rest[slot, i] = rhs[j, i] - rest[slot, i]
+
+
+@helper
+def set_up(film: Film, mesh: Mesh, relaxation: LineRelaxation, batch: Span, span: Span) -> None:
+    """Fill the systems of a batch of lines, chunk by chunk; ``batch``: first line and count."""
+    (first, count), (low, high), nx = batch, span, film.p.shape[1]
+    end = min(high + MARGIN, nx - 1)
+    for start in range(max(low - MARGIN, 0), end, CHUNK):
+        stop = min(start + CHUNK, end)
+        for lane in range(count):
+            load_line(film, mesh, relaxation, (first + 2 * lane, lane), (start, stop))
+        for lane in range(count, LANES):
+            leave_out(relaxation.cells, lane, (start, stop))
+        ready = high if stop == end else stop - MARGIN
+        for i in range(max(start - MARGIN + 1, low), ready + 1):
+            fill_band(relaxation, mesh, i)
+
+
+@helper
+def relax_batch(
+    film: Film, mesh: Mesh, rhs: Array, relaxation: LineRelaxation, batch: Span
+) -> None:
+    """Relax up to eight lines of one colour; ``batch``: number of the first line, and count."""
+    (first, count), nx = batch, film.p.shape[1]
+    low, high = nx, 0
+    for lane in range(count):
+        residual_of_line(film, mesh, rhs, relaxation.rest, (first + 2 * lane, lane))
+        line_low, line_high = wet_range(film, relaxation, first + 2 * lane, lane)
+        low, high = min(low, line_low), max(high, line_high)
+    if low > high:
+        return
+    # the range of the unknowns may grow by two nodes upstream and three downstream in each pass
+    span = max(low - 2 * PASSES, 1), min(high + 3 * PASSES, nx - 2)
+    set_up(film, mesh, relaxation, batch, span)
+    low, high = complementarity(relaxation.nodes, (low, high), nx - 2)
+    for lane in range(count):
+        store_line(film, relaxation, (first + 2 * lane, lane), (low, high + 1))
+
+
+@kernel
+def relax_lines(film: Film, mesh: Mesh, rhs: Array, relaxation: LineRelaxation) -> None:
+    """One zebra sweep over the lines along x: points at once, dipoles after both colours."""
+    film, rhs, relaxation = raw((film, rhs, relaxation))
+    first = 0 if mesh.mirror else 1
+    mark_dipoles(film, mesh, relaxation)
+    clear(relaxation.delta)
+    for colour in range(2):
+        for j in range(first + colour, film.p.shape[0] - 1, 2 * LANES):
+            count = min(LANES, (film.p.shape[0] - j) // 2)
+            relax_batch(film, mesh, rhs, relaxation, (j, count))
+    add_dipoles(film.p, relaxation.delta, mesh.mirror)
+
+
+@helper
+def add_dipoles(p: Array, delta: Array, mirror: int) -> None:
+    """Add the stored dipoles to ``p`` and clip at zero."""
+    ny, nx = p.shape
+    for j in range(0 if mirror else 1, ny - 1):
+        south = row_below(j)
+        for i in range(1, nx - 1):
+            around = delta[j, i - 1] + delta[j, i + 1] + delta[south, i] + delta[j + 1, i]
+            p[j, i] = max(p[j, i] + delta[j, i] - 0.25 * around, 0.0)
+
+
+@kernel
+def relax_points(film: Film, mesh: Mesh, rhs: Array, self_film: Array, omega: float) -> None:
+    """Relax point by point (Gauss-Seidel with under-relaxation ``omega``).
+
+    Each node in turn changes so that its residual vanishes, with the film of the last evaluation;
+    ``self_film[m]`` is the film at distance m per unit p. It diverges where the deflection
+    dominates (docs/theory/numerics.md).
+    """
+    film, rhs, self_film = raw((film, rhs, self_film))
+    ny, nx = film.p.shape
+    p, eps_x, eps_y, rho, h = film.p, film.eps_x, film.eps_y, film.rho, film.h
+    for j in range(0 if mesh.mirror else 1, ny - 1):
+        south = row_below(j)
+        for i in range(1, nx - 1):
+            east = 0.5 * mesh.cx * (eps_x[j, i] + eps_x[j, i + 1])
+            west = 0.5 * mesh.cx * (eps_x[j, i] + eps_x[j, i - 1])
+            north = 0.5 * mesh.cy * (eps_y[j, i] + eps_y[j + 1, i])
+            below = 0.5 * mesh.cy * (eps_y[j, i] + eps_y[south, i])
+            mass, mass_w = rho[j, i] * h[j, i], rho[j, i - 1] * h[j, i - 1]
+            if i == 1:
+                wedge = (mesh.w0 - mesh.w2) * mass + (mesh.w1 + 2.0 * mesh.w2) * mass_w
+            else:
+                mass_ww = rho[j, i - 2] * h[j, i - 2]
+                wedge = mesh.w0 * mass + mesh.w1 * mass_w + mesh.w2 * mass_ww
+            flow = east * (p[j, i + 1] - p[j, i]) + west * (p[j, i - 1] - p[j, i])
+            flow += north * (p[j + 1, i] - p[j, i])
+            flow += below * (p[south, i] - p[j, i])
+            slope = -(east + west + north + below)
+            slope -= mesh.w0 * rho[j, i] * self_film[0]
+            slope -= mesh.w1 * rho[j, i - 1] * self_film[1]
+            p[j, i] = max(p[j, i] + omega * (rhs[j, i] - flow + wedge) / slope, 0.0)

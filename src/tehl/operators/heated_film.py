@@ -1,0 +1,127 @@
+"""The energy equation of a contact on any grid: dimensionless numbers, laws, surfaces, units."""
+
+import numpy as np
+
+from tehl.grid import Grid
+from tehl.heat import FilmEnergy
+from tehl.kernels.energy.records import BLOCK, GHOSTS, Model, Surface, Terms
+from tehl.operators.across import SCHEMES
+from tehl.operators.law_table import law_table
+from tehl.operators.line_source import history
+from tehl.operators.surfaces import Side, sides
+from tehl.problem import ContactProblem
+from tehl.scaling import ScaledProblem, Scales
+
+MEANS = {"generalised": 0, "mean": 1, "mean-all": 2}
+UPSTREAM = {1: (1.0, -1.0, 0.0), 2: (1.5, -2.0, 0.5)}
+"""Weights of upstream differences, by their order."""
+
+
+class HeatedFilm:
+    """The energy equation of a contact, on any grid.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        Laws, motion and heat.
+    """
+
+    def __init__(self, scaled: ScaledProblem) -> None:
+        self.scaled, self.heat = scaled, film_energy(scaled.problem)
+        self.sides = sides(scaled, self.heat)
+        self.across = SCHEMES[self.heat.scheme](self.heat.layers)
+        self.laws = law_table(scaled.problem.lubricant, scaled.scales)
+
+    @property
+    def ambient_conductivity(self) -> float:
+        """Return the conductivity of the oil at ambient pressure [W/m/K]."""
+        return self.scaled.problem.lubricant.ambient_conductivity or 1.0
+
+    @property
+    def flux_unit(self) -> float:
+        """Return one unit of the dimensionless heat flux, k R_x / a_x^2 per kelvin [W/m^2]."""
+        return self.ambient_conductivity / self.scaled.scales.film_thickness
+
+    @property
+    def solid_peclet(self) -> tuple[float, float]:
+        """Return ``|u_s| a_x / (2 diffusivity)`` of both solids [-]."""
+        first, second = (abs(side.peclet) for side in self.sides)
+        return first, second
+
+    def model(self, grid: Grid, wedge_order: int) -> Model:
+        """Return the constants of the kernels on a grid.
+
+        Parameters
+        ----------
+        grid : Grid
+            The nodes.
+        wedge_order : int
+            Order of the upstream differences.
+        """
+        return Model(self.across, self.laws, film_terms(grid, self.scaled, wedge_order))
+
+    def surface(self, grid: Grid, side: Side) -> Surface:
+        """Return one surface on a grid with its line source, if any."""
+        nx, ny = grid.nx, padded_rows(grid)
+        factor = side.line_factor(self.scaled.scales, self.flux_unit) if side.marches else 0.0
+        return Surface(
+            bulk=np.full((nx, ny), side.bulk),
+            factor=factor,
+            flux=np.zeros((nx + 2 * GHOSTS, ny)),
+            **history(nx, grid.dx)._asdict(),
+        )
+
+
+def padded_rows(grid: Grid) -> int:
+    """Return the rows of ``grid``, rounded up to whole blocks."""
+    return -(-grid.shape[0] // BLOCK) * BLOCK
+
+
+def stress_unit(scales: Scales) -> float:
+    """Return one unit of the dimensionless shear stress, eta_0 u_m R_x / a_x^2 [Pa]."""
+    return scales.viscosity * scales.speed / scales.film_thickness
+
+
+def film_energy(problem: ContactProblem) -> FilmEnergy:
+    """Return the heat problem, for an isothermal film a placeholder that is never solved."""
+    inlet = problem.inlet_temperature
+    return problem.heat or FilmEnergy(temperature=inlet, bulk_1=inlet, bulk_2=inlet)
+
+
+def film_terms(grid: Grid, scaled: ScaledProblem, wedge_order: int) -> Terms:
+    """Return the dimensionless numbers of the energy equation (docs/theory/thermal.md, scaled).
+
+    Parameters
+    ----------
+    grid : Grid
+        Mesh widths and symmetry.
+    scaled : ScaledProblem
+        The contact.
+    wedge_order : int
+        Order of the upstream differences.
+    """
+    problem, scales, groups = scaled.problem, scaled.scales, scaled.groups
+    conductivity = problem.lubricant.ambient_conductivity or 1.0
+    capacity = problem.lubricant.ambient_heat_capacity or 0.0
+    across = scales.film_thickness**2 / conductivity
+    along = scales.speed / scales.half_width_x
+    w0, w1, w2 = UPSTREAM[wedge_order]
+    slide = -problem.slide_roll_ratio
+    return Terms(
+        peclet=scales.density * capacity * along * across,
+        compression=scales.hertz_pressure * along * across,
+        brinkman=scales.viscosity * scales.speed**2 / conductivity,
+        poiseuille=12.0 / groups.lambda_bar,
+        slide=slide,
+        speed=1.0 - 0.5 * slide,
+        over_x=1.0 / grid.dx,
+        over_y=1.0 / (groups.ellipticity * grid.dy),
+        over_t=0.0,
+        w0=w0,
+        w1=w1,
+        w2=w2,
+        mirror=int(grid.mirror),
+        mean=MEANS[film_energy(problem).reynolds],
+        inlet=scales.temperature,
+        heat=int(isinstance(problem.heat, FilmEnergy)),
+    )

@@ -1,0 +1,265 @@
+"""Line and point relaxation against dense solves and finite differences."""
+
+import numpy as np
+import pytest
+
+from tehl.kernels import properties, relaxation, reynolds
+from tehl.kernels.lanes import LANES
+from tehl.kernels.relaxation import LineRelaxation
+from tehl.kernels.reynolds import Mesh
+from tests.kernels.from_python import from_python
+from tests.kernels.reynolds_twin import isotropic, mesh_of, operator_twin, random_film
+
+MIRROR = pytest.mark.parametrize("mirror", [0, 1])
+mark_dipoles, set_up, band_solve, complementarity, relax_batch, add_dipoles, wet_range = map(
+    from_python,
+    (
+        relaxation.mark_dipoles,
+        relaxation.set_up,
+        relaxation.band_solve,
+        relaxation.complementarity,
+        relaxation.relax_batch,
+        relaxation.add_dipoles,
+        relaxation.wet_range,
+    ),
+)
+
+
+def relaxation_of(shape, xi=0.0, omega=(1.0, 1.0), influence=0.0):
+    nx = shape[1]
+    reach = np.arange(nx + 5)
+    return LineRelaxation(
+        xi=xi,
+        omega_point=omega[0],
+        omega_dipole=omega[1],
+        point=influence / (1.0 + reach),
+        dipole=influence / (1.0 + reach) ** 3,
+        kind=np.zeros(shape, np.uint8),
+        delta=np.zeros(shape),
+        frozen=np.zeros(shape, np.uint8),
+        steep=np.zeros(shape),
+        **dict(zip(("rest", "nodes", "cells"), relaxation.workspace(nx), strict=True)),
+    )
+
+
+def system(nx):
+    """The six-diagonal systems of eight lines, as records."""
+    return relaxation.workspace(nx)[1]
+
+
+def values(nodes, field):
+    """A field of all nodes, (nx, LANES), as a view."""
+    return nodes[field][3:-3]
+
+
+def dense_band(nodes, lane):
+    nx = len(nodes) - 6
+    band = np.zeros((nx, nx))
+    for i in range(1, nx - 1):
+        for s in range(-3, 3):
+            if 1 <= i + s <= nx - 2:
+                band[i, i + s] = values(nodes, relaxation.BAND[s + 3])[i, lane]
+    return band[1:-1, 1:-1]
+
+
+def random_band(nx, seed=0):
+    """Bands that fall monotonically: the diagonal dominates, neighbours raise one another."""
+    rng = np.random.default_rng(seed)
+    nodes = system(nx)
+    for s in range(-3, 3):
+        share = rng.random((nx, LANES))
+        values(nodes, relaxation.BAND[s + 3])[:] = -6.0 - share if s == 0 else share
+    values(nodes, "rest")[:] = rng.standard_normal((nx, LANES))
+    values(nodes, "p")[:] = np.maximum(rng.standard_normal((nx, LANES)), 0.0)
+    return nodes
+
+
+def test_nodes_of_small_conductance_far_from_cavities_relax_as_dipoles():
+    shape = (7, 9)
+    film, mesh = random_film(shape), mesh_of(mirror=0)
+    film.eps[:] = 1e-6
+    film.eps[:, 6] = 1.0
+    film.p[1, 1] = 0.0
+    setting = relaxation_of(shape, xi=1.0)
+    mark_dipoles(film, mesh, setting)
+    expected = np.zeros(shape, np.uint8)
+    expected[1:-1, 1:5] = 1
+    expected[1, 1] = expected[1, 2] = expected[2, 1] = 0
+    np.testing.assert_array_equal(setting.kind, expected)
+
+
+@MIRROR
+@pytest.mark.parametrize("dipole", [0, 1])
+def test_the_band_is_the_derivative_of_the_operator(dipole, mirror):
+    shape, j = (5, 12), 1
+    if mirror:
+        j = 0
+    nx = shape[1]
+    film, mesh = random_film(shape, 4), mesh_of(mirror)
+    setting = relaxation_of(shape, influence=0.4)
+    setting.kind[j, 1:-1] = dipole
+    set_up(film, mesh, setting, (j, 1), (1, nx - 2))
+    band = dense_band(setting.nodes, 0)
+    shapes = setting.dipole if dipole else setting.point
+    for k in range(1, nx - 1):
+        change = np.zeros(shape)
+        change[j, k] = 1.0
+        if dipole:
+            change[j, [k - 1, k + 1]] = -0.25
+            change[[j + 1, abs(j - 1)], k] = -0.25
+        lift = np.zeros(shape)
+        lift[j] = shapes[np.abs(np.arange(nx) - k)]
+
+        def moved(t, change=change, lift=lift):
+            return operator_twin(
+                film._replace(
+                    p=film.p + t * change,
+                    h=film.h + t * lift,
+                    rho=film.rho + t * film.drho * change,
+                ),
+                mesh,
+            )
+
+        derivative = 0.5 * (moved(1.0) - moved(-1.0))[j, 1:-1]
+        rows = np.arange(1, nx - 1)
+        near = (rows >= k - 2) & (rows <= k + 3)
+        np.testing.assert_allclose(band[near, k - 1], derivative[near], rtol=1e-11, atol=1e-11)
+
+
+def test_band_solve_equals_a_dense_solve_in_every_lane():
+    nx = 14
+    nodes = random_band(nx)
+    band_solve(nodes, 1, nx - 2)
+    for lane in range(LANES):
+        expected = np.linalg.solve(dense_band(nodes, lane), values(nodes, "rest")[1:-1, lane])
+        np.testing.assert_allclose(values(nodes, "u")[1:-1, lane], expected, rtol=1e-11, atol=1e-13)
+
+
+def test_cavitated_and_kept_nodes_enter_the_solve_with_known_changes():
+    nx = 10
+    nodes = random_band(nx, seed=3)
+    state = values(nodes, "state")
+    state[4, 0], state[7, 0] = 1.0, 2.0
+    band_solve(nodes, 1, nx - 2)
+    u, p = (values(nodes, name)[:, 0] for name in ("u", "p"))
+    assert u[4] == -p[4]
+    assert u[7] == 0.0
+    lack = values(nodes, "rest")[1:-1, 0] - dense_band(nodes, 0) @ u[1:-1]
+    np.testing.assert_allclose(np.delete(lack, [3, 6]), 0.0, atol=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_policy_iteration_ends_with_complementary_pressure_and_residual(seed):
+    nx = 25
+    nodes = random_band(nx, seed)
+    p, rest = (values(nodes, name) for name in ("p", "rest"))
+    values(nodes, "state")[:] = (p <= 0.0) & (rest >= 0.0)
+    assert complementarity(nodes, (1, nx - 2), nx - 2) == (1, nx - 2)
+    for lane in range(LANES):
+        u = values(nodes, "u")[1:-1, lane]
+        new = p[1:-1, lane] + u
+        lack = rest[1:-1, lane] - dense_band(nodes, lane) @ u
+        assert new.min() > -1e-12
+        assert lack[new < 1e-12].min(initial=0.0) > -1e-12
+        np.testing.assert_allclose(lack[new > 1e-12], 0.0, atol=1e-11)
+
+
+@MIRROR
+@pytest.mark.parametrize("shape", [(25, 33), (20, 14)])
+def test_lines_relaxed_side_by_side_equal_lines_relaxed_one_by_one(shape, mirror):
+    film, mesh = random_film(shape, 5), mesh_of(mirror)
+    rng = np.random.default_rng(6)
+    film.p[rng.random(shape) < 0.2] = 0.0
+    film.p[:, -6:] = 0.0
+    film.eps[:, 4:9] = 1e-4
+    rhs = 20.0 * rng.standard_normal(shape)
+    setting = relaxation_of(shape, xi=0.1, omega=(0.8, 0.6), influence=0.1)
+    setting.frozen[rng.random(shape) < 0.1] = 1
+    one = film._replace(p=film.p.copy())
+    relaxation.relax_lines(film, mesh, rhs, setting)
+    assert setting.kind.any()
+    setting.delta[:] = 0.0
+    first = 0 if mirror else 1
+    for colour in range(2):
+        for j in range(first + colour, shape[0] - 1, 2):
+            relax_batch(one, mesh, rhs, setting, (j, 1))
+    add_dipoles(one.p, setting.delta, mirror)
+    np.testing.assert_allclose(film.p, one.p, rtol=1e-10, atol=1e-12)
+
+
+@MIRROR
+def test_relaxation_reduces_the_residual_of_a_linear_problem(mirror):
+    shape = (17, 17)
+    film = isotropic(*(np.ones(shape) for _ in range(5)))
+    film.drho[:] = 0.0
+    film.p[:, 1:-1] += np.random.default_rng(7).random((17, 15))
+    mesh = Mesh(64.0, 64.0, 0.0, 0.0, 0.0, mirror)
+    rhs = np.full(shape, -5.0)
+    setting, out = relaxation_of(shape), np.empty(shape)
+    before = reynolds.residual(film, mesh, rhs, 0.0, out)
+    for _ in range(4):
+        relaxation.relax_lines(film, mesh, rhs, setting)
+    assert reynolds.residual(film, mesh, rhs, 0.0, out) < 0.15 * before
+
+
+def test_a_line_without_oil_to_move_is_left_alone():
+    shape = (5, 12)
+    film, mesh = isotropic(*(np.ones(shape) for _ in range(5))), mesh_of(mirror=0)
+    film.p[:] = 0.0
+    relaxation.relax_lines(film, mesh, np.ones(shape), relaxation_of(shape))
+    assert not film.p.any()
+
+
+def test_a_broken_pressure_is_relaxed_as_a_wet_one():
+    film, setting = random_film((5, 12)), relaxation_of((5, 12))
+    film.p[2] = 0.0
+    film.p[2, 5] = np.nan
+    assert wet_range(film, setting, 2, 0) == (5, 5)
+
+
+def test_frozen_nodes_keep_their_pressure():
+    shape = (9, 13)
+    film, mesh = random_film(shape, 8), mesh_of(mirror=1)
+    setting = relaxation_of(shape)
+    setting.frozen[2:5, 3:7] = 1
+    before = film.p.copy()
+    relaxation.relax_lines(film, mesh, np.zeros(shape), setting)
+    np.testing.assert_array_equal(film.p[2:5, 3:7], before[2:5, 3:7])
+    assert film.p.min() >= 0.0
+    assert (film.p != before).any()
+
+
+@MIRROR
+def test_the_stiffness_of_a_hollow_is_the_slope_of_the_flow_into_it(mirror):
+    """At a node lower than its neighbours the conductance alone changes the flow: by its slope."""
+    step, decay = 1e-3, 12.0
+    rows = np.arange(4001) * step
+    mobility, ones = np.exp(-decay * rows), np.ones_like(rows)
+    table = np.stack([mobility, -decay * step * mobility, ones, 0.0 * ones], axis=1)
+    mesh, p = mesh_of(mirror), 1.0 + 0.1 * np.random.default_rng(3).random((7, 8))
+    p[3, 4] = 0.3
+    fields = (np.empty_like(p) for _ in range(3))
+    film, flows, nudge = isotropic(p, np.ones_like(p), *fields), [], 1e-5
+    for sign in (-1.0, 1.0):
+        moved = p.copy()
+        moved[3, 4] += sign * nudge
+        properties.properties(film._replace(p=moved), table, step, 0.0)
+        out = np.empty_like(p)
+        reynolds.operator(film, mesh, out)  # the pressure itself stays
+        flows.append(out[3, 4])
+    properties.properties(film, table, step, 0.0)
+    steep = np.empty_like(p)
+    relaxation.stiffen(film, mesh, table, step, steep)
+    assert steep[3, 4] == pytest.approx((flows[0] - flows[1]) / (2 * nudge), rel=1e-2)
+    assert (steep >= 0.0).all()
+
+
+def test_a_steep_node_moves_by_less():
+    shape, mesh = (7, 8), mesh_of(0)
+    film, changes = random_film(shape), []
+    for steep in (0.0, 50.0):
+        p, setting = film.p.copy(), relaxation_of(shape)
+        setting.steep[3, 4] = steep
+        relaxation.relax_lines(film._replace(p=p), mesh, np.zeros(shape), setting)
+        changes.append(abs(p[3, 4] - film.p[3, 4]))
+    assert 0.0 < changes[1] < changes[0]
