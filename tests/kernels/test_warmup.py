@@ -93,5 +93,5 @@ def test_this_process_compiles_what_others_leave(monkeypatch, program):
 
 
 def test_helpers_are_left_to_their_callers():
-    """If this fails, numba's internals changed: kernels are right but compile in 1.5 times the time."""
+    """A failure means: numba's internals changed; kernels compile in 1.5 times the time."""
     assert compiled.can_leave_to_callers()

@@ -93,7 +93,7 @@ def newton_step(state: Coarse, mesh: Mesh, system: System, longest: float) -> fl
 
 
 @helper
-def pivot_row(a: Array, b: Array, k: int, n: int) -> None:
+def _pivot_row(a: Array, b: Array, k: int, n: int) -> None:
     """Swap row ``k`` with the row below that has the largest entry in column ``k``."""
     pivot = k
     for i in range(k + 1, n):
@@ -105,13 +105,13 @@ def pivot_row(a: Array, b: Array, k: int, n: int) -> None:
 
 
 @helper
-def solve_dense(a: Array, b: Array, n: int) -> None:
+def _solve_dense(a: Array, b: Array, n: int) -> None:
     """Solve ``a x = b`` for ``n`` unknowns by elimination with row pivoting; ``b`` becomes x.
 
     A singular matrix gives non-finite values.
     """
     for k in range(n):
-        pivot_row(a, b, k, n)
+        _pivot_row(a, b, k, n)
         for i in range(k + 1, n):
             factor = a[i, k] / a[k, k]
             for c in range(k + 1, n):
@@ -124,7 +124,7 @@ def solve_dense(a: Array, b: Array, n: int) -> None:
 
 
 @helper
-def find_active(state: Coarse, system: System, mirror: int, nx: int, active: IntArray) -> int:
+def _find_active(state: Coarse, system: System, mirror: int, nx: int, active: IntArray) -> int:
     """List the nodes with p > 0 or residual < 0 that are not frozen; return their count."""
     count = 0
     for j in range(0 if mirror else 1, state.p.shape[0] // nx - 1):
@@ -137,7 +137,7 @@ def find_active(state: Coarse, system: System, mirror: int, nx: int, active: Int
 
 
 @helper
-def find_neighbours(here: int, nx: int, near: IntArray) -> None:
+def _find_neighbours(here: int, nx: int, near: IntArray) -> None:
     """Fill the numbers of a node and its neighbours."""
     near[HERE], near[EAST], near[WEST] = here, here + 1, here - 1
     near[NORTH], near[SOUTH] = here + nx, here - nx if here >= nx else here + nx
@@ -145,7 +145,7 @@ def find_neighbours(here: int, nx: int, near: IntArray) -> None:
 
 
 @helper
-def slopes(state: Coarse, mesh: Mesh, work: Work) -> None:
+def _slopes(state: Coarse, mesh: Mesh, work: Work) -> None:
     """Fill the derivatives of L at node ``near[0]`` by pressure and film of its neighbours."""
     near, by_p, by_h = work.near, work.by_p, work.by_h
     p, eps, eps_p, eps_h = state.p, state.eps, state.eps_p, state.eps_h
@@ -174,7 +174,7 @@ def slopes(state: Coarse, mesh: Mesh, work: Work) -> None:
 
 
 @helper
-def assemble_row(system: System, work: Work, row: int, count: int) -> None:
+def _assemble_row(system: System, work: Work, row: int, count: int) -> None:
     """Fill one row of the matrix from the derivatives by pressure and film at its node."""
     full, near, by_p, by_h = work.full, work.near, work.by_p, work.by_h
     for m in range(full.shape[0]):
@@ -193,16 +193,18 @@ def assemble_row(system: System, work: Work, row: int, count: int) -> None:
 
 
 @helper
-def assemble(state: Coarse, mesh: Mesh, system: System, work: Work, sizes: tuple[int, int]) -> None:
+def _assemble(
+    state: Coarse, mesh: Mesh, system: System, work: Work, sizes: tuple[int, int]
+) -> None:
     """Fill matrix and right-hand side: a row per active node, the load balance as the last.
 
     ``sizes``: how many nodes are active, and how many nodes a row of the grid has.
     """
     count, nx = sizes
     for row in range(count):
-        find_neighbours(work.active[row], nx, work.near)
-        slopes(state, mesh, work)
-        assemble_row(system, work, row, count)
+        _find_neighbours(work.active[row], nx, work.near)
+        _slopes(state, mesh, work)
+        _assemble_row(system, work, row, count)
     for column in range(count):
         twice = mesh.mirror and work.active[column] >= nx
         work.matrix[count, column] = system.area * (2.0 if twice else 1.0)
@@ -217,9 +219,9 @@ def solve_step(
     """Take the step of `newton_step` on flat fields; ``settings``: nodes per row, longest step."""
     nx, longest = settings
     state, system, work = raw((state, system, work))
-    count = find_active(state, system, mesh.mirror, nx, work.active)
-    assemble(state, mesh, system, work, (count, nx))
-    solve_dense(work.matrix, work.rhs, count + 1)
+    count = _find_active(state, system, mesh.mirror, nx, work.active)
+    _assemble(state, mesh, system, work, (count, nx))
+    _solve_dense(work.matrix, work.rhs, count + 1)
     most = 0.0
     for row in range(count):
         most = max(most, abs(work.rhs[row]))

@@ -61,7 +61,7 @@ class Heated(NamedTuple):
 
 
 @helper
-def line_properties(film: Film, table: Array, step: float, floor: float, j: int) -> None:
+def _line_properties(film: Film, table: Array, step: float, floor: float, j: int) -> None:
     """Fill ``eps, rho, drho`` of line ``j``; see `properties`."""
     last, per_step = table.shape[0] - 2, 1.0 / step
     for i in range(film.p.shape[1]):
@@ -82,10 +82,22 @@ def line_properties(film: Film, table: Array, step: float, floor: float, j: int)
 
 @kernel
 def properties(film: Film, table: Array, step: float, floor: float) -> None:
-    """Fill ``eps, rho, drho`` from ``p, h``; the film enters with no less than ``floor``."""
+    """Fill ``eps, rho, drho`` from ``p, h``.
+
+    Parameters
+    ----------
+    film : Film
+        Fields (ny, nx).
+    table : array (n, 4)
+        Mobility, its slope times ``step``, density, its slope times ``step``, row by row.
+    step : float
+        Difference of pressure of two rows of ``table`` [-].
+    floor : float
+        Least film in ``eps`` [-].
+    """
     film, table = raw((film, table))
     for j in range(film.p.shape[0]):
-        line_properties(film, table, step, floor, j)
+        _line_properties(film, table, step, floor, j)
 
 
 @kernel
@@ -93,7 +105,7 @@ def factors_of(heated: Heated, film: Film, table: Array, step: float, factors: F
     """Fill ``factors`` at the pressures ``film.p``; ``eps, rho, drho`` are overwritten."""
     heated, film, table, factors = raw((heated, film, table, factors))
     for j in range(film.p.shape[0]):
-        line_properties(film, table, step, 0.0, j)
+        _line_properties(film, table, step, 0.0, j)
         for i in range(film.p.shape[1]):
             mobility, steep = heated.mobility[j, i], heated.steep[j, i]
             factors.rest[j, i] = mobility * (1.0 - steep)
@@ -110,12 +122,12 @@ def heated_properties(
     """Fill ``eps, rho, drho, eps_x, eps_y`` of the heated, sheared film; see `properties`."""
     film, factors, table = raw((film, factors, table))
     for j in range(film.p.shape[0]):
-        line_properties(film, table, step, floor, j)
-        scale_line(film, factors, floor, j)
+        _line_properties(film, table, step, floor, j)
+        _scale_line(film, factors, floor, j)
 
 
 @helper
-def scale_line(film: Film, factors: Factors, floor: float, j: int) -> None:
+def _scale_line(film: Film, factors: Factors, floor: float, j: int) -> None:
     """Turn isothermal Newtonian properties of line ``j`` into those of the heated film."""
     nx = film.p.shape[1]
     for i in range(nx):

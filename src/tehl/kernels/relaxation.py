@@ -140,7 +140,7 @@ def wet_range(film: Film, relaxation: LineRelaxation, j: int, slot: int) -> Span
 
 
 @helper
-def load_line(film: Film, mesh: Mesh, relaxation: LineRelaxation, place: Span, span: Span) -> None:
+def _load_line(film: Film, mesh: Mesh, relaxation: LineRelaxation, place: Span, span: Span) -> None:
     """Copy the fields of a span of nodes to a lane of the systems; ``place``: line and lane."""
     (j, lane), south = place, row_below(place[0])
     eps_x, eps_y, cells, rest = film.eps_x, film.eps_y, relaxation.cells, relaxation.rest
@@ -160,14 +160,14 @@ def load_line(film: Film, mesh: Mesh, relaxation: LineRelaxation, place: Span, s
 
 
 @helper
-def leave_out(cells: Array, lane: int, span: Span) -> None:
+def _leave_out(cells: Array, lane: int, span: Span) -> None:
     """Fix the nodes of a lane that holds no line."""
     for i in range(span[0], span[1]):
         cells[i + MARGIN, STATE, lane] = KEPT
 
 
 @helper
-def fill_band(relaxation: LineRelaxation, mesh: Mesh, i: int) -> None:
+def _fill_band(relaxation: LineRelaxation, mesh: Mesh, i: int) -> None:
     """Fill the coefficients of node ``i``: change of L there per unit change of each unknown.
 
     The column follows the type of the unknown: a point changes p at one node, a dipole at its
@@ -201,7 +201,7 @@ def fill_band(relaxation: LineRelaxation, mesh: Mesh, i: int) -> None:
 
 
 @helper
-def eliminate(nodes: Records, i: int) -> None:
+def _eliminate(nodes: Records, i: int) -> None:
     """Eliminate upstream unknowns: u_i + up_1 u_{i+1} + up_2 u_{i+2} = ``u`` of the record.
 
     No pivoting. Where a node is dry the row reads u = -p, where it is kept u = 0.
@@ -228,14 +228,14 @@ def band_solve(nodes: Records, low: int, high: int) -> None:
         node.up_2 = 0.0
         node.u = 0.0
     for i in range(low, high + 1):
-        eliminate(nodes, i)
+        _eliminate(nodes, i)
     for i in range(high + MARGIN, low + MARGIN - 1, -1):
         here = nodes[i]
         here.u = here.u - (here.up_1 * nodes[i + 1].u + here.up_2 * nodes[i + 2].u)
 
 
 @helper
-def dry_out(nodes: Records, i: int) -> tuple[bool, bool]:
+def _dry_out(nodes: Records, i: int) -> tuple[bool, bool]:
     """Cavitate the free lanes of negative pressure at node i.
 
     Return whether there was one, and whether any lane was cavitated already.
@@ -248,7 +248,7 @@ def dry_out(nodes: Records, i: int) -> tuple[bool, bool]:
 
 
 @helper
-def wet_again(nodes: Records, i: int) -> bool:
+def _wet_again(nodes: Records, i: int) -> bool:
     """Free the cavitated lanes with negative residual at node i; return whether there was one."""
     far, west_2, west = nodes[i], nodes[i + 1], nodes[i + 2]
     here, east, east_2 = nodes[i + 3], nodes[i + 4], nodes[i + 5]
@@ -279,9 +279,9 @@ def complementarity(nodes: Records, span: Span, last: int) -> Span:
         band_solve(nodes, low, high)
         changed = False
         for i in range(max(low - 2, 1), min(high + 3, last) + 1):
-            dried, cavitated = dry_out(nodes, i)
+            dried, cavitated = _dry_out(nodes, i)
             changed = changed or dried
-            if cavitated and wet_again(nodes, i):
+            if cavitated and _wet_again(nodes, i):
                 low, high, changed = min(low, i), max(high, i), True
         if not changed:
             return low, high
@@ -290,7 +290,7 @@ def complementarity(nodes: Records, span: Span, last: int) -> Span:
 
 
 @helper
-def store_line(film: Film, relaxation: LineRelaxation, place: Span, span: Span) -> None:
+def _store_line(film: Film, relaxation: LineRelaxation, place: Span, span: Span) -> None:
     """Apply the solution of a line: points at once, dipoles to ``delta``."""
     (j, lane), p = place, film.p
     for i in range(span[0], span[1]):
@@ -302,7 +302,7 @@ def store_line(film: Film, relaxation: LineRelaxation, place: Span, span: Span) 
 
 
 @helper
-def residual_of_line(
+def _residual_of_line(
     film: Film, mesh: Mesh, rhs: Array, rest: Array, place: tuple[int, int]
 ) -> None:
     """Write ``rhs - L(p)`` of a line to a row of ``rest``; ``place``: the numbers of both."""
@@ -320,12 +320,12 @@ def set_up(film: Film, mesh: Mesh, relaxation: LineRelaxation, batch: Span, span
     for start in range(max(low - MARGIN, 0), end, CHUNK):
         stop = min(start + CHUNK, end)
         for lane in range(count):
-            load_line(film, mesh, relaxation, (first + 2 * lane, lane), (start, stop))
+            _load_line(film, mesh, relaxation, (first + 2 * lane, lane), (start, stop))
         for lane in range(count, LANES):
-            leave_out(relaxation.cells, lane, (start, stop))
+            _leave_out(relaxation.cells, lane, (start, stop))
         ready = high if stop == end else stop - MARGIN
         for i in range(max(start - MARGIN + 1, low), ready + 1):
-            fill_band(relaxation, mesh, i)
+            _fill_band(relaxation, mesh, i)
 
 
 @helper
@@ -336,7 +336,7 @@ def relax_batch(
     (first, count), nx = batch, film.p.shape[1]
     low, high = nx, 0
     for lane in range(count):
-        residual_of_line(film, mesh, rhs, relaxation.rest, (first + 2 * lane, lane))
+        _residual_of_line(film, mesh, rhs, relaxation.rest, (first + 2 * lane, lane))
         line_low, line_high = wet_range(film, relaxation, first + 2 * lane, lane)
         low, high = min(low, line_low), max(high, line_high)
     if low > high:
@@ -346,12 +346,24 @@ def relax_batch(
     set_up(film, mesh, relaxation, batch, span)
     low, high = complementarity(relaxation.nodes, (low, high), nx - 2)
     for lane in range(count):
-        store_line(film, relaxation, (first + 2 * lane, lane), (low, high + 1))
+        _store_line(film, relaxation, (first + 2 * lane, lane), (low, high + 1))
 
 
 @kernel
 def relax_lines(film: Film, mesh: Mesh, rhs: Array, relaxation: LineRelaxation) -> None:
-    """One zebra sweep over the lines along x: points at once, dipoles after both colours."""
+    """Perform one zebra sweep over the lines along x (Venner and Lubrecht 2000, chapter 6).
+
+    Points change at once, dipoles after both colours.
+
+    Parameters
+    ----------
+    film, mesh : Film, Mesh
+        State, of which the pressure is relaxed, and weights of the operator.
+    rhs : array (ny, nx)
+        Right-hand side of the Reynolds equation.
+    relaxation : LineRelaxation
+        Settings and scratch arrays.
+    """
     film, rhs, relaxation = raw((film, rhs, relaxation))
     first = 0 if mesh.mirror else 1
     mark_dipoles(film, mesh, relaxation)
@@ -378,9 +390,19 @@ def add_dipoles(p: Array, delta: Array, mirror: int) -> None:
 def relax_points(film: Film, mesh: Mesh, rhs: Array, self_film: Array, omega: float) -> None:
     """Relax point by point (Gauss-Seidel with under-relaxation ``omega``).
 
-    Each node in turn changes so that its residual vanishes, with the film of the last evaluation;
-    ``self_film[m]`` is the film at distance m per unit p. It diverges where the deflection
-    dominates (docs/theory/numerics.md).
+    Each node in turn changes so that its residual vanishes, with the film of the last evaluation.
+    It diverges where the deflection dominates (docs/theory/relaxation.md).
+
+    Parameters
+    ----------
+    film, mesh : Film, Mesh
+        State, of which the pressure is relaxed, and weights of the operator.
+    rhs : array (ny, nx)
+        Right-hand side of the Reynolds equation.
+    self_film : array (n,)
+        Film at a distance of m nodes per unit pressure.
+    omega : float
+        Under-relaxation [-].
     """
     film, rhs, self_film = raw((film, rhs, self_film))
     ny, nx = film.p.shape

@@ -61,11 +61,11 @@ def line_operator(film: Film, mesh: Mesh, j: int, out: Array, row: int) -> None:
         flow_x = east * (p[j, i + 1] - p[j, i]) - west * (p[j, i] - p[j, i - 1])
         flow_y = upper * (p[north, i] - p[j, i]) - lower * (p[j, i] - p[south, i])
         out[row, i] = half_x * flow_x + half_y * flow_y
-    subtract_wedge(film, mesh, j, out, row)
+    _subtract_wedge(film, mesh, j, out, row)
 
 
 @helper
-def subtract_wedge(film: Film, mesh: Mesh, j: int, out: Array, row: int) -> None:
+def _subtract_wedge(film: Film, mesh: Mesh, j: int, out: Array, row: int) -> None:
     """Subtract the upstream difference of rho h along a line; node 1 continues rho h linearly."""
     rho, h, nx = film.rho, film.h, film.p.shape[1]
     w0, w1, w2 = mesh.w0, mesh.w1, mesh.w2
@@ -86,7 +86,7 @@ def operator(film: Film, mesh: Mesh, out: Array) -> None:
 
 
 @helper
-def node_diagonal(film: Film, mesh: Mesh, self_film: float, j: int, i: int) -> float:
+def _node_diagonal(film: Film, mesh: Mesh, self_film: float, j: int, i: int) -> float:
     """Return ``-dL/dp`` of a node with itself; ``self_film``: dh/dp of a point on itself."""
     eps_x, eps_y, south = film.eps_x, film.eps_y, row_below(j)
     flow = 0.5 * mesh.cx * (2.0 * eps_x[j, i] + eps_x[j, i + 1] + eps_x[j, i - 1])
@@ -102,11 +102,11 @@ def diagonal(film: Film, mesh: Mesh, self_film: float, out: Array) -> None:
     ny, nx = film.p.shape
     for j in range(0 if mesh.mirror else 1, ny - 1):
         for i in range(1, nx - 1):
-            out[j, i] = node_diagonal(film, mesh, self_film, j, i)
+            out[j, i] = _node_diagonal(film, mesh, self_film, j, i)
 
 
 @summing_helper
-def line_norm(film: Film, mesh: Mesh, self_film: float, j: int, rest: Array) -> tuple[float, int]:
+def _line_norm(film: Film, mesh: Mesh, self_film: float, j: int, rest: Array) -> tuple[float, int]:
     """Return sum and count of the scaled residual of line ``j``; see `residual`.
 
     The diagonal may be negative where the film is, before convergence.
@@ -115,7 +115,7 @@ def line_norm(film: Film, mesh: Mesh, self_film: float, j: int, rest: Array) -> 
     for i in range(1, film.p.shape[1] - 1):
         r = rest[j, i]
         counts = film.p[j, i] > 0.0 or r < 0.0
-        total += abs(r / node_diagonal(film, mesh, self_film, j, i)) if counts else 0.0
+        total += abs(r / _node_diagonal(film, mesh, self_film, j, i)) if counts else 0.0
         count += 1 if counts else 0
     return total, count
 
@@ -126,6 +126,15 @@ def residual(film: Film, mesh: Mesh, rhs: Array, self_film: float, out: Array) -
 
     The mean is of ``|r|`` over the local diagonal, over nodes that are wet or will be
     (p > 0 or r < 0).
+
+    Parameters
+    ----------
+    film, mesh : Film, Mesh
+        State, and weights of the operator.
+    rhs, out : array (ny, nx)
+        Right-hand side, and residual.
+    self_film : float
+        dh/dp of a node with itself [-].
     """
     film, rhs, out = raw((film, rhs, out))
     total, count = 0.0, 0
@@ -135,7 +144,7 @@ def residual(film: Film, mesh: Mesh, rhs: Array, self_film: float, out: Array) -
         line_operator(film, mesh, j, out, j)
         for i in range(1, nx - 1):
             out[j, i] = rhs[j, i] - out[j, i]
-        line_total, line_count = line_norm(film, mesh, self_film, j, out)
+        line_total, line_count = _line_norm(film, mesh, self_film, j, out)
         for i in range(1, nx - 1):
             out[j, i] = out[j, i] if film.p[j, i] > 0.0 else 0.0
         weight = 1 if (mesh.mirror and j == 0) else 1 + mesh.mirror

@@ -74,7 +74,7 @@ def columns_of(table: Array, shape: tuple[int, int], fine: Box, coarse: Box) -> 
 
 
 @helper
-def reflect(u: Array, box: Box) -> None:
+def _reflect(u: Array, box: Box) -> None:
     """Fill the rows before a mirror line with the image of those behind it."""
     if box.mirror:
         for j in range(1, box.oy + 1):
@@ -92,11 +92,11 @@ def gather_rows(u: Array, fine: Box, coarse_u: Array, coarse: Box) -> None:
             near = u[f, x] + C1 * (u[f + 1, x] + u[f - 1, x])
             middle = C3 * (u[f + 3, x] + u[f - 3, x])
             coarse_u[target, x] = near + middle + C5 * (u[f + 5, x] + u[f - 5, x])
-    reflect(coarse_u, coarse)
+    _reflect(coarse_u, coarse)
 
 
 @helper
-def fold(u: Array, row: int, start: int, d: int, folded: Array) -> None:
+def _fold(u: Array, row: int, start: int, d: int, folded: Array) -> None:
     """Write the sum of the two rows ``d`` away from a row, from column ``start`` on."""
     if d == 0:
         for x in range(folded.shape[1]):
@@ -128,7 +128,7 @@ def weigh(folded: Array, table: Array, q: int, every: tuple[int, int]) -> None:
 
 
 @helper
-def add_shifted(
+def _add_shifted(
     folded: Array, shifts: tuple[int, int], out: Array, place: tuple[int, int, int]
 ) -> None:
     """Add the last row of ``folded``, shifted both ways, to ``out``; ``place``: row and span."""
@@ -142,7 +142,7 @@ def add_shifted(
 
 
 @helper
-def add_patch_rows(
+def _add_patch_rows(
     u: Array, table: Array, folded: Array, out: Array, place: tuple[int, int, int, int]
 ) -> None:
     """Add the patch of sources around a row of ``u`` to a row of ``out``.
@@ -153,15 +153,15 @@ def add_patch_rows(
     side = table.shape[1] - 1
     stop = start + folded.shape[1] - 2 * side
     for d in range(first, table.shape[0], 1 + first):
-        fold(u, row, start - side, d, folded)
+        _fold(u, row, start - side, d, folded)
     for q in range(side + 1):
         weigh(folded, table, q, (first, 1 + first))
         shifts = (side - start + q, side - start - q)
-        add_shifted(folded, shifts, out, (target, start, stop))
+        _add_shifted(folded, shifts, out, (target, start, stop))
 
 
 @helper
-def interpolate_row(coarse_w: Array, box: Box, low: int, w: Array, target: int) -> None:
+def _interpolate_row(coarse_w: Array, box: Box, low: int, w: Array, target: int) -> None:
     """Interpolate a row of ``w`` midway between rows ``low`` and ``low + 1``."""
     a, b, c = low + box.oy, low - 1 + box.oy, low - 2 + box.oy
     if box.mirror:
@@ -186,15 +186,15 @@ def spread_rows(  # noqa: PLR0913, PLR0917
     start = fine.i0 + fine.ox
     for j in range(coarse.j0, coarse.j1 + 1):
         place = (1, 2 * j + fine.oy, j + coarse.oy, start)
-        add_patch_rows(u, table, folded, coarse_w, place)
+        _add_patch_rows(u, table, folded, coarse_w, place)
     for j in range(fine.j0, fine.j1 + 1):
         row = j + fine.oy
         if j % 2 == 0:
             for x in range(start, fine.i1 + fine.ox + 1):
                 w[row, x] = coarse_w[j // 2 + coarse.oy, x]
         else:
-            interpolate_row(coarse_w, coarse, (j - 1) // 2, w, row)
-            add_patch_rows(u, table, folded, w, (0, row, row, start))
+            _interpolate_row(coarse_w, coarse, (j - 1) // 2, w, row)
+            _add_patch_rows(u, table, folded, w, (0, row, row, start))
 
 
 @kernel
@@ -220,11 +220,11 @@ def gather_columns(columns: Columns, fine: Box, coarse_u: Array, coarse: Box) ->
             near = even[y, a] + C1 * (odd[y, a] + odd[y, a - 1])
             middle = C3 * (odd[y, a + 1] + odd[y, a - 2])
             coarse_u[target, a + shift] = near + middle + C5 * (odd[y, a + 2] + odd[y, a - 3])
-    reflect(coarse_u, coarse)
+    _reflect(coarse_u, coarse)
 
 
 @helper
-def add_patch_columns(columns: Columns, table: Array, start: int, stop: int) -> None:
+def _add_patch_columns(columns: Columns, table: Array, start: int, stop: int) -> None:
     """Add the patch of folded sources to a span of the sums at even and at odd columns."""
     even, odd, sums = columns.even_folds, columns.odd_folds, columns.sums
     in_even, in_odd = (0, start, stop), (1, start, stop)
@@ -232,11 +232,11 @@ def add_patch_columns(columns: Columns, table: Array, start: int, stop: int) -> 
         s = d // 2
         weigh(odd, table, d, (0, 1))
         if d % 2 == 0:
-            add_shifted(odd, (s, -s), sums, in_odd)
+            _add_shifted(odd, (s, -s), sums, in_odd)
         else:
-            add_shifted(odd, (s, -s - 1), sums, in_even)
+            _add_shifted(odd, (s, -s - 1), sums, in_even)
             weigh(even, table, d, (0, 1))
-            add_shifted(even, (s + 1, -s), sums, in_odd)
+            _add_shifted(even, (s + 1, -s), sums, in_odd)
 
 
 @kernel
@@ -251,14 +251,14 @@ def spread_columns(
     for j in range(fine.j0, fine.j1 + 1):
         y = j + fine.oy
         for q in range(table.shape[0]):
-            fold(columns.even, y, start - margin, q, columns.even_folds)
-            fold(columns.odd, y, start - margin, q, columns.odd_folds)
+            _fold(columns.even, y, start - margin, q, columns.even_folds)
+            _fold(columns.odd, y, start - margin, q, columns.odd_folds)
         for x in range(sums.shape[1]):
             sums[0, x] = 0.0
             sums[1, x] = 0.0
         for a in range(stop - start):
             sums[0, margin + a] = coarse_w[j + coarse.oy, first + a]
-        add_patch_columns(columns, table, span[0], span[1])
+        _add_patch_columns(columns, table, span[0], span[1])
         for x in range(span[0], span[1]):
             near = C1 * (sums[0, x] + sums[0, x + 1])
             middle = C3 * (sums[0, x - 1] + sums[0, x + 2])
@@ -269,7 +269,7 @@ def spread_columns(
 
 
 @summing_helper
-def row_product(matrix: Array, m: int, flat: Array) -> float:
+def _row_product(matrix: Array, m: int, flat: Array) -> float:
     """Return row ``m`` of a matrix times a vector."""
     total = 0.0
     for k in range(flat.shape[0]):
@@ -285,7 +285,7 @@ def direct(matrix: Array, u: Array, box: Box, w: Array, flat: Array) -> None:
     for k in range(flat.shape[0]):
         flat[k] = u[box.j0 + box.oy + k // nx, box.i0 + box.ox + k % nx]
     for m in range(flat.shape[0]):
-        w[box.j0 + box.oy + m // nx, box.i0 + box.ox + m % nx] = row_product(matrix, m, flat)
+        w[box.j0 + box.oy + m // nx, box.i0 + box.ox + m % nx] = _row_product(matrix, m, flat)
 
 
 @kernel

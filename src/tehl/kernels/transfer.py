@@ -13,7 +13,7 @@ from tehl.typing import Array, FlagArray
 
 
 @helper
-def weigh(fine: Array, j: int, i: int) -> float:
+def _weigh(fine: Array, j: int, i: int) -> float:
     """Full weighting of ``fine`` at fine node (j, i)."""
     south = j - 1 if j > 0 else 1
     return (
@@ -32,7 +32,7 @@ def restrict_residual(fine: Array, mirror: int, coarse: Array) -> None:
     clear(coarse)
     for j in range(0 if mirror else 1, ny - 1):
         for i in range(1, nx - 1):
-            coarse[j, i] = weigh(fine, 2 * j, 2 * i)
+            coarse[j, i] = _weigh(fine, 2 * j, 2 * i)
 
 
 @kernel
@@ -49,7 +49,7 @@ def restrict_pressure(fine: Array, mirror: int, coarse: Array) -> None:
             for row in (south, fj, fj + 1):
                 for column in range(fi - 1, fi + 2):
                     smallest = min(smallest, fine[row, column])
-            coarse[j, i] = weigh(fine, fj, fi) if smallest > 0.0 else fine[fj, fi]
+            coarse[j, i] = _weigh(fine, fj, fi) if smallest > 0.0 else fine[fj, fi]
 
 
 @kernel
@@ -57,7 +57,18 @@ def correct(p: Array, coarse: Array, before: Array, mirror: int, part: float, li
     """Add ``part`` of the bilinear interpolation of ``coarse - before`` to the wet nodes of ``p``.
 
     A node keeps its pressure if any coarse node around it was cavitated: no correction crosses the
-    cavitation front. No pressure changes by more than ``limit`` times itself.
+    cavitation front.
+
+    Parameters
+    ----------
+    p : array (ny, nx)
+        Pressure of the fine grid.
+    coarse, before : array (ny // 2 + 1, nx // 2 + 1)
+        Pressure of the coarse grid, and its value before the coarse solve.
+    mirror : int
+        1 if row 0 is the symmetry line.
+    part, limit : float
+        Factor on the correction; its largest size, over the pressure [-].
     """
     p, coarse, before = raw((p, coarse, before))
     ny, nx = p.shape
@@ -93,6 +104,17 @@ def freeze(
     """Mark coarse nodes below ``limit`` beside a cavity, whose pressure the coarse grid keeps.
 
     Beside a cavity: one of the nine fine nodes is cavitated or frozen.
+
+    Parameters
+    ----------
+    fine, fine_frozen : array (ny, nx)
+        Pressure and marks of the fine grid.
+    coarse, out : array (ny // 2 + 1, nx // 2 + 1)
+        Pressure and marks of the coarse grid.
+    mirror : int
+        1 if row 0 is the symmetry line.
+    limit : float
+        Largest pressure of a marked node [-].
     """
     fine, fine_frozen, coarse, out = raw((fine, fine_frozen, coarse, out))
     ny, nx = coarse.shape

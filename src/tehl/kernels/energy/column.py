@@ -32,7 +32,7 @@ HELD_BY_WALLS = 1.0  # over the squared distance to both walls: a little more th
 
 
 @helper
-def shares(across: Across, line: Record, layers: Records) -> None:
+def _shares(across: Across, line: Record, layers: Records) -> None:
     """Fill ``share``, the relative fall of the stress per kelvin of a layer, and ``pull``.
 
     ``s_m = w_m phi_m gamma_m / sum w phi n`` with gamma = -dln(eta)/dT, at a given sliding speed.
@@ -62,7 +62,7 @@ def heat_sources(model: Model, line: Record, here: Record, k: int) -> tuple[Lane
 
 
 @helper
-def hold(along: Lanes) -> Lanes:
+def _hold(along: Lanes) -> Lanes:
     """Return the weight of second order, 0 to 1, at which conduction across the film is stable."""
     return lesser(greater(2.0 - along * (1.0 / CONDUCTION), 0.0), 1.0)
 
@@ -72,13 +72,13 @@ def along_x(terms: Terms, temperature: Array, flow: Lanes, u: Lanes, place: tupl
 ) -> tuple[Lanes, Lanes]:  # fmt: skip
     """Return diagonal and source of convection along x; ``place``: i, k, j.
 
-    Against the march the difference is of second order only as far as `hold` allows.
+    Against the march the difference is of second order only as far as `_hold` allows.
     """
     i, k, j = place
     rows, back = lanes(j), u > 0.0
     one = where(back, temperature[i - 1, k, rows], temperature[i + 1, k, rows])
     two = where(back, temperature[i - 2, k, rows], temperature[i + 2, k, rows])
-    second = terms.w2 * where(back, 1.0, hold(flow))
+    second = terms.w2 * where(back, 1.0, _hold(flow))
     return (1.0 + second) * flow, flow * (one + second * (2.0 * one - two))
 
 
@@ -90,12 +90,12 @@ def along_y(terms: Terms, temperature: Array, flow: Lanes, v: Lanes, place: tupl
     south = v > 0.0
     one = where(south, temperature[i, k, lanes(j - 1)], temperature[i, k, lanes(j + 1)])
     two = where(south, temperature[i, k, lanes(j - 2)], temperature[i, k, lanes(j + 2)])
-    second = terms.w2 * hold(flow)
+    second = terms.w2 * _hold(flow)
     return (1.0 + second) * flow, flow * (one + second * (2.0 * one - two))
 
 
 @helper
-def convection(
+def _convection(
     model: Model, fields: Fields, line: Record, here: Record, place: tuple[int, int, int]
 ) -> tuple[Lanes, Lanes]:
     """Return diagonal and source of convection and of the time derivative."""
@@ -116,11 +116,12 @@ def convection(
 
 
 @helper
-def inner_row(model: Model, fields: Fields, work: Work, place: Place, k: int) -> None:
+def _inner_row(model: Model, fields: Fields, work: Work, place: Place, k: int) -> None:
     """Fill the row of an inner layer.
 
     The shear heat is linearised: a warmer layer shears faster, and at a given sliding speed the
-    stress falls in all layers (`shares`), ``dq_k = q_k (gamma_k dT_k - (1 + n_k) sum_m s_m dT_m)``.
+    stress falls in all layers (`_shares`):
+    ``dq_k = q_k (gamma_k dT_k - (1 + n_k) sum_m s_m dT_m)``.
     The first part is limited to the conduction; a banded matrix has ``-q_k gamma_k dT_k`` instead.
     The converged solution does not depend on it.
     """
@@ -129,7 +130,7 @@ def inner_row(model: Model, fields: Fields, work: Work, place: Place, k: int) ->
     full = across.band == zeta.shape[0] - 1
     shear, compression = heat_sources(model, line, here, k)
     at = (place.i, k, BLOCK * place.block)
-    diagonal, rest = convection(model, fields, line, here, at)
+    diagonal, rest = _convection(model, fields, line, here, at)
     heat = line.h2_over_k * shear
     steep = here.slope * heat
     part = where(steep > 0.0, 1.0, 1.0)
@@ -155,13 +156,13 @@ def inner_row(model: Model, fields: Fields, work: Work, place: Place, k: int) ->
 def inner_rows(model: Model, fields: Fields, work: Work, place: Place) -> None:
     """Fill the rows of all inner layers."""
     cross_flow(model, work, place)
-    shares(model.across, work.lines[place.block], work.layers[place.block])
+    _shares(model.across, work.lines[place.block], work.layers[place.block])
     for k in range(1, model.across.zeta.shape[0] - 1):
-        inner_row(model, fields, work, place, k)
+        _inner_row(model, fields, work, place, k)
 
 
 @helper
-def eliminate(matrix: Array, rhs: Array, band: int, c: int) -> None:
+def _eliminate(matrix: Array, rhs: Array, band: int, c: int) -> None:
     """Eliminate unknown ``c`` from the rows below; its diagonal becomes its inverse."""
     rows, stop = lanes(0), min(c + band, rhs.shape[0] - 1) + 1
     inverse = 1.0 / matrix[c, c, rows]
@@ -179,7 +180,7 @@ def solve_columns(matrix: Array, rhs: Array, band: int) -> None:
     """Solve the columns of a block without pivoting; ``rhs`` becomes the solution."""
     rows, n = lanes(0), rhs.shape[0]
     for c in range(n):
-        eliminate(matrix, rhs, band, c)
+        _eliminate(matrix, rhs, band, c)
     for c in range(n - 1, -1, -1):
         value = 1.0 * rhs[c, rows]
         for m in range(c + 1, min(c + band, n - 1) + 1):

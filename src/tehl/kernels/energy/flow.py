@@ -24,7 +24,7 @@ def reach(across: Across, k: int) -> tuple[int, int]:
 
 
 @helper
-def fluidities(layers: Records) -> None:
+def _fluidities(layers: Records) -> None:
     """Fill the Newtonian fluidity, one over the viscosity."""
     for k in range(layers.shape[0]):
         here = layers[k]
@@ -83,7 +83,7 @@ def flow(model: Model, line: Record, layers: Records, steps: int) -> None:
     Whether a block starts to thin is decided by its Newtonian stress, which is larger.
     """
     x, y = 1.0 * line.tau_x, 1.0 * line.tau_y
-    fluidities(layers)
+    _fluidities(layers)
     if not set_thinning(model, line):
         moments_of_fluidity(model.across, layers)
         velocities(model.terms, line, layers)

@@ -47,7 +47,7 @@ def limited(ln_eta: Lanes) -> Lanes:
 
 
 @helper
-def interpolate_row(laws: Laws, x: float, out: Array, lane: int) -> None:
+def _interpolate_row(laws: Laws, x: float, out: Array, lane: int) -> None:
     """Interpolate the coefficients between rows of the table by cubic Hermite polynomials."""
     fluid = laws.fluid
     row = max(min(int(x), laws.last_row), 0)
@@ -63,18 +63,18 @@ def interpolate_row(laws: Laws, x: float, out: Array, lane: int) -> None:
 
 
 @helper
-def coefficients(laws: Laws, line: Record, terms: Array) -> None:
+def _coefficients(laws: Laws, line: Record, terms: Array) -> None:
     """Interpolate the polynomials of the laws to the pressures of the block."""
     x = log(1.0 + laws.per_scale * greater(line.p, 0.0)) * laws.per_row
     for lane in range(BLOCK):
-        interpolate_row(laws, x[lane], terms, lane)
+        _interpolate_row(laws, x[lane], terms, lane)
     for c in range(TERMS):
         for lane in range(BLOCK):
             line.terms[c, lane] = terms[lane, c]
 
 
 @helper
-def horner(terms: Array, first: int, count: int, t: Lanes) -> tuple[Lanes, Lanes]:
+def _horner(terms: Array, first: int, count: int, t: Lanes) -> tuple[Lanes, Lanes]:
     """Return a polynomial and its slope at ``t``; coefficients from ``first`` on."""
     rows = lanes(0)
     value, slope = 1.0 * terms[first + count - 1, rows], 0.0 * t
@@ -90,11 +90,11 @@ def look_up(laws: Laws, line: Record, layer: Record, temperature: Lanes) -> None
     kelvin = lesser(greater(temperature, laws.coldest), laws.hottest)
     inverse = 1.0 / (kelvin - laws.pole)
     t = (inverse - laws.middle) * laws.over_inverse
-    value, slope = horner(line.terms, 0, ETA_TERMS, t)
+    value, slope = _horner(line.terms, 0, ETA_TERMS, t)
     layer.ln_eta = limited(value)
     layer.slope = slope * inverse * inverse * laws.over_inverse
     t = (kelvin - laws.inlet) * laws.over_rise
-    value, slope = horner(line.terms, ETA_TERMS, TERMS - ETA_TERMS, t)
+    value, slope = _horner(line.terms, ETA_TERMS, TERMS - ETA_TERMS, t)
     layer.rho = value
     layer.rho_t = slope * laws.over_rise
 
@@ -111,7 +111,7 @@ def mean_temperature(across: Across, layers: Records) -> Lanes:
 @helper
 def evaluate_laws(model: Model, terms: Array, line: Record, layers: Records) -> None:
     """Fill viscosity, density and their slopes at all layers."""
-    coefficients(model.laws, line, terms)
+    _coefficients(model.laws, line, terms)
     mean = mean_temperature(model.across, layers)
     for k in range(layers.shape[0]):
         here = layers[k]

@@ -29,7 +29,7 @@ PRESSURISED = 0.02  # pressure above which a change of temperature counts
 
 
 @helper
-def load_block(model: Model, fields: Fields, work: Work, place: Place) -> None:
+def _load_block(model: Model, fields: Fields, work: Work, place: Place) -> None:
     """Copy the fields of a block to its records."""
     line, layers = work.lines[place.block], work.layers[place.block]
     i, j = place.i, BLOCK * place.block
@@ -54,7 +54,7 @@ def load_block(model: Model, fields: Fields, work: Work, place: Place) -> None:
 
 
 @helper
-def mirror_station(temperature: Array, i: int) -> None:
+def _mirror_station(temperature: Array, i: int) -> None:
     """Fill the ghost rows of a symmetry line."""
     for k in range(temperature.shape[1]):
         for ghost in range(1, GHOSTS + 1):
@@ -62,10 +62,10 @@ def mirror_station(temperature: Array, i: int) -> None:
 
 
 @helper
-def flow_of_block(model: Model, fields: Fields, work: Work, place: Place, steps: int) -> None:
+def _flow_of_block(model: Model, fields: Fields, work: Work, place: Place, steps: int) -> None:
     """Evaluate laws, flow and mass fluxes of a block at its last temperature."""
     line, layers = work.lines[place.block], work.layers[place.block]
-    load_block(model, fields, work, place)
+    _load_block(model, fields, work, place)
     evaluate_laws(model, work.terms, line, layers)
     flow(model, line, layers, steps)
     mass_fluxes(model.across, work, place)
@@ -77,7 +77,7 @@ def flow_of_block(model: Model, fields: Fields, work: Work, place: Place, steps:
 
 
 @helper
-def heat_block(model: Model, fields: Fields, surfaces: Surfaces, work: Work, place: Place) -> None:
+def _heat_block(model: Model, fields: Fields, surfaces: Surfaces, work: Work, place: Place) -> None:
     """Solve the energy equation in the columns of a block."""
     inner_rows(model, fields, work, place)
     wall_row(model.across, surfaces.first, 0, work, place)
@@ -86,7 +86,7 @@ def heat_block(model: Model, fields: Fields, surfaces: Surfaces, work: Work, pla
 
 
 @helper
-def take_temperatures(
+def _take_temperatures(
     model: Model, fields: Fields, work: Work, place: Place
 ) -> tuple[Lanes, Lanes]:
     """Take the new temperatures; return their mean change and the relative fall of the stress.
@@ -112,10 +112,10 @@ def take_temperatures(
 
 
 @helper
-def follow_temperature(model: Model, fields: Fields, work: Work, place: Place) -> None:
+def _follow_temperature(model: Model, fields: Fields, work: Work, place: Place) -> None:
     """Take the new temperatures, and update laws and stress to first order."""
     line, layers = work.lines[place.block], work.layers[place.block]
-    mean, fall = take_temperatures(model, fields, work, place)
+    mean, fall = _take_temperatures(model, fields, work, place)
     line.tau_x = line.tau_x * (1.0 - fall)
     line.tau_y = line.tau_y * (1.0 - fall)
     for k in range(layers.shape[0]):
@@ -132,7 +132,7 @@ def follow_temperature(model: Model, fields: Fields, work: Work, place: Place) -
 
 
 @helper
-def march_station(
+def _march_station(
     model: Model, fields: Fields, surfaces: Surfaces, work: Work, i: int, steps: int
 ) -> None:
     """Solve a station.
@@ -141,29 +141,29 @@ def march_station(
     """
     blocks = work.lines.shape[0]
     for block in range(blocks):
-        flow_of_block(model, fields, work, Place(i, block), steps)
+        _flow_of_block(model, fields, work, Place(i, block), steps)
     if model.terms.heat:
         complete_mass(model.terms, work, i)
         for block in range(blocks):
-            heat_block(model, fields, surfaces, work, Place(i, block))
+            _heat_block(model, fields, surfaces, work, Place(i, block))
         carry_aside(work)
     for block in range(blocks):
         line, layers = work.lines[block], work.layers[block]
         if model.terms.heat:
-            follow_temperature(model, fields, work, Place(i, block))
+            _follow_temperature(model, fields, work, Place(i, block))
             moments_of_fluidity(model.across, layers)
             velocities(model.terms, line, layers)
         write_block(model, fields, surfaces, work, Place(i, block))
 
 
 @helper
-def back_station(model: Model, fields: Fields, work: Work, i: int, first: bool) -> None:
+def _back_station(model: Model, fields: Fields, work: Work, i: int, first: bool) -> None:
     """Solve a station of the march back, after the flow at the stations upstream."""
     blocks = work.lines.shape[0]
     for station in (i - 1, i - 2, i):
         if station >= 0 and (first or station != i - 1):
             for block in range(blocks):
-                flow_of_block(model, fields, work, Place(station, block), 1)
+                _flow_of_block(model, fields, work, Place(station, block), 1)
     complete_mass(model.terms, work, i)
     for block in range(blocks):
         inner_rows(model, fields, work, Place(i, block))
@@ -171,11 +171,11 @@ def back_station(model: Model, fields: Fields, work: Work, i: int, first: bool) 
             keep_wall(side, work, block)
         solve_block(model, work, work.layers[block])
     for block in range(blocks):
-        follow_temperature(model, fields, work, Place(i, block))
+        _follow_temperature(model, fields, work, Place(i, block))
 
 
 @helper
-def march_back(model: Model, fields: Fields, work: Work) -> None:
+def _march_back(model: Model, fields: Fields, work: Work) -> None:
     """Solve the stations against the march, from the last one with backflow on.
 
     The march along x alone would carry heat upstream by one station per sweep. The walls keep
@@ -184,8 +184,8 @@ def march_back(model: Model, fields: Fields, work: Work) -> None:
     last = int(work.back[0]) - 1
     for i in range(last, -1, -1):
         if model.terms.mirror:
-            mirror_station(fields.temperature, i + GHOSTS)
-        back_station(model, fields, work, i, i == last)
+            _mirror_station(fields.temperature, i + GHOSTS)
+        _back_station(model, fields, work, i, i == last)
 
 
 @kernel
@@ -211,12 +211,12 @@ def sweep(
     model, fields, surfaces, work = raw((model, fields, surfaces, work))
     steps, back = settings
     if back:
-        march_back(model, fields, work)
+        _march_back(model, fields, work)
     clear(work)
     for i in range(fields.p.shape[0]):
         if model.terms.mirror:
-            mirror_station(fields.temperature, i + GHOSTS)
-        march_station(model, fields, surfaces, work, i, steps)
+            _mirror_station(fields.temperature, i + GHOSTS)
+        _march_station(model, fields, surfaces, work, i, steps)
     return largest(work.change[lanes(0)])
 
 

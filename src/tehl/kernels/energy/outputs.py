@@ -16,7 +16,7 @@ STRAIGHT = 0.03  # excess of the tangent along y that does not change convergenc
 
 
 @helper
-def reynolds_fields(model: Model, fields: Fields, layers: Records, place: Place) -> None:
+def _reynolds_fields(model: Model, fields: Fields, layers: Records, place: Place) -> None:
     """Write mobility and density of the Reynolds equation, and how steeply the mobility changes.
 
     The density is that of the Couette flux over h u_m, ``rho* = int rho (u1 + slide I0/I0(1))``.
@@ -38,7 +38,7 @@ def reynolds_fields(model: Model, fields: Fields, layers: Records, place: Place)
 
 
 @helper
-def stretches(model: Model, fields: Fields, line: Record, layers: Records, place: Place) -> None:
+def _stretches(model: Model, fields: Fields, line: Record, layers: Records, place: Place) -> None:
     """Write the mobility of a small change of the pressure gradient over the mobility.
 
     Along x and y at constant sliding, from the tangents of the fluidity (`thin`).
@@ -63,7 +63,7 @@ def stretches(model: Model, fields: Fields, line: Record, layers: Records, place
 
 
 @helper
-def mean_fields(model: Model, fields: Fields, line: Record, layers: Records, place: Place) -> None:
+def _mean_fields(model: Model, fields: Fields, line: Record, layers: Records, place: Place) -> None:
     """Write mobility and density at the mean temperature, with the thinning of mid-film."""
     i, rows = place.i, lanes(BLOCK * place.block)
     first = layers[0]
@@ -75,7 +75,7 @@ def mean_fields(model: Model, fields: Fields, line: Record, layers: Records, pla
 
 
 @helper
-def powers(model: Model, fields: Fields, line: Record, layers: Records, place: Place) -> None:
+def _powers(model: Model, fields: Fields, line: Record, layers: Records, place: Place) -> None:
     """Write mid-film stress, shear power, compression power and enthalpy fluxes."""
     terms, i, rows = model.terms, place.i, lanes(BLOCK * place.block)
     h, capacity = line.h, terms.peclet * line.capacity
@@ -103,8 +103,8 @@ def write_block(model: Model, fields: Fields, surfaces: Surfaces, work: Work, pl
     line, layers = work.lines[place.block], work.layers[place.block]
     store_flux(model.across, surfaces.first, 0, work, place)
     store_flux(model.across, surfaces.second, 1, work, place)
-    powers(model, fields, line, layers, place)
-    reynolds_fields(model, fields, layers, place)
-    stretches(model, fields, line, layers, place)
+    _powers(model, fields, line, layers, place)
+    _reynolds_fields(model, fields, layers, place)
+    _stretches(model, fields, line, layers, place)
     if model.terms.mean == 1:
-        mean_fields(model, fields, line, layers, place)
+        _mean_fields(model, fields, line, layers, place)

@@ -61,13 +61,13 @@ def set_thinning(model: Model, line: Record) -> bool:
 
 
 @helper
-def thinning_arm(model: Model, k: int) -> float:
+def _thinning_arm(model: Model, k: int) -> float:
     """Return the distance from mid-film of the stress that determines the thinning of layer k."""
     return 0.0 if model.laws.uniform else model.across.zeta[k] - 0.5
 
 
 @helper
-def logarithmic(target: Lanes, rate: Lanes) -> Lanes:
+def _logarithmic(target: Lanes, rate: Lanes) -> Lanes:
     """Return Newton's step for the logarithm of the rate over that for the rate.
 
     With r = target/rate that is ``ln r / (r - 1)``; it is one if the target is zero or the rate
@@ -92,7 +92,7 @@ def newton_step(model: Model, line: Record, layers: Records) -> float:
     zero = 0.0 * scale
     rate_x, rate_y, xx, xy, yy = zero, zero, zero, zero, zero
     for k in range(layers.shape[0]):
-        x, y = stress_at(model.terms, line, thinning_arm(model, k))
+        x, y = stress_at(model.terms, line, _thinning_arm(model, k))
         square = x * x + y * y
         thinner, bend = thinning(model.laws, root(square) * scale)
         rate = layers[k].fluidity * model.across.weights[k] * thinner
@@ -102,25 +102,25 @@ def newton_step(model: Model, line: Record, layers: Records) -> float:
         xx = xx + rate + more * x * x
         xy = xy + more * x * y
         yy = yy + rate + more * y * y
-    grown = logarithmic(sliding, rate_x)
+    grown = _logarithmic(sliding, rate_x)
     rate_x = rate_x - sliding
     per_det = 1.0 / (xx * yy - xy * xy)
     dx = (yy * rate_x - xy * rate_y) * per_det
     dy = (xx * rate_y - xy * rate_x) * per_det
     step = scale * root(dx * dx + dy * dy)
-    take_step(model, line, dx, dy, grown * lesser(longest(line) / (grown * step + TINY), 1.0))
+    _take_step(model, line, dx, dy, grown * lesser(_longest(line) / (grown * step + TINY), 1.0))
     return largest(step)
 
 
 @helper
-def longest(line: Record) -> Lanes:
+def _longest(line: Record) -> Lanes:
     """Return the longest step of the stress, over its scale."""
     x, y = line.tau_x, line.tau_y
     return 1.0 + 0.5 * line.per_stress * root(x * x + y * y)
 
 
 @helper
-def take_step(model: Model, line: Record, dx: Lanes, dy: Lanes, part: Lanes) -> None:
+def _take_step(model: Model, line: Record, dx: Lanes, dy: Lanes, part: Lanes) -> None:
     """Take a part of a step; the stress stays below `BEYOND_LIMIT` times a limiting stress."""
     x, y = line.tau_x - part * dx, line.tau_y - part * dy
     if model.laws.uniform:
@@ -145,7 +145,7 @@ def thin(model: Model, line: Record, layers: Records, steps: int) -> None:
     askew = 0.0 * line.p
     for k in range(layers.shape[0]):
         here = layers[k]
-        x, y = stress_at(model.terms, line, thinning_arm(model, k))
+        x, y = stress_at(model.terms, line, _thinning_arm(model, k))
         square = x * x + y * y
         thinner, bend = thinning(model.laws, root(square) * line.per_stress)
         fluid, more = here.fluidity * thinner, along * bend / (square + TINY)

@@ -17,7 +17,7 @@ from tehl.kernels.raw import lanes
 
 
 @helper
-def carry_modes(surface: Surface, side: int, work: Work, place: Place) -> Lanes:
+def _carry_modes(surface: Surface, side: int, work: Work, place: Place) -> Lanes:
     """Update the exponentials of a surface to this station; return their sum and the near part.
 
     ``mode = decay mode + older q(i - 2) + newer q(i - 1)``.
@@ -38,7 +38,7 @@ def wall_row(across: Across, surface: Surface, side: int, work: Work, place: Pla
     """Fill the row of a wall: its temperature is bulk plus the rise by the line source."""
     line, rows = work.lines[place.block], lanes(0)
     wall, sign = side * (across.zeta.shape[0] - 1), 1.0 - 2.0 * side
-    past = carry_modes(surface, side, work, place)
+    past = _carry_modes(surface, side, work, place)
     over_h = line.conductivity / line.h
     first, stop = reach(across, wall)
     for m in range(first, stop):
