@@ -1,0 +1,26 @@
+"""The page on the architecture shows the tree as it is."""
+
+import importlib.util
+from pathlib import Path
+
+DOCS = Path(__file__).parents[1] / "docs"
+SPEC = importlib.util.spec_from_file_location("floors", DOCS / "floors.py")
+floors = importlib.util.module_from_spec(SPEC)
+SPEC.loader.exec_module(floors)
+
+HINT = "run python docs/floors.py"
+
+
+def test_the_drawing_has_the_floors_that_are_checked():
+    assert floors.DRAWING.read_text(encoding="utf-8") == floors.drawing(), HINT
+
+
+def test_the_list_has_all_files_with_their_subjects():
+    assert floors.PAGE.read_text(encoding="utf-8") == floors.page(), HINT
+    assert all(floors.subject(path) for path in floors.PACKAGE.rglob("*.py"))
+
+
+def test_each_file_is_on_one_floor():
+    listed = [path for row in floors.floors() for module in row for path in floors.files_of(module)]
+    outside = {floors.PACKAGE / "__init__.py", floors.PACKAGE / "__main__.py"}
+    assert sorted(listed) == sorted(set(floors.PACKAGE.rglob("*.py")) - outside)
