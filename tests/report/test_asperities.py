@@ -9,8 +9,7 @@ import pytest
 
 from tehl.errors import InputError
 from tehl.io.case import case_from_tables
-from tehl.report.explain import Explanation, as_summary, explain
-from tehl.report.explain_text import as_text
+from tehl.report.explain import Explanation, as_summary, as_text, explain
 from tests.cases import ball_tables
 
 WAVE = {"type": "wave", "amplitude": "50 nm", "wavelength": "80 um", "angle": "0 deg"}

@@ -10,8 +10,7 @@ import pytest
 
 from tehl.film_formulas import expected_central_film
 from tehl.io.case import case_from_tables
-from tehl.report.explain import Explanation, as_summary, explain
-from tehl.report.explain_text import as_text
+from tehl.report.explain import Explanation, as_summary, as_text, explain
 from tehl.report.readable import length
 from tests.cases import ball_tables
 

@@ -3,8 +3,7 @@
 import pytest
 
 from tehl.io.case import case_from_tables
-from tehl.report.explain import as_summary, explain
-from tehl.report.explain_text import as_text
+from tehl.report.explain import as_summary, as_text, explain
 from tehl.report.readable import seconds
 from tehl.report.transient_plan import transient_plan
 from tehl.scaling import ScaledProblem

@@ -27,9 +27,8 @@ def new(
 def explain(case: CaseFile, *, overrides: Overrides, as_json: AsJson = False) -> None:
     """Show what a case means: Hertz, groups, formulas, unusual values."""
     from tehl.io.case import read_case_and_options
-    from tehl.report.explain import as_summary
+    from tehl.report.explain import as_summary, as_text
     from tehl.report.explain import explain as explained
-    from tehl.report.explain_text import as_text
 
     explanation = explained(*read_case_and_options(case, overrides))
     typer.echo(json.dumps(as_summary(explanation)) if as_json else as_text(explanation))

@@ -1,26 +1,30 @@
 """Explain a case before the solve, by formulas alone."""
 
 from dataclasses import asdict, dataclass
-from math import isfinite
+from math import inf, isfinite
 from typing import Any
 
-from tehl.domain import needed_points, recommended_domain
+from tehl.domain import AIM, needed_points, recommended_domain
 from tehl.film_formulas import FilmEstimate, expected_film, film_estimates, regime
 from tehl.grid import Grid
 from tehl.heat import FilmEnergy, source_form
 from tehl.inlet_heating import inlet_factors, inlet_heating_factor, thermal_loading
-from tehl.memory import needed_memory
+from tehl.memory import available_memory, needed_memory
 from tehl.options import Domain, Options, coarsenable
 from tehl.problem import ContactProblem
-from tehl.report.asperities import Asperities, asperities
+from tehl.report.asperities import CONVERGES, RESOLVES, Asperities, asperities
 from tehl.report.expected_heat import BodyEffect, ExpectedHeat, body_effect, expected_heat
 from tehl.report.plausibility import questions
+from tehl.report.readable import UNTITLED
+from tehl.report.rendering import render
 from tehl.report.transient_plan import TransientPlan, transient_plan
 from tehl.scaling import ScaledProblem
 
 SECONDS_PER_NODE = 1.5e-6
 SECONDS_COUPLED = 6e-6
 """CPU time of a solve per node of the finest full grid on one core of a usual machine; a guide."""
+LEAST_RISE, LEAST_TRACTION = 0.1, 1e-4
+"""Temperature rise [K] and traction coefficient below which no number is shown."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -117,6 +121,27 @@ def explain(problem: ContactProblem, options: Options) -> Explanation:
 def _sources(problem: ContactProblem) -> tuple[str | None, ...]:
     stated = problem.heat.sources if isinstance(problem.heat, FilmEnergy) else "auto"
     return tuple(None if one is None else source_form(stated, one) for one in problem.solid_peclet)
+
+
+def as_text(case: Explanation) -> str:
+    """Return an explanation in lines of plain text."""
+    problem = case.scaled.problem
+    return render(
+        "explain.txt",
+        case=case,
+        aim=AIM,
+        available=available_memory(),
+        converges=CONVERGES,
+        inlet_factors=inlet_factors(problem),
+        infinity=inf,
+        least_rise=LEAST_RISE,
+        least_traction=LEAST_TRACTION,
+        loading=thermal_loading(problem),
+        regime=regime(case.scaled.groups),
+        resolves=RESOLVES,
+        stated=isinstance(case.options.domain, Domain),
+        untitled=UNTITLED,
+    ).rstrip()
 
 
 def as_summary(case: Explanation) -> dict[str, Any]:

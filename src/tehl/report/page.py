@@ -2,12 +2,9 @@
 
 import base64
 import io
-import math
 from collections.abc import Iterator
-from functools import partial
 from typing import Any
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
 from matplotlib.figure import Figure
 
 from tehl.errors import InputError
@@ -20,8 +17,9 @@ from tehl.post.roughness import rough_film
 from tehl.post.thermal_effect import ThermalEffect
 from tehl.post.transient import largest_change, passing_features
 from tehl.post.waves import PassingWave, passing_wave
-from tehl.report.readable import UNTITLED, input_rows, seconds
-from tehl.result import Estimate, Result
+from tehl.report.readable import UNTITLED, input_rows
+from tehl.report.rendering import UNITS, render
+from tehl.result import Result
 from tehl.transient_result import TransientResult
 from tehl.wave_theory import waves_of
 
@@ -48,17 +46,6 @@ CAPTIONS = {
     "interferogram_dichromatic": "Synthetic interferogram, two lines.",
 }
 """Pictures of a report, in its order."""
-_UNITS = {
-    "nm": (1e9, " nm"),
-    "um": (1e6, " µm"),
-    "mpa": (1e-6, " MPa"),
-    "gpa": (1e-9, " GPa"),
-    "kelvin": (1.0, " K"),
-    "newton": (1.0, " N"),
-    "watt": (1.0, " W"),
-    "plain": (1.0, ""),
-}
-"""Factor from SI and unit, by name of the filter."""
 _CERTIFIED = {
     "pressure_max": "gpa",
     "film_rise_max": "kelvin",
@@ -94,61 +81,14 @@ def report_text(
     """
     content = _shared(result, pictures_of(result, smooth), dpi)
     if isinstance(result, TransientResult):
-        return environment().get_template("transient.html").render(content | _transient(result))
+        return render("transient.html", **content, **_transient(result))
     content |= {
         "effect": effect,
         "heat": result.heat,
         "rough": rough_film(result, smooth),
         "roughness_effect": roughness,
     }
-    return environment().get_template("steady.html").render(content)
-
-
-def environment() -> Environment:
-    """Return the templates with their filters; all values are escaped."""
-    found = Environment(
-        loader=PackageLoader("tehl", "report/templates"),
-        autoescape=True,
-        extensions=["jinja2.ext.do"],
-        lstrip_blocks=True,
-        trim_blocks=True,
-        undefined=StrictUndefined,
-    )
-    found.filters |= {name: partial(_in_unit, name) for name in _UNITS} | {
-        "bar": _bar,
-        "celsius": lambda kelvin: f"{kelvin - 273.15:.4g} °C",
-        "degrees": math.degrees,
-        "g": lambda value, digits=4: f"{value:.{digits}g}",
-        "metres": lambda value: _in_unit("nm" if value < 1e-6 else "um", value),
-        "off": lambda formula, value: f"{100 * (formula / value - 1):+.1f} %",
-        "percent": lambda part, digits=2: f"{100 * part:.{digits}g} %",
-        "seconds": lambda time: seconds(time).replace("us", "µs"),
-        "unit": lambda value, name: _in_unit(name, value),
-    }
-    found.tests["numeral"] = _is_numeral
-    found.globals["zip"] = zip
-    return found
-
-
-def _in_unit(name: str, value: float, digits: int = 4) -> str:
-    """Return a value in SI with its unit."""
-    factor, word = _UNITS[name]
-    return f"{value * factor:.{digits}g}{word}"
-
-
-def _bar(estimate: Estimate | None, scale: float, name: str) -> str:
-    """Return a certified value with its error bar, both in SI when multiplied by ``scale``."""
-    if estimate is None:
-        return ""
-    factor, word = _UNITS[name]
-    unit = scale * factor
-    return f"{estimate.value * unit:.5g} ± {estimate.uncertainty * unit:.2g}{word}"
-
-
-def _is_numeral(text: str) -> bool:
-    """Return whether a cell is a number, perhaps with a unit or an error bar."""
-    begins = text[:1].isdigit() or text[:2].lstrip("-+±").isdigit()
-    return begins and len(text.split()) <= 4
+    return render("steady.html", **content)
 
 
 def _shared(result: Result | TransientResult, pictures: Pictures, dpi: int) -> dict[str, Any]:
@@ -183,7 +123,7 @@ def _inputs(result: Result) -> dict[str, list[tuple[str, str]]]:
 def _certified(result: Result | TransientResult, start: Result) -> Iterator[tuple[str, ...]]:
     """Yield a row for each value with an error bar."""
     for name, one in result.uncertainty.items():
-        factor, word = _UNITS[_CERTIFIED.get(name, "nm")]
+        factor, word = UNITS[_CERTIFIED.get(name, "nm")]
         if result is start and word in (" nm", " GPa"):  # steady ones are dimensionless
             scales = start.scales
             factor *= scales.film_thickness if word == " nm" else scales.hertz_pressure

@@ -1,0 +1,80 @@
+"""Templates of the texts and pages of a case or result, and the units in which they show values."""
+
+import math
+from functools import cache, partial
+from typing import TYPE_CHECKING, Any
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+
+from tehl.report.readable import length, seconds
+
+if TYPE_CHECKING:
+    from tehl.result import Estimate
+
+UNITS = {
+    "nm": (1e9, " nm"),
+    "um": (1e6, " µm"),
+    "mpa": (1e-6, " MPa"),
+    "gpa": (1e-9, " GPa"),
+    "kelvin": (1.0, " K"),
+    "newton": (1.0, " N"),
+    "watt": (1.0, " W"),
+    "plain": (1.0, ""),
+}
+"""Factor from SI and unit, by name of the filter."""
+
+
+def render(template: str, **content: Any) -> str:
+    """Return a template of ``report/templates`` filled with ``content``."""
+    return _environment().get_template(template).render(content)
+
+
+@cache
+def _environment() -> Environment:
+    """Return the templates with their filters; all values of pages are escaped."""
+    found = Environment(
+        loader=PackageLoader("tehl", "report/templates"),
+        autoescape=lambda name: str(name).endswith(".html"),
+        extensions=["jinja2.ext.do"],
+        lstrip_blocks=True,
+        trim_blocks=True,
+        undefined=StrictUndefined,
+    )
+    found.filters |= {name: partial(_in_unit, name) for name in UNITS} | {
+        "bar": _bar,
+        "celsius": lambda kelvin: f"{kelvin - 273.15:.4g} °C",
+        "degc": lambda kelvin: f"{kelvin - 273.15:.4g} degC",
+        "degrees": math.degrees,
+        "g": lambda value, digits=4: f"{value:.{digits}g}",
+        "metres": lambda value: _in_unit("nm" if value < 1e-6 else "um", value),
+        "off": lambda formula, value: f"{100 * (formula / value - 1):+.1f} %",
+        "percent": lambda part, digits=2: f"{100 * part:.{digits}g} %",
+        "seconds": lambda time: seconds(time).replace("us", "µs"),
+        "size": length,
+        "time": seconds,
+        "unit": lambda value, name: _in_unit(name, value),
+    }
+    found.tests["numeral"] = _is_numeral
+    found.globals["zip"] = zip
+    return found
+
+
+def _in_unit(name: str, value: float, digits: int = 4) -> str:
+    """Return a value in SI with its unit."""
+    factor, word = UNITS[name]
+    return f"{value * factor:.{digits}g}{word}"
+
+
+def _bar(estimate: "Estimate | None", scale: float, name: str) -> str:
+    """Return a certified value with its error bar, both in SI when multiplied by ``scale``."""
+    if estimate is None:
+        return ""
+    factor, word = UNITS[name]
+    unit = scale * factor
+    return f"{estimate.value * unit:.5g} ± {estimate.uncertainty * unit:.2g}{word}"
+
+
+def _is_numeral(text: str) -> bool:
+    """Return whether a cell is a number, perhaps with a unit or an error bar."""
+    begins = text[:1].isdigit() or text[:2].lstrip("-+±").isdigit()
+    return begins and len(text.split()) <= 4
