@@ -3,7 +3,7 @@
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import Any
 
 import numpy as np
@@ -81,24 +81,33 @@ _TRANSIENT: dict[str, tuple[Path, ...]] = {
 """Keys of the summary that the estimates of a certified result belong to."""
 
 
-def _mirrored(
-    result: Result | TransientResult, places: dict[str, tuple[Path, ...]], units: dict[str, float]
-) -> Block:
-    """Return the estimates of a result under the keys of their values, in ``units``."""
+def estimates(result: Result | TransientResult) -> dict[str, Estimate]:
+    """Return the values of a certified result with their error bars, in SI."""
+    if isinstance(result, TransientResult):
+        return result.uncertainty
+    film, pressure = result.scales.film_thickness, result.scales.hertz_pressure
+    units = {"film_central": film, "film_minimum": film, "pressure_max": pressure}
+    return {name: _scaled(one, units.get(name, 1.0)) for name, one in result.uncertainty.items()}
+
+
+def _scaled(estimate: Estimate, unit: float) -> Estimate:
+    parts = ("value", "uncertainty", "discretisation", "domain")
+    changes: Block = {part: getattr(estimate, part) * unit for part in parts}
+    return replace(estimate, values=tuple(unit * value for value in estimate.values), **changes)
+
+
+def _mirrored(result: Result | TransientResult, places: dict[str, tuple[Path, ...]]) -> Block:
+    """Return the estimates of a result under the keys of their values."""
     blocks: Block = {}
+    in_si = estimates(result)
     for name, paths in places.items():
-        for *parents, key in paths if name in result.uncertainty else ():
+        for *parents, key in paths if name in in_si else ():
             block = blocks
             for parent in parents:
                 block = block.setdefault(parent, {})
-            block[key] = _in_unit(result.uncertainty[name], units.get(key, 1.0))
+            dimensionless = key.startswith(("H_", "P_"))
+            block[key] = asdict((result.uncertainty if dimensionless else in_si)[name])
     return blocks
-
-
-def _in_unit(estimate: Estimate, unit: float) -> Block:
-    parts = ("value", "uncertainty", "discretisation", "domain", "values")
-    scaled = {part: (np.asarray(getattr(estimate, part)) * unit).tolist() for part in parts}
-    return scaled | {"observed_order": estimate.observed_order}
 
 
 # ---- steady results
@@ -128,12 +137,7 @@ def _steady(result: Result) -> Block:
         "cost": {"points": [scaled.x.size, scaled.y.size]} | asdict(result.cost),
     }
     if result.uncertainty:
-        units = {
-            "h_central_m": result.scales.film_thickness,
-            "h_min_m": result.scales.film_thickness,
-            "max_pa": result.scales.hertz_pressure,
-        }
-        content["uncertainty"] = {"film": {}, "pressure": {}} | _mirrored(result, _STEADY, units)
+        content["uncertainty"] = {"film": {}, "pressure": {}} | _mirrored(result, _STEADY)
     return content
 
 
@@ -274,7 +278,7 @@ def _transient(run: TransientResult) -> Block:
         "start": summary(run.start),
     }
     if run.uncertainty:
-        content["uncertainty"] = _mirrored(run, _TRANSIENT, {})
+        content["uncertainty"] = _mirrored(run, _TRANSIENT)
         if run.bars is not None:
             content["uncertainty"]["history"] = _history_bars(run.bars)
     return content

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 from tehl.errors import InputError
 from tehl.film_formulas import film_estimates
+from tehl.io.summary import estimates
 from tehl.io.tables import DEFINITIONS
 from tehl.plots import Pictures, pictures_of
 from tehl.post.film import no_film
@@ -19,7 +20,7 @@ from tehl.post.transient import largest_change, passing_features
 from tehl.post.waves import PassingWave, passing_wave
 from tehl.report.readable import UNTITLED, input_rows
 from tehl.report.rendering import UNITS, render
-from tehl.result import Result
+from tehl.result import Estimate, Result
 from tehl.transient_result import TransientResult
 from tehl.wave_theory import waves_of
 
@@ -94,8 +95,10 @@ def report_text(
 def _shared(result: Result | TransientResult, pictures: Pictures, dpi: int) -> dict[str, Any]:
     """Return the content of both kinds of page."""
     start = result.start if isinstance(result, TransientResult) else result
+    bars = estimates(result)
     return {
-        "certified": list(_certified(result, start)),
+        "bars": bars,
+        "certified": list(_certified(bars)),
         "conventions": DEFINITIONS,
         "formulas": film_estimates(start.groups, start.scales),
         "inputs": _inputs(start),
@@ -120,13 +123,10 @@ def _inputs(result: Result) -> dict[str, list[tuple[str, str]]]:
     return tables
 
 
-def _certified(result: Result | TransientResult, start: Result) -> Iterator[tuple[str, ...]]:
+def _certified(certified: dict[str, Estimate]) -> Iterator[tuple[str, ...]]:
     """Yield a row for each value with an error bar."""
-    for name, one in result.uncertainty.items():
+    for name, one in certified.items():
         factor, word = UNITS[_CERTIFIED.get(name, "nm")]
-        if result is start and word in (" nm", " GPa"):  # steady ones are dimensionless
-            scales = start.scales
-            factor *= scales.film_thickness if word == " nm" else scales.hertz_pressure
         parts = (one.uncertainty, one.discretisation, one.domain)
         yield (
             name.replace("_", " "),

@@ -65,13 +65,12 @@ def _in_unit(name: str, value: float, digits: int = 4) -> str:
     return f"{value * factor:.{digits}g}{word}"
 
 
-def _bar(estimate: "Estimate | None", scale: float, name: str) -> str:
-    """Return a certified value with its error bar, both in SI when multiplied by ``scale``."""
+def _bar(estimate: "Estimate | None", name: str) -> str:
+    """Return a certified value in SI with its error bar."""
     if estimate is None:
         return ""
     factor, word = UNITS[name]
-    unit = scale * factor
-    return f"{estimate.value * unit:.5g} ± {estimate.uncertainty * unit:.2g}{word}"
+    return f"{estimate.value * factor:.5g} ± {estimate.uncertainty * factor:.2g}{word}"
 
 
 def _is_numeral(text: str) -> bool:
