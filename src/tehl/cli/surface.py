@@ -1,7 +1,6 @@
 """``tehl surface``: a measured surface at a glance."""
 
 import json
-import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -16,6 +15,8 @@ if TYPE_CHECKING:
 _DOMAIN = 6.0
 """Length of the usual domain in half-widths."""
 _ROUGHNESS = ("Sq_m", "Sa_m", "Sz_m", "Ssk", "Sku", "Sdq")
+_LONGEST = 1e300
+"""Lengths beyond are infinite [m]."""
 _LEVELS = {
     "none": "nothing",
     "mean": "the mean",
@@ -138,62 +139,15 @@ def _mesh_of_case(case: Path, points: int | None) -> "Mesh":
 
 def as_text(found: "Preview") -> str:
     """Return a preview in lines for people."""
-    values, numbers = found.heights, found.statistics
-    ny, nx = values.values.shape
-    axes = "its x and y" if found.surface.rotate else "x and y"
-    both = numbers.correlation_lengths
-    lengths = (f"{one * 1e6:.4g} um" if one < 1e300 else "none" for one in both)
-    missing = found.missing / math.prod(found.raw_shape)
-    rows = [
-        ("file", f"{found.kind}, {found.raw_shape[1]} x {found.raw_shape[0]} points"),
-        ("size", f"{_micro(*values.size)}, {nx} x {ny} points {_micro(*values.pixel)} apart"),
-        *_placed(found.surface),
-        ("missing points", f"{found.missing} ({100 * missing:.2g} %)"),
-        ("taken off", f'{_LEVELS[found.surface.level]} (level = "{found.surface.level}")'),
-        *_filters(found.surface),
-        ("Sq, Sa, Sz", f"{_metres(numbers.sq)}, {_metres(numbers.sa)}, {_metres(numbers.sz)}"),
-        ("Ssk, Sku", f"{numbers.ssk:.3g}, {numbers.sku:.3g}"),
-        ("Sdq", f"{numbers.sdq:.3g}"),
-        ("correlation", f"{', '.join(lengths)} (1/e, along {axes})"),
-        ("mean wavelength", f"{found.shortest_wavelength * 1e6:.4g} um (2 pi Sq / Sq')"),
-        *_on_the_mesh(found),
-        *(("note", note) for note in values.notes),
-        *(("question", sentence) for sentence in found.sentences),
-    ]
-    return "\n".join([found.file, *(f"  {name:<17}{text}" for name, text in rows)])
+    from tehl.report.rendering import render
 
-
-def _placed(surface: "Map") -> list[tuple[str, str]]:
-    """Return how the map lies in the contact, where it is turned or moved."""
-    placed = [f"turned by {math.degrees(surface.rotate):.4g} deg"] if surface.rotate else []
-    if surface.x or surface.y:
-        placed.append(f"its middle at x = {surface.x * 1e6:.4g} um, y = {surface.y * 1e6:.4g} um")
-    return [("placed", ", ".join(placed))] if placed else []
-
-
-def _filters(surface: "Map") -> list[tuple[str, str]]:
-    cut_offs = (("lambda_c", surface.lambda_c), ("lambda_s", surface.lambda_s))
-    stated = [f"{key} = {length * 1e6:.4g} um" for key, length in cut_offs if length is not None]
-    return [("filters", f"Gaussian, {', '.join(stated)}")] if stated else []
-
-
-def _on_the_mesh(found: "Preview") -> list[tuple[str, str]]:
-    if found.mesh is None or found.lost is None:
-        return []
-    nx, ny = found.mesh.points
-    per_wave = found.shortest_wavelength / max(found.mesh.spacing)
-    advice = "" if per_wave >= 8 else "; at least 8 are recommended: take more points, or lambda_s"
-    return [
-        ("grid", f"{nx} x {ny} nodes {_micro(*found.mesh.spacing)} apart"),
-        ("", f"{100 * found.lost:.2g} % of the variance is lost, in waves of two widths or less"),
-        ("", f"{per_wave:.3g} nodes per mean wavelength{advice}"),
-    ]
+    return render("surface.txt", found=found, levels=_LEVELS, longest=_LONGEST).rstrip()
 
 
 def as_summary(found: "Preview") -> dict[str, Any]:
     """Return the numbers of a preview, in SI, for programs."""
     surface, heights, numbers = found.surface, found.heights, found.statistics
-    lengths = [length if length < 1e300 else None for length in numbers.correlation_lengths]
+    lengths = [length if length < _LONGEST else None for length in numbers.correlation_lengths]
     return {
         "file": found.file,
         "kind": found.kind,
@@ -214,11 +168,3 @@ def as_summary(found: "Preview") -> dict[str, Any]:
         "notes": list(heights.notes),
         "questions": list(found.sentences),
     }
-
-
-def _micro(first: float, second: float) -> str:
-    return f"{first * 1e6:.4g} x {second * 1e6:.4g} um"
-
-
-def _metres(length: float) -> str:
-    return f"{length * 1e9:.4g} nm" if abs(length) < 1e-7 else f"{length * 1e6:.4g} um"
