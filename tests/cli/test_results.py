@@ -1,6 +1,7 @@
 """``tehl plot``, ``export`` and ``report``: stored results in, files out."""
 
 import sys
+from dataclasses import asdict
 from types import SimpleNamespace
 
 import pytest
@@ -9,7 +10,7 @@ from tehl import cli
 from tehl.cli.reference_runs import smooth_beside, smooth_file
 from tehl.io.store import save
 from tehl.plots import film_map
-from tehl.post.micro_film import effect_block, roughness_effect
+from tehl.post.micro_film import roughness_effect
 from tests.fixtures_transient import make_transient
 
 
@@ -91,7 +92,7 @@ def test_the_report_of_a_rough_result_shows_what_roughness_does(
     rough, smooth, tmp_path, run, monkeypatch
 ):
     monkeypatch.setattr("tehl.report.page.CAPTIONS", {})
-    block = {"roughness_effect": effect_block(roughness_effect(rough, smooth))}
+    block = {"roughness_effect": asdict(roughness_effect(rough, smooth))}
     save(rough, tmp_path / "wavy.nc", extra=block)
     assert run("report", str(tmp_path / "wavy.nc")).code == 0
     page = (tmp_path / "wavy.html").read_text(encoding="utf-8")

@@ -64,8 +64,8 @@ def test_the_effect_of_heat_names_its_formulas(thermal):
     effect = ThermalEffect(
         central=0.93,
         minimum=0.91,
-        isothermal_central=1e-7,
-        isothermal_minimum=5e-8,
+        isothermal_h_central_m=1e-7,
+        isothermal_h_min_m=5e-8,
         inlet_factors=(InletFactor(formula="Wilson-Sheu", source="", factor=0.95, remarks=()),),
     )
     shown = as_text(thermal, Comparisons(heat=effect))

@@ -1,7 +1,7 @@
 """Numbers of a rough film, and the same beside its smooth reference run."""
 
 import math
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
@@ -9,16 +9,16 @@ import pytest
 from tehl.errors import InputError
 from tehl.heat import Thermal
 from tehl.io.store import load_summary, save
-from tehl.io.summary import roughness_block
+from tehl.io.summary import from_block, roughness_block
 from tehl.post.micro_film import (
-    effect_block,
+    RoughnessEffect,
     micro_film,
     roughness_effect,
     smooth_reference,
-    stored_effect,
     typical_wavelength,
 )
 from tehl.post.roughness import area_below, film_histogram, film_in_contact, rough_film
+from tehl.post.thermal_effect import ThermalEffect
 from tehl.problem import ContactProblem
 from tests.fixtures_result import CASE, make_result
 from tests.fixtures_rough import AMPLITUDE, CARRIED, LEFT, PRESSURE, WAVELENGTH, make_rough
@@ -116,15 +116,16 @@ def test_the_effect_is_rough_over_smooth_and_survives_a_file(rough, smooth, tmp_
         rough.scaled.pressure.max() / smooth.scaled.pressure.max()
     )
     assert effect.traction is None
-    assert effect.smooth_central == smooth.film.central
-    save(rough, tmp_path / "rough.nc", extra={"roughness_effect": effect_block(effect)})
-    assert stored_effect(load_summary(tmp_path / "rough.nc")) == effect
+    assert effect.smooth_h_central_m == smooth.film.central
+    save(rough, tmp_path / "rough.nc", extra={"roughness_effect": asdict(effect)})
+    block = load_summary(tmp_path / "rough.nc")["roughness_effect"]
+    assert from_block(RoughnessEffect, block) == effect
 
 
 @pytest.mark.parametrize("block", [None, {}, {"central": 1.0}, {"central": "x"}, 3])
 def test_without_a_whole_comparison_there_is_no_effect(block):
-    assert stored_effect({"roughness_effect": block}) is None
-    assert stored_effect({}) is None
+    assert from_block(RoughnessEffect, block) is None
+    assert from_block(ThermalEffect, block) is None
 
 
 def test_the_block_of_the_summary_has_si_and_ratios(rough, smooth):

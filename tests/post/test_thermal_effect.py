@@ -1,15 +1,15 @@
 """A thermal film beside its isothermal reference run."""
 
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import pytest
 
 from tehl.errors import InputError
 from tehl.io.store import load_summary, save
+from tehl.io.summary import from_block
 from tehl.post.thermal_effect import (
-    effect_block,
+    ThermalEffect,
     isothermal_reference,
-    stored_effect,
     thermal_effect,
 )
 from tehl.problem import ContactProblem
@@ -46,17 +46,12 @@ def test_the_effect_is_thermal_over_isothermal(result, warm):
     effect = thermal_effect(hot, result)
     assert effect.central == pytest.approx(0.09 / result.film_scaled.central)
     assert effect.minimum == pytest.approx(0.03 / result.film_scaled.minimum)
-    assert effect.isothermal_central == result.film.central
+    assert effect.isothermal_h_central_m == result.film.central
     assert "Wilson-Sheu" in [factor.formula for factor in effect.inlet_factors]
 
 
 def test_the_effect_survives_a_file(result, warm, tmp_path):
     effect = thermal_effect(replace(result, problem=warm), result)
-    save(result, tmp_path / "warm.nc", extra={"thermal_effect": effect_block(effect)})
-    assert stored_effect(load_summary(tmp_path / "warm.nc")) == effect
-
-
-@pytest.mark.parametrize("block", [None, {}, {"central": 1.0}, {"central": "x"}, 3])
-def test_without_a_whole_comparison_there_is_no_effect(block):
-    assert stored_effect({"thermal_effect": block}) is None
-    assert stored_effect({}) is None
+    save(result, tmp_path / "warm.nc", extra={"thermal_effect": asdict(effect)})
+    block = load_summary(tmp_path / "warm.nc")["thermal_effect"]
+    assert from_block(ThermalEffect, block) == effect

@@ -224,8 +224,8 @@ def test_the_film_without_heat_stands_beside_the_one_with_it(thermal, monkeypatc
     effect = ThermalEffect(
         central=0.9875,
         minimum=0.9625,
-        isothermal_central=1.234e-6,
-        isothermal_minimum=0.5e-6,
+        isothermal_h_central_m=1.234e-6,
+        isothermal_h_min_m=0.5e-6,
         inlet_factors=(factor,),
     )
     text = report_text(thermal, effect=effect)

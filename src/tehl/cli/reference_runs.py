@@ -1,6 +1,6 @@
 """Reference runs of a steady case, without heat or with smooth surfaces, and comparisons."""
 
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -40,9 +40,9 @@ def compare(result: Result, references: dict[str, Result | None]) -> Comparisons
     rough = None if smooth is None else rough_film(result, smooth)
     blocks: dict[str, Any] = {}
     if ISOTHERMAL in references:
-        blocks["thermal_effect"] = heat and thermal_effect.effect_block(heat)
+        blocks["thermal_effect"] = heat and asdict(heat)
     if SMOOTH in references:
-        blocks["roughness_effect"] = roughness and micro_film.effect_block(roughness)
+        blocks["roughness_effect"] = roughness and asdict(roughness)
     if rough is not None:
         blocks["roughness"] = roughness_block(rough)
     return Comparisons(

@@ -106,7 +106,9 @@ def report(
     from tehl.cli.reference_runs import smooth_beside
     from tehl.io.atomic import check_writable, replacing
     from tehl.io.store import load, load_summary
-    from tehl.post import micro_film, thermal_effect
+    from tehl.io.summary import from_block
+    from tehl.post.micro_film import RoughnessEffect
+    from tehl.post.thermal_effect import ThermalEffect
     from tehl.report.page import report_text
 
     path = stored.with_suffix(".html") if output is None else output
@@ -115,8 +117,8 @@ def report(
     summary = load_summary(stored)
     page = report_text(
         result,
-        effect=thermal_effect.stored_effect(summary),
-        roughness=micro_film.stored_effect(summary),
+        effect=from_block(ThermalEffect, summary.get("thermal_effect")),
+        roughness=from_block(RoughnessEffect, summary.get("roughness_effect")),
         smooth=smooth_beside(stored, result),
     )
     with replacing(path) as temporary:

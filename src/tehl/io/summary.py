@@ -4,9 +4,10 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import asdict, replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
+from pydantic import TypeAdapter
 
 from tehl.fields import FilmHeat
 from tehl.post.heat import Temperature
@@ -18,6 +19,7 @@ from tehl.transient_result import HistoryBars, TransientResult
 from tehl.typing import Array
 
 Block = dict[str, Any]
+Part = TypeVar("Part")
 _UNIT = re.compile("_(m|pa|k|w|rad)$")
 
 
@@ -58,6 +60,14 @@ def plain(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return [plain(item) for item in value]
     return value
+
+
+def from_block(kind: type[Part], block: Any) -> Part | None:
+    """Return the dataclass that a block of a stored summary holds; None if it does not fit."""
+    try:
+        return TypeAdapter(kind).validate_python(block)
+    except ValueError:  # missing, or written by another program
+        return None
 
 
 Path = tuple[str, ...]

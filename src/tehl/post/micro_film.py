@@ -1,12 +1,10 @@
 """What roughness does to a film: a rough result beside its smooth reference run."""
 
 import math
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from pydantic import TypeAdapter
 
 from tehl.errors import InputError
 from tehl.post.roughness import in_contact, middle_film, square
@@ -42,7 +40,7 @@ class MicroFilm:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class RoughnessEffect:
-    """A rough contact over its smooth reference run.
+    """A rough contact over its smooth reference run; a block of the summary.
 
     Attributes
     ----------
@@ -52,11 +50,11 @@ class RoughnessEffect:
         Ratio of the largest pressures [-].
     traction : float or None
         Ratio of the mid-film tractions [-]; None where there is no sliding.
-    smooth_central, smooth_minimum : float
+    smooth_h_central_m, smooth_h_min_m : float
         Films of the reference run [m].
-    smooth_largest_pressure : float
+    smooth_max_pa : float
         Of the reference run [Pa].
-    ripple_film, ripple_pressure : float
+    ripple_film_m, ripple_pressure_pa : float
         Root mean square of both ripples over the Hertz contact [m], [Pa].
     """
 
@@ -65,11 +63,11 @@ class RoughnessEffect:
     middle: float
     largest_pressure: float
     traction: float | None
-    smooth_central: float
-    smooth_minimum: float
-    smooth_largest_pressure: float
-    ripple_film: float
-    ripple_pressure: float
+    smooth_h_central_m: float
+    smooth_h_min_m: float
+    smooth_max_pa: float
+    ripple_film_m: float
+    ripple_pressure_pa: float
 
 
 def smooth_reference(problem: ContactProblem) -> ContactProblem:
@@ -156,33 +154,9 @@ def roughness_effect(rough: "Result", smooth: "Result") -> RoughnessEffect:
         middle=middle_film(rough) / middle_film(smooth),
         largest_pressure=highest / without,
         traction=traction,
-        smooth_central=smooth.film.central,
-        smooth_minimum=smooth.film.minimum,
-        smooth_largest_pressure=without,
-        ripple_film=float(np.sqrt(np.mean(ripples.film[contact] ** 2))),
-        ripple_pressure=float(np.sqrt(np.mean(ripples.pressure[contact] ** 2))),
+        smooth_h_central_m=smooth.film.central,
+        smooth_h_min_m=smooth.film.minimum,
+        smooth_max_pa=without,
+        ripple_film_m=float(np.sqrt(np.mean(ripples.film[contact] ** 2))),
+        ripple_pressure_pa=float(np.sqrt(np.mean(ripples.pressure[contact] ** 2))),
     )
-
-
-_KEYS = {
-    "smooth_central": "smooth_h_central_m",
-    "smooth_minimum": "smooth_h_min_m",
-    "smooth_largest_pressure": "smooth_max_pa",
-    "ripple_film": "ripple_film_m",
-    "ripple_pressure": "ripple_pressure_pa",
-}
-
-
-def effect_block(effect: RoughnessEffect) -> dict[str, Any]:
-    """Return the comparison as the block ``roughness_effect`` of a summary."""
-    return {_KEYS.get(name, name): value for name, value in asdict(effect).items()}
-
-
-def stored_effect(summary: Mapping[str, Any]) -> RoughnessEffect | None:
-    """Return the comparison in a summary of a stored result, None without one."""
-    block: Any = summary.get("roughness_effect")
-    try:
-        values = {one.name: block[_KEYS.get(one.name, one.name)] for one in fields(RoughnessEffect)}
-        return TypeAdapter(RoughnessEffect).validate_python(values)
-    except (TypeError, KeyError, ValueError):  # missing, or written by another program
-        return None

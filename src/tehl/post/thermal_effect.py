@@ -1,10 +1,7 @@
 """Effect of heat on a film: a thermal result beside its isothermal reference run."""
 
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields
-from typing import TYPE_CHECKING, Any
-
-from pydantic import TypeAdapter
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from tehl.errors import InputError
 from tehl.inlet_heating import InletFactor, inlet_factors
@@ -16,13 +13,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class ThermalEffect:
-    """Films of a thermal run over those of its isothermal reference run.
+    """Films of a thermal run over those of its isothermal reference run; a block of the summary.
 
     Attributes
     ----------
     central, minimum : float
         Ratio of the central and of the minimum films [-].
-    isothermal_central, isothermal_minimum : float
+    isothermal_h_central_m, isothermal_h_min_m : float
         Films of the reference run [m].
     inlet_factors : tuple of InletFactor
         Ratio by heating in the inlet alone, by each formula.
@@ -30,8 +27,8 @@ class ThermalEffect:
 
     central: float
     minimum: float
-    isothermal_central: float
-    isothermal_minimum: float
+    isothermal_h_central_m: float
+    isothermal_h_min_m: float
     inlet_factors: tuple[InletFactor, ...]
 
 
@@ -59,28 +56,7 @@ def thermal_effect(thermal: "Result", isothermal: "Result") -> ThermalEffect:
     return ThermalEffect(
         central=warm.central / cold.central,
         minimum=warm.minimum / cold.minimum,
-        isothermal_central=cold.central,
-        isothermal_minimum=cold.minimum,
+        isothermal_h_central_m=cold.central,
+        isothermal_h_min_m=cold.minimum,
         inlet_factors=inlet_factors(thermal.problem),
     )
-
-
-_KEYS = {
-    "isothermal_central": "isothermal_h_central_m",
-    "isothermal_minimum": "isothermal_h_min_m",
-}
-
-
-def effect_block(effect: ThermalEffect) -> dict[str, Any]:
-    """Return the comparison as the block ``thermal_effect`` of a summary."""
-    return {_KEYS.get(name, name): value for name, value in asdict(effect).items()}
-
-
-def stored_effect(summary: Mapping[str, Any]) -> ThermalEffect | None:
-    """Return the comparison in a summary of a stored result, None without one."""
-    block: Any = summary.get("thermal_effect")
-    try:
-        values = {one.name: block[_KEYS.get(one.name, one.name)] for one in fields(ThermalEffect)}
-        return TypeAdapter(ThermalEffect).validate_python(values)
-    except (TypeError, KeyError, ValueError):  # missing, or written by another program
-        return None
