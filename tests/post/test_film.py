@@ -10,10 +10,10 @@ from tehl.post.film import (
     dry_gap,
     hertz_pressure,
     mass_flow,
-    pressurised_area,
     profile_x,
     profile_y,
 )
+from tehl.post.traction import under_pressure
 
 
 def gap_of_circle(r: np.ndarray) -> np.ndarray:
@@ -64,7 +64,7 @@ def test_profiles_run_through_the_centre(result):
 
 def test_the_pressurised_area_is_that_of_the_hertz_circle(result):
     circle = np.pi * result.scales.half_width_x**2
-    assert pressurised_area(result) == pytest.approx(circle, rel=0.03)
+    assert under_pressure(result).sum() == pytest.approx(circle, rel=0.03)
 
 
 def test_without_pressure_the_surfaces_carry_the_mass(result):

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tehl.post.heat import lagrange_weights, mean_temperature, mid_film_temperature
+from tehl.post.heat import lagrange_weights
 from tests.fixtures_thermal import HOTTEST, with_heat
 
 
@@ -36,7 +36,7 @@ def test_mid_film_needs_no_node_in_the_middle(result, layers):
     found = with_heat(result, layers)
     centre = (32, int(np.argmin(np.abs(found.scaled.x))))
     surface = 0.9 * (found.heat.temperature[0][centre] - 313.15)
-    rise = mid_film_temperature(found.heat)[centre] - 313.15
+    rise = found.temperature.mid_film[centre] - 313.15
     assert rise == pytest.approx(surface + HOTTEST, rel=1e-12)
 
 
@@ -50,8 +50,8 @@ def test_interpolation_is_exact_for_a_cubic(nodes):
 def test_the_mean_takes_the_weights_of_the_scheme(thermal):
     """The mean of 4 zeta (1 - zeta) is 2/3 of its middle."""
     surfaces = 0.5 * (thermal.heat.temperature[0] + thermal.heat.temperature[-1])
-    middle = mid_film_temperature(thermal.heat) - surfaces
-    assert mean_temperature(thermal.heat) - surfaces == pytest.approx(2 / 3 * middle, abs=1e-9)
+    middle = thermal.temperature.mid_film - surfaces
+    assert thermal.temperature.mean - surfaces == pytest.approx(2 / 3 * middle, abs=1e-9)
 
 
 def test_central_values_are_those_at_the_origin(thermal):

@@ -28,7 +28,7 @@ def plan(**changes):
 def test_steps_follow_from_the_mesh_and_the_mean_speed():
     found, problem, _ = plan()
     step = 4.0 / 256 * problem.hertz.half_width_x / 1.5
-    assert found.step == pytest.approx(step)
+    assert found.step_s == pytest.approx(step)
     assert found.steps == pytest.approx(1e-3 / step, abs=1)
     assert found.distance == pytest.approx(1e-3 * 1.5 / problem.hertz.half_width_x)
     assert found.points_per_wave[0] == pytest.approx(
@@ -39,8 +39,8 @@ def test_steps_follow_from_the_mesh_and_the_mean_speed():
 
 def test_speeds_are_those_of_both_surfaces():
     found, *_ = plan(slide_roll_ratio=1.0)
-    assert found.speeds == pytest.approx((2.25, 0.75))
-    assert found.shift == pytest.approx((1.5, 0.5))
+    assert found.speeds_m_s == pytest.approx((2.25, 0.75))
+    assert found.shift_per_step == pytest.approx((1.5, 0.5))
 
 
 def test_a_wave_of_few_points_is_reported():

@@ -150,7 +150,7 @@ def as_summary(found: "Preview") -> dict[str, Any]:
     lengths = [length if length < _LONGEST else None for length in numbers.correlation_lengths]
     return {
         "file": found.file,
-        "kind": found.kind,
+        "kind": found.raw.kind,
         "points": list(reversed(heights.values.shape)),
         "size_m": list(heights.size),
         "pixel_m": list(heights.pixel),
@@ -162,7 +162,7 @@ def as_summary(found: "Preview") -> dict[str, Any]:
         "lambda_s_m": surface.lambda_s,
         **{key: getattr(numbers, key.removesuffix("_m").lower()) for key in _ROUGHNESS},
         "correlation_lengths_m": lengths,
-        "mean_wavelength_m": found.shortest_wavelength,
+        "mean_wavelength_m": surface.shortest_wavelength,
         "mesh_m": None if found.mesh is None else list(found.mesh.spacing),
         "lost_share": found.lost,
         "notes": list(heights.notes),

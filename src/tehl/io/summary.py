@@ -206,9 +206,9 @@ def _temperature(found: Temperature) -> Block:
 
 
 def _traction(found: Traction) -> Block:
-    return _picked(
+    return {"sliding": found.mid_film} | _picked(
         found,
-        *("surface_1", "mid_film", "surface_2", "sliding", "rolling", "rolling_by_film"),
+        *("surface_1", "mid_film", "surface_2", "rolling", "rolling_by_film"),
         *("closure_error", "credible", "friction_power_w"),
     )
 

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tehl.post.traction import cell_widths, under_pressure
+from tehl.post.traction import cell_widths
 from tehl.typing import Array, BoolArray
 
 if TYPE_CHECKING:
@@ -118,21 +118,14 @@ def dry_gap(x: Array, y: Array, ellipticity: float) -> Array:
     return gap * end / (np.pi * np.mean(cosine / np.sqrt(k2 * cosine + sine)))
 
 
-def pressurised_area(result: "Result") -> float:
-    """Return the area under pressure, where the film is full [m^2]."""
-    return float(under_pressure(result).sum())
-
-
 @dataclass(frozen=True, kw_only=True, slots=True)
 class MassFlow:
     """Mass that flows through each section x = const.
 
     Attributes
     ----------
-    x : (nx,) array
-        Where [m].
     forward : (nx,) array
-        Through the section, along x [kg/s].
+        Through the section at each x of the grid, along x [kg/s].
     sideways : (nx,) array
         Out of both side edges between the inlet and the section [kg/s].
     full : (nx,) array of bool
@@ -142,7 +135,6 @@ class MassFlow:
         zero up to the discretisation error.
     """
 
-    x: Array
     forward: Array
     sideways: Array
     full: BoolArray
@@ -171,4 +163,4 @@ def mass_flow(result: "Result") -> MassFlow:
     full = np.concatenate([full[:1], full])
     total = (forward + sideways)[1:][full[1:]]
     change = float(np.ptp(total) / np.abs(total).max()) if total.size else 0.0
-    return MassFlow(x=x, forward=forward, sideways=sideways, full=full, imbalance=change)
+    return MassFlow(forward=forward, sideways=sideways, full=full, imbalance=change)

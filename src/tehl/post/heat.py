@@ -48,7 +48,8 @@ def temperature(result: "Result") -> Temperature | None:
     heat, inlet = result.heat, result.scales.temperature
     if heat is None:
         return None
-    mid_film, mean = mid_film_temperature(heat), mean_temperature(heat)
+    mid_film = np.tensordot(lagrange_weights(heat.zeta, 0.5), heat.temperature, axes=1)
+    mean = mean_temperature(heat)
     # Of equal temperatures the one with the largest Y: a symmetric contact has Y >= 0.
     field = heat.temperature[:, ::-1]
     layer, row, column = np.unravel_index(int(np.argmax(field)), field.shape)
@@ -68,11 +69,6 @@ def temperature(result: "Result") -> Temperature | None:
         mid_film=mid_film,
         mean=mean,
     )
-
-
-def mid_film_temperature(heat: FilmHeat) -> Array:
-    """Return T half-way between the surfaces, z/h = 0.5, (ny, nx) [K]."""
-    return np.tensordot(lagrange_weights(heat.zeta, 0.5), heat.temperature, axes=1)
 
 
 def mean_temperature(heat: FilmHeat) -> Array:

@@ -1,7 +1,7 @@
 """Traction of a film: shear forces on the surfaces and at mid-film over the load.
 
 The stress is ``tau = eta du/dz``, so all coefficients are negative where surface 1 is the faster
-(SRR > 0): the film holds it back. The force on surface 1 is theirs; that on surface 2 is opposite.
+(SRR > 0), which the film brakes. They give the force on surface 1; that on surface 2 is opposite.
 """
 
 import math
@@ -25,7 +25,7 @@ class Traction:
     r"""Traction coefficients of a film, negative for SRR > 0.
 
     Without inertia the stress is linear across the film, whatever the viscosity does:
-    ``surface_1 = sliding - rolling``, ``surface_2 = sliding + rolling`` with
+    ``surface_1 = mid_film - rolling``, ``surface_2 = mid_film + rolling`` with
 
     .. math:: \mathrm{rolling} = \frac{1}{2w} \iint h \frac{\partial p}{\partial x}
               = -\frac{1}{2w} \iint p \frac{\partial h}{\partial x}
@@ -33,7 +33,8 @@ class Traction:
     Attributes
     ----------
     surface_1, mid_film, surface_2 : float
-        Integral of tau_zx over the pressurised film at z = 0, h/2 and h, over the load [-].
+        Integral of tau_zx over the pressurised film at z = 0, h/2 and h, over the load [-]; the one
+        at mid-film is the sliding part.
     rolling : float
         Rolling part by the pressure gradient, positive [-].
     rolling_by_film : float
@@ -51,16 +52,6 @@ class Traction:
     rolling_by_film: float
     load: float
     friction_power: float
-
-    @property
-    def sliding(self) -> float:
-        """Sliding part: the traction at mid-film [-]."""
-        return self.mid_film
-
-    @property
-    def sliding_force(self) -> float:
-        """Traction force at mid-film [N], with the sign of the coefficient."""
-        return self.mid_film * self.load
 
     @property
     def credible(self) -> bool:

@@ -1,7 +1,6 @@
 """Explain a case before the solve, by formulas alone."""
 
 from dataclasses import asdict, dataclass
-from math import inf, isfinite
 from typing import Any
 
 from tehl.domain import AIM, needed_points, recommended_domain
@@ -133,7 +132,6 @@ def as_text(case: Explanation) -> str:
         available=available_memory(),
         converges=CONVERGES,
         inlet_factors=inlet_factors(problem),
-        infinity=inf,
         least_rise=LEAST_RISE,
         least_traction=LEAST_TRACTION,
         loading=thermal_loading(problem),
@@ -147,7 +145,9 @@ def as_text(case: Explanation) -> str:
 def as_summary(case: Explanation) -> dict[str, Any]:
     """Return an explanation as one JSON object."""
     problem, roughness = case.scaled.problem, case.roughness
-    bodies, heat = (None if one is None else asdict(one) for one in (case.bodies, case.heat))
+    bodies, heat, plan = (one and asdict(one) for one in (case.bodies, case.heat, case.time))
+    if plan:
+        del plan["questions"]
     return {
         **_contact_as_summary(case),
         "regime": regime(case.scaled.groups),
@@ -171,7 +171,7 @@ def as_summary(case: Explanation) -> dict[str, Any]:
         "needed_points": case.needed_points,
         "memory_bytes": case.memory,
         "seconds": case.seconds,
-        "time": None if case.time is None else _plan_as_summary(case.time),
+        "time": plan,
         "questions": list(case.questions),
     }
 
@@ -188,17 +188,4 @@ def _contact_as_summary(case: Explanation) -> dict[str, Any]:
         "reduced_modulus_pa": problem.reduced_modulus,
         "radius_x_m": problem.radius_x,
         "radius_y_m": problem.radius_y,
-    }
-
-
-def _plan_as_summary(plan: TransientPlan) -> dict[str, Any]:
-    return {
-        "duration_s": plan.duration,
-        "step_s": plan.step,
-        "steps": plan.steps,
-        "seconds": plan.seconds,
-        "distance": plan.distance,
-        "speeds_m_s": list(plan.speeds),
-        "points_per_wave": [one if isfinite(one) else None for one in plan.points_per_wave],
-        "shift_per_step": list(plan.shift),
     }

@@ -27,7 +27,7 @@ class TransientPlan:
 
     Attributes
     ----------
-    duration, step : float
+    duration_s, step_s : float
         [s].
     steps : int
         Number of time steps.
@@ -35,25 +35,25 @@ class TransientPlan:
         Estimated CPU time [s].
     distance : float
         Distance that the mean of both surfaces moves on [a_x].
-    speeds : (float, float)
+    speeds_m_s : (float, float)
         Of both surfaces [m/s].
-    points_per_wave : (float, float)
-        Mesh widths on the shortest wave of each surface, along the axis that has fewer [-];
-        infinite for a smooth one.
-    shift : (float, float)
+    points_per_wave : tuple of (float or None)
+        Mesh widths on the shortest wave of each surface, along the axis that has fewer [-]; None
+        for a smooth one.
+    shift_per_step : (float, float)
         Mesh widths that each surface moves on per step [-]; the mean moves by ``stride``.
     questions : tuple of str
         What is not plausible.
     """
 
-    duration: float
-    step: float
+    duration_s: float
+    step_s: float
     steps: int
     seconds: float
     distance: float
-    speeds: tuple[float, float]
-    points_per_wave: tuple[float, float]
-    shift: tuple[float, float]
+    speeds_m_s: tuple[float, float]
+    points_per_wave: tuple[float | None, ...]
+    shift_per_step: tuple[float, float]
     questions: tuple[str, ...]
 
 
@@ -83,14 +83,14 @@ def transient_plan(
     speeds = (problem.motion.speed_1, problem.motion.speed_2)
     shift = (transient.stride * speeds[0] / units.speed, transient.stride * speeds[1] / units.speed)
     return TransientPlan(
-        duration=duration,
-        step=step,
+        duration_s=duration,
+        step_s=step,
         steps=steps,
         seconds=(SECONDS_PER_STEP + cost * nx * ny) * steps,
         distance=duration * units.speed / units.half_width_x,
-        speeds=speeds,
-        points_per_wave=(first, second),
-        shift=shift,
+        speeds_m_s=speeds,
+        points_per_wave=tuple(one if math.isfinite(one) else None for one in (first, second)),
+        shift_per_step=shift,
         questions=tuple(_questions(scaled, duration, (first, second), shift)),
     )
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl.roughness.files.raw import shown
+from tehl.roughness.files.raw import RawMap, shown
 from tehl.roughness.loading import raw_map
 from tehl.roughness.map import Map
 from tehl.roughness.model import Extent, direction
@@ -36,16 +36,12 @@ class Preview:
     ----------
     surface : Map
         How it is prepared and placed.
-    file, kind : str
-        Name and format.
-    raw_shape : (ny, nx)
-        Rows and columns of the file.
-    missing : int
-        Points of the file without a height.
-    heights, statistics, spectrum
-        Prepared heights, and of those the numbers and the spectrum.
-    shortest_wavelength : float
-        2 pi Sq / Sq' where it is shortest [m].
+    file : str
+        Name of the file.
+    raw, heights : RawMap, Heights
+        Heights of the file, and as prepared.
+    statistics, spectrum : Statistics, Spectrum
+        Of the prepared heights.
     mesh : Mesh or None
         The grid that is compared.
     lost : float or None
@@ -56,16 +52,18 @@ class Preview:
 
     surface: Map
     file: str
-    kind: str
-    raw_shape: tuple[int, int]
-    missing: int
+    raw: RawMap
     heights: Heights
     statistics: Statistics
     spectrum: Spectrum
-    shortest_wavelength: float
     mesh: Mesh | None
     lost: float | None
     sentences: tuple[str, ...]
+
+    @property
+    def missing(self) -> int:
+        """Return the number of points of the file without a height."""
+        return int(np.sum(~np.isfinite(self.raw.heights)))
 
 
 def preview(surface: Map, mesh: Mesh | None = None) -> Preview:
@@ -73,18 +71,15 @@ def preview(surface: Map, mesh: Mesh | None = None) -> Preview:
 
     Raises InputError as :meth:`tehl.roughness.Map.load`.
     """
-    raw, heights = raw_map(surface), surface.load()
+    heights = surface.load()
     values, pixel = heights.values, heights.pixel
     return Preview(
         surface=surface,
         file=shown(surface.file),
-        kind=raw.kind,
-        raw_shape=(raw.heights.shape[0], raw.heights.shape[1]),
-        missing=int(np.sum(~np.isfinite(raw.heights))),
+        raw=raw_map(surface),
         heights=heights,
         statistics=statistics(values, pixel),
         spectrum=spectrum(values, pixel),
-        shortest_wavelength=surface.shortest_wavelength,
         mesh=mesh,
         lost=None if mesh is None else share_beyond(values, pixel, mesh.spacing),
         sentences=(
