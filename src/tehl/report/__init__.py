@@ -1,1 +1,1 @@
-"""A result as one self-contained HTML page."""
+"""What people read of a case before the solve and of a result: texts and HTML pages."""

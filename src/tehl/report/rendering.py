@@ -4,11 +4,11 @@ import math
 from functools import cache, partial
 from typing import TYPE_CHECKING, Any
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
-
 from tehl.report.readable import length, seconds
 
 if TYPE_CHECKING:
+    from jinja2 import Environment
+
     from tehl.result import Estimate
 
 UNITS = {
@@ -30,8 +30,11 @@ def render(template: str, **content: Any) -> str:
 
 
 @cache
-def _environment() -> Environment:
+def _environment() -> "Environment":
     """Return the templates with their filters; all values of pages are escaped."""
+    # Takes 0.1 s, which `tehl explain --json` and studies need not spend.
+    from jinja2 import Environment, PackageLoader, StrictUndefined  # noqa: PLC0415
+
     found = Environment(
         loader=PackageLoader("tehl", "report/templates"),
         autoescape=lambda name: str(name).endswith(".html"),
