@@ -56,6 +56,7 @@ def test_asperities_that_jump_are_reported():
 def test_an_explanation_has_a_plan_only_of_a_transient_run():
     _, problem, options = plan()
     case = explain(problem, options)
+    assert "1 mesh width per step, " in as_text(case)
     assert "points per wave" in as_text(case)
     assert as_summary(case)["time"]["points_per_wave"][1] is None
     steady = problem.model_copy(update={"transient": None})
