@@ -23,24 +23,16 @@ LONGEST = 6.0
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Part:
-    """A rough component of a surface, and its motion.
-
-    Attributes
-    ----------
-    surface : {"surface_1", "surface_2"}
-        The surface that carries it.
-    roughness : Roughness
-        Its heights.
-    speed : float
-        [m/s].
-    extent : ((float, float), (float, float))
-        Its edges along x and y at time zero, between y = -a_y and a_y [m].
-    """
+    """A rough component of a surface, and its motion."""
 
     surface: str
+    """The surface that carries it."""
     roughness: OneRoughness
+    """Its heights."""
     speed: float
+    """Of that surface [m/s]."""
     extent: Extent
+    """Its edges along x and y at time zero, between y = -a_y and a_y [m]."""
 
     @property
     def is_endless(self) -> bool:

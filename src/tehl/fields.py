@@ -165,16 +165,11 @@ class FilmHeat(_ReadOnly):
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class SurfaceHeights:
-    """Heights of rough surfaces, positive outwards, as the grid of the result carries them.
-
-    Attributes
-    ----------
-    surface_1, surface_2 : (ny, nx) array
-        Heights [m]: the film is the smooth one less both.
-    """
+    """Heights of rough surfaces, positive outwards, as the grid of the result carries them."""
 
     surface_1: Array
     surface_2: Array
+    """Heights [m], (ny, nx): the film is the smooth one less both."""
 
     @property
     def together(self) -> Array:

@@ -42,56 +42,38 @@ class FilmRatio:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Formula:
-    """A film formula and its range of validity.
-
-    Attributes
-    ----------
-    name, source : str
-        Authors, and publication.
-    film : callable
-        From groups to :class:`FilmRatio`.
-    limits : (str, float, float)
-        Field of :class:`tehl.scaling.Groups`, its least and its largest value.
-    regimes : tuple of str
-        Regimes for which it was derived.
-    minimum_limit : float
-        Moes load above which its minimum film is known to be too thick, except in wide contacts.
-    """
+    """A film formula and its range of validity."""
 
     name: str
+    """Its authors."""
     source: str
     film: Callable[[Groups], FilmRatio]
+    """From groups to :class:`FilmRatio`."""
     limits: tuple[str, float, float]
+    """Field of :class:`tehl.scaling.Groups`, its least and its largest value."""
     regimes: tuple[Regime, ...] = ("elastic-piezoviscous",)
+    """Regimes for which it was derived."""
     minimum_limit: float = math.inf
+    """Moes load above which its minimum film is known to be too thick, except in wide contacts."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class FilmEstimate:
-    """Film thickness by one formula.
-
-    Attributes
-    ----------
-    formula, source : str
-        Authors, and publication.
-    central, minimum : float
-        H [-]; ``minimum`` is None if the formula has none.
-    central_m, minimum_m : float
-        The same in metres.
-    remarks : tuple of str
-        Limits of validity that the contact exceeds.
-    minimum_remark : str or None
-        Limit of the minimum film only.
-    """
+    """Film thickness by one formula."""
 
     formula: str
+    """Its authors."""
     source: str
     central: float
     minimum: float | None
+    """H [-]; ``minimum`` is None if the formula has none."""
     central_m: float
     minimum_m: float | None
+    """The same in metres."""
     remarks: tuple[str, ...]
+    """Limits of validity that the contact exceeds."""
     minimum_remark: str | None
+    """Limit of the minimum film only."""
 
     @property
     def valid(self) -> bool:

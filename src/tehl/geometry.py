@@ -8,16 +8,11 @@ from tehl.errors import InputError
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Radii:
-    """Radii of curvature of a surface, or of a reduced contact.
-
-    Attributes
-    ----------
-    x, y : float
-        Along and across entrainment [m]; infinite for a flat, negative for a hollow surface.
-    """
+    """Radii of curvature of a surface, or of a reduced contact."""
 
     x: float
     y: float
+    """Along and across entrainment [m]; infinite for a flat, negative for a hollow surface."""
 
 
 def reduced_radius(first: float, second: float) -> float:
@@ -45,18 +40,12 @@ def reduced_radii(first: Radii, second: Radii) -> Radii:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Motion:
-    """Speeds of the two surfaces along x.
-
-    Attributes
-    ----------
-    entrainment_speed : float
-        u_m = (u_1 + u_2) / 2 [m/s].
-    slide_roll_ratio : float
-        (u_1 - u_2) / u_m [-].
-    """
+    """Speeds of the two surfaces along x."""
 
     entrainment_speed: float
+    """u_m = (u_1 + u_2) / 2 [m/s]."""
     slide_roll_ratio: float = 0.0
+    """(u_1 - u_2) / u_m [-]."""
 
     @property
     def speed_1(self) -> float:

@@ -10,22 +10,15 @@ from tehl.typing import Array
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Grid:
-    """Uniform nodes on a rectangle, or on its upper half if the contact is symmetric in y.
-
-    Attributes
-    ----------
-    nx, ny : int
-        Nodes per direction of the full domain.
-    domain : Domain
-        In Hertz half-widths.
-    mirror : bool
-        Only y >= 0 is stored; row 0 is the symmetry line.
-    """
+    """Uniform nodes on a rectangle, or on its upper half if the contact is symmetric in y."""
 
     nx: int
     ny: int
+    """Nodes per direction of the full domain."""
     domain: Domain
+    """In Hertz half-widths."""
     mirror: bool
+    """Only y >= 0 is stored; row 0 is the symmetry line."""
 
     @property
     def dx(self) -> float:

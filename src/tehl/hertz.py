@@ -18,25 +18,17 @@ from functools import lru_cache
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class HertzContact:
-    """Dry contact of an ellipse with axes along and across entrainment.
-
-    Attributes
-    ----------
-    half_width_x, half_width_y : float
-        a_x and a_y [m].
-    pressure : float
-        Largest pressure p_h [Pa].
-    approach : float
-        Approach of the bodies [m].
-    ellipticity : float
-        kappa = a_y / a_x [-].
-    """
+    """Dry contact of an ellipse with axes along and across entrainment."""
 
     half_width_x: float
     half_width_y: float
+    """a_x and a_y [m]."""
     pressure: float
+    """Largest pressure p_h [Pa]."""
     approach: float
+    """Approach of the bodies [m]."""
     ellipticity: float
+    """kappa = a_y / a_x [-]."""
 
     @property
     def mean_pressure(self) -> float:

@@ -147,19 +147,13 @@ class ErrorEstimate:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Cost:
-    """Computing cost of a solve.
-
-    Attributes
-    ----------
-    cpu_seconds, wall_seconds : float
-        Of the solve, without compiling and without files.
-    work : float or None
-        ``cpu_seconds`` in units of one FFT deformation on the same full grid, if it was measured.
-    """
+    """Computing cost of a solve."""
 
     cpu_seconds: float
     wall_seconds: float
+    """Of the solve, without compiling and without files."""
     work: float | None = None
+    """``cpu_seconds`` in units of one FFT deformation on the same full grid, if it was measured."""
 
     def __add__(self, other: "Cost") -> "Cost":
         """Return the sum of the seconds of two solves."""

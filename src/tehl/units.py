@@ -117,26 +117,18 @@ class Quantity:
     """An expected kind of number: dimension, sign and an example for messages.
 
     An instance is pydantic metadata: ``Annotated[float, Quantity(...)]``.
-
-    Attributes
-    ----------
-    name : str
-        The kind in words, with its article: ``"a force"``.
-    unit : str
-        The SI unit; a bare number is in this unit.
-    example : str
-        A good value with a unit, shown in messages and in the schema.
-    sign : {"positive", "non-negative", "any"}
-        Which values are possible.
-    flat : bool
-        Whether infinity is allowed (radius of a flat).
     """
 
     name: str
+    """The kind in words, with its article: ``"a force"``."""
     unit: str
+    """The SI unit; a bare number is in this unit."""
     example: str
+    """A good value with a unit, shown in messages and in the schema."""
     sign: Literal["positive", "non-negative", "any"] = "positive"
+    """Which values are possible."""
     flat: bool = False
+    """Whether infinity is allowed (radius of a flat)."""
 
     @property
     def dimension(self) -> Dimension:

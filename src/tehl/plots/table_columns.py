@@ -47,25 +47,15 @@ _SUITABLE: dict[str, tuple[tuple[float, float, str], ...]] = {
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Column:
-    """Numbers of a table in the unit in which they are shown.
-
-    Attributes
-    ----------
-    name : str
-        Of the column.
-    values : array
-        As shown.
-    factor : float
-        From SI to what is shown; negative where the sign is turned.
-    unit, si : str
-        Unit as shown, and in SI; ``"1"`` where there is none.
-    """
+    """Numbers of a table in the unit in which they are shown."""
 
     name: str
     values: Array
     factor: float
+    """From SI to what is shown; negative where the sign is turned."""
     unit: str
     si: str
+    """Unit as shown, and in SI; ``"1"`` where there is none."""
 
     @property
     def title(self) -> str:

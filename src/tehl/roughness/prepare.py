@@ -27,21 +27,14 @@ _MOST_LEFT, _COUNTS = 0.5, 0.2
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class Heights:
-    """Heights on a lattice, and what was done to them.
-
-    Attributes
-    ----------
-    values : (ny, nx) array
-        [m]; rows along x.
-    pixel : (dx, dy)
-        Distances of the lattice [m].
-    notes : tuple of str
-        What a reader of the result should know.
-    """
+    """Heights on a lattice, and what was done to them."""
 
     values: Array
+    """[m], (ny, nx); rows along x."""
     pixel: tuple[float, float]
+    """Distances (dx, dy) of the lattice [m]."""
     notes: tuple[str, ...] = ()
+    """What a reader of the result should know."""
 
     @property
     def size(self) -> tuple[float, float]:

@@ -12,32 +12,20 @@ from tehl.typing import Array
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Statistics:
-    """Areal parameters of a map.
-
-    Attributes
-    ----------
-    sq, sa, sz : float
-        Root mean square, mean absolute and largest height difference [m].
-    ssk, sku : float
-        Skewness and kurtosis [-]; nan for a map without heights.
-    sdq : float
-        Root mean square slope [-].
-    correlation_lengths : (float, float)
-        Along x and y, where the autocorrelation has fallen to 1/e [m]; infinite where it does not
-        within half of the map.
-
-    References
-    ----------
-    .. [1] ISO 25178-2, Geometrical product specifications - Surface texture: Areal - Terms.
-    """
+    """Areal parameters of a map, as in ISO 25178-2."""
 
     sq: float
     sa: float
     sz: float
+    """Root mean square, mean absolute and largest height difference [m]."""
     ssk: float
     sku: float
+    """Skewness and kurtosis [-]; nan for a map without heights."""
     sdq: float
+    """Root mean square slope [-]."""
     correlation_lengths: tuple[float, float]
+    """Along x and y, where the autocorrelation has fallen to 1/e [m]; infinite where it does not
+    within half of the map."""
 
 
 def statistics(heights: Array, pixel: tuple[float, float]) -> Statistics:

@@ -30,31 +30,21 @@ Pair = tuple[float, float]
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Tile(Roughness):
-    """Heights on a lattice; they count as even in y only when smooth.
-
-    Attributes
-    ----------
-    heights : (ny, nx) array
-        [m]
-    pixel : (dx, dy)
-        Distances of the lattice [m].
-    centre : (x, y)
-        Where the middle of the tile lies in the coordinates of the body [m].
-    angle : float
-        By which the rows are turned against x [rad], as the crests of a wave are.
-    edge : {"periodic", "mirror", "flat"}
-        What lies beyond the edges. Heights that are to be flat there must end at zero.
-    covered : float or None
-        Points without a flat rim, over which Sq is taken, not a whole number where they were of
-        another lattice; None is all.
-    """
+    """Heights on a lattice; they count as even in y only when smooth."""
 
     heights: Array = field(repr=False)
+    """[m], (ny, nx)."""
     pixel: Pair
+    """Distances (dx, dy) of the lattice [m]."""
     centre: Pair = (0.0, 0.0)
+    """Middle (x, y) of the tile in the coordinates of the body [m]."""
     angle: float = 0.0
+    """By which the rows are turned against x [rad], as the crests of a wave are."""
     edge: Edge = "periodic"
+    """What lies beyond the edges. Heights that are to be flat there must end at zero."""
     covered: float | None = None
+    """Points without a flat rim, over which Sq is taken, not a whole number where they were of
+    another lattice; None is all."""
 
     @property
     def size(self) -> Pair:

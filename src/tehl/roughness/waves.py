@@ -14,22 +14,15 @@ _ALIKE = 1e-9
 
 
 class WaveVector(NamedTuple):
-    """One harmonic, ``amplitude cos(along x + across y + phase)``.
-
-    Attributes
-    ----------
-    amplitude : float
-        [m], not negative.
-    along, across : float
-        Wave numbers along x and y [rad/m].
-    phase : float
-        [rad]
-    """
+    """One harmonic, ``amplitude cos(along x + across y + phase)``."""
 
     amplitude: float
+    """[m], not negative."""
     along: float
     across: float
+    """Wave numbers along x and y [rad/m]."""
     phase: float
+    """[rad]."""
 
     @property
     def number(self) -> float:

@@ -42,24 +42,16 @@ class TouchingError(DivergedError):
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Continuation:
-    """Settings of the continuation in the roughness.
-
-    Attributes
-    ----------
-    correction : float
-        Factor on the correction of the finest grid that does not resolve the heights [-].
-    limit : float
-        Largest change of a pressure by that correction and the finer ones, over the pressure [-].
-    ramp : int
-        Cycles over which the heights are raised on the first grid that has them.
-    points : float
-        Nodes per wave from which a grid has the heights [-].
-    """
+    """Settings of the continuation in the roughness."""
 
     correction: float = 1.0
+    """Factor on the correction of the finest grid that does not resolve the heights [-]."""
     limit: float = np.inf
+    """Largest change of a pressure by that correction and the finer ones, over the pressure [-]."""
     ramp: int = 4
+    """Cycles over which the heights are raised on the first grid that has them."""
     points: float = 8.0
+    """Nodes per wave from which a grid has the heights [-]."""
 
 
 class Roughness:

@@ -28,42 +28,26 @@ FLOOR = 0.02
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Equations:
-    """The operators on one grid, which do not change while the equations are solved.
-
-    Attributes
-    ----------
-    grid : Grid
-        The nodes.
-    groups : Groups
-        Dimensionless groups.
-    flow : FlowTable
-        Mobility and density of the lubricant over pressure.
-    mesh : Mesh
-        Weights of the Reynolds operator.
-    influence : Influence
-        Deflection per unit pressure on one cell.
-    deformation : Deformation
-        The sum K P over all cells.
-    load : Load
-        Integral of the pressure.
-    target : float
-        Integral of P over the domain [-].
-    gap : array of ``grid.shape``
-        Undeformed gap [-].
-    floor : float
-        Least film in the conductance [-]: the discrete film of coarse grids may not be positive.
-    """
+    """The operators on one grid, which do not change while the equations are solved."""
 
     grid: Grid
     groups: Groups
     flow: FlowTable
+    """Mobility and density of the lubricant over pressure."""
     mesh: reynolds.Mesh
+    """Weights of the Reynolds operator."""
     influence: Influence
+    """Deflection per unit pressure on one cell."""
     deformation: Deformation
+    """The sum K P over all cells."""
     load: Load
+    """Integral of the pressure."""
     target: float
+    """Integral of P over the domain [-]."""
     gap: Array
+    """Undeformed gap [-], ``grid.shape``."""
     floor: float
+    """Least film in the conductance [-]: the discrete film of coarse grids may not be positive."""
 
     @classmethod
     def on(

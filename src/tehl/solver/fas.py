@@ -10,25 +10,17 @@ from typing import Protocol, Self, TypeVar
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Cycle:
-    """Shape of a multigrid cycle.
-
-    Attributes
-    ----------
-    kind : {"V", "W", "F"}
-        Order of visits.
-    pre_sweeps, post_sweeps : int
-        Relaxation sweeps on the finest level of the cycle.
-    extra_sweeps : int
-        Sweeps added on coarser levels, where a V-cycle leaves errors and sweeps are cheap.
-    twice : bool
-        A V-cycle visits its two coarsest levels twice.
-    """
+    """Shape of a multigrid cycle."""
 
     kind: str
+    """Order of visits."""
     pre_sweeps: int
     post_sweeps: int
+    """Relaxation sweeps on the finest level of the cycle."""
     extra_sweeps: int = 1
+    """Sweeps added on coarser levels, where a V-cycle leaves errors and sweeps are cheap."""
     twice: bool = False
+    """A V-cycle visits its two coarsest levels twice."""
 
     def coarse_visits(self, coarser: int) -> tuple["Cycle", ...]:
         """Return the cycles on ``coarser`` levels: V for V, two W for W, F and V for F."""

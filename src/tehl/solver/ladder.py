@@ -24,34 +24,21 @@ from tehl.solver.relaxation import (
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Strategy:
-    """How a contact is solved.
-
-    Attributes
-    ----------
-    relaxation : Relaxation
-        Settings of the smoother.
-    continuation : Continuation
-        Settings of the continuation in the roughness.
-    memory : int
-        Earlier cycles combined by Anderson acceleration between rough surfaces; 0 is none.
-    patience : int
-        Factor on the largest number of cycles.
-    damping : float
-        Damping factor of the logarithms of mobility and density of a rough film, per sweep of the
-        energy equation; 1 is undamped [-].
-    newton : bool
-        Use Newton's method instead of cycles on the grids that have the heights.
-    slide_in_steps : bool
-        Raise the sliding speed from zero over the first sweeps of the energy equation.
-    """
+    """How a contact is solved."""
 
     relaxation: Relaxation
     continuation: Continuation = field(default_factory=Continuation)
     memory: int = 0
+    """Earlier cycles combined by Anderson acceleration between rough surfaces; 0 is none."""
     patience: int = 1
+    """Factor on the largest number of cycles."""
     damping: float = 1.0
+    """Damping factor of the logarithms of mobility and density of a rough film, per sweep of the
+    energy equation; 1 is undamped [-]."""
     newton: bool = False
+    """Use Newton's method instead of cycles on the grids that have the heights."""
     slide_in_steps: bool = False
+    """Raise the sliding speed from zero over the first sweeps of the energy equation."""
 
     @property
     def name(self) -> str:

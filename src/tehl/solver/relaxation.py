@@ -24,29 +24,20 @@ from tehl.typing import Array, FlagArray
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Relaxation:
-    """Settings of the hybrid line relaxation.
-
-    Attributes
-    ----------
-    name : str
-        As in `tehl.options.Options` and in the reports of the cycles.
-    threshold : float
-        Conductance over mesh width squared below which a node relaxes as a dipole [-].
-    point, dipole : float
-        Under-relaxation of points (Gauss-Seidel) and of dipoles (Jacobi) [-].
-    lines : int
-        Lines to each side that are assumed to move with a line while it is solved. On the steep
-        flank of a ridge along them they do, and together change the film more than each alone.
-    stiff : bool
-        Add the change of conductance with pressure to the diagonal.
-    """
+    """Settings of the hybrid line relaxation."""
 
     name: str
+    """As in `tehl.options.Options` and in the reports of the cycles."""
     threshold: float
+    """Conductance over mesh width squared below which a node relaxes as a dipole [-]."""
     point: float
     dipole: float
+    """Under-relaxation of points (Gauss-Seidel) and of dipoles (Jacobi) [-]."""
     lines: int = 0
+    """Lines to each side that are assumed to move with a line while it is solved. On the steep
+    flank of a ridge along them they do, and together change the film more than each alone."""
     stiff: bool = False
+    """Add the change of conductance with pressure to the diagonal."""
 
 
 FAST = Relaxation(name="fast", threshold=1.0, point=0.7, dipole=0.6)

@@ -21,27 +21,18 @@ _TOLERANCE = 1e-3
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class RawMap:
-    """Heights of a file in the units of the file.
-
-    Attributes
-    ----------
-    heights : (ny, nx) array
-        Rows along x, their number growing with y; NaN where nothing was measured.
-    unit : str or None
-        Of the heights; None when the file does not say.
-    pixel : (dx, dy) or None
-        Distances of the points.
-    pixel_units : (str or None, str or None)
-        Of the distances along x and y.
-    kind : str
-        What the file is, for people.
-    """
+    """Heights of a file in the units of the file."""
 
     heights: Array
+    """(ny, nx): rows along x, their number growing with y; NaN where nothing was measured."""
     kind: str
+    """What the file is, for people."""
     unit: str | None = None
+    """Of the heights; None when the file does not say."""
     pixel: tuple[float, float] | None = None
+    """Distances (dx, dy) of the points."""
     pixel_units: tuple[str | None, str | None] = (None, None)
+    """Of the distances along x and y."""
 
 
 def check_count(shape: tuple[int, ...]) -> None:

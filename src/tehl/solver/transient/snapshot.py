@@ -41,24 +41,16 @@ heights, a frame pressure, film and height."""
 
 @dataclass(slots=True)
 class Record:
-    """Numbers, profiles and fields of the steps so far, scaled.
-
-    Attributes
-    ----------
-    rows : list of tuple
-        Per step, the columns of `tehl.transient_result.History`.
-    profiles : list of (4, nx) array
-        Per step, pressure, film and both heights along y = 0.
-    frame_steps : list of int
-        Steps whose fields are stored.
-    frames : list of (3, ny, nx) array
-        Their pressure, film and height.
-    """
+    """Numbers, profiles and fields of the steps so far, scaled."""
 
     rows: list[tuple[float, ...]] = field(default_factory=list)
+    """Per step, the columns of `tehl.transient_result.History`."""
     profiles: list[Array] = field(default_factory=list)
+    """Per step, pressure, film and both heights along y = 0, (4, nx)."""
     frame_steps: list[int] = field(default_factory=list)
+    """Steps whose fields are stored."""
     frames: list[Array] = field(default_factory=list)
+    """Their pressure, film and height, (3, ny, nx)."""
 
     def note(
         self, level: Level, heights: Heights, numbers: dict[str, float], *, keep: bool
