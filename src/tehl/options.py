@@ -15,10 +15,11 @@ def _not_a_boolean(value: object) -> object:
     return value
 
 
-Real = Annotated[float, BeforeValidator(_not_a_boolean)]
-Count = Annotated[int, BeforeValidator(_not_a_boolean)]
-Nodes = Annotated[Count, Field(ge=17, le=16385)]
-Interval = tuple[Real, Real]
+NO_BOOLEAN = BeforeValidator(_not_a_boolean)
+"""Last in an annotation: the JSON schema has the limits of the number inside."""
+Nodes = Annotated[int, Field(ge=17, le=16385), NO_BOOLEAN]
+Sweeps = Annotated[int, Field(ge=0, le=10), NO_BOOLEAN]
+Interval = tuple[Annotated[float, NO_BOOLEAN], Annotated[float, NO_BOOLEAN]]
 LARGEST_COARSEST = 64
 """Most intervals along one direction of the coarsest grid, whose Newton matrix is dense."""
 FARTHEST = 1e3
@@ -101,13 +102,13 @@ class Options(BaseModel):
     domain: Domain | Literal["auto"] = "auto"
     deformation: Literal["auto", "mlmi", "fft", "lines", "direct"] = "auto"
     cycle: Literal["V", "W", "F"] = "V"
-    pre_sweeps: Annotated[Count, Field(ge=0, le=10)] = 2
-    post_sweeps: Annotated[Count, Field(ge=0, le=10)] = 2
+    pre_sweeps: Sweeps = 2
+    post_sweeps: Sweeps = 2
     wedge_order: Literal[1, 2] = 2
     smoother: Literal["auto", "fast", "broad", "robust", "gauss-seidel"] = "auto"
     accuracy: Literal["discretisation", "tight", "change"] = "discretisation"
-    tolerance: Annotated[Real, Field(gt=0, lt=1)] = 1e-6
-    max_cycles: Annotated[Count, Field(ge=1, le=1000)] = 40
+    tolerance: Annotated[float, Field(gt=0, lt=1), NO_BOOLEAN] = 1e-6
+    max_cycles: Annotated[int, Field(ge=1, le=1000), NO_BOOLEAN] = 40
     half_domain: Literal["auto", "never"] = "auto"
 
     @property

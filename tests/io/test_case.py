@@ -352,6 +352,13 @@ def test_the_schema_has_every_table_and_forbids_others():
     assert "string" in named
 
 
+def test_the_schema_states_the_limits_of_options():
+    options = case_schema()["$defs"]["Options"]["properties"]
+    assert options["points"]["anyOf"][0] == {"minimum": 17, "maximum": 16385, "type": "integer"}
+    assert options["pre_sweeps"]["maximum"] == 10
+    assert options["tolerance"]["exclusiveMaximum"] == 1
+
+
 def test_the_schema_has_every_law_and_the_thermal_keys():
     parts = json.loads(json.dumps(case_schema()))["$defs"]
     laws = {part["properties"]["law"]["const"] for part in parts.values() if _is_law(part)}
