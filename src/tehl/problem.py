@@ -5,7 +5,7 @@ validating the parsed file. Derived quantities in SI are properties.
 """
 
 import math
-from typing import Self
+from typing import TYPE_CHECKING, ClassVar, Self
 
 from pydantic import BaseModel, ConfigDict, model_validator
 
@@ -30,7 +30,36 @@ from tehl.units import (
 )
 
 
-class Surface(BaseModel):
+class _WithRadii(BaseModel):
+    """Base of the tables that state one radius, or two of them."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
+    FLAT: ClassVar[str] = ""
+    """Hint of the message on a single one of both radii."""
+
+    if TYPE_CHECKING:
+        radius: float | None
+        radius_x: float | None
+        radius_y: float | None
+
+    @model_validator(mode="after")
+    def _radii_must_agree(self) -> Self:
+        if self.radius is not None and (self.radius_x, self.radius_y) != (None, None):
+            raise ValueError("takes either radius or the pair radius_x and radius_y")
+        if (self.radius_x is None) != (self.radius_y is None):
+            raise ValueError(f"needs both radius_x and radius_y{self.FLAT}")
+        return self
+
+    @property
+    def radii(self) -> Radii | None:
+        """Return the stated radii, None without any."""
+        x = self.radius if self.radius_x is None else self.radius_x
+        y = self.radius if self.radius_y is None else self.radius_y
+        return None if x is None or y is None else Radii(x=x, y=y)
+
+
+class Surface(_WithRadii):
     """One of the two bodies.
 
     Attributes
@@ -49,7 +78,7 @@ class Surface(BaseModel):
         Temperature far from the contact [K], in thermal runs; None is that of the oil at the inlet.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+    FLAT = ' ("inf" is flat)'
 
     material: NamedSolid
     radius: Radius | None = None
@@ -68,22 +97,8 @@ class Surface(BaseModel):
             )
         return self
 
-    @model_validator(mode="after")
-    def _radii_must_agree(self) -> Self:
-        pair = (self.radius_x, self.radius_y)
-        if self.radius is not None and pair != (None, None):
-            raise ValueError("takes either radius or the pair radius_x and radius_y")
-        if (self.radius_x is None) != (self.radius_y is None):
-            raise ValueError('needs both radius_x and radius_y ("inf" is flat)')
-        return self
 
-    @property
-    def radii(self) -> Radii | None:
-        """Return the radii of this surface, None when the contact states them."""
-        return _stated_radii(self)
-
-
-class Contact(BaseModel):
+class Contact(_WithRadii):
     """Shape, load and motion of the contact.
 
     Attributes
@@ -101,8 +116,6 @@ class Contact(BaseModel):
         (u_1 - u_2) / u_m [-].
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
-
     radius: Length | None = None
     radius_x: Length | None = None
     radius_y: Length | None = None
@@ -115,10 +128,6 @@ class Contact(BaseModel):
 
     @model_validator(mode="after")
     def _must_be_stated_once(self) -> Self:
-        if self.radius is not None and (self.radius_x, self.radius_y) != (None, None):
-            raise ValueError("takes either radius or the pair radius_x and radius_y")
-        if (self.radius_x is None) != (self.radius_y is None):
-            raise ValueError("needs both radius_x and radius_y")
         self._exactly_one("load", "hertz_pressure", "moes_load")
         self._exactly_one("entrainment_speed", "moes_speed")
         return self
@@ -129,19 +138,6 @@ class Contact(BaseModel):
             raise ValueError(f"states {' and '.join(stated)}: only one of them may be given")
         if not stated:
             raise ValueError(f"needs one of {', '.join(names)}")
-
-    @property
-    def radii(self) -> Radii | None:
-        """Return the reduced radii, None when the surfaces state theirs."""
-        return _stated_radii(self)
-
-
-def _stated_radii(stated: Surface | Contact) -> Radii | None:
-    if stated.radius is not None:
-        return Radii(x=stated.radius, y=stated.radius)
-    if stated.radius_x is None or stated.radius_y is None:
-        return None
-    return Radii(x=stated.radius_x, y=stated.radius_y)
 
 
 class ContactProblem(BaseModel):
