@@ -11,7 +11,7 @@ from itertools import count
 import numpy as np
 
 from tehl.operators.heights import Heights
-from tehl.result import CycleReport, ErrorEstimate, Result
+from tehl.result import CycleReport, Result
 from tehl.scaling import Groups
 from tehl.solver.anderson import Anderson
 from tehl.solver.continuation import (
@@ -29,10 +29,8 @@ from tehl.solver.convergence import (
     GridTrace,
     check_divergence,
     converged,
-    error_estimate,
     film_converged,
     must_stop,
-    single_grid_estimate,
     stalled,
 )
 from tehl.solver.fmg import full_multigrid
@@ -69,15 +67,6 @@ class FilmSolver:
         Receives the report of each cycle.
     guess : Result or None
         The film of a similar contact.
-
-    Attributes
-    ----------
-    traces : list of GridTrace
-        Course of the iteration on each grid, coarsest first.
-    accepted : bool
-        Whether the next coarser grid has an acceptable solution.
-    from_hertz : bool
-        Whether the present grid started from the Hertz pressure.
     """
 
     def __init__(
@@ -99,8 +88,9 @@ class FilmSolver:
         )
         self.roughness = Roughness(hierarchy.levels, heights, strategy.continuation)
         self.monitor, self.guess = monitor, guess
-        self.traces: list[GridTrace] = []
-        self.accepted, self.from_hertz = True, False
+        self.traces: list[GridTrace] = []  # of each grid, coarsest first
+        self.accepted = True  # the next coarser grid has an acceptable solution
+        self.from_hertz = False  # the present grid started from the Hertz pressure
 
     @property
     def finest(self) -> Level:
@@ -339,22 +329,6 @@ class FilmSolver:
         )
         check_divergence(report, rough=self.roughness.is_rough)
         return report
-
-    # errors of the result
-
-    def errors(self) -> ErrorEstimate | None:
-        """Return estimated errors of the film; None before the first cycle on the finest grid."""
-        roughness, traces = self.roughness, self.traces
-        if len(traces) < len(self.levels) or not traces[-1].reports:
-            return None
-        if not roughness.is_rough:
-            return error_estimate(traces, self.options.wedge_order)
-        # grids that resolve the same heights
-        comparable = traces[roughness.first_comparable :]
-        if len(comparable) < 2:
-            dx = self.finest.grid.dx
-            return single_grid_estimate(traces[-1], dx, roughness.points, roughness.amplitude)
-        return error_estimate(comparable, self.options.wedge_order, rough=True)
 
     @property
     def coarser_film_is_negative(self) -> bool:

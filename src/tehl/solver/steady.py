@@ -28,7 +28,7 @@ from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.ladder import ladder
 from tehl.solver.monitor import SILENT, Monitor, Recorder
 from tehl.solver.outputs import film_heat, film_shear, newtonian_shear
-from tehl.solver.verdict import touching, verdict
+from tehl.solver.verdict import estimated_errors, touching, verdict
 
 GRID_CAUSES = ("grid_too_coarse", "domain_too_small", "inlet_too_short", "sides_too_close")
 """Causes of failure that no other strategy removes."""
@@ -165,7 +165,7 @@ def _run(run: FilmSolver, *, force: bool) -> Attempt:
         except ArithmeticError:
             run.hierarchy.salvage()
             return Attempt(run=run, status=diverged(run), reached=False)
-    return Attempt(run=run, status=verdict(run, reached, run.errors()), reached=reached)
+    return Attempt(run=run, status=verdict(run, reached=reached), reached=reached)
 
 
 def finest_grid(scaled: ScaledProblem, options: Options) -> Grid:
@@ -204,7 +204,7 @@ def _result(
         film_scaled=film_summary(grid, level.film.h),
         status=attempt.status,
         history=history,
-        errors=run.errors(),
+        errors=estimated_errors(run),
         cost=cost,
         provenance=provenance(),
         shear=shear,

@@ -13,6 +13,7 @@ from tehl.domain import domain_error
 from tehl.operators.energy import FilmState
 from tehl.result import ErrorEstimate, Status
 from tehl.scaling import Groups
+from tehl.solver.convergence import error_estimate, single_grid_estimate
 from tehl.solver.diagnosis import LESS_ROUGH, diverged, grid_hint, not_reached, thinnest
 from tehl.solver.film_solver import FilmSolver
 from tehl.solver.film_summary import film_summary
@@ -41,19 +42,27 @@ LARGEST_MISSING_HEAT = 0.3
 heat, the backflow in the inlet stores some for many sweeps."""
 
 
-def verdict(run: FilmSolver, reached: bool, errors: ErrorEstimate | None) -> Status:
-    """Judge the last state of a run that stayed finite.
+def estimated_errors(run: FilmSolver) -> ErrorEstimate | None:
+    """Return estimated errors of the film; None before the first cycle on the finest grid."""
+    roughness, traces = run.roughness, run.traces
+    if len(traces) < len(run.levels) or not traces[-1].reports:
+        return None
+    if not roughness.is_rough:
+        return error_estimate(traces, run.options.wedge_order)
+    # grids that resolve the same heights
+    comparable = traces[roughness.first_comparable :]
+    if len(comparable) < 2:
+        dx = run.finest.grid.dx
+        return single_grid_estimate(traces[-1], dx, roughness.points, roughness.amplitude)
+    return error_estimate(comparable, run.options.wedge_order, rough=True)
 
-    Parameters
-    ----------
-    run : FilmSolver
-        After its last cycle, with the film up to date.
-    reached : bool
-        Whether the cycles met the stopping criterion.
-    errors : ErrorEstimate or None
-        Estimated errors of the film.
+
+def verdict(run: FilmSolver, *, reached: bool) -> Status:
+    """Judge the last state of a run that stayed finite, with its film up to date.
+
+    ``reached`` is whether the cycles met the stopping criterion.
     """
-    film = run.finest.film
+    film, errors = run.finest.film, estimated_errors(run)
     if not (np.isfinite(film.p).all() and np.isfinite(film.h).all() and film.p.min() >= 0):
         return diverged(run)
     if not reached and run.roughness.is_rough:  # another strategy may converge on this grid
@@ -77,10 +86,8 @@ def too_coarse(points: tuple[int, int], groups: Groups, error: float) -> Status:
 
     Parameters
     ----------
-    points : (int, int)
-        Nodes (nx, ny) of the finest grid.
-    groups : Groups
-        Dimensionless groups.
+    points, groups : (int, int), Groups
+        Nodes (nx, ny) of the finest grid, and the dimensionless groups.
     error : float
         Relative error of the film [-].
     """
@@ -190,7 +197,7 @@ def no_film(level: Level) -> str:
 
 def touching(run: FilmSolver, part: float) -> Status:
     """Return the status of a film that is not positive with only ``part`` of the heights."""
-    status = _no_film_status(run, run.errors())
+    status = _no_film_status(run, estimated_errors(run))
     message = f"{status.message} The film shown has {100 * part:.0f} % of the heights."
     return replace(status, message=message)
 
