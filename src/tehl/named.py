@@ -21,10 +21,8 @@ def find_table(tables: Tables, name: str, kind: str, needs: str) -> dict[str, An
 
     Parameters
     ----------
-    tables : dict
-        The library.
-    name : str
-        Name of the table.
+    tables, name : dict, str
+        The library, and the name of the table.
     kind, needs : str
         What the tables describe, and what a table without a name must have, for the message.
 

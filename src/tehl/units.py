@@ -212,7 +212,7 @@ class Quantity:
             self.parse,
             core_schema.float_schema(),
             serialization=core_schema.plain_serializer_function_ser_schema(
-                _finite_or_word, when_used="json-unless-none"
+                lambda value: "inf" if math.isinf(value) else value, when_used="json-unless-none"
             ),
         )
 
@@ -232,10 +232,6 @@ class Quantity:
             "anyOf": [{"type": "string", "examples": [self.example]}, number],
             "description": f"{self.name}; a bare number is in {self.unit}",
         }
-
-
-def _finite_or_word(value: float) -> float | str:
-    return "inf" if math.isinf(value) else value
 
 
 def _kind(dimension: Dimension, unit: str) -> str:

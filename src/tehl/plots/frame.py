@@ -46,10 +46,8 @@ def figure(
     ----------
     result : Result or TransientResult
         Gives title, groups and status.
-    size : (float, float)
-        Width and height [inch].
-    note : str
-        Last line of the title.
+    size, note : (float, float), str
+        Width and height [inch], and the last line of the title.
     """
     start = result.start if isinstance(result, TransientResult) else result
     title = fill(start.problem.title, 80).replace("$", r"\$") or "Lubricated point contact"

@@ -159,12 +159,8 @@ def gaussian_mean(heights: Array, pixel: tuple[float, float], cut_off: float) ->
 
     Parameters
     ----------
-    heights : (ny, nx) array
-        [m]
-    pixel : (dx, dy)
-        [m]
-    cut_off : float
-        lambda_c [m].
+    heights, pixel, cut_off : (ny, nx) array, (dx, dy), float
+        Heights, distances of their points, and lambda_c [m].
 
     References
     ----------

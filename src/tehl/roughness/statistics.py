@@ -85,10 +85,8 @@ def spectrum(heights: Array, pixel: tuple[float, float], rings: int = 60) -> Spe
 
     Parameters
     ----------
-    heights : (ny, nx) array
-        [m]
-    pixel : (dx, dy)
-        [m]
+    heights, pixel : (ny, nx) array, (dx, dy)
+        Heights, and distances of their points [m].
     rings : int
         How many rings, of equal width on a logarithmic scale; those without a wave are left out.
     """
@@ -112,10 +110,8 @@ def share_beyond(heights: Array, pixel: tuple[float, float], mesh: tuple[float, 
 
     Parameters
     ----------
-    heights : (ny, nx) array
-        [m]
-    pixel, mesh : (dx, dy)
-        [m]
+    heights, pixel, mesh : (ny, nx) array, (dx, dy)
+        Heights, and distances of their points and of the nodes [m].
     """
     ny, nx = heights.shape
     power = fft.dctn(heights - heights.mean(), type=2, norm="ortho") ** 2  # no jumps at edges

@@ -57,16 +57,9 @@ class Continuation:
 class Roughness:
     """The heights on ``levels``, coarsest first, and the smooth film from which they are raised.
 
-    Attributes
-    ----------
-    first : int
-        Number of the first level that has the heights; ``len(levels)`` if surfaces are smooth.
-    first_comparable : int
-        Number of the first level whose film is comparable with that of the next finer one.
-    smooth : (int, array, float) or None
-        Level, pressure and rigid approach of the smooth film before the heights were raised.
-    points, amplitude : float
-        Nodes per wave on the finest level, and half the range of the heights in the contact [-].
+    ``first`` is the number of the first level that has the heights, ``len(levels)`` for smooth
+    surfaces, and ``first_comparable`` that of the first level whose film is comparable with that of
+    the next finer one.
     """
 
     def __init__(
@@ -74,6 +67,7 @@ class Roughness:
     ) -> None:
         self.levels, self.settings = levels, settings
         self.first = self.first_comparable = len(levels)
+        # level, pressure and rigid approach of the smooth film before the heights were raised
         self.smooth: tuple[int, Array, float] | None = None
         self.points, self.amplitude = np.inf, 0.0
         if heights is not None:

@@ -62,10 +62,8 @@ class Equations:
 
         Parameters
         ----------
-        grid : Grid
-            The nodes.
-        scaled : ScaledProblem
-            The contact.
+        grid, scaled : Grid, ScaledProblem
+            The nodes, and the contact.
         flow : FlowTable
             Mobility and density of the lubricant, the same on all grids.
         options : Options

@@ -57,10 +57,8 @@ def cycle(
         Coarsest first; the last one holds the problem.
     solve_coarsest : callable
         Solves the problem on the coarsest level.
-    shape : Cycle
-        Order of visits and sweeps.
-    extra : int
-        Sweeps added on this level.
+    shape, extra : Cycle, int
+        Order of visits and sweeps, and sweeps added on this level.
     """
     *coarser, fine = levels
     if not coarser:

@@ -102,14 +102,10 @@ class Hierarchy:
 
         Parameters
         ----------
-        finest : Grid
-            The grid of the result.
-        scaled : ScaledProblem
-            The contact.
-        options : Options
-            Wedge order and deformation.
-        relaxation : Relaxation
-            Settings of the smoother.
+        finest, scaled : Grid, ScaledProblem
+            The grid of the result, and the contact.
+        options, relaxation : Options, Relaxation
+            Wedge order and deformation; settings of the smoother.
         load : float
             Load that the film carries, over that of the contact [-].
         """

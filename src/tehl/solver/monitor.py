@@ -23,20 +23,11 @@ class StepMonitor(Monitor, Protocol):
         """Receive the report of one time step."""
 
 
-class Silent:
+class Silent(StepMonitor):
     """Discards all reports."""
 
-    def message(self, text: str) -> None:
-        """Discard the message."""
 
-    def cycle(self, report: CycleReport) -> None:
-        """Discard the report."""
-
-    def step(self, report: StepReport) -> None:
-        """Discard the report."""
-
-
-SILENT = Silent()
+SILENT = Silent()  # type: ignore[abstract]  # its methods are empty on purpose
 
 
 class Recorder:

@@ -61,14 +61,10 @@ class Smoother(Protocol):
 
         Parameters
         ----------
-        film : Film
-            Pressure, film, conductance and density.
-        mesh : Mesh
-            Weights of the Reynolds operator.
-        rhs : (ny, nx) array
-            Right-hand side f.
-        flow : FlowTable
-            Mobility and density of the lubricant.
+        film, mesh : Film, Mesh
+            Pressure, film, conductance and density; weights of the Reynolds operator.
+        rhs, flow : (ny, nx) array, FlowTable
+            Right-hand side f; mobility and density of the lubricant.
         """
 
 

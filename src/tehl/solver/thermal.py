@@ -56,11 +56,6 @@ class Coupling:
         Damping factor of the logarithms of mobility and density per sweep, 1 is undamped [-]. On
         rough flanks the pressure gradient may cause nearly all heat and thinning; undamped, the
         flow increases both before the pressure can fall, and the iteration diverges.
-
-    Attributes
-    ----------
-    state : FilmState or None
-        Temperature and shear stress on the last level that was started.
     """
 
     def __init__(
@@ -80,7 +75,7 @@ class Coupling:
         self.thorough = options.accuracy == "tight" or counter_moving
         self.sweeps_left = RAMP if slide_in_steps else 0
         self.damping = damping if is_coupled else 1.0
-        self.state: FilmState | None = None
+        self.state: FilmState | None = None  # on the last level that was started
         self.factors: properties.Factors | None = None
         self.change, self.rise, self.skip = 0.0, 0.0, False
 
@@ -117,7 +112,8 @@ class Coupling:
             # line sources march with the sweep
             if not all(side.marches for side in self.film.sides):
                 state.update_surfaces()
-            self._set_factors(levels, refined(levels[-2]))
+            assert levels[-2].factors is not None  # that grid is heated
+            self._set_factors(levels, properties.Factors(*map(midpoints, levels[-2].factors)))
             return True
         # the first heated grid starts from the inlet temperature everywhere
         for _ in range(FIRST_SWEEPS):
@@ -265,10 +261,3 @@ def damped(old: properties.Factors, new: properties.Factors, damping: float) -> 
     rest = old.rest + damping * (new.rest - old.rest)
     others = (a * (b / a) ** damping for a, b in zip(old[1:], new[1:], strict=True))
     return properties.Factors(rest, *others)
-
-
-def refined(coarse: Level) -> properties.Factors:
-    """Return the factors of a level interpolated to the next finer grid."""
-    if coarse.factors is None:
-        raise ValueError("the level has no factors of heat and thinning")
-    return properties.Factors(*(midpoints(array) for array in coarse.factors))

@@ -82,10 +82,8 @@ def engine_of(
 
     Parameters
     ----------
-    jobs : int
-        Workers on this machine, at most one per case; 1 solves in this process.
-    cases : int
-        Number of cases.
+    jobs, cases : int
+        Workers on this machine, at most one for each of the cases; 1 solves in this process.
     scheduler : str or None
         Address of a dask scheduler, ``"tcp://host:8786"``; overrides ``jobs``.
     forked : bool

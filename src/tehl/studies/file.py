@@ -114,10 +114,8 @@ def plan_of(
 
     Parameters
     ----------
-    stated : StudyFile
-        The study.
-    folder : Path
-        Where relative paths begin.
+    stated, folder : StudyFile, Path
+        The study, and where relative paths begin.
     overrides, unlimited
         As of :func:`read_study`; an invalid study raises an InputError or ValueError.
     """

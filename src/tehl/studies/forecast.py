@@ -44,10 +44,8 @@ def forecast(
         All cases of the study.
     finished : mapping of str to Row
         Finished cases by key; their times calibrate the estimate for the others.
-    jobs : int
-        Number of workers.
-    fields : bool
-        Whether fields are kept.
+    jobs, fields : int, bool
+        Number of workers, and whether fields are kept.
     """
     every = {case.key: case for case in cases}
     waiting = [case for key, case in every.items() if key not in finished]

@@ -81,10 +81,8 @@ def checked_pictures(
     ----------
     pictures : sequence of Picture
         As the study file states them.
-    labels : sequence of str
-        Names of the axes.
-    folder : Path
-        Where paths of overlays begin.
+    labels, folder : sequence of str, Path
+        Names of the axes, and where paths of overlays begin.
 
     Raises
     ------
@@ -134,10 +132,8 @@ def save(picture: Picture, table: "pd.DataFrame", folder: Path) -> Path:
 
     Parameters
     ----------
-    picture : Picture
-        What to draw.
-    table : pandas.DataFrame
-        Table of a study.
+    picture, table : Picture, pandas.DataFrame
+        What to draw, and the table of a study.
     folder : Path
         Where the file appears, whole or not at all.
     """

@@ -32,10 +32,8 @@ def check_waves(heights: MovingHeights, grid: Grid, stride: int) -> None:
 
     Parameters
     ----------
-    heights : MovingHeights
-        Surfaces and motion.
-    grid : Grid
-        The finest grid.
+    heights, grid : MovingHeights, Grid
+        Surfaces and motion, and the finest grid.
     stride : int
         Mesh widths that the mean motion passes per step.
     """
