@@ -4,6 +4,7 @@ Each raises `InputError` with the key, its value, what is wrong, and what is exp
 """
 
 import math
+from itertools import groupby
 
 from tehl.errors import InputError
 from tehl.grid import Grid
@@ -72,8 +73,5 @@ def check_load(transient: Transient, seconds: float) -> None:
 
 def plateaus(table: tuple[tuple[float, float], ...]) -> list[tuple[float, float, float]]:
     """Return start, end and value of each constant part of a table of times and loads."""
-    found: list[tuple[float, float, float]] = []
-    for time, load in table:
-        first = found.pop()[0] if found and found[-1][2] == load else time
-        found.append((first, time, load))
-    return found
+    parts = (list(part) for _, part in groupby(table, key=lambda row: row[1]))
+    return [(part[0][0], *part[-1]) for part in parts]
