@@ -14,7 +14,7 @@ import numpy as np
 from tehl.operators.heights import Heights
 from tehl.operators.transfer import refine
 from tehl.solver.convergence import DivergedError
-from tehl.solver.level import Correction, Level
+from tehl.solver.level import Level
 from tehl.typing import Array
 
 SMOOTH_CYCLES = 2
@@ -92,7 +92,7 @@ class Roughness:
         blurred = max((k for k in range(last) if points[k] < BLURRED), default=last)
         for k, level in enumerate(levels[blurred:last], start=blurred):
             part = self.settings.correction if k == blurred else 1.0
-            level.correction = Correction(part=part, limit=self.settings.limit)
+            level.correction = (part, self.settings.limit)
         # size of the waves in the contact, for the error estimate of a single grid
         finest = levels[-1].grid
         inside = np.hypot.outer(finest.y, finest.x) < 1.0

@@ -10,8 +10,6 @@ chapters 4 and 6): each equation A(u) = b becomes
 with the injected or weighted fine solution I u.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from tehl.grid import Grid
@@ -37,17 +35,6 @@ APPROACH_WEIGHT = 10.0
 """Weight of the rigid approach among the pressures in the vector of unknowns."""
 
 
-@dataclass(frozen=True, slots=True)
-class Correction:
-    """Damping of the correction that a coarse grid gives to the next finer one.
-
-    ``part`` multiplies the correction; ``limit`` bounds its relative change of a pressure.
-    """
-
-    part: float = 1.0
-    limit: float = np.inf
-
-
 class Level:
     """One grid with its unknowns; the only mutable object of the multigrid solver.
 
@@ -66,7 +53,8 @@ class Level:
         self.residual = np.zeros(shape)
         self.restricted = (np.zeros(shape), 0.0)
         self.heights: Array | None = None
-        self.correction = Correction()
+        # of the correction of the next finer grid: factor, and limit of its relative change of P
+        self.correction = (1.0, np.inf)
         self.factors: properties.Factors | None = None
         self._is_stale = True
 
@@ -314,10 +302,9 @@ class Level:
         By bilinear interpolation, never across the cavitation front: two grids would move the front
         back and forth.
         """
-        (before, approach), how = coarse.restricted, coarse.correction
-        mirror = self.mesh.mirror
-        transfer.correct(self.film.p, coarse.film.p, before, mirror, how.part, how.limit)
-        self.rigid_approach += how.part * (coarse.rigid_approach - approach)
+        (before, approach), (part, limit) = coarse.restricted, coarse.correction
+        transfer.correct(self.film.p, coarse.film.p, before, self.mesh.mirror, part, limit)
+        self.rigid_approach += part * (coarse.rigid_approach - approach)
         self._is_stale = True
 
 
