@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
-from tehl.units import Temperature
+from tehl.units import Table, Temperature
 
 ReynoldsForm = Literal["generalised", "mean", "mean-all"]
 AcrossScheme = Literal["chebyshev", "uniform"]
@@ -20,7 +20,7 @@ LAYERS: dict[AcrossScheme, int] = {"chebyshev": 9, "uniform": 21}
 """Nodes across the film when the case does not state them."""
 
 
-class Thermal(BaseModel):
+class Thermal(Table):
     """The table ``[thermal]`` of a case.
 
     Attributes
@@ -37,8 +37,6 @@ class Thermal(BaseModel):
     sources : {"auto", "line", "full"}
         How the solids conduct, see :class:`FilmEnergy`.
     """
-
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     temperature: Temperature | None = None
     reynolds: ReynoldsForm = "generalised"

@@ -4,14 +4,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import BeforeValidator, Field
 
 from tehl.errors import InputError
 from tehl.named import find_table, read_tables
-from tehl.units import Pressure, SolidConductivity, SolidDensity, SolidHeatCapacity
+from tehl.units import Pressure, SolidConductivity, SolidDensity, SolidHeatCapacity, Table
 
 
-class Solid(BaseModel):
+class Solid(Table):
     """An elastic solid.
 
     Attributes
@@ -25,8 +25,6 @@ class Solid(BaseModel):
     name, source : str or None
         Where the numbers come from.
     """
-
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     young_modulus: Pressure
     poisson_ratio: Annotated[float, Field(gt=-1.0, le=0.5, allow_inf_nan=False, examples=[0.3])]

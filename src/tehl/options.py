@@ -3,9 +3,10 @@
 import math
 from typing import Annotated, Literal, Self
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
 from tehl.errors import InputError
+from tehl.units import Table
 
 
 def _not_a_boolean(value: object) -> object:
@@ -26,7 +27,7 @@ FARTHEST = 1e3
 """Hertz half-widths within which a domain must stay."""
 
 
-class Domain(BaseModel):
+class Domain(Table):
     """Rectangle on which the film is computed, in Hertz half-widths.
 
     Attributes
@@ -34,8 +35,6 @@ class Domain(BaseModel):
     x, y : tuple of float
         Inlet and outlet edge, and the two side edges [-].
     """
-
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     x: Interval
     y: Interval
@@ -61,7 +60,7 @@ def _fault_of_edges(low: float, high: float) -> str:
     return ""
 
 
-class Options(BaseModel):
+class Options(Table):
     """Numerical options of a run; the defaults suit a smooth isothermal contact.
 
     Attributes
@@ -95,8 +94,6 @@ class Options(BaseModel):
     half_domain : {"auto", "never"}
         ``"auto"`` computes only y >= 0 if the problem is symmetric in y.
     """
-
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     points: Nodes | tuple[Nodes, Nodes] = 257
     domain: Domain | Literal["auto"] = "auto"

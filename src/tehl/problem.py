@@ -7,7 +7,7 @@ validating the parsed file. Derived quantities in SI are properties.
 import math
 from typing import TYPE_CHECKING, ClassVar, Self
 
-from pydantic import BaseModel, ConfigDict, model_validator
+from pydantic import model_validator
 
 from tehl.geometry import Motion, Radii, reduced_radii
 from tehl.heat import FilmEnergy, Thermal
@@ -26,14 +26,13 @@ from tehl.units import (
     Pressure,
     Radius,
     Speed,
+    Table,
     Temperature,
 )
 
 
-class _WithRadii(BaseModel):
+class _WithRadii(Table):
     """Base of the tables that state one radius, or two of them."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     FLAT: ClassVar[str] = ""
     """Hint of the message on a single one of both radii."""
@@ -140,7 +139,7 @@ class Contact(_WithRadii):
             raise ValueError(f"needs one of {', '.join(names)}")
 
 
-class ContactProblem(BaseModel):
+class ContactProblem(Table):
     """A lubricated point contact.
 
     Attributes
@@ -158,8 +157,6 @@ class ContactProblem(BaseModel):
     transient : Transient or None
         Settings of a transient run, in which roughness moves with its surface; None is steady.
     """
-
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     title: str = ""
     contact: Contact

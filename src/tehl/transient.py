@@ -4,15 +4,15 @@ from bisect import bisect_right
 from itertools import pairwise
 from typing import Annotated, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 
-from tehl.units import Instant, PositiveNumber, Time
+from tehl.units import Instant, PositiveNumber, Table, Time
 
 LARGEST_FACTOR = 10.0
 """Largest load over the stated one."""
 
 
-class Transient(BaseModel):
+class Transient(Table):
     """A transient run: roughness moves with its surface, the load may vary, the film is squeezed.
 
     Attributes
@@ -39,8 +39,6 @@ class Transient(BaseModel):
     max_cycles : int
         Cycles per step before the next relaxation is tried.
     """
-
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     duration: Time | None = None
     stride: Annotated[int, Field(ge=1, le=8)] = 1

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Annotated, Any, Literal
 
-from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
 
@@ -71,6 +71,12 @@ _FACTOR = re.compile(
     r"\s*([*/·]?)\s*(<\d+>|[+-]?\d+|[A-Za-zµμ°%]+|-|)(?:\s*(?:\^|\*\*)\s*([+-]?\d*))?"
 )
 _SUPERSCRIPTS = str.maketrans({"²": "^2", "³": "^3", "⁻": "-", "¹": "1"})
+
+
+class Table(BaseModel):
+    """Base of the tables of a case or study file: constant, without unknown keys."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
 
 @lru_cache(maxsize=256)

@@ -8,7 +8,6 @@ from typing import Annotated, Any, Literal
 from pydantic import (
     BaseModel,
     BeforeValidator,
-    ConfigDict,
     Discriminator,
     Field,
     Tag,
@@ -24,7 +23,7 @@ from tehl.lubricant.viscosity import ViscosityLaw
 from tehl.lubricant.walther import Walther
 from tehl.named import find_table, read_tables
 from tehl.typing import Array
-from tehl.units import Conductivity, HeatCapacity, PressureCoefficient, Temperature
+from tehl.units import Conductivity, HeatCapacity, PressureCoefficient, Table, Temperature
 
 
 class ConductivityOfPressure(Law):
@@ -205,10 +204,8 @@ def _named(name: str) -> dict[str, Any]:
     return find_table(read_tables(_OILS), name, "oil", "viscosity and density")
 
 
-class OilByName(BaseModel):
+class OilByName(Table):
     """A named oil with what is added to it, as the JSON schema of a case shows it."""
-
-    model_config = ConfigDict(extra="forbid", defer_build=True)
 
     name: str
     shear: ShearLaw = Newtonian()

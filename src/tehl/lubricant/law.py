@@ -6,9 +6,8 @@ Laws are formulas for numbers as well as for arrays: a case is explained without
 import math
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
-from pydantic import BaseModel, ConfigDict
-
 from tehl.typing import Array, np
+from tehl.units import Table
 
 LARGEST_EXPONENT = 600.0
 """``exp`` of more would overflow; so thick a film is a solid for every purpose."""
@@ -16,10 +15,8 @@ LARGEST_EXPONENT = 600.0
 Values = TypeVar("Values", float, Array)
 
 
-class Law(BaseModel):
+class Law(Table):
     """Base of the tables of an oil."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
 
 class ViscosityModel(Law):

@@ -4,7 +4,7 @@ import hashlib
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, ValidationInfo, field_validator, model_validator
+from pydantic import ValidationInfo, field_validator, model_validator
 
 from tehl.roughness.model import (
     BEYOND,
@@ -19,7 +19,7 @@ from tehl.roughness.model import (
     Wavelength,
     direction,
 )
-from tehl.units import Angle, Height, PositiveNumber
+from tehl.units import Angle, Height, PositiveNumber, Table
 
 if TYPE_CHECKING:
     from tehl.roughness.prepare import Heights
@@ -29,7 +29,7 @@ _COARSE = 10.0
 _LARGE = 20.0
 
 
-class Crop(BaseModel):
+class Crop(Table):
     """A part of a map, in the coordinates of the file: from its first column and row.
 
     Attributes
@@ -37,8 +37,6 @@ class Crop(BaseModel):
     x, y : (float, float) or None
         From and to [m]; None is all.
     """
-
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     x: Span | None = None
     y: Span | None = None

@@ -7,10 +7,10 @@ those of the contact, x along entrainment; a surface carries its heights along x
 import math
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict
+from pydantic import AfterValidator, BeforeValidator
 
 from tehl.typing import Array, np
-from tehl.units import Length, Quantity, quantity
+from tehl.units import Length, Quantity, Table, quantity
 
 if TYPE_CHECKING:
     from tehl.roughness.tile import Tile
@@ -89,10 +89,8 @@ class Roughness:
         return self
 
 
-class RoughnessModel(Roughness, BaseModel):
+class RoughnessModel(Roughness, Table):
     """Base of the surfaces of a case file."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     def extent(self, length: float) -> Extent:
         """Return where the surface is rough at time zero, between y = -``length`` and ``length``.

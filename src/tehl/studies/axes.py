@@ -12,13 +12,14 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 
 from tehl.errors import InputError
 from tehl.io.atomic import shortened
 from tehl.io.case import plain_value
 from tehl.studies.tables import is_reserved
 from tehl.typing import Array
+from tehl.units import Table
 
 End = float | int | str
 Ends = tuple[End, End]
@@ -46,7 +47,7 @@ class Setting:
     name: str | None = None
 
 
-class Axis(BaseModel):
+class Axis(Table):
     """One path of the case file with the values that it takes.
 
     Attributes
@@ -66,8 +67,6 @@ class Axis(BaseModel):
     zip : str or None
         Axes with the same word here vary together, value by value.
     """
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
     path: str
     name: str | None = None
@@ -163,7 +162,7 @@ def _split(end: End) -> tuple[float, str]:
     return float(match[1]), match[2]
 
 
-class Sample(BaseModel):
+class Sample(Table):
     """How sampled axes take their values.
 
     Attributes
@@ -175,8 +174,6 @@ class Sample(BaseModel):
     seed : int
         Of the random numbers.
     """
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
     method: Literal["latin-hypercube", "sobol", "random"] = "latin-hypercube"
     number: Annotated[int, Field(ge=1)]

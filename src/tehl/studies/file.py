@@ -9,7 +9,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, StrictBool, ValidationError
+from pydantic import Field, StrictBool, ValidationError
 
 from tehl.errors import InputError
 from tehl.io.atomic import shortened
@@ -31,6 +31,7 @@ from tehl.studies.plan import Plan, Study, study_of
 from tehl.studies.runner import run
 from tehl.studies.store import Keep, Store
 from tehl.studies.tables import table
+from tehl.units import Table
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -41,14 +42,12 @@ _LARGEST = 10_000
 """Cases of a study that does not state ``largest``."""
 
 
-class StudyFile(BaseModel):
+class StudyFile(Table):
     """The keys of a study file, as the user guide explains them."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
     title: str = ""
     case: str | dict[str, Any]
-    axes: list[Axis] = []
+    axes: list[Axis] = Field(default_factory=list)
     sample: Sample | None = None
     cases: str | None = None
     certify: StrictBool = False
@@ -56,7 +55,7 @@ class StudyFile(BaseModel):
     warm_start: StrictBool = False
     store: str | None = None
     largest: Annotated[int, Field(ge=1)] | None = None
-    pictures: list[Picture] = []
+    pictures: list[Picture] = Field(default_factory=list)
 
 
 def read_study(path: str | Path, overrides: Sequence[str] = (), *, unlimited: bool = False) -> Plan:

@@ -4,11 +4,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 
 from tehl.errors import InputError
 from tehl.io.atomic import replacing
 from tehl.studies.tables import missing_column
+from tehl.units import Table
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -20,10 +21,8 @@ _KEYS = ("x", "y", "z", "hue", "style", "log", "map", "overlay", "file", "format
 """What ``--plot`` can state."""
 
 
-class Picture(BaseModel):
+class Picture(Table):
     """Curves over a column of the table, or a map over two; the user guide explains the keys."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
     x: str | None = None
     y: str | None = None
