@@ -4,7 +4,8 @@ import pytest
 from pydantic import ValidationError
 
 from tehl.errors import InputError
-from tehl.materials import Solid, library, material, reduced_modulus
+from tehl.materials import SOLIDS, Solid, material, reduced_modulus
+from tehl.named import read_tables
 
 
 def test_the_reduced_modulus_is_twice_the_contact_modulus():
@@ -20,9 +21,9 @@ def test_a_rigid_partner_leaves_twice_the_compliance_of_the_other():
     assert reduced_modulus(soft, rigid) == pytest.approx(2.0 * 1e9 / 0.75)
 
 
-@pytest.mark.parametrize("name", list(library()))
+@pytest.mark.parametrize("name", list(read_tables(SOLIDS)))
 def test_every_named_solid_is_complete_and_has_a_source(name: str):
-    solid = library()[name]
+    solid = material(name)
     assert solid.name == name
     assert solid.source
     assert solid.diffusivity is not None

@@ -52,13 +52,8 @@ def reduced_modulus(first: Solid, second: Solid) -> float:
     return 2.0 / (first.compliance + second.compliance)
 
 
-_SOLIDS = Path(__file__).with_name("materials.toml")
+SOLIDS = Path(__file__).with_name("materials.toml")
 _NEEDS = "young_modulus and poisson_ratio"
-
-
-def library() -> dict[str, Solid]:
-    """Return the named solids, by name."""
-    return {name: Solid(**table) for name, table in read_tables(_SOLIDS).items()}
 
 
 def material(name: str) -> Solid:
@@ -79,7 +74,7 @@ def _by_name(value: object) -> object:
     """Return the table of a name; a table is returned unchanged."""
     if isinstance(value, Mapping | Solid):
         return value
-    known = read_tables(_SOLIDS)
+    known = read_tables(SOLIDS)
     if not isinstance(value, str):
         raise ValueError(
             f"must be the name of a solid ({', '.join(known)}) or a table with {_NEEDS}"

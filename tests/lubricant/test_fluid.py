@@ -7,12 +7,14 @@ import pytest
 from pydantic import TypeAdapter
 
 from tehl.errors import InputError
-from tehl.lubricant import Lubricant, NamedLubricant, library, oil
+from tehl.lubricant import Lubricant, NamedLubricant, oil
+from tehl.lubricant.fluid import OILS
+from tehl.named import read_tables
 
 
-@pytest.mark.parametrize("name", list(library()))
+@pytest.mark.parametrize("name", list(read_tables(OILS)))
 def test_every_named_oil_has_a_source_and_usual_values(name: str):
-    lubricant = library()[name]
+    lubricant = oil(name)
     assert lubricant.source
     assert lubricant.shear.law == "newtonian"
     assert 0.005 < lubricant.viscosity.eta_0 < 1.0
@@ -28,7 +30,7 @@ def test_the_iso_grades_follow_their_cited_relations(grade: int):
     assert law.pressure_coefficient == pytest.approx(wooster, rel=5e-3)  # three digits stated
 
 
-@pytest.mark.parametrize("name", [name for name in library() if name != "mourier-2006"])
+@pytest.mark.parametrize("name", [name for name in read_tables(OILS) if name != "mourier-2006"])
 def test_a_named_oil_has_its_thermal_properties(name: str):
     lubricant = oil(name)
     assert lubricant.conductivity

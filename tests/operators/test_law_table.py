@@ -14,9 +14,10 @@ from tehl.lubricant import (
     RoelandsExponential,
     TaitDensity,
     TaitDoolittle,
-    library,
+    fluid,
     oil,
 )
+from tehl.named import read_tables
 from tehl.operators.across import uniform
 from tehl.operators.law_table import law_table
 from tehl.scaling import Scales
@@ -31,7 +32,7 @@ GLASS = {"bulk_modulus": 1.2e9, "expansion": 8e-4, "softening": 6e-3}
 FREE_VOLUME = TaitDoolittle(eta_0=0.0156, B=4.71, occupied=0.698, occupied_expansion=-1e-3, **GLASS)
 DENSE = DowsonHigginson(rho_0=870.0, beta=6.5e-4)
 OILS: dict[str, Lubricant] = {
-    **{name: oil(name) for name in library()},
+    **{name: oil(name) for name in read_tables(fluid.OILS)},
     "barus": Lubricant(viscosity=Barus(eta_0=0.04, alpha=2e-8, gamma=0.04), density=DENSE),
     "exponential": Lubricant(
         viscosity=RoelandsExponential(eta_0=0.04, alpha=2e-8, gamma=0.04),

@@ -1,7 +1,7 @@
 """Oils: laws of viscosity, density and shear, each one a frozen model with one method."""
 
 from tehl.lubricant.density import ConstantDensity, DensityLaw, DowsonHigginson
-from tehl.lubricant.fluid import Lubricant, NamedLubricant, library, oil
+from tehl.lubricant.fluid import Lubricant, NamedLubricant, oil
 from tehl.lubricant.roelands import Roelands, RoelandsExponential
 from tehl.lubricant.shear import Carreau, Eyring, Limiting, Newtonian, ShearLaw
 from tehl.lubricant.tait import TaitDensity, TaitDoolittle
@@ -27,6 +27,5 @@ __all__ = [
     "TaitDoolittle",
     "ViscosityLaw",
     "Walther",
-    "library",
     "oil",
 ]

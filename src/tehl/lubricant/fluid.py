@@ -162,13 +162,8 @@ def _grown(stated: Property, name: str, pressure: Array) -> Array:
     return stated + 0.0 * pressure
 
 
-_OILS = Path(__file__).with_name("oils.toml")
+OILS = Path(__file__).with_name("oils.toml")
 _LAWS = {"viscosity", "density"}
-
-
-def library() -> dict[str, Lubricant]:
-    """Return the named oils, by name."""
-    return {name: Lubricant(**table) for name, table in read_tables(_OILS).items()}
 
 
 def oil(name: str) -> Lubricant:
@@ -196,12 +191,12 @@ def _by_name(value: object) -> object:
             raise ValueError(f"name = {json.dumps(value['name'])} {error}") from None
     if isinstance(value, Mapping | Lubricant):
         return value
-    known = ", ".join(read_tables(_OILS))
+    known = ", ".join(read_tables(OILS))
     raise ValueError(f"must be the name of an oil ({known}) or a table with viscosity and density")
 
 
 def _named(name: str) -> dict[str, Any]:
-    return find_table(read_tables(_OILS), name, "oil", "viscosity and density")
+    return find_table(read_tables(OILS), name, "oil", "viscosity and density")
 
 
 class OilByName(Table):
