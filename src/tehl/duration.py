@@ -158,10 +158,7 @@ def duration_of(scaled: ScaledProblem) -> float:
 def number_of_steps(scaled: ScaledProblem, seconds: float) -> int:
     """Return the number of time steps of ``seconds`` in the run.
 
-    Raises
-    ------
-    InputError
-        If it exceeds `MOST_STEPS`.
+    Raises InputError if it exceeds `MOST_STEPS`.
     """
     duration = duration_of(scaled)
     steps = duration / seconds

@@ -18,10 +18,7 @@ class Radii:
 def reduced_radius(first: float, second: float) -> float:
     """Return R with ``1/R = 1/R_1 + 1/R_2`` [m]; infinite radii are flat, negative ones hollow.
 
-    Raises
-    ------
-    ValueError
-        If the surfaces do not curve apart, so that they have no point contact.
+    Raises ValueError if the surfaces do not curve apart, so that they have no point contact.
     """
     curvature = 1.0 / first + 1.0 / second
     if curvature == 0.0 and math.isinf(first):

@@ -42,10 +42,8 @@ def available_memory() -> float | None:
 def check_memory(options: Options, problem: ContactProblem | None = None) -> None:
     """Check that the finest grid fits into the available memory.
 
-    Raises
-    ------
-    InputError
-        If the estimated need exceeds the available memory; the message names a grid that fits.
+    Raises InputError if the estimated need exceeds the available memory; the message names a grid
+    that fits.
     """
     needed = needed_memory(options, problem)
     available = available_memory() if needed > NEGLIGIBLE else None

@@ -166,10 +166,7 @@ def can_be_halved(options: Options, times: int) -> bool:
 def check_certifiable(options: Options, *, transient: bool = False) -> None:
     """Check that the grid can be halved for error bars: twice, in a transient run once.
 
-    Raises
-    ------
-    InputError
-        When it has too few nodes.
+    Raises InputError when it has too few nodes.
     """
     halvings, what, least = (1, " a transient run", 65) if transient else (2, "", 129)
     if not can_be_halved(options, halvings):

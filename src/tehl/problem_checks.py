@@ -36,10 +36,7 @@ LARGEST_RATIO = 1e3
 def check(problem: "ContactProblem") -> None:
     """Check that the tables of a problem state one contact, completely and only once.
 
-    Raises
-    ------
-    ValueError
-        With one sentence on the first fault.
+    Raises ValueError with one sentence on the first fault.
     """
     check_radii(problem)
     check_temperatures(problem)

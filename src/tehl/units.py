@@ -144,11 +144,8 @@ class Quantity:
     def parse(self, value: object) -> float:
         """Return ``value``, a bare SI number or a number with its unit, in SI.
 
-        Raises
-        ------
-        ValueError
-            If it cannot be such a quantity; the message continues a sentence that begins with
-            the name and the value: ``contact.load = "80 mm" ...``.
+        Raises ValueError if it cannot be such a quantity; the message continues a sentence that
+        begins with the name and the value: ``contact.load = "80 mm" ...``.
         """
         if isinstance(value, str):
             return self._check(self._read(value.strip()))

@@ -63,10 +63,8 @@ class DivergedError(ArithmeticError):
 def check_divergence(report: CycleReport, *, rough: bool) -> None:
     """Check that an iteration may still converge.
 
-    Raises
-    ------
-    DivergedError
-        When residual, load error, film or, between rough surfaces, change are too large or NaN.
+    Raises DivergedError when residual, load error, film or, between rough surfaces, change are too
+    large or NaN.
     """
     numbers = abs(report.load_error) < RUNAWAY and report.film_central < RUNAWAY
     if not (np.isfinite(report.residual) and numbers):

@@ -72,10 +72,7 @@ class Newton:
     def step(self) -> float:
         """Perform one step; return the part of the Newton step that was taken.
 
-        Raises
-        ------
-        DivergedError
-            When no part of the step reduces the residual.
+        Raises DivergedError when no part of the step reduces the residual.
         """
         self.level.update()
         system, old = System(self), self.preconditioner

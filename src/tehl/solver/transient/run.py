@@ -197,10 +197,7 @@ class Run:
     def restore(self, snapshot: Snapshot) -> None:
         """Restore a snapshot of the same problem.
 
-        Raises
-        ------
-        InputError
-            If it belongs to another grid or other steps, or lacks a field.
+        Raises InputError if it belongs to another grid or other steps, or lacks a field.
         """
         level, fields = self.level, dict(snapshot.fields)
         self._check(snapshot)

@@ -174,10 +174,7 @@ def pack(snapshot: Snapshot) -> dict[str, NDArray[Any]]:
 def unpack(arrays: Arrays) -> Snapshot:
     """Return the snapshot of arrays that :func:`pack` returned.
 
-    Raises
-    ------
-    InputError
-        If an array is missing, inconsistent with the others, or not finite.
+    Raises InputError if an array is missing, inconsistent with the others, or not finite.
     """
     wrong = next(_faults(arrays), None)
     if wrong is not None:

@@ -86,10 +86,8 @@ class Stepper:
     def step(self, heights: Array, load: float) -> StepEnd:
         """Advance by one step to the heights of both surfaces, (ny, nx), and the load [-].
 
-        Raises
-        ------
-        StepError
-            When no relaxation converges; pressure and film are those of the last attempt.
+        Raises StepError when no relaxation converges; pressure and film are those of the last
+        attempt.
         """
         level, history = self.solver.finest, self._history()
         start = level.film.p.copy(), level.rigid_approach
