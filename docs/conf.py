@@ -5,6 +5,8 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from sphinx.pycode import ModuleAnalyzer
+
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE))
 
@@ -47,9 +49,33 @@ html_theme_options = {
 }
 
 
+def fields(thing: type) -> list[str]:
+    """Return a section with the fields of a class, which are described where they are declared.
+
+    A description below several fields is that of all of them.
+    """
+    lines: list[str] = []
+    for one in reversed(thing.__mro__):
+        if not one.__module__.startswith("tehl"):
+            continue
+        found = ModuleAnalyzer.for_module(one.__module__)
+        found.analyze()
+        group: list[str] = []
+        for name in getattr(one, "__annotations__", {}):
+            group.append(name)
+            described = found.attr_docs.get((one.__qualname__, name))
+            if described:
+                kind = found.annotations.get((one.__qualname__, name), "")
+                lines += [f"{', '.join(group)} : {kind}", *(f"    {line}" for line in described)]
+                group = []
+    return ["", "Attributes", "----------", *lines] if lines else []
+
+
 def adapt(*arguments: Any) -> None:
     """Adapt a numpydoc docstring to napoleon: references, names that share a line, ``|u_s|``."""
-    lines = arguments[-1]
+    _, what, _, thing, _, lines = arguments
+    if what == "class":
+        lines += fields(thing)
     lines[:] = [re.sub(r"(?<![`\w])\|(\w+)\|(?![`\w])", r"\|\1\|", line) for line in lines]
     lines[:] = [re.sub(r"^\.\. \[(\d+)\] ", r"\1. ", line).replace("]_", "]") for line in lines]
     lines[:] = [re.sub(r"(?<=\w), (?=[\w, ]+ : )", ",", line) for line in lines]

@@ -21,28 +21,19 @@ LAYERS: dict[AcrossScheme, int] = {"chebyshev": 9, "uniform": 21}
 
 
 class Thermal(Table):
-    """The table ``[thermal]`` of a case.
-
-    Attributes
-    ----------
-    temperature : float or None
-        Temperature of the oil at the inlet [K]; None takes ``lubricant.temperature``, or the
-        reference temperature of the viscosity.
-    reynolds : {"generalised", "mean", "mean-all"}
-        Form of the Reynolds equation, see :class:`FilmEnergy`.
-    layers : int or None
-        Nodes across the film, both surfaces included; None takes `LAYERS` of the scheme.
-    scheme : {"chebyshev", "uniform"}
-        Collocation at Chebyshev nodes, or differences between uniform layers.
-    sources : {"auto", "line", "full"}
-        How the solids conduct, see :class:`FilmEnergy`.
-    """
+    """The table ``[thermal]`` of a case."""
 
     temperature: Temperature | None = None
+    """Temperature of the oil at the inlet [K]; None takes ``lubricant.temperature``, or the
+    reference temperature of the viscosity."""
     reynolds: ReynoldsForm = "generalised"
+    """Form of the Reynolds equation, see :class:`FilmEnergy`."""
     layers: Annotated[int, Field(ge=5, le=81, strict=True, examples=[9])] | None = None
+    """Nodes across the film, both surfaces included; None takes `LAYERS` of the scheme."""
     scheme: AcrossScheme = "chebyshev"
+    """Collocation at Chebyshev nodes, or differences between uniform layers."""
     sources: SourceForm = "auto"
+    """How the solids conduct, see :class:`FilmEnergy`."""
 
     @property
     def nodes(self) -> int:
@@ -52,33 +43,23 @@ class Thermal(Table):
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class FilmEnergy:
-    """Energy equation of the film between two solids heated by moving sources.
-
-    Attributes
-    ----------
-    temperature : float
-        Temperature of the oil at the inlet [K].
-    bulk_1, bulk_2 : float
-        Temperatures of the solids far from the contact [K].
-    reynolds : {"generalised", "mean", "mean-all"}
-        Form of the Reynolds equation: properties that vary across the film (Yang and Wen);
-        properties at the mean film temperature in Reynolds only; or everywhere.
-    layers : int
-        Nodes across the film, both surfaces included.
-    scheme : {"chebyshev", "uniform"}
-        Collocation at Chebyshev nodes, or differences between uniform layers.
-    sources : {"auto", "line", "full"}
-        Surface temperatures by the line source of high Peclet numbers, by the full moving source,
-        or by `source_form` for each surface.
-    """
+    """Energy equation of the film between two solids heated by moving sources."""
 
     temperature: float
+    """Temperature of the oil at the inlet [K]."""
     bulk_1: float
     bulk_2: float
+    """Temperatures of the solids far from the contact [K]."""
     reynolds: ReynoldsForm = "generalised"
+    """Form of the Reynolds equation: properties that vary across the film (Yang and Wen);
+    properties at the mean film temperature in Reynolds only; or everywhere."""
     layers: int = 9
+    """Nodes across the film, both surfaces included."""
     scheme: AcrossScheme = "chebyshev"
+    """Collocation at Chebyshev nodes, or differences between uniform layers."""
     sources: SourceForm = "auto"
+    """Surface temperatures by the line source of high Peclet numbers, by the full moving source, or
+    by `source_form` for each surface."""
 
 
 def source_form(stated: SourceForm, peclet: float) -> Literal["line", "full"]:

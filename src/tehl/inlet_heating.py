@@ -18,22 +18,15 @@ ROLLING = 0.05
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class InletFactor:
-    """Reduction of the film by shear heating of the inlet, by one formula.
-
-    Attributes
-    ----------
-    formula, source : str
-        Authors, and publication.
-    factor : float
-        Film over the isothermal film [-].
-    remarks : tuple of str
-        Limits of validity that the contact exceeds.
-    """
+    """Reduction of the film by shear heating of the inlet, by one formula."""
 
     formula: str
     source: str
+    """Authors, and publication."""
     factor: float
+    """Film over the isothermal film [-]."""
     remarks: tuple[str, ...]
+    """Limits of validity that the contact exceeds."""
 
 
 def thermal_loading(problem: ContactProblem) -> float | None:

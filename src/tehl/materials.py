@@ -12,27 +12,19 @@ from tehl.units import Pressure, SolidConductivity, SolidDensity, SolidHeatCapac
 
 
 class Solid(Table):
-    """An elastic solid.
-
-    Attributes
-    ----------
-    young_modulus : float
-        E [Pa].
-    poisson_ratio : float
-        nu [-], between -1 and 0.5.
-    density, heat_capacity, conductivity : float or None
-        Thermal properties [kg/m^3], [J/kg/K], [W/m/K]; only needed when heat is computed.
-    name, source : str or None
-        Where the numbers come from.
-    """
+    """An elastic solid."""
 
     young_modulus: Pressure
+    """E [Pa]."""
     poisson_ratio: Annotated[float, Field(gt=-1.0, le=0.5, allow_inf_nan=False, examples=[0.3])]
+    """nu [-], between -1 and 0.5."""
     density: SolidDensity | None = None
     heat_capacity: SolidHeatCapacity | None = None
     conductivity: SolidConductivity | None = None
+    """Thermal properties [kg/m^3], [J/kg/K], [W/m/K]; only needed when heat is computed."""
     name: str | None = None
     source: str | None = None
+    """Where the numbers come from."""
 
     @property
     def compliance(self) -> float:

@@ -28,16 +28,11 @@ FARTHEST = 1e3
 
 
 class Domain(Table):
-    """Rectangle on which the film is computed, in Hertz half-widths.
-
-    Attributes
-    ----------
-    x, y : tuple of float
-        Inlet and outlet edge, and the two side edges [-].
-    """
+    """Rectangle on which the film is computed, in Hertz half-widths."""
 
     x: Interval
     y: Interval
+    """Inlet and outlet edge, and the two side edges [-]."""
 
     @model_validator(mode="after")
     def _must_contain_the_contact(self) -> Self:
@@ -61,52 +56,37 @@ def _fault_of_edges(low: float, high: float) -> str:
 
 
 class Options(Table):
-    """Numerical options of a run; the defaults suit a smooth isothermal contact.
-
-    Attributes
-    ----------
-    points : int or (int, int)
-        Nodes per direction (x, y) of the finest grid, ``n 2^k + 1``.
-    domain : Domain or "auto"
-        ``"auto"`` takes the domain from the Moes load so that it contributes less than 0.3 % to
-        the error of the film.
-    deformation : {"auto", "mlmi", "fft", "lines", "direct"}
-        Method for the elastic deflection; ``"auto"`` takes the cheapest at equal accuracy.
-    cycle : {"V", "W", "F"}
-        Multigrid cycle.
-    pre_sweeps, post_sweeps : int
-        Relaxation sweeps before and after the coarse-grid correction, at least one together.
-    wedge_order : {1, 2}
-        Order of the upstream difference of the wedge term.
-    smoother : {"auto", "fast", "broad", "robust", "gauss-seidel"}
-        Setting of the hybrid line relaxation; ``"auto"`` falls back from fast to robust, and from
-        broad to robust where heat or shear thinning widen the zone in which the film conducts.
-        ``"gauss-seidel"`` is plain point relaxation, for teaching; it diverges in loaded contacts.
-    accuracy : {"discretisation", "tight", "change"}
-        ``"discretisation"`` stops when the estimated iteration error of minimum and central film is
-        below a third of the discretisation error, ``"tight"`` at ``tolerance``. ``"change"`` stops,
-        as much of the literature does, as soon as one cycle changes pressure and temperature by
-        little; the result is judged as for ``"discretisation"``.
-    tolerance : float
-        Limit of the diagonal-scaled residual, the change per cycle and the load error [-].
-    max_cycles : int
-        Largest number of cycles on the finest grid.
-    half_domain : {"auto", "never"}
-        ``"auto"`` computes only y >= 0 if the problem is symmetric in y.
-    """
+    """Numerical options of a run; the defaults suit a smooth isothermal contact."""
 
     points: Nodes | tuple[Nodes, Nodes] = 257
+    """Nodes per direction (x, y) of the finest grid, ``n 2^k + 1``."""
     domain: Domain | Literal["auto"] = "auto"
+    """``"auto"`` takes the domain from the Moes load so that it contributes less than 0.3 % to the
+    error of the film."""
     deformation: Literal["auto", "mlmi", "fft", "lines", "direct"] = "auto"
+    """Method for the elastic deflection; ``"auto"`` takes the cheapest at equal accuracy."""
     cycle: Literal["V", "W", "F"] = "V"
+    """Multigrid cycle."""
     pre_sweeps: Sweeps = 2
     post_sweeps: Sweeps = 2
+    """Relaxation sweeps before and after the coarse-grid correction, at least one together."""
     wedge_order: Literal[1, 2] = 2
+    """Order of the upstream difference of the wedge term."""
     smoother: Literal["auto", "fast", "broad", "robust", "gauss-seidel"] = "auto"
+    """Setting of the hybrid line relaxation; ``"auto"`` falls back from fast to robust, and from
+    broad to robust where heat or shear thinning widen the zone in which the film conducts.
+    ``"gauss-seidel"`` is plain point relaxation, for teaching; it diverges in loaded contacts."""
     accuracy: Literal["discretisation", "tight", "change"] = "discretisation"
+    """``"discretisation"`` stops when the estimated iteration error of minimum and central film is
+    below a third of the discretisation error, ``"tight"`` at ``tolerance``. ``"change"`` stops, as
+    much of the literature does, as soon as one cycle changes pressure and temperature by little;
+    the result is judged as for ``"discretisation"``."""
     tolerance: Annotated[float, Field(gt=0, lt=1), NO_BOOLEAN] = 1e-6
+    """Limit of the diagonal-scaled residual, the change per cycle and the load error [-]."""
     max_cycles: Annotated[int, Field(ge=1, le=1000), NO_BOOLEAN] = 40
+    """Largest number of cycles on the finest grid."""
     half_domain: Literal["auto", "never"] = "auto"
+    """``"auto"`` computes only y >= 0 if the problem is symmetric in y."""
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -59,33 +59,24 @@ class _WithRadii(Table):
 
 
 class Surface(_WithRadii):
-    """One of the two bodies.
-
-    Attributes
-    ----------
-    material : Solid
-        A named material or a table of properties.
-    radius : float or None
-        Radius of a ball [m].
-    radius_x, radius_y : float or None
-        Radii along and across entrainment [m]; infinite is flat, negative is hollow.
-    rms_roughness : float
-        Rq [m], for the lambda ratio of a smooth calculation.
-    roughness : surface
-        Heights of the surface; smooth if left out.
-    temperature : float or None
-        Temperature far from the contact [K], in thermal runs; None is that of the oil at the inlet.
-    """
+    """One of the two bodies."""
 
     FLAT = ' ("inf" is flat)'
 
     material: NamedSolid
+    """A named material or a table of properties."""
     radius: Radius | None = None
+    """Radius of a ball [m]."""
     radius_x: Radius | None = None
     radius_y: Radius | None = None
+    """Radii along and across entrainment [m]; infinite is flat, negative is hollow."""
     rms_roughness: Height = 0.0
+    """Rq [m], for the lambda ratio of a smooth calculation."""
     roughness: AnyRoughness = Smooth()
+    """Heights of the surface; smooth if left out."""
     temperature: Temperature | None = None
+    """Temperature far from the contact [K], in thermal runs; None is that of the oil at the
+    inlet."""
 
     @model_validator(mode="after")
     def _must_be_rough_once(self) -> Self:
@@ -98,32 +89,23 @@ class Surface(_WithRadii):
 
 
 class Contact(_WithRadii):
-    """Shape, load and motion of the contact.
-
-    Attributes
-    ----------
-    radius : float or None
-        Reduced radius of a circular contact [m].
-    radius_x, radius_y : float or None
-        Reduced radii along and across entrainment [m]. Without any radius here both surfaces
-        state theirs.
-    load, hertz_pressure, moes_load : float or None
-        Exactly one: w [N], p_h [Pa] or M [-].
-    entrainment_speed, moes_speed : float or None
-        Exactly one: u_m [m/s] or L [-].
-    slide_roll_ratio : float
-        (u_1 - u_2) / u_m [-].
-    """
+    """Shape, load and motion of the contact."""
 
     radius: Length | None = None
+    """Reduced radius of a circular contact [m]."""
     radius_x: Length | None = None
     radius_y: Length | None = None
+    """Reduced radii along and across entrainment [m]. Without any radius here both surfaces state
+    theirs."""
     load: Force | None = None
     hertz_pressure: Pressure | None = None
     moes_load: PositiveNumber | None = None
+    """Exactly one: w [N], p_h [Pa] or M [-]."""
     entrainment_speed: Speed | None = None
     moes_speed: PositiveNumber | None = None
+    """Exactly one: u_m [m/s] or L [-]."""
     slide_roll_ratio: Number = 0.0
+    """(u_1 - u_2) / u_m [-]."""
 
     @model_validator(mode="after")
     def _must_be_stated_once(self) -> Self:
@@ -140,31 +122,21 @@ class Contact(_WithRadii):
 
 
 class ContactProblem(Table):
-    """A lubricated point contact.
-
-    Attributes
-    ----------
-    title : str
-        Shown in reports and pictures.
-    contact : Contact
-        Shape, load and motion.
-    surface_1, surface_2 : Surface
-        The bodies at z = 0 and z = h.
-    lubricant : Lubricant
-        A named oil or its laws.
-    thermal : Thermal or None
-        Settings of the heat; None is an isothermal film.
-    transient : Transient or None
-        Settings of a transient run, in which roughness moves with its surface; None is steady.
-    """
+    """A lubricated point contact."""
 
     title: str = ""
+    """Shown in reports and pictures."""
     contact: Contact
+    """Shape, load and motion."""
     surface_1: Surface
     surface_2: Surface
+    """The bodies at z = 0 and z = h."""
     lubricant: NamedLubricant
+    """A named oil or its laws."""
     thermal: Thermal | None = None
+    """Settings of the heat; None is an isothermal film."""
     transient: Transient | None = None
+    """Settings of a transient run, in which roughness moves with its surface; None is steady."""
 
     @model_validator(mode="after")
     def _check(self) -> Self:

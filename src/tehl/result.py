@@ -18,24 +18,17 @@ StatusKind = Literal["converged", "not_converged", "diverged", "stalled"]
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Status:
-    """How a solve ended, for programs and for people.
-
-    Attributes
-    ----------
-    kind : {"converged", "not_converged", "diverged", "stalled"}
-        The outcome.
-    cause : str or None
-        Name of the cause when not converged, for programs: ``"grid_too_coarse"``.
-    message, hint : str or None
-        The cause and what to try. In a converged certified result ``message`` says how its grids
-        ended; a ``hint`` in a converged result means that its minimum film is uncertain, and names
-        the grid to try.
-    """
+    """How a solve ended, for programs and for people."""
 
     kind: StatusKind
+    """The outcome."""
     cause: str | None = None
+    """Name of the cause when not converged, for programs: ``"grid_too_coarse"``."""
     message: str | None = None
     hint: str | None = None
+    """The cause and what to try. In a converged certified result ``message`` says how its grids
+    ended; a ``hint`` in a converged result means that its minimum film is uncertain, and names the
+    grid to try."""
 
     @property
     def converged(self) -> bool:
@@ -60,89 +53,60 @@ class Status:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class CycleReport:
-    """One multigrid cycle, as shown in the live table and stored in the history.
-
-    Attributes
-    ----------
-    points : (int, int)
-        Nodes (nx, ny) of the grid, of the full domain.
-    cycle : int
-        Number of the cycle on this grid, from 1.
-    residual : float
-        Mean of ``|r|`` scaled by the local diagonal, over wet nodes [-].
-    change : float
-        Largest change of pressure in this cycle, in Hertz pressures [-].
-    load_error : float
-        Relative error of the load balance [-].
-    film_central, film_minimum : float
-        H at X = Y = 0 and smallest nodal H after this cycle [-].
-    smoother : str
-        Setting of the relaxation that was used.
-    temperature_change : float
-        Largest change of the film temperature in this cycle, where the pressure exceeds a fiftieth
-        of the Hertz pressure [K]; zero in an isothermal run.
-    temperature_rise : float
-        Largest rise of the film temperature over the inlet [K]; zero in an isothermal run; not
-        stored.
-    mean_change : float
-        Sum of the changes of pressure in this cycle over the sum of pressures [-]; not stored.
-    """
+    """One multigrid cycle, as shown in the live table and stored in the history."""
 
     points: tuple[int, int]
+    """Nodes (nx, ny) of the grid, of the full domain."""
     cycle: int
+    """Number of the cycle on this grid, from 1."""
     residual: float
+    """Mean of ``|r|`` scaled by the local diagonal, over wet nodes [-]."""
     change: float
+    """Largest change of pressure in this cycle, in Hertz pressures [-]."""
     load_error: float
+    """Relative error of the load balance [-]."""
     film_central: float
     film_minimum: float
+    """H at X = Y = 0 and smallest nodal H after this cycle [-]."""
     smoother: str
+    """Setting of the relaxation that was used."""
     temperature_change: float = 0.0
+    """Largest change of the film temperature in this cycle, where the pressure exceeds a fiftieth
+    of the Hertz pressure [K]; zero in an isothermal run."""
     temperature_rise: float = 0.0
+    """Largest rise of the film temperature over the inlet [K]; zero in an isothermal run; not
+    stored."""
     mean_change: float = 0.0
+    """Sum of the changes of pressure in this cycle over the sum of pressures [-]; not stored."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Estimate:
-    """A value with its error bar.
-
-    Attributes
-    ----------
-    value : float
-        Richardson value.
-    uncertainty : float
-        Half width of the bar: discretisation and domain parts added in quadrature.
-    discretisation, domain : float
-        The two parts.
-    observed_order : float or None
-        Order observed on three grids; None if they do not show one.
-    values : tuple of float
-        Values on the grids, coarse to fine.
-    """
+    """A value with its error bar."""
 
     value: float
+    """Richardson value."""
     uncertainty: float
+    """Half width of the bar: discretisation and domain parts added in quadrature."""
     discretisation: float
     domain: float
+    """The two parts."""
     observed_order: float | None
+    """Order observed on three grids; None if they do not show one."""
     values: tuple[float, ...]
+    """Values on the grids, coarse to fine."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class ErrorEstimate:
-    """Estimated errors of the film on the finest grid, without extra runs.
-
-    Attributes
-    ----------
-    discretisation_central, discretisation_minimum : float
-        From the difference to the next coarser grid of the full multigrid, relative [-].
-    iteration_central, iteration_minimum : float
-        Change by further cycles, relative [-].
-    """
+    """Estimated errors of the film on the finest grid, without extra runs."""
 
     discretisation_central: float
     discretisation_minimum: float
+    """From the difference to the next coarser grid of the full multigrid, relative [-]."""
     iteration_central: float
     iteration_minimum: float
+    """Change by further cycles, relative [-]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -176,56 +140,38 @@ class Provenance:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Result(Saved):
-    """Result of one steady solve.
-
-    Attributes
-    ----------
-    problem : ContactProblem
-        The case, in SI.
-    options : Options
-        Numerical options; ``options.domain`` as stated, the domain used is that of ``scaled``.
-    scales, groups : Scales, Groups
-        Units removed by the solver, and the dimensionless groups.
-    scaled : Fields
-        Dimensionless fields.
-    rigid_approach : float
-        H00 [-].
-    film_scaled : FilmSummary
-        Film numbers [-].
-    status : Status
-        How it ended.
-    history : tuple of CycleReport
-        Each cycle on each grid.
-    errors : ErrorEstimate or None
-        Estimated errors; None if the solve ended too early for them.
-    uncertainty : dict of str to Estimate
-        Of a certified result: ``film_central``, ``film_minimum``, ``pressure_max`` [-].
-    shear : FilmShear or None
-        Shear stresses; None without a valid film.
-    heat : FilmHeat or None
-        Temperatures; None in an isothermal run.
-    heights : SurfaceHeights or None
-        Heights of rough surfaces; None when both are smooth.
-    cost, provenance : Cost, Provenance
-        Computing cost and origin.
-    """
+    """Result of one steady solve."""
 
     problem: ContactProblem
+    """The case, in SI."""
     options: Options
+    """Numerical options; ``options.domain`` as stated, the domain used is that of ``scaled``."""
     scales: Scales
     groups: Groups
+    """Units removed by the solver, and the dimensionless groups."""
     scaled: Fields
+    """Dimensionless fields."""
     rigid_approach: float
+    """H00 [-]."""
     film_scaled: FilmSummary
+    """Film numbers [-]."""
     status: Status
+    """How it ended."""
     history: tuple[CycleReport, ...]
+    """Each cycle on each grid."""
     errors: ErrorEstimate | None
+    """Estimated errors; None if the solve ended too early for them."""
     cost: Cost
     provenance: Provenance
+    """Computing cost and origin."""
     uncertainty: dict[str, Estimate] = field(default_factory=dict)
+    """Of a certified result: ``film_central``, ``film_minimum``, ``pressure_max`` [-]."""
     shear: FilmShear | None = None
+    """Shear stresses; None without a valid film."""
     heat: FilmHeat | None = None
+    """Temperatures; None in an isothermal run."""
     heights: SurfaceHeights | None = None
+    """Heights of rough surfaces; None when both are smooth."""
 
     @property
     def scaled_problem(self) -> ScaledProblem:

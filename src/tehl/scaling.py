@@ -8,69 +8,47 @@ from tehl.problem import ContactProblem
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Scales:
-    """One unit of each dimensionless quantity in SI.
-
-    Attributes
-    ----------
-    half_width_x, half_width_y : float
-        Hertz half-widths a_x, a_y [m].
-    hertz_pressure : float
-        p_h [Pa].
-    film_thickness : float
-        a_x^2 / R_x [m].
-    viscosity, density : float
-        eta_0 [Pa s] and rho_0 [kg/m^3] at ambient pressure and inlet temperature.
-    speed : float
-        Entrainment speed u_m [m/s].
-    load : float
-        Normal load w [N].
-    temperature : float
-        Inlet temperature [K].
-    """
+    """One unit of each dimensionless quantity in SI."""
 
     half_width_x: float
     half_width_y: float
+    """Hertz half-widths a_x, a_y [m]."""
     hertz_pressure: float
+    """p_h [Pa]."""
     film_thickness: float
+    """a_x^2 / R_x [m]."""
     viscosity: float
     density: float
+    """eta_0 [Pa s] and rho_0 [kg/m^3] at ambient pressure and inlet temperature."""
     speed: float
+    """Entrainment speed u_m [m/s]."""
     load: float
+    """Normal load w [N]."""
     temperature: float
+    """Inlet temperature [K]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Groups:
-    """Dimensionless groups.
-
-    Attributes
-    ----------
-    M, L : float
-        Moes load and speed (lubricant) parameter.
-    U, W, G : float
-        Hamrock-Dowson groups, with the mean speed and R_x.
-    lambda_bar : float
-        12 eta_0 u_m R_x^2 / (a_x^3 p_h).
-    alpha_bar : float
-        alpha p_h.
-    ellipticity : float
-        kappa = a_y / a_x.
-    radius_ratio : float
-        D = R_x / R_y.
-    deflection_factor : float
-        2 Pi / pi with Pi = p_h R_x / (E' a_x): the factor before the kernel sum (circle 2/pi^2).
-    """
+    """Dimensionless groups."""
 
     M: float
     L: float
+    """Moes load and speed (lubricant) parameter."""
     U: float
     W: float
     G: float
+    """Hamrock-Dowson groups, with the mean speed and R_x."""
     lambda_bar: float
+    """12 eta_0 u_m R_x^2 / (a_x^3 p_h)."""
     alpha_bar: float
+    """alpha p_h."""
     ellipticity: float
+    """kappa = a_y / a_x."""
     radius_ratio: float
+    """D = R_x / R_y."""
     deflection_factor: float
+    """2 Pi / pi with Pi = p_h R_x / (E' a_x): the factor before the kernel sum (circle 2/pi^2)."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -13,44 +13,32 @@ LARGEST_FACTOR = 10.0
 
 
 class Transient(Table):
-    """A transient run: roughness moves with its surface, the load may vary, the film is squeezed.
-
-    Attributes
-    ----------
-    duration : float or None
-        Duration of the run [s]; None is until all moving roughness has passed the contact, of
-        waves 2.5 wavelengths.
-    stride : int
-        Mesh widths that the mean motion passes per time step: changes are resolved as on a grid
-        coarser by this factor.
-    start : {"smooth", "standing"}
-        Film at time zero: of smooth surfaces, with waves and random surfaces that enter from the
-        inlet; or the steady film of the rough surfaces at rest.
-    entrance : float
-        Distance upstream of the contact at which waves and random surfaces that enter begin at
-        time zero [a_x].
-    load : tuple of (float, float)
-        Times [s] and loads over that of the contact, linear between and constant before and
-        after.
-    frames : int or tuple of float
-        Number of stored fields, evenly spaced in time, or their times [s].
-    tolerance : float
-        Largest change of pressure in the last cycle of a step [p_h].
-    max_cycles : int
-        Cycles per step before the next relaxation is tried.
-    """
+    """A transient run: surfaces carry their roughness, the load may vary, the film is squeezed."""
 
     duration: Time | None = None
+    """Duration of the run [s]; None is until all moving roughness has passed the contact, of waves
+    2.5 wavelengths."""
     stride: Annotated[int, Field(ge=1, le=8)] = 1
+    """Mesh widths that the mean motion passes per time step: changes are resolved as on a grid
+    coarser by this factor."""
     start: Literal["smooth", "standing"] = "smooth"
+    """Film at time zero: of smooth surfaces, with waves and random surfaces that enter from the
+    inlet; or the steady film of the rough surfaces at rest."""
     entrance: PositiveNumber = 2.5
+    """Distance upstream of the contact at which waves and random surfaces that enter begin at time
+    zero [a_x]."""
     load: tuple[tuple[Instant, PositiveNumber], ...] = ()
+    """Times [s] and loads over that of the contact, linear between and constant before and
+    after."""
     frames: (
         Annotated[int, Field(ge=0, le=10000)]
         | Annotated[tuple[Instant, ...], Field(max_length=10000)]
     ) = 25
+    """Number of stored fields, evenly spaced in time, or their times [s]."""
     tolerance: Annotated[float, Field(gt=0, lt=0.1)] = 1e-3
+    """Largest change of pressure in the last cycle of a step [p_h]."""
     max_cycles: Annotated[int, Field(ge=1, le=1000)] = 20
+    """Cycles per step before the next relaxation is tried."""
 
     @model_validator(mode="after")
     def _must_go_on(self) -> Self:

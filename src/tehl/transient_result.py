@@ -9,171 +9,115 @@ from tehl.typing import Array, IntArray, SingleArray
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class StepReport:
-    """One time step, as reported to a monitor.
-
-    Attributes
-    ----------
-    step, steps : int
-        Number of the step, and total number of steps.
-    time : float
-        [s].
-    cycles : int
-        Multigrid cycles of the step.
-    change, load_error : float
-        Of P in the last of them, and of the load balance [-].
-    film_central, film_minimum : float
-        H at the centre, and the least between the nodes [-].
-    pressure_max : float
-        Largest P [-].
-    smoother : str
-        Setting of the relaxation that converged.
-    """
+    """One time step, as reported to a monitor."""
 
     step: int
     steps: int
+    """Number of the step, and total number of steps."""
     time: float
+    """[s]."""
     cycles: int
+    """Multigrid cycles of the step."""
     change: float
     load_error: float
+    """Of P in the last of them, and of the load balance [-]."""
     film_central: float
     film_minimum: float
+    """H at the centre, and the least between the nodes [-]."""
     pressure_max: float
+    """Largest P [-]."""
     smoother: str
+    """Setting of the relaxation that converged."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class History:
-    """Numbers of each step, beginning with the steady film at time zero; all of shape (nt,).
-
-    Attributes
-    ----------
-    time : array
-        [s].
-    load : array
-        Over that of the contact [-].
-    film_central, film_minimum : array
-        Film at the centre, and the least between the nodes, as of a steady film [m].
-    pressure_max : array
-        Largest pressure [Pa].
-    traction : array
-        Mid-film traction coefficient, over the load at that time [-].
-    rigid_approach : array
-        H00 [-].
-    temperature_rise : array
-        Largest rise of the film over the oil at the inlet [K]; zero where it is isothermal.
-    cycles : array of int
-        Multigrid cycles of the step.
-    change : array
-        Largest change of P in the last of them [-].
-    """
+    """Numbers of each step, beginning with the steady film at time zero; all of shape (nt,)."""
 
     time: Array
+    """[s]."""
     load: Array
+    """Over that of the contact [-]."""
     film_central: Array
     film_minimum: Array
+    """Film at the centre, and the least between the nodes, as of a steady film [m]."""
     pressure_max: Array
+    """Largest pressure [Pa]."""
     traction: Array
+    """Mid-film traction coefficient, over the load at that time [-]."""
     rigid_approach: Array
+    """H00 [-]."""
     temperature_rise: Array
+    """Largest rise of the film over the oil at the inlet [K]; zero where it is isothermal."""
     cycles: IntArray
+    """Multigrid cycles of the step."""
     change: Array
+    """Largest change of P in the last of them [-]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Profiles:
-    """The line y = 0 at each step, (nt, nx).
-
-    Attributes
-    ----------
-    pressure, film : array
-        [Pa] and [m].
-    height_1, height_2 : array
-        Heights of both surfaces, positive outwards [m].
-    """
+    """The line y = 0 at each step, (nt, nx)."""
 
     pressure: Array
     film: Array
+    """[Pa] and [m]."""
     height_1: Array
     height_2: Array
+    """Heights of both surfaces, positive outwards [m]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Frames:
-    """Fields at chosen times, (nf, ny, nx) in single precision.
-
-    Attributes
-    ----------
-    step : array of int
-        Steps of the history that they belong to, (nf,).
-    pressure, film, height : array
-        [Pa], [m] and the heights of both surfaces together [m].
-    """
+    """Fields at chosen times, (nf, ny, nx) in single precision."""
 
     step: IntArray
+    """Steps of the history that they belong to, (nf,)."""
     pressure: SingleArray
     film: SingleArray
     height: SingleArray
+    """[Pa], [m] and the heights of both surfaces together [m]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class HistoryBars:
-    """Half widths of the error bars of a history, at the times that its grids share; (nb,).
-
-    Attributes
-    ----------
-    time : array
-        [s]; steps of the history that they belong to.
-    film_central, film_minimum : array
-        Of the film at the centre, and of the least between the nodes [m].
-    pressure_max : array
-        Of the largest pressure [Pa].
-    """
+    """Half widths of the error bars of a history, at the times that its grids share; (nb,)."""
 
     time: Array
+    """[s]; steps of the history that they belong to."""
     film_central: Array
     film_minimum: Array
+    """Of the film at the centre, and of the least between the nodes [m]."""
     pressure_max: Array
+    """Of the largest pressure [Pa]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class TransientResult(Saved):
-    """Result of one transient solve.
-
-    Attributes
-    ----------
-    start : Result
-        The steady film at time zero; its problem and options are those of the run.
-    history : History
-        Numbers of each step.
-    profiles : Profiles
-        The line y = 0 at each step.
-    frames : Frames
-        Fields at chosen times.
-    time_step : float
-        [s].
-    status : Status
-        How the run ended.
-    cost, provenance : Cost, Provenance
-        Computing cost, including the start, and origin; of a certified run that of all grids.
-    uncertainty : dict of str to Estimate
-        Of a certified run, extremes over time in SI with their error bars: ``"film_minimum"``,
-        ``"film_central_least"``, ``"film_central_largest"``, ``"pressure_max"``,
-        ``"film_rise_max"`` where the film is heated, and ``"traction_extreme"``, that of largest
-        magnitude, where it is heated or thins and slides.
-    bars : HistoryBars or None
-        Error bars along the history of a certified run.
-    """
+    """Result of one transient solve."""
 
     start: Result
+    """The steady film at time zero; its problem and options are those of the run."""
     history: History
+    """Numbers of each step."""
     profiles: Profiles
+    """The line y = 0 at each step."""
     frames: Frames
+    """Fields at chosen times."""
     time_step: float
+    """[s]."""
     status: Status
+    """How the run ended."""
     cost: Cost
     provenance: Provenance
+    """Computing cost, including the start, and origin; of a certified run that of all grids."""
     uncertainty: dict[str, Estimate] = field(default_factory=dict)
+    """Of a certified run, extremes over time in SI with their error bars: ``"film_minimum"``,
+    ``"film_central_least"``, ``"film_central_largest"``, ``"pressure_max"``, ``"film_rise_max"``
+    where the film is heated, and ``"traction_extreme"``, that of largest magnitude, where it is
+    heated or thins and slides."""
     bars: HistoryBars | None = None
+    """Error bars along the history of a certified run."""
 
     @property
     def x(self) -> Array:

@@ -47,24 +47,16 @@ _STEP = 1e5
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class LinearTheory:
-    """Ripples of a wave by linear theory.
-
-    Attributes
-    ----------
-    compressibility : float
-        C = h E' kappa / (4 B) [-].
-    film_ratio : float or None
-        Amplitude of the film over that of the wave [-]; None where the theory does not hold.
-    pressure : float or None
-        Amplitude of the pressure [Pa]; None where the theory does not hold.
-    elastic_pressure : float
-        Pressure that flattens the whole wave, pi E' A / (2 lambda) [Pa].
-    """
+    """Ripples of a wave by linear theory."""
 
     compressibility: float
+    """C = h E' kappa / (4 B) [-]."""
     film_ratio: float | None
+    """Amplitude of the film over that of the wave [-]; None where the theory does not hold."""
     pressure: float | None
+    """Amplitude of the pressure [Pa]; None where the theory does not hold."""
     elastic_pressure: float
+    """Pressure that flattens the whole wave, pi E' A / (2 lambda) [Pa]."""
 
     @property
     def left_to_inlet(self) -> bool:
@@ -74,24 +66,16 @@ class LinearTheory:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class FlatFilm:
-    """A film of constant thickness under constant pressure.
-
-    Attributes
-    ----------
-    film : float
-        Thickness h [m].
-    bulk_modulus : float
-        Of the oil, B = rho dp/drho [Pa].
-    viscosity : float
-        Of the oil under that pressure [Pa s].
-    reduced_modulus : float
-        E' [Pa].
-    """
+    """A film of constant thickness under constant pressure."""
 
     film: float
+    """Thickness h [m]."""
     bulk_modulus: float
+    """Of the oil, B = rho dp/drho [Pa]."""
     viscosity: float
+    """Of the oil under that pressure [Pa s]."""
     reduced_modulus: float
+    """E' [Pa]."""
 
     def theory(
         self, wave: WaveVector, amplitude: float, drift: float, *, holds: bool = True

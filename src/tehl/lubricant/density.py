@@ -20,22 +20,6 @@ class DowsonHigginson(DensityModel):
 
     or, with ``form = "additive"``, :math:`\rho_0 [1 + s p/(1 + c p) - \beta (T - T_0)]`.
 
-    Attributes
-    ----------
-    rho_0 : float
-        Density at ambient pressure and ``reference_temperature`` [kg/m^3].
-    slope : float
-        s, compressibility at ambient pressure [1/Pa]. The pair (0.6e-9, 1.7e-9) is the usual
-        rounding; (0.58e-9, 1.69e-9) is ``(5.9e8 + 1.34 p)/(5.9e8 + p)`` rounded.
-    saturation : float
-        c [1/Pa]; the density never exceeds ``rho_0 (1 + s/c)``.
-    beta : float
-        Thermal expansion [1/K].
-    form : {"product", "additive"}
-        How pressure and temperature combine.
-    reference_temperature : float
-        T_0 [K].
-
     References
     ----------
     .. [1] D. Dowson and G. R. Higginson, Elasto-hydrodynamic Lubrication, Pergamon, 1966.
@@ -43,11 +27,18 @@ class DowsonHigginson(DensityModel):
 
     law: Literal["dowson-higginson"] = "dowson-higginson"
     rho_0: Density
+    """Density at ambient pressure and ``reference_temperature`` [kg/m^3]."""
     slope: PressureCoefficient = 0.6e-9
+    """s, compressibility at ambient pressure [1/Pa]. The pair (0.6e-9, 1.7e-9) is the usual
+    rounding; (0.58e-9, 1.69e-9) is ``(5.9e8 + 1.34 p)/(5.9e8 + p)`` rounded."""
     saturation: PressureCoefficient = 1.7e-9
+    """c [1/Pa]; the density never exceeds ``rho_0 (1 + s/c)``."""
     beta: TemperatureCoefficient = 0.0
+    """Thermal expansion [1/K]."""
     form: Literal["product", "additive"] = "product"
+    """How pressure and temperature combine."""
     reference_temperature: Temperature = 313.15
+    """T_0 [K]."""
 
     def density(self, pressure: Values, temperature: Values | float) -> Values:
         """Return the density [kg/m^3] at ``pressure`` [Pa] and ``temperature`` [K]."""
@@ -60,16 +51,11 @@ class DowsonHigginson(DensityModel):
 
 
 class ConstantDensity(DensityModel):
-    """An incompressible liquid.
-
-    Attributes
-    ----------
-    rho_0 : float
-        Density [kg/m^3].
-    """
+    """An incompressible liquid."""
 
     law: Literal["constant"] = "constant"
     rho_0: Density
+    """Density [kg/m^3]."""
 
     def density(self, pressure: Values, temperature: Values | float) -> Values:
         """Return rho_0 [kg/m^3] in the shape of ``pressure`` and ``temperature``."""

@@ -29,35 +29,20 @@ from tehl.units import Conductivity, HeatCapacity, PressureCoefficient, Table, T
 class ConductivityOfPressure(Law):
     """A thermal conductivity that grows with pressure, ``value (1 + s p / (1 + c p))``.
 
-    Attributes
-    ----------
-    value : float
-        At ambient pressure [W/m/K].
-    slope, saturation : float
-        s and c [1/Pa].
-
     References
     ----------
     .. [1] R. Larsson and O. Andersson, Proc. IMechE Part J 214 (2000), 337-342.
     """
 
     value: Conductivity
+    """At ambient pressure [W/m/K]."""
     slope: Annotated[PressureCoefficient, Field(examples=["1.4 1/GPa"])]
     saturation: PressureCoefficient = 0.0
+    """s and c [1/Pa]."""
 
 
 class HeatCapacityOfPressure(Law):
     """A heat capacity that changes with pressure, ``value (1 + s p / (1 + c p))``.
-
-    Attributes
-    ----------
-    value : float
-        Per mass, at ambient pressure [J/kg/K].
-    slope, saturation : float
-        s and c [1/Pa].
-    basis : {"mass", "volume"}
-        Whether it is the capacity of a mass or of a volume that grows so. Measured is that of a
-        volume: most of its growth is that of the density, and the one of a mass hardly changes.
 
     References
     ----------
@@ -65,9 +50,13 @@ class HeatCapacityOfPressure(Law):
     """
 
     value: HeatCapacity
+    """Per mass, at ambient pressure [J/kg/K]."""
     slope: Annotated[PressureCoefficient, Field(examples=["0.5 1/GPa"])]
     saturation: PressureCoefficient = 0.0
+    """s and c [1/Pa]."""
     basis: Literal["mass", "volume"] = "mass"
+    """Whether it is the capacity of a mass or of a volume that grows so. Measured is that of a
+    volume: most of its growth is that of the density, and the one of a mass hardly changes."""
 
 
 def _number_or_table(value: object) -> str:
@@ -85,34 +74,25 @@ AnyHeatCapacity = Annotated[
 
 
 class Lubricant(Law):
-    """An oil.
-
-    Attributes
-    ----------
-    density : DowsonHigginson, TaitDensity or ConstantDensity
-        Law with the method ``density(pressure, temperature)``.
-    viscosity : Roelands, RoelandsExponential, Barus, Walther, TaitDoolittle or ConstantViscosity
-        Law with the method ``viscosity(pressure, temperature)``. A Walther law that states no
-        density takes that of the density law at 40 degC.
-    shear : Newtonian, Eyring, Carreau or Limiting
-        Law of the shear stress, see :mod:`tehl.lubricant.shear`.
-    conductivity, heat_capacity : float, table or None
-        [W/m/K] and [J/kg/K]; only needed when heat is computed. Numbers, or tables for properties
-        that grow with pressure: see :meth:`conductivity_at` and :meth:`heat_capacity_at`.
-    temperature : float or None
-        Temperature of the oil at the inlet [K]; None is the reference temperature of the viscosity.
-    name, source : str or None
-        Where the numbers come from.
-    """
+    """An oil."""
 
     density: DensityLaw
+    """Law with the method ``density(pressure, temperature)``."""
     viscosity: ViscosityLaw
+    """Law with the method ``viscosity(pressure, temperature)``. A Walther law that states no
+    density takes that of the density law at 40 degC."""
     shear: ShearLaw = Newtonian()
+    """Law of the shear stress, see :mod:`tehl.lubricant.shear`."""
     conductivity: AnyConductivity | None = None
     heat_capacity: AnyHeatCapacity | None = None
+    """[W/m/K] and [J/kg/K]; only needed when heat is computed. Numbers, or tables for properties
+    that grow with pressure: see :meth:`conductivity_at` and :meth:`heat_capacity_at`."""
     temperature: Temperature | None = None
+    """Temperature of the oil at the inlet [K]; None is the reference temperature of the
+    viscosity."""
     name: str | None = None
     source: str | None = None
+    """Where the numbers come from."""
 
     @field_validator("viscosity", mode="after")
     @classmethod

@@ -93,11 +93,6 @@ class Eyring(ShearModel):
 
     .. math:: \eta\dot\gamma = \tau_0 \sinh(\tau/\tau_0), \quad F = \sinh(s)/s
 
-    Attributes
-    ----------
-    stress : float
-        Eyring stress tau_0 [Pa], about where the oil begins to thin.
-
     References
     ----------
     .. [1] K. L. Johnson and J. L. Tevaarwerk, Proc. R. Soc. A 356 (1977), 215-236.
@@ -105,6 +100,7 @@ class Eyring(ShearModel):
 
     law: Literal["eyring"] = "eyring"
     stress: Stress
+    """Eyring stress tau_0 [Pa], about where the oil begins to thin."""
 
     @model_validator(mode="after")
     def _must_be_that_of_an_oil(self) -> Self:
@@ -142,13 +138,6 @@ class Carreau(ShearModel):
     .. math:: \eta_e = \eta \left[1 + (\eta\dot\gamma/G)^2\right]^{(n-1)/2}, \quad
               s = y\,(1 + y^2)^{(n-1)/2}, \quad \ln F = \tfrac{1-n}{2}\ln(1 + y^2)
 
-    Attributes
-    ----------
-    modulus : float
-        G [Pa], the Newtonian stress about where the oil begins to thin.
-    exponent : float
-        n [-], slope of stress against rate far above; 1 is Newtonian.
-
     References
     ----------
     .. [1] S. Bair, Tribology Letters 16 (2004), 267-276.
@@ -156,7 +145,9 @@ class Carreau(ShearModel):
 
     law: Literal["carreau"] = "carreau"
     modulus: Stress
+    """G [Pa], the Newtonian stress about where the oil begins to thin."""
     exponent: Annotated[float, Field(ge=0.01, le=1.0, allow_inf_nan=False, examples=[0.4])]
+    """n [-], slope of stress against rate far above; 1 is Newtonian."""
 
     @property
     def is_newtonian(self) -> bool:
@@ -203,13 +194,6 @@ class Limiting(ShearModel):
     From ``s = 0.9999`` on, ln F goes on as a straight line, so that every stress has a rate. The
     limit is then exceeded by 0.6 % at ``y = 1e4`` and by 1.5 % at ``y = 1e8``.
 
-    Attributes
-    ----------
-    stress : float
-        Limiting stress tau_L0 at ambient pressure [Pa]; may be zero.
-    slope : float
-        Lambda, increase of the limit with pressure [-]. The limit is nowhere less than 0.1 MPa.
-
     Notes
     -----
     F is that of the mid-film stress at all layers: at the limit the smallest pressure gradient
@@ -225,7 +209,9 @@ class Limiting(ShearModel):
 
     law: Literal["limiting"] = "limiting"
     stress: NonNegativeStress = 0.0
+    """Limiting stress tau_L0 at ambient pressure [Pa]; may be zero."""
     slope: Annotated[StressSlope, Field(examples=[0.04])] = 0.0
+    """Lambda, increase of the limit with pressure [-]. The limit is nowhere less than 0.1 MPa."""
 
     @model_validator(mode="after")
     def _must_have_a_limit(self) -> Self:

@@ -38,31 +38,21 @@ Slope = Annotated[float, Field(gt=0.0, le=100.0, allow_inf_nan=False, examples=[
 
 
 class TaitDensity(DensityModel):
-    r"""Tait's equation of state, ``rho = rho_0 V_R / V``.
-
-    Attributes
-    ----------
-    rho_0 : float
-        Density at ambient pressure and ``reference_temperature`` [kg/m^3].
-    bulk_modulus : float
-        K_0R at ambient pressure and ``reference_temperature`` [Pa].
-    bulk_modulus_slope : float
-        K_0', its slope by pressure [-]; about 11 for all oils.
-    expansion : float
-        a_V, thermal expansion of the volume [1/K].
-    softening : float
-        beta_K, fall of the bulk modulus with temperature [1/K]; about 0.006 for oils.
-    reference_temperature : float
-        T_0 [K].
-    """
+    r"""Tait's equation of state, ``rho = rho_0 V_R / V``."""
 
     law: Literal["tait"] = "tait"
     rho_0: Density
+    """Density at ambient pressure and ``reference_temperature`` [kg/m^3]."""
     bulk_modulus: BulkModulus
+    """K_0R at ambient pressure and ``reference_temperature`` [Pa]."""
     bulk_modulus_slope: Slope = 11.0
+    """K_0', its slope by pressure [-]; about 11 for all oils."""
     expansion: TemperatureCoefficient = 0.0
+    """a_V, thermal expansion of the volume [1/K]."""
     softening: TemperatureCoefficient = 0.0
+    """beta_K, fall of the bulk modulus with temperature [1/K]; about 0.006 for oils."""
     reference_temperature: Temperature = 313.15
+    """T_0 [K]."""
 
     def density(self, pressure: Values, temperature: Values | float) -> Values:
         """Return the density [kg/m^3] at ``pressure`` [Pa] and ``temperature`` [K]."""
@@ -77,35 +67,26 @@ class TaitDoolittle(ViscosityModel):
 
     with the volume of :mod:`tehl.lubricant.tait`. Where the equation of state leaves no free volume
     (above about 2 GPa), the oil is a solid.
-
-    Attributes
-    ----------
-    eta_0 : float
-        Viscosity at ambient pressure and ``reference_temperature`` [Pa s].
-    B : float
-        Doolittle parameter [-]; 3 to 6 for oils.
-    occupied : float
-        R_0, occupied part of the volume at ambient pressure and ``reference_temperature`` [-].
-    occupied_expansion : float
-        epsilon, thermal expansion of the occupied volume [1/K]; about -1e-3 for oils.
-    bulk_modulus, bulk_modulus_slope, expansion, softening : float
-        K_0R [Pa], K_0' [-], a_V [1/K] and beta_K [1/K] of the equation of state.
-    reference_temperature : float
-        T_0 [K].
     """
 
     FALL = "free volume"
 
     law: Literal["tait-doolittle"] = "tait-doolittle"
     eta_0: Viscosity
+    """Viscosity at ambient pressure and ``reference_temperature`` [Pa s]."""
     B: Annotated[float, Field(gt=0.0, le=100.0, allow_inf_nan=False, examples=[4.7])]
+    """Doolittle parameter [-]; 3 to 6 for oils."""
     occupied: Annotated[float, Field(gt=0.0, lt=1.0, allow_inf_nan=False, examples=[0.66])]
+    """R_0, occupied part of the volume at ambient pressure and ``reference_temperature`` [-]."""
     occupied_expansion: SignedTemperatureCoefficient = 0.0
+    """epsilon, thermal expansion of the occupied volume [1/K]; about -1e-3 for oils."""
     bulk_modulus: BulkModulus
     bulk_modulus_slope: Slope = 11.0
     expansion: TemperatureCoefficient = 0.0
     softening: TemperatureCoefficient = 0.0
+    """K_0R [Pa], K_0' [-], a_V [1/K] and beta_K [1/K] of the equation of state."""
     reference_temperature: Temperature = 313.15
+    """T_0 [K]."""
 
     def pressure_coefficient_at(self, temperature: float) -> float:
         """Return ``d ln eta / dp`` [1/Pa] at ambient pressure and ``temperature`` [K]."""

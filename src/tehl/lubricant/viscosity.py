@@ -15,24 +15,17 @@ class Barus(ExponentialFall):
     r"""Barus' law, exponential in pressure and temperature.
 
     .. math:: \eta = \eta_0 \exp\{\alpha p - \gamma (T - T_0)\}
-
-    Attributes
-    ----------
-    eta_0 : float
-        Viscosity at ambient pressure and ``reference_temperature`` [Pa s].
-    alpha : float
-        Pressure coefficient [1/Pa].
-    gamma : float or None
-        Temperature coefficient [1/K]; None: independent of temperature.
-    reference_temperature : float
-        T_0 [K].
     """
 
     law: Literal["barus"] = "barus"
     eta_0: Viscosity
+    """Viscosity at ambient pressure and ``reference_temperature`` [Pa s]."""
     alpha: PressureCoefficient
+    """Pressure coefficient [1/Pa]."""
     gamma: TemperatureCoefficient | None = None
+    """Temperature coefficient [1/K]; None: independent of temperature."""
     reference_temperature: Temperature = 313.15
+    """T_0 [K]."""
 
     def pressure_coefficient_at(self, temperature: float) -> float:
         """Return alpha [1/Pa] at any ``temperature`` [K]."""
@@ -44,19 +37,13 @@ class Barus(ExponentialFall):
 
 
 class ConstantViscosity(ViscosityModel):
-    """A viscosity independent of pressure and temperature.
-
-    Attributes
-    ----------
-    eta_0 : float
-        Viscosity [Pa s].
-    reference_temperature : float
-        Temperature at which it holds [K].
-    """
+    """A viscosity independent of pressure and temperature."""
 
     law: Literal["constant"] = "constant"
     eta_0: Viscosity
+    """Viscosity [Pa s]."""
     reference_temperature: Temperature = 313.15
+    """Temperature at which it holds [K]."""
 
     def pressure_coefficient_at(self, temperature: float) -> float:
         """Return zero [1/Pa] at any ``temperature`` [K]."""

@@ -33,22 +33,6 @@ class Walther(ViscosityModel):
     with nu in mm^2/s. The index z is constant, so that the pressure coefficient falls with
     temperature as ``z (ln eta_T + 9.67) / 1.96e8``.
 
-    Attributes
-    ----------
-    nu_40, nu_100 : float
-        Kinematic viscosities at 40 and 100 degC [m^2/s].
-    alpha : float or None
-        Pressure coefficient at ambient pressure and ``alpha_temperature`` [1/Pa].
-    z : float or None
-        Pressure index [-].
-    alpha_temperature : float
-        Where alpha holds [K].
-    density : float or None
-        Density at ambient pressure and 40 degC [kg/m^3]; None in an oil takes that of its density
-        law.
-    expansion : float
-        Thermal expansion beta [1/K] of ``rho(T) = rho(40 degC) / (1 + beta (T - 313.15 K))``.
-
     References
     ----------
     .. [1] ASTM D341, Standard Practice for Viscosity-Temperature Charts for Liquid Petroleum
@@ -60,11 +44,18 @@ class Walther(ViscosityModel):
     law: Literal["walther"] = "walther"
     nu_40: KinematicViscosity
     nu_100: Annotated[KinematicViscosity, Field(examples=["9 mm^2/s"])]
+    """Kinematic viscosities at 40 and 100 degC [m^2/s]."""
     alpha: PressureCoefficient | None = None
+    """Pressure coefficient at ambient pressure and ``alpha_temperature`` [1/Pa]."""
     z: Ratio | None = None
+    """Pressure index [-]."""
     alpha_temperature: Temperature = _FORTY
+    """Where alpha holds [K]."""
     density: Density | None = None
+    """Density at ambient pressure and 40 degC [kg/m^3]; None in an oil takes that of its density
+    law."""
     expansion: TemperatureCoefficient = 6.5e-4
+    """Thermal expansion beta [1/K] of ``rho(T) = rho(40 degC) / (1 + beta (T - 313.15 K))``."""
 
     @model_validator(mode="after")
     def _must_be_complete(self) -> Self:

@@ -26,41 +26,28 @@ _PIXELS = 900
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Optics:
-    """Light, layers and oil of an optical rig.
-
-    Attributes
-    ----------
-    light : {"white", "dichromatic", "monochromatic"}
-        A halogen lamp with white balance, two lines or the first of them.
-    wavelengths : (float, float)
-        Middle of the two lines in vacuum [m].
-    bandwidth : float
-        Width of a line (standard deviation of its Gaussian) [m].
-    colour_temperature : float
-        Of the white lamp [K].
-    refractive_index : float
-        Of the oil at ambient pressure.
-    spacer_thickness, spacer_index : float
-        Thickness [m] and refractive index of a spacer layer; none by default.
-    chromium_reflectance, chromium_transmittance : float
-        Of the semi-reflecting layer.
-    ball_reflectance : float
-        Of the ball.
-    phase : float
-        Phase between the beams at zero distance [rad]; pi makes the zeroth order dark.
-    """
+    """Light, layers and oil of an optical rig."""
 
     light: Light = "white"
+    """A halogen lamp with white balance, two lines or the first of them."""
     wavelengths: tuple[float, float] = (635e-9, 532e-9)
+    """Middle of the two lines in vacuum [m]."""
     bandwidth: float = 3e-9
+    """Width of a line (standard deviation of its Gaussian) [m]."""
     colour_temperature: float = 3200.0
+    """Of the white lamp [K]."""
     refractive_index: float = 1.48
+    """Of the oil at ambient pressure."""
     spacer_thickness: float = 0.0
     spacer_index: float = 1.46
+    """Thickness [m] and refractive index of a spacer layer; none by default."""
     chromium_reflectance: float = 0.20
     chromium_transmittance: float = 0.55
+    """Of the semi-reflecting layer."""
     ball_reflectance: float = 0.60
+    """Of the ball."""
     phase: float = np.pi
+    """Phase between the beams at zero distance [rad]; pi makes the zeroth order dark."""
 
     def thickness(self, film: Array, density_ratio: Array | float = 1.0) -> Array:
         r"""Return the optical thickness ``n h + n_s h_s`` [m] of a film [m] and the spacer.

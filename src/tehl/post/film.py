@@ -21,29 +21,20 @@ def no_film(result: "Result") -> str:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Profile:
-    """Pressure and film on one grid line, beside the dry contact.
-
-    Attributes
-    ----------
-    coordinate : array
-        Along the line [m].
-    scaled_coordinate : array
-        Along the line, in Hertz half-widths of its direction [-].
-    pressure, hertz_pressure : array
-        Film pressure and dry Hertz pressure [Pa].
-    film_thickness, dry_gap : array
-        Film thickness and gap of the dry contact under the same load [m].
-    at : float
-        Where the line crosses the other axis [m]: 0 unless no grid line is there.
-    """
+    """Pressure and film on one grid line, beside the dry contact."""
 
     coordinate: Array
+    """Along the line [m]."""
     scaled_coordinate: Array
+    """Along the line, in Hertz half-widths of its direction [-]."""
     pressure: Array
     hertz_pressure: Array
+    """Film pressure and dry Hertz pressure [Pa]."""
     film_thickness: Array
     dry_gap: Array
+    """Film thickness and gap of the dry contact under the same load [m]."""
     at: float
+    """Where the line crosses the other axis [m]: 0 unless no grid line is there."""
 
 
 def profile_x(result: "Result") -> Profile:
@@ -120,25 +111,17 @@ def dry_gap(x: Array, y: Array, ellipticity: float) -> Array:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class MassFlow:
-    """Mass that flows through each section x = const.
-
-    Attributes
-    ----------
-    forward : (nx,) array
-        Through the section at each x of the grid, along x [kg/s].
-    sideways : (nx,) array
-        Out of both side edges between the inlet and the section [kg/s].
-    full : (nx,) array of bool
-        Whether the film is full (not cavitated) on this section and on all upstream.
-    imbalance : float
-        Largest change of ``forward + sideways`` over full sections, relative to the flow [-];
-        zero up to the discretisation error.
-    """
+    """Mass that flows through each section x = const."""
 
     forward: Array
+    """(nx,): Through the section at each x of the grid, along x [kg/s]."""
     sideways: Array
+    """(nx,): Out of both side edges between the inlet and the section [kg/s]."""
     full: BoolArray
+    """(nx,): Whether the film is full (not cavitated) on this section and on all upstream."""
     imbalance: float
+    """Largest change of ``forward + sideways`` over full sections, relative to the flow [-]; zero
+    up to the discretisation error."""
 
 
 def mass_flow(result: "Result") -> MassFlow:

@@ -14,33 +14,23 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Temperature:
-    """Temperatures of a film; all rises are over the temperature of the oil at the inlet.
-
-    Attributes
-    ----------
-    inlet : float
-        Temperature of the oil at the inlet [K].
-    film_rise_max : float
-        Largest rise in the film, surfaces included; of all nodes [K].
-    film_rise_max_at : (float, float, float)
-        Where: X, Y in Hertz half-widths (Y >= 0 for a symmetric contact) and zeta = z/h.
-    mid_film_rise_central, mean_rise_central : float
-        Rise at X = Y = 0, half-way between the surfaces and as mean across the film [K].
-    surface_1_rise_max, surface_2_rise_max : float
-        Largest rise of each surface [K].
-    mid_film, mean : (ny, nx) array
-        T at mid-film and T averaged across the film [K].
-    """
+    """Temperatures of a film; all rises are over the temperature of the oil at the inlet."""
 
     inlet: float
+    """Temperature of the oil at the inlet [K]."""
     film_rise_max: float
+    """Largest rise in the film, surfaces included; of all nodes [K]."""
     film_rise_max_at: tuple[float, float, float]
+    """Where: X, Y in Hertz half-widths (Y >= 0 for a symmetric contact) and zeta = z/h."""
     mid_film_rise_central: float
     mean_rise_central: float
+    """Rise at X = Y = 0, half-way between the surfaces and as mean across the film [K]."""
     surface_1_rise_max: float
     surface_2_rise_max: float
+    """Largest rise of each surface [K]."""
     mid_film: Array
     mean: Array
+    """(ny, nx): T at mid-film and T averaged across the film [K]."""
 
 
 def temperature(result: "Result") -> Temperature | None:

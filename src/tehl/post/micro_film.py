@@ -20,54 +20,37 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class MicroFilm:
-    """Ripples of film and pressure.
-
-    Attributes
-    ----------
-    film : (ny, nx) array
-        Film less that of the smooth contact [m].
-    pressure : (ny, nx) array
-        Pressure less that of the smooth contact [Pa].
-    by_reference : bool
-        Whether the smooth contact was solved; if not, ripples are what is left when long waves
-        are filtered off, and are meaningful inside the contact only.
-    """
+    """Ripples of film and pressure."""
 
     film: Array
+    """(ny, nx): Film less that of the smooth contact [m]."""
     pressure: Array
+    """(ny, nx): Pressure less that of the smooth contact [Pa]."""
     by_reference: bool
+    """Whether the smooth contact was solved; if not, ripples are what is left when long waves are
+    filtered off, and are meaningful inside the contact only."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class RoughnessEffect:
-    """A rough contact over its smooth reference run; a block of the summary.
-
-    Attributes
-    ----------
-    central, minimum, middle : float
-        Ratio of the central and minimum films, and of the mean films where |X|, |Y| < 0.4 [-].
-    largest_pressure : float
-        Ratio of the largest pressures [-].
-    traction : float or None
-        Ratio of the mid-film tractions [-]; None where there is no sliding.
-    smooth_h_central_m, smooth_h_min_m : float
-        Films of the reference run [m].
-    smooth_max_pa : float
-        Of the reference run [Pa].
-    ripple_film_m, ripple_pressure_pa : float
-        Root mean square of both ripples over the Hertz contact [m], [Pa].
-    """
+    """A rough contact over its smooth reference run; a block of the summary."""
 
     central: float
     minimum: float
     middle: float
+    """Ratio of the central and minimum films, and of the mean films where |X|, |Y| < 0.4 [-]."""
     largest_pressure: float
+    """Ratio of the largest pressures [-]."""
     traction: float | None
+    """Ratio of the mid-film tractions [-]; None where there is no sliding."""
     smooth_h_central_m: float
     smooth_h_min_m: float
+    """Films of the reference run [m]."""
     smooth_max_pa: float
+    """Of the reference run [Pa]."""
     ripple_film_m: float
     ripple_pressure_pa: float
+    """Root mean square of both ripples over the Hertz contact [m], [Pa]."""
 
 
 def smooth_reference(problem: ContactProblem) -> ContactProblem:

@@ -25,65 +25,44 @@ _LINE = 0.8
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Ripples:
-    """Valleys of the film along a centre line, where the coordinate is within 0.8 half-widths.
-
-    Attributes
-    ----------
-    count : int
-        Of valleys that lie between two hills.
-    depth : float
-        Mean depth below the mean of both hills [m]; zero without valleys.
-    """
+    """Valleys of the film along a centre line, where the coordinate is within 0.8 half-widths."""
 
     count: int
+    """Of valleys that lie between two hills."""
     depth: float
+    """Mean depth below the mean of both hills [m]; zero without valleys."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class RoughFilm:
-    """Numbers of the film between rough surfaces.
-
-    Attributes
-    ----------
-    sq : (float, float)
-        Root mean square height of each surface where |X|, |Y| < 1, as the grid carries it; the
-        stated ``rms_roughness`` of a surface that is computed as smooth [m].
-    composite : float
-        Of both together, ``sqrt(Sq_1^2 + Sq_2^2)`` [m].
-    lambda_ratio : float
-        Mean film where |X|, |Y| < 0.4 over ``composite`` [-].
-    lambda_by_formula : float
-        Central film of the smooth contact by formula over ``composite`` [-].
-    quantiles : tuple of (float, float)
-        Part of the Hertz contact, and the film that is thicker than that of this part [m].
-    below_composite, below_half : float
-        Part of the Hertz contact whose film is thinner than ``composite``, and than half of its
-        median [-].
-    minimum_at : (float, float)
-        Where the minimum film is, in half-widths [-].
-    largest_pressure : float
-        Over the Hertz pressure [-].
-    ripples_x, ripples_y : Ripples
-        On the centre lines along and across entrainment.
-    waves : tuple of WaveResponse
-        The waves of the surfaces, one by one.
-    wave_notes : tuple of str
-        What is left out of them, and why.
-    """
+    """Numbers of the film between rough surfaces."""
 
     sq: tuple[float, float]
+    """Root mean square height of each surface where |X|, |Y| < 1, as the grid carries it; the
+    stated ``rms_roughness`` of a surface that is computed as smooth [m]."""
     composite: float
+    """Of both together, ``sqrt(Sq_1^2 + Sq_2^2)`` [m]."""
     lambda_ratio: float
+    """Mean film where |X|, |Y| < 0.4 over ``composite`` [-]."""
     lambda_by_formula: float
+    """Central film of the smooth contact by formula over ``composite`` [-]."""
     quantiles: tuple[tuple[float, float], ...]
+    """Part of the Hertz contact, and the film that is thicker than that of this part [m]."""
     below_composite: float
     below_half: float
+    """Part of the Hertz contact whose film is thinner than ``composite``, and than half of its
+    median [-]."""
     minimum_at: tuple[float, float]
+    """Where the minimum film is, in half-widths [-]."""
     largest_pressure: float
+    """Over the Hertz pressure [-]."""
     ripples_x: Ripples
     ripples_y: Ripples
+    """On the centre lines along and across entrainment."""
     waves: tuple[WaveResponse, ...]
+    """The waves of the surfaces, one by one."""
     wave_notes: tuple[str, ...]
+    """What is left out of them, and why."""
 
 
 def rough_film(result: "Result", smooth: "Result | None" = None) -> RoughFilm | None:

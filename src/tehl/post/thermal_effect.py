@@ -13,23 +13,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class ThermalEffect:
-    """Films of a thermal run over those of its isothermal reference run; a block of the summary.
-
-    Attributes
-    ----------
-    central, minimum : float
-        Ratio of the central and of the minimum films [-].
-    isothermal_h_central_m, isothermal_h_min_m : float
-        Films of the reference run [m].
-    inlet_factors : tuple of InletFactor
-        Ratio by heating in the inlet alone, by each formula.
-    """
+    """Films of a thermal run over those of its isothermal reference run; a block of the summary."""
 
     central: float
     minimum: float
+    """Ratio of the central and of the minimum films [-]."""
     isothermal_h_central_m: float
     isothermal_h_min_m: float
+    """Films of the reference run [m]."""
     inlet_factors: tuple[InletFactor, ...]
+    """Ratio by heating in the inlet alone, by each formula."""
 
 
 def isothermal_reference(problem: ContactProblem) -> ContactProblem:

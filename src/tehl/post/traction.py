@@ -29,29 +29,21 @@ class Traction:
 
     .. math:: \mathrm{rolling} = \frac{1}{2w} \iint h \frac{\partial p}{\partial x}
               = -\frac{1}{2w} \iint p \frac{\partial h}{\partial x}
-
-    Attributes
-    ----------
-    surface_1, mid_film, surface_2 : float
-        Integral of tau_zx over the pressurised film at z = 0, h/2 and h, over the load [-]; the one
-        at mid-film is the sliding part.
-    rolling : float
-        Rolling part by the pressure gradient, positive [-].
-    rolling_by_film : float
-        The same by the slope of the film [-].
-    load : float
-        Normal load w [N].
-    friction_power : float
-        Power that the surfaces transfer to the film [W].
     """
 
     surface_1: float
     mid_film: float
     surface_2: float
+    """Integral of tau_zx over the pressurised film at z = 0, h/2 and h, over the load [-]; the one
+    at mid-film is the sliding part."""
     rolling: float
+    """Rolling part by the pressure gradient, positive [-]."""
     rolling_by_film: float
+    """The same by the slope of the film [-]."""
     load: float
+    """Normal load w [N]."""
     friction_power: float
+    """Power that the surfaces transfer to the film [W]."""
 
     @property
     def credible(self) -> bool:

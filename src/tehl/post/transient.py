@@ -26,44 +26,30 @@ _INSIDE = 0.8
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class MovingProfiles:
-    """The line y = 0 in the frame of a surface.
-
-    Attributes
-    ----------
-    offset : (n,) array
-        Distance along x from the moving place [m].
-    place : (nt,) array
-        Where that place is at each step [m].
-    pressure, film, height : (nt, n) array
-        [Pa], [m] and the height of that surface [m]; NaN outside the domain.
-    """
+    """The line y = 0 in the frame of a surface."""
 
     offset: Array
+    """(n,): Distance along x from the moving place [m]."""
     place: Array
+    """(nt,): Where that place is at each step [m]."""
     pressure: Array
     film: Array
     height: Array
+    """(nt, n): [Pa], [m] and the height of that surface [m]; NaN outside the domain."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Envelope:
-    """Least and largest values along y = 0 over time, (nx,) each.
-
-    Attributes
-    ----------
-    x : array
-        [m].
-    film_least, film_largest : array
-        [m].
-    pressure_least, pressure_largest : array
-        [Pa].
-    """
+    """Least and largest values along y = 0 over time, (nx,) each."""
 
     x: Array
+    """[m]."""
     film_least: Array
     film_largest: Array
+    """[m]."""
     pressure_least: Array
     pressure_largest: Array
+    """[Pa]."""
 
 
 def moving_profiles(
@@ -169,20 +155,14 @@ def envelope(run: "TransientResult", *, since: float = 0.0, until: float = math.
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class LargestChange:
-    """Largest deviation from the steady film at the start, on y = 0 where |X| < 0.8.
-
-    Attributes
-    ----------
-    start, value : float
-        Film [m] or pressure [Pa] at the start, and where and when it deviates most.
-    x, time : float
-        Where [m] and when [s].
-    """
+    """Largest deviation from the steady film at the start, on y = 0 where |X| < 0.8."""
 
     start: float
     value: float
+    """Film [m] or pressure [Pa] at the start, and where and when it deviates most."""
     x: float
     time: float
+    """Where [m] and when [s]."""
 
 
 def largest_change(run: "TransientResult", name: str, sign: int) -> LargestChange:

@@ -21,41 +21,28 @@ _THEORY = ("film_ratio", "pressure", "elastic_pressure")
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Asperities:
-    """Heights of the surfaces in a contact and on a grid.
-
-    Attributes
-    ----------
-    sq : (float, float)
-        Root mean square height of each surface where |X|, |Y| < 1; ``rms_roughness`` where a
-        smooth surface states it [m].
-    composite : float
-        Of both [m].
-    steepest : float
-        Largest slope of the heights [-].
-    shortest_wave : float
-        Shortest wave along either axis [m].
-    points_per_wave : float
-        Nodes of the grid on it [-].
-    points_to_converge, points_to_answer : int
-        Nodes per direction that put 8 and 16 on it.
-    stands : bool
-        Whether the roughness stands still in the contact.
-    waves : tuple of (WaveVector, LinearTheory)
-        Stated waves of the surfaces, and their ripples by theory.
-    remarks : tuple of str
-        Sizes of a surface that do not fit the contact.
-    """
+    """Heights of the surfaces in a contact and on a grid."""
 
     sq: tuple[float, float]
+    """Root mean square height of each surface where |X|, |Y| < 1; ``rms_roughness`` where a smooth
+    surface states it [m]."""
     composite: float
+    """Of both [m]."""
     steepest: float
+    """Largest slope of the heights [-]."""
     shortest_wave: float
+    """Shortest wave along either axis [m]."""
     points_per_wave: float
+    """Nodes of the grid on it [-]."""
     points_to_converge: int
     points_to_answer: int
+    """Nodes per direction that put 8 and 16 on it."""
     stands: bool
+    """Whether the roughness stands still in the contact."""
     waves: tuple[tuple[WaveVector, LinearTheory], ...]
+    """Stated waves of the surfaces, and their ripples by theory."""
     remarks: tuple[str, ...]
+    """Sizes of a surface that do not fit the contact."""
 
     def summary(self) -> dict[str, Any]:
         """Return it as JSON can hold it."""

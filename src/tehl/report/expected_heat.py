@@ -46,28 +46,19 @@ _BISECTIONS = 60
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class BodyEffect:
-    """Effect of the temperatures of the bodies on the film.
-
-    Attributes
-    ----------
-    surface_1, surface_2 : float
-        Temperatures of the bodies less that of the oil at the inlet [K].
-    temperature : float
-        Mean temperature of the bodies [K].
-    central_film : float
-        Central film to expect with oil of that temperature [m].
-    ratio : float
-        The same over the film with oil of inlet temperature [-].
-    groups : Groups
-        Dimensionless groups with oil of that temperature.
-    """
+    """Effect of the temperatures of the bodies on the film."""
 
     surface_1: float
     surface_2: float
+    """Temperatures of the bodies less that of the oil at the inlet [K]."""
     temperature: float
+    """Mean temperature of the bodies [K]."""
     central_film: float
+    """Central film to expect with oil of that temperature [m]."""
     ratio: float
+    """The same over the film with oil of inlet temperature [-]."""
     groups: Groups
+    """Dimensionless groups with oil of that temperature."""
 
 
 def body_effect(scaled: ScaledProblem) -> BodyEffect | None:
@@ -106,28 +97,19 @@ def _at_temperature(problem: ContactProblem, temperature: float) -> ContactProbl
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class ExpectedHeat:
-    """Effect of shear heating.
-
-    Attributes
-    ----------
-    traction : float
-        Traction coefficient [-].
-    assumed : bool
-        Whether it is assumed because the viscosity does not depend on temperature.
-    power : float
-        Shear power of the contact [W].
-    surface_1, surface_2 : float
-        Largest rises of the surfaces over their bulk [K].
-    mid_film : float
-        Rise of mid-film over the oil at the inlet [K], at the centre of the contact.
-    """
+    """Effect of shear heating."""
 
     traction: float
+    """Traction coefficient [-]."""
     assumed: bool
+    """Whether it is assumed because the viscosity does not depend on temperature."""
     power: float
+    """Shear power of the contact [W]."""
     surface_1: float
     surface_2: float
+    """Largest rises of the surfaces over their bulk [K]."""
     mid_film: float
+    """Rise of mid-film over the oil at the inlet [K], at the centre of the contact."""
 
     @property
     def largest(self) -> float:

@@ -28,59 +28,40 @@ LEAST_RISE, LEAST_TRACTION = 0.1, 1e-4
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Explanation:
-    """What formulas say about a case.
-
-    Attributes
-    ----------
-    scaled : ScaledProblem
-        The contact with its groups and scales.
-    options : Options
-        Its numerics.
-    central_film : float
-        Central film to expect [m].
-    films : tuple of FilmEstimate
-        By each formula.
-    lambda_ratio : float or None
-        Central film over roughness of both surfaces [-]; None when no roughness is stated.
-    roughness : Asperities or None
-        Heights of the surfaces in this contact; None where both are smooth.
-    peclet : tuple of (float or None)
-        ``|u_s| a_x / (2 diffusivity)`` of both solids [-]; None where a property is not stated.
-    sources : tuple of ({"line", "full"} or None)
-        Moving source of either surface in a thermal run; None where a property is missing.
-    bodies : BodyEffect or None
-        Effect of bodies that are not at the temperature of the oil; None if they are.
-    heat : ExpectedHeat or None
-        Temperature rises to expect; None where the solids state too little.
-    domain, recommended_domain : Domain
-        The domain of the solve, stated or recommended, and the one recommended for the load.
-    needed_points : int
-        Nodes per direction that give the central film to about three percent.
-    memory, seconds : float
-        Estimated peak memory [byte] and time [s] of a solve.
-    time : TransientPlan or None
-        Plan of a transient run; None for a steady case.
-    questions : tuple of str
-        Values that are not plausible.
-    """
+    """What formulas say about a case."""
 
     scaled: ScaledProblem
+    """The contact with its groups and scales."""
     options: Options
+    """Its numerics."""
     central_film: float
+    """Central film to expect [m]."""
     films: tuple[FilmEstimate, ...]
+    """By each formula."""
     lambda_ratio: float | None
+    """Central film over roughness of both surfaces [-]; None when no roughness is stated."""
     roughness: Asperities | None
+    """Heights of the surfaces in this contact; None where both are smooth."""
     peclet: tuple[float | None, ...]
+    """``|u_s| a_x / (2 diffusivity)`` of both solids [-]; None where a property is not stated."""
     sources: tuple[str | None, ...]
+    """Moving source of either surface in a thermal run; None where a property is missing."""
     bodies: BodyEffect | None
+    """Effect of bodies that are not at the temperature of the oil; None if they are."""
     heat: ExpectedHeat | None
+    """Temperature rises to expect; None where the solids state too little."""
     domain: Domain
     recommended_domain: Domain
+    """The domain of the solve, stated or recommended, and the one recommended for the load."""
     needed_points: int
+    """Nodes per direction that give the central film to about three percent."""
     memory: float
     seconds: float
+    """Estimated peak memory [byte] and time [s] of a solve."""
     time: TransientPlan | None
+    """Plan of a transient run; None for a steady case."""
     questions: tuple[str, ...]
+    """Values that are not plausible."""
 
 
 def explain(problem: ContactProblem, options: Options) -> Explanation:

@@ -23,38 +23,26 @@ LARGEST_LEAD = 1.0
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class TransientPlan:
-    """Duration, steps, cost and resolution of a transient run.
-
-    Attributes
-    ----------
-    duration_s, step_s : float
-        [s].
-    steps : int
-        Number of time steps.
-    seconds : float
-        Estimated CPU time [s].
-    distance : float
-        Distance that the mean of both surfaces moves on [a_x].
-    speeds_m_s : (float, float)
-        Of both surfaces [m/s].
-    points_per_wave : tuple of (float or None)
-        Mesh widths on the shortest wave of each surface, along the axis that has fewer [-]; None
-        for a smooth one.
-    shift_per_step : (float, float)
-        Mesh widths that each surface moves on per step [-]; the mean moves by ``stride``.
-    questions : tuple of str
-        What is not plausible.
-    """
+    """Duration, steps, cost and resolution of a transient run."""
 
     duration_s: float
     step_s: float
+    """[s]."""
     steps: int
+    """Number of time steps."""
     seconds: float
+    """Estimated CPU time [s]."""
     distance: float
+    """Distance that the mean of both surfaces moves on [a_x]."""
     speeds_m_s: tuple[float, float]
+    """Of both surfaces [m/s]."""
     points_per_wave: tuple[float | None, ...]
+    """Mesh widths on the shortest wave of each surface, along the axis that has fewer [-]; None for
+    a smooth one."""
     shift_per_step: tuple[float, float]
+    """Mesh widths that each surface moves on per step [-]; the mean moves by ``stride``."""
     questions: tuple[str, ...]
+    """What is not plausible."""
 
 
 def transient_plan(

@@ -30,16 +30,11 @@ _LARGE = 20.0
 
 
 class Crop(Table):
-    """A part of a map, in the coordinates of the file: from its first column and row.
-
-    Attributes
-    ----------
-    x, y : (float, float) or None
-        From and to [m]; None is all.
-    """
+    """A part of a map, in the coordinates of the file: from its first column and row."""
 
     x: Span | None = None
     y: Span | None = None
+    """From and to [m]; None is all."""
 
     @model_validator(mode="after")
     def _must_rise(self) -> Self:
@@ -55,68 +50,49 @@ class Map(TileModel):
     The file is read when heights are first needed, so that a case can be stored and read again
     without it. Columns lie along x, rows along y, the first row at the least y. What is done goes
     in this order: transpose, flip, upside_down, crop, outliers, fill, level, lambda_c, lambda_s.
-
-    Attributes
-    ----------
-    file : str
-        Its path; the ending decides the format.
-    unit : str or None
-        Of the heights; needed where the file does not say.
-    xy_unit : str or None
-        Of x and y in the file; needed where it has them without a unit.
-    pixel, size : pair of float or None
-        Distances of the points or lengths of the edges along x and y [m], one number for both;
-        one of the two is needed where the file does not say.
-    layout : {"auto", "matrix", "xyz"}
-        What the numbers of a text are.
-    variable : str or None
-        Which variable of a NetCDF file.
-    transpose, flip_x, flip_y, upside_down : bool
-        Exchange rows and columns; reverse x or y; take depths as heights.
-    crop : Crop or None
-        The part to take, after these.
-    outliers : float or None
-        Standard deviations beyond which spikes become missing points.
-    fill : {"auto", "linear", "nearest", "refuse"}
-        How missing points are filled; "auto" accepts at most 1 % of them.
-    level : {"none", "mean", "plane", "quadratic"}
-        What is taken off.
-    lambda_c, lambda_s : float or None
-        Longest and shortest waves that are kept [m], by Gaussian filters.
-    rotate : float
-        Angle by which the rows are turned against x [rad], as the crests of a wave are.
-    x, y : float
-        Where the middle of the map lies at time zero [m].
-    outside : {"flat", "periodic", "mirror"}
-        What lies beyond the edges.
-    taper : float or None
-        Over which heights fall to zero at the edges of a flat surrounding [m]; a tenth of the
-        shorter edge if left out.
     """
 
     type: Literal["map"] = "map"
     file: str
+    """Its path; the ending decides the format."""
     unit: LengthUnit | None = None
+    """Of the heights; needed where the file does not say."""
     xy_unit: LengthUnit | None = None
+    """Of x and y in the file; needed where it has them without a unit."""
     pixel: Lengths | None = None
     size: Lengths | None = None
+    """Distances of the points or lengths of the edges along x and y [m], one number for both; one
+    of the two is needed where the file does not say."""
     layout: Literal["auto", "matrix", "xyz"] = "auto"
+    """What the numbers of a text are."""
     variable: str | None = None
+    """Which variable of a NetCDF file."""
     transpose: bool = False
     flip_x: bool = False
     flip_y: bool = False
     upside_down: bool = False
+    """Exchange rows and columns; reverse x or y; take depths as heights."""
     crop: Crop | None = None
+    """The part to take, after these."""
     outliers: PositiveNumber | None = None
+    """Standard deviations beyond which spikes become missing points."""
     fill: Literal["auto", "linear", "nearest", "refuse"] = "auto"
+    """How missing points are filled; "auto" accepts at most 1 % of them."""
     level: Literal["none", "mean", "plane", "quadratic"] = "plane"
+    """What is taken off."""
     lambda_c: Wavelength | None = None
     lambda_s: Wavelength | None = None
+    """Longest and shortest waves that are kept [m], by Gaussian filters."""
     rotate: Angle = 0.0
+    """Angle by which the rows are turned against x [rad], as the crests of a wave are."""
     x: Position = 0.0
     y: Position = 0.0
+    """Where the middle of the map lies at time zero [m]."""
     outside: Edge = "flat"
+    """What lies beyond the edges."""
     taper: Height | None = None
+    """Over which heights fall to zero at the edges of a flat surrounding [m]; a tenth of the
+    shorter edge if left out."""
 
     @field_validator("file", mode="after")
     @classmethod

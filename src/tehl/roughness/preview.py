@@ -30,35 +30,24 @@ class Mesh:
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
 class Preview:
-    """What a file holds, and what the solver makes of it.
-
-    Attributes
-    ----------
-    surface : Map
-        How it is prepared and placed.
-    file : str
-        Name of the file.
-    raw, heights : RawMap, Heights
-        Heights of the file, and as prepared.
-    statistics, spectrum : Statistics, Spectrum
-        Of the prepared heights.
-    mesh : Mesh or None
-        The grid that is compared.
-    lost : float or None
-        Share of the variance that the mesh cannot carry.
-    sentences : tuple of str
-        What is unusual about the map, alone and for the contact.
-    """
+    """What a file holds, and what the solver makes of it."""
 
     surface: Map
+    """How it is prepared and placed."""
     file: str
+    """Name of the file."""
     raw: RawMap
     heights: Heights
+    """Heights of the file, and as prepared."""
     statistics: Statistics
     spectrum: Spectrum
+    """Of the prepared heights."""
     mesh: Mesh | None
+    """The grid that is compared."""
     lost: float | None
+    """Share of the variance that the mesh cannot carry."""
     sentences: tuple[str, ...]
+    """What is unusual about the map, alone and for the contact."""
 
     @property
     def missing(self) -> int:

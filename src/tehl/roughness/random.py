@@ -43,32 +43,6 @@ class Random(TileModel):
     up to the cut-off. The surface is defined on its own lattice and repeats: it is the same on
     every mesh.
 
-    Attributes
-    ----------
-    rms : float
-        Sq [m]; a period of the surface has it exactly.
-    spectrum : {"gaussian", "self-affine"}
-        Shape of the spectrum.
-    correlation_length, correlation_length_y : float or None
-        l_u and l_v [m], where the autocorrelation is 1/e, along x and y when ``angle`` is zero;
-        only the first is needed for equal ones. Gaussian spectra only.
-    roll_off, roll_off_y : float or None
-        lambda_u and lambda_v [m], above which the spectrum is flat; only the first is needed for
-        equal ones. Self-affine spectra only.
-    cut_off : float or None
-        Shortest wavelength [m], at least ``roll_off/64``; ``roll_off/16`` if left out. It is as
-        much shorter along v as ``roll_off_y`` is.
-    hurst : float
-        Hurst exponent H [-].
-    angle : float
-        By which the lay is turned [rad], as the crests of a wave are.
-    seed : int
-        The same number gives the same surface.
-    skewness, kurtosis : float
-        Ssk and Sku [-]; 0 and 3 is a Gaussian distribution of heights. Others are made by a
-        monotone transformation [1]_ of a Gaussian surface; a period meets them to 1e-3. They
-        change the autocorrelation a little.
-
     References
     ----------
     .. [1] M. C. Jones and A. Pewsey, Sinh-arcsinh distributions, Biometrika 96 (2009), 761-780.
@@ -78,17 +52,31 @@ class Random(TileModel):
 
     type: Literal["random"] = "random"
     rms: Height
+    """Sq [m]; a period of the surface has it exactly."""
     spectrum: Literal["gaussian", "self-affine"] = "gaussian"
+    """Shape of the spectrum."""
     correlation_length: Wavelength | None = None
     correlation_length_y: Wavelength | None = None
+    """l_u and l_v [m], where the autocorrelation is 1/e, along x and y when ``angle`` is zero; only
+    the first is needed for equal ones. Gaussian spectra only."""
     roll_off: Wavelength | None = None
     roll_off_y: Wavelength | None = None
+    """lambda_u and lambda_v [m], above which the spectrum is flat; only the first is needed for
+    equal ones. Self-affine spectra only."""
     cut_off: Wavelength | None = None
+    """Shortest wavelength [m], at least ``roll_off/64``; ``roll_off/16`` if left out. It is as much
+    shorter along v as ``roll_off_y`` is."""
     hurst: PositiveNumber = 0.8
+    """Hurst exponent H [-]."""
     angle: Angle = 0.0
+    """By which the lay is turned [rad], as the crests of a wave are."""
     seed: Seed = 0
+    """The same number gives the same surface."""
     skewness: Number = 0.0
     kurtosis: PositiveNumber = 3.0
+    """Ssk and Sku [-]; 0 and 3 is a Gaussian distribution of heights. Others are made by a monotone
+    transformation [1]_ of a Gaussian surface; a period meets them to 1e-3. They change the
+    autocorrelation a little."""
 
     @model_validator(mode="after")
     def _must_have_a_spectrum(self) -> Self:

@@ -86,16 +86,11 @@ OneRoughness = Annotated[_Single, Field(discriminator="type")]
 
 
 class Sum(_Added, RoughnessModel):
-    """The sum of several surfaces; in a case file, a list of tables.
-
-    Attributes
-    ----------
-    parts : tuple of surfaces
-        What is added.
-    """
+    """The sum of several surfaces; in a case file, a list of tables."""
 
     type: Literal["sum"] = "sum"
     parts: tuple[OneRoughness, ...]
+    """What is added."""
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
         """Return what is unusual about the parts for a contact of ``width`` by ``length`` [m]."""

@@ -92,24 +92,17 @@ class Wave(HarmonicModel):
     r"""A wave over the whole surface.
 
     .. math:: s = A \cos\left(\frac{2\pi}{\lambda} (x \cos\varphi - y \sin\varphi) + \psi\right)
-
-    Attributes
-    ----------
-    amplitude : float
-        A [m], from the mean to a crest.
-    wavelength : float
-        lambda [m], across the crests.
-    angle : float
-        phi [rad]; zero is transverse: crests along y, across the entrainment.
-    phase : float
-        psi [rad]; zero puts a crest at the origin.
     """
 
     type: Literal["wave"] = "wave"
     amplitude: Height
+    """A [m], from the mean to a crest."""
     wavelength: Wavelength
+    """lambda [m], across the crests."""
     angle: Angle = 0.0
+    """phi [rad]; zero is transverse: crests along y, across the entrainment."""
     phase: Angle = 0.0
+    """psi [rad]; zero puts a crest at the origin."""
 
     @model_validator(mode="after")
     def _must_be_gentle(self) -> Self:
@@ -132,25 +125,6 @@ class Crossed(HarmonicModel):
     The product with ``angle = 0`` is the isotropic pattern ``A cos(2 pi x/lambda) cos(2 pi
     y/lambda)`` for which amplitude reduction is published [1]_.
 
-    Attributes
-    ----------
-    amplitude : float
-        A [m].
-    wavelength : float
-        Of the first wave [m].
-    angle, phase : float
-        Of the first wave [rad].
-    amplitude_2 : float or None
-        A_2 [m]; None is that of the first wave. The product has one amplitude only.
-    wavelength_2 : float or None
-        [m]; None is that of the first wave.
-    angle_2 : float or None
-        [rad]; None is at right angles to the first wave.
-    phase_2 : float
-        [rad]
-    form : {"sum", "product"}
-        How the waves combine.
-
     References
     ----------
     .. [1] C. H. Venner and A. A. Lubrecht, Proc. IMechE Part J 214 (2000), 43-62.
@@ -158,14 +132,22 @@ class Crossed(HarmonicModel):
 
     type: Literal["crossed"] = "crossed"
     amplitude: Height
+    """A [m]."""
     wavelength: Wavelength
+    """Of the first wave [m]."""
     angle: Angle = 0.0
     phase: Angle = 0.0
+    """Of the first wave [rad]."""
     amplitude_2: Height | None = None
+    """A_2 [m]; None is that of the first wave. The product has one amplitude only."""
     wavelength_2: Wavelength | None = None
+    """[m]; None is that of the first wave."""
     angle_2: Angle | None = None
+    """[rad]; None is at right angles to the first wave."""
     phase_2: Angle = 0.0
+    """[rad]"""
     form: Literal["sum", "product"] = "sum"
+    """How the waves combine."""
 
     @model_validator(mode="after")
     def _must_be_gentle(self) -> Self:

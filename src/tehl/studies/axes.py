@@ -48,35 +48,24 @@ class Setting:
 
 
 class Axis(Table):
-    """One path of the case file with the values that it takes.
-
-    Attributes
-    ----------
-    path : str
-        Dotted path: ``"contact.load"``.
-    name : str or None
-        Of its column in the table; the path if left out.
-    values : list or None
-        Numbers, words, quantities or tables; ``false`` leaves the key out of the case.
-    names : list of str or None
-        Names of the values in the table.
-    linspace, geomspace : (first, last, number) or None
-        Values with equal steps or equal ratios, both ends included.
-    uniform, loguniform : (first, last) or None
-        Sampled between two ends, as the table ``sample`` states.
-    zip : str or None
-        Axes with the same word here vary together, value by value.
-    """
+    """One path of the case file with the values that it takes."""
 
     path: str
+    """Dotted path: ``"contact.load"``."""
     name: str | None = None
+    """Of its column in the table; the path if left out."""
     values: list[Any] | None = None
+    """Numbers, words, quantities or tables; ``false`` leaves the key out of the case."""
     names: list[str] | None = None
+    """Names of the values in the table."""
     linspace: Steps | None = None
     geomspace: Steps | None = None
+    """Values with equal steps or equal ratios, both ends included."""
     uniform: Ends | None = None
     loguniform: Ends | None = None
+    """Sampled between two ends, as the table ``sample`` states."""
     zip: str | None = None
+    """Axes with the same word here vary together, value by value."""
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -163,21 +152,14 @@ def _split(end: End) -> tuple[float, str]:
 
 
 class Sample(Table):
-    """How sampled axes take their values.
-
-    Attributes
-    ----------
-    method : {"latin-hypercube", "sobol", "random"}
-        Points that fill the box evenly, or independent ones.
-    number : int
-        Number of points.
-    seed : int
-        Of the random numbers.
-    """
+    """How sampled axes take their values."""
 
     method: Literal["latin-hypercube", "sobol", "random"] = "latin-hypercube"
+    """Points that fill the box evenly, or independent ones."""
     number: Annotated[int, Field(ge=1)]
+    """Number of points."""
     seed: Annotated[int, Field(ge=0)] = 0
+    """Of the random numbers."""
 
     def places(self, dimensions: int) -> Array:
         """Return the points between 0 and 1, (number, dimensions)."""

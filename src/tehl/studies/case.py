@@ -28,27 +28,18 @@ _PARTS_OF_ESTIMATES = ("value", "uncertainty", "discretisation", "domain", "valu
 
 @dataclass(frozen=True)
 class Case:
-    """One contact to be solved.
-
-    Attributes
-    ----------
-    name : str
-        Shown to the user, unique in its study.
-    problem : ContactProblem
-        The contact.
-    options : Options
-        Numerical options.
-    labels : mapping of str to float or str
-        Values along the axes of the study, for tables and curves.
-    certify : bool
-        Solve on three grids and a larger domain, for error bars.
-    """
+    """One contact to be solved."""
 
     name: str
+    """Shown to the user, unique in its study."""
     problem: ContactProblem
+    """The contact."""
     options: Options
+    """Numerical options."""
     labels: Mapping[str, Label] = field(default_factory=dict)
+    """Values along the axes of the study, for tables and curves."""
     certify: bool = False
+    """Solve on three grids and a larger domain, for error bars."""
 
     @cached_property
     def key(self) -> str:
@@ -91,31 +82,22 @@ def _digest(file: Path, _size: int, _written: int) -> str:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Row:
-    """The outcome of one case.
-
-    Attributes
-    ----------
-    key : str
-        Of the case.
-    status : str
-        As of a result; ``"bad_input"`` where the solver rejected the case, ``"failed"`` where it
-        returned nothing.
-    cause, message, hint : str or None
-        Why it failed, as a word and in sentences; message and hint also of a converged case whose
-        minimum film is uncertain.
-    summary : mapping of str to scalar
-        Every number and word of the summary, by dotted names: ``"film.h_min_m"``.
-    cost : Cost
-        Of the solve.
-    """
+    """The outcome of one case."""
 
     key: str
+    """Of the case."""
     status: str
+    """As of a result; ``"bad_input"`` where the solver rejected the case, ``"failed"`` where it
+    returned nothing."""
     cause: str | None = None
     message: str | None = None
     hint: str | None = None
+    """Why it failed, as a word and in sentences; message and hint also of a converged case whose
+    minimum film is uncertain."""
     summary: Mapping[str, Scalar] = field(default_factory=dict)
+    """Every number and word of the summary, by dotted names: ``"film.h_min_m"``."""
     cost: Cost = Cost(cpu_seconds=0.0, wall_seconds=0.0)  # noqa: RUF009 (frozen)
+    """Of the solve."""
 
     @property
     def converged(self) -> bool:

@@ -49,34 +49,23 @@ QUIET = Quiet()  # type: ignore[abstract]  # its methods are empty on purpose
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Outcome:
-    """What a run of a study did.
-
-    Attributes
-    ----------
-    total : int
-        Different cases, by their keys.
-    reused : int
-        Cases that were finished before.
-    converged : int
-        Converged cases, those of before included.
-    uncertain : int
-        Those of them whose minimum film is uncertain, as their rows say.
-    failed : tuple of (Case, Row)
-        Failed cases, those of before included, in the order of the study; their rows are without
-        summaries.
-    cpu_seconds : float
-        Of the solves of this run.
-    wall_seconds : float
-        Of this run.
-    """
+    """What a run of a study did."""
 
     total: int
+    """Different cases, by their keys."""
     reused: int
+    """Cases that were finished before."""
     converged: int
+    """Converged cases, those of before included."""
     uncertain: int
+    """Those of them whose minimum film is uncertain, as their rows say."""
     failed: tuple[tuple[Case, Row], ...]
+    """Failed cases, those of before included, in the order of the study; their rows are without
+    summaries."""
     cpu_seconds: float
+    """Of the solves of this run."""
     wall_seconds: float
+    """Of this run."""
 
 
 def run(  # noqa: PLR0913 (keywords with defaults)

@@ -24,27 +24,18 @@ _WHOLE = 1e-6
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class PassingWave(Ripple):
-    """Amplitudes of a wave that passes a place on y = 0.
-
-    Attributes
-    ----------
-    x : float
-        The place [m].
-    periods : int
-        Number of fitted periods.
-    steps_per_period : float
-        Time steps in each of them.
-    nabla : float
-        (lambda / a) sqrt(M/L) [-].
-    published_ratio : float
-        Amplitude reduction by the fit for pure rolling [-].
-    """
+    """Amplitudes of a wave that passes a place on y = 0."""
 
     x: float
+    """The place [m]."""
     periods: int
+    """Number of fitted periods."""
     steps_per_period: float
+    """Time steps in each of them."""
     nabla: float
+    """(lambda / a) sqrt(M/L) [-]."""
     published_ratio: float
+    """Amplitude reduction by the fit for pure rolling [-]."""
 
 
 def passing_wave(run: "TransientResult", surface: int, *, x: float = 0.0) -> PassingWave:

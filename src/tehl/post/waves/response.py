@@ -36,24 +36,20 @@ _TURN = 0.25
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Ripple:
-    """Ripples of film and pressure over a wave of the heights.
-
-    Attributes
-    ----------
-    amplitude : float
-        Of the heights, as the grid carries them [m].
-    film_amplitude, pressure_amplitude : float
-        Of the ripples [m], [Pa].
-    film_phase, pressure_phase : float
-        Zero where crests have the thinnest film and the highest pressure; positive where the
-        ripple lies behind, along the wave vector or in time [rad].
-    """
+    """Ripples of film and pressure over a wave of the heights."""
 
     amplitude: float
+    """Of the heights, as the grid carries them [m]."""
     film_amplitude: float
+    """Of the ripples [m], [Pa]."""
     film_phase: float
+    """Zero where crests have the thinnest film and the highest pressure; positive where the ripple
+    lies behind, along the wave vector or in time [rad]."""
     pressure_amplitude: float
+    """Of the ripples [m], [Pa]."""
     pressure_phase: float
+    """Zero where crests have the thinnest film and the highest pressure; positive where the ripple
+    lies behind, along the wave vector or in time [rad]."""
 
     @property
     def film_ratio(self) -> float:
@@ -75,28 +71,19 @@ def ripple(amplitudes: Iterable[complex]) -> dict[str, float]:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class WaveResponse(Ripple):
-    """One wave of the surfaces, and its ripples in the middle of the contact.
-
-    Attributes
-    ----------
-    wavelength : float
-        Across the crests [m].
-    angle : float
-        Zero: crests across the entrainment; between -pi/2 and pi/2 [rad].
-    points_per_wave : float
-        Nodes on a wave, along the axis that has fewer [-].
-    carried_amplitude : float
-        Of the streaks along x that the film brings from the inlet [m]; zero where crests lie
-        across or along the entrainment, or nearly so.
-    theory : LinearTheory
-        Ripples by linear theory, where it holds (:func:`tehl.wave_theory.why_no_theory`).
-    """
+    """One wave of the surfaces, and its ripples in the middle of the contact."""
 
     wavelength: float
+    """Across the crests [m]."""
     angle: float
+    """Zero: crests across the entrainment; between -pi/2 and pi/2 [rad]."""
     points_per_wave: float
+    """Nodes on a wave, along the axis that has fewer [-]."""
     carried_amplitude: float
+    """Of the streaks along x that the film brings from the inlet [m]; zero where crests lie across
+    or along the entrainment, or nearly so."""
     theory: LinearTheory
+    """Ripples by linear theory, where it holds (:func:`tehl.wave_theory.why_no_theory`)."""
 
 
 def wave_responses(result: "Result", smooth: "Result | None" = None) -> tuple[WaveResponse, ...]:

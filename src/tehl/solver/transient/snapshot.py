@@ -127,28 +127,19 @@ class Record:
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Snapshot:
-    """State from which a run resumes bit by bit.
-
-    Attributes
-    ----------
-    setting : int
-        Number of the relaxation in use.
-    rigid_approach : float
-        H00 [-].
-    fields : dict of str to array
-        Pressure; mass of the last two films, and its excess in the flux; differences of the last
-        four pressures to the steady one; and the state of the coupling.
-    record : Record
-        The steps so far.
-    cost : Cost
-        Cost so far, including the steady film.
-    """
+    """State from which a run resumes bit by bit."""
 
     setting: int
+    """Number of the relaxation in use."""
     rigid_approach: float
+    """H00 [-]."""
     fields: dict[str, Array]
+    """Pressure; mass of the last two films, and its excess in the flux; differences of the last
+    four pressures to the steady one; and the state of the coupling."""
     record: Record
+    """The steps so far."""
     cost: Cost
+    """Cost so far, including the steady film."""
 
     def copy(self) -> "Snapshot":
         """Return a copy that the run does not change."""
