@@ -8,7 +8,6 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Patch
 
 import tehl
-from tehl.kernels.reynolds import mark_dipoles
 from tehl.operators.flow import flow_table
 from tehl.operators.influence import influence_of
 from tehl.operators.reynolds import line_influence
@@ -62,7 +61,7 @@ def regions() -> Figure:
     here = level()
     smoother = here.smoother
     assert isinstance(smoother, LineSmoother)
-    mark_dipoles(here.film, here.mesh, smoother.workspace)
+    here.relax(1)  # which marks the dipoles
     kind = np.where(here.film.p > 0, smoother.workspace.kind + 1.0, 0.0)
     figure = Figure(figsize=(5.0, 4.4), layout="constrained")
     axes = figure.add_subplot(xlabel="X", ylabel="Y")
