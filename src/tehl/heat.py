@@ -1,4 +1,4 @@
-"""The heat problem of a film; not how it is solved."""
+"""The heat problem of a film: energy equation, solids, and nodes across the film."""
 
 from dataclasses import dataclass
 from typing import Annotated, Literal

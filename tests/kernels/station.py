@@ -1,8 +1,10 @@
 """The energy equation of the film in plain numpy: one sweep, station after station.
 
 Read this file first: the kernels of `tehl.kernels.energy` compute the same, eight rows at a time.
-All equations are those of docs/theory/thermal.md in dimensionless form. Arrays are (n, rows):
-layers from surface 1 (zeta = 0) to surface 2, and rows along y. Nothing here is fast.
+The equations are those of docs/theory/thermal.md; with the scales there the pressure gradient has
+the factor 12/lambda in stress and velocities. Arrays are (n, rows): layers from surface 1
+(zeta = 0) to surface 2, and rows along y. Not here: the march back against x, and a film that only
+thins (``terms.heat`` = 0). Nothing here is fast.
 """
 
 from dataclasses import dataclass
@@ -10,6 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial.polynomial import polyder, polyval
 
+from tehl.kernels.energy.column import CONDUCTION, TO_WALLS
+from tehl.kernels.energy.march import LARGEST_FALL, LARGEST_GROWTH, LARGEST_STEP
 from tehl.kernels.energy.records import ETA_TERMS, GHOSTS, Across, Fields, Laws, Model, Surfaces
 from tehl.typing import Array
 
@@ -18,17 +22,17 @@ from tehl.typing import Array
 class Station:
     """What is given at the rows of a station, and what is found: stress and temperature."""
 
-    p: Array
-    h: Array
-    px: Array
+    p: Array  # pressure
+    h: Array  # film
+    px: Array  # slopes of the pressure along x, along y over kappa, and in time
     py: Array
     pt: Array
-    capacity: Array
+    capacity: Array  # rho_0 c and k of the oil over those at ambient pressure
     conductivity: Array
-    stress: Array
-    tau_x: Array
+    over_scale: Array  # one over the stress scale of the shear law
+    tau_x: Array  # stress at mid-film, found
     tau_y: Array
-    t: Array
+    t: Array  # temperature (n, rows) [K], found
 
 
 # The oil
@@ -91,7 +95,7 @@ def newtonian_stress(model: Model, at: Station, fluid: Array) -> None:
 def thin(model: Model, at: Station, fluid: Array) -> tuple[Array, Array, Array, Array]:
     """Find tau_m of a film that thins: int phi tau_x = (u2 - u1)/h, int phi tau_y = 0.
 
-    Newton's method with halved steps, from the present stress on. Return phi = F/eta, the power
+    Newton's method with halved steps, from the present stress on. Return phi = F/eta, the exponent
     n = 1 + dln F/dln s, and phi of a small change of the stress along x and along y.
     """
     weights, uniform = model.across.weights, model.laws.uniform
@@ -101,7 +105,7 @@ def thin(model: Model, at: Station, fluid: Array) -> tuple[Array, Array, Array, 
         at.tau_x, at.tau_y = tau_x, tau_y
         x, y = stress(model, at, zeta)
         square = x**2 + y**2 + 1e-300
-        factor, bend = thinning(model.laws, np.sqrt(square) * at.stress)
+        factor, bend = thinning(model.laws, np.sqrt(square) * at.over_scale)
         phi, more = fluid * factor, bend / square
         missing = weights @ (phi * x) - model.terms.slide / at.h, weights @ (phi * y)
         slopes = phi * (1.0 + more * x * x), phi * more * x * y, phi * (1.0 + more * y * y)
@@ -118,12 +122,12 @@ def thin(model: Model, at: Station, fluid: Array) -> tuple[Array, Array, Array, 
             if not worse.any():
                 break
             step = np.where(worse, 0.5 * step, step)
-        if np.max(at.stress * np.hypot(dx, dy)) < 1e-14:
+        if np.max(at.over_scale * np.hypot(dx, dy)) < 1e-14:
             break
         x, y = x - step * dx, y - step * dy
         fx, fy, xx, xy, yy, *rest = rates(x, y)
-    phi, power, along_x, along_y = rest
-    return (phi, power, phi, phi) if uniform else (phi, power, along_x, along_y)
+    phi, exponent, along_x, along_y = rest
+    return (phi, exponent, phi, phi) if uniform else (phi, exponent, along_x, along_y)
 
 
 def velocities(model: Model, at: Station, phi: Array) -> tuple[Array, Array]:
@@ -149,7 +153,7 @@ def mobility(across: Across, rho: Array, phi: Array) -> Array:
 
 
 def through_layers(model: Model, masses: list[Array], sideways: Array) -> Array:
-    """Return h rho omega = -(h int rho u)_x - (h int rho v)_y/kappa, zero at both walls.
+    """Return rho omega = -(h int rho u)_x - (h int rho v)_y/kappa, zero at both walls.
 
     ``masses``: int_0^zeta h rho u here, at the last station and at the one before;
     ``sideways``: int_0^zeta h rho v.
@@ -157,9 +161,9 @@ def through_layers(model: Model, masses: list[Array], sideways: Array) -> Array:
     terms, (now, old, older) = model.terms, masses
     before = -sideways[:, 1] if terms.mirror else 2.0 * sideways[:, 0] - sideways[:, 1]
     wide = np.column_stack([before, sideways, 2.0 * sideways[:, -1] - sideways[:, -2]])
-    omega = -terms.over_x * (terms.w0 * now + terms.w1 * old + terms.w2 * older)
-    omega = omega - 0.5 * terms.over_y * (wide[:, 2:] - wide[:, :-2])
-    return omega - model.across.zeta[:, None] * omega[-1]
+    through = -terms.over_x * (terms.w0 * now + terms.w1 * old + terms.w2 * older)
+    through = through - 0.5 * terms.over_y * (wide[:, 2:] - wide[:, :-2])
+    return through - model.across.zeta[:, None] * through[-1]
 
 
 def upstream(one: Array, two: Array, second: Array) -> tuple[Array, Array]:
@@ -172,7 +176,7 @@ def upstream(one: Array, two: Array, second: Array) -> tuple[Array, Array]:
 
 def hold(flow: Array) -> Array:
     """Return the part of second order that conduction across the film allows, 0 to 1."""
-    return np.clip(2.0 - flow / 8.0, 0.0, 1.0)
+    return np.clip(2.0 - flow / CONDUCTION, 0.0, 1.0)
 
 
 def convection(
@@ -207,7 +211,7 @@ class Column:
     rho: Array
     rho_t: Array
     phi: Array
-    power: Array
+    exponent: Array
     along_x: Array
     along_y: Array
     u: Array
@@ -216,7 +220,7 @@ class Column:
     def share(self, across: Across) -> Array:
         """Return s_m = w_m phi_m gamma_m / sum w phi n: relative fall of the stress per kelvin."""
         weights = across.weights[:, None]
-        return weights * self.phi * self.gamma / (across.weights @ (self.phi * self.power))
+        return weights * self.phi * self.gamma / (across.weights @ (self.phi * self.exponent))
 
 
 def sources(model: Model, at: Station, column: Column) -> tuple[Array, Array]:
@@ -228,37 +232,38 @@ def sources(model: Model, at: Station, column: Column) -> tuple[Array, Array]:
 
 
 def energy_matrix(
-    model: Model, at: Station, column: Column, omega: Array, convected: tuple[Array, ...]
+    model: Model, at: Station, column: Column, through: Array, convected: tuple[Array, ...]
 ) -> tuple[Array, Array, Array]:
-    """Return matrices (rows, n, n), right-hand sides and the parts from aside of inner layers.
+    """Return matrices (rows, n, n) and right-hand sides of inner layers, and their sideways parts.
 
-    ``Pe c (rho u T_x + rho v T_y/kappa + h rho omega T_zeta/h^2) = k T_zeta,zeta/h^2 + sources``
-    times h^2/k. Of the change of the shear heat with the temperature,
-    ``dq_k = q_k (gamma_k dT_k - (1 + n_k) sum s_m dT_m)``, the first part is held back where it
-    would outweigh conduction; a banded matrix has ``-q gamma dT`` in its place.
+    ``Pe c (rho u T_x + rho v T_y/kappa + rho omega T_zeta/h) = k T_zeta,zeta/h^2 + sources`` times
+    h^2/k. The change of the shear heat with the temperature, ``dq_k = q_k (gamma_k dT_k -
+    (1 + n_k) sum s_m dT_m)``, has ``theta = min(CONDUCTION/(q gamma h^2/k), 1)`` as a factor on
+    gamma and in place of the 1, so as not to outweigh conduction; a banded matrix has ``-q gamma
+    dT`` in its place.
     """
     across, terms, share = model.across, model.terms, column.share(model.across)
     per, zeta, n = at.h**2 / at.conductivity, across.zeta, len(across.zeta)
-    diagonal, rest, aside = convected
+    diagonal, rest, sideways = convected
     shear, compression = (per * heat for heat in sources(model, at, column))
-    steep = column.gamma * shear
+    gain = column.gamma * shear
     full = across.band == n - 1
-    part = -np.minimum(8.0 / (steep + 1e-300), 1.0) if full else np.ones_like(steep)
-    held = shear * (column.power - part) if full else np.zeros_like(shear)
-    through = omega * terms.peclet * at.capacity * at.h / at.conductivity
+    part = -np.minimum(CONDUCTION / (gain + 1e-300), 1.0) if full else np.ones_like(gain)
+    shared = shear * (column.exponent - part) if full else np.zeros_like(shear)
+    through = through * terms.peclet * at.capacity * at.h / at.conductivity
     matrix = np.einsum("kj,km->jkm", through, across.d1) - across.d2
-    matrix += np.einsum("kj,mj->jkm", held, share)
+    matrix += np.einsum("kj,mj->jkm", shared, share)
     for k in range(n):
-        matrix[:, k, k] += (diagonal + part * steep)[k]
-    rest = rest + shear + compression + part * steep * at.t + held * np.sum(share * at.t, axis=0)
+        matrix[:, k, k] += (diagonal + part * gain)[k]
+    rest = rest + shear + compression + part * gain * at.t + shared * np.sum(share * at.t, axis=0)
     gap = np.ones(n)
     gap[1:-1] = zeta[2:] - zeta[:-2]
     with np.errstate(divide="ignore"):
-        out = diagonal + (2.0 * np.abs(through).T / gap + 1.0 / (zeta * (1.0 - zeta)) ** 2).T
-    return matrix, rest.T, aside / out
+        out = diagonal + (2.0 * np.abs(through).T / gap + TO_WALLS / (zeta * (1.0 - zeta)) ** 2).T
+    return matrix, rest.T, sideways / out
 
 
-def carry_aside(new: Array, old: Array, part: Array) -> None:
+def carry_sideways(new: Array, old: Array, part: Array) -> None:
     """Let the rows follow the change of the row that the oil comes from, outwards, then inwards."""
     n, ny = new.shape
     for step, rows in ((1, range(ny)), (-1, range(ny - 1, -1, -1))):
@@ -313,24 +318,26 @@ def flow(model: Model, at: Station) -> Column:
     fluid = np.exp(-ln_eta)
     if model.laws.newtonian:
         newtonian_stress(model, at, fluid)
-        phi, power, along_x, along_y = fluid, np.ones_like(fluid), fluid, fluid
+        phi, exponent, along_x, along_y = fluid, np.ones_like(fluid), fluid, fluid
     else:
-        phi, power, along_x, along_y = thin(model, at, fluid)
+        phi, exponent, along_x, along_y = thin(model, at, fluid)
     u, v = velocities(model, at, phi)
-    return Column(ln_eta, gamma, rho, rho_t, phi, power, along_x, along_y, u, v)
+    return Column(ln_eta, gamma, rho, rho_t, phi, exponent, along_x, along_y, u, v)
 
 
 def follow(model: Model, at: Station, column: Column, new: Array) -> None:
     """Take the new temperatures; laws and stress follow to first order."""
-    step = np.clip(new - at.t, -40.0, 40.0)
+    step = np.clip(new - at.t, -LARGEST_STEP, LARGEST_STEP)
     at.t = at.t + step
-    fall = np.clip(np.sum(column.share(model.across) * step, axis=0), -0.5, 0.5)
+    fall = np.sum(column.share(model.across) * step, axis=0)
+    fall = np.clip(fall, -LARGEST_FALL, LARGEST_FALL)
     at.tau_x, at.tau_y = at.tau_x * (1.0 - fall), at.tau_y * (1.0 - fall)
     if model.terms.mean == 2:
         step = np.broadcast_to(model.across.weights @ step, step.shape)
     column.ln_eta = column.ln_eta - column.gamma * step
     column.rho = column.rho + column.rho_t * step
-    growth = np.exp(np.clip(column.gamma * step - (column.power - 1.0) * fall, -6.0, 6.0))
+    growth = column.gamma * step - (column.exponent - 1.0) * fall
+    growth = np.exp(np.clip(growth, -LARGEST_GROWTH, LARGEST_GROWTH))
     column.phi, column.along_x = column.phi * growth, column.along_x * growth
     column.along_y = column.along_y * growth
     column.u, column.v = velocities(model, at, column.phi)
@@ -348,8 +355,8 @@ def outputs(model: Model, at: Station, column: Column) -> dict[str, Array]:
     out = {
         "mobility": whole,
         "density": weights @ (column.rho * (terms.speed + terms.slide * i0 / i0[-1])),
-        "held": weights @ column.rho,
-        "steep": 1.0 / column.power[middle],
+        "mean_density": weights @ column.rho,
+        "over_exponent": 1.0 / column.exponent[middle],
         "effective": np.exp(-column.ln_eta[middle]) / column.phi[middle],
         "stretch_x": mobility(across, column.rho, column.along_x) / whole,
         "stretch_y": mobility(across, column.rho, column.along_y) / whole,
@@ -365,7 +372,7 @@ def outputs(model: Model, at: Station, column: Column) -> dict[str, Array]:
         mean = np.broadcast_to(weights @ at.t, (1, len(at.p)))
         ln_eta, _, rho, _ = properties(model.laws, at.p, mean)
         out["mobility"] = rho[0] * np.exp(-ln_eta[0]) / out["effective"]
-        out["density"] = out["held"] = rho[0]
+        out["density"] = out["mean_density"] = rho[0]
     return out
 
 
@@ -376,7 +383,7 @@ def sweep(model: Model, fields: Fields, surfaces: Surfaces) -> dict[str, Array]:
     for i in range(len(fields.p)):
         if terms.mirror:
             t[i + GHOSTS, :, :GHOSTS] = t[i + GHOSTS, :, 2 * GHOSTS : GHOSTS : -1]
-        given = ("p", "h", "px", "py", "capacity", "conductivity", "stress", "tau_x", "tau_y")
+        given = ("p", "h", "px", "py", "capacity", "conductivity", "over_scale", "tau_x", "tau_y")
         at = Station(
             **{name: getattr(fields, name)[i] for name in given},
             pt=fields.pressing[i] if terms.over_t else np.zeros_like(fields.p[i]),
@@ -388,16 +395,16 @@ def sweep(model: Model, fields: Fields, surfaces: Surfaces) -> dict[str, Array]:
         masses = [mass, *(masses or [mass, mass])[:2]]
         if i < 2:  # before the grid the mass flux goes on linearly
             masses[2] = 2.0 * masses[1] - masses[0]
-        omega = through_layers(model, masses, sideways)
+        through = through_layers(model, masses, sideways)
         dense = at.h**2 / at.conductivity * terms.peclet * at.capacity * column.rho
         convected = convection(model, t, (i + GHOSTS, rows), dense * column.u, dense * column.v)
         if terms.over_t:
-            diagonal, rest, aside = convected
-            convected = diagonal + dense * terms.over_t, rest + dense * fields.past[i], aside
-        matrix, right, aside = energy_matrix(model, at, column, omega, convected)
+            diagonal, rest, flow_y = convected
+            convected = diagonal + dense * terms.over_t, rest + dense * fields.past[i], flow_y
+        matrix, right, part = energy_matrix(model, at, column, through, convected)
         walls.rows(i, at, matrix, right)
         new = solve_columns(matrix, right)
-        carry_aside(new, at.t, aside)
+        carry_sideways(new, at.t, part)
         follow(model, at, column, new)
         t[i + GHOSTS, :, rows] = at.t
         walls.store(i, at)

@@ -54,7 +54,7 @@ class Station:
         random = np.random.default_rng(4)
         for name, low, high in (("h", 0.5, 1.0), ("p_x", -1.0, 1.0), ("p_y", -1.0, 1.0)):
             self.set_line(name, random.uniform(low, high, ROWS))
-        self.set_line("per_stress", np.full(ROWS, 1.5))
+        self.set_line("over_scale", np.full(ROWS, 1.5))
         self.fill("ln_eta", random.uniform(-1.0, 1.0, (nodes, ROWS)))
         self.fill("rho", random.uniform(0.9, 1.1, (nodes, ROWS)))
         self.fill("t", np.full((nodes, ROWS), UNITS.temperature))
@@ -142,7 +142,7 @@ def test_elimination_solves_the_columns(nodes: int, band: int) -> None:
 
 def twin_station(station: Station) -> twin.Station:
     """The same station for the equations in numpy."""
-    names = {"p": "p", "h": "h", "px": "p_x", "py": "p_y", "pt": "p_t", "stress": "per_stress"}
+    names = {"p": "p", "h": "h", "px": "p_x", "py": "p_y", "pt": "p_t", "over_scale": "over_scale"}
     names |= {name: name for name in ("capacity", "conductivity", "tau_x", "tau_y")}
     rows = {ours: station.line(theirs) for ours, theirs in names.items()}
     return twin.Station(**rows, t=station.layer("t"))
@@ -171,8 +171,8 @@ def test_flow_across_the_layers_conserves_mass(mirror: int) -> None:
     cross_flows(station.model, work, 3)
     masses = [work.mass[(3 - back) % 3] for back in range(3)]
     flux = station.line("h") * station.layer("rho") * station.layer("v")
-    omega = twin.through_layers(station.model, masses, np.cumsum(step @ flux, axis=0))
-    np.testing.assert_allclose(station.layer("omega"), omega, rtol=1e-11, atol=1e-12)
+    through = twin.through_layers(station.model, masses, np.cumsum(step @ flux, axis=0))
+    np.testing.assert_allclose(station.layer("through"), through, rtol=1e-11, atol=1e-12)
 
 
 def test_uniform_film_has_the_isothermal_mobility() -> None:
@@ -201,7 +201,7 @@ def test_stress_of_a_couette_film(slide: float) -> None:
     station.set_line("p_x", np.zeros(ROWS))
     station.set_line("p_y", np.zeros(ROWS))
     station.flow(steps=40)
-    scale, h = station.line("per_stress"), station.line("h")
+    scale, h = station.line("over_scale"), station.line("h")
     exact = np.arcsinh(np.exp(ln_eta) * slide / h * scale)
     np.testing.assert_allclose(station.line("tau_x") * scale, exact, rtol=2e-7)
     np.testing.assert_allclose(station.line("tau_y"), 0.0, atol=1e-12)

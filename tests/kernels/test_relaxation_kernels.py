@@ -37,7 +37,7 @@ def relaxation_of(shape, xi=0.0, omega=(1.0, 1.0), influence=0.0):
         kind=np.zeros(shape, np.uint8),
         delta=np.zeros(shape),
         frozen=np.zeros(shape, np.uint8),
-        steep=np.zeros(shape),
+        stiffness=np.zeros(shape),
         **dict(zip(("rest", "nodes", "cells"), relaxation.workspace(nx), strict=True)),
     )
 
@@ -248,18 +248,18 @@ def test_the_stiffness_of_a_hollow_is_the_slope_of_the_flow_into_it(mirror):
         reynolds.operator(film, mesh, out)  # the pressure itself stays
         flows.append(out[3, 4])
     properties.properties(film, table, step, 0.0)
-    steep = np.empty_like(p)
-    relaxation.stiffen(film, mesh, table, step, steep)
-    assert steep[3, 4] == pytest.approx((flows[0] - flows[1]) / (2 * nudge), rel=1e-2)
-    assert (steep >= 0.0).all()
+    stiffness = np.empty_like(p)
+    relaxation.stiffen(film, mesh, table, step, stiffness)
+    assert stiffness[3, 4] == pytest.approx((flows[0] - flows[1]) / (2 * nudge), rel=1e-2)
+    assert (stiffness >= 0.0).all()
 
 
-def test_a_steep_node_moves_by_less():
+def test_a_stiff_node_moves_by_less():
     shape, mesh = (7, 8), mesh_of(0)
     film, changes = random_film(shape), []
-    for steep in (0.0, 50.0):
+    for stiffness in (0.0, 50.0):
         p, setting = film.p.copy(), relaxation_of(shape)
-        setting.steep[3, 4] = steep
+        setting.stiffness[3, 4] = stiffness
         relaxation.relax_lines(film._replace(p=p), mesh, np.zeros(shape), setting)
         changes.append(abs(p[3, 4] - film.p[3, 4]))
     assert 0.0 < changes[1] < changes[0]

@@ -68,7 +68,7 @@ def test_the_factors_of_a_heated_film_give_its_mobility_and_density_back():
     )
     p, h, *others = 3.0 * generator.random((9, 4, 6))
     heated = properties.Heated(*(0.2 + field for field in others[:5]))
-    heated.steep[:] /= 4.0
+    heated.over_exponent[:] /= 4.0
     film = properties.Film(p, h, *np.empty((5, 4, 6)))
     factors = properties.Factors(*np.empty((5, 4, 6)))
     properties.factors_of(heated, film._replace(h=np.ones_like(h)), table, step, factors)

@@ -17,8 +17,8 @@ class Film(NamedTuple):
     """Pressure, film and the frozen flow properties on one grid, each (ny, nx).
 
     ``eps_x, eps_y`` are the conductances along x and y: ``eps`` itself, or those of a small change
-    of the pressure gradient at constant sliding speed if the film thins in shear; the right-hand
-    side subtracts the difference (`tehl.kernels.reynolds.tangent_source`).
+    of the pressure gradient at constant sliding speed if the film thins in shear
+    (`tehl.kernels.reynolds.tangent_source`).
     """
 
     p: Array
@@ -35,7 +35,7 @@ class Factors(NamedTuple):
 
     The mobility is ``rest`` plus ``mobility`` times the isothermal Newtonian one; the tangent
     mobilities are ``stretch_x`` and ``stretch_y`` times that; ``density`` is a factor too
-    (docs/theory/thermal.md, coupling).
+    (docs/theory/numerics-thermal.md, coupling with the film).
     """
 
     rest: Array
@@ -49,13 +49,13 @@ class Heated(NamedTuple):
     """Flow properties from the energy equation, each (ny, nx).
 
     ``mobility``, rho/(eta lambda), and ``density`` of the heated, sheared film, scaled as those of
-    the table; ``steep`` the part of the mobility that is proportional to the isothermal one;
-    ``stretch_x, stretch_y`` as in `Factors`.
+    the table; ``over_exponent`` = 1/n at mid-film, n = dln(rate)/dln(stress), the part of the
+    mobility that follows the isothermal one; ``stretch_x, stretch_y`` as in `Factors`.
     """
 
     mobility: Array
     density: Array
-    steep: Array
+    over_exponent: Array
     stretch_x: Array
     stretch_y: Array
 
@@ -107,9 +107,9 @@ def factors_of(heated: Heated, film: Film, table: Array, step: float, factors: F
     for j in range(film.p.shape[0]):
         _line_properties(film, table, step, 0.0, j)
         for i in range(film.p.shape[1]):
-            mobility, steep = heated.mobility[j, i], heated.steep[j, i]
-            factors.rest[j, i] = mobility * (1.0 - steep)
-            factors.mobility[j, i] = mobility * steep / film.eps[j, i]
+            mobility, part = heated.mobility[j, i], heated.over_exponent[j, i]
+            factors.rest[j, i] = mobility * (1.0 - part)
+            factors.mobility[j, i] = mobility * part / film.eps[j, i]
             factors.density[j, i] = heated.density[j, i] / film.rho[j, i]
             factors.stretch_x[j, i] = heated.stretch_x[j, i]
             factors.stretch_y[j, i] = heated.stretch_y[j, i]

@@ -3,14 +3,14 @@
 Where the film conducts well, the points of a line change together (Gauss-Seidel by lines). In the
 contact, where the elastic deflection dominates, nodes change as dipoles: the pressure rises at one
 node and falls by a quarter at its four neighbours, which moves the film near it only (distributive
-relaxation; Venner and Lubrecht 2000, chapters 6 and 7; docs/theory/numerics.md). The changes u of
-a line satisfy six-diagonal systems with complementarity,
+relaxation; Venner and Lubrecht 2000, chapters 6 and 7; docs/theory/relaxation.md). As the wedge
+reaches two nodes upstream, the changes u of a line satisfy six-diagonal complementarity systems,
 
-    sum_s band_s(i) u(i + s) = r(i),  s = -3 .. 2,      or p + u = 0 with r <= 0,
+    r(i) - sum_s band_s(i) u(i + s) = 0,  s = -3 .. 2,      or >= 0 where p + u = 0.
 
-as the wedge reaches two nodes upstream. Policy iteration solves them: solve, cavitate the nodes of
-negative pressure, free the cavitated nodes with negative residual, and repeat. For the M-matrices
-of a line it ends after a few passes (Brennan and Schwartz 1977 for the tridiagonal case).
+Policy iteration solves them: solve, cavitate the nodes of negative pressure, free the cavitated
+nodes with negative residual, and repeat: a few passes in practice; proven for tridiagonal
+M-matrices (Brennan and Schwartz 1977).
 
 Eight lines of one colour are solved at once (`tehl.kernels.lanes`).
 """
@@ -29,13 +29,13 @@ from tehl.typing import Array, FlagArray, Records
 Span = tuple[int, int]
 
 PASSES = 6  # of the policy iteration, before clipping
-FREE, DRY, KEPT, WAS_DRY = 0.0, 1.0, 2.0, 3.0  # states of a node
+FREE, CAVITATED, KEPT, WAS_CAVITATED = 0.0, 1.0, 2.0, 3.0  # states of a node
 MARGIN = 3  # empty nodes on both sides of a line
 CHUNK = 32  # nodes copied at a time, so that they stay in the first cache
 LOADED = ("east", "across", "mass_p", "rho", "dipole", "rest", "p", "state")
 EAST, ACROSS, MASS_P, RHO, DIPOLE, REST, P, STATE = range(8)
-"""Copied from the fields for each node: conductance to the east and to both lines beside, d(rho
-h)/dp, density, 1 for a dipole, residual, pressure, and its state."""
+"""Copied from the fields for each node: conductance to the east; that to both lines beside, with
+``stiffness``; d(rho h)/dp, density, 1 for a dipole, residual, pressure, and its state."""
 BAND = ("west_3", "west_2", "west_1", "centre", "east_1", "east_2")
 """Coefficients of the unknowns at i - 3 .. i + 2."""
 FIELDS = (*LOADED, *BAND, "up_1", "up_2", "u")
@@ -49,8 +49,8 @@ class LineRelaxation(NamedTuple):
 
     ``point[m]`` and ``dipole[m]``: film at distance m along the line per unit change of a point
     and of a dipole; ``kind`` (ny, nx) marks the dipoles; ``delta`` (ny, nx) stores them until both
-    colours are done; ``frozen`` (ny, nx) marks nodes of fixed pressure; ``steep`` (ny, nx) is the
-    contribution of the change of conductance to the diagonal (`stiffen`). ``rest`` (LANES, nx)
+    colours are done; ``frozen`` (ny, nx) marks nodes of fixed pressure; ``stiffness`` (ny, nx) is
+    the contribution of the change of conductance to the diagonal (`stiffen`). ``rest`` (LANES, nx)
     holds the residuals of eight lines, ``nodes`` (nx + 6,) their systems as records `NODE`;
     ``cells`` (nx + 6, FIELDS, LANES) is a view of ``nodes`` as numbers.
     """
@@ -63,7 +63,7 @@ class LineRelaxation(NamedTuple):
     kind: FlagArray
     delta: Array
     frozen: FlagArray
-    steep: Array
+    stiffness: Array
     rest: Array
     nodes: Records
     cells: Array
@@ -149,14 +149,14 @@ def _load_line(film: Film, mesh: Mesh, relaxation: LineRelaxation, place: Span, 
         at = i + MARGIN
         cells[at, EAST, lane] = half_x * (eps_x[j, i] + eps_x[j, i + 1])
         across = half_y * (2.0 * eps_y[j, i] + eps_y[j + 1, i] + eps_y[south, i])
-        cells[at, ACROSS, lane] = across + relaxation.steep[j, i]
+        cells[at, ACROSS, lane] = across + relaxation.stiffness[j, i]
         cells[at, MASS_P, lane] = film.drho[j, i] * film.h[j, i]
         cells[at, RHO, lane] = film.rho[j, i]
         cells[at, DIPOLE, lane] = relaxation.kind[j, i]
         cells[at, REST, lane] = rest[lane, i]
         cells[at, P, lane] = film.p[j, i]
-        dry = DRY if film.p[j, i] <= 0.0 and rest[lane, i] >= 0.0 else FREE
-        cells[at, STATE, lane] = KEPT if relaxation.frozen[j, i] else dry
+        state = CAVITATED if film.p[j, i] <= 0.0 and rest[lane, i] >= 0.0 else FREE
+        cells[at, STATE, lane] = KEPT if relaxation.frozen[j, i] else state
 
 
 @helper
@@ -204,7 +204,7 @@ def _fill_band(relaxation: LineRelaxation, mesh: Mesh, i: int) -> None:
 def _eliminate(nodes: Records, i: int) -> None:
     """Eliminate upstream unknowns: u_i + up_1 u_{i+1} + up_2 u_{i+2} = ``u`` of the record.
 
-    No pivoting. Where a node is dry the row reads u = -p, where it is kept u = 0.
+    No pivoting. Where a node is cavitated the row reads u = -p, where it is kept u = 0.
     """
     far, west_2, west, here = nodes[i], nodes[i + 1], nodes[i + 2], nodes[i + 3]
     free = here.state == FREE
@@ -216,7 +216,7 @@ def _eliminate(nodes: Records, i: int) -> None:
     rest = here.rest - l_3 * far.u - l_2 * west_2.u - l_1 * west.u
     here.up_1 = where(free, (here.east_1 - l_1 * west.up_2) * inverse, 0.0)
     here.up_2 = where(free, here.east_2 * inverse, 0.0)
-    here.u = where(free, rest * inverse, where(here.state == DRY, -here.p, 0.0))
+    here.u = where(free, rest * inverse, where(here.state == CAVITATED, -here.p, 0.0))
 
 
 @helper
@@ -235,20 +235,20 @@ def band_solve(nodes: Records, low: int, high: int) -> None:
 
 
 @helper
-def _dry_out(nodes: Records, i: int) -> tuple[bool, bool]:
+def _cavitate(nodes: Records, i: int) -> tuple[bool, bool]:
     """Cavitate the free lanes of negative pressure at node i.
 
     Return whether there was one, and whether any lane was cavitated already.
     """
     here = nodes[i + MARGIN]
     negative = (here.state == FREE) & (here.u < -here.p)
-    cavitated = here.state == DRY
-    here.state = where(negative, DRY, where(cavitated, WAS_DRY, here.state))
+    cavitated = here.state == CAVITATED
+    here.state = where(negative, CAVITATED, where(cavitated, WAS_CAVITATED, here.state))
     return any_of(negative), any_of(cavitated)
 
 
 @helper
-def _wet_again(nodes: Records, i: int) -> bool:
+def _refill(nodes: Records, i: int) -> bool:
     """Free the cavitated lanes with negative residual at node i; return whether there was one."""
     far, west_2, west = nodes[i], nodes[i + 1], nodes[i + 2]
     here, east, east_2 = nodes[i + 3], nodes[i + 4], nodes[i + 5]
@@ -261,9 +261,9 @@ def _wet_again(nodes: Records, i: int) -> bool:
         - here.east_1 * east.u
         - here.east_2 * east_2.u
     )
-    cavitated = here.state == WAS_DRY
+    cavitated = here.state == WAS_CAVITATED
     refills = cavitated & (rest < 0.0)
-    here.state = where(refills, FREE, where(cavitated, DRY, here.state))
+    here.state = where(refills, FREE, where(cavitated, CAVITATED, here.state))
     return any_of(refills)
 
 
@@ -279,9 +279,9 @@ def complementarity(nodes: Records, span: Span, last: int) -> Span:
         band_solve(nodes, low, high)
         changed = False
         for i in range(max(low - 2, 1), min(high + 3, last) + 1):
-            dried, cavitated = _dry_out(nodes, i)
-            changed = changed or dried
-            if cavitated and _wet_again(nodes, i):
+            negative, cavitated = _cavitate(nodes, i)
+            changed = changed or negative
+            if cavitated and _refill(nodes, i):
                 low, high, changed = min(low, i), max(high, i), True
         if not changed:
             return low, high

@@ -109,7 +109,7 @@ def diagonal(film: Film, mesh: Mesh, self_film: float, out: Array) -> None:
 def _line_norm(film: Film, mesh: Mesh, self_film: float, j: int, rest: Array) -> tuple[float, int]:
     """Return sum and count of the scaled residual of line ``j``; see `residual`.
 
-    The diagonal may be negative where the film is, before convergence.
+    Before convergence the diagonal may be negative, where the film is negative.
     """
     total, count = 0.0, 0
     for i in range(1, film.p.shape[1] - 1):
@@ -157,7 +157,7 @@ def residual(film: Film, mesh: Mesh, rhs: Array, self_film: float, out: Array) -
 def tangent_source(film: Film, mesh: Mesh, out: Array) -> None:
     """Write L(p) with ``eps_x, eps_y`` less L(p) with ``eps`` to ``out``, zero on the edges.
 
-    The right-hand side subtracts it (docs/theory/thermal.md, shear thinning).
+    It is the right-hand side f of the tangent equation (docs/theory/numerics-thermal.md, stress).
     """
     film, out = raw((film, out))
     clear(out)

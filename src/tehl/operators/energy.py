@@ -96,12 +96,12 @@ class FilmState:
             Least film thickness.
         """
         grid, fields, scales = self.grid, self.fields, self.film.scaled.scales
-        held = slice(0, pressure.shape[0])
-        fields.p[:, held], fields.h[:, held] = pressure.T, np.maximum(film.T, floor)
+        rows = slice(0, pressure.shape[0])
+        fields.p[:, rows], fields.h[:, rows] = pressure.T, np.maximum(film.T, floor)
         slope_x, slope_y = pressure_slopes(grid, self.film.scaled.groups, pressure)
-        fields.px[:, held], fields.py[:, held] = slope_x.T, slope_y.T
+        fields.px[:, rows], fields.py[:, rows] = slope_x.T, slope_y.T
         lubricant, si = self.film.scaled.problem.lubricant, scales.hertz_pressure * fields.p
-        fields.stress[:] = stress_unit(scales) / lubricant.shear.stress_scale(si)
+        fields.over_scale[:] = stress_unit(scales) / lubricant.shear.stress_scale(si)
         if self.model.terms.heat:
             fields.conductivity[:] = lubricant.conductivity_at(si) / self.film.ambient_conductivity
             mixed = self.model.terms.peclet / MIXED * fields.h**2

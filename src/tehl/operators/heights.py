@@ -1,6 +1,6 @@
 """Heights of rough surfaces on a hierarchy of grids, standing or moving, and their resolution.
 
-Theory in docs/theory/roughness.md and in numerics.md on rough surfaces.
+Theory in docs/theory/roughness.md and docs/theory/numerics-rough.md.
 """
 
 import math

@@ -24,7 +24,7 @@ class Influence:
     dx, dy : float
         Cell sides [a_x].
     factor : float
-        2 Pi / pi, the factor of the integral in the film equation (docs/theory/model.md) [-].
+        2 Pi / pi of the integral in docs/theory/model.md; its kappa is in ``dy`` = kappa dY [-].
     """
 
     def __init__(self, dx: float, dy: float, factor: float) -> None:

@@ -3,7 +3,7 @@
 Changes v of the pressures and c of the rigid approach change the film by K v + c, with the elastic
 deflection K, and the operator L of `tehl.kernels.reynolds` by
 
-    L_P v + L_H (K v + c)                              (docs/theory/numerics.md, Newton's method).
+    L_P v + L_H (K v + c)                            (docs/theory/numerics-rough.md, Newton).
 
 L_P and L_H are sparse; K couples all nodes and is applied, never assembled.
 """
@@ -53,8 +53,8 @@ def neighbour(
     j, i = np.nonzero(inner)
     there = np.abs(j + rows) if grid.mirror else j + rows
     column = i + columns
-    held = (there >= 0) & (there < ny) & (column >= 0) & (column < nx)
-    places = (j[held] * nx + i[held], there[held] * nx + column[held])
+    inside = (there >= 0) & (there < ny) & (column >= 0) & (column < nx)
+    places = (j[inside] * nx + i[inside], there[inside] * nx + column[inside])
     weights = np.full(places[0].size, weight)
     return csr_matrix((weights, places), shape=(ny * nx, ny * nx))
 

@@ -1,4 +1,4 @@
-"""Discrete Reynolds equation: weights of the stencil, steady and in a time step (numerics.md).
+"""Discrete Reynolds equation: weights of the stencil, steady and in a time step.
 
 (eps P_x)_x + (eps P_y)_y / kappa^2 - (rho H)_x - (rho H)_t = 0,  x, y, t in a_x, a_y, a_x/u_m.
 """
@@ -44,8 +44,8 @@ def step_stencil(mesh: Mesh, time_step: float) -> Mesh:
 
     Wedge and squeeze are one derivative of rho H along the mean motion, second-order backward:
     3/2 of rho H here and now, -2 and 1/2 of it one and two steps before at the nodes upstream
-    (docs/theory/numerics.md). Only the first is unknown. Its weight is the same on all grids of the
-    hierarchy, which take the same time step.
+    (docs/theory/numerics-transient.md). Only the first is unknown. Its weight is the same on all
+    grids, which take the same time step.
     """
     return mesh._replace(w0=1.5 / time_step, w1=0.0, w2=0.0)
 

@@ -1,6 +1,6 @@
 """History of a heated film in a transient run: temperatures, pressures and surface heat.
 
-Time derivatives are backward differences of second order (docs/theory/thermal.md, transient films).
+Time derivatives are backward differences of second order (docs/theory/numerics-thermal.md).
 """
 
 from collections.abc import Sequence

@@ -80,7 +80,7 @@ class LineSmoother:
         others = (influence(line + 1, slice(0, point.size)) for line in range(relaxation.lines))
         point += 2.0 * sum(others, np.zeros(point.size))  # lines on both sides move along
         self.frozen = np.zeros(grid.shape, np.uint8)
-        self.steep = np.zeros(grid.shape)
+        self.stiffness = np.zeros(grid.shape)
         rest, nodes, cells = kernels.workspace(grid.nx)
         self.workspace = kernels.LineRelaxation(
             xi=relaxation.threshold,
@@ -91,7 +91,7 @@ class LineSmoother:
             kind=np.zeros(grid.shape, np.uint8),
             delta=np.zeros(grid.shape),
             frozen=self.frozen,
-            steep=self.steep,
+            stiffness=self.stiffness,
             rest=rest,
             nodes=nodes,
             cells=cells,
@@ -101,7 +101,7 @@ class LineSmoother:
     def sweep(self, film: Film, mesh: Mesh, rhs: Array, flow: FlowTable) -> None:
         """Relax ``film.p`` in place."""
         if self.is_stiff:
-            kernels.stiffen(film, mesh, flow.table, flow.step, self.steep)
+            kernels.stiffen(film, mesh, flow.table, flow.step, self.stiffness)
         kernels.relax_lines(film, mesh, rhs, self.workspace)
 
 

@@ -194,8 +194,8 @@ class Coupling:
         """
         if self.state is None:
             return None
-        held = self.state.view("held") / self.state.view("density")
-        return np.ascontiguousarray(1.0 - held.T)
+        part = self.state.view("mean_density") / self.state.view("density")
+        return np.ascontiguousarray(1.0 - part.T)
 
     def advance(self, levels: Sequence[Level]) -> None:
         """Accept temperatures, stresses and factors as those of the last time step."""

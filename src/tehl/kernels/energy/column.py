@@ -1,6 +1,6 @@
 """Energy equation in the columns of a block: one linear system across the film per row.
 
-    c rho (u T_x + v T_y/kappa + omega/h T_zeta) = k T_zeta,zeta/h^2 + compression + shear
+    Pe c rho (u T_x + v T_y/kappa + omega/h T_zeta) = k T_zeta,zeta/h^2 + compression + shear
 
 times h^2/k, with the upstream differences and the derivative in time of second order
 (docs/theory/thermal.md, energy). The unknowns are the layers of the column; upstream neighbours
@@ -10,10 +10,10 @@ along x are known, those along y and downstream are of the last sweep.
 from tehl.kernels.compiled import helper
 from tehl.kernels.energy.flow import cross_flow, reach
 from tehl.kernels.energy.records import (
-    ASIDE,
     BLOCK,
     GHOSTS,
     NEW_T,
+    SIDEWAYS,
     Across,
     Fields,
     Model,
@@ -28,7 +28,7 @@ from tehl.kernels.raw import lanes
 from tehl.typing import Array, Record, Records
 
 CONDUCTION = 8.0  # a little less than pi^2, the slowest decay across the film
-HELD_BY_WALLS = 1.0  # over the squared distance to both walls: a little more than conduction
+TO_WALLS = 1.0  # over the squared distance to both walls: a little more than conduction
 
 
 @helper
@@ -41,7 +41,7 @@ def _shares(across: Across, line: Record, layers: Records) -> None:
     total = 0.0 * line.p
     for k in range(layers.shape[0]):
         here = layers[k]
-        total = total + across.weights[k] * here.fluidity * here.power
+        total = total + across.weights[k] * here.fluidity * here.exponent
     per_total, pull = 1.0 / total, 0.0 * total
     for k in range(layers.shape[0]):
         here = layers[k]
@@ -108,7 +108,7 @@ def _convection(
     more, brought = along_y(terms, fields.temperature, sideways, here.v, ghosts)
     diagonal = diagonal + more
     rest = rest + brought
-    here.aside = where(here.v > 0.0, sideways, -sideways)
+    here.sideways = where(here.v > 0.0, sideways, -sideways)
     if terms.over_t > 0.0:
         diagonal = diagonal + dense * terms.over_t
         rest = rest + dense * fields.past[i, k, lanes(j)]
@@ -121,9 +121,9 @@ def _inner_row(model: Model, fields: Fields, work: Work, place: Place, k: int) -
 
     The shear heat is linearised: a warmer layer shears faster, and at a given sliding speed the
     stress falls in all layers (`_shares`):
-    ``dq_k = q_k (gamma_k dT_k - (1 + n_k) sum_m s_m dT_m)``.
-    The first part is limited to the conduction; a banded matrix has ``-q_k gamma_k dT_k`` instead.
-    The converged solution does not depend on it.
+    ``dq_k = q_k (theta_k gamma_k dT_k - (n_k + theta_k) sum_m s_m dT_m)``, exact with theta = 1;
+    theta limits the first part to the conduction. A banded matrix has ``-q_k gamma_k dT_k``. The
+    converged solution does not depend on it.
     """
     across, line, layers = model.across, work.lines[place.block], work.layers[place.block]
     here, matrix, zeta, rows = layers[k], work.matrix, across.zeta, lanes(0)
@@ -132,24 +132,22 @@ def _inner_row(model: Model, fields: Fields, work: Work, place: Place, k: int) -
     at = (place.i, k, BLOCK * place.block)
     diagonal, rest = _convection(model, fields, line, here, at)
     heat = line.h2_over_k * shear
-    steep = here.slope * heat
-    part = where(steep > 0.0, 1.0, 1.0)
-    held = 0.0 * heat
+    gain, part, shared = here.slope * heat, 1.0 + 0.0 * heat, 0.0 * heat
     if full:
-        part = -1.0 * lesser(CONDUCTION / (steep + TINY), 1.0)
-        held = heat * (here.power - part)
+        part = -1.0 * lesser(CONDUCTION / (gain + TINY), 1.0)
+        shared = heat * (here.exponent - part)
     capacity = model.terms.peclet * line.capacity
-    omega = here.omega * capacity * line.h / line.conductivity
+    through = here.through * capacity * line.h / line.conductivity
     rest = rest + heat + line.h2_over_k * compression
-    work.rhs[k, rows] = rest + part * steep * here.t + held * line.pull
+    work.rhs[k, rows] = rest + part * gain * here.t + shared * line.pull
     first, stop = reach(across, k)
     for m in range(first, stop):
-        flow_and_heat = omega * across.d1[k, m] - across.d2[k, m]
-        matrix[k, m, rows] = flow_and_heat + held * layers[m].share
-    matrix[k, k, rows] = matrix[k, k, rows] + diagonal + part * steep
-    to_walls = HELD_BY_WALLS / (zeta[k] * (1.0 - zeta[k])) ** 2
-    out = diagonal + abs(omega) * (2.0 / (zeta[k + 1] - zeta[k - 1])) + to_walls
-    here.aside = here.aside / out
+        flow_and_heat = through * across.d1[k, m] - across.d2[k, m]
+        matrix[k, m, rows] = flow_and_heat + shared * layers[m].share
+    matrix[k, k, rows] = matrix[k, k, rows] + diagonal + part * gain
+    to_walls = TO_WALLS / (zeta[k] * (1.0 - zeta[k])) ** 2
+    out = diagonal + abs(through) * (2.0 / (zeta[k + 1] - zeta[k - 1])) + to_walls
+    here.sideways = here.sideways / out
 
 
 @helper
@@ -198,7 +196,7 @@ def solve_block(model: Model, work: Work, layers: Records) -> None:
 
 
 @helper
-def carry_aside(work: Work) -> None:
+def carry_sideways(work: Work) -> None:
     """Add to each row the change of the row upstream along y, weighted by the inflow.
 
     As columns take their neighbours along y from the last sweep, changes would move by one row per
@@ -214,7 +212,7 @@ def carry_aside(work: Work) -> None:
             row = count if step > 0 else blocks * LANES - 1 - count
             block, lane = row // LANES, row % LANES
             for k in range(1, n - 1):
-                part = step * numbers[block, k, ASIDE, lane]
+                part = step * numbers[block, k, SIDEWAYS, lane]
                 new = numbers[block, k, NEW_T, lane]
                 if part > 0.0:
                     new += part * changes[k]

@@ -29,7 +29,7 @@ def _fluidities(layers: Records) -> None:
     for k in range(layers.shape[0]):
         here = layers[k]
         here.fluidity = exponential(-here.ln_eta)
-        here.power = 1.0
+        here.exponent = 1.0
 
 
 @helper
@@ -141,14 +141,14 @@ def complete_mass(terms: Terms, work: Work, i: int) -> None:
 
 @helper
 def cross_flow(model: Model, work: Work, place: Place) -> None:
-    """Fill ``omega`` with h rho omega, the mass flux through the layers.
+    """Fill ``through`` with rho omega, the mass flux through the layers.
 
     ``rho omega = -(h int rho u)_x - (h int rho v)_y/kappa`` less zeta times its value at the other
     wall, so that it vanishes at both.
     """
     layers, terms, zeta = work.layers[place.block], model.terms, model.across.zeta
     n, i, j = layers.shape[0], place.i, LANES * place.block
-    end = 0.0 * layers[0].omega
+    end = 0.0 * layers[0].through
     for k in range(n):
         now = work.mass[i % 3, k, lanes(j)]
         old, older = work.mass[(i + 2) % 3, k, lanes(j)], work.mass[(i + 1) % 3, k, lanes(j)]
@@ -156,10 +156,10 @@ def cross_flow(model: Model, work: Work, place: Place) -> None:
         end = -terms.over_x * (terms.w0 * now + terms.w1 * old + terms.w2 * older)
         end = end - 0.5 * terms.over_y * sideways
         here = layers[k]
-        here.omega = end
+        here.through = end
     for k in range(n):
         here = layers[k]
-        here.omega = here.omega - zeta[k] * end
+        here.through = here.through - zeta[k] * end
 
 
 @helper

@@ -6,7 +6,7 @@ in plain numpy.
 """
 
 from tehl.kernels.compiled import helper, kernel
-from tehl.kernels.energy.column import carry_aside, inner_rows, solve_block
+from tehl.kernels.energy.column import carry_sideways, inner_rows, solve_block
 from tehl.kernels.energy.flow import (
     complete_mass,
     flow,
@@ -45,7 +45,7 @@ def _load_block(model: Model, fields: Fields, work: Work, place: Place) -> None:
         line.p_t = fields.pressing[i, rows]
     line.capacity = fields.capacity[i, rows]
     line.conductivity = conductivity
-    line.per_stress = fields.stress[i, rows]
+    line.over_scale = fields.over_scale[i, rows]
     line.tau_x = fields.tau_x[i, rows]
     line.tau_y = fields.tau_y[i, rows]
     for k in range(layers.shape[0]):
@@ -124,7 +124,7 @@ def _follow_temperature(model: Model, fields: Fields, work: Work, place: Place) 
         thinner = here.slope * step
         here.ln_eta = limited(here.ln_eta - thinner)
         here.rho = here.rho + here.rho_t * step
-        growth = thinner - (here.power - 1.0) * fall
+        growth = thinner - (here.exponent - 1.0) * fall
         growth = exponential(lesser(greater(growth, -LARGEST_GROWTH), LARGEST_GROWTH))
         here.fluidity = here.fluidity * growth
         here.tangent_x = here.tangent_x * growth
@@ -146,7 +146,7 @@ def _march_station(
         complete_mass(model.terms, work, i)
         for block in range(blocks):
             _heat_block(model, fields, surfaces, work, Place(i, block))
-        carry_aside(work)
+        carry_sideways(work)
     for block in range(blocks):
         line, layers = work.lines[block], work.layers[block]
         if model.terms.heat:

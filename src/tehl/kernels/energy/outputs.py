@@ -17,7 +17,7 @@ STRAIGHT = 0.03  # excess of the tangent along y that does not change convergenc
 
 @helper
 def _reynolds_fields(model: Model, fields: Fields, layers: Records, place: Place) -> None:
-    """Write mobility and density of the Reynolds equation, and how steeply the mobility changes.
+    """Write mobility and density of the Reynolds equation, mean density, 1/n and viscosity ratio.
 
     The density is that of the Couette flux over h u_m, ``rho* = int rho (u1 + slide I0/I0(1))``.
     """
@@ -26,14 +26,14 @@ def _reynolds_fields(model: Model, fields: Fields, layers: Records, place: Place
     middle = layers[n // 2]
     fields.mobility[i, rows] = mobility(across, layers)
     per_i0 = terms.slide / layers[n - 1].i0
-    density, held = 0.0 * per_i0, 0.0 * per_i0
+    density, mean = 0.0 * per_i0, 0.0 * per_i0
     for k in range(n):
         here = layers[k]
         density = density + across.weights[k] * here.rho * (terms.speed + per_i0 * here.i0)
-        held = held + across.weights[k] * here.rho
+        mean = mean + across.weights[k] * here.rho
     fields.density[i, rows] = density
-    fields.held[i, rows] = held
-    fields.steep[i, rows] = 1.0 / middle.power
+    fields.mean_density[i, rows] = mean
+    fields.over_exponent[i, rows] = 1.0 / middle.exponent
     fields.effective[i, rows] = exponential(-middle.ln_eta) / middle.fluidity
 
 
@@ -71,7 +71,7 @@ def _mean_fields(model: Model, fields: Fields, line: Record, layers: Records, pl
     fluid = exponential(-first.ln_eta)
     fields.mobility[i, rows] = first.rho * fluid / fields.effective[i, rows]
     fields.density[i, rows] = first.rho
-    fields.held[i, rows] = first.rho
+    fields.mean_density[i, rows] = first.rho
 
 
 @helper

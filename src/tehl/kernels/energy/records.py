@@ -23,7 +23,7 @@ LINE = np.dtype(
     [
         (name, np.float64, (LANES,))
         for name in (
-            *("p", "h", "p_x", "p_y", "p_t", "capacity", "conductivity", "h2_over_k", "per_stress"),
+            *("p", "h", "p_x", "p_y", "p_t", "capacity", "conductivity", "h2_over_k", "over_scale"),
             *("tau_x", "tau_y", "thins", "askew", "pull"),
         )
     ]
@@ -31,23 +31,23 @@ LINE = np.dtype(
 )
 """A block of rows: pressure, film, slopes of the pressure along x, y and in time, heat capacity and
 conductivity over those at ambient pressure, h^2/k, one over the stress scale; mid-film stress;
-whether the oil thins; largest relative excess of the tangent fluidity along y; relative fall of the
-stress (`shares`); coefficients of the laws at these pressures."""
+whether the oil thins; largest relative excess of the tangent fluidity along y; sum of share times
+temperature; coefficients of the laws at these pressures."""
 LAYER = np.dtype(
     [
         (name, np.float64, (LANES,))
         for name in (
-            *("t", "new_t", "ln_eta", "slope", "rho", "rho_t", "u", "v", "omega"),
-            *("fluidity", "power", "tangent_x", "tangent_y", "integrand", "i0", "i1"),
-            *("mass_x", "mass_y", "share", "aside"),
+            *("t", "new_t", "ln_eta", "slope", "rho", "rho_t", "u", "v", "through"),
+            *("fluidity", "exponent", "tangent_x", "tangent_y", "integrand", "i0", "i1"),
+            *("mass_x", "mass_y", "share", "sideways"),
         )
     ]
 )
-T, NEW_T, ASIDE = (list(LAYER.fields or ()).index(name) for name in ("t", "new_t", "aside"))
 """A layer of a block: temperature and the new one (later the change), ln eta and -dln(eta)/dT,
-density and its slope, velocities along x, y and h rho omega through the layer; fluidity, power n of
-the rate in the stress, fluidities of a small change along x and y; moments of ``integrand`` from
-the wall to here; mass fluxes; share in the fall of the stress; convection along y."""
+density and its slope, velocities along x and y, mass flux rho omega through the layer; fluidity,
+n = dln(rate)/dln(stress), fluidities of a small change along x and y; moments of ``integrand``
+from the wall to here; mass fluxes; share in the fall of the stress; convection along y."""
+T, NEW_T, SIDEWAYS = ((LAYER.names or ()).index(name) for name in ("t", "new_t", "sideways"))
 
 
 class Across(NamedTuple):
@@ -165,14 +165,13 @@ class Fields(NamedTuple):
     """Fields of the film.
 
     In: ``p, h, px, py`` (nx, ny), ``capacity, conductivity`` ratios to those at ambient pressure,
-    ``stress`` one over the scale of the shear law. In and out: ``temperature`` (nx + 4, n, ny + 4),
+    ``over_scale`` one over the stress scale. In and out: ``temperature`` (nx + 4, n, ny + 4),
     ``tau_x, tau_y`` mid-film stress (nx, ny). In, in a transient run: ``past`` (nx, n, ny)
     contribution of former temperatures to the time derivative, ``pressing`` (nx, ny) time
-    derivative of the pressure. Out: ``mobility, density`` of the Reynolds equation, ``held`` the
-    mean density across the film, ``enthalpy_x, enthalpy_y`` fluxes, ``shear, work`` powers,
-    ``effective`` viscosity ratio, ``steep``: derivative of the logarithm of the mobility by that of
-    the Newtonian one, ``stretch_x, stretch_y``: mobility of a small change along x or y over
-    ``mobility``.
+    derivative of the pressure. Out: ``mobility, density`` of the Reynolds equation,
+    ``mean_density`` across the film, ``enthalpy_x, enthalpy_y`` fluxes, ``shear, work`` powers,
+    ``effective`` viscosity ratio, ``over_exponent`` 1/n at mid-film (`Heated`), ``stretch_x,
+    stretch_y``: mobility of a small change along x or y over ``mobility``.
     """
 
     p: Array
@@ -181,19 +180,19 @@ class Fields(NamedTuple):
     py: Array
     capacity: Array
     conductivity: Array
-    stress: Array
+    over_scale: Array
     temperature: Array
     tau_x: Array
     tau_y: Array
     mobility: Array
     density: Array
-    held: Array
+    mean_density: Array
     enthalpy_x: Array
     enthalpy_y: Array
     shear: Array
     work: Array
     effective: Array
-    steep: Array
+    over_exponent: Array
     stretch_x: Array
     stretch_y: Array
     past: Array

@@ -54,7 +54,7 @@ def set_thinning(model: Model, line: Record) -> bool:
     if not model.laws.newtonian:
         for arm in (-0.5, 0.5):
             x, y = stress_at(model.terms, line, arm)
-            most = max(most, largest(line.per_stress * root(x * x + y * y)))
+            most = max(most, largest(line.over_scale * root(x * x + y * y)))
     thins = most > model.laws.gentle
     line.thins = 1.0 if thins else 0.0
     return thins
@@ -88,7 +88,7 @@ def newton_step(model: Model, line: Record, layers: Records) -> float:
     integrated across. A step is at most the scale plus half the
     stress. The fluidity is Newtonian. Return the largest step over the scale.
     """
-    scale, sliding = line.per_stress, model.terms.slide / line.h
+    scale, sliding = line.over_scale, model.terms.slide / line.h
     zero = 0.0 * scale
     rate_x, rate_y, xx, xy, yy = zero, zero, zero, zero, zero
     for k in range(layers.shape[0]):
@@ -116,7 +116,7 @@ def newton_step(model: Model, line: Record, layers: Records) -> float:
 def _longest(line: Record) -> Lanes:
     """Return the longest step of the stress, over its scale."""
     x, y = line.tau_x, line.tau_y
-    return 1.0 + 0.5 * line.per_stress * root(x * x + y * y)
+    return 1.0 + 0.5 * line.over_scale * root(x * x + y * y)
 
 
 @helper
@@ -124,8 +124,8 @@ def _take_step(model: Model, line: Record, dx: Lanes, dy: Lanes, part: Lanes) ->
     """Take a part of a step; the stress stays below `BEYOND_LIMIT` times a limiting stress."""
     x, y = line.tau_x - part * dx, line.tau_y - part * dy
     if model.laws.uniform:
-        held = lesser(BEYOND_LIMIT / (line.per_stress * root(x * x + y * y) + TINY), 1.0)
-        x, y = held * x, held * y
+        factor = lesser(BEYOND_LIMIT / (line.over_scale * root(x * x + y * y) + TINY), 1.0)
+        x, y = factor * x, factor * y
     line.tau_x = x
     line.tau_y = y
 
@@ -134,9 +134,8 @@ def _take_step(model: Model, line: Record, dx: Lanes, dy: Lanes, part: Lanes) ->
 def thin(model: Model, line: Record, layers: Records, steps: int) -> None:
     """Find the mid-film stress in at most ``steps`` Newton steps, and multiply the fluidity by F.
 
-    ``power`` is n = dln(rate)/dln(stress); ``tangent_x`` and ``tangent_y`` the fluidity of a small
-    change of the stress along x or y, ``askew`` the largest relative excess of the latter over the
-    fluidity.
+    ``exponent`` is n = dln(rate)/dln(stress); ``tangent_x``, ``tangent_y`` the fluidity of a small
+    change of the stress along x or y; ``askew`` the largest excess of the latter over the fluidity.
     """
     for _ in range(steps):
         if newton_step(model, line, layers) < SETTLED:
@@ -147,10 +146,10 @@ def thin(model: Model, line: Record, layers: Records, steps: int) -> None:
         here = layers[k]
         x, y = stress_at(model.terms, line, _thinning_arm(model, k))
         square = x * x + y * y
-        thinner, bend = thinning(model.laws, root(square) * line.per_stress)
+        thinner, bend = thinning(model.laws, root(square) * line.over_scale)
         fluid, more = here.fluidity * thinner, along * bend / (square + TINY)
         here.fluidity = fluid
-        here.power = 1.0 + bend
+        here.exponent = 1.0 + bend
         here.tangent_x = fluid * (1.0 + more * x * x)
         here.tangent_y = fluid * (1.0 + more * y * y)
         askew = greater(askew, more * y * y)
