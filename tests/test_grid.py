@@ -1,4 +1,4 @@
-"""Grids and their hierarchy."""
+"""Grids and their halved_grids."""
 
 from itertools import pairwise
 
@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tehl.grid import Grid, can_mirror, hierarchy
+from tehl.grid import Grid, can_mirror, halved_grids
 from tehl.options import Domain
 from tests.reference import DOMAIN
 
@@ -30,7 +30,7 @@ def test_nodes_span_the_domain_and_the_mirrored_half_starts_on_the_axis():
 @given(COARSENABLE, COARSENABLE)
 def test_each_grid_keeps_every_second_node_of_the_finer_one(nx, ny):
     full = grid(nx, ny, mirror=False)
-    levels = hierarchy(full)
+    levels = halved_grids(full)
     assert levels[-1] is full
     for coarse, fine in pairwise(levels):
         np.testing.assert_allclose(coarse.x, fine.x[::2], atol=1e-12)
@@ -39,7 +39,7 @@ def test_each_grid_keeps_every_second_node_of_the_finer_one(nx, ny):
 
 @given(COARSENABLE, COARSENABLE)
 def test_every_mirrored_grid_has_a_row_on_the_axis(nx, ny):
-    for level in hierarchy(grid(nx, ny)):
+    for level in halved_grids(grid(nx, ny)):
         assert (level.ny - 1) % 2 == 0
         assert level.shape[0] == (level.ny - 1) // 2 + 1
 
@@ -66,5 +66,5 @@ def test_only_a_symmetric_domain_is_mirrored():
 
 
 def test_the_coarsest_grid_has_sixteen_to_thirty_one_intervals():
-    assert [g.nx for g in hierarchy(grid(513, 513))] == [17, 33, 65, 129, 257, 513]
-    assert hierarchy(grid(49 * 4 - 3, 193))[0].nx == 25
+    assert [g.nx for g in halved_grids(grid(513, 513))] == [17, 33, 65, 129, 257, 513]
+    assert halved_grids(grid(49 * 4 - 3, 193))[0].nx == 25

@@ -72,11 +72,11 @@ def can_mirror(shape: tuple[int, int], domain: Domain) -> bool:
     ``shape`` is (ny, nx) of the finest grid; y = 0 must be a row of the coarsest one too.
     """
     ny, nx = shape
-    coarsest = hierarchy(Grid(nx=nx, ny=ny, domain=domain, mirror=False))[0]
+    coarsest = halved_grids(Grid(nx=nx, ny=ny, domain=domain, mirror=False))[0]
     return (coarsest.ny - 1) % 2 == 0 and domain.y[0] == -domain.y[1]
 
 
-def hierarchy(finest: Grid) -> list[Grid]:
+def halved_grids(finest: Grid) -> list[Grid]:
     """Return the grids by halving, coarsest first."""
     grids = [finest]
     while grids[0].can_coarsen():

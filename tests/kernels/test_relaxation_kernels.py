@@ -6,9 +6,9 @@ import pytest
 from tehl.kernels import properties, relaxation, reynolds
 from tehl.kernels.lanes import LANES
 from tehl.kernels.relaxation import LineRelaxation
-from tehl.kernels.reynolds import Mesh
+from tehl.kernels.reynolds import Stencil
 from tests.kernels.from_python import from_python
-from tests.kernels.reynolds_twin import isotropic, mesh_of, operator_twin, random_film
+from tests.kernels.reynolds_twin import isotropic, operator_twin, random_film, stencil_of
 
 MIRROR = pytest.mark.parametrize("mirror", [0, 1])
 mark_dipoles, set_up, band_solve, complementarity, relax_batch, add_dipoles, wet_range = map(
@@ -76,12 +76,12 @@ def random_band(nx, seed=0):
 
 def test_nodes_of_small_conductance_far_from_cavities_relax_as_dipoles():
     shape = (7, 9)
-    film, mesh = random_film(shape), mesh_of(mirror=0)
+    film, stencil = random_film(shape), stencil_of(mirror=0)
     film.eps[:] = 1e-6
     film.eps[:, 6] = 1.0
     film.p[1, 1] = 0.0
     setting = relaxation_of(shape, xi=1.0)
-    mark_dipoles(film, mesh, setting)
+    mark_dipoles(film, stencil, setting)
     expected = np.zeros(shape, np.uint8)
     expected[1:-1, 1:5] = 1
     expected[1, 1] = expected[1, 2] = expected[2, 1] = 0
@@ -95,10 +95,10 @@ def test_the_band_is_the_derivative_of_the_operator(dipole, mirror):
     if mirror:
         j = 0
     nx = shape[1]
-    film, mesh = random_film(shape, 4), mesh_of(mirror)
+    film, stencil = random_film(shape, 4), stencil_of(mirror)
     setting = relaxation_of(shape, influence=0.4)
     setting.kind[j, 1:-1] = dipole
-    set_up(film, mesh, setting, (j, 1), (1, nx - 2))
+    set_up(film, stencil, setting, (j, 1), (1, nx - 2))
     band = dense_band(setting.nodes, 0)
     shapes = setting.dipole if dipole else setting.point
     for k in range(1, nx - 1):
@@ -117,7 +117,7 @@ def test_the_band_is_the_derivative_of_the_operator(dipole, mirror):
                     h=film.h + t * lift,
                     rho=film.rho + t * film.drho * change,
                 ),
-                mesh,
+                stencil,
             )
 
         derivative = 0.5 * (moved(1.0) - moved(-1.0))[j, 1:-1]
@@ -167,7 +167,7 @@ def test_policy_iteration_ends_with_complementary_pressure_and_residual(seed):
 @MIRROR
 @pytest.mark.parametrize("shape", [(25, 33), (20, 14)])
 def test_lines_relaxed_side_by_side_equal_lines_relaxed_one_by_one(shape, mirror):
-    film, mesh = random_film(shape, 5), mesh_of(mirror)
+    film, stencil = random_film(shape, 5), stencil_of(mirror)
     rng = np.random.default_rng(6)
     film.p[rng.random(shape) < 0.2] = 0.0
     film.p[:, -6:] = 0.0
@@ -176,13 +176,13 @@ def test_lines_relaxed_side_by_side_equal_lines_relaxed_one_by_one(shape, mirror
     setting = relaxation_of(shape, xi=0.1, omega=(0.8, 0.6), influence=0.1)
     setting.frozen[rng.random(shape) < 0.1] = 1
     one = film._replace(p=film.p.copy())
-    relaxation.relax_lines(film, mesh, rhs, setting)
+    relaxation.relax_lines(film, stencil, rhs, setting)
     assert setting.kind.any()
     setting.delta[:] = 0.0
     first = 0 if mirror else 1
     for colour in range(2):
         for j in range(first + colour, shape[0] - 1, 2):
-            relax_batch(one, mesh, rhs, setting, (j, 1))
+            relax_batch(one, stencil, rhs, setting, (j, 1))
     add_dipoles(one.p, setting.delta, mirror)
     np.testing.assert_allclose(film.p, one.p, rtol=1e-10, atol=1e-12)
 
@@ -193,20 +193,20 @@ def test_relaxation_reduces_the_residual_of_a_linear_problem(mirror):
     film = isotropic(*(np.ones(shape) for _ in range(5)))
     film.drho[:] = 0.0
     film.p[:, 1:-1] += np.random.default_rng(7).random((17, 15))
-    mesh = Mesh(64.0, 64.0, 0.0, 0.0, 0.0, mirror)
+    stencil = Stencil(64.0, 64.0, 0.0, 0.0, 0.0, mirror)
     rhs = np.full(shape, -5.0)
     setting, out = relaxation_of(shape), np.empty(shape)
-    before = reynolds.residual(film, mesh, rhs, 0.0, out)
+    before = reynolds.residual(film, stencil, rhs, 0.0, out)
     for _ in range(4):
-        relaxation.relax_lines(film, mesh, rhs, setting)
-    assert reynolds.residual(film, mesh, rhs, 0.0, out) < 0.15 * before
+        relaxation.relax_lines(film, stencil, rhs, setting)
+    assert reynolds.residual(film, stencil, rhs, 0.0, out) < 0.15 * before
 
 
 def test_a_line_without_oil_to_move_is_left_alone():
     shape = (5, 12)
-    film, mesh = isotropic(*(np.ones(shape) for _ in range(5))), mesh_of(mirror=0)
+    film, stencil = isotropic(*(np.ones(shape) for _ in range(5))), stencil_of(mirror=0)
     film.p[:] = 0.0
-    relaxation.relax_lines(film, mesh, np.ones(shape), relaxation_of(shape))
+    relaxation.relax_lines(film, stencil, np.ones(shape), relaxation_of(shape))
     assert not film.p.any()
 
 
@@ -219,11 +219,11 @@ def test_a_broken_pressure_is_relaxed_as_a_wet_one():
 
 def test_frozen_nodes_keep_their_pressure():
     shape = (9, 13)
-    film, mesh = random_film(shape, 8), mesh_of(mirror=1)
+    film, stencil = random_film(shape, 8), stencil_of(mirror=1)
     setting = relaxation_of(shape)
     setting.frozen[2:5, 3:7] = 1
     before = film.p.copy()
-    relaxation.relax_lines(film, mesh, np.zeros(shape), setting)
+    relaxation.relax_lines(film, stencil, np.zeros(shape), setting)
     np.testing.assert_array_equal(film.p[2:5, 3:7], before[2:5, 3:7])
     assert film.p.min() >= 0.0
     assert (film.p != before).any()
@@ -236,7 +236,7 @@ def test_the_stiffness_of_a_hollow_is_the_slope_of_the_flow_into_it(mirror):
     rows = np.arange(4001) * step
     mobility, ones = np.exp(-decay * rows), np.ones_like(rows)
     table = np.stack([mobility, -decay * step * mobility, ones, 0.0 * ones], axis=1)
-    mesh, p = mesh_of(mirror), 1.0 + 0.1 * np.random.default_rng(3).random((7, 8))
+    stencil, p = stencil_of(mirror), 1.0 + 0.1 * np.random.default_rng(3).random((7, 8))
     p[3, 4] = 0.3
     fields = (np.empty_like(p) for _ in range(3))
     film, flows, nudge = isotropic(p, np.ones_like(p), *fields), [], 1e-5
@@ -245,21 +245,21 @@ def test_the_stiffness_of_a_hollow_is_the_slope_of_the_flow_into_it(mirror):
         moved[3, 4] += sign * nudge
         properties.properties(film._replace(p=moved), table, step, 0.0)
         out = np.empty_like(p)
-        reynolds.operator(film, mesh, out)  # the pressure itself stays
+        reynolds.operator(film, stencil, out)  # the pressure itself stays
         flows.append(out[3, 4])
     properties.properties(film, table, step, 0.0)
     stiffness = np.empty_like(p)
-    relaxation.stiffen(film, mesh, table, step, stiffness)
+    relaxation.stiffen(film, stencil, table, step, stiffness)
     assert stiffness[3, 4] == pytest.approx((flows[0] - flows[1]) / (2 * nudge), rel=1e-2)
     assert (stiffness >= 0.0).all()
 
 
 def test_a_stiff_node_moves_by_less():
-    shape, mesh = (7, 8), mesh_of(0)
+    shape, stencil = (7, 8), stencil_of(0)
     film, changes = random_film(shape), []
     for stiffness in (0.0, 50.0):
         p, setting = film.p.copy(), relaxation_of(shape)
         setting.stiffness[3, 4] = stiffness
-        relaxation.relax_lines(film._replace(p=p), mesh, np.zeros(shape), setting)
+        relaxation.relax_lines(film._replace(p=p), stencil, np.zeros(shape), setting)
         changes.append(abs(p[3, 4] - film.p[3, 4]))
     assert 0.0 < changes[1] < changes[0]

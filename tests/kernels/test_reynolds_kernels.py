@@ -4,28 +4,28 @@ import numpy as np
 import pytest
 
 from tehl.kernels import properties, reynolds
-from tests.kernels.reynolds_twin import isotropic, mesh_of, operator_twin, random_film
+from tests.kernels.reynolds_twin import isotropic, operator_twin, random_film, stencil_of
 
 MIRROR = pytest.mark.parametrize("mirror", [0, 1])
 
 
 @MIRROR
 def test_the_operator_equals_its_numpy_twin(mirror):
-    film, mesh = random_film((7, 11)), mesh_of(mirror)
+    film, stencil = random_film((7, 11)), stencil_of(mirror)
     out = np.full((7, 11), 9.0)
-    reynolds.operator(film, mesh, out)
-    np.testing.assert_allclose(out, operator_twin(film, mesh), rtol=1e-12, atol=1e-11)
+    reynolds.operator(film, stencil, out)
+    np.testing.assert_allclose(out, operator_twin(film, stencil), rtol=1e-12, atol=1e-11)
 
 
 @MIRROR
 def test_the_residual_counts_wet_nodes_and_those_that_ought_to_be(mirror):
     shape = (7, 11)
-    film, mesh = random_film(shape, 1), mesh_of(mirror)
+    film, stencil = random_film(shape, 1), stencil_of(mirror)
     film.p[2:4, 5:9] = 0.0
     rhs = 100.0 * np.random.default_rng(2).standard_normal(shape)
     out = np.empty(shape)
-    mean = reynolds.residual(film, mesh, rhs, 0.3, out)
-    r = rhs - operator_twin(film, mesh)
+    mean = reynolds.residual(film, stencil, rhs, 0.3, out)
+    r = rhs - operator_twin(film, stencil)
     inner = np.zeros(shape, bool)
     inner[0 if mirror else 1 : -1, 1:-1] = True
     wet = inner & (film.p > 0.0)
@@ -34,7 +34,7 @@ def test_the_residual_counts_wet_nodes_and_those_that_ought_to_be(mirror):
     weight[0] = 1.0
     weight *= wet | (inner & (r < 0.0))
     diagonal = np.empty(shape)
-    reynolds.diagonal(film, mesh, 0.3, diagonal)
+    reynolds.diagonal(film, stencil, 0.3, diagonal)
     diagonal[~inner] = 1.0
     assert mean == pytest.approx((weight * np.abs(r) / diagonal).sum() / weight.sum(), rel=1e-12)
 
@@ -85,8 +85,8 @@ def test_the_factors_of_a_heated_film_give_its_mobility_and_density_back():
 
 def test_a_broken_pressure_is_not_passed_over():
     shape = (5, 12)
-    film, mesh = random_film(shape), mesh_of(mirror=0)
+    film, stencil = random_film(shape), stencil_of(mirror=0)
     film.p[2, 5] = np.nan
     out = np.empty(shape)
-    reynolds.operator(film, mesh, out)
+    reynolds.operator(film, stencil, out)
     assert np.isnan(out[2, 4:7]).all()

@@ -6,7 +6,7 @@ import pytest
 from tehl.grid import Grid
 from tehl.kernels import properties, reynolds
 from tehl.operators.influence import influence_of
-from tehl.operators.reynolds import line_influence, stencil
+from tehl.operators.reynolds import line_influence, steady_stencil
 from tehl.options import Domain
 from tehl.typing import Array
 from tests.operators.contacts import contact_groups, grid_of
@@ -16,7 +16,7 @@ BOX = Domain(x=(-2.0, 2.0), y=(-1.5, 1.5))
 
 def apply(grid: Grid, fields: dict[str, Array], *, ratio: float = 1.0, wedge: int = 2) -> Array:
     """L(p) for given p, h, eps, rho."""
-    mesh = stencil(grid, contact_groups(ratio), wedge)
+    stencil = steady_stencil(grid, contact_groups(ratio), wedge)
     zero = np.zeros(grid.shape)
     film = properties.Film(
         p=fields.get("p", zero),
@@ -28,7 +28,7 @@ def apply(grid: Grid, fields: dict[str, Array], *, ratio: float = 1.0, wedge: in
         eps_y=fields.get("eps", zero),
     )
     out = np.empty(grid.shape)
-    reynolds.operator(film, mesh, out)
+    reynolds.operator(film, stencil, out)
     return out
 
 

@@ -10,7 +10,7 @@ from tehl import ContactProblem, ConvergenceError, Options, Result, solve
 from tehl.grid import Grid
 from tehl.kernels import reynolds
 from tehl.operators.flow import flow_table
-from tehl.operators.jacobian import interpolation, jacobian, stencil_of
+from tehl.operators.jacobian import interpolation, jacobian, neighbours_of
 from tehl.result import Status
 from tehl.scaling import ScaledProblem
 from tehl.solver import film_solver, steady
@@ -56,7 +56,7 @@ def test_the_jacobian_is_the_derivative_of_the_operator(mirror: bool) -> None:
     rng = np.random.default_rng(1)
     change = np.where(fine.film.p > 0.05, rng.standard_normal(shape), 0.0)
     by_pressure, by_film = jacobian(
-        fine.film, fine.mesh, stencil_of(fine.grid, fine.mesh), *fine.conductance_slopes()
+        fine.film, fine.stencil, neighbours_of(fine.grid, fine.stencil), *fine.conductance_slopes()
     )
     bent = np.empty(shape)
     fine.equations.deformation.deflect(change, bent)
@@ -68,7 +68,7 @@ def test_the_jacobian_is_the_derivative_of_the_operator(mirror: bool) -> None:
             fine.set_state(before + sign * step * change, approach + sign * step * 0.3)
             fine.update()
             operator = np.empty(shape)
-            reynolds.operator(fine.film, fine.mesh, operator)
+            reynolds.operator(fine.film, fine.stencil, operator)
             sides.append(operator)
         numeric = (sides[0] - sides[1]) / (2.0 * step)
         errors.append(np.abs(numeric - linear).max() / np.abs(linear).max())
@@ -154,7 +154,7 @@ def test_the_norm_of_the_residual_is_positive_even_with_a_negative_diagonal() ->
     fine.set_state(fine.film.p, fine.rigid_approach - 50.0)
     fine.update()
     diagonal = np.empty(fine.grid.shape)
-    reynolds.diagonal(fine.film, fine.mesh, fine.equations.influence.self_film, diagonal)
+    reynolds.diagonal(fine.film, fine.stencil, fine.equations.influence.self_film, diagonal)
     assert diagonal[:, 1:-1].min() < 0.0
     assert fine.evaluate_residual() > 0.0
 

@@ -23,7 +23,7 @@ from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.lanes import LANES, any_of, where
 from tehl.kernels.properties import Film
 from tehl.kernels.raw import raw
-from tehl.kernels.reynolds import Mesh, clear, line_operator, row_below
+from tehl.kernels.reynolds import Stencil, clear, line_operator, row_below
 from tehl.typing import Array, FlagArray, Records
 
 Span = tuple[int, int]
@@ -76,13 +76,13 @@ def workspace(nx: int) -> tuple[Array, Records, Array]:
 
 
 @helper
-def mark_dipoles(film: Film, mesh: Mesh, relaxation: LineRelaxation) -> None:
+def mark_dipoles(film: Film, stencil: Stencil, relaxation: LineRelaxation) -> None:
     """Mark the nodes that relax as dipoles: small conductance all round, nothing cavitated."""
     ny, nx = film.p.shape
     p, eps_x, eps_y, kind = film.p, film.eps_x, film.eps_y, relaxation.kind
-    limit = relaxation.xi / max(mesh.cx, mesh.cy)
+    limit = relaxation.xi / max(stencil.cx, stencil.cy)
     clear(kind)
-    for j in range(0 if mesh.mirror else 1, ny - 1):
+    for j in range(0 if stencil.mirror else 1, ny - 1):
         south = row_below(j)
         for i in range(1, nx - 1):
             along = max(eps_x[j, i], eps_x[j, i - 1], eps_x[j, i + 1])
@@ -93,7 +93,7 @@ def mark_dipoles(film: Film, mesh: Mesh, relaxation: LineRelaxation) -> None:
 
 
 @kernel
-def stiffen(film: Film, mesh: Mesh, table: Array, step: float, out: Array) -> None:
+def stiffen(film: Film, stencil: Stencil, table: Array, step: float, out: Array) -> None:
     """Write the contribution of the change of conductance with pressure to the diagonal to ``out``.
 
     Where the pressure rises to a neighbour by many times the pressure 1/alpha that thickens the oil
@@ -104,7 +104,7 @@ def stiffen(film: Film, mesh: Mesh, table: Array, step: float, out: Array) -> No
     ny, nx = film.p.shape
     last = table.shape[0] - 2
     clear(out)
-    for j in range(0 if mesh.mirror else 1, ny - 1):
+    for j in range(0 if stencil.mirror else 1, ny - 1):
         south = row_below(j)
         for i in range(1, nx - 1):
             p = film.p[j, i]
@@ -112,7 +112,7 @@ def stiffen(film: Film, mesh: Mesh, table: Array, step: float, out: Array) -> No
             decay = max(-table[k, 1] / (table[k, 0] * step), 0.0)
             along = max(film.p[j, i - 1] - p, 0.0) + max(film.p[j, i + 1] - p, 0.0)
             across = max(film.p[south, i] - p, 0.0) + max(film.p[j + 1, i] - p, 0.0)
-            slope = mesh.cx * film.eps_x[j, i] * along + mesh.cy * film.eps_y[j, i] * across
+            slope = stencil.cx * film.eps_x[j, i] * along + stencil.cy * film.eps_y[j, i] * across
             out[j, i] = 0.5 * decay * slope
 
 
@@ -140,11 +140,13 @@ def wet_range(film: Film, relaxation: LineRelaxation, j: int, slot: int) -> Span
 
 
 @helper
-def _load_line(film: Film, mesh: Mesh, relaxation: LineRelaxation, place: Span, span: Span) -> None:
+def _load_line(
+    film: Film, stencil: Stencil, relaxation: LineRelaxation, place: Span, span: Span
+) -> None:
     """Copy the fields of a span of nodes to a lane of the systems; ``place``: line and lane."""
     (j, lane), south = place, row_below(place[0])
     eps_x, eps_y, cells, rest = film.eps_x, film.eps_y, relaxation.cells, relaxation.rest
-    half_x, half_y = 0.5 * mesh.cx, 0.5 * mesh.cy
+    half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
     for i in range(span[0], span[1]):
         at = i + MARGIN
         cells[at, EAST, lane] = half_x * (eps_x[j, i] + eps_x[j, i + 1])
@@ -167,7 +169,7 @@ def _leave_out(cells: Array, lane: int, span: Span) -> None:
 
 
 @helper
-def _fill_band(relaxation: LineRelaxation, mesh: Mesh, i: int) -> None:
+def _fill_band(relaxation: LineRelaxation, stencil: Stencil, i: int) -> None:
     """Fill the coefficients of node ``i``: change of L there per unit change of each unknown.
 
     The column follows the type of the unknown: a point changes p at one node, a dipole at its
@@ -175,7 +177,7 @@ def _fill_band(relaxation: LineRelaxation, mesh: Mesh, i: int) -> None:
     """
     nodes, p, d = relaxation.nodes, relaxation.point, relaxation.dipole
     d0, d1, d2, d3, d4 = d[0] - p[0], d[1] - p[1], d[2] - p[2], d[3] - p[3], d[4] - p[4]
-    w0, w1, w2 = mesh.w0, mesh.w1, mesh.w2
+    w0, w1, w2 = stencil.w0, stencil.w1, stencil.w2
     if i == 1:
         w0, w1, w2 = w0 - w2, w1 + 2.0 * w2, 0.0
     farthest, far, west, here, east, beyond = (
@@ -303,61 +305,63 @@ def _store_line(film: Film, relaxation: LineRelaxation, place: Span, span: Span)
 
 @helper
 def _residual_of_line(
-    film: Film, mesh: Mesh, rhs: Array, rest: Array, place: tuple[int, int]
+    film: Film, stencil: Stencil, rhs: Array, rest: Array, place: tuple[int, int]
 ) -> None:
     """Write ``rhs - L(p)`` of a line to a row of ``rest``; ``place``: the numbers of both."""
     j, slot = place
-    line_operator(film, mesh, j, rest, slot)
+    line_operator(film, stencil, j, rest, slot)
     for i in range(1, film.p.shape[1] - 1):
         rest[slot, i] = rhs[j, i] - rest[slot, i]
 
 
 @helper
-def set_up(film: Film, mesh: Mesh, relaxation: LineRelaxation, batch: Span, span: Span) -> None:
+def set_up(
+    film: Film, stencil: Stencil, relaxation: LineRelaxation, batch: Span, span: Span
+) -> None:
     """Fill the systems of a batch of lines, chunk by chunk; ``batch``: first line and count."""
     (first, count), (low, high), nx = batch, span, film.p.shape[1]
     end = min(high + MARGIN, nx - 1)
     for start in range(max(low - MARGIN, 0), end, CHUNK):
         stop = min(start + CHUNK, end)
         for lane in range(count):
-            _load_line(film, mesh, relaxation, (first + 2 * lane, lane), (start, stop))
+            _load_line(film, stencil, relaxation, (first + 2 * lane, lane), (start, stop))
         for lane in range(count, LANES):
             _leave_out(relaxation.cells, lane, (start, stop))
         ready = high if stop == end else stop - MARGIN
         for i in range(max(start - MARGIN + 1, low), ready + 1):
-            _fill_band(relaxation, mesh, i)
+            _fill_band(relaxation, stencil, i)
 
 
 @helper
 def relax_batch(
-    film: Film, mesh: Mesh, rhs: Array, relaxation: LineRelaxation, batch: Span
+    film: Film, stencil: Stencil, rhs: Array, relaxation: LineRelaxation, batch: Span
 ) -> None:
     """Relax up to eight lines of one colour; ``batch``: number of the first line, and count."""
     (first, count), nx = batch, film.p.shape[1]
     low, high = nx, 0
     for lane in range(count):
-        _residual_of_line(film, mesh, rhs, relaxation.rest, (first + 2 * lane, lane))
+        _residual_of_line(film, stencil, rhs, relaxation.rest, (first + 2 * lane, lane))
         line_low, line_high = wet_range(film, relaxation, first + 2 * lane, lane)
         low, high = min(low, line_low), max(high, line_high)
     if low > high:
         return
     # the range of the unknowns may grow by two nodes upstream and three downstream in each pass
     span = max(low - 2 * PASSES, 1), min(high + 3 * PASSES, nx - 2)
-    set_up(film, mesh, relaxation, batch, span)
+    set_up(film, stencil, relaxation, batch, span)
     low, high = complementarity(relaxation.nodes, (low, high), nx - 2)
     for lane in range(count):
         _store_line(film, relaxation, (first + 2 * lane, lane), (low, high + 1))
 
 
 @kernel
-def relax_lines(film: Film, mesh: Mesh, rhs: Array, relaxation: LineRelaxation) -> None:
+def relax_lines(film: Film, stencil: Stencil, rhs: Array, relaxation: LineRelaxation) -> None:
     """Perform one zebra sweep over the lines along x (Venner and Lubrecht 2000, chapter 6).
 
     Points change at once, dipoles after both colours.
 
     Parameters
     ----------
-    film, mesh : Film, Mesh
+    film, stencil : Film, Stencil
         State, of which the pressure is relaxed, and weights of the operator.
     rhs : array (ny, nx)
         Right-hand side of the Reynolds equation.
@@ -365,14 +369,14 @@ def relax_lines(film: Film, mesh: Mesh, rhs: Array, relaxation: LineRelaxation) 
         Settings and scratch arrays.
     """
     film, rhs, relaxation = raw((film, rhs, relaxation))
-    first = 0 if mesh.mirror else 1
-    mark_dipoles(film, mesh, relaxation)
+    first = 0 if stencil.mirror else 1
+    mark_dipoles(film, stencil, relaxation)
     clear(relaxation.delta)
     for colour in range(2):
         for j in range(first + colour, film.p.shape[0] - 1, 2 * LANES):
             count = min(LANES, (film.p.shape[0] - j) // 2)
-            relax_batch(film, mesh, rhs, relaxation, (j, count))
-    add_dipoles(film.p, relaxation.delta, mesh.mirror)
+            relax_batch(film, stencil, rhs, relaxation, (j, count))
+    add_dipoles(film.p, relaxation.delta, stencil.mirror)
 
 
 @helper
@@ -387,7 +391,7 @@ def add_dipoles(p: Array, delta: Array, mirror: int) -> None:
 
 
 @kernel
-def relax_points(film: Film, mesh: Mesh, rhs: Array, self_film: Array, omega: float) -> None:
+def relax_points(film: Film, stencil: Stencil, rhs: Array, self_film: Array, omega: float) -> None:
     """Relax point by point (Gauss-Seidel with under-relaxation ``omega``).
 
     Each node in turn changes so that its residual vanishes, with the film of the last evaluation.
@@ -395,7 +399,7 @@ def relax_points(film: Film, mesh: Mesh, rhs: Array, self_film: Array, omega: fl
 
     Parameters
     ----------
-    film, mesh : Film, Mesh
+    film, stencil : Film, Stencil
         State, of which the pressure is relaxed, and weights of the operator.
     rhs : array (ny, nx)
         Right-hand side of the Reynolds equation.
@@ -407,23 +411,23 @@ def relax_points(film: Film, mesh: Mesh, rhs: Array, self_film: Array, omega: fl
     film, rhs, self_film = raw((film, rhs, self_film))
     ny, nx = film.p.shape
     p, eps_x, eps_y, rho, h = film.p, film.eps_x, film.eps_y, film.rho, film.h
-    for j in range(0 if mesh.mirror else 1, ny - 1):
+    for j in range(0 if stencil.mirror else 1, ny - 1):
         south = row_below(j)
         for i in range(1, nx - 1):
-            east = 0.5 * mesh.cx * (eps_x[j, i] + eps_x[j, i + 1])
-            west = 0.5 * mesh.cx * (eps_x[j, i] + eps_x[j, i - 1])
-            north = 0.5 * mesh.cy * (eps_y[j, i] + eps_y[j + 1, i])
-            below = 0.5 * mesh.cy * (eps_y[j, i] + eps_y[south, i])
+            east = 0.5 * stencil.cx * (eps_x[j, i] + eps_x[j, i + 1])
+            west = 0.5 * stencil.cx * (eps_x[j, i] + eps_x[j, i - 1])
+            north = 0.5 * stencil.cy * (eps_y[j, i] + eps_y[j + 1, i])
+            below = 0.5 * stencil.cy * (eps_y[j, i] + eps_y[south, i])
             mass, mass_w = rho[j, i] * h[j, i], rho[j, i - 1] * h[j, i - 1]
             if i == 1:
-                wedge = (mesh.w0 - mesh.w2) * mass + (mesh.w1 + 2.0 * mesh.w2) * mass_w
+                wedge = (stencil.w0 - stencil.w2) * mass + (stencil.w1 + 2.0 * stencil.w2) * mass_w
             else:
                 mass_ww = rho[j, i - 2] * h[j, i - 2]
-                wedge = mesh.w0 * mass + mesh.w1 * mass_w + mesh.w2 * mass_ww
+                wedge = stencil.w0 * mass + stencil.w1 * mass_w + stencil.w2 * mass_ww
             flow = east * (p[j, i + 1] - p[j, i]) + west * (p[j, i - 1] - p[j, i])
             flow += north * (p[j + 1, i] - p[j, i])
             flow += below * (p[south, i] - p[j, i])
             slope = -(east + west + north + below)
-            slope -= mesh.w0 * rho[j, i] * self_film[0]
-            slope -= mesh.w1 * rho[j, i - 1] * self_film[1]
+            slope -= stencil.w0 * rho[j, i] * self_film[0]
+            slope -= stencil.w1 * rho[j, i - 1] * self_film[1]
             p[j, i] = max(p[j, i] + omega * (rhs[j, i] - flow + wedge) / slope, 0.0)

@@ -18,7 +18,7 @@ from tehl.kernels.raw import raw
 from tehl.typing import Array, FlagArray
 
 
-class Mesh(NamedTuple):
+class Stencil(NamedTuple):
     """Weights of the differences on one grid.
 
     ``cx = 1/dx^2``, ``cy = 1/(kappa dy)^2``; ``w0, w1, w2`` weigh rho h of a node and of its
@@ -50,25 +50,25 @@ def clear(field: Array | FlagArray) -> None:
 
 
 @helper
-def line_operator(film: Film, mesh: Mesh, j: int, out: Array, row: int) -> None:
+def line_operator(film: Film, stencil: Stencil, j: int, out: Array, row: int) -> None:
     """Write L(p) on line ``j`` to ``row`` of ``out``; the ends are not touched."""
     p, eps_x, eps_y, nx = film.p, film.eps_x, film.eps_y, film.p.shape[1]
     south, north = row_below(j), j + 1
-    half_x, half_y = 0.5 * mesh.cx, 0.5 * mesh.cy
+    half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
     for i in range(1, nx - 1):
         east, west = eps_x[j, i] + eps_x[j, i + 1], eps_x[j, i] + eps_x[j, i - 1]
         upper, lower = eps_y[j, i] + eps_y[north, i], eps_y[j, i] + eps_y[south, i]
         flow_x = east * (p[j, i + 1] - p[j, i]) - west * (p[j, i] - p[j, i - 1])
         flow_y = upper * (p[north, i] - p[j, i]) - lower * (p[j, i] - p[south, i])
         out[row, i] = half_x * flow_x + half_y * flow_y
-    _subtract_wedge(film, mesh, j, out, row)
+    _subtract_wedge(film, stencil, j, out, row)
 
 
 @helper
-def _subtract_wedge(film: Film, mesh: Mesh, j: int, out: Array, row: int) -> None:
+def _subtract_wedge(film: Film, stencil: Stencil, j: int, out: Array, row: int) -> None:
     """Subtract the upstream difference of rho h along a line; node 1 continues rho h linearly."""
     rho, h, nx = film.rho, film.h, film.p.shape[1]
-    w0, w1, w2 = mesh.w0, mesh.w1, mesh.w2
+    w0, w1, w2 = stencil.w0, stencil.w1, stencil.w2
     out[row, 1] -= (w0 - w2) * rho[j, 1] * h[j, 1] + (w1 + 2.0 * w2) * rho[j, 0] * h[j, 0]
     for i in range(2, nx - 1):
         upstream = w1 * rho[j, i - 1] * h[j, i - 1]
@@ -77,36 +77,38 @@ def _subtract_wedge(film: Film, mesh: Mesh, j: int, out: Array, row: int) -> Non
 
 
 @kernel
-def operator(film: Film, mesh: Mesh, out: Array) -> None:
+def operator(film: Film, stencil: Stencil, out: Array) -> None:
     """Write L(p) to ``out`` (ny, nx), zero on the edges."""
     film, out = raw((film, out))
     clear(out)
-    for j in range(0 if mesh.mirror else 1, film.p.shape[0] - 1):
-        line_operator(film, mesh, j, out, j)
+    for j in range(0 if stencil.mirror else 1, film.p.shape[0] - 1):
+        line_operator(film, stencil, j, out, j)
 
 
 @helper
-def _node_diagonal(film: Film, mesh: Mesh, self_film: float, j: int, i: int) -> float:
+def _node_diagonal(film: Film, stencil: Stencil, self_film: float, j: int, i: int) -> float:
     """Return ``-dL/dp`` of a node with itself; ``self_film``: dh/dp of a point on itself."""
     eps_x, eps_y, south = film.eps_x, film.eps_y, row_below(j)
-    flow = 0.5 * mesh.cx * (2.0 * eps_x[j, i] + eps_x[j, i + 1] + eps_x[j, i - 1])
-    flow += 0.5 * mesh.cy * (2.0 * eps_y[j, i] + eps_y[j + 1, i] + eps_y[south, i])
-    return flow + mesh.w0 * (film.drho[j, i] * film.h[j, i] + film.rho[j, i] * self_film)
+    flow = 0.5 * stencil.cx * (2.0 * eps_x[j, i] + eps_x[j, i + 1] + eps_x[j, i - 1])
+    flow += 0.5 * stencil.cy * (2.0 * eps_y[j, i] + eps_y[j + 1, i] + eps_y[south, i])
+    return flow + stencil.w0 * (film.drho[j, i] * film.h[j, i] + film.rho[j, i] * self_film)
 
 
 @kernel
-def diagonal(film: Film, mesh: Mesh, self_film: float, out: Array) -> None:
+def diagonal(film: Film, stencil: Stencil, self_film: float, out: Array) -> None:
     """Write ``-dL/dp`` on the diagonal to ``out`` (ny, nx), zero on the edges."""
     film, out = raw((film, out))
     clear(out)
     ny, nx = film.p.shape
-    for j in range(0 if mesh.mirror else 1, ny - 1):
+    for j in range(0 if stencil.mirror else 1, ny - 1):
         for i in range(1, nx - 1):
-            out[j, i] = _node_diagonal(film, mesh, self_film, j, i)
+            out[j, i] = _node_diagonal(film, stencil, self_film, j, i)
 
 
 @summing_helper
-def _line_norm(film: Film, mesh: Mesh, self_film: float, j: int, rest: Array) -> tuple[float, int]:
+def _line_norm(
+    film: Film, stencil: Stencil, self_film: float, j: int, rest: Array
+) -> tuple[float, int]:
     """Return sum and count of the scaled residual of line ``j``; see `residual`.
 
     Before convergence the diagonal may be negative, where the film is negative.
@@ -115,13 +117,13 @@ def _line_norm(film: Film, mesh: Mesh, self_film: float, j: int, rest: Array) ->
     for i in range(1, film.p.shape[1] - 1):
         r = rest[j, i]
         counts = film.p[j, i] > 0.0 or r < 0.0
-        total += abs(r / _node_diagonal(film, mesh, self_film, j, i)) if counts else 0.0
+        total += abs(r / _node_diagonal(film, stencil, self_film, j, i)) if counts else 0.0
         count += 1 if counts else 0
     return total, count
 
 
 @kernel
-def residual(film: Film, mesh: Mesh, rhs: Array, self_film: float, out: Array) -> float:
+def residual(film: Film, stencil: Stencil, rhs: Array, self_film: float, out: Array) -> float:
     """Write ``rhs - L(p)`` to ``out``, zero where cavitated; return its scaled mean.
 
     The mean is of ``|r|`` over the local diagonal, over nodes that are wet or will be
@@ -129,7 +131,7 @@ def residual(film: Film, mesh: Mesh, rhs: Array, self_film: float, out: Array) -
 
     Parameters
     ----------
-    film, mesh : Film, Mesh
+    film, stencil : Film, Stencil
         State, and weights of the operator.
     rhs, out : array (ny, nx)
         Right-hand side, and residual.
@@ -140,21 +142,21 @@ def residual(film: Film, mesh: Mesh, rhs: Array, self_film: float, out: Array) -
     total, count = 0.0, 0
     clear(out)
     ny, nx = film.p.shape
-    for j in range(0 if mesh.mirror else 1, ny - 1):
-        line_operator(film, mesh, j, out, j)
+    for j in range(0 if stencil.mirror else 1, ny - 1):
+        line_operator(film, stencil, j, out, j)
         for i in range(1, nx - 1):
             out[j, i] = rhs[j, i] - out[j, i]
-        line_total, line_count = _line_norm(film, mesh, self_film, j, out)
+        line_total, line_count = _line_norm(film, stencil, self_film, j, out)
         for i in range(1, nx - 1):
             out[j, i] = out[j, i] if film.p[j, i] > 0.0 else 0.0
-        weight = 1 if (mesh.mirror and j == 0) else 1 + mesh.mirror
+        weight = 1 if (stencil.mirror and j == 0) else 1 + stencil.mirror
         total += weight * line_total
         count += weight * line_count
     return total / max(count, 1)
 
 
 @kernel
-def tangent_source(film: Film, mesh: Mesh, out: Array) -> None:
+def tangent_source(film: Film, stencil: Stencil, out: Array) -> None:
     """Write L(p) with ``eps_x, eps_y`` less L(p) with ``eps`` to ``out``, zero on the edges.
 
     It is the right-hand side f of the tangent equation (docs/theory/numerics-thermal.md, stress).
@@ -163,8 +165,8 @@ def tangent_source(film: Film, mesh: Mesh, out: Array) -> None:
     clear(out)
     p, eps, eps_x, eps_y = film.p, film.eps, film.eps_x, film.eps_y
     ny, nx = p.shape
-    half_x, half_y = 0.5 * mesh.cx, 0.5 * mesh.cy
-    for j in range(0 if mesh.mirror else 1, ny - 1):
+    half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
+    for j in range(0 if stencil.mirror else 1, ny - 1):
         south, north = row_below(j), j + 1
         for i in range(1, nx - 1):
             more = eps_x[j, i] - eps[j, i]

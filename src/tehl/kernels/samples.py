@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, get_args, get_type_hints
 import numpy as np
 from numba import typeof, types
 
-from tehl.kernels import newton, properties, relaxation, reynolds, summation, transfer
+from tehl.kernels import coarsest, properties, relaxation, reynolds, summation, transfer
 from tehl.kernels.energy import march, records, trail
 
 NUMBERS = {int: types.int64, float: types.float64, bool: types.boolean}
@@ -78,9 +78,9 @@ _SCRATCH = records.scratch(1, records.BLOCK, 1)
 ISOTHERMAL = (
     _sample(relaxation.relax_lines, 2.4, point=1, dipole=1, nodes=_NODES, cells=3),
     _sample(
-        newton.solve_step,
+        coarsest.solve_step,
         1.0,
-        **_axes(1, *newton.Coarse._fields, *newton.Work._fields, "residual", "frozen")
+        **_axes(1, *coarsest.Coarse._fields, *coarsest.Work._fields, "residual", "frozen")
         | _axes(2, "matrix"),
     ),
     _sample(summation.spread_columns, 0.9),

@@ -15,11 +15,11 @@ from scipy.sparse import csr_matrix, diags, kron
 
 from tehl.grid import Grid
 from tehl.kernels.properties import Film
-from tehl.kernels.reynolds import Mesh
+from tehl.kernels.reynolds import Stencil
 from tehl.typing import Array, BoolArray
 
 
-class Stencil(NamedTuple):
+class Neighbours(NamedTuple):
     """Matrices that select a neighbour of each inner node; rows of edge nodes are zero.
 
     ``upstream`` is the upstream difference of the wedge.
@@ -59,7 +59,7 @@ def neighbour(
     return csr_matrix((weights, places), shape=(ny * nx, ny * nx))
 
 
-def stencil_of(grid: Grid, mesh: Mesh) -> Stencil:
+def neighbours_of(grid: Grid, stencil: Stencil) -> Neighbours:
     """Return the neighbours of the inner nodes.
 
     The second-order wedge of node 1 needs a node before the first: rho H continues linearly there.
@@ -71,14 +71,14 @@ def stencil_of(grid: Grid, mesh: Mesh) -> Stencil:
     others = inner & ~first
     upstream = sum(
         (
-            neighbour(grid, others, 0, -1, mesh.w1),
-            neighbour(grid, others, 0, -2, mesh.w2),
-            neighbour(grid, first, 0, 0, mesh.w0 - mesh.w2),
-            neighbour(grid, first, 0, -1, mesh.w1 + 2.0 * mesh.w2),
+            neighbour(grid, others, 0, -1, stencil.w1),
+            neighbour(grid, others, 0, -2, stencil.w2),
+            neighbour(grid, first, 0, 0, stencil.w0 - stencil.w2),
+            neighbour(grid, first, 0, -1, stencil.w1 + 2.0 * stencil.w2),
         ),
-        neighbour(grid, others, 0, 0, mesh.w0),
+        neighbour(grid, others, 0, 0, stencil.w0),
     )
-    return Stencil(
+    return Neighbours(
         here=neighbour(grid, inner, 0, 0),
         east=neighbour(grid, inner, 0, 1),
         west=neighbour(grid, inner, 0, -1),
@@ -89,7 +89,7 @@ def stencil_of(grid: Grid, mesh: Mesh) -> Stencil:
 
 
 def jacobian(
-    film: Film, mesh: Mesh, stencil: Stencil, by_pressure: Array, by_film: Array
+    film: Film, stencil: Stencil, neighbours: Neighbours, by_pressure: Array, by_film: Array
 ) -> tuple[csr_matrix, csr_matrix]:
     """Return L_P and L_H, the derivatives of L by the pressures and by the films of all nodes.
 
@@ -97,15 +97,15 @@ def jacobian(
     ----------
     film : Film
         Present state, with conductance and density up to date.
-    mesh : Mesh
-        Weights of the operator.
     stencil : Stencil
-        Of `stencil_of`.
+        Weights of the operator.
+    neighbours : Neighbours
+        Of `neighbours_of`.
     by_pressure, by_film : (ny, nx) array
         Derivatives of the conductance eps.
     """
-    n, (p, eps_x, eps_y) = stencil, (field.ravel() for field in (film.p, film.eps_x, film.eps_y))
-    half_x, half_y = 0.5 * mesh.cx, 0.5 * mesh.cy
+    n, (p, eps_x, eps_y) = neighbours, (field.ravel() for field in (film.p, film.eps_x, film.eps_y))
+    half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
     sides = ((n.east, half_x, eps_x), (n.west, half_x, eps_x),
              (n.north, half_y, eps_y), (n.south, half_y, eps_y))  # fmt: skip
     flow, opening = csr_matrix(n.here.shape), csr_matrix(n.here.shape)

@@ -6,7 +6,7 @@
 import numpy as np
 
 from tehl.grid import Grid
-from tehl.kernels.reynolds import Mesh
+from tehl.kernels.reynolds import Stencil
 from tehl.operators.influence import Influence
 from tehl.scaling import Groups
 from tehl.typing import Array
@@ -15,7 +15,7 @@ REACH = 8
 """Nodes along a line in the influence of one node, as the line relaxation uses it."""
 
 
-def stencil(grid: Grid, groups: Groups, wedge_order: int) -> Mesh:
+def steady_stencil(grid: Grid, groups: Groups, wedge_order: int) -> Stencil:
     """Return the weights of the steady operator: central Poiseuille term, upstream wedge.
 
     Parameters
@@ -29,7 +29,7 @@ def stencil(grid: Grid, groups: Groups, wedge_order: int) -> Mesh:
     """
     weights = {1: (1.0, -1.0, 0.0), 2: (1.5, -2.0, 0.5)}[wedge_order]
     w0, w1, w2 = (w / grid.dx for w in weights)
-    return Mesh(
+    return Stencil(
         cx=1.0 / grid.dx**2,
         cy=1.0 / (groups.ellipticity * grid.dy) ** 2,
         w0=w0,
@@ -39,15 +39,15 @@ def stencil(grid: Grid, groups: Groups, wedge_order: int) -> Mesh:
     )
 
 
-def step_stencil(mesh: Mesh, time_step: float) -> Mesh:
-    """Return the weights of ``mesh`` in a time step of ``time_step`` [a_x / u_m].
+def step_stencil(stencil: Stencil, time_step: float) -> Stencil:
+    """Return the weights of ``stencil`` in a time step of ``time_step`` [a_x / u_m].
 
     Wedge and squeeze are one derivative of rho H along the mean motion, second-order backward:
     3/2 of rho H here and now, -2 and 1/2 of it one and two steps before at the nodes upstream
     (docs/theory/numerics-transient.md). Only the first is unknown. Its weight is the same on all
     grids, which take the same time step.
     """
-    return mesh._replace(w0=1.5 / time_step, w1=0.0, w2=0.0)
+    return stencil._replace(w0=1.5 / time_step, w1=0.0, w2=0.0)
 
 
 def upstream(field: Array, nodes: int) -> Array:

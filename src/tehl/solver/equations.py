@@ -17,7 +17,7 @@ from tehl.operators.film import gap
 from tehl.operators.flow import FlowTable
 from tehl.operators.influence import Influence, influence_of
 from tehl.operators.load import TARGET, Load
-from tehl.operators.reynolds import stencil
+from tehl.operators.reynolds import steady_stencil
 from tehl.options import Options
 from tehl.scaling import Groups, ScaledProblem
 from tehl.typing import Array
@@ -34,7 +34,7 @@ class Equations:
     groups: Groups
     flow: FlowTable
     """Mobility and density of the lubricant over pressure."""
-    mesh: reynolds.Mesh
+    stencil: reynolds.Stencil
     """Weights of the Reynolds operator."""
     influence: Influence
     """Deflection per unit pressure on one cell."""
@@ -76,7 +76,7 @@ class Equations:
             grid=grid,
             groups=groups,
             flow=flow,
-            mesh=stencil(grid, groups, options.wedge_order),
+            stencil=steady_stencil(grid, groups, options.wedge_order),
             influence=influence_of(grid, groups),
             deformation=choose(options.deformation, grid, groups),
             load=Load(grid),

@@ -7,9 +7,9 @@ from itertools import pairwise
 import numpy as np
 
 from tehl.film_formulas import expected_central_film
-from tehl.grid import Grid, hierarchy
+from tehl.grid import Grid, halved_grids
 from tehl.kernels import reynolds
-from tehl.kernels.newton import Coarse, System, newton_step
+from tehl.kernels.coarsest import Coarse, CoarseSystem, newton_step
 from tehl.operators.flow import flow_table
 from tehl.operators.influence import dense_matrix
 from tehl.options import Options
@@ -51,16 +51,16 @@ class CoarsestSolver:
         level.update()
         # unlike evaluate_residual, not zero at cavitated nodes: Newton's active set may wet them
         residual = np.empty_like(level.residual)
-        reynolds.operator(level.film, level.mesh, residual)
+        reynolds.operator(level.film, level.stencil, residual)
         np.subtract(level.sources.reynolds, residual, out=residual)
-        system = System(
+        system = CoarseSystem(
             residual=residual,
             influence=self.influence,
             frozen=level.smoother.frozen,
             area=level.equations.load.area,
             missing_load=level.missing_load(),
         )
-        change = newton_step(self._linearised(), level.mesh, system, LONGEST_STEP)
+        change = newton_step(self._linearised(), level.stencil, system, LONGEST_STEP)
         level.set_state(level.film.p, level.rigid_approach + change)
 
     def _linearised(self) -> Coarse:
@@ -112,7 +112,7 @@ class Hierarchy:
         flow, film = flow_table(scaled), expected_central_film(scaled.groups)
         levels = [
             Level(Equations.on(grid, scaled, flow, options, load), relaxation)
-            for grid in hierarchy(finest)
+            for grid in halved_grids(finest)
         ]
         return cls(scaled, options, levels, CoarsestSolver(levels[0]), film)
 

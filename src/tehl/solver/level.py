@@ -64,9 +64,9 @@ class Level:
         return self.equations.grid
 
     @property
-    def mesh(self) -> reynolds.Mesh:
+    def stencil(self) -> reynolds.Stencil:
         """Weights of the Reynolds operator."""
-        return self.equations.mesh
+        return self.equations.stencil
 
     # state
 
@@ -179,7 +179,7 @@ class Level:
         present pressure, so that the solution does not depend on them (docs/theory/thermal.md). It
         subtracts the history too.
         """
-        reynolds.tangent_source(self.film, self.mesh, self.sources.reynolds)
+        reynolds.tangent_source(self.film, self.stencil, self.sources.reynolds)
         if self.sources.history is not None:
             self.sources.reynolds -= self.sources.history
 
@@ -222,14 +222,14 @@ class Level:
         """Smooth the error of the pressure by ``sweeps`` relaxation sweeps."""
         for _ in range(sweeps):
             self.update()
-            self.smoother.sweep(self.film, self.mesh, self.sources.reynolds, self.equations.flow)
+            self.smoother.sweep(self.film, self.stencil, self.sources.reynolds, self.equations.flow)
             self._is_stale = True
 
     def evaluate_residual(self) -> float:
         """Evaluate f - L(P), zero where cavitated; return its mean over the local diagonal."""
         self_film = self.equations.influence.self_film
         return reynolds.residual(
-            self.film, self.mesh, self.sources.reynolds, self_film, self.residual
+            self.film, self.stencil, self.sources.reynolds, self_film, self.residual
         )
 
     def missing_load(self) -> float:
@@ -258,7 +258,7 @@ class Level:
         Coarse nodes of low pressure beside a cavity are frozen: the coarse grid would cavitate them
         in every cycle (Venner and Lubrecht 2000, chapter 6, restrict there by injection).
         """
-        mirror, frozen = self.mesh.mirror, coarse.smoother.frozen
+        mirror, frozen = self.stencil.mirror, coarse.smoother.frozen
         transfer.restrict_pressure(self.film.p, mirror, coarse.film.p)
         transfer.freeze(
             self.film.p, self.smoother.frozen, coarse.film.p, mirror, FROZEN_BELOW, frozen
@@ -287,8 +287,8 @@ class Level:
 
         The residual is zero where the fine grid is cavitated: complementarity holds there.
         """
-        transfer.restrict_residual(self.residual, self.mesh.mirror, coarse.residual)
-        reynolds.operator(coarse.film, coarse.mesh, coarse.sources.reynolds)
+        transfer.restrict_residual(self.residual, self.stencil.mirror, coarse.residual)
+        reynolds.operator(coarse.film, coarse.stencil, coarse.sources.reynolds)
         coarse.sources.reynolds += coarse.residual
 
     def restrict_load(self, coarse: "Level") -> None:
@@ -303,7 +303,7 @@ class Level:
         back and forth.
         """
         (before, approach), (part, limit) = coarse.restricted, coarse.correction
-        transfer.correct(self.film.p, coarse.film.p, before, self.mesh.mirror, part, limit)
+        transfer.correct(self.film.p, coarse.film.p, before, self.stencil.mirror, part, limit)
         self.rigid_approach += part * (coarse.rigid_approach - approach)
         self._is_stale = True
 

@@ -25,7 +25,7 @@ from scipy.sparse.linalg import LinearOperator, gcrotmk, splu
 from tehl.grid import Grid
 from tehl.kernels import reynolds
 from tehl.operators.influence import dense_matrix, influence_of
-from tehl.operators.jacobian import Stencil, interpolation, jacobian, rows, stencil_of
+from tehl.operators.jacobian import Neighbours, interpolation, jacobian, neighbours_of, rows
 from tehl.solver.convergence import DivergedError
 from tehl.solver.level import APPROACH_WEIGHT, Level
 from tehl.typing import Array, BoolArray
@@ -54,7 +54,7 @@ class Newton:
 
     def __init__(self, level: Level, coarse: Grid) -> None:
         self.level = level
-        self.stencil: Stencil = stencil_of(level.grid, level.mesh)
+        self.neighbours: Neighbours = neighbours_of(level.grid, level.stencil)
         self.to_fine = interpolation(level.grid, coarse)
         self.to_coarse = csr_matrix(
             rows(1.0 / np.asarray(self.to_fine.sum(0)).ravel()) @ self.to_fine.T
@@ -123,20 +123,22 @@ class System:
 
     def __init__(self, newton: Newton) -> None:
         self.newton, level = newton, newton.level
-        film, mesh = level.film, level.mesh
+        film, stencil = level.film, level.stencil
         self.shape, self.products = film.p.shape, 0
         rest = np.empty(self.shape)
-        reynolds.operator(film, mesh, rest)
+        reynolds.operator(film, stencil, rest)
         np.subtract(level.sources.reynolds, rest, out=rest)
         # active set: nodes that are wet, and dry ones whose residual would wet them
-        inner = newton.stencil.here.diagonal() > 0.0
+        inner = newton.neighbours.here.diagonal() > 0.0
         self.free: BoolArray = inner & ((film.p > 0.0) | (rest < 0.0)).ravel()
         self.kept = rows(self.free.astype(float))
         # over the diagonal, nodes of inlet and contact count alike in the norm
         diagonal = np.empty(self.shape)
-        reynolds.diagonal(film, mesh, level.equations.influence.self_film, diagonal)
+        reynolds.diagonal(film, stencil, level.equations.influence.self_film, diagonal)
         self.scale = np.where(self.free, 1.0 / np.where(self.free, diagonal.ravel(), 1.0), 0.0)
-        by_pressure, by_film = jacobian(film, mesh, newton.stencil, *level.conductance_slopes())
+        by_pressure, by_film = jacobian(
+            film, stencil, newton.neighbours, *level.conductance_slopes()
+        )
         self.by_pressure = csr_matrix(rows(self.scale) @ by_pressure @ self.kept)
         self.by_film = csr_matrix(rows(self.scale) @ by_film)
         self.rest = np.append(self.scale * rest.ravel(), level.missing_load())

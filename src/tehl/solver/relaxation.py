@@ -14,7 +14,7 @@ import numpy as np
 from tehl.grid import Grid
 from tehl.kernels import relaxation as kernels
 from tehl.kernels.properties import Film
-from tehl.kernels.reynolds import Mesh
+from tehl.kernels.reynolds import Stencil
 from tehl.operators.flow import FlowTable
 from tehl.operators.influence import Influence
 from tehl.operators.reynolds import line_influence
@@ -56,12 +56,12 @@ class Smoother(Protocol):
     frozen: FlagArray
     """Nodes that keep their pressure on this level, (ny, nx) of 0 and 1."""
 
-    def sweep(self, film: Film, mesh: Mesh, rhs: Array, flow: FlowTable) -> None:
+    def sweep(self, film: Film, stencil: Stencil, rhs: Array, flow: FlowTable) -> None:
         """Relax ``film.p`` in place by one sweep; the rest of ``film`` stays as evaluated last.
 
         Parameters
         ----------
-        film, mesh : Film, Mesh
+        film, stencil : Film, Stencil
             Pressure, film, conductance and density; weights of the Reynolds operator.
         rhs, flow : (ny, nx) array, FlowTable
             Right-hand side f; mobility and density of the lubricant.
@@ -98,11 +98,11 @@ class LineSmoother:
         )
         self.is_stiff = relaxation.stiff
 
-    def sweep(self, film: Film, mesh: Mesh, rhs: Array, flow: FlowTable) -> None:
+    def sweep(self, film: Film, stencil: Stencil, rhs: Array, flow: FlowTable) -> None:
         """Relax ``film.p`` in place."""
         if self.is_stiff:
-            kernels.stiffen(film, mesh, flow.table, flow.step, self.stiffness)
-        kernels.relax_lines(film, mesh, rhs, self.workspace)
+            kernels.stiffen(film, stencil, flow.table, flow.step, self.stiffness)
+        kernels.relax_lines(film, stencil, rhs, self.workspace)
 
 
 class PointSmoother:
@@ -113,10 +113,10 @@ class PointSmoother:
         self.point, _ = line_influence(influence)
         self.omega = relaxation.point
 
-    def sweep(self, film: Film, mesh: Mesh, rhs: Array, flow: FlowTable) -> None:
+    def sweep(self, film: Film, stencil: Stencil, rhs: Array, flow: FlowTable) -> None:
         """Relax ``film.p`` in place."""
         del flow
-        kernels.relax_points(film, mesh, rhs, self.point, self.omega)
+        kernels.relax_points(film, stencil, rhs, self.point, self.omega)
 
 
 def make_smoother(equations: Equations, relaxation: Relaxation) -> Smoother:

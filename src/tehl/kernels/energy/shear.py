@@ -81,7 +81,7 @@ def _logarithmic(target: Lanes, rate: Lanes) -> Lanes:
 
 
 @helper
-def newton_step(model: Model, line: Record, layers: Records) -> float:
+def stress_step(model: Model, line: Record, layers: Records) -> float:
     """Take a Newton step of the mid-film stress towards the sliding speed.
 
     The matrix is the derivative of both rates, ``phi (delta_ij + s dlnF/ds tau_i tau_j/|tau|^2)``
@@ -138,7 +138,7 @@ def thin(model: Model, line: Record, layers: Records, steps: int) -> None:
     change of the stress along x or y; ``askew`` the largest excess of the latter over the fluidity.
     """
     for _ in range(steps):
-        if newton_step(model, line, layers) < SETTLED:
+        if stress_step(model, line, layers) < SETTLED:
             break
     along = 0.0 if model.laws.uniform else 1.0
     askew = 0.0 * line.p

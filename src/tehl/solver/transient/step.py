@@ -73,8 +73,8 @@ class Stepper:
         self.predictor = Predictor(level.film.p, transient.stride)
         # all levels take the same time step, and so the same weight of rho H
         for one in solver.levels:
-            mesh = step_stencil(one.mesh, self.time_step)
-            one.equations = replace(one.equations, mesh=mesh)
+            stencil = step_stencil(one.stencil, self.time_step)
+            one.equations = replace(one.equations, stencil=stencil)
         solver.coupling.damping = 1.0  # steps are small: heat and thinning need no damping
         solver.coupling.begin_transient(solver.levels, self.time_step)
         step = (self.time_step, level.grid.dx, transient.stride)
@@ -132,7 +132,7 @@ class Stepper:
         self.setting, setting = number, self.settings[number]
         for level in self.solver.levels:
             # below this conductance smooth errors grow if nodes relax as points
-            least = level.mesh.w0 / WEIGHT_OF_POINTS
+            least = level.stencil.w0 / WEIGHT_OF_POINTS
             threshold = max(setting.threshold, least)
             level.set_relaxation(replace(setting, threshold=threshold))
 

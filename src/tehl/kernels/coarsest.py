@@ -13,7 +13,7 @@ import numpy as np
 
 from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.raw import raw
-from tehl.kernels.reynolds import Mesh
+from tehl.kernels.reynolds import Stencil
 from tehl.typing import Array, FlagArray, IntArray
 
 HERE, EAST, WEST, NORTH, SOUTH, FAR = range(6)
@@ -37,7 +37,7 @@ class Coarse(NamedTuple):
     stretch_y: Array
 
 
-class System(NamedTuple):
+class CoarseSystem(NamedTuple):
     """The equations to solve.
 
     ``residual`` (ny, nx) of the Reynolds equation, ``influence`` (n, n), ``frozen`` (ny, nx) of 0
@@ -52,27 +52,27 @@ class System(NamedTuple):
 
 
 class Work(NamedTuple):
-    """Scratch: matrix, right-hand side, numbers of the active nodes, and data of one node."""
+    """Scratch: matrix, right-hand side, numbers of the free nodes, and data of one node."""
 
     matrix: Array
     rhs: Array
-    active: IntArray
+    free: IntArray
     full: Array
     near: IntArray
     by_p: Array
     by_h: Array
 
 
-def newton_step(state: Coarse, mesh: Mesh, system: System, longest: float) -> float:
+def newton_step(state: Coarse, stencil: Stencil, system: CoarseSystem, longest: float) -> float:
     """Take one Newton step on ``state.p`` in place; return the change of the rigid approach.
 
     Parameters
     ----------
     state : Coarse
         Pressure and film with the derivatives of the conductance.
-    mesh : Mesh
+    stencil : Stencil
         Weights of the differences.
-    system : System
+    system : CoarseSystem
         Residual, influence and load.
     longest : float
         Largest change of a pressure, to which the step is shortened [-].
@@ -81,7 +81,7 @@ def newton_step(state: Coarse, mesh: Mesh, system: System, longest: float) -> fl
     work = Work(
         matrix=np.empty((nodes + 1, nodes + 1)),
         rhs=np.empty(nodes + 1),
-        active=np.empty(nodes, np.int64),
+        free=np.empty(nodes, np.int64),
         full=np.empty(nodes),
         near=np.empty(6, np.int64),
         by_p=np.empty(6),
@@ -89,7 +89,7 @@ def newton_step(state: Coarse, mesh: Mesh, system: System, longest: float) -> fl
     )
     flat = Coarse(*(np.ravel(field) for field in state))
     flags = system._replace(residual=system.residual.ravel(), frozen=system.frozen.ravel())
-    return solve_step(flat, mesh, flags, work, (nx, longest))
+    return solve_step(flat, stencil, flags, work, (nx, longest))
 
 
 @helper
@@ -124,14 +124,14 @@ def _solve_dense(a: Array, b: Array, n: int) -> None:
 
 
 @helper
-def _find_active(state: Coarse, system: System, mirror: int, nx: int, active: IntArray) -> int:
+def _find_free(state: Coarse, system: CoarseSystem, mirror: int, nx: int, free: IntArray) -> int:
     """List the nodes with p > 0 or residual < 0 that are not frozen; return their count."""
     count = 0
     for j in range(0 if mirror else 1, state.p.shape[0] // nx - 1):
         for here in range(j * nx + 1, j * nx + nx - 1):
             wet = state.p[here] > 0.0 or system.residual[here] < 0.0
             if wet and not system.frozen[here]:
-                active[count] = here
+                free[count] = here
                 count += 1
     return count
 
@@ -145,7 +145,7 @@ def _find_neighbours(here: int, nx: int, near: IntArray) -> None:
 
 
 @helper
-def _slopes(state: Coarse, mesh: Mesh, work: Work) -> None:
+def _slopes(state: Coarse, stencil: Stencil, work: Work) -> None:
     """Fill the derivatives of L at node ``near[0]`` by pressure and film of its neighbours."""
     near, by_p, by_h = work.near, work.by_p, work.by_h
     p, eps, eps_p, eps_h = state.p, state.eps, state.eps_p, state.eps_h
@@ -155,7 +155,7 @@ def _slopes(state: Coarse, mesh: Mesh, work: Work) -> None:
     here = near[HERE]
     for n in range(EAST, FAR):
         there, along = near[n], n <= WEST
-        c = 0.5 * (mesh.cx if along else mesh.cy)
+        c = 0.5 * (stencil.cx if along else stencil.cy)
         mine = c * (state.stretch_x[here] if along else state.stretch_y[here])
         theirs = c * (state.stretch_x[there] if along else state.stretch_y[there])
         face, drop = mine * eps[here] + theirs * eps[there], p[there] - p[here]
@@ -164,9 +164,9 @@ def _slopes(state: Coarse, mesh: Mesh, work: Work) -> None:
         by_p[n] += face + drop * theirs * eps_p[there]
         by_h[n] += drop * theirs * eps_h[there]
     first = near[FAR] == near[WEST]
-    w0 = mesh.w0 - mesh.w2 if first else mesh.w0
-    w1 = mesh.w1 + 2.0 * mesh.w2 if first else mesh.w1
-    w2 = 0.0 if first else mesh.w2
+    w0 = stencil.w0 - stencil.w2 if first else stencil.w0
+    w1 = stencil.w1 + 2.0 * stencil.w2 if first else stencil.w1
+    w2 = 0.0 if first else stencil.w2
     for n, w in ((HERE, w0), (WEST, w1), (FAR, w2)):
         there = near[n]
         by_p[n] -= w * state.drho[there] * state.h[there]
@@ -174,7 +174,7 @@ def _slopes(state: Coarse, mesh: Mesh, work: Work) -> None:
 
 
 @helper
-def _assemble_row(system: System, work: Work, row: int, count: int) -> None:
+def _assemble_row(system: CoarseSystem, work: Work, row: int, count: int) -> None:
     """Fill one row of the matrix from the derivatives by pressure and film at its node."""
     full, near, by_p, by_h = work.full, work.near, work.by_p, work.by_h
     for m in range(full.shape[0]):
@@ -187,26 +187,26 @@ def _assemble_row(system: System, work: Work, row: int, count: int) -> None:
         full[near[n]] += by_p[n]
         approach += by_h[n]
     for column in range(count):
-        work.matrix[row, column] = full[work.active[column]]
+        work.matrix[row, column] = full[work.free[column]]
     work.matrix[row, count] = approach
     work.rhs[row] = system.residual[near[HERE]]
 
 
 @helper
 def _assemble(
-    state: Coarse, mesh: Mesh, system: System, work: Work, sizes: tuple[int, int]
+    state: Coarse, stencil: Stencil, system: CoarseSystem, work: Work, sizes: tuple[int, int]
 ) -> None:
-    """Fill matrix and right-hand side: a row per active node, the load balance as the last.
+    """Fill matrix and right-hand side: a row per free node, the load balance as the last.
 
-    ``sizes``: how many nodes are active, and how many nodes a row of the grid has.
+    ``sizes``: how many nodes are free, and how many nodes a row of the grid has.
     """
     count, nx = sizes
     for row in range(count):
-        _find_neighbours(work.active[row], nx, work.near)
-        _slopes(state, mesh, work)
+        _find_neighbours(work.free[row], nx, work.near)
+        _slopes(state, stencil, work)
         _assemble_row(system, work, row, count)
     for column in range(count):
-        twice = mesh.mirror and work.active[column] >= nx
+        twice = stencil.mirror and work.free[column] >= nx
         work.matrix[count, column] = system.area * (2.0 if twice else 1.0)
     work.matrix[count, count] = 0.0
     work.rhs[count] = system.missing_load
@@ -214,19 +214,19 @@ def _assemble(
 
 @kernel
 def solve_step(
-    state: Coarse, mesh: Mesh, system: System, work: Work, settings: tuple[int, float]
+    state: Coarse, stencil: Stencil, system: CoarseSystem, work: Work, settings: tuple[int, float]
 ) -> float:
     """Take the step of `newton_step` on flat fields; ``settings``: nodes per row, longest step."""
     nx, longest = settings
     state, system, work = raw((state, system, work))
-    count = _find_active(state, system, mesh.mirror, nx, work.active)
-    _assemble(state, mesh, system, work, (count, nx))
+    count = _find_free(state, system, stencil.mirror, nx, work.free)
+    _assemble(state, stencil, system, work, (count, nx))
     _solve_dense(work.matrix, work.rhs, count + 1)
     most = 0.0
     for row in range(count):
         most = max(most, abs(work.rhs[row]))
     scale = min(1.0, longest / max(most, 1e-300))
     for row in range(count):
-        here = work.active[row]
+        here = work.free[row]
         state.p[here] = max(state.p[here] + scale * work.rhs[row], 0.0)
     return scale * work.rhs[count]
