@@ -3,7 +3,7 @@
 Full multigrid needs a start near the solution on each grid. Coarse grids do not resolve the
 roughness, so their film is that of smooth surfaces; the first grid that resolves it gets the
 heights in parts, and finer grids start from the rough film of the next coarser grid
-(docs/theory/numerics.md on rough surfaces).
+(docs/theory/numerics-rough.md).
 """
 
 from collections.abc import Callable, Sequence

@@ -57,7 +57,7 @@ STALL_CYCLES, STALL_FACTOR = 8, 0.5
 
 
 class DivergedError(ArithmeticError):
-    """The unknowns are not finite or grow without bound."""
+    """Runaway or non-finite unknowns, a failed step, or a coarser grid that is not accepted."""
 
 
 def check_divergence(report: CycleReport, *, rough: bool) -> None:

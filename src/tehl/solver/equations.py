@@ -1,6 +1,6 @@
 """The discrete equations on one grid: operators and right-hand sides.
 
-    L(P, H) = f                       Reynolds: (eps P_x)_x + (eps P_y)_y - (rho H)_x,
+    L(P, H) = f                       Reynolds: (eps P_x)_x + (eps P_y)_y/kappa^2 - (rho H)_x,
     H - H00 - K P = g                 film, K the elastic deflection of the half-spaces,
     sum(P) dx dy = w                  load balance
 
@@ -90,8 +90,8 @@ class Equations:
 class Sources:
     """Right-hand sides: f of the Reynolds equation, g of the film equation, w of the load balance.
 
-    ``history`` is the contribution of previous films to wedge and squeeze in a time step; f
-    contains it.
+    ``history`` is the contribution of previous films to wedge and squeeze in a time step; f is
+    less by it.
     """
 
     reynolds: Array

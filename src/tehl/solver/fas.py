@@ -30,20 +30,20 @@ class Cycle:
         return tuple(replace(self, kind=kind) for kind in kinds)
 
 
-class Level(Protocol):
+class CycleLevel(Protocol):
     """Operations of a level in the cycle."""
 
     def relax(self, sweeps: int) -> None:
         """Smooth the error by relaxation sweeps."""
 
     def restrict_to(self, coarse: Self) -> None:
-        """Pose the FAS problem  A_c(u_c) = A_c(I u) + I (b - A(u))  on the next coarser level."""
+        """Pose the FAS problem  A_c(u_c) = A_c(I u) + R (b - A(u))  on the next coarser level."""
 
     def correct_from(self, coarse: Self) -> None:
-        """Add the interpolated change of the coarser level:  u += I (u_c - I u)."""
+        """Add the interpolated change of the coarser level:  u += P (u_c - I u)."""
 
 
-AnyLevel = TypeVar("AnyLevel", bound=Level)
+AnyLevel = TypeVar("AnyLevel", bound=CycleLevel)
 
 
 def cycle(
@@ -53,10 +53,10 @@ def cycle(
 
     Parameters
     ----------
-    levels : sequence of Level
+    levels : sequence of CycleLevel
         Coarsest first; the last one holds the problem.
     solve_coarsest : callable
-        Solves the problem on the coarsest level.
+        Improves the coarsest level: an exact solve, or a Newton step.
     shape, extra : Cycle, int
         Order of visits and sweeps, and sweeps added on this level.
     """

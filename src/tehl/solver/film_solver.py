@@ -111,7 +111,8 @@ class FilmSolver:
         Raises
         ------
         DivergedError
-            When the unknowns on the finest grid grow without bound or are not finite.
+            When the unknowns on the finest grid grow without bound or are not finite, no Newton
+            step reduces the residual, or, unless forced, the coarser grid was not accepted.
         """
 
         def improve(levels: Sequence[Level]) -> None:

@@ -49,7 +49,7 @@ class CoarsestSolver:
         """Perform one Newton step of limited length in place."""
         level = self.level
         level.update()
-        # unlike evaluate_residual, not zero at cavitated nodes: Newton's active set may wet them
+        # unlike evaluate_residual, not zero at cavitated nodes: the Newton step may wet them
         residual = np.empty_like(level.residual)
         reynolds.operator(level.film, level.stencil, residual)
         np.subtract(level.sources.reynolds, residual, out=residual)

@@ -5,9 +5,9 @@ finest grid the right-hand sides f, g, w of `tehl.solver.equations` are those of
 coarser one they carry the full approximation scheme (FAS: Brandt 1977; Venner and Lubrecht 2000,
 chapters 4 and 6): each equation A(u) = b becomes
 
-    A_c(u_c) = A_c(I u) + I (b - A(u)),
+    A_c(u_c) = A_c(I u) + R (b - A(u)),
 
-with the injected or weighted fine solution I u.
+with I u the injected or weighted fine solution and R full weighting.
 """
 
 import numpy as np
@@ -36,10 +36,10 @@ APPROACH_WEIGHT = 10.0
 
 
 class Level:
-    """One grid with its unknowns; the only mutable object of the multigrid solver.
+    """One grid with its unknowns.
 
-    A change of pressure or rigid approach, by `set_state`, relaxation or coarse-grid correction,
-    marks the film as stale; `update` evaluates film, density and conductance again.
+    `set_state`, `relax`, `correct_from`, `apply_heights` and `uncouple` mark the film as stale;
+    `update` evaluates film, density and conductance again.
     """
 
     def __init__(self, equations: Equations, relaxation: Relaxation) -> None:
@@ -174,10 +174,10 @@ class Level:
     def write_source(self) -> None:
         """Set f of the finest level for the present film.
 
-        A shear-thinning film relaxes with tangent conductances along x and y, those of a small
-        change of the pressure gradient. f subtracts their excess over the secant conductance at the
-        present pressure, so that the solution does not depend on them (docs/theory/thermal.md). It
-        subtracts the history too.
+        A shear-thinning film relaxes with tangent conductances, those of a small change of the
+        pressure gradient along x or y. With P0 the present pressure, that of the last energy sweep,
+        L_tan(P) = f = L_tan(P0) - L_sec(P0) - history  has the solution of the secant operator
+        where P = P0 (docs/theory/numerics-thermal.md).
         """
         reynolds.tangent_source(self.film, self.stencil, self.sources.reynolds)
         if self.sources.history is not None:
@@ -283,7 +283,7 @@ class Level:
         coarse.update_properties()
 
     def restrict_reynolds(self, coarse: "Level") -> None:
-        """Pose the Reynolds equation:  f_c = L_c(P_c, H_c) + I (f - L(P, H)),  I full weighting.
+        """Pose the Reynolds equation:  f_c = L_c(P_c, H_c) + R (f - L(P, H)),  R full weighting.
 
         The residual is zero where the fine grid is cavitated: complementarity holds there.
         """
@@ -297,10 +297,10 @@ class Level:
         coarse.sources.load = self.missing_load() + carried
 
     def correct_from(self, coarse: "Level") -> None:
-        """Add the change of the coarse grid:  P += I (P_c - I P),  H00 += H00_c - H00.
+        """Add the interpolated change of the coarse grid,  u += interpolated (u_c - I u).
 
-        By bilinear interpolation, never across the cavitation front: two grids would move the front
-        back and forth.
+        For H00 one number; for the pressure bilinear, never across the cavitation front: two grids
+        would move the front back and forth.
         """
         (before, approach), (part, limit) = coarse.restricted, coarse.correction
         transfer.correct(self.film.p, coarse.film.p, before, self.stencil.mirror, part, limit)

@@ -1,14 +1,14 @@
 """Newton-Krylov method on one level, for films on which no relaxation converges.
 
 Between steep asperities the conductance changes by orders of magnitude from node to node, and a
-relaxation that freezes it diverges. Newton's method linearises all of it (docs/theory/numerics.md
-on rough surfaces):
+relaxation that freezes it diverges. Newton's method linearises all of it
+(docs/theory/numerics-rough.md):
 
     L_P v + L_H (K v + c) = f - L(P),   sum(v) dx dy = w - sum(P) dx dy,
 
-for changes v of the pressures and c of the rigid approach. The free nodes are those that are wet or
-whose residual would wet them (a primal-dual active set, Hintermueller, Ito and Kunisch 2003). The
-Krylov method applies the full elastic deflection K. Its preconditioner is a correction on a coarse
+for changes v of the pressures and c of the rigid approach. The free (inactive) nodes are those that
+are wet or whose residual would wet them (Hintermüller, Ito and Kunisch 2002). The Krylov method
+applies the full elastic deflection K. Its preconditioner is a correction on a coarse
 grid with dense K, then a sparse factorisation of L_P + L_H K_00 with the deflection K_00 of a node
 by itself; with the deflection by the neighbours as well the factorisation costs five times as much
 and saves no products.
@@ -128,7 +128,7 @@ class System:
         rest = np.empty(self.shape)
         reynolds.operator(film, stencil, rest)
         np.subtract(level.sources.reynolds, rest, out=rest)
-        # active set: nodes that are wet, and dry ones whose residual would wet them
+        # free: nodes that are wet, and cavitated ones whose residual would wet them
         inner = newton.neighbours.here.diagonal() > 0.0
         self.free: BoolArray = inner & ((film.p > 0.0) | (rest < 0.0)).ravel()
         self.kept = rows(self.free.astype(float))

@@ -3,7 +3,7 @@
 Where the film conducts, the Poiseuille term dominates, and Gauss-Seidel by lines along x smooths
 the error. In the contact the equation is (rho H)_x = 0 and a change at one node moves the film
 everywhere, so nodes change there as dipoles: one up, its four neighbours down by a quarter each
-(Venner and Lubrecht 2000, chapter 6; docs/theory/numerics.md).
+(Venner and Lubrecht 2000, chapter 6; docs/theory/relaxation.md).
 """
 
 from dataclasses import dataclass
@@ -34,8 +34,8 @@ class Relaxation:
     dipole: float
     """Under-relaxation of points (Gauss-Seidel) and of dipoles (Jacobi) [-]."""
     lines: int = 0
-    """Lines to each side that are assumed to move with a line while it is solved. On the steep
-    flank of a ridge along them they do, and together change the film more than each alone."""
+    """Lines to each side that are assumed to change with a line while it is solved. At a ridge
+    across the flow neighbouring lines change alike, and their films add."""
     stiff: bool = False
     """Add the change of conductance with pressure to the diagonal."""
 
@@ -69,7 +69,7 @@ class Smoother(Protocol):
 
 
 class LineSmoother:
-    """Lines along x in two colours: points where the film conducts, dipoles in the contact.
+    """Lines along x, even ones first; nodes are points where the film conducts, else dipoles.
 
     Each line is a linear complementarity problem, solved by policy iteration
     (`tehl.kernels.relaxation.relax_lines`).

@@ -1,8 +1,8 @@
-"""Coupling of temperature and shear stress with the film: one energy sweep after each cycle.
+"""Coupling of temperature and shear stress with the film: energy sweeps after each cycle.
 
 Heat and shear thinning enter the Reynolds equation as factors on the isothermal Newtonian mobility
 and density, which are constant during a cycle and injected to the coarser grids
-(docs/theory/thermal.md on the coupling with the film).
+(docs/theory/numerics-thermal.md on the coupling with the film).
 """
 
 from collections.abc import Sequence
@@ -190,7 +190,7 @@ class Coupling:
 
         Oil that is stiffer on the fast side of the film carries more mass than the mean speed: the
         wedge has the density rho* of that flux, the squeeze the mean density rho_e
-        (docs/theory/thermal.md on transient films).
+        (docs/theory/numerics-thermal.md on transient runs).
         """
         if self.state is None:
             return None

@@ -1,4 +1,4 @@
-"""Judgement of a finished run: converged, or the cause why not.
+"""Judgement of a finished run: converged, or why not.
 
 A status has the name of its cause for programs, a message with the numbers, and a hint with an
 action.

@@ -1,7 +1,7 @@
 """Error bars of a transient run, from three grids and one larger domain.
 
 The stride is the same on all grids, so the time step is proportional to the mesh width and the
-scheme is of second order in both together (docs/theory/numerics.md on time steps).
+scheme is of second order in both together (docs/theory/numerics-transient.md).
 """
 
 import math

@@ -24,7 +24,7 @@ class Predictor:
 
         delta(x, t + dt) = sum_k c_k delta(x - s_k dx, t - j_k dt)
 
-    (docs/theory/numerics.md on time steps), with the coefficients that best fit the last step in
+    (docs/theory/numerics-transient.md), with the coefficients that best fit the last step in
     the least-squares sense and, among equally good ones, are nearest to linear extrapolation. The
     fit adapts to what stands still and to what moves, at any speed. The normal equations are
     assembled without BLAS, whose threads cost more than they save here. ``steady`` is the pressure

@@ -5,7 +5,7 @@ are one derivative of m = rho H along the mean motion, second-order backward:
 
     (d/dx + d/dt) m = [3/2 m(x, t) - 2 m(x - s dx, t - dt) + 1/2 m(x - 2 s dx, t - 2 dt)] / dt
 
-(docs/theory/numerics.md on time steps; thermal.md on heated ones).
+(docs/theory/numerics-transient.md; numerics-thermal.md on heated ones).
 """
 
 from collections.abc import Sequence
@@ -172,7 +172,7 @@ class Stepper:
 class Squeeze:
     """Correction of the squeeze of heated films: subtracts dq/dt with q = (rho* - rho_e) H.
 
-    A heated film carries rho* H and stores rho_e H (docs/theory/thermal.md),
+    A heated film carries rho* H and stores rho_e H (docs/theory/numerics-thermal.md),
 
         d(rho* H)/dx + d(rho_e H)/dt = Poiseuille flow,
 
