@@ -49,9 +49,9 @@ def swept(state):
     """What a sweep and its twin make of the same film, after the stress has converged."""
     for _ in range(3):
         state.sweep(60)
-    held = state.model._replace(terms=state.model.terms._replace(heat=0))
+    unheated = state.model._replace(terms=state.model.terms._replace(heat=0))
     for _ in range(4):  # the last Newton step of each is below the square of its tolerance
-        sweep(held, state.fields, state.surfaces, state.work, (60, False))
+        sweep(unheated, state.fields, state.surfaces, state.work, (60, False))
     fields = state.fields._replace(**{k: v.copy() for k, v in state.fields._asdict().items()})
     surfaces = [surface._replace(flux=surface.flux.copy()) for surface in state.surfaces]
     twin = station.sweep(state.model, fields, type(state.surfaces)(*surfaces))

@@ -254,15 +254,8 @@ def _refill(nodes: Records, i: int) -> bool:
     """Free the cavitated lanes with negative residual at node i; return whether there was one."""
     far, west_2, west = nodes[i], nodes[i + 1], nodes[i + 2]
     here, east, east_2 = nodes[i + 3], nodes[i + 4], nodes[i + 5]
-    rest = (
-        here.rest
-        - here.west_3 * far.u
-        - here.west_2 * west_2.u
-        - here.west_1 * west.u
-        - here.centre * here.u
-        - here.east_1 * east.u
-        - here.east_2 * east_2.u
-    )
+    rest = here.rest - here.west_3 * far.u - here.west_2 * west_2.u - here.west_1 * west.u
+    rest = rest - here.centre * here.u - here.east_1 * east.u - here.east_2 * east_2.u
     cavitated = here.state == WAS_CAVITATED
     refills = cavitated & (rest < 0.0)
     here.state = where(refills, FREE, where(cavitated, CAVITATED, here.state))

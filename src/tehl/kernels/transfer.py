@@ -82,15 +82,11 @@ def correct(p: Array, coarse: Array, before: Array, mirror: int, part: float, li
             high_i = low_i + (i % 2)
             total = 0.0
             wet = True
-            for row, column in (
-                (low_j, low_i),
-                (low_j, high_i),
-                (high_j, low_i),
-                (high_j, high_i),
-            ):
-                if before[row, column] <= 0.0:
-                    wet = False
-                total += coarse[row, column] - before[row, column]
+            for row in (low_j, high_j):
+                for column in (low_i, high_i):
+                    if before[row, column] <= 0.0:
+                        wet = False
+                    total += coarse[row, column] - before[row, column]
             if wet:
                 largest = limit * p[j, i]
                 change = min(max(part * 0.25 * total, -largest), largest)

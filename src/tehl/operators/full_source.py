@@ -25,7 +25,7 @@ class FullSource:
     Parameters
     ----------
     shape : (int, int)
-        Rows and columns of nodes that are held.
+        Rows and columns of nodes that are stored.
     mirror : bool
         Row 0 is a symmetry line.
     cell : (float, float)
@@ -47,8 +47,8 @@ class FullSource:
         factor: float,
         line: float = 0.0,
     ) -> None:
-        held, nx = shape
-        ny = 2 * held - 1 if mirror else held
+        stored, nx = shape
+        ny = 2 * stored - 1 if mirror else stored
         self.mirror, self.shape = mirror, (ny, nx)
         self.period = (2 * (ny - 1), 2 * (nx - 1))
         rows = np.arange(ny)
@@ -61,14 +61,14 @@ class FullSource:
         self.spectrum = np.fft.rfft2(table[folded])
 
     def rise(self, flux: Array) -> Array:
-        """Return the temperature rise under ``flux``, both of the shape that is held."""
-        held, nx = flux.shape
+        """Return the temperature rise under ``flux``, both of the stored shape."""
+        stored, nx = flux.shape
         padded = np.zeros(self.period)
-        padded[:held, :nx] = flux
+        padded[:stored, :nx] = flux
         if self.mirror:
-            padded[:-held:-1, :nx] = flux[1:]
+            padded[:-stored:-1, :nx] = flux[1:]
         convolved = np.fft.irfft2(np.fft.rfft2(padded) * self.spectrum, s=self.period)
-        return np.ascontiguousarray(convolved[:held, :nx])
+        return np.ascontiguousarray(convolved[:stored, :nx])
 
 
 def point_source(
