@@ -9,8 +9,8 @@ reaches two nodes upstream, the changes u of a line satisfy six-diagonal complem
     r(i) - sum_s band_s(i) u(i + s) = 0,  s = -3 .. 2,      or >= 0 where p + u = 0.
 
 Policy iteration solves them: solve, cavitate the nodes of negative pressure, free the cavitated
-nodes with negative residual, and repeat. In practice it ends after a few passes, as is proven for
-tridiagonal M-matrices (Brennan and Schwartz 1977).
+nodes with negative residual, and repeat. In practice it ends after a few passes; that it ends is
+proven for tridiagonal M-matrices (Brennan and Schwartz 1977).
 
 Eight lines of one colour are solved at once (`tehl.kernels.lanes`).
 """

@@ -297,10 +297,10 @@ class Level:
         coarse.sources.load = self.missing_load() + carried
 
     def correct_from(self, coarse: "Level") -> None:
-        """Add the interpolated change of the coarse grid,  u += interpolated (u_c - I u).
+        """Add the interpolated change  u_c - I u  of the coarse grid, u the pressure and H00.
 
-        For H00 one number; for the pressure bilinear, never across the cavitation front: two grids
-        would move the front back and forth.
+        By bilinear interpolation, never across the cavitation front: two grids would move the front
+        back and forth.
         """
         (before, approach), (part, limit) = coarse.restricted, coarse.correction
         transfer.correct(self.film.p, coarse.film.p, before, self.stencil.mirror, part, limit)

@@ -8,10 +8,10 @@ relaxation that freezes it diverges. Newton's method linearises all of it
 
 for changes v of the pressures and c of the rigid approach. The free (inactive) nodes are those that
 are wet or whose residual would wet them (Hintermüller, Ito and Kunisch 2002). The Krylov method
-applies the full elastic deflection K. Its preconditioner is a correction on a coarse
-grid with dense K, then a sparse factorisation of L_P + L_H K_00 with the deflection K_00 of a node
-by itself; with the deflection by the neighbours as well the factorisation costs five times as much
-and saves no products.
+applies the full elastic deflection K. Its preconditioner is a correction on a coarse grid with
+dense K, then a sparse factorisation of L_P + L_H K_00 with the deflection K_00 of a node by itself;
+with the deflection by the neighbours as well the factorisation costs five times as much and saves
+no products.
 """
 
 import warnings

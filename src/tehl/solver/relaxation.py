@@ -69,7 +69,7 @@ class Smoother(Protocol):
 
 
 class LineSmoother:
-    """Lines along x, even ones first; nodes are points where the film conducts, else dipoles.
+    """Lines along x in two colours; nodes are points where the film conducts, else dipoles.
 
     Each line is a linear complementarity problem, solved by policy iteration
     (`tehl.kernels.relaxation.relax_lines`).
