@@ -111,9 +111,16 @@ def weigh(folded: Array, table: Array, q: int, every: tuple[int, int]) -> None:
     """Sum rows by ``table[:, q]`` to the last row, three at a time; ``every``: first row, step."""
     first, step = every
     n, width = table.shape[0], folded.shape[1]
-    for x in range(width):
-        folded[n, x] = 0.0
     k = first
+    if k + 2 * step < n:
+        b, c = k + step, k + 2 * step
+        e0, e1, e2 = table[k, q], table[b, q], table[c, q]
+        for x in range(width):
+            folded[n, x] = e0 * folded[k, x] + e1 * folded[b, x] + e2 * folded[c, x]
+        k += 3 * step
+    else:
+        for x in range(width):
+            folded[n, x] = 0.0
     while k + 2 * step < n:
         b, c = k + step, k + 2 * step
         e0, e1, e2 = table[k, q], table[b, q], table[c, q]
