@@ -213,6 +213,16 @@ class Result(Saved):
         )
 
     @property
+    def central_film_thickness(self) -> float:
+        """Film thickness at the centre of the contact [m]."""
+        return self.film.central
+
+    @property
+    def minimum_film_thickness(self) -> float:
+        """Smallest film thickness, between the nodes too [m]."""
+        return self.film.minimum
+
+    @property
     def traction(self) -> Traction | None:
         """Traction coefficients, None without shear stresses."""
         return traction(self)

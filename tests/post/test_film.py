@@ -56,7 +56,7 @@ def test_profiles_run_through_the_centre(result):
     along, across = profile_x(result), profile_y(result)
     assert along.at == across.at == 0.0
     middle = int(np.argmin(np.abs(result.scaled.x)))
-    assert along.film_thickness[middle] == pytest.approx(result.film.central)
+    assert along.film_thickness[middle] == pytest.approx(result.central_film_thickness)
     assert along.hertz_pressure.max() == pytest.approx(result.scales.hertz_pressure)
     assert np.array_equal(across.pressure, result.pressure[:, middle])
     assert across.dry_gap.shape == result.y.shape
