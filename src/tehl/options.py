@@ -100,8 +100,8 @@ class Options(Table):
             if coarsenings(nodes) < 1:
                 fewer, more = coarsenable(nodes)
                 raise ValueError(
-                    f"points = {nodes}: cannot be coarsened; take n 2^k + 1 with 16 <= n <= 31, "
-                    f"such as {fewer} or {more} nodes"
+                    f"points = {nodes}: cannot be coarsened; take n 2^k + 1 with 16 <= n <= 31 "
+                    f"and k >= 1, such as {fewer} or {more} nodes"
                 )
         common = min(coarsenings(nodes) for nodes in self.shape)
         if max(self.shape) - 1 > LARGEST_COARSEST * 2**common:

@@ -5,9 +5,9 @@ validating the parsed file. Derived quantities in SI are properties.
 """
 
 import math
-from typing import TYPE_CHECKING, ClassVar, Self
+from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
-from pydantic import model_validator
+from pydantic import AfterValidator, model_validator
 
 from tehl.geometry import Motion, Radii, reduced_radii
 from tehl.heat import FilmEnergy, Thermal
@@ -121,10 +121,19 @@ class Contact(_WithRadii):
             raise ValueError(f"needs one of {', '.join(names)}")
 
 
+def _printable(title: str) -> str:
+    if not title.isprintable():
+        raise ValueError("must be one line without control characters")
+    return title
+
+
+Title = Annotated[str, AfterValidator(_printable)]
+
+
 class ContactProblem(Table):
     """A lubricated point contact."""
 
-    title: str = ""
+    title: Title = ""
     """Shown in reports and pictures."""
     contact: Contact
     """Shape, load and motion."""

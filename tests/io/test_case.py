@@ -297,6 +297,8 @@ def test_a_file_that_cannot_be_read_is_reported(tmp_path: Path):
     ("content", "words"),
     [
         (b"a = " + b"[" * 5000, "nested too deeply"),
+        (b"a." * 5000 + b"b = 1", "nested too deeply"),
+        (b'title = "two\\u0000lines"', "must be one line without control characters"),
         (b"a = " + b"9" * 5000, "too many digits"),
         (b"x" * 100_000, "line 1: 'xxx"),
         (bytes(5000), "line 1: "),

@@ -92,6 +92,22 @@ def test_this_process_compiles_what_others_leave(monkeypatch, program):
     assert not compilation.running
 
 
+def test_a_damaged_cache_is_compiled_again(monkeypatch):
+    class Damaged(Kernel):
+        def compile(self) -> None:
+            super().compile()
+            if self.compiled == 1:
+                raise EOFError
+
+    sample, cleared = Damaged(1.0), []
+    monkeypatch.setattr(warmup, "PARTS", {"isothermal": [sample]})
+    monkeypatch.setattr(warmup, "_load", warmup._load.__wrapped__)
+    monkeypatch.setattr(warmup.cache, "missing", lambda **_: [])
+    monkeypatch.setattr(warmup.cache, "clear", lambda: cleared.append(True))
+    warmup.warm_up(coupled=False)
+    assert (sample.compiled, cleared) == (2, [True])
+
+
 def test_helpers_are_left_to_their_callers():
     """A failure means: numba's internals changed; kernels compile in 1.5 times the time."""
     assert compiled.can_leave_to_callers()

@@ -86,8 +86,9 @@ def _facts() -> Iterator[tuple[str, str]]:
         except PackageNotFoundError:
             yield name, "missing"
     yield "kernel cache", str(folder() or "none: no folder can be written")
-    cold = is_cold(coupled=True)
-    yield "kernels compiled", "no, the first solve compiles once" if cold else "yes"
+    for name, coupled in (("isothermal", False), ("with heat", True)):
+        cold = is_cold(coupled=coupled)
+        yield f"kernels, {name}", "compiled by the first solve" if cold else "compiled"
 
 
 def _warm() -> None:

@@ -16,6 +16,8 @@ from tehl.io.mistakes import NUMERICS, describe, short, shown
 from tehl.options import Options
 from tehl.problem import ContactProblem
 
+_LONG_KEY = re.compile(r"(?m)^[\s\[]*(?:[^\s.,=#]+\s*\.\s*){100}")
+"""A key of more than a hundred parts."""
 _LARGEST = 10**6
 """Bytes of a case file."""
 _DEEPEST = 8
@@ -92,6 +94,9 @@ def case_schema() -> dict[str, Any]:
 def toml_tables(path: Path) -> dict[str, Any]:
     """Return the tables of a TOML file, unchecked; messages of errors do not name the file."""
     text = _text(path)
+    # tomllib takes time and memory that grow with the square of the parts of a key
+    if _LONG_KEY.search(text):
+        raise InputError("nested too deeply")
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:

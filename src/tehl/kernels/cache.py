@@ -58,6 +58,14 @@ def mark_compiled(part: str) -> None:
         _mark(part).touch()
 
 
+def clear() -> None:
+    """Remove the machine code of the present source, for example if a file is damaged."""
+    present = folder()
+    for path in present.rglob("*") if present else ():
+        if path.is_file():
+            path.unlink()
+
+
 def remove_old() -> None:
     """Remove the folders of earlier source of this installation."""
     present = folder()

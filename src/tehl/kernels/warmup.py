@@ -62,6 +62,14 @@ def warm_up(*, coupled: bool, report: Report = silent) -> None:
     """
     if config.DISABLE_JIT:
         return
+    try:
+        _prepare(report, coupled=coupled)
+    except Exception:  # a damaged file of the cache may raise anything
+        cache.clear()
+        _prepare(report, coupled=coupled)
+
+
+def _prepare(report: Report, *, coupled: bool) -> None:
     missing = cache.missing(coupled=coupled)
     if missing:
         Compilation([sample for part in missing for sample in PARTS[part]], report).run()
