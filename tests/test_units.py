@@ -31,6 +31,10 @@ from tehl.units import (
     ("kind", "text", "value"),
     [
         (Pressure, "0.5 GPa", 5e8),
+        (Viscosity, "40 mPas", 0.04),
+        (Viscosity, "40 mPa.s", 0.04),
+        (Density, "890 kg/m3", 890.0),
+        (KinematicViscosity, "32 mm2/s", 32e-6),
         (PressureCoefficient, "20 1/GPa", 2e-8),
         (PressureCoefficient, "20 GPa^-1", 2e-8),
         (PressureCoefficient, "20 GPa⁻¹", 2e-8),

@@ -34,6 +34,7 @@ _PREFIXED: dict[str, tuple[float, Dimension]] = {
     "Pa": (1.0, _PRESSURE),
     "J": (1.0, _ENERGY),
     "W": (1.0, _POWER),
+    "Pas": (1.0, (-1, 1, -1, 0)),
 }
 _UNITS: dict[str, tuple[float, Dimension]] = {
     prefix + name: (scale * factor, dimension)
@@ -68,7 +69,8 @@ LONGEST_UNIT = 40
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _GROUP = re.compile(r"\(([^()]*)\)")
 _FACTOR = re.compile(
-    r"\s*([*/·]?)\s*(<\d+>|[+-]?\d+|[A-Za-zµμ°%]+|-|)(?:\s*(?:\^|\*\*)\s*([+-]?\d*))?"
+    r"\s*([*/·.]?)\s*(<\d+>|[+-]?\d+|[A-Za-zµμ°%]+|-|)"
+    r"(?:\s*(?:\^|\*\*)\s*([+-]?\d*)|(?<=[A-Za-z])([+-]?\d))?"  # m^3, or m3 as data sheets have
 )
 _SUPERSCRIPTS = str.maketrans({"²": "^2", "³": "^3", "⁻": "-", "¹": "1"})
 
@@ -103,7 +105,8 @@ def _product(
     while place == 0 or place < len(plain):
         match = _FACTOR.match(plain, place)
         assert match is not None  # each part is optional
-        operator, name, power = match.groups()
+        operator, name, power, digit = match.groups()
+        power = digit or power
         if not (operator or name):
             fault = "a bracket left open in its" if "(" in plain else "an unreadable"
             raise ValueError(f"has {fault} unit {text!r}")
