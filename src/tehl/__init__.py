@@ -11,6 +11,8 @@ Exports are loaded on first use, so that importing the package costs nothing.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from tehl.version import SOLVER_VERSION, __version__
+
 if TYPE_CHECKING:
     from tehl import plots, studies
     from tehl.errors import ConvergenceError, FileFormatError, InputError, TehlError
@@ -26,6 +28,7 @@ if TYPE_CHECKING:
     from tehl.transient_result import TransientResult
 
 __all__ = [
+    "SOLVER_VERSION",
     "Contact",
     "ContactProblem",
     "ConvergenceError",
@@ -53,10 +56,6 @@ __all__ = [
     "studies",
     "study",
 ]
-
-__version__ = "0.1.0"
-SOLVER_VERSION = 4
-"""To be raised with each change of the solver that makes stored results of studies invalid."""
 
 _HOMES = {
     name: module

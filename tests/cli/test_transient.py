@@ -151,7 +151,7 @@ def test_a_terminated_run_keeps_its_last_step(folder, number):
 
 def test_a_checkpoint_of_another_version_is_rejected(folder, run, monkeypatch):
     stopped_by(signal.SIGTERM, folder, 2)
-    monkeypatch.setattr(tehl, "__version__", "9.9.9")
+    monkeypatch.setattr("tehl.io.checkpoint.__version__", "9.9.9")
     done = run("solve", "wave.toml", "--resume")
     assert done.code == 2
     assert "and this is 9.9.9" in done.err

@@ -120,26 +120,26 @@ def _solved(
 
 
 def _steady(problem: ContactProblem, options: Options, job: Job) -> Result | TransientResult:
-    from tehl import solver
     from tehl.cli.progress import progress
+    from tehl.solver import certify, solve
 
-    work = solver.certify if job.certify else solver.solve
+    work = certify if job.certify else solve
     with progress(problem, quiet=job.quiet) as monitor:
         return work(problem, options, monitor=monitor)
 
 
 def _transient(problem: ContactProblem, options: Options, job: Job) -> Result | TransientResult:
     """Solve a transient case; when it is interrupted, a checkpoint is left beside the target."""
-    from tehl import solver
     from tehl.cli.checkpoint import Keeper
     from tehl.cli.progress import progress
+    from tehl.solver import certify_transient, solve_transient
 
     keep = Keeper(checkpoint_of(job.target), fingerprint(problem, options))
     start = keep.begin(resume=job.resume)
     with keep.on_interrupt(), progress(problem, quiet=job.quiet) as monitor:
         if job.certify:
-            return solver.certify_transient(problem, options, monitor=monitor)
-        return solver.solve_transient(problem, options, monitor=monitor, resume=start, keep=keep)
+            return certify_transient(problem, options, monitor=monitor)
+        return solve_transient(problem, options, monitor=monitor, resume=start, keep=keep)
 
 
 def _compared(result: Result, cases: dict[str, ContactProblem], job: Job) -> Comparisons:

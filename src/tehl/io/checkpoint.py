@@ -14,6 +14,7 @@ from tehl.io.atomic import replacing
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.roughness import Map, Sum
+from tehl.version import SOLVER_VERSION, __version__
 
 _LABEL, _LAYOUT = "tehl_checkpoint", 4
 """Array that marks such a file; version, to be raised when the arrays of a state change."""
@@ -28,8 +29,6 @@ class Fingerprint(NamedTuple):
 
 def fingerprint(problem: ContactProblem, options: Options) -> Fingerprint:
     """Return the fingerprint of case, options and measured surfaces, however they are written."""
-    from tehl import SOLVER_VERSION, __version__  # noqa: PLC0415 (the package is being imported before)
-
     maps = [one.fingerprint for one in _maps(problem)]
     content = [problem.model_dump(mode="json"), options.model_dump(mode="json"), maps]
     text = json.dumps(content, sort_keys=True)

@@ -102,5 +102,5 @@ class _HelperCompiler(CompilerBase):
     def define_pipelines(self) -> list[Any]:
         """Return the standard pipeline."""
         generator = self.state.targetctx.codegen()
-        self.state.library = _LeftToCallers(generator, self.state.func_id.func_qualname)
+        self.state["library"] = _LeftToCallers(generator, self.state.func_id.func_qualname)
         return [DefaultPassBuilder.define_nopython_pipeline(self.state)]

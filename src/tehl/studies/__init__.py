@@ -8,7 +8,6 @@
     table(cases, store)
 """
 
-from tehl import SOLVER_VERSION
 from tehl.studies.axes import Axis, Sample
 from tehl.studies.case import Case, Row
 from tehl.studies.file import cases_of, read_study, study
@@ -16,6 +15,7 @@ from tehl.studies.plan import Study, study_of
 from tehl.studies.runner import Outcome, StudyMonitor, run
 from tehl.studies.store import Store
 from tehl.studies.tables import table
+from tehl.version import SOLVER_VERSION
 
 __all__ = [
     "SOLVER_VERSION",

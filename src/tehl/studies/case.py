@@ -9,10 +9,10 @@ from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
-from tehl import SOLVER_VERSION, __version__
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import Cost, Result
+from tehl.version import SOLVER_VERSION, __version__
 
 Label = float | str
 Scalar = float | int | str | bool | None

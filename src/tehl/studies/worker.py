@@ -118,7 +118,7 @@ def _failed(case: Case, error: Exception) -> Row:
 
 def _solved(case: Case, guess: Path | None) -> Result:
     """Return the result, converged or not; a guess that cannot be read is ignored."""
-    from tehl import solver  # noqa: PLC0415 (reading a store compiles nothing)
+    from tehl.solver import certify, solve  # noqa: PLC0415 (reading a store compiles nothing)
 
     known = None
     if guess is not None:
@@ -126,7 +126,7 @@ def _solved(case: Case, guess: Path | None) -> Result:
             known = load_as(Result, guess)
     try:
         if case.certify:
-            return solver.certify(case.problem, case.options)
-        return solver.solve(case.problem, case.options, guess=known)
+            return certify(case.problem, case.options)
+        return solve(case.problem, case.options, guess=known)
     except ConvergenceError as error:
         return error.result
