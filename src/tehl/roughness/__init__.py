@@ -1,7 +1,8 @@
 """Heights of the surfaces, positive outwards."""
 
 from tehl.roughness.features import Bump, Dimple, Ridge
-from tehl.roughness.map import Crop, Map
+from tehl.roughness.map import Map
+from tehl.roughness.map_settings import Crop
 from tehl.roughness.model import Roughness, Smooth
 from tehl.roughness.random import Random
 from tehl.roughness.superposition import AnyRoughness, Sum, Superposition

@@ -5,13 +5,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from tehl.errors import InputError
 from tehl.roughness.files import RawMap, checked, read
 from tehl.roughness.files.raw import shown
+from tehl.roughness.map_settings import MapSettings
 from tehl.roughness.model import BEYOND, metres
 from tehl.roughness.prepare import (
     Heights,
@@ -24,9 +25,6 @@ from tehl.roughness.prepare import (
 from tehl.roughness.tile import Tile
 from tehl.typing import Array
 
-if TYPE_CHECKING:
-    from tehl.roughness.map import Map
-
 _LEAST = 4
 _TAPER = 0.1
 _LOWEST, _HIGHEST = 1e-12, 10e-6
@@ -35,7 +33,7 @@ _WIDEST, _FINEST, _TALLEST = 1.0, 1e-10, 1.0
 
 
 @contextmanager
-def _naming(surface: "Map") -> Iterator[None]:
+def _naming(surface: MapSettings) -> Iterator[None]:
     """Put the name of the file before errors."""
     try:
         yield
@@ -43,37 +41,37 @@ def _naming(surface: "Map") -> Iterator[None]:
         raise InputError(f"map {shown(surface.file)} {error}") from None
 
 
-def found_file(surface: "Map") -> Path:
+def found_file(surface: MapSettings) -> Path:
     """Return the path of the file of a map; the error of a missing one names it."""
     with _naming(surface):
         return checked(surface.file)
 
 
-def raw_map(surface: "Map") -> RawMap:
+def raw_map(surface: MapSettings) -> RawMap:
     """Return the content of the file of a map; errors name the file."""
     path = found_file(surface)
     with _naming(surface):
         return read(path, layout=surface.layout, variable=surface.variable)
 
 
-def heights_of(surface: "Map") -> Heights:
+def heights_of(surface: MapSettings) -> Heights:
     """Return the prepared heights of a map, read once as long as its file does not change."""
     return _loaded(surface, _stamp(surface))
 
 
-def tile_of(surface: "Map") -> Tile:
+def tile_of(surface: MapSettings) -> Tile:
     """Return the heights of a map with what lies beyond their edges, as :func:`heights_of`."""
     return _tile(surface, _stamp(surface))
 
 
-def _stamp(surface: "Map") -> tuple[int, int]:
+def _stamp(surface: MapSettings) -> tuple[int, int]:
     """Return what changes when a file does: its size and when it was written."""
     state = found_file(surface).stat()
     return state.st_size, state.st_mtime_ns
 
 
 @lru_cache(maxsize=4)
-def _loaded(surface: "Map", stamp: object) -> Heights:
+def _loaded(surface: MapSettings, stamp: object) -> Heights:
     del stamp
     raw = raw_map(surface)
     notes: list[str] = []
@@ -91,7 +89,7 @@ def _loaded(surface: "Map", stamp: object) -> Heights:
 
 
 @lru_cache(maxsize=4)
-def _tile(surface: "Map", stamp: object) -> Tile:
+def _tile(surface: MapSettings, stamp: object) -> Tile:
     heights = _loaded(surface, stamp)
     values = heights.values
     if surface.outside == "flat":
@@ -126,7 +124,7 @@ def _highest(heights: Array, factor: float) -> float:
 # ---- units
 
 
-def _factor(surface: "Map", raw: RawMap, notes: list[str]) -> float:
+def _factor(surface: MapSettings, raw: RawMap, notes: list[str]) -> float:
     """Return the factor from the heights of the file to metres."""
     stated = surface.unit or raw.unit
     if stated is None:
@@ -150,7 +148,7 @@ def _metres(unit: str, what: str, key: str) -> float:
     return factor
 
 
-def _pixel(surface: "Map", raw: RawMap, notes: list[str]) -> tuple[float, float]:
+def _pixel(surface: MapSettings, raw: RawMap, notes: list[str]) -> tuple[float, float]:
     """Return the distances of the points of the file [m]."""
     ny, nx = raw.heights.shape
     pixel = surface.pixel
@@ -173,7 +171,7 @@ def _pixel(surface: "Map", raw: RawMap, notes: list[str]) -> tuple[float, float]
     return pixel
 
 
-def _pixel_of_file(surface: "Map", raw: RawMap, notes: list[str]) -> tuple[float, float]:
+def _pixel_of_file(surface: MapSettings, raw: RawMap, notes: list[str]) -> tuple[float, float]:
     """Return the distances that the file has, each in its own unit or both in the one stated."""
     if raw.pixel is None:
         raise InputError(
@@ -198,7 +196,7 @@ def _pixel_of_file(surface: "Map", raw: RawMap, notes: list[str]) -> tuple[float
 # ---- shape
 
 
-def _oriented(surface: "Map", values: Array, pixel: tuple[float, float]) -> tuple[Array, Any]:
+def _oriented(surface: MapSettings, values: Array, pixel: tuple[float, float]) -> tuple[Array, Any]:
     if surface.transpose:
         values, pixel = values.T, (pixel[1], pixel[0])
     values = values[:, ::-1] if surface.flip_x else values
@@ -206,7 +204,7 @@ def _oriented(surface: "Map", values: Array, pixel: tuple[float, float]) -> tupl
     return -values if surface.upside_down else values, pixel
 
 
-def _cropped(surface: "Map", values: Array, pixel: tuple[float, float]) -> Heights:
+def _cropped(surface: MapSettings, values: Array, pixel: tuple[float, float]) -> Heights:
     if surface.crop is None:
         return Heights(values=values, pixel=pixel)
     parts = []
@@ -228,7 +226,7 @@ def _cropped(surface: "Map", values: Array, pixel: tuple[float, float]) -> Heigh
 # ---- heights
 
 
-def _whole(surface: "Map", values: Array, notes: list[str]) -> Array:
+def _whole(surface: MapSettings, values: Array, notes: list[str]) -> Array:
     """Return heights without spikes and gaps."""
     values = np.where(np.isfinite(values), values, np.nan)
     gaps = int(np.isnan(values).sum())
@@ -241,7 +239,7 @@ def _whole(surface: "Map", values: Array, notes: list[str]) -> Array:
     return whole
 
 
-def _filtered(surface: "Map", values: Array, heights: Heights, notes: list[str]) -> Array:
+def _filtered(surface: MapSettings, values: Array, heights: Heights, notes: list[str]) -> Array:
     for key, cut_off in (("lambda_c", surface.lambda_c), ("lambda_s", surface.lambda_s)):
         if cut_off is None:
             continue
@@ -257,7 +255,7 @@ def _filtered(surface: "Map", values: Array, heights: Heights, notes: list[str])
     return values
 
 
-def _check_heights(surface: "Map", values: Array, highest: float, factor: float) -> None:
+def _check_heights(surface: MapSettings, values: Array, highest: float, factor: float) -> None:
     """Reject heights that are constant or outside the physical range."""
     if not np.ptp(values) > _ROUNDING * highest * factor:
         raise InputError("is constant: it has no roughness")

@@ -12,9 +12,6 @@ from pydantic import AfterValidator, BeforeValidator
 from tehl.typing import Array, np
 from tehl.units import Length, Quantity, Table, quantity
 
-if TYPE_CHECKING:
-    from tehl.roughness.tile import Tile
-
 _ROUNDING = 1e-12
 _STEEPEST = 0.25
 
@@ -134,7 +131,7 @@ class TileModel(RoughnessModel):
     """Base of the surfaces that are heights on a lattice."""
 
     @property
-    def _tile(self) -> "Tile":
+    def _tile(self) -> Roughness:
         raise NotImplementedError
 
     def _at_rest(self, x: Array, y: Array) -> Array:
