@@ -28,7 +28,7 @@ NAMES = (
     "grids and formulas",
     "scaled problem",
     "problem",
-    "checks of the problem",
+    "contact",
     "physics",
     "kernels",
     "units and errors",

@@ -1,302 +1,211 @@
-"""The problem: two surfaces, a lubricant, a load and a motion.
+"""The problem: a contact whose tables state it completely, only once, and within limits.
 
-The fields of :class:`ContactProblem` are the tables of the case file, so that reading a case is
-validating the parsed file. Derived quantities in SI are properties.
+Each check raises `ValueError` with one sentence: the key, its value, what is wrong, what would be
+right. `tehl.io.case` turns them into `InputError` with the name of the file.
 """
 
 import math
-from typing import TYPE_CHECKING, Annotated, ClassVar, Self
+from typing import Self
 
-from pydantic import AfterValidator, model_validator
+from pydantic import model_validator
 
-from tehl.geometry import Motion, Radii, reduced_radii
-from tehl.heat import FilmEnergy, Thermal
-from tehl.hertz import HertzContact, hertz_contact, load_of_pressure
-from tehl.lubricant import NamedLubricant
-from tehl.materials import NamedSolid, reduced_modulus
-from tehl.problem_checks import check
-from tehl.roughness import AnyRoughness, Smooth
-from tehl.transient import Transient
+from tehl.contact import Contact, PointContact, Surface
+from tehl.geometry import reduced_radius
 from tehl.units import (
-    Force,
-    Height,
-    Length,
-    Number,
-    PositiveNumber,
-    Pressure,
-    Radius,
-    Speed,
-    Table,
-    Temperature,
+    Conductivity,
+    HeatCapacity,
+    Quantity,
+    SolidConductivity,
+    SolidDensity,
+    SolidHeatCapacity,
+    quantity,
 )
 
+__all__ = ["Contact", "ContactProblem", "Surface"]
 
-class _WithRadii(Table):
-    """Base of the tables that state one radius, or two of them."""
-
-    FLAT: ClassVar[str] = ""
-    """Hint of the message on a single one of both radii."""
-
-    if TYPE_CHECKING:
-        radius: float | None
-        radius_x: float | None
-        radius_y: float | None
-
-    @model_validator(mode="after")
-    def _radii_must_agree(self) -> Self:
-        if self.radius is not None and (self.radius_x, self.radius_y) != (None, None):
-            raise ValueError("takes either radius or the pair radius_x and radius_y")
-        if (self.radius_x is None) != (self.radius_y is None):
-            raise ValueError(f"needs both radius_x and radius_y{self.FLAT}")
-        return self
-
-    @property
-    def radii(self) -> Radii | None:
-        """Return the stated radii, None without any."""
-        x = self.radius if self.radius_x is None else self.radius_x
-        y = self.radius if self.radius_y is None else self.radius_y
-        return None if x is None or y is None else Radii(x=x, y=y)
+SURFACES = ("surface_1", "surface_2")
+THERMAL_PROPERTIES = {
+    "density": quantity(SolidDensity),
+    "heat_capacity": quantity(SolidHeatCapacity),
+    "conductivity": quantity(SolidConductivity),
+}
+COLDEST, HOTTEST = 200.0, 800.0
+"""Limits of the temperature of an oil or a solid [K]."""
+LARGEST_RATIO = 1e3
+"""Largest ratio of the reduced radii, either way: beyond it the contact is a line contact."""
 
 
-class Surface(_WithRadii):
-    """One of the two bodies."""
+class ContactProblem(PointContact):
+    """A lubricated point contact.
 
-    FLAT = ' ("inf" is flat)'
-
-    material: NamedSolid
-    """A named material or a table of properties."""
-    radius: Radius | None = None
-    """Radius of a ball [m]."""
-    radius_x: Radius | None = None
-    radius_y: Radius | None = None
-    """Radii along and across entrainment [m]; infinite is flat, negative is hollow."""
-    rms_roughness: Height = 0.0
-    """Rq [m], for the lambda ratio of a smooth calculation."""
-    roughness: AnyRoughness = Smooth()
-    """Heights of the surface; smooth if left out."""
-    temperature: Temperature | None = None
-    """Temperature far from the contact [K], in thermal runs; None is that of the oil at the
-    inlet."""
-
-    @model_validator(mode="after")
-    def _must_be_rough_once(self) -> Self:
-        if self.rms_roughness > 0 and not self.roughness.is_smooth:
-            raise ValueError(
-                "states rms_roughness, which is that of a surface computed as smooth, and "
-                "roughness: leave one of them out"
-            )
-        return self
-
-
-class Contact(_WithRadii):
-    """Shape, load and motion of the contact."""
-
-    radius: Length | None = None
-    """Reduced radius of a circular contact [m]."""
-    radius_x: Length | None = None
-    radius_y: Length | None = None
-    """Reduced radii along and across entrainment [m]. Without any radius here both surfaces state
-    theirs."""
-    load: Force | None = None
-    hertz_pressure: Pressure | None = None
-    moes_load: PositiveNumber | None = None
-    """Exactly one: w [N], p_h [Pa] or M [-]."""
-    entrainment_speed: Speed | None = None
-    moes_speed: PositiveNumber | None = None
-    """Exactly one: u_m [m/s] or L [-]."""
-    slide_roll_ratio: Number = 0.0
-    """(u_1 - u_2) / u_m [-]."""
-
-    @model_validator(mode="after")
-    def _must_be_stated_once(self) -> Self:
-        self._exactly_one("load", "hertz_pressure", "moes_load")
-        self._exactly_one("entrainment_speed", "moes_speed")
-        return self
-
-    def _exactly_one(self, *names: str) -> None:
-        stated = [name for name in names if getattr(self, name) is not None]
-        if len(stated) > 1:
-            raise ValueError(f"states {' and '.join(stated)}: only one of them may be given")
-        if not stated:
-            raise ValueError(f"needs one of {', '.join(names)}")
-
-
-def _printable(title: str) -> str:
-    if not title.isprintable():
-        raise ValueError("must be one line without control characters")
-    return title
-
-
-Title = Annotated[str, AfterValidator(_printable)]
-
-
-class ContactProblem(Table):
-    """A lubricated point contact."""
-
-    title: Title = ""
-    """Shown in reports and pictures."""
-    contact: Contact
-    """Shape, load and motion."""
-    surface_1: Surface
-    surface_2: Surface
-    """The bodies at z = 0 and z = h."""
-    lubricant: NamedLubricant
-    """A named oil or its laws."""
-    thermal: Thermal | None = None
-    """Settings of the heat; None is an isothermal film."""
-    transient: Transient | None = None
-    """Settings of a transient run, in which roughness moves with its surface; None is steady."""
+    Its fields are the tables of the case file, so that reading a case is validating the parsed
+    file.
+    """
 
     @model_validator(mode="after")
     def _check(self) -> Self:
         check(self)
         return self
 
-    @property
-    def radii(self) -> Radii:
-        """Return the reduced radii."""
-        first, second = self.surface_1.radii, self.surface_2.radii
-        if self.contact.radii is not None:
-            return self.contact.radii
-        if first is None or second is None:
-            raise ValueError("no radii")
-        return reduced_radii(first, second)
 
-    @property
-    def radius_x(self) -> float:
-        """Return the reduced radius along entrainment R_x [m]."""
-        return self.radii.x
+def check(problem: PointContact) -> None:
+    """Check that the tables of a problem state one contact, completely and only once.
 
-    @property
-    def radius_y(self) -> float:
-        """Return the reduced radius across entrainment R_y [m]."""
-        return self.radii.y
+    Raises ValueError with one sentence on the first fault.
+    """
+    check_radii(problem)
+    check_temperatures(problem)
+    check_heat(problem)
+    check_transient(problem)
+    if problem.contact.moes_speed is not None and not problem.pressure_coefficient > 0:
+        raise ValueError(
+            "contact.moes_speed does not determine a speed: lubricant.viscosity has no pressure "
+            "coefficient; give contact.entrainment_speed"
+        )
+    ratio = problem.radius_y / problem.radius_x
+    if not 1.0 / LARGEST_RATIO <= ratio <= LARGEST_RATIO:
+        raise ValueError(
+            f"radius_y / radius_x = {ratio:.3g} is a line contact, not a point contact: it must "
+            f"be between {1.0 / LARGEST_RATIO:g} and {LARGEST_RATIO:g}"
+        )
+    check_size(problem)
 
-    @property
-    def reduced_modulus(self) -> float:
-        """Return E' with ``2/E' = (1-nu_1^2)/E_1 + (1-nu_2^2)/E_2`` [Pa]."""
-        return reduced_modulus(self.surface_1.material, self.surface_2.material)
 
-    @property
-    def ambient_viscosity(self) -> float:
-        """Return eta_0 at ambient pressure and inlet temperature [Pa s]."""
-        return self.lubricant.viscosity.ambient(self.inlet_temperature)
-
-    @property
-    def ambient_density(self) -> float:
-        """Return rho_0 at ambient pressure and inlet temperature [kg/m^3]."""
-        return self.lubricant.density.ambient(self.inlet_temperature)
-
-    @property
-    def pressure_coefficient(self) -> float:
-        """Return alpha, the slope of ln eta at ambient pressure and inlet temperature [1/Pa]."""
-        return self.lubricant.viscosity.pressure_coefficient_at(self.inlet_temperature)
-
-    @property
-    def temperature_coefficient(self) -> float:
-        """Return -d ln eta / dT at ambient pressure and inlet temperature [1/K]."""
-        return self.lubricant.viscosity.temperature_coefficient_at(self.inlet_temperature)
-
-    @property
-    def inlet_temperature(self) -> float:
-        """Return the temperature of the oil at the inlet [K], stated or that of the viscosity."""
-        in_table = self.thermal.temperature if self.thermal else None
-        for stated in (in_table, self.lubricant.temperature):
-            if stated is not None:
-                return stated
-        return self.lubricant.viscosity.reference_temperature
-
-    @property
-    def heat(self) -> FilmEnergy | None:
-        """Return the heat problem of the film, None if it is isothermal."""
-        if self.thermal is None:
-            return None
-        inlet, first = self.inlet_temperature, self.surface_1.temperature
-        second = self.surface_2.temperature
-        return FilmEnergy(
-            temperature=inlet,
-            bulk_1=inlet if first is None else first,
-            bulk_2=inlet if second is None else second,
-            reynolds=self.thermal.reynolds,
-            layers=self.thermal.nodes,
-            scheme=self.thermal.scheme,
-            sources="line" if self.transient is not None else self.thermal.sources,
+def check_size(problem: PointContact) -> None:
+    """Check that load, speed and pressure are within the range of floating-point arithmetic."""
+    try:
+        sizes = [problem.radius_x, problem.load, problem.entrainment_speed, problem.hertz.pressure]
+        twice_speed = 2.0 * problem.speed_group
+        unit = problem.reduced_modulus * problem.radius_x**2 * twice_speed**0.75
+        load_number, speed_number = problem.load / unit, problem.material_group * twice_speed**0.25
+    except ArithmeticError:
+        sizes, load_number, speed_number = [], math.nan, math.nan
+    is_possible = all(1e-30 < size < 1e30 for size in sizes)
+    if not (is_possible and 1e-6 < load_number < 1e9 and speed_number < 1e6):
+        raise ValueError(
+            "load, speed and Hertz pressure are far outside the physical range (Moes numbers "
+            f"M = {load_number:.3g}, L = {speed_number:.3g}): check the units of contact, "
+            "materials and viscosity"
         )
 
-    @property
-    def is_coupled(self) -> bool:
-        """Whether heat or shear thinning affect the flow."""
-        return self.thermal is not None or not self.lubricant.shear.is_newtonian
 
-    @property
-    def speed_group(self) -> float:
-        """Return U = eta_0 u_m / (E' R_x) [-]."""
-        if self.contact.moes_speed is not None:
-            return 0.5 * (self.contact.moes_speed / self.material_group) ** 4
-        speed = self.contact.entrainment_speed or math.nan
-        return self.ambient_viscosity * speed / (self.reduced_modulus * self.radius_x)
-
-    @property
-    def material_group(self) -> float:
-        """Return G = alpha E' [-]."""
-        return self.pressure_coefficient * self.reduced_modulus
-
-    @property
-    def entrainment_speed(self) -> float:
-        """Return u_m = (u_1 + u_2)/2 [m/s], stated or from the Moes L."""
-        if self.contact.entrainment_speed is not None:
-            return self.contact.entrainment_speed
-        return self.speed_group * self.reduced_modulus * self.radius_x / self.ambient_viscosity
-
-    @property
-    def load(self) -> float:
-        """Return the normal load w [N], stated or from the Hertz pressure or the Moes M."""
-        if self.contact.load is not None:
-            return self.contact.load
-        if self.contact.hertz_pressure is not None:
-            pressure = self.contact.hertz_pressure
-            return load_of_pressure(pressure, self.radius_x, self.radius_y, self.reduced_modulus)
-        load_group = (self.contact.moes_load or math.nan) * (2.0 * self.speed_group) ** 0.75
-        return load_group * self.reduced_modulus * self.radius_x**2
-
-    @property
-    def slide_roll_ratio(self) -> float:
-        """Return (u_1 - u_2) / u_m [-]."""
-        return self.contact.slide_roll_ratio
-
-    @property
-    def motion(self) -> Motion:
-        """Return the speeds of both surfaces."""
-        return Motion(
-            entrainment_speed=self.entrainment_speed, slide_roll_ratio=self.slide_roll_ratio
+def check_temperatures(problem: PointContact) -> None:
+    """Check the temperatures of oil and bodies, and that the viscosity is known there."""
+    oil, thermal = problem.lubricant, problem.thermal
+    heated = thermal.temperature if thermal else None
+    stated = {
+        "lubricant.temperature": oil.temperature,
+        "thermal.temperature": heated,
+        "surface_1.temperature": problem.surface_1.temperature,
+        "surface_2.temperature": problem.surface_2.temperature,
+    }
+    for key, value in stated.items():
+        if value is not None and not COLDEST <= value <= HOTTEST:
+            raise ValueError(
+                f"{key} = {value:g} K is not a temperature of a lubricated contact ({COLDEST:g} "
+                f'to {HOTTEST:g} K): a bare number is in kelvin, write "40 degC"'
+            )
+    if oil.temperature is not None and heated is not None and oil.temperature != heated:
+        raise ValueError(
+            f"lubricant.temperature = {oil.temperature:g} K and thermal.temperature = "
+            f"{heated:g} K conflict: both are the temperature of the oil at the inlet; state one"
+        )
+    law, inlet = oil.viscosity, problem.inlet_temperature
+    is_constant = law.law == "constant" or law.temperature_coefficient > 0
+    if inlet != law.reference_temperature and not is_constant:
+        raise ValueError(
+            f"lubricant.viscosity is given at {law.reference_temperature:g} K without a "
+            f"temperature coefficient, but the inlet is at {inlet:g} K: {_remedy(problem)}"
         )
 
-    @property
-    def hertz(self) -> HertzContact:
-        """Return the dry contact under the same load."""
-        return hertz_contact(self.load, self.radius_x, self.radius_y, self.reduced_modulus)
 
-    @property
-    def solid_peclet(self) -> tuple[float | None, float | None]:
-        """Return ``u_s a_x / (2 diffusivity)`` of both solids [-], signed; None if not stated."""
-        motion, half_width = self.motion, 0.5 * self.hertz.half_width_x
-        first, second = (one.material.diffusivity for one in (self.surface_1, self.surface_2))
-        return (
-            None if first is None else motion.speed_1 * half_width / first,
-            None if second is None else motion.speed_2 * half_width / second,
+def check_heat(problem: PointContact) -> None:
+    """Check that a thermal run has the properties it needs, and an isothermal one no bodies'."""
+    oil = problem.lubricant
+    for key in SURFACES:
+        surface = getattr(problem, key)
+        if problem.thermal is None and surface.temperature is not None:
+            raise ValueError(
+                f"{key}.temperature has an effect in thermal runs only: add a [thermal] table, or "
+                "state lubricant.temperature for an isothermal film"
+            )
+        for name, wanted in THERMAL_PROPERTIES.items() if problem.thermal else ():
+            _need(f"{key}.material.{name}", getattr(surface.material, name), wanted)
+    if problem.thermal is None:
+        return
+    _need("lubricant.conductivity", oil.conductivity, quantity(Conductivity))
+    _need("lubricant.heat_capacity", oil.heat_capacity, quantity(HeatCapacity))
+    if not oil.viscosity.temperature_coefficient > 0:
+        raise ValueError(
+            "lubricant.viscosity has no temperature coefficient, which a thermal run needs: "
+            f"{_remedy(problem)}"
         )
 
-    @property
-    def rms_roughness(self) -> float:
-        """Return the stated roughness of both surfaces together, sqrt(Rq_1^2 + Rq_2^2) [m]."""
-        return math.hypot(self.surface_1.rms_roughness, self.surface_2.rms_roughness)
 
-    @property
-    def is_rough(self) -> bool:
-        """Whether a surface has heights."""
-        return not (self.surface_1.roughness.is_smooth and self.surface_2.roughness.is_smooth)
+def _need(key: str, value: object, wanted: Quantity) -> None:
+    """Raise if a property that a thermal run needs is missing."""
+    if value is None:
+        raise ValueError(
+            f"{key} is missing, which a thermal run needs: give {wanted.name} such as "
+            f"{wanted.example}"
+        )
 
-    @property
-    def is_even_in_y(self) -> bool:
-        """Whether the problem is symmetric in y, so that half of the domain suffices."""
-        return self.surface_1.roughness.is_even_in_y and self.surface_2.roughness.is_even_in_y
+
+def _remedy(problem: PointContact) -> str:
+    """Return the key that makes the viscosity depend on temperature."""
+    keys = type(problem.lubricant.viscosity).model_fields
+    if "gamma" in keys:
+        return 'add gamma, such as "0.04 1/K"'
+    if "expansion" in keys:
+        return 'add expansion, such as "8e-4 1/K"'
+    return 'take a law with gamma, or law = "walther"'
+
+
+def check_transient(problem: PointContact) -> None:
+    """Check that a transient run has something that changes, and heat that it can follow."""
+    transient, thermal = problem.transient, problem.thermal
+    if transient is None:
+        return
+    if thermal is not None and thermal.sources == "full":
+        raise ValueError(
+            'thermal.sources = "full" is for steady films: in a transient run the surfaces are '
+            "heated by line sources that move along with them"
+        )
+    for key in SURFACES if thermal is not None else ():
+        speed = problem.motion.speed_1 if key == "surface_1" else problem.motion.speed_2
+        if not speed * transient.stride >= 0.5 * problem.entrainment_speed * (1.0 - 1e-9):
+            raise ValueError(
+                f"{key} moves at {speed:g} m/s, less than half the entrainment speed over "
+                f"transient.stride = {transient.stride}, too slow for heat in a transient run: "
+                "take a larger stride, or a smaller slide_roll_ratio"
+            )
+    if transient.duration is None and not (problem.is_rough or transient.load):
+        raise ValueError(
+            "transient: nothing changes with time; give a surface roughness, transient.load or "
+            "transient.duration"
+        )
+
+
+def check_radii(problem: PointContact) -> None:
+    """Check that the radii are stated once, and make a contact along both axes."""
+    contact, on_surfaces = problem.contact.radii, [getattr(problem, key).radii for key in SURFACES]
+    if contact is not None:
+        if on_surfaces != [None, None]:
+            raise ValueError(
+                "radii are stated twice: leave out those of [contact], which are reduced, or "
+                "those of the surfaces"
+            )
+        return
+    if on_surfaces == [None, None]:
+        raise ValueError("contact.radius is missing: give it, or radii of both surfaces")
+    for key, radii in zip(SURFACES, on_surfaces, strict=True):
+        if radii is None:
+            raise ValueError(f'{key}.radius is missing: give it ("inf" is flat)')
+    for axis in ("x", "y"):
+        try:
+            reduced_radius(*(getattr(radii, axis) for radii in on_surfaces))
+        except ValueError as error:
+            once = (getattr(problem, key).radius is not None for key in SURFACES)
+            pairs = zip(SURFACES, once, strict=True)
+            keys = " and ".join(f"{key}.radius" + ("" if one else f"_{axis}") for key, one in pairs)
+            raise ValueError(f"{keys}: {error}") from None
