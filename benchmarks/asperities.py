@@ -15,12 +15,11 @@ from benchmarks.measure import fft_unit
 from benchmarks.rough import CONTACTS, wave
 from benchmarks.table import Cell, Table
 from tehl import solve, solve_transient
-from tehl.errors import ConvergenceError
 from tehl.io.case import case_from_tables
 from tehl.io.templates import template_text
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.result import Result
+from tehl.result import ConvergenceError, Result
 from tehl.transient_result import TransientResult
 
 SHAPE = (0.03, 0.5, 45)

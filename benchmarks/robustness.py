@@ -11,10 +11,9 @@ from dataclasses import dataclass
 from tests.reference import moes_contact
 
 from benchmarks.table import Cell, Table
-from tehl.errors import ConvergenceError
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.result import Result
+from tehl.result import ConvergenceError, Result
 from tehl.solver import solve
 
 LOADS = (5, 10, 20, 50, 100, 200, 500, 1000, 2000)

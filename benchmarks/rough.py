@@ -13,9 +13,9 @@ from tests.reference import DOMAIN, moes_contact
 
 from benchmarks.table import Cell, Table
 from tehl import solve
-from tehl.errors import ConvergenceError
 from tehl.options import Options
 from tehl.problem import ContactProblem
+from tehl.result import ConvergenceError
 from tehl.scaling import Scales, scales
 
 CONTACTS = ((57.21, 10.52), (126.0, 12.34), (200.0, 10.0), (500.0, 12.34))

@@ -15,10 +15,10 @@ from tests.reference import moes_contact
 
 from benchmarks.table import Table
 from tehl import solve_transient
-from tehl.errors import ConvergenceError
 from tehl.film_formulas import expected_central_film
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
+from tehl.result import ConvergenceError
 from tehl.scaling import groups, scales
 from tehl.transient_result import TransientResult
 from tehl.wave_theory import amplitude_reduction, nabla_of

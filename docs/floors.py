@@ -23,6 +23,7 @@ NAMES = (
     "transient results",
     "steady results",
     "derived quantities",
+    "solution",
     "one grid",
     "proposed domain",
     "grids and formulas",

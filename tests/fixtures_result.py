@@ -9,8 +9,9 @@ from tehl.fields import Fields, FilmSummary
 from tehl.options import Options
 from tehl.post.film import dry_gap, hertz_pressure
 from tehl.problem import ContactProblem
-from tehl.result import Cost, CycleReport, ErrorEstimate, Estimate, Provenance, Result, Status
+from tehl.result import Result
 from tehl.scaling import groups, scales
+from tehl.solution import Cost, CycleReport, ErrorEstimate, Estimate, Provenance, Status
 
 CASE = {
     "title": "Ball on disc",

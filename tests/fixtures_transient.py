@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 
 from tehl.problem import ContactProblem
-from tehl.result import Cost, Estimate, Provenance, Status
+from tehl.solution import Cost, Estimate, Provenance, Status
 from tehl.transient_result import Frames, History, HistoryBars, Profiles, TransientResult
 from tests.fixtures_result import CASE, make_result
 

@@ -15,14 +15,14 @@ from tehl.version import SOLVER_VERSION, __version__
 
 if TYPE_CHECKING:
     from tehl import plots, studies
-    from tehl.errors import ConvergenceError, FileFormatError, InputError, TehlError
+    from tehl.errors import FileFormatError, InputError, TehlError
     from tehl.io.case import read_case, read_case_and_options
     from tehl.io.store import load
     from tehl.lubricant import Lubricant, oil
     from tehl.materials import Solid, material
     from tehl.options import Domain, Options
     from tehl.problem import Contact, ContactProblem, Surface
-    from tehl.result import Result
+    from tehl.result import ConvergenceError, Result
     from tehl.solver import certify, certify_transient, solve, solve_transient
     from tehl.studies import study
     from tehl.transient_result import TransientResult
@@ -60,14 +60,14 @@ __all__ = [
 _HOMES = {
     name: module
     for module, names in {
-        "tehl.errors": ("ConvergenceError", "FileFormatError", "InputError", "TehlError"),
+        "tehl.errors": ("FileFormatError", "InputError", "TehlError"),
         "tehl.io.case": ("read_case", "read_case_and_options"),
         "tehl.io.store": ("load",),
         "tehl.lubricant": ("Lubricant", "oil"),
         "tehl.materials": ("Solid", "material"),
         "tehl.options": ("Domain", "Options"),
         "tehl.problem": ("Contact", "ContactProblem", "Surface"),
-        "tehl.result": ("Result",),
+        "tehl.result": ("ConvergenceError", "Result"),
         "tehl.solver": ("certify", "certify_transient", "solve", "solve_transient"),
         "tehl.studies": ("study",),
         "tehl.transient_result": ("TransientResult",),

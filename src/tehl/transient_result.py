@@ -2,8 +2,9 @@
 
 from dataclasses import dataclass, field
 
-from tehl.result import Cost, Estimate, Provenance, Result, Status
+from tehl.result import Result
 from tehl.saved import Saved
+from tehl.solution import Cost, Estimate, Provenance, Status
 from tehl.typing import Array, IntArray, SingleArray
 
 

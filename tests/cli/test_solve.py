@@ -15,7 +15,7 @@ import pytest
 from tehl import cli
 from tehl.io import store
 from tehl.io.store import load
-from tehl.result import Status
+from tehl.solution import Status
 from tests.cli.fixtures_solver import solver
 
 __all__ = ["solver"]

@@ -13,7 +13,7 @@ import pytest
 from tehl import cli
 from tehl.io import atomic
 from tehl.io.templates import template_text, templates
-from tehl.result import Cost
+from tehl.solution import Cost
 from tehl.studies import Row, runner
 from tehl.studies.file import read_study
 from tehl.studies.folder import locked

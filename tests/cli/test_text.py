@@ -12,7 +12,7 @@ from tehl.post.roughness import rough_film
 from tehl.post.thermal_effect import ThermalEffect
 from tehl.report.page import report_text
 from tehl.report.readable import length
-from tehl.result import Estimate, Status
+from tehl.solution import Estimate, Status
 from tests.fixtures_rough import make_rough
 
 

@@ -16,9 +16,10 @@ import pytest
 import tehl
 from tehl import cli
 from tehl.cli.checkpoint import Keeper
-from tehl.errors import ConvergenceError
 from tehl.io.checkpoint import Fingerprint
 from tehl.plots import animation
+from tehl.result import ConvergenceError
+from tehl.solution import Status
 from tests.fixtures_result import make_result
 from tests.fixtures_transient import make_certified, make_transient
 
@@ -202,7 +203,7 @@ def test_json_prints_one_object(folder, run, solved):
 
 
 def test_an_unfinished_run_is_stored_marked_and_exits_with_1(folder, run, solved):
-    status = tehl.result.Status(
+    status = Status(
         kind="not_converged", cause="asperity_contact", message="they touch", hint="go faster"
     )
     solved(replace(make_transient(), status=status))
@@ -278,7 +279,7 @@ def test_a_certified_run_has_its_bars_in_json(folder, run, certified):
 
 
 def test_a_run_that_has_no_error_bar_exits_with_1_and_is_kept(folder, run, certified):
-    status = tehl.result.Status(
+    status = Status(
         kind="not_converged", cause="not_certified", message="no bar follows", hint="more points"
     )
     certified(replace(make_transient(), status=status))

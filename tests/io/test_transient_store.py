@@ -10,7 +10,8 @@ import pytest
 import tehl
 from tehl.errors import FileFormatError
 from tehl.io.store import load_as
-from tehl.result import Result, Status
+from tehl.result import Result
+from tehl.solution import Status
 from tehl.transient_result import TransientResult
 from tests.fixtures_transient import make_certified, make_transient
 

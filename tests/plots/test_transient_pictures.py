@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from tehl.errors import InputError
 from tehl.plots import save_all, transient
 from tehl.plots.animation import Movie, animate
-from tehl.result import Status
+from tehl.solution import Status
 from tests.fixtures_transient import make_certified, make_transient
 
 

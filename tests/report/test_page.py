@@ -13,7 +13,7 @@ from tehl.post.waves import passing_wave
 from tehl.report import page as module
 from tehl.report.page import report_text
 from tehl.report.readable import input_rows
-from tehl.result import Status
+from tehl.solution import Status
 from tests.fixtures_transient import make_certified, make_transient, passing
 from tests.post.test_transient import wave_case
 

@@ -7,11 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tehl.errors import ConvergenceError, InputError
+from tehl.errors import InputError
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.result import Status
+from tehl.result import ConvergenceError
 from tehl.scaling import scales
+from tehl.solution import Status
 from tehl.solver import solve
 from tehl.solver.certify import certify, estimate
 from tehl.solver.convergence import SAFETY, discretisation_bar

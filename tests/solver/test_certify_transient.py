@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from tehl import InputError, certify_transient, solve_transient
-from tehl.errors import ConvergenceError
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.result import Status
+from tehl.result import ConvergenceError
 from tehl.scaling import scales
+from tehl.solution import Status
 from tehl.solver.transient.certify import estimates, grid_bar, history_bars
 from tehl.transient_result import TransientResult
 from tests.fixtures_result import make_result

@@ -3,10 +3,9 @@
 import pytest
 
 import tehl.solver.verdict as judge
-from tehl.errors import ConvergenceError
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.result import Result
+from tehl.result import ConvergenceError, Result
 from tehl.solver import solve
 from tests.reference import heated_contact
 

@@ -11,8 +11,8 @@ from tehl.grid import Grid
 from tehl.kernels import reynolds
 from tehl.operators.flow import flow_table
 from tehl.operators.jacobian import interpolation, jacobian, neighbours_of
-from tehl.result import Status
 from tehl.scaling import ScaledProblem
+from tehl.solution import Status
 from tehl.solver import film_solver, steady
 from tehl.solver.continuation import MOST_STEPS, RAISED, raise_by_newton
 from tehl.solver.convergence import DivergedError

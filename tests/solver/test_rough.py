@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from tehl.cli.text import as_text
-from tehl.errors import ConvergenceError, InputError
+from tehl.errors import InputError
 from tehl.operators.heights import full_weighting, heights_of
 from tehl.options import Options
 from tehl.problem import ContactProblem
+from tehl.result import ConvergenceError
 from tehl.scaling import ScaledProblem, scales
 from tehl.solver.anderson import Anderson
 from tehl.solver.steady import finest_grid, solve

@@ -9,7 +9,8 @@ from tehl.cli.text import as_text
 from tehl.grid import Grid
 from tehl.io.summary import summary
 from tehl.report.page import report_text
-from tehl.result import ErrorEstimate, Result, Status
+from tehl.result import Result
+from tehl.solution import ErrorEstimate, Status
 from tehl.solver.certify import _ending
 from tehl.solver.verdict import is_film, no_film
 from tests.reference import DOMAIN

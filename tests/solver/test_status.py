@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from tehl.domain import domain_error, recommended_domain
-from tehl.errors import ConvergenceError
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
+from tehl.result import ConvergenceError
 from tehl.scaling import groups
 from tehl.solver import solve
 from tehl.solver.certify import estimate, with_growing_spike

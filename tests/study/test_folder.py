@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from tehl.errors import FileFormatError, InputError
 from tehl.options import Options
-from tehl.result import Cost
+from tehl.solution import Cost
 from tehl.studies import Row, Store
 from tehl.studies.axes import Block, Setting
 from tehl.studies.case import Case

@@ -8,7 +8,7 @@ import pytest
 
 from tehl import solver
 from tehl.errors import InputError
-from tehl.result import Cost
+from tehl.solution import Cost
 from tehl.studies import Case, Row, Store, engines, run, runner, table
 from tehl.studies.case import flat, row_of, unit_of
 from tehl.studies.tables import is_number

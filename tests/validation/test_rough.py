@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from tehl.errors import ConvergenceError
 from tehl.operators.flow import flow_table
-from tehl.result import Result
+from tehl.result import ConvergenceError, Result
 from tehl.solver import solve
 from tests.reference import moes_contact
 from tests.solver.rough import rough_film

@@ -11,7 +11,7 @@ from typing import Any, NoReturn
 
 import typer
 
-from tehl.errors import ConvergenceError, TehlError
+from tehl.errors import TehlError
 
 NOT_CONVERGED, BAD_INPUT, ENVIRONMENT = 1, 2, 3
 """Exit codes; 0 is success."""
@@ -46,8 +46,6 @@ def _outcome(error: BaseException) -> tuple[str, str, int]:
     message, status, code = str(error), "bad_input", BAD_INPUT
     if isinstance(error, _WrongCommandLine):
         message = _usage(error)
-    elif isinstance(error, ConvergenceError):
-        status, code = error.result.status.kind, NOT_CONVERGED
     elif not isinstance(error, TehlError):
         message, status, code = _lacking(error), "environment", ENVIRONMENT
     return " ".join(message.split()), status, code

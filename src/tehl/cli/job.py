@@ -8,7 +8,7 @@ import typer
 
 from tehl.cli.reference_runs import REFERENCES, Comparisons, compare, smooth_file
 from tehl.cli.text import as_text, failure_text
-from tehl.errors import ConvergenceError, InputError
+from tehl.errors import InputError
 from tehl.io.atomic import check_folder, check_writable, remove_with_parts
 from tehl.io.case import read_case_and_options
 from tehl.io.checkpoint import checkpoint_of, fingerprint
@@ -16,7 +16,7 @@ from tehl.io.store import save
 from tehl.memory import check_memory
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.result import Result
+from tehl.result import ConvergenceError, Result
 from tehl.transient_result import TransientResult
 
 COMPARED_TO = 1e-4

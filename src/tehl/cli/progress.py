@@ -21,8 +21,8 @@ from rich.text import Text
 if TYPE_CHECKING:
     from tehl.kernels.warmup import Progress as CompileProgress
     from tehl.problem import ContactProblem
-    from tehl.result import CycleReport
     from tehl.scaling import Scales
+    from tehl.solution import CycleReport
     from tehl.studies import Case, Row, StudyMonitor
     from tehl.transient_result import StepReport
 

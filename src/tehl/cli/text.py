@@ -7,7 +7,8 @@ from tehl.io.summary import estimates
 from tehl.post.film import no_film
 from tehl.report.readable import UNTITLED, length_unit
 from tehl.report.rendering import render
-from tehl.result import Result, Status
+from tehl.result import Result
+from tehl.solution import Status
 from tehl.transient_result import TransientResult
 
 _UNITS = {

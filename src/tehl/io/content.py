@@ -16,7 +16,8 @@ from tehl.io.summary import summary
 from tehl.io.tables import Column
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.result import CycleReport, Result
+from tehl.result import Result
+from tehl.solution import CycleReport
 from tehl.transient_result import Frames, History, HistoryBars, Profiles, TransientResult
 from tehl.typing import Array
 

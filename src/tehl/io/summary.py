@@ -13,8 +13,9 @@ from tehl.fields import FilmHeat
 from tehl.post.heat import Temperature
 from tehl.post.roughness import RoughFilm
 from tehl.post.traction import Traction
-from tehl.post.waves import WaveResponse
-from tehl.result import Estimate, Result
+from tehl.post.waves.response import WaveResponse
+from tehl.result import Result
+from tehl.solution import Estimate
 from tehl.transient_result import HistoryBars, TransientResult
 from tehl.typing import Array
 

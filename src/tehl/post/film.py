@@ -1,18 +1,15 @@
 """Profiles and mass balance of a film."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tehl.post.traction import cell_widths
+from tehl.solution import Solution
 from tehl.typing import Array, BoolArray
 
-if TYPE_CHECKING:
-    from tehl.result import Result
 
-
-def no_film(result: "Result") -> str:
+def no_film(result: Solution) -> str:
     """Return why ``result`` has no film (h <= 0); an empty text if it has one."""
     if result.status.kind == "diverged":
         return "the iteration diverged"
@@ -37,19 +34,19 @@ class Profile:
     """Where the line crosses the other axis [m]: 0 unless no grid line is there."""
 
 
-def profile_x(result: "Result") -> Profile:
+def profile_x(result: Solution) -> Profile:
     """Return the profile along entrainment, on the grid line nearest to y = 0."""
     row = int(np.argmin(np.abs(result.scaled.y)))
     return _profile(result, (row, slice(None)))
 
 
-def profile_y(result: "Result") -> Profile:
+def profile_y(result: Solution) -> Profile:
     """Return the profile across entrainment, on the grid line nearest to x = 0."""
     column = int(np.argmin(np.abs(result.scaled.x)))
     return _profile(result, (slice(None), column))
 
 
-def _profile(result: "Result", line: tuple[int, slice] | tuple[slice, int]) -> Profile:
+def _profile(result: Solution, line: tuple[int, slice] | tuple[slice, int]) -> Profile:
     along_x = isinstance(line[0], int)
     scaled_x, scaled_y = result.scaled.x[line[1]], result.scaled.y[line[0]]
     gap = dry_gap(scaled_x, scaled_y, result.groups.ellipticity)
@@ -124,7 +121,7 @@ class MassFlow:
     up to the discretisation error."""
 
 
-def mass_flow(result: "Result") -> MassFlow:
+def mass_flow(result: Solution) -> MassFlow:
     r"""Return the mass flow of an isothermal Newtonian film, with the laws of its lubricant.
 
     .. math:: m_x = \rho u_m h - \frac{\rho h^3}{12\eta} \frac{\partial p}{\partial x}, \quad

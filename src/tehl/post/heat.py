@@ -1,15 +1,12 @@
 """Temperatures of a film."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tehl.fields import FilmHeat
+from tehl.solution import Solution
 from tehl.typing import Array
-
-if TYPE_CHECKING:
-    from tehl.result import Result
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -33,7 +30,7 @@ class Temperature:
     """(ny, nx): T at mid-film and T averaged across the film [K]."""
 
 
-def temperature(result: "Result") -> Temperature | None:
+def temperature(result: Solution) -> Temperature | None:
     """Return the temperatures of ``result``, None for an isothermal run."""
     heat, inlet = result.heat, result.scales.temperature
     if heat is None:

@@ -3,18 +3,14 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tehl.film_formulas import expected_film
 from tehl.post.film import no_film
 from tehl.post.waves.response import REACH, WaveResponse, wave_notes, wave_responses
+from tehl.solution import Solution
 from tehl.typing import Array, BoolArray
-
-if TYPE_CHECKING:
-    from tehl.result import Result
-
 
 QUANTILES = (0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
 """Parts of the contact whose films are reported."""
@@ -65,7 +61,7 @@ class RoughFilm:
     """What is left out of them, and why."""
 
 
-def rough_film(result: "Result", smooth: "Result | None" = None) -> RoughFilm | None:
+def rough_film(result: Solution, smooth: Solution | None = None) -> RoughFilm | None:
     """Return the numbers of the film between rough surfaces.
 
     Parameters
@@ -105,7 +101,7 @@ def rough_film(result: "Result", smooth: "Result | None" = None) -> RoughFilm | 
     )
 
 
-def sq_of(result: "Result") -> tuple[float, float]:
+def sq_of(result: Solution) -> tuple[float, float]:
     """Return Sq of both surfaces where |X|, |Y| < 1, or the one stated of smooth ones [m]."""
     stated = (result.problem.surface_1.rms_roughness, result.problem.surface_2.rms_roughness)
     if result.heights is None:
@@ -115,34 +111,34 @@ def sq_of(result: "Result") -> tuple[float, float]:
     return first or stated[0], second or stated[1]
 
 
-def square(result: "Result") -> tuple[Array, ...]:
+def square(result: Solution) -> tuple[Array, ...]:
     """Return the indices of the nodes where |X|, |Y| < 1."""
     return np.ix_(*(np.abs(axis) < 1.0 for axis in (result.scaled.y, result.scaled.x)))
 
 
-def middle_film(result: "Result") -> float:
+def middle_film(result: Solution) -> float:
     """Return the mean film where |X|, |Y| < 0.4 [m]."""
     part = np.ix_(*(np.abs(axis) <= REACH for axis in (result.scaled.y, result.scaled.x)))
     return float(result.film_thickness[part].mean())
 
 
-def in_contact(result: "Result", reach: float = 1.0) -> BoolArray:
+def in_contact(result: Solution, reach: float = 1.0) -> BoolArray:
     """Return which nodes lie in the Hertz contact, (ny, nx), or in ``reach`` times its ellipse."""
     inside: BoolArray = result.scaled.x**2 + result.scaled.y[:, None] ** 2 < reach**2
     return inside
 
 
-def film_in_contact(result: "Result") -> Array:
+def film_in_contact(result: Solution) -> Array:
     """Return the film at all nodes in the Hertz contact, each for the same area, (n,) [m]."""
     return result.film_thickness[in_contact(result)]
 
 
-def area_below(result: "Result", threshold: float) -> float:
+def area_below(result: Solution, threshold: float) -> float:
     """Return the part of the Hertz contact whose film is thinner than ``threshold`` [m]."""
     return float(np.mean(film_in_contact(result) < threshold))
 
 
-def film_histogram(result: "Result", bins: int | Sequence[float] = 60) -> tuple[Array, Array]:
+def film_histogram(result: Solution, bins: int | Sequence[float] = 60) -> tuple[Array, Array]:
     """Return how the film is distributed over the Hertz contact.
 
     Parameters

@@ -6,15 +6,11 @@ The stress is ``tau = eta du/dz``, so all coefficients are negative where surfac
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from tehl.solution import Solution
 from tehl.typing import Array
-
-if TYPE_CHECKING:
-    from tehl.result import Result
-
 
 LARGEST_CREDIBLE = 0.1
 """Largest traction coefficient of oils; a Newtonian film has no such limit."""
@@ -65,7 +61,7 @@ class Traction:
         return (max(parts) - min(parts)) / (largest or 1.0)
 
 
-def traction(result: "Result") -> Traction | None:
+def traction(result: Solution) -> Traction | None:
     """Return the traction of ``result``, None where it has no shear stresses.
 
     Integrals are sums over the nodes under pressure; the gradient is a central difference. The
@@ -103,7 +99,7 @@ def traction(result: "Result") -> Traction | None:
     )
 
 
-def under_pressure(result: "Result") -> Array:
+def under_pressure(result: Solution) -> Array:
     """Return the area of each node where the film is under pressure, else zero [m^2], (ny, nx)."""
     area = np.outer(cell_widths(result.y), cell_widths(result.x))
     area *= result.scaled.pressure > 0

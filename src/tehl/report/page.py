@@ -20,7 +20,8 @@ from tehl.post.transient import largest_change, passing_features
 from tehl.post.waves import PassingWave, passing_wave
 from tehl.report.readable import UNTITLED, input_rows
 from tehl.report.rendering import UNITS, render
-from tehl.result import Estimate, Result
+from tehl.result import Result
+from tehl.solution import Estimate
 from tehl.transient_result import TransientResult
 from tehl.wave_theory import waves_of
 

@@ -9,11 +9,11 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Generic, NoReturn, TypeVar
 
-from tehl.errors import ConvergenceError
 from tehl.operators.heights import UnresolvedError
 from tehl.options import Domain, Options, check_certifiable
 from tehl.problem import ContactProblem
-from tehl.result import NO_COST, Cost, Estimate, Result, Status
+from tehl.result import ConvergenceError, Result
+from tehl.solution import NO_COST, Cost, Estimate, Status
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.steady import solve
 from tehl.solver.verdict import LARGEST_BAR, too_coarse

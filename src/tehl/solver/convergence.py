@@ -12,7 +12,7 @@ from itertools import pairwise
 import numpy as np
 
 from tehl.options import Options
-from tehl.result import CycleReport, ErrorEstimate
+from tehl.solution import CycleReport, ErrorEstimate
 
 LEAST_CYCLES = 2
 LEAST_RATE, GUESSED_RATE, LARGEST_RATE = 0.2, 0.3, 0.8

@@ -5,7 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from tehl.result import NO_COST, Cost, Result
+from tehl.result import Result
+from tehl.solution import NO_COST, Cost
 
 REPEATS = 20
 

@@ -8,8 +8,8 @@ from tehl.film_formulas import expected_central_film, expected_film
 from tehl.grid import Grid
 from tehl.heat import FAR_BODY, FilmEnergy
 from tehl.problem import ContactProblem
-from tehl.result import Status
 from tehl.scaling import Groups, ScaledProblem
+from tehl.solution import Status
 from tehl.solver.film_solver import FilmSolver
 from tehl.solver.film_summary import film_summary
 from tehl.solver.level import Level

@@ -11,8 +11,9 @@ from itertools import count
 import numpy as np
 
 from tehl.operators.heights import Heights
-from tehl.result import CycleReport, Result
+from tehl.result import Result
 from tehl.scaling import Groups
+from tehl.solution import CycleReport
 from tehl.solver.anderson import Anderson
 from tehl.solver.continuation import (
     MOST_STEPS,

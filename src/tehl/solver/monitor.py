@@ -2,7 +2,7 @@
 
 from typing import Protocol
 
-from tehl.result import CycleReport
+from tehl.solution import CycleReport
 from tehl.transient_result import StepReport
 
 

@@ -9,7 +9,7 @@ from importlib.metadata import PackageNotFoundError, version
 import numpy as np
 
 from tehl.domain import recommended_domain
-from tehl.errors import ConvergenceError, InputError
+from tehl.errors import InputError
 from tehl.fields import Fields, FilmHeat, FilmShear, SurfaceHeights
 from tehl.grid import Grid, can_mirror
 from tehl.kernels.warmup import warm_up
@@ -17,8 +17,9 @@ from tehl.memory import check_memory
 from tehl.operators.heights import Heights, heights_of
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
-from tehl.result import Cost, CycleReport, Provenance, Result, Status
+from tehl.result import ConvergenceError, Result
 from tehl.scaling import ScaledProblem, Scales
+from tehl.solution import Cost, CycleReport, Provenance, Status
 from tehl.solver.continuation import TouchingError
 from tehl.solver.cost import Clock
 from tehl.solver.diagnosis import diverged

@@ -11,8 +11,8 @@ import numpy as np
 
 from tehl.domain import domain_error
 from tehl.operators.energy import FilmState
-from tehl.result import ErrorEstimate, Status
 from tehl.scaling import Groups
+from tehl.solution import ErrorEstimate, Status
 from tehl.solver.convergence import error_estimate, single_grid_estimate
 from tehl.solver.diagnosis import LESS_ROUGH, diverged, grid_hint, not_reached, thinnest
 from tehl.solver.film_solver import FilmSolver

@@ -11,7 +11,8 @@ from typing import Any
 
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.result import Cost, Result
+from tehl.result import Result
+from tehl.solution import Cost
 from tehl.version import SOLVER_VERSION, __version__
 
 Label = float | str

@@ -16,7 +16,8 @@ from typing import Literal, get_args
 from tehl.errors import FileFormatError, InputError
 from tehl.io.atomic import check_place
 from tehl.io.store import load_as
-from tehl.result import Cost, Result
+from tehl.result import Result
+from tehl.solution import Cost
 from tehl.studies.case import Case, Row
 
 Keep = Literal["summary", "fields"]

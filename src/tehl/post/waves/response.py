@@ -4,7 +4,6 @@ import cmath
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,6 +11,7 @@ from tehl.post.heat import mean_temperature
 from tehl.post.waves.search import distinct_waves
 from tehl.problem import ContactProblem
 from tehl.roughness import Map, Random, Sum, WaveVector
+from tehl.solution import Solution
 from tehl.typing import Array, BoolArray
 from tehl.wave_theory import (
     FlatFilm,
@@ -21,10 +21,6 @@ from tehl.wave_theory import (
     drifting_waves,
     why_no_theory,
 )
-
-if TYPE_CHECKING:
-    from tehl.result import Result
-
 
 REACH = 0.4
 """Half-widths on each side of the centre in which waves are fitted: the pressure is even there."""
@@ -86,7 +82,7 @@ class WaveResponse(Ripple):
     """Ripples by linear theory, where it holds (:func:`tehl.wave_theory.why_no_theory`)."""
 
 
-def wave_responses(result: "Result", smooth: "Result | None" = None) -> tuple[WaveResponse, ...]:
+def wave_responses(result: Solution, smooth: Solution | None = None) -> tuple[WaveResponse, ...]:
     """Return how film and pressure respond to each wave of the surfaces.
 
     Waves are those of ``wave`` and ``crossed`` surfaces, alone or in a sum; of measured and random
@@ -131,7 +127,7 @@ def wave_responses(result: "Result", smooth: "Result | None" = None) -> tuple[Wa
     )
 
 
-def wave_notes(result: "Result") -> tuple[str, ...]:
+def wave_notes(result: Solution) -> tuple[str, ...]:
     """Return what :func:`wave_responses` leaves out and why, a sentence each."""
     found = _Waves.of(result)
     if found is None:
@@ -160,7 +156,7 @@ class _Waves:
     drift: float | None  # speed of found waves less the mean speed [m/s]
 
     @classmethod
-    def of(cls, result: "Result") -> "_Waves | None":
+    def of(cls, result: Solution) -> "_Waves | None":
         if result.heights is None:
             return None
         patch, heights = _Patch.of(result), result.heights.together
@@ -190,7 +186,7 @@ def _is_searched(problem: ContactProblem) -> bool:
     return any(isinstance(part, Map | Random) for part in parts)
 
 
-def _standing_out(result: "Result", heights: Array, patch: "_Patch") -> list[WaveVector]:
+def _standing_out(result: Solution, heights: Array, patch: "_Patch") -> list[WaveVector]:
     """Return the waves of surfaces that state none, also those too long for the patch."""
     if not _is_searched(result.problem):
         return []
@@ -219,7 +215,7 @@ class _Patch:
     half_widths: tuple[float, float]
 
     @classmethod
-    def of(cls, result: "Result") -> "_Patch":
+    def of(cls, result: Solution) -> "_Patch":
         columns, rows = (np.abs(axis) <= REACH for axis in (result.scaled.x, result.scaled.y))
         widths = (result.scales.half_width_x, result.scales.half_width_y)
         return cls(rows, columns, result.x[columns], result.y[rows], widths)
@@ -305,7 +301,7 @@ class _Fit:
         return [complex(c, -s) for c, s in zip(values[::2], values[1::2], strict=True)]
 
 
-def _flat_film(result: "Result", patch: _Patch) -> FlatFilm:
+def _flat_film(result: Solution, patch: _Patch) -> FlatFilm:
     """Return the means of a film over the patch."""
     pressure = float(patch.cut(result.pressure).mean())
     temperature = result.scales.temperature

@@ -10,10 +10,11 @@ from functools import partial
 
 import numpy as np
 
-from tehl.errors import ConvergenceError, InputError
+from tehl.errors import InputError
 from tehl.options import Options, can_be_halved, check_certifiable
 from tehl.problem import ContactProblem
-from tehl.result import Estimate
+from tehl.result import ConvergenceError
+from tehl.solution import Estimate
 from tehl.solver.certify import (
     ORDERS,
     RESIDUE,

@@ -6,15 +6,16 @@ from dataclasses import asdict, replace
 import numpy as np
 
 from tehl.duration import misplaced, number_of_steps
-from tehl.errors import ConvergenceError, InputError
+from tehl.errors import InputError
 from tehl.kernels.warmup import warm_up
 from tehl.memory import check_memory
 from tehl.operators.heated_film import stress_unit
 from tehl.operators.heights import MovingHeights
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.result import Result, Status
+from tehl.result import ConvergenceError, Result
 from tehl.scaling import ScaledProblem
+from tehl.solution import Status
 from tehl.solver.cost import Clock
 from tehl.solver.level import Level
 from tehl.solver.monitor import SILENT, StepMonitor

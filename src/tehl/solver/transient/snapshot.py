@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tehl.errors import InputError
-from tehl.result import Cost
 from tehl.scaling import Scales
+from tehl.solution import Cost
 from tehl.solver.film_summary import film_summary
 from tehl.solver.level import Level
 from tehl.transient import Transient

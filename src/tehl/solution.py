@@ -1,0 +1,219 @@
+"""The solution of a steady problem: fields, film numbers, status, error bars, history. Frozen."""
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from tehl.fields import Fields, FilmHeat, FilmShear, FilmSummary, SurfaceHeights
+from tehl.options import Options
+from tehl.problem import ContactProblem
+from tehl.scaling import Groups, ScaledProblem, Scales
+from tehl.typing import Array
+
+StatusKind = Literal["converged", "not_converged", "diverged", "stalled"]
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Status:
+    """How a solve ended, for programs and for people."""
+
+    kind: StatusKind
+    """The outcome."""
+    cause: str | None = None
+    """Name of the cause when not converged, for programs: ``"grid_too_coarse"``."""
+    message: str | None = None
+    hint: str | None = None
+    """The cause and what to try. In a converged certified result ``message`` says how its grids
+    ended; a ``hint`` in a converged result means that its minimum film is uncertain, and names the
+    grid to try."""
+
+    @property
+    def converged(self) -> bool:
+        """Whether the solve converged."""
+        return self.kind == "converged"
+
+    @property
+    def is_vague(self) -> bool:
+        """Whether the film converged but its minimum, one spot between asperities, is uncertain."""
+        return self.converged and self.hint is not None
+
+    @property
+    def outcome(self) -> str:
+        """The outcome in words, with the cause if it adds to the kind."""
+        if self.is_vague:
+            return "converged, minimum film open"
+        kind = self.kind.replace("_", " ")
+        if self.cause in (None, self.kind):
+            return kind
+        return f"{kind}: {self.cause.replace('_', ' ')}"
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class CycleReport:
+    """One multigrid cycle, as shown in the live table and stored in the history."""
+
+    points: tuple[int, int]
+    """Nodes (nx, ny) of the grid, of the full domain."""
+    cycle: int
+    """Number of the cycle on this grid, from 1."""
+    residual: float
+    """Mean of ``|r|`` scaled by the local diagonal, over wet nodes [-]."""
+    change: float
+    """Largest change of pressure in this cycle, in Hertz pressures [-]."""
+    load_error: float
+    """Relative error of the load balance [-]."""
+    film_central: float
+    film_minimum: float
+    """H at X = Y = 0 and smallest nodal H after this cycle [-]."""
+    smoother: str
+    """Setting of the relaxation that was used."""
+    temperature_change: float = 0.0
+    """Largest change of the film temperature in this cycle, where the pressure exceeds a fiftieth
+    of the Hertz pressure [K]; zero in an isothermal run."""
+    temperature_rise: float = 0.0
+    """Largest rise of the film temperature over the inlet [K]; zero in an isothermal run; not
+    stored."""
+    mean_change: float = 0.0
+    """Sum of the changes of pressure in this cycle over the sum of pressures [-]; not stored."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Estimate:
+    """A value with its error bar."""
+
+    value: float
+    """Richardson value."""
+    uncertainty: float
+    """Half width of the bar: discretisation and domain parts added in quadrature."""
+    discretisation: float
+    domain: float
+    """The two parts."""
+    observed_order: float | None
+    """Order observed on three grids; None if they do not show one."""
+    values: tuple[float, ...]
+    """Values on the grids, coarse to fine."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class ErrorEstimate:
+    """Estimated errors of the film on the finest grid, without extra runs."""
+
+    discretisation_central: float
+    discretisation_minimum: float
+    """From the difference to the next coarser grid of the full multigrid, relative [-]."""
+    iteration_central: float
+    iteration_minimum: float
+    """Change by further cycles, relative [-]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Cost:
+    """Computing cost of a solve."""
+
+    cpu_seconds: float
+    wall_seconds: float
+    """Of the solve, without compiling and without files."""
+    work: float | None = None
+    """``cpu_seconds`` in units of one FFT deformation on the same full grid, if it was measured."""
+
+    def __add__(self, other: "Cost") -> "Cost":
+        """Return the sum of the seconds of two solves."""
+        return Cost(
+            cpu_seconds=self.cpu_seconds + other.cpu_seconds,
+            wall_seconds=self.wall_seconds + other.wall_seconds,
+        )
+
+
+NO_COST = Cost(cpu_seconds=0.0, wall_seconds=0.0)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Provenance:
+    """Where a result comes from: versions by package name, and when it was made (ISO 8601)."""
+
+    versions: dict[str, str]
+    created: str
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Solution:
+    """Fields and numbers of one steady solve; `Result` adds what follows from them."""
+
+    problem: ContactProblem
+    """The case, in SI."""
+    options: Options
+    """Numerical options; ``options.domain`` as stated, the domain used is that of ``scaled``."""
+    scales: Scales
+    groups: Groups
+    """Units removed by the solver, and the dimensionless groups."""
+    scaled: Fields
+    """Dimensionless fields."""
+    rigid_approach: float
+    """H00 [-]."""
+    film_scaled: FilmSummary
+    """Film numbers [-]."""
+    status: Status
+    """How it ended."""
+    history: tuple[CycleReport, ...]
+    """Each cycle on each grid."""
+    errors: ErrorEstimate | None
+    """Estimated errors; None if the solve ended too early for them."""
+    cost: Cost
+    provenance: Provenance
+    """Computing cost and origin."""
+    uncertainty: dict[str, Estimate] = field(default_factory=dict)
+    """Of a certified result: ``film_central``, ``film_minimum``, ``pressure_max`` [-]."""
+    shear: FilmShear | None = None
+    """Shear stresses; None without a valid film."""
+    heat: FilmHeat | None = None
+    """Temperatures; None in an isothermal run."""
+    heights: SurfaceHeights | None = None
+    """Heights of rough surfaces; None when both are smooth."""
+
+    @property
+    def scaled_problem(self) -> ScaledProblem:
+        """The problem with its scales and dimensionless groups."""
+        return ScaledProblem(problem=self.problem, scales=self.scales, groups=self.groups)
+
+    @property
+    def x(self) -> Array:
+        """Coordinates along entrainment [m], shape (nx,)."""
+        return self.scaled.x * self.scales.half_width_x
+
+    @property
+    def y(self) -> Array:
+        """Coordinates across entrainment [m], shape (ny,)."""
+        return self.scaled.y * self.scales.half_width_y
+
+    @property
+    def pressure(self) -> Array:
+        """Film pressure [Pa], shape (ny, nx)."""
+        return self.scaled.pressure * self.scales.hertz_pressure
+
+    @property
+    def film_thickness(self) -> Array:
+        """Film thickness [m], shape (ny, nx)."""
+        return self.scaled.film * self.scales.film_thickness
+
+    @property
+    def film(self) -> FilmSummary:
+        """Central and minimum film thickness, and place of the minimum [m]."""
+        scales, film = self.scales, self.film_scaled
+        return FilmSummary(
+            central=film.central * scales.film_thickness,
+            minimum=film.minimum * scales.film_thickness,
+            minimum_node=film.minimum_node * scales.film_thickness,
+            minimum_at=(
+                film.minimum_at[0] * scales.half_width_x,
+                film.minimum_at[1] * scales.half_width_y,
+            ),
+        )
+
+    @property
+    def central_film_thickness(self) -> float:
+        """Film thickness at the centre of the contact [m]."""
+        return self.film.central
+
+    @property
+    def minimum_film_thickness(self) -> float:
+        """Smallest film thickness, between the nodes too [m]."""
+        return self.film.minimum
