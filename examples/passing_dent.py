@@ -56,8 +56,15 @@ def numbers(run: tehl.TransientResult) -> dict[str, float]:
             run.history.pressure_max.max() / run.history.pressure_max[0]
         ),
         "thick film ahead of the dent [um]": 1e6
-        * float(run.x[inside][change[inside].argmax()] - seen.place[step]),
+        * (peak(run.x[inside], change[inside]) - float(seen.place[step])),
     }
+
+
+def peak(x: np.ndarray, values: np.ndarray) -> float:
+    """Return where the parabola through the largest value and its neighbours is largest."""
+    k = int(values.argmax())
+    below, top, above = values[k - 1 : k + 2]
+    return float(x[k] + 0.5 * (x[1] - x[0]) * (below - above) / (below - 2.0 * top + above))
 
 
 def main() -> dict[float, dict[str, float]]:

@@ -58,10 +58,16 @@ def test_the_centre_is_a_node_of_every_grid_of_the_proposed_domain(load):
     assert south == -north
 
 
-def test_the_proposed_domain_shrinks_with_load_to_the_usual_one():
+def test_the_proposed_domain_shrinks_with_load_to_the_smallest_one():
     widths = [-recommended_domain(groups(moes_contact(m, 10.0))).x[0] for m in (3, 20, 80, 500)]
     assert widths == sorted(widths, reverse=True)
-    assert recommended_domain(groups(moes_contact(200, 10.0))).x == (-4.5, 1.5)
+    domain = recommended_domain(groups(moes_contact(200, 10.0)))
+    assert (domain.x[0], domain.y) == (-3.4, (-2.3, 2.3))
+
+
+def test_the_proposed_domain_grows_with_the_accuracy():
+    wide, usual = (recommended_domain(groups(moes_contact(200, 10.0)), e) for e in (0.0025, 0.02))
+    assert wide.x[0] == pytest.approx(2.0 * usual.x[0])
 
 
 def test_heavier_loads_need_more_points():

@@ -4,59 +4,88 @@ import math
 from dataclasses import replace
 
 from tehl.film_formulas import expected_central_film, moes_film_unit
-from tehl.options import Domain
-from tehl.scaling import Groups
+from tehl.options import USUAL_ERROR, Domain, Options
+from tehl.scaling import Groups, ScaledProblem
 
 NODES = tuple(2**k * n + 1 for k in range(4, 12) for n in (2, 3))
-SIZES = (
-    (500.0, 2.4, 1.5),
-    (100.0, 3.0, 1.5),
-    (40.0, 4.0, 1.5),
-    (15.0, 6.0, 1.5),
-    (0.0, 12.0, 3.0),
-)
-"""Least Moes load of a size, its half-width along y, and its outlet edge (circular contact)."""
 AIM = 0.03332
 """Relative error of the central film on the proposed grid."""
 CAUTION = 2.0
 """Factor on the slope of the film formula by load, which is half of what wider domains show between
 M = 2 and 5."""
-NEARLY_RIGID = 7.0
-"""Moes load below which the pressure extends beyond any domain worth computing."""
-LONGEST_REACH = 2.3
-"""Largest factor on the inlet of a wide contact: a line contact draws from a finite distance."""
-SIXTEENTHS = (11, 12, 13, 14, 15)
-"""Parts of the length that the inlet may have, so that X = 0 is a node of every grid."""
+ELASTIC = 0.1
+"""Error by zero pressure on the edges over the square of the width of the gap over the distance of
+the sides (0.05 to 0.08 measured for M = 10 to 100)."""
+INLET, SIDES = (3.4, 5.0), (2.3, 3.75)
+"""Least distance of the inlet edge and of the side edges, in Hertz half-widths, and in widths of
+the parabolic gap that is as thick as twice the film."""
+WIDE_INLET = 0.25
+"""Power of the ellipticity by which the inlet of a wide contact is longer: it draws from further
+upstream."""
+OUTLET = 5.0 / 11.0
+"""Outlet over inlet: X = 0 is a node of every grid of 16 intervals or more."""
+FAMILIES = tuple(2**k * n + 1 for k in range(2, 9) for n in (16, 20, 24, 28))
+"""Nodes from which `expected_points` chooses; at least three grids."""
+THIN, LEAST_BAR, LARGEST_BAR = 0.25, 0.9, 5.0
+"""Error bar of the film over `mesh_error`: the first over the film, within the others; thin films
+have a thinner minimum beside the contact (measured for M = 1 to 2000)."""
+WAVE_NODES, ROUGH_NODES = 20.0, 1024
+"""Nodes on the shortest wave of the surfaces, and most nodes for that reason."""
 
 
-def recommended_domain(groups: Groups) -> Domain:
-    """Return the domain, in Hertz half-widths, that truncates the central film by at most 0.3 %.
+def gap_widths(groups: Groups) -> tuple[float, float]:
+    """Return the distances along x and y where the undeformed gap is the central film [-].
 
-    The wedge draws pressure from far away, above all from the sides, where the film is thick: the
-    edges move out as the Moes load falls. Doubling this domain changes the central film by at most
-    0.25 % for M = 7 to 1000 at L = 10, and the minimum film by at most 0.42 %
-    (``python -m benchmarks domain``). Below M = 7 the contact is nearly rigid, the load outside
-    decays only as one over the width, and up to 3 % remain. A contact that is wide across the
-    entrainment draws from further upstream, as ellipticity to the power 0.4 (measured at
-    radius_y / radius_x = 2 and 5).
+    In half-widths a_x and a_y: the pressure of a thick film extends over a few of them.
     """
-    width, outlet = next((w, out) for load, w, out in SIZES if groups.M >= load)
-    reach = min(max(groups.ellipticity, 1.0) ** 0.4, LONGEST_REACH)
-    needed = (2.0 * width - outlet) * reach
-    # the first inlet that is long enough and has X = 0 at a node of the coarsest grid
-    inlets = (outlet * k / (16 - k) for k in SIXTEENTHS)
-    inlet = next((x for x in inlets if x > 0.97 * needed), outlet * 15)
-    return Domain(x=(-inlet, outlet), y=(-width, width))
+    along = math.sqrt(2.0 * expected_central_film(groups))
+    return along, along / math.sqrt(groups.radius_ratio) / groups.ellipticity
+
+
+def recommended_domain(groups: Groups, error: float = USUAL_ERROR) -> Domain:
+    """Return the domain, in Hertz half-widths, for a film with a relative ``error``.
+
+    The far field on its edges leaves an error of the order of the distance to the power -3:
+    0.3 % of the central film on the domain of the usual error, and less above M = 10
+    (``python -m benchmarks domain``).
+
+    Parameters
+    ----------
+    groups : Groups
+        Film, ellipticity and radius ratio.
+    error : float
+        Relative error of the film that is acceptable [-].
+    """
+    along, across = gap_widths(groups)
+    larger = max(USUAL_ERROR / error, 1.0) ** (1.0 / 3.0)
+    wide = max(groups.ellipticity, 1.0) ** WIDE_INLET
+    inlet = larger * max(INLET[0] * wide, INLET[1] * along)
+    width = larger * max(SIDES[0], SIDES[1] * across)
+    inlet, width = (math.ceil(10.0 * edge) / 10.0 for edge in (inlet, width))
+    # not validated: a nearly rigid contact may need more than a stated domain may have
+    return Domain.model_construct(x=(-inlet, OUTLET * inlet), y=(-width, width))
+
+
+def far_field_error(groups: Groups, domain: Domain) -> float:
+    """Estimate the relative error of the film on a domain with the far field on its edges.
+
+    Measured for M = 1 to 500 and R_y/R_x = 0.5 to 5, rounded up.
+    """
+    along, across = gap_widths(groups)
+    inlet, side = -domain.x[0], min(-domain.y[0], domain.y[1])
+    thick = 0.1 * ((along / inlet) ** 3 + (across / side) ** 3)
+    wide = max(groups.ellipticity, 1.0) ** WIDE_INLET
+    return thick + 0.04 * (wide / inlet) ** 3
 
 
 def domain_error(groups: Groups, domain: Domain) -> float:
-    """Estimate the relative error of the central film due to the finite domain, for thick films.
+    """Estimate the relative error of a thick film with zero pressure on the edges of the domain.
 
     Far from the contact the pressure upstream is that of a rigid parabolic gap,
     ``P = 4 lambda |X| / ((3 + 2 D) (X^2 + D kappa^2 Y^2)^2)`` (docs/theory/numerics.md). Its load
     outside the domain is missing, and the film changes with the slope of its formula by load. Wider
     domains show 3 to 4 % at M = 5, 22 to 34 % at M = 3 and more below; this estimate is 1 to 10 and
-    11 to 33 %. Elastic contacts (M > 10) lose less, and lose it at the inlet.
+    11 to 33 %. Elastic contacts (M > 10) lose less, by the square of the distance of the sides.
     """
     stretch = math.sqrt(groups.radius_ratio) * groups.ellipticity
     side = stretch * min(-domain.y[0], domain.y[1])
@@ -68,18 +97,22 @@ def domain_error(groups: Groups, domain: Domain) -> float:
     heavier = replace(groups, M=1.02 * groups.M)
     films = [expected_central_film(one) / moes_film_unit(one) for one in (groups, heavier)]
     slope = math.log(films[0] / films[1]) / math.log(1.02)
-    return CAUTION * slope * missing
+    elastic = ELASTIC * (gap_widths(groups)[1] / min(-domain.y[0], domain.y[1])) ** 2
+    return max(CAUTION * slope * missing, elastic)
+
+
+def mesh_error(groups: Groups, domain: Domain, nodes: float) -> float:
+    """Estimate the relative error of the central film on ``nodes`` per direction of a domain.
+
+    It is about 1.7 h^2 / H^1.2 with mesh width h and film H (measured at M = 100 to 500).
+    """
+    width = (domain.x[1] - domain.x[0]) / (nodes - 1)
+    return float(1.7 * width**2 / expected_central_film(groups) ** 1.2)
 
 
 def grid_error(groups: Groups, nodes: int) -> float:
-    """Estimate the relative error of the central film on ``nodes`` per direction.
-
-    It is about 1.7 h^2 / H^1.2 with mesh width h on the recommended domain and film H (measured at
-    M = 100 to 500).
-    """
-    domain = recommended_domain(groups)
-    width = (domain.x[1] - domain.x[0]) / (nodes - 1)
-    return float(1.7 * width**2 / expected_central_film(groups) ** 1.2)
+    """Return `mesh_error` on the recommended domain."""
+    return mesh_error(groups, recommended_domain(groups), nodes)
 
 
 def needed_points(groups: Groups) -> int:
@@ -88,3 +121,47 @@ def needed_points(groups: Groups) -> int:
     The error of the minimum film is larger. Coarser grids may converge too, with larger errors.
     """
     return next((nodes for nodes in NODES if grid_error(groups, nodes) <= AIM), NODES[-1])
+
+
+def expected_points(scaled: ScaledProblem, domain: Domain, error: float) -> int:
+    """Return the nodes per direction on which the error bars of the film will be below an error.
+
+    Waves of the surfaces get `WAVE_NODES` nodes, if not more than `ROUGH_NODES` follow.
+
+    Parameters
+    ----------
+    scaled, domain : ScaledProblem, Domain
+        The contact, and the domain of the solve.
+    error : float
+        Relative error of central and minimum film [-].
+    """
+    groups, scales = scaled.groups, scaled.scales
+    bar_over_error = min(max(THIN / expected_central_film(groups), LEAST_BAR), LARGEST_BAR)
+    problem = scaled.problem
+    waves = [one.roughness.shortest_wavelengths for one in (problem.surface_1, problem.surface_2)]
+    along = (domain.x[1] - domain.x[0]) * scales.half_width_x / min(wave[0] for wave in waves)
+    across = (domain.y[1] - domain.y[0]) * scales.half_width_y / min(wave[1] for wave in waves)
+    least = min(WAVE_NODES * max(along, across), ROUGH_NODES)
+    for nodes in FAMILIES:
+        fine = bar_over_error * mesh_error(groups, domain, nodes) <= error
+        if fine and nodes > least:
+            return nodes
+    return FAMILIES[-1]
+
+
+def planned(scaled: ScaledProblem, options: Options) -> Options:
+    """Return ``options`` with the nodes on which the error to reach is expected.
+
+    Options that state ``points`` are returned as they are.
+    """
+    if options.points != "auto":
+        return options
+    nodes = expected_points(scaled, domain_of(scaled.groups, options), options.target)
+    return options.on_points(nodes, nodes)
+
+
+def domain_of(groups: Groups, options: Options) -> Domain:
+    """Return the domain of a solve: the stated or the recommended one."""
+    if isinstance(options.domain, Domain):
+        return options.domain
+    return recommended_domain(groups, options.target)

@@ -59,6 +59,10 @@ class Grid:
         """Return the grid of twice the mesh width."""
         return replace(self, nx=self.nx // 2 + 1, ny=self.ny // 2 + 1)
 
+    def finer(self) -> "Grid":
+        """Return the grid of half the mesh width."""
+        return replace(self, nx=2 * self.nx - 1, ny=2 * self.ny - 1)
+
     def can_coarsen(self) -> bool:
         """Whether both directions halve to 16 intervals or more, and the half domain still can."""
         intervals = (self.nx - 1, self.ny - 1)

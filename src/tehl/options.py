@@ -6,7 +6,7 @@ from typing import Annotated, Literal, Self
 from pydantic import BeforeValidator, Field, model_validator
 
 from tehl.errors import InputError
-from tehl.units import Table
+from tehl.units import PositiveNumber, Table, Time
 
 
 def _not_a_boolean(value: object) -> object:
@@ -21,6 +21,8 @@ NO_BOOLEAN = BeforeValidator(_not_a_boolean)
 Nodes = Annotated[int, Field(ge=17, le=16385), NO_BOOLEAN]
 Sweeps = Annotated[int, Field(ge=0, le=10), NO_BOOLEAN]
 Interval = tuple[Annotated[float, NO_BOOLEAN], Annotated[float, NO_BOOLEAN]]
+USUAL_ERROR = 0.02
+"""Relative error of central and minimum film that is reached by default."""
 LARGEST_COARSEST = 64
 """Most intervals along one direction of the coarsest grid, whose Newton matrix is dense."""
 FARTHEST = 1e3
@@ -58,11 +60,22 @@ def _fault_of_edges(low: float, high: float) -> str:
 class Options(Table):
     """Numerical options of a run; the defaults suit a smooth isothermal contact."""
 
-    points: Nodes | tuple[Nodes, Nodes] = 257
-    """Nodes per direction (x, y) of the finest grid, ``n 2^k + 1``."""
+    error: Annotated[PositiveNumber, Field(ge=1e-4, le=0.5)] | None = None
+    """Relative error of the central and of the minimum film to reach, such as ``"1 %"``; 2 % if
+    neither it nor ``points`` is stated. Full multigrid goes on to finer grids until its estimate is
+    below. Between rough surfaces the error of the minimum is relative to the central film of the
+    smooth contact."""
+    points: Nodes | tuple[Nodes, Nodes] | Literal["auto"] = "auto"
+    """Nodes per direction (x, y) of the finest grid, ``n 2^k + 1``: then ``error`` is not enforced,
+    and only chooses the domain."""
+    max_time: Time = 3600.0
+    """Time after which no finer grid is started."""
     domain: Domain | Literal["auto"] = "auto"
     """``"auto"`` takes the domain from the Moes load so that it contributes less than 0.3 % to the
     error of the film."""
+    edges: Literal["auto", "far_field", "zero"] = "auto"
+    """Pressure on the edges of the domain: that of the far field, or zero as in much of the
+    literature; ``"auto"`` takes the far field unless ``domain`` is stated."""
     deformation: Literal["auto", "mlmi", "fft", "lines", "direct"] = "auto"
     """Method for the elastic deflection; ``"auto"`` takes the cheapest at equal accuracy."""
     cycle: Literal["V", "W", "F"] = "V"
@@ -90,12 +103,29 @@ class Options(Table):
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Nodes (ny, nx) of the finest grid."""
+        """Nodes (ny, nx) of the finest grid, if they are stated."""
+        assert self.points != "auto"
         nx, ny = (self.points, self.points) if isinstance(self.points, int) else self.points
         return ny, nx
 
+    @property
+    def target(self) -> float:
+        """Relative error of the film to reach, or for which the domain is chosen [-]."""
+        return USUAL_ERROR if self.error is None else self.error
+
+    def on_points(self, nx: int, ny: int) -> "Options":
+        """Return these options with the nodes ``nx``, ``ny`` stated."""
+        return self.model_copy(update={"points": (nx, ny)})
+
+    @property
+    def has_far_field(self) -> bool:
+        """Whether the edges have the pressure of the far field."""
+        return self.edges == "far_field" or (self.edges == "auto" and self.domain == "auto")
+
     @model_validator(mode="after")
     def _must_coarsen(self) -> Self:
+        if self.points == "auto":
+            return self
         for nodes in self.shape:
             if coarsenings(nodes) < 1:
                 fewer, more = coarsenable(nodes)

@@ -103,6 +103,18 @@ class ErrorEstimate:
     iteration_central: float
     iteration_minimum: float
     """Change by further cycles, relative [-]."""
+    domain: float = 0.0
+    """From the edges of a domain with the far field, relative [-]."""
+
+    @property
+    def central(self) -> float:
+        """Error bar of the central film, all parts together [-]."""
+        return self.discretisation_central + self.iteration_central + self.domain
+
+    @property
+    def minimum(self) -> float:
+        """Error bar of the minimum film, all parts together [-]."""
+        return self.discretisation_minimum + self.iteration_minimum + self.domain
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -193,6 +205,11 @@ class Solution:
     def film_thickness(self) -> Array:
         """Film thickness [m], shape (ny, nx)."""
         return self.scaled.film * self.scales.film_thickness
+
+    @property
+    def grid_options(self) -> Options:
+        """The options of the solve, with the nodes of this result stated."""
+        return self.options.on_points(self.scaled.x.size, self.scaled.y.size)
 
     @property
     def film(self) -> FilmSummary:

@@ -242,6 +242,11 @@ class Quantity:
         }
 
 
+def percentage(part: float) -> str:
+    """Return two digits of ``part`` in per cent."""
+    return f"{float(f'{100.0 * part:.2g}'):g} %"
+
+
 def _kind(dimension: Dimension, unit: str) -> str:
     if dimension == _NONE:
         return f"an angle ({unit})" if unit in _ANGLE_UNITS else f"a plain number ({unit})"

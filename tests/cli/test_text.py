@@ -132,7 +132,7 @@ def test_a_film_that_is_not_positive_has_no_value(result):
 
 def test_a_grid_error_above_the_value_itself_is_a_percentage(result):
     errors = replace(result.errors, discretisation_minimum=1.3)
-    assert "grid error about 130 %" in as_text(replace(result, errors=errors))
+    assert "error about 130 %" in as_text(replace(result, errors=errors))
 
 
 def test_a_failure_has_its_hint_in_a_second_line():

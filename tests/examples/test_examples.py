@@ -33,7 +33,7 @@ def test_every_example_is_pinned_here():
 
 def test_the_ball_on_disc_has_its_film():
     found = example("ball_on_disc").main()
-    assert found["central film [nm]"] == pytest.approx(426.2, rel=5e-3)
+    assert found["central film [nm]"] == pytest.approx(432.1, rel=5e-3)  # on 1025 nodes
     assert 0.5 < found["minimum film [nm]"] / found["central film [nm]"] < 0.65
 
 
@@ -43,14 +43,14 @@ def test_the_moes_case_lies_within_a_tenth_of_the_formulas():
     for name in ("Nijenbanning-Venner-Moes", "Hamrock-Dowson", "Chittenden"):
         ratio = table[100.0]["computed"] / table[100.0][name]
         assert 0.9 < ratio < 1.02
-    assert table[100.0]["computed"] == pytest.approx(0.1350, rel=5e-3)
+    assert table[100.0]["computed"] == pytest.approx(0.1368, rel=5e-3)  # on 1025 nodes
 
 
 def test_the_elliptical_contact_has_its_film():
     found = example("elliptical_gear").main()
     # 2.890181: the exact Hertz ellipse for radii 1 : 5
     assert found["a_y / a_x"] == pytest.approx(2.890181, rel=1e-6)
-    assert found["central film [nm]"] == pytest.approx(961.1, rel=5e-3)
+    assert found["central film [nm]"] == pytest.approx(970.4, rel=5e-3)  # 975.6 on 1025 nodes
 
 
 def test_plain_gauss_seidel_fails_where_the_hybrid_converges():
@@ -76,16 +76,15 @@ def test_the_film_grows_with_the_speed_as_formulas_say():
 
 def test_a_sliding_ball_is_warm_and_its_heat_is_accounted_for():
     found = example("thermal_ball_on_disc").main()
-    assert found["traction at mid-film [-]"] == pytest.approx(-0.0384, rel=1e-2)
-    assert found["central film [nm]"] == pytest.approx(420.7, rel=5e-3)
+    assert found["traction at mid-film [-]"] == pytest.approx(-0.0380, rel=1e-2)
+    assert found["central film [nm]"] == pytest.approx(426.6, rel=5e-3)  # on 641 nodes
     # what is missing on this grid is 0.2 %
     assert abs(found["missing [%]"]) < 1.0
 
 
 def test_only_the_wedge_makes_a_dimple_and_only_where_the_cool_surface_is_slow():
     found = example("dimple").main()
-    # 222 nm here and 238 nm on 257 x 257 nodes
-    assert found["ball slow (cool)"] == pytest.approx(222.0, rel=3e-2)
+    assert found["ball slow (cool)"] == pytest.approx(238.0, rel=3e-2)
     assert found["disc slow (warm)"] == 0.0
     assert found["ball slow, mean temperature"] == 0.0
 
@@ -95,16 +94,16 @@ def test_the_traction_of_a_warm_film_rises_peaks_and_falls():
     peak = curve.index(max(curve))
     assert 0 < peak < len(curve) - 1
     assert curve[: peak + 1] == sorted(curve[: peak + 1])
-    assert curve[peak] == pytest.approx(0.0387, rel=1e-2)
+    assert curve[peak] == pytest.approx(0.0382, rel=1e-2)
 
 
 def test_the_film_of_a_dent_travels_at_the_mean_speed():
     found = example("passing_dent").main()
     ahead = {slide: one["thick film ahead of the dent [um]"] for slide, one in found.items()}
-    # the mesh is 10 um wide
-    assert ahead[0.0] == pytest.approx(0.0, abs=5.0)
-    assert ahead[0.5] == pytest.approx(-48.0, abs=10.0)
-    assert ahead[-0.5] == pytest.approx(56.0, abs=10.0)
+    # -6.3, -48.6 and 55.0 on 257 nodes
+    assert ahead[0.0] == pytest.approx(-6.3, abs=1.0)
+    assert ahead[0.5] == pytest.approx(-48.6, abs=3.0)
+    assert ahead[-0.5] == pytest.approx(55.0, abs=3.0)
     assert found[0.0]["largest film over smooth"] == pytest.approx(1.596, rel=1e-2)
     assert found[0.0]["largest pressure over smooth"] == pytest.approx(1.016, rel=1e-2)
     assert found[-0.5]["largest pressure over smooth"] == pytest.approx(1.373, rel=2e-2)

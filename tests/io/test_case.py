@@ -70,7 +70,7 @@ def test_overrides_are_applied_before_anything_is_checked(case: Path):
 MISTAKES = [
     ("contact.laod=80 N", "contact.laod is not a known key", "did you mean load?"),
     ("numeric.points=129", "numeric is not a known key", "did you mean numerics?"),
-    ("numerics.tol=3", "numerics.tol is not a known key", "known are points"),
+    ("numerics.tol=3", "numerics.tol is not a known key", "known are error"),
     ("lubricant.viscosity.alfa=3", "lubricant.viscosity.alfa is not a known key", "alpha"),
     ("contact.load='80'", 'contact.load = "80"', "lacks a unit"),
     ("contact.load=80 mm", "has the unit of a length (mm)", 'a force such as "80 N"'),

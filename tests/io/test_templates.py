@@ -19,7 +19,7 @@ def test_every_template_is_a_case(name: str, tmp_path: Path):
     path.write_text(template_text(name), encoding="utf-8")
     problem, options = read_case_and_options(path)
     assert problem.title
-    assert options.points == 257
+    assert options.target == 0.02
     assert 0.3e9 < problem.hertz.pressure < 2e9
 
 

@@ -86,6 +86,7 @@ ODD = [
     ("numerics.domain", {"x": [-1.5, 1.5], "y": [-3, 3]}, "inlet edge"),
     ("numerics.domain", {"x": [-4.5, 1.01], "y": [-3, 3]}, "outlet edge"),
     ("numerics.domain", {"x": [-4.5, 1.5], "y": [-1.1, 3]}, "side edge"),
+    ("numerics.domain", {"x": [-4.5, 1.5], "y": [-2.4, 2.4]}, "zero pressure on its edges"),
 ]
 
 

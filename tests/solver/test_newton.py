@@ -39,7 +39,9 @@ def level(mirror: bool = True, points: int = POINTS) -> Level:
     problem = moes_contact(20.0, 10.0)
     grid = Grid(nx=points, ny=points, domain=DOMAIN, mirror=mirror)
     scaled = ScaledProblem.of(problem)
-    equations = Equations.on(grid, scaled, flow_table(scaled), Options(deformation="fft"))
+    equations = Equations.on(
+        grid, scaled, flow_table(scaled), Options(deformation="fft", edges="zero")
+    )
     made = Level(equations, ROUGH)
     run = solve(problem, Options(points=points, domain=DOMAIN))
     made.pose_problem()

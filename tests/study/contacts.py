@@ -8,7 +8,7 @@ from tehl.studies import Case
 from tests.cases import ball_tables
 
 QUICK = Options(points=65)
-"""Enough for light contacts; at M = 7 and L = 2 the grid is too coarse."""
+"""Enough for light contacts; at M = 300 and L = 2 the grid is too coarse."""
 
 
 def problem(load: float = 5.0, speed: float = 10.0, **changes) -> ContactProblem:
@@ -22,7 +22,7 @@ def cases(count: int = 4, options: Options = QUICK) -> list[Case]:
 
 
 def failing() -> Case:
-    return Case("too coarse", problem(load=7.0, speed=2.0), QUICK, {"M": 7.0})
+    return Case("too coarse", problem(load=300.0, speed=2.0), QUICK, {"M": 300.0})
 
 
 def assert_same_numbers(first, second) -> None:

@@ -8,6 +8,7 @@ import typer
 
 from tehl.cli.reference_runs import REFERENCES, Comparisons, compare, smooth_file
 from tehl.cli.text import as_text, failure_text
+from tehl.domain import planned
 from tehl.errors import InputError
 from tehl.io.atomic import check_folder, check_writable, remove_with_parts
 from tehl.io.case import read_case_and_options
@@ -17,6 +18,7 @@ from tehl.memory import check_memory
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import ConvergenceError, Result
+from tehl.scaling import ScaledProblem
 from tehl.transient_result import TransientResult
 
 COMPARED_TO = 1e-4
@@ -51,7 +53,7 @@ def run(job: Job) -> bool:
     """
     problem, options = read_case_and_options(job.case, job.overrides)
     _check_outputs(job)
-    check_memory(options, problem)
+    check_memory(planned(ScaledProblem.of(problem), options), problem)
     _check_arguments(problem, job)
     wanted = zip(REFERENCES, (job.with_isothermal, job.with_smooth), strict=True)
     references = {name: REFERENCES[name](problem) for name, is_wanted in wanted if is_wanted}
@@ -148,7 +150,7 @@ def _compared(result: Result, cases: dict[str, ContactProblem], job: Job) -> Com
     for what, problem in cases.items():
         if not job.quiet:
             typer.echo(f"reference run {what}", err=True)
-        other, failure = _solved(problem, result.options, replace(job, certify=False))
+        other, failure = _solved(problem, result.grid_options, replace(job, certify=False))
         found[what] = other if failure is None and isinstance(other, Result) else None
         if found[what] is None:
             typer.echo(f"tehl: reference run {what} did not converge: {failure}", err=True)

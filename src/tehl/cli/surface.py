@@ -126,7 +126,8 @@ def _mesh_of_case(case: Path, points: int | None) -> "Mesh":
 
     changes = [] if points is None else [f"numerics.points={points}"]
     problem, options = read_case_and_options(case, changes)
-    domain, (ny, nx), hertz = explain(problem, options).domain, options.shape, problem.hertz
+    plan, hertz = explain(problem, options), problem.hertz
+    domain, (ny, nx) = plan.domain, plan.options.shape
     return Mesh(
         spacing=(
             (domain.x[1] - domain.x[0]) * hertz.half_width_x / (nx - 1),

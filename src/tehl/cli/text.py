@@ -43,7 +43,7 @@ def failure_text(status: Status, reason: str | None) -> str:
 
 
 def _bar(result: Result | TransientResult, name: str) -> str:
-    """Return the error bar of a certified value, else the estimated error of the grid if known."""
+    """Return the error bar of a certified value, else the estimated error if known."""
     estimate = estimates(result).get(name)
     if estimate is not None:
         factor, unit = _UNITS.get(name) or length_unit(estimate.value)
@@ -53,8 +53,8 @@ def _bar(result: Result | TransientResult, name: str) -> str:
         bar = f"{estimate.value * factor:.5g} +- {estimate.uncertainty * factor:.2g} {unit}"
         return f"   certified {bar} ({parts})"
     errors = None if isinstance(result, TransientResult) else result.errors
-    error = getattr(errors, f"discretisation_{name.removeprefix('film_')}", None)
+    error = getattr(errors, name.removeprefix("film_"), None)
     if error is None:
         return ""
     percent = 100.0 * abs(error)
-    return f"   grid error about {percent:{'.2g' if percent < 99.5 else '.0f'}} %"
+    return f"   error about {percent:{'.2g' if percent < 99.5 else '.0f'}} %"

@@ -37,13 +37,15 @@ def restrict_residual(fine: Array, mirror: int, coarse: Array) -> None:
 
 @kernel
 def restrict_pressure(fine: Array, mirror: int, coarse: Array) -> None:
-    """Full weighting where all nine fine values are positive, injection elsewhere."""
+    """Full weighting where all nine fine values are positive, injection elsewhere and on edges."""
     fine, coarse = raw((fine, coarse))
     ny, nx = coarse.shape
-    clear(coarse)
-    for j in range(0 if mirror else 1, ny - 1):
-        for i in range(1, nx - 1):
+    for j in range(ny):
+        for i in range(nx):
             fj, fi = 2 * j, 2 * i
+            if j == ny - 1 or i == 0 or i == nx - 1 or (j == 0 and mirror == 0):
+                coarse[j, i] = fine[fj, fi]
+                continue
             south = fj - 1 if fj > 0 else 1
             smallest = fine[fj, fi]
             for row in (south, fj, fj + 1):

@@ -1,4 +1,4 @@
-"""Load balance, sum(P) dx dy = 2 pi / 3 (docs/theory/model.md), which fixes the rigid approach."""
+"""Load balance, integral of P = 2 pi / 3 (docs/theory/model.md), which fixes the rigid approach."""
 
 import numpy as np
 
@@ -17,8 +17,14 @@ class Load:
         self.mirror = grid.mirror
 
     def integral(self, pressure: Array) -> float:
-        """Return the load carried by ``pressure`` [-]."""
-        total = float(pressure.sum())
-        if self.mirror:
-            total += total - float(pressure[0].sum())
-        return total * self.area
+        """Return the load carried by ``pressure`` [-], by the trapezoidal rule."""
+        total = float(pressure.sum()) - 0.5 * float(pressure[:, 0].sum() + pressure[:, -1].sum())
+        # each row beside the last one counts twice, where the half domain is stored
+        last, first = 0.5 * _row(pressure[-1]), 0.5 * _row(pressure[0])
+        total -= last + first
+        return (2.0 * total if self.mirror else total) * self.area
+
+
+def _row(values: Array) -> float:
+    """Return the sum over a row by the trapezoidal rule."""
+    return float(values.sum()) - 0.5 * float(values[0] + values[-1])

@@ -129,4 +129,4 @@ def _needed(options: Options, fewest: float, axis: int, wanted: int) -> int:
     """Return the nodes per direction that put ``wanted`` of them on the shortest wave."""
     nodes = options.shape[1 - axis]
     intervals = math.ceil((nodes - 1) * wanted / fewest)
-    return coarsenable(min(intervals, 2 * LARGEST) - 1)[1]
+    return coarsenable(min(intervals, 2 * LARGEST))[1]

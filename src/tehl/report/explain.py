@@ -3,7 +3,7 @@
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from tehl.domain import AIM, needed_points, recommended_domain
+from tehl.domain import AIM, domain_of, needed_points, planned, recommended_domain
 from tehl.film_formulas import FilmEstimate, expected_film, film_estimates, regime
 from tehl.grid import Grid
 from tehl.heat import FilmEnergy, source_form
@@ -66,9 +66,10 @@ class Explanation:
 
 def explain(problem: ContactProblem, options: Options) -> Explanation:
     """Return what formulas say about a case, without solving it."""
-    scaled, (ny, nx) = ScaledProblem.of(problem), options.shape
-    groups, film, wanted = scaled.groups, expected_film(scaled), recommended_domain(scaled.groups)
-    domain = options.domain if isinstance(options.domain, Domain) else wanted
+    scaled = ScaledProblem.of(problem)
+    asked, options = options, planned(scaled, options)
+    groups, film, (ny, nx) = scaled.groups, expected_film(scaled), options.shape
+    wanted, domain = recommended_domain(groups, asked.target), domain_of(groups, options)
     grid = Grid(nx=nx, ny=ny, domain=domain, mirror=False)
     mesh = (grid.dx * scaled.scales.half_width_x, grid.dy * scaled.scales.half_width_y)
     heights, plan = asperities(problem, options, mesh, film), transient_plan(scaled, options, mesh)
@@ -93,7 +94,7 @@ def explain(problem: ContactProblem, options: Options) -> Explanation:
         memory=needed_memory(options, problem),
         seconds=(SECONDS_COUPLED if problem.is_coupled else SECONDS_PER_NODE) * (ny * nx),
         time=plan,
-        questions=questions(scaled, options, heat, bodies, heights)
+        questions=questions(scaled, asked, heat, bodies, heights)
         + (plan.questions if plan else ()),
     )
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from typing import Generic, NoReturn, TypeVar
 
 from tehl.operators.heights import UnresolvedError
-from tehl.options import Domain, Options, check_certifiable
+from tehl.options import Domain, Options, can_be_halved, check_certifiable
 from tehl.problem import ContactProblem
 from tehl.result import ConvergenceError, Result
 from tehl.solution import NO_COST, Cost, Estimate, Status
@@ -52,8 +52,9 @@ def certify(
     problem : ContactProblem
         The contact in SI.
     options : Options
-        Of the finest grid; the two others have a half and a quarter of its intervals. All converge
-        to ``options.tolerance``, so that only the discretisation differs.
+        Of the finest grid, which a first solve finds if ``points`` is left out; the two others have
+        a half and a quarter of its intervals. All converge to ``options.tolerance``, so that only
+        the discretisation differs.
     monitor : Monitor
         Receives the report of each cycle.
 
@@ -70,14 +71,19 @@ def certify(
     InputError
         When the grid cannot be halved twice.
     """
-    options = (options or Options()).model_copy(update={"accuracy": "tight"})
+    options, known = options or Options(), None
+    if options.points == "auto":
+        monitor.message("certify: number of nodes")
+        known = solve(problem, options, monitor=monitor)
+        options = certifiable(known.grid_options)
+    options = options.model_copy(update={"accuracy": "tight"})
     check_certifiable(options)
     monitor.message("certify: grid 1 of 3")
     first = _companion(problem, halved(options, 2), monitor)
     monitor.message("certify: grid 2 of 3")
     middle = _companion(problem, halved(options, 1), monitor)
     monitor.message("certify: grid 3 of 3")
-    finest = solve(problem, options, monitor=monitor)
+    finest = solve(problem, options, guess=known, monitor=monitor)
     monitor.message("certify: larger domain")
     wide = _companion(problem, widened(options, finest), monitor)
     finest = replace(finest, cost=finest.cost + first.cost + middle.cost + wide.cost)
@@ -128,7 +134,9 @@ def _ending(result: Result) -> str:
     """Return the nodes of a run and how it ended."""
     status = result.status
     coarse = status.is_vague or status.cause in ("grid_too_coarse", "film_not_positive")
-    return f"{nodes_of(result.options)} {'too coarse for the film' if coarse else status.outcome}"
+    return (
+        f"{nodes_of(result.grid_options)} {'too coarse for the film' if coarse else status.outcome}"
+    )
 
 
 def _has_converged(result: Result) -> bool:
@@ -187,7 +195,15 @@ def nodes_of(options: Options) -> str:
 def halved(options: Options, times: int) -> Options:
     """Return options of the grid with its intervals halved ``times`` times."""
     ny, nx = ((n - 1) // 2**times + 1 for n in options.shape)
-    return options.model_copy(update={"points": (nx, ny)})
+    return options.on_points(nx, ny)
+
+
+def certifiable(options: Options) -> Options:
+    """Return options of a grid that can be halved twice, of twice the intervals where necessary."""
+    while not can_be_halved(options, 2):
+        ny, nx = options.shape
+        options = options.on_points(2 * nx - 1, 2 * ny - 1)
+    return options
 
 
 def widened(options: Options, finest: Result) -> Options:
@@ -196,7 +212,8 @@ def widened(options: Options, finest: Result) -> Options:
         (WIDER * float(edges[0]), WIDER * float(edges[-1]))
         for edges in (finest.scaled.x, finest.scaled.y)
     )
-    return options.model_copy(update={"domain": Domain(x=x, y=y)})
+    edges = "far_field" if options.has_far_field else "zero"
+    return options.model_copy(update={"domain": Domain(x=x, y=y), "edges": edges})
 
 
 def _with_bars(finest: Result, first: Result | None, middle: Result, wide: Result) -> Result:

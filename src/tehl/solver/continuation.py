@@ -65,30 +65,41 @@ class Roughness:
     def __init__(
         self, levels: list[Level], heights: Heights | None, settings: Continuation
     ) -> None:
-        self.levels, self.settings = levels, settings
+        self.levels, self.settings, self.heights = levels, settings, heights
         self.first = self.first_comparable = len(levels)
         # level, pressure and rigid approach of the smooth film before the heights were raised
         self.smooth: tuple[int, Array, float] | None = None
         self.points, self.amplitude = np.inf, 0.0
         if heights is not None:
-            self._distribute(heights)
+            fields = heights.on([level.grid for level in levels])
+            points, last = self._points(heights), len(levels) - 1
+            self.first = next((k for k in range(1, last) if points[k] >= settings.points), last)
+            for level, field in zip(levels[self.first :], fields[self.first :], strict=True):
+                level.heights = field
+            self._compare(heights)
 
-    def _distribute(self, heights: Heights) -> None:
-        """Set the heights of the levels that resolve them.
+    def refine(self, heights: Heights | None) -> None:
+        """Set ``heights`` of a level that was appended; coarser ones keep theirs."""
+        self.heights = heights
+        if heights is None:
+            self.first = self.first_comparable = len(self.levels)
+            return
+        self.levels[-1].heights = heights.together
+        self._compare(heights)
+
+    def _points(self, heights: Heights) -> list[float]:
+        return [heights.points_per_wave(level.grid) for level in self.levels]
+
+    def _compare(self, heights: Heights) -> None:
+        """Set which levels are comparable, and how much of their corrections is taken.
 
         The correction of the finest level with fewer than `BLURRED` nodes per wave is damped: it
         represents waves of another shape, and its full correction would overshoot.
         """
-        levels, last = self.levels, len(self.levels) - 1
-        fields = heights.on([level.grid for level in levels])
-        points = [heights.points_per_wave(level.grid) for level in levels]
-        enough, comparable = self.settings.points, COMPARABLE
-        self.first = next((k for k in range(1, last) if points[k] >= enough), last)
+        levels, last, points = self.levels, len(self.levels) - 1, self._points(heights)
         # error estimates compare grids that resolve the heights
-        later = (k for k in range(self.first, last) if points[k] >= comparable)
+        later = (k for k in range(self.first, last) if points[k] >= COMPARABLE)
         self.first_comparable = next(later, last)
-        for level, field in zip(levels[self.first :], fields[self.first :], strict=True):
-            level.heights = field
         blurred = max((k for k in range(last) if points[k] < BLURRED), default=last)
         for k, level in enumerate(levels[blurred:last], start=blurred):
             part = self.settings.correction if k == blurred else 1.0
@@ -96,7 +107,7 @@ class Roughness:
         # size of the waves in the contact, for the error estimate of a single grid
         finest = levels[-1].grid
         inside = np.hypot.outer(finest.y, finest.x) < 1.0
-        self.points, self.amplitude = points[-1], 0.5 * float(np.ptp(fields[-1][inside]))
+        self.points, self.amplitude = points[-1], 0.5 * float(np.ptp(heights.together[inside]))
 
     @property
     def is_rough(self) -> bool:

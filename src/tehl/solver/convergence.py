@@ -49,7 +49,7 @@ MEAN_CHANGE, KELVIN_CHANGE = 1e-4, 3e-3
 """Sum of the pressure changes in a cycle over the sum of pressures, and largest change of
 temperature [K], at which ``accuracy = "change"`` stops; 3 mK are 1e-5 of the inlet temperature."""
 RUNAWAY = 100.0
-"""Load error and central film beyond which no iteration recovers (H of a contact is below 2)."""
+"""Load error, and central film over that by formula or 1, beyond which no iteration recovers."""
 LARGEST_ROUGH_STEP = 10.0
 """Change of pressure per cycle beyond which no iteration between rough surfaces recovers."""
 STALL_CYCLES, STALL_FACTOR = 8, 0.5
@@ -60,13 +60,14 @@ class DivergedError(ArithmeticError):
     """Runaway or non-finite unknowns, a failed step, or a coarser grid that is not accepted."""
 
 
-def check_divergence(report: CycleReport, *, rough: bool) -> None:
+def check_divergence(report: CycleReport, expected_film: float, *, rough: bool) -> None:
     """Check that an iteration may still converge.
 
     Raises DivergedError when residual, load error, film or, between rough surfaces, change are too
     large or NaN.
     """
-    numbers = abs(report.load_error) < RUNAWAY and report.film_central < RUNAWAY
+    largest = RUNAWAY * max(expected_film, 1.0)
+    numbers = abs(report.load_error) < RUNAWAY and report.film_central < largest
     if not (np.isfinite(report.residual) and numbers):
         raise DivergedError
     if rough and not report.change < LARGEST_ROUGH_STEP:
@@ -183,12 +184,12 @@ def film_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
     if len(now.reports) < now.least_cycles:
         return False
     last = now.reports[-1]
-    if coarser is None:  # without a discretisation error: a change of 1e-3 Hertz pressures
-        return last.change < now.damping * 1e-3
     if last.residual > now.reports[-2].residual:  # its changes are not errors yet
         return False
     if abs(last.load_error) > LARGEST_LOAD_ERROR or last.change > now.largest_change:
         return False
+    if coarser is None:  # without a discretisation error: a change of 1e-3 Hertz pressures
+        return last.change < now.damping * 1e-3
     pairs = ((now.central, coarser.central), (now.minimum, coarser.minimum))
     # discretisation error of second order: a third of the change from the coarser grid
     limit = max(abs(a.values[-1] - b.values[-1]) / 3.0 for a, b in pairs) / 3.0
@@ -207,7 +208,9 @@ def stalled(now: GridTrace, patience: int = 1) -> bool:
     return residuals[-1] > STALL_FACTOR * residuals[-1 - cycles]
 
 
-def error_estimate(traces: list[GridTrace], order: int, *, rough: bool = False) -> ErrorEstimate:
+def error_estimate(
+    traces: list[GridTrace], order: int, domain: float = 0.0, *, rough: bool = False
+) -> ErrorEstimate:
     """Estimate the relative errors of the film on the last of two or more grids.
 
     Parameters
@@ -216,6 +219,8 @@ def error_estimate(traces: list[GridTrace], order: int, *, rough: bool = False) 
         Grids halved each time, coarsest first.
     order : {1, 2}
         Order of the wedge.
+    domain : float
+        Relative error from the edges of the domain [-].
     rough : bool
         Whether the grids carry heights of rough surfaces.
     """
@@ -233,11 +238,11 @@ def error_estimate(traces: list[GridTrace], order: int, *, rough: bool = False) 
         if rough and changes[-1] > film:  # far from the limit
             bar = changes[-1]
         bars.append(max(bar, SHARED * changes[0]) / film)
-    return _estimate(traces[-1], *bars)
+    return _estimate(traces[-1], domain, *bars)
 
 
 def single_grid_estimate(
-    trace: GridTrace, mesh_width: float, points: float, amplitude: float
+    trace: GridTrace, mesh_width: float, points: float, amplitude: float, domain: float = 0.0
 ) -> ErrorEstimate:
     """Estimate the relative errors of the film if no coarser grid resolves the heights.
 
@@ -255,17 +260,19 @@ def single_grid_estimate(
         n, nodes per shortest wavelength.
     amplitude : float
         A, half the range of the heights [-].
+    domain : float
+        Relative error from the edges of the domain [-].
     """
     bars = []
     for numbers in (trace.central, trace.minimum):
         film = abs(numbers.values[-1]) or 1.0
         smooth = SMOOTH_PART * mesh_width**2 / film**1.2
         bars.append(float(smooth + WAVE_PART * amplitude / film / points**2))
-    return _estimate(trace, *bars)
+    return _estimate(trace, domain, *bars)
 
 
-def _estimate(trace: GridTrace, central: float, minimum: float) -> ErrorEstimate:
-    """Return relative discretisation errors together with the iteration errors of a trace."""
+def _estimate(trace: GridTrace, domain: float, central: float, minimum: float) -> ErrorEstimate:
+    """Return relative errors by domain and mesh together with the iteration errors of a trace."""
     iteration = [
         numbers.iteration_error() / (abs(numbers.values[-1]) or 1.0)
         for numbers in (trace.central, trace.minimum)
@@ -275,6 +282,7 @@ def _estimate(trace: GridTrace, central: float, minimum: float) -> ErrorEstimate
         discretisation_minimum=minimum,
         iteration_central=iteration[0],
         iteration_minimum=iteration[1],
+        domain=domain,
     )
 
 

@@ -13,6 +13,7 @@ from tehl.film_formulas import expected_central_film
 from tehl.grid import Grid
 from tehl.kernels import reynolds
 from tehl.operators.deformation import Deformation, choose
+from tehl.operators.far_field import FarField
 from tehl.operators.film import gap
 from tehl.operators.flow import FlowTable
 from tehl.operators.influence import Influence, influence_of
@@ -46,6 +47,8 @@ class Equations:
     """Integral of P over the domain [-]."""
     gap: Array
     """Undeformed gap [-], ``grid.shape``."""
+    far_field: FarField | None
+    """Pressure on the edges and load outside; None if the pressure is zero there."""
     floor: float
     """Least film in the conductance [-]: the discrete film of coarse grids may not be positive."""
 
@@ -82,6 +85,7 @@ class Equations:
             load=Load(grid),
             target=load * TARGET,
             gap=gap(grid, groups),
+            far_field=FarField(grid, groups) if options.has_far_field else None,
             floor=FLOOR * expected_central_film(groups),
         )
 
@@ -91,10 +95,11 @@ class Sources:
     """Right-hand sides: f of the Reynolds equation, g of the film equation, w of the load balance.
 
     ``history`` is the contribution of previous films to wedge and squeeze in a time step; f is
-    less by it.
+    less by it. ``outside`` is the load beyond the edges, part of w.
     """
 
     reynolds: Array
     film: Array
     load: float
     history: Array | None = None
+    outside: float = 0.0

@@ -10,10 +10,10 @@ from itertools import count
 
 import numpy as np
 
-from tehl.operators.heights import Heights
+from tehl.operators.heights import Heights, heights_of
 from tehl.result import Result
 from tehl.scaling import Groups
-from tehl.solution import CycleReport
+from tehl.solution import CycleReport, ErrorEstimate
 from tehl.solver.anderson import Anderson
 from tehl.solver.continuation import (
     MOST_STEPS,
@@ -35,6 +35,7 @@ from tehl.solver.convergence import (
     stalled,
 )
 from tehl.solver.fmg import full_multigrid
+from tehl.solver.goal import Goal, estimated_errors
 from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.ladder import Strategy
 from tehl.solver.level import Level
@@ -47,6 +48,8 @@ FIRST_STEPS = 6
 """Newton steps on the coarsest grid at the start; that they may not converge does no harm."""
 MOST_CYCLES = 4
 """Most cycles on a grid that only provides the start for the next finer one."""
+LEAST_GRIDS = 2
+"""Most grids that give no error bars: the coarsest one does not resolve the contact."""
 HERTZ_CYCLES = 2
 """Cycles after which a grid that started from the Hertz pressure has a film."""
 COARSE_NODES = 33
@@ -64,6 +67,8 @@ class FilmSolver:
         The levels; method and settings.
     heights : Heights or None
         Heights of the surfaces on the finest grid; None for smooth surfaces.
+    goal : Goal
+        The error to reach; by default the grid of the hierarchy is the finest.
     monitor : Monitor
         Receives the report of each cycle.
     guess : Result or None
@@ -76,16 +81,19 @@ class FilmSolver:
         strategy: Strategy,
         *,
         heights: Heights | None = None,
+        goal: Goal | None = None,
         monitor: Monitor = SILENT,
         guess: Result | None = None,
     ) -> None:
         self.hierarchy, self.strategy, self.options = hierarchy, strategy, hierarchy.options
         self.levels = hierarchy.levels
+        self.goal = goal or Goal(hierarchy.scaled, hierarchy.options)
         self.coupling = Coupling(
             hierarchy.scaled,
             self.options,
             slide_in_steps=strategy.slide_in_steps,
             damping=strategy.damping if heights is not None else 1.0,
+            any_grid_final=self.goal.is_open,
         )
         self.roughness = Roughness(hierarchy.levels, heights, strategy.continuation)
         self.monitor, self.guess = monitor, guess
@@ -106,8 +114,9 @@ class FilmSolver:
     def solve(self, *, force: bool) -> bool:
         """Run full multigrid; return whether the finest grid converged.
 
+        If the goal is open, finer grids follow until the error estimate of the film is below it.
         ``force`` continues on the finest grid even if the next coarser one has no acceptable
-        solution.
+        solution, and on one finer grid if the finest one diverges.
 
         Raises
         ------
@@ -117,15 +126,79 @@ class FilmSolver:
         """
 
         def improve(levels: Sequence[Level]) -> None:
+            self.goal.begin_grid()
             if levels[-1] is self.finest:
                 if not (self.accepted or force):
                     raise DivergedError
-                self._solve_finest()
+                self._improve_finest(force=force)
             else:
                 self.accepted = self._approximate(levels)
+                if self._is_last(levels):
+                    self._finish(levels)
 
         full_multigrid(self.levels, self._solve_coarsest, self._start, improve)
+        return self._has_converged()
+
+    def _improve_finest(self, *, force: bool) -> None:
+        """Solve on the finest grid, and append a finer one if the goal is not reached."""
+        try:
+            self._solve_finest()
+        except TouchingError:
+            raise
+        except DivergedError:
+            if not (force and self.goal.may_try_once(self.finest)):
+                raise
+            self._discard(self.levels)
+            self._refine()
+        else:
+            stuck = force and not self._has_converged() and self.goal.may_try_once(self.finest)
+            if stuck or self._needs_finer_grid():
+                self._refine()
+
+    def _has_converged(self) -> bool:
+        """Return whether the last grid converged."""
         return converged(self.traces[-1], self._coarser_trace(), self.options)
+
+    def errors(self) -> ErrorEstimate | None:
+        """Return estimated errors of the film on the last grid; None before its first cycle."""
+        level = self.levels[len(self.traces) - 1]
+        return estimated_errors(level, self.traces, self.roughness, self.options)
+
+    def minimum_part(self) -> float:
+        """Return the minimum film over the film to which its error is relative [-].
+
+        Itself between smooth surfaces, the central film of the smooth contact between rough ones.
+        """
+        if not self.roughness.is_rough:
+            return 1.0
+        return max(float(self.finest.film.h.min()), 0.0) / self.hierarchy.expected_film
+
+    def _needs_finer_grid(self) -> bool:
+        """Return whether the finest grid converged to a film that is not accurate enough."""
+        if not (self.goal.is_open and self._has_converged()):
+            return False
+        positive = float(self.finest.film.h.min()) > self.finest.equations.floor
+        if positive and self.goal.is_met(self.errors(), self.minimum_part()):
+            return False
+        return self.goal.may_refine(self.finest)
+
+    def _is_last(self, levels: Sequence[Level]) -> bool:
+        """Return whether a grid is accurate enough, or no finer one may follow."""
+        if not (self.goal.is_open and self.accepted and len(levels) > LEAST_GRIDS):
+            return False
+        if self.roughness.is_rough or self.coupling.is_pending:
+            return False
+        if not float(levels[-1].film.h.min()) > levels[-1].equations.floor:
+            return False
+        return self.goal.is_met(self.errors()) or not self.goal.may_refine(levels[-1])
+
+    def _refine(self) -> None:
+        """Append a grid of half the mesh width."""
+        self.hierarchy.refine(self.strategy.first_relaxation)
+        if self.roughness.heights is not None:
+            self.roughness.refine(heights_of(self.hierarchy.scaled, self.finest.grid))
+        else:
+            self.roughness.refine(None)
 
     # steps of full multigrid
 
@@ -162,11 +235,16 @@ class FilmSolver:
             accepted = False
         else:
             accepted = self._is_acceptable(self.traces[-1])
-        if not accepted:  # the next grid starts without heat and relaxation of this one
-            self.coupling.reset(levels)
-            for level in levels:
-                level.set_relaxation(self.strategy.first_relaxation)
+        if not accepted:
+            self._discard(levels)
         return accepted
+
+    def _discard(self, levels: Sequence[Level]) -> None:
+        """Let the next grid start without film, heat and relaxation of ``levels``."""
+        self.accepted = False
+        self.coupling.reset(levels)
+        for level in levels:
+            level.set_relaxation(self.strategy.first_relaxation)
 
     def _is_acceptable(self, trace: GridTrace) -> bool:
         """Return whether a coarser grid was converging, so that the next one may start from it."""
@@ -232,6 +310,16 @@ class FilmSolver:
                 # a combination of states must not wet the nodes that the last cycle cavitated
                 wet = np.append(fine.film.p.ravel() > 0.0, True)
                 fine.set_unknowns(np.where(wet, combined, 0.0))
+
+    def _finish(self, levels: Sequence[Level]) -> None:
+        """Make the last of ``levels`` the finest, and iterate until it has converged or stalled."""
+        del self.levels[len(levels) :]
+        trace = self.traces[-1]
+        while not self._is_done(trace, finest=True):
+            number = len(trace.reports) + 1
+            if number > self.options.max_cycles:
+                return
+            trace.add(self._iteration(levels, partial(self.hierarchy.cycle, levels), number))
 
     def _is_done(self, trace: GridTrace, *, finest: bool) -> bool:
         """Return whether the iteration on a grid has converged or stalled."""
@@ -329,7 +417,7 @@ class FilmSolver:
             temperature_rise=heating[1],
             mean_change=float(np.abs(before).sum() / (level.film.p.sum() or 1.0)),
         )
-        check_divergence(report, rough=self.roughness.is_rough)
+        check_divergence(report, self.hierarchy.expected_film, rough=self.roughness.is_rough)
         return report
 
     @property

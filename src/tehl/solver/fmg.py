@@ -23,7 +23,7 @@ def full_multigrid(
     Parameters
     ----------
     levels : sequence
-        Coarsest first.
+        Coarsest first. ``improve`` may append finer ones, or drop the finest.
     solve_coarsest : callable
         Solves the problem on ``levels[0]``.
     start : callable
@@ -32,6 +32,8 @@ def full_multigrid(
         Called with the levels up to the next finer one: multigrid cycles.
     """
     solve_coarsest()
-    for finest in range(1, len(levels)):
+    finest = 1
+    while finest < len(levels):
         start(levels[finest - 1], levels[finest])
         improve(levels[: finest + 1])
+        finest += 1

@@ -24,6 +24,10 @@ UNRESOLVED = 0.5
 """Mesh width of the coarsest grid, in Hertz half-widths, beyond which it does not resolve the
 contact. One visit then overshoots the load balance (by 100 % at M = 5); a second one, through the
 next finer level, corrects this at negligible cost."""
+LEAST_GRIDS, LARGEST_DENSE = 3, 65
+"""Grids that are kept, and most nodes along x of the coarsest, whose matrix is dense, where a wide
+domain makes the coarsest grid too coarse for the pressure: its load then depends on the rigid
+approach in another way, and the cycles diverge."""
 THICK = 0.25
 """Expected central film above which two visits help: for a thinner film such a grid has no valid
 discrete solution, and more visits do harm (M = 200 and more on wide domains)."""
@@ -80,7 +84,8 @@ class CoarsestSolver:
 class Hierarchy:
     """The levels of a contact, coarsest first, and the solver of the coarsest.
 
-    ``expected_film`` is the central film by formula [-].
+    ``expected_film`` is the central film by formula [-], and ``load`` that of the film over that of
+    the contact [-].
     """
 
     scaled: ScaledProblem
@@ -88,6 +93,7 @@ class Hierarchy:
     levels: list[Level]
     coarsest: CoarsestSolver
     expected_film: float
+    load: float = 1.0
 
     @classmethod
     def on(
@@ -110,11 +116,18 @@ class Hierarchy:
             Load that the film carries, over that of the contact [-].
         """
         flow, film = flow_table(scaled), expected_central_film(scaled.groups)
-        levels = [
-            Level(Equations.on(grid, scaled, flow, options, load), relaxation)
-            for grid in halved_grids(finest)
-        ]
-        return cls(scaled, options, levels, CoarsestSolver(levels[0]), film)
+        grids = halved_grids(finest)
+        widest = max(1.0, (2.0 * film) ** 0.5)  # of the parabolic gap, where the film is thick
+        while grids[0].dx > widest and len(grids) > LEAST_GRIDS and grids[1].nx <= LARGEST_DENSE:
+            del grids[0]
+        levels = [Level(Equations.on(g, scaled, flow, options, load), relaxation) for g in grids]
+        return cls(scaled, options, levels, CoarsestSolver(levels[0]), film, load)
+
+    def refine(self, relaxation: Relaxation) -> None:
+        """Append a level of half the mesh width."""
+        grid, flow = self.finest.grid.finer(), self.finest.equations.flow
+        equations = Equations.on(grid, self.scaled, flow, self.options, self.load)
+        self.levels.append(Level(equations, relaxation))
 
     @property
     def finest(self) -> Level:

@@ -14,6 +14,7 @@ import numpy as np
 
 from tehl.grid import Grid
 from tehl.kernels import properties, reynolds, transfer
+from tehl.operators.far_field import FarField
 from tehl.operators.film import hertz_pressure
 from tehl.operators.load import TARGET
 from tehl.operators.transfer import refine
@@ -47,6 +48,7 @@ class Level:
         self.equations = equations
         self.smoother = make_smoother(equations, relaxation)
         p, h, eps, rho, drho, f, g = (np.zeros(shape) for _ in range(7))
+        self.is_finest = True  # of those in use: its equations are those of the problem
         self.film = properties.Film(p, h, eps, rho, drho, eps_x=eps, eps_y=eps)
         self.rigid_approach = 0.0
         self.sources = Sources(f, g, equations.target)
@@ -62,6 +64,11 @@ class Level:
     def grid(self) -> Grid:
         """The nodes."""
         return self.equations.grid
+
+    @property
+    def far_field(self) -> FarField | None:
+        """Pressure on the edges and load outside of the finest level; None if it is zero."""
+        return self.equations.far_field if self.is_finest else None
 
     @property
     def stencil(self) -> reynolds.Stencil:
@@ -94,6 +101,9 @@ class Level:
         self.equations.deformation.deflect(self.film.p, h)
         np.add(h, self.sources.film, out=h)
         np.add(h, self.rigid_approach, out=h)
+        if self.far_field is not None:
+            self.far_field.set_edges(self.film.p, h)
+            self.sources.outside = self.far_field.load(h, self.equations.gap)
         self.update_properties()
         self._is_stale = False
 
@@ -142,6 +152,7 @@ class Level:
         """Set the right-hand sides of a steady problem: f = 0, g = gap - heights, w the load."""
         self.sources.reynolds[:] = 0.0
         self.sources.load = self.equations.target
+        self.is_finest = True
         self.apply_heights(1.0)
         self.smoother.frozen[:] = 0  # the finest grid decides where the film ends
 
@@ -159,6 +170,7 @@ class Level:
         """
         self.sources.history, self.heights = history, heights
         self.sources.load = load * TARGET
+        self.is_finest = True
         self.apply_heights(1.0)
         self.smoother.frozen[:] = 0
         self.update()
@@ -233,12 +245,13 @@ class Level:
         )
 
     def missing_load(self) -> float:
-        """Return w - sum(P) dx dy [-]."""
-        return self.sources.load - self.equations.load.integral(self.film.p)
+        """Return w less the integral of P, inside and outside the domain [-]."""
+        inside = self.equations.load.integral(self.film.p)
+        return self.sources.load - self.sources.outside - inside
 
     def load_error(self) -> float:
         """Return the relative error of the load balance."""
-        return self.equations.load.integral(self.film.p) / self.sources.load - 1.0
+        return -self.missing_load() / self.sources.load
 
     # full approximation scheme
 
@@ -253,7 +266,7 @@ class Level:
         coarse._is_stale = False  # its film is the injected one, not that of K_c P_c
 
     def restrict_solution(self, coarse: "Level") -> None:
-        """Restrict P by full weighting, beside cavities by injection; H00 is one number.
+        """Restrict P by full weighting, beside cavities and on edges by injection, and H00.
 
         Coarse nodes of low pressure beside a cavity are frozen: the coarse grid would cavitate them
         in every cycle (Venner and Lubrecht 2000, chapter 6, restrict there by injection).
@@ -263,6 +276,7 @@ class Level:
         transfer.freeze(
             self.film.p, self.smoother.frozen, coarse.film.p, mirror, FROZEN_BELOW, frozen
         )
+        coarse.is_finest, coarse.sources.outside = False, 0.0
         # I P and H00: `correct_from` interpolates the change since
         before, _ = coarse.restricted
         before[:] = coarse.film.p

@@ -8,30 +8,37 @@ from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np
 
-from tehl.domain import recommended_domain
+from tehl.domain import domain_of, planned
 from tehl.errors import InputError
 from tehl.fields import Fields, FilmHeat, FilmShear, SurfaceHeights
 from tehl.grid import Grid, can_mirror
 from tehl.kernels.warmup import warm_up
 from tehl.memory import check_memory
-from tehl.operators.heights import Heights, heights_of
-from tehl.options import Domain, Options
+from tehl.operators.heights import heights_of
+from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import ConvergenceError, Result
-from tehl.scaling import ScaledProblem, Scales
+from tehl.scaling import ScaledProblem
 from tehl.solution import Cost, CycleReport, Provenance, Status
 from tehl.solver.continuation import TouchingError
 from tehl.solver.cost import Clock
 from tehl.solver.diagnosis import diverged
 from tehl.solver.film_solver import FilmSolver
 from tehl.solver.film_summary import film_summary
+from tehl.solver.goal import Goal
 from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.ladder import ladder
 from tehl.solver.monitor import SILENT, Monitor, Recorder
 from tehl.solver.outputs import film_heat, film_shear, newtonian_shear
-from tehl.solver.verdict import estimated_errors, touching, verdict
+from tehl.solver.verdict import touching, verdict
 
-GRID_CAUSES = ("grid_too_coarse", "domain_too_small", "inlet_too_short", "sides_too_close")
+GRID_CAUSES = (
+    "grid_too_coarse",
+    "error_not_reached",
+    "domain_too_small",
+    "inlet_too_short",
+    "sides_too_close",
+)
 """Causes of failure that no other strategy removes."""
 
 
@@ -95,7 +102,6 @@ def solve(
             "transient: the case is not steady; solve it with tehl.solve_transient (the command "
             "tehl solve does so by itself)"
         )
-    check_memory(options, problem)
     _, result = try_strategies(problem, options, monitor=monitor, rough=True, guess=guess)
     if not result.status.converged:
         raise ConvergenceError(result.status.message or "not converged", result)
@@ -124,7 +130,10 @@ def try_strategies(
     """
     warm_up(coupled=problem.is_coupled)
     clock, history, scaled = Clock(), Recorder(monitor), ScaledProblem.of(problem)
-    grid = finest_grid(scaled, options)
+    goal = Goal(scaled, options)
+    plan = goal.fitting(planned(scaled, options))
+    check_memory(plan, problem)
+    grid = finest_grid(scaled, plan)
     heights = heights_of(scaled, grid) if rough else None
     # at other accuracies full multigrid is done before a better start saves a cycle
     start = guess if options.accuracy == "tight" else None
@@ -133,25 +142,27 @@ def try_strategies(
     for number, strategy in enumerate(rungs):
         if number:
             monitor.message(f"falling back to {strategy.description}")
-        hierarchy = Hierarchy.on(grid, scaled, options, strategy.first_relaxation, load)
-        run = FilmSolver(hierarchy, strategy, heights=heights, monitor=history, guess=start)
+        hierarchy = Hierarchy.on(grid, scaled, plan, strategy.first_relaxation, load)
+        run = FilmSolver(
+            hierarchy, strategy, heights=heights, goal=goal, monitor=history, guess=start
+        )
         # Newton's method costs so much that the cycles before it are tried to the end
         only_newton_left = all(one.newton for one in rungs[number + 1 :])
         attempts.append(_run(run, force=only_newton_left))
         if attempts[-1].is_final:
             break
     best = min(attempts, key=lambda attempt: attempt.rank)
-    surfaces = _surfaces(grid, heights, scaled.scales)
-    return best, _result(best, tuple(history.reports), surfaces, clock.cost())
+    result = _result(best, options, tuple(history.reports), clock.cost())
+    return best, result
 
 
-def _surfaces(grid: Grid, heights: Heights | None, scales: Scales) -> SurfaceHeights | None:
+def _surfaces(run: FilmSolver) -> SurfaceHeights | None:
     """Return the heights of both surfaces on the full grid [m]."""
+    heights, unit = run.roughness.heights, run.hierarchy.scaled.scales.film_thickness
     if heights is None:
         return None
     first, second = (
-        grid.unfold(field) * scales.film_thickness
-        for field in (heights.surface_1, heights.surface_2)
+        run.finest.grid.unfold(field) * unit for field in (heights.surface_1, heights.surface_2)
     )
     return SurfaceHeights(surface_1=first, surface_2=second)
 
@@ -171,19 +182,13 @@ def _run(run: FilmSolver, *, force: bool) -> Attempt:
 
 def finest_grid(scaled: ScaledProblem, options: Options) -> Grid:
     """Return the grid of the result: the stated or recommended domain, half of it if symmetric."""
-    domain = options.domain
-    if not isinstance(domain, Domain):
-        domain = recommended_domain(scaled.groups)
-    ny, nx = options.shape
+    domain, (ny, nx) = domain_of(scaled.groups, options), options.shape
     halves = options.half_domain == "auto" and scaled.problem.is_even_in_y
     return Grid(nx=nx, ny=ny, domain=domain, mirror=halves and can_mirror(options.shape, domain))
 
 
 def _result(
-    attempt: Attempt,
-    history: tuple[CycleReport, ...],
-    surfaces: SurfaceHeights | None,
-    cost: Cost,
+    attempt: Attempt, options: Options, history: tuple[CycleReport, ...], cost: Cost
 ) -> Result:
     """Assemble the result of an attempt on the full domain."""
     run = attempt.run
@@ -192,7 +197,7 @@ def _result(
     shear, heat = _stress_and_heat(attempt)
     return Result(
         problem=scaled.problem,
-        options=run.options,
+        options=options,
         scales=scaled.scales,
         groups=scaled.groups,
         scaled=Fields(
@@ -205,12 +210,12 @@ def _result(
         film_scaled=film_summary(grid, level.film.h),
         status=attempt.status,
         history=history,
-        errors=estimated_errors(run),
+        errors=run.errors(),
         cost=cost,
         provenance=provenance(),
         shear=shear,
         heat=heat,
-        heights=surfaces,
+        heights=_surfaces(run),
     )
 
 

@@ -56,6 +56,8 @@ class Coupling:
         Damping factor of the logarithms of mobility and density per sweep, 1 is undamped [-]. On
         rough flanks the pressure gradient may cause nearly all heat and thinning; undamped, the
         flow increases both before the pressure can fall, and the iteration diverges.
+    any_grid_final : bool
+        Whether any grid may become that of the result, and so needs the full sources.
     """
 
     def __init__(
@@ -65,6 +67,7 @@ class Coupling:
         *,
         slide_in_steps: bool = False,
         damping: float = 1.0,
+        any_grid_final: bool = False,
     ) -> None:
         self.scaled, is_coupled = scaled, scaled.problem.is_coupled
         self.film = HeatedFilm(scaled) if is_coupled else None
@@ -73,6 +76,7 @@ class Coupling:
         counter_moving = min(motion.speed_1, motion.speed_2) <= 0.0
         # without counter-moving surfaces the backflow of the coarser grids is accurate enough
         self.thorough = options.accuracy == "tight" or counter_moving
+        self.any_grid_final = any_grid_final
         self.sweeps_left = RAMP if slide_in_steps else 0
         self.damping = damping if is_coupled else 1.0
         self.state: FilmState | None = None  # on the last level that was started
@@ -90,7 +94,7 @@ class Coupling:
         levels : sequence of Level
             Coarsest first.
         finest : bool
-            Whether the last one is the level of the result.
+            Whether the last one is the level of the result, or may become it.
         has_film : bool
             Whether its film results from cycles, not directly from the Hertz pressure.
         """
@@ -102,9 +106,11 @@ class Coupling:
         if not (finest or coarser is not None or (large and resolved)):
             return False
         self.skip = False
+        final = finest or self.any_grid_final
         state = FilmState(
-            fine.grid, self.film, self.wedge_order, finest=finest, thorough=self.thorough
+            fine.grid, self.film, self.wedge_order, finest=final, thorough=self.thorough
         )
+        state.is_first_grid = not finest
         self.state = state
         if coarser is not None:
             state.refine_from(coarser)
@@ -120,6 +126,11 @@ class Coupling:
             if self._sweep(state, levels, FIRST_STEPS) < FIRST_CHANGE:
                 break
         return True
+
+    @property
+    def is_pending(self) -> bool:
+        """Whether heat or thinning are still to begin."""
+        return self.film is not None and self.state is None
 
     def update(self, levels: Sequence[Level]) -> tuple[float, float]:
         """Sweep; return the largest change and the largest rise of the temperature [K].

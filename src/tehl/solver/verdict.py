@@ -13,14 +13,18 @@ from tehl.domain import domain_error
 from tehl.operators.energy import FilmState
 from tehl.scaling import Groups
 from tehl.solution import ErrorEstimate, Status
-from tehl.solver.convergence import error_estimate, single_grid_estimate
+from tehl.solver.convergence import LARGEST_LOAD_ERROR
 from tehl.solver.diagnosis import LESS_ROUGH, diverged, grid_hint, not_reached, thinnest
 from tehl.solver.film_solver import FilmSolver
 from tehl.solver.film_summary import film_summary
 from tehl.solver.level import Level
 from tehl.solver.outputs import heat_balance
+from tehl.units import percentage
 
 CONVERGED = Status(kind="converged")
+TOO_COARSE = ("grid_too_coarse", "film_not_positive")
+"""Causes that a finer grid removes."""
+MORE = "Raise numerics.max_time, or take a machine with more memory."
 LARGEST_BAR = 0.5
 """Relative discretisation error of the film beyond which a grid is too coarse."""
 OPEN = 1.0
@@ -42,36 +46,23 @@ LARGEST_MISSING_HEAT = 0.3
 heat, the backflow in the inlet stores some for many sweeps."""
 
 
-def estimated_errors(run: FilmSolver) -> ErrorEstimate | None:
-    """Return estimated errors of the film; None before the first cycle on the finest grid."""
-    roughness, traces = run.roughness, run.traces
-    if len(traces) < len(run.levels) or not traces[-1].reports:
-        return None
-    if not roughness.is_rough:
-        return error_estimate(traces, run.options.wedge_order)
-    # grids that resolve the same heights
-    comparable = traces[roughness.first_comparable :]
-    if len(comparable) < 2:
-        dx = run.finest.grid.dx
-        return single_grid_estimate(traces[-1], dx, roughness.points, roughness.amplitude)
-    return error_estimate(comparable, run.options.wedge_order, rough=True)
-
-
 def verdict(run: FilmSolver, *, reached: bool) -> Status:
     """Judge the last state of a run that stayed finite, with its film up to date.
 
     ``reached`` is whether the cycles met the stopping criterion.
     """
-    film, errors = run.finest.film, estimated_errors(run)
+    film, errors = run.finest.film, run.errors()
     if not (np.isfinite(film.p).all() and np.isfinite(film.h).all() and film.p.min() >= 0):
         return diverged(run)
     if not reached and run.roughness.is_rough:  # another strategy may converge on this grid
         return not_reached(run)
     found = _rough_status(run, errors) if run.roughness.is_rough else _smooth_status(run, errors)
+    if found.cause in TOO_COARSE and run.goal.obstacle:
+        return replace(found, message=f"{found.message} But {run.goal.obstacle}.", hint=MORE)
     # a grid too coarse explains cycles that do not converge
     if found.converged and not reached:
         return not_reached(run)
-    for judge in (_heat_status, _domain_status):
+    for judge in (_load_status, _heat_status, _domain_status, _error_status):
         if found.converged and not (status := judge(run)).converged:
             return status
     return found
@@ -197,22 +188,24 @@ def no_film(level: Level) -> str:
 
 def touching(run: FilmSolver, part: float) -> Status:
     """Return the status of a film that is not positive with only ``part`` of the heights."""
-    status = _no_film_status(run, estimated_errors(run))
+    status = _no_film_status(run, run.errors())
     message = f"{status.message} The film shown has {100 * part:.0f} % of the heights."
     return replace(status, message=message)
 
 
 def _domain_status(run: FilmSolver) -> Status:
-    """Judge whether the domain is large enough, and the contact fully flooded."""
+    """Judge whether a domain with zero pressure on its edges is large enough and fully flooded."""
     grid, groups = run.finest.grid, run.groups
+    if run.finest.far_field is not None:
+        return CONVERGED
     left_out = domain_error(groups, grid.domain)
     if left_out > LARGEST_DOMAIN_ERROR:
         return _failed(
             "domain_too_small",
             f"At M = {groups.M:.4g} the contact is nearly rigid and carries load far outside the "
             f"domain: the film may be {100 * left_out:.0f} % too thin.",
-            "Increase numerics.domain and numerics.points in proportion, or use the formula of "
-            "Nijenbanning, Venner and Moes in `tehl explain`, which covers rigid contacts.",
+            'Remove numerics.domain, or set numerics.edges = "far_field": the default domain has '
+            "the pressure of the far field on its edges.",
         )
     return _edge_status(run)
 
@@ -245,6 +238,30 @@ def _edge_status(run: FilmSolver) -> Status:
                 "Remove numerics.domain: the default domain is large enough.",
             )
     return CONVERGED
+
+
+def _load_status(run: FilmSolver) -> Status:
+    """Judge whether the stored pressure carries the load."""
+    error = run.finest.load_error()
+    return not_reached(run) if abs(error) > LARGEST_LOAD_ERROR else CONVERGED
+
+
+def _error_status(run: FilmSolver) -> Status:
+    """Judge whether the film is as accurate as stated."""
+    errors, goal = run.errors(), run.goal
+    if not goal.is_open or errors is None or goal.is_met(errors, run.minimum_part()):
+        return CONVERGED
+    (nx, ny), reached = (
+        run.finest.grid.points,
+        max(errors.central, run.minimum_part() * errors.minimum),
+    )
+    return _failed(
+        "error_not_reached",
+        f"The error bars on {nx} x {ny} nodes are {percentage(errors.central)} of the central and "
+        f"{percentage(errors.minimum)} of the minimum film, above numerics.error = "
+        f"{percentage(run.options.target)}: {goal.obstacle or 'the next grid does not converge'}.",
+        f'Set numerics.error = "{math.ceil(110 * reached)} %".',
+    )
 
 
 def _heat_status(run: FilmSolver) -> Status:

@@ -4,9 +4,12 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from tehl.domain import planned
 from tehl.errors import InputError
 from tehl.memory import available_memory, needed_memory
+from tehl.options import Options
 from tehl.report.explain import SECONDS_COUPLED, SECONDS_PER_NODE
+from tehl.scaling import ScaledProblem
 from tehl.studies.case import Case, Row
 
 _CERTIFIED = 3.5
@@ -55,7 +58,7 @@ def forecast(
     seconds = [slowness * _seconds(case) for case in waiting]
     workers = max(1, min(jobs, len(waiting)))
     disk = sum(_ROW_BYTES + (_field_bytes(case) if fields else 0) for case in every.values())
-    needs = sorted((needed_memory(case.options, case.problem) for case in waiting), reverse=True)
+    needs = sorted((needed_memory(_plan(case), case.problem) for case in waiting), reverse=True)
     longest = max(sum(seconds) / workers, max(seconds, default=0.0))
     return Forecast(
         cases=len(every),
@@ -78,13 +81,18 @@ def check_memory_of(forecast: Forecast, jobs: int) -> None:
     )
 
 
+def _plan(case: Case) -> Options:
+    """Return the options of a case with the number of nodes to expect."""
+    return planned(ScaledProblem.of(case.problem), case.options)
+
+
 def _seconds(case: Case) -> float:
     each = SECONDS_COUPLED if case.problem.is_coupled else SECONDS_PER_NODE
-    seconds = each * math.prod(case.options.shape) + _BASE_SECONDS
+    seconds = each * math.prod(_plan(case).shape) + _BASE_SECONDS
     return seconds * (_CERTIFIED if case.certify else 1.0)
 
 
 def _field_bytes(case: Case) -> int:
     thermal = case.problem.thermal
     layers = 0 if thermal is None else thermal.nodes + 2
-    return (_FIELD_BYTES + _LAYER_BYTES * layers) * math.prod(case.options.shape) + _FILE_BYTES
+    return (_FIELD_BYTES + _LAYER_BYTES * layers) * math.prod(_plan(case).shape) + _FILE_BYTES

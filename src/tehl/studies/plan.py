@@ -87,7 +87,7 @@ def _case(plan: Plan, rows: tuple[int, ...], units: dict[str, str]) -> Case:
     problem, options = case_from_tables(tables, plan.folder)
     if problem.transient is not None:
         raise InputError("has a table [transient]: a study is one of steady films")
-    if plan.certify:
+    if plan.certify and options.points != "auto":
         check_certifiable(options)
     labels: dict[str, Label] = {}
     for path, name, setting in settings:

@@ -170,7 +170,7 @@ def _kind_and_place(case: Case) -> tuple[object, tuple[float, ...]]:
     words = tuple(value for value in values if isinstance(value, str))
     # on this scale equal ratios are equal steps, far from zero
     place = tuple(math.asinh(value / _SMALL) for value in values if not isinstance(value, str))
-    return (tuple(case.labels), words, case.options.shape), place
+    return (tuple(case.labels), words, case.options.points), place
 
 
 class _Run:

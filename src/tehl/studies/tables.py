@@ -40,7 +40,8 @@ _BLOCKS = {
     "area_below_half_median minimum_at.0 P_max ripples_x.count ripples_x.depth_m ripples_y.count "
     "ripples_y.depth_m " + " ".join(f"waves.0.{key}" for key in _WAVE.split()),
     "convergence": "cycles residual change load_error heat_balance_error",
-    "errors": "discretisation_central discretisation_minimum iteration_central iteration_minimum",
+    "errors": "discretisation_central discretisation_minimum iteration_central iteration_minimum "
+    "domain",
     "cost": "points.0 cpu_seconds wall_seconds work",
 }
 """Columns of the summary by their blocks; of a list, those of its first entry."""

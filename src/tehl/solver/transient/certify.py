@@ -80,10 +80,13 @@ def certify_transient(
         When the transient problem is not valid, or the grid cannot be halved.
     """
     options = options or Options()
-    check_certifiable(options, transient=True)
-    monitor.message(f"certify: {nodes_of(options)} nodes, as stated")
+    if options.points != "auto":
+        check_certifiable(options, transient=True)
+    monitor.message("certify: the finest grid")
     # the finest run is first, because it decides whether the problem is valid
     finest = solve_transient(problem, options, monitor=monitor)
+    if options.points == "auto":
+        options = finest.start.grid_options
     if not finest.status.converged:
         return finest
     assert problem.transient is not None
@@ -113,7 +116,7 @@ def certify_transient(
 
 def _message(finest: TransientResult, coarse: Other, middle: Other, wide: Other) -> str:
     """Return how each run ended, and what follows for the bars."""
-    last = f"{nodes_of(finest.start.options)} {finest.status.outcome}"
+    last = f"{nodes_of(finest.start.grid_options)} {finest.status.outcome}"
     message = message_on([coarse.ending, middle.ending, last], wide.ending)
     return message if coarse.result is not None else f"{message} {WITHOUT_FIRST}"
 

@@ -5,10 +5,11 @@ from dataclasses import asdict, replace
 
 import numpy as np
 
+from tehl.domain import planned
 from tehl.duration import misplaced, number_of_steps
 from tehl.errors import InputError
+from tehl.grid import Grid
 from tehl.kernels.warmup import warm_up
-from tehl.memory import check_memory
 from tehl.operators.heated_film import stress_unit
 from tehl.operators.heights import MovingHeights
 from tehl.options import Options
@@ -76,7 +77,6 @@ def solve_transient(
     transient = problem.transient
     if transient is None:
         raise InputError("transient: missing from the case; solve the steady film with tehl.solve")
-    check_memory(options, problem)
     warm_up(coupled=problem.is_coupled)
     run = Run(problem, options, transient, monitor)
     if resume is not None:
@@ -98,22 +98,30 @@ class Run:
         self.problem, self.transient = problem, transient
         self.scaled = scaled = ScaledProblem.of(problem)
         self.scales = scaled.scales
-        grid = finest_grid(scaled, options)
         smooth = transient.start == "smooth"
-        self.heights = MovingHeights(scaled, grid, transient.entrance if smooth else None)
-        self.seconds = transient.stride * grid.dx * self.scales.half_width_x / self.scales.speed
-        self.steps = number_of_steps(scaled, self.seconds)
-        check_stride(transient, grid)
-        check_waves(self.heights, grid, transient.stride)
-        if (fault := misplaced(scaled, self.steps * self.seconds)) is not None:
-            raise InputError(fault)
-        check_load(transient, self.seconds)
-        self.kept = kept_steps(transient, self.steps, self.seconds)
+        self._pose(finest_grid(scaled, planned(scaled, options)), smooth=smooth)  # fails early
         attempt, self.start = _steady_start(problem, options, rough=not smooth, monitor=monitor)
+        self._pose(attempt.run.finest.grid, smooth=smooth)
         settings = COUPLED_SETTINGS if problem.is_coupled else SETTINGS
         self.stepper = Stepper(attempt.run, transient, settings)
         self.record = Record()
         self._note(0, self.heights.at(0.0), None)
+
+    def _pose(self, grid: Grid, *, smooth: bool) -> None:
+        """Set heights and time steps on ``grid``, and check them.
+
+        ``smooth`` is whether the run starts without roughness.
+        """
+        transient, scales = self.transient, self.scales
+        self.heights = MovingHeights(self.scaled, grid, transient.entrance if smooth else None)
+        self.seconds = transient.stride * grid.dx * scales.half_width_x / scales.speed
+        self.steps = number_of_steps(self.scaled, self.seconds)
+        check_stride(transient, grid)
+        check_waves(self.heights, grid, transient.stride)
+        if (fault := misplaced(self.scaled, self.steps * self.seconds)) is not None:
+            raise InputError(fault)
+        check_load(transient, self.seconds)
+        self.kept = kept_steps(transient, self.steps, self.seconds)
 
     @property
     def level(self) -> Level:

@@ -1,0 +1,131 @@
+"""Pressure far from the contact: its values on the edges of the grid, and the load outside.
+
+Far away the gap is that of rigid paraboloids, G = g(a) r^2 / 2 with g(a) = cos^2 a + D sin^2 a in
+polar coordinates around the contact, and the oil is ambient. There P = 8 lambda f(a) / r^3 solves
+the Reynolds equation with complementarity if
+
+    (g^3 f')' - 9 g^3 f = cos a,    f >= 0
+
+(docs/theory/numerics.md on the domain). For a circular contact f = A cosh 3 (pi - a) - cos(a) / 10
+up to tan a = 3, where the oil cavitates; the second term alone is the pressure of a rigid sphere
+without cavitation. Nearer, with the film H in place of the gap, P = 2 lambda r g^2 f / H^2, which
+is exact for the second term.
+"""
+
+from functools import lru_cache
+
+import numpy as np
+from scipy.linalg import solve_banded
+
+from tehl.grid import Grid
+from tehl.scaling import Groups
+from tehl.typing import Array, BoolArray
+
+ANGLES = 1025
+"""Nodes of f over the angle; the error of its values is below 1e-4 of its maximum."""
+Edge = tuple[slice, int] | tuple[int, slice]
+"""Index of the nodes on one edge."""
+MOST_FRONTS = 200
+"""Most steps of the search for the cavitation front, which moves by some nodes per step."""
+
+
+@lru_cache(maxsize=16)
+def angular_pressure(radius_ratio: float) -> tuple[Array, Array]:
+    """Return the angles, (n,), from downstream to upstream, and the pressure f at them.
+
+    The cavitation front follows from an active set: a node is wet as long as f > 0, a dry one
+    becomes wet where its equation would raise f.
+
+    Parameters
+    ----------
+    radius_ratio : float
+        D = R_x / R_y.
+    """
+    angle = np.linspace(0.0, np.pi, ANGLES)
+    step = angle[1]
+    conductance = (np.cos(angle) ** 2 + radius_ratio * np.sin(angle) ** 2) ** 3
+    between = 0.5 * (conductance[1:] + conductance[:-1]) / step**2
+    to_next, to_last = np.append(between, 0.0), np.append(0.0, between)
+    to_next[0] *= 2.0  # both ends are symmetric
+    to_last[-1] *= 2.0
+    diagonal = -(to_next + to_last) - 9.0 * conductance
+    source = np.cos(angle)
+    wet = angle > 0.5 * np.pi
+    for _ in range(MOST_FRONTS):
+        f = _solve(to_last, diagonal, to_next, source, wet)
+        inflow = to_next * np.append(f[1:], 0.0) + to_last * np.append(0.0, f[:-1])
+        before, wet = wet, np.where(wet, f > 0.0, inflow > source)
+        if np.array_equal(before, wet):
+            break
+    return angle, np.where(wet, np.maximum(f, 0.0), 0.0)
+
+
+def _solve(to_last: Array, diagonal: Array, to_next: Array, source: Array, wet: BoolArray) -> Array:
+    """Return f of the tridiagonal system at the ``wet`` nodes, zero elsewhere."""
+    band = np.zeros((3, diagonal.size))
+    band[0, 1:] = np.where(wet, to_next, 0.0)[:-1]
+    band[1] = np.where(wet, diagonal, 1.0)
+    band[2, :-1] = np.where(wet, to_last, 0.0)[1:]
+    f: Array = solve_banded((1, 1), band, np.where(wet, source, 0.0))
+    return f
+
+
+class FarField:
+    """Pressure on the edges of ``grid``, and the load outside of it.
+
+    Parameters
+    ----------
+    grid : Grid
+        Its edges.
+    groups : Groups
+        Lambda, radius ratio and ellipticity.
+    """
+
+    def __init__(self, grid: Grid, groups: Groups) -> None:
+        ratio, stretch = groups.radius_ratio, groups.ellipticity
+        angle, f = angular_pressure(ratio)
+        x, y = grid.x[None, :], stretch * grid.y[:, None]
+        whole = slice(None)
+        edges: list[Edge] = [(whole, 0), (whole, -1), (-1, whole)]
+        if not grid.mirror:
+            edges.append((0, whole))
+        radius, here = np.hypot(x, y), np.abs(np.arctan2(y, x))
+        # each edge with 2 lambda r g^2 f at its nodes
+        self.edges: list[tuple[Edge, Array]] = []
+        for edge in edges:
+            at = here[edge]
+            shape = np.interp(at, angle, f) * (np.cos(at) ** 2 + ratio * np.sin(at) ** 2) ** 2
+            self.edges.append((edge, 2.0 * groups.lambda_bar * radius[edge] * shape))
+        # the load outside, ray by ray
+        cosine, sine = np.cos(angle), np.maximum(np.sin(angle), 1e-12)
+        self.growth = cosine**2 + ratio * sine**2
+        ends = np.where(cosine < 0.0, grid.domain.x[0], grid.domain.x[1])
+        along = ends / np.where(np.abs(cosine) < 1e-12, 1e-12, cosine)
+        # the mean of both sides
+        across = stretch * np.array([[-grid.domain.y[0]], [grid.domain.y[1]]]) / sine
+        self.radius = np.minimum(along, across)
+        width = np.full(ANGLES, angle[1])
+        width[[0, -1]] *= 0.5
+        self.weight = 8.0 * groups.lambda_bar / stretch * f * width
+
+    def set_edges(self, pressure: Array, film: Array) -> None:
+        """Set the pressure on the edges for a ``film``, both of the shape of the grid."""
+        for edge, amplitude in self.edges:
+            pressure[edge] = amplitude / film[edge] ** 2
+
+    def load(self, film: Array, gap: Array) -> float:
+        """Return the integral of P outside the grid [-].
+
+        Along each ray from radius R on, with H = H_0 + g r^2 / 2 and s^2 = 2 H_0 / g,
+
+            int P r dr = 8 lambda f (acot(R / s) / (2 s) + R / (2 (R^2 + s^2))).
+
+        Parameters
+        ----------
+        film, gap : array of the shape of the grid
+            H and the undeformed gap; H_0 is their mean difference at the inlet edge.
+        """
+        base = max(float(np.mean(film[:, 0] - gap[:, 0])), 1e-9)
+        s, r = np.sqrt(2.0 * base / self.growth), self.radius
+        rays = np.arctan2(s, r) / (2.0 * s) + 0.5 * r / (r**2 + s**2)
+        return float((self.weight * rays).sum())

@@ -1,0 +1,133 @@
+"""The accuracy to reach: error estimates of a run so far, and whether a finer grid follows."""
+
+import math
+import time
+from dataclasses import dataclass, field
+
+from tehl.domain import far_field_error
+from tehl.memory import available_memory, needed_memory
+from tehl.options import Options, can_be_halved
+from tehl.scaling import ScaledProblem
+from tehl.solution import ErrorEstimate
+from tehl.solver.continuation import Roughness
+from tehl.solver.convergence import GridTrace, error_estimate, single_grid_estimate
+from tehl.solver.level import Level
+
+FACTOR = 5.0
+"""Expected time on a grid over that on the next coarser one, which has a quarter of its nodes."""
+LEAST_HALVINGS = 3
+"""Halvings of the smallest grid that is planned."""
+LARGEST = 16385
+"""Most nodes along one direction."""
+
+
+def estimated_errors(
+    level: Level, traces: list[GridTrace], roughness: Roughness, options: Options
+) -> ErrorEstimate | None:
+    """Return estimated errors of the film on the last grid; None before its first cycle.
+
+    Parameters
+    ----------
+    level : Level
+        The last level that was solved.
+    traces : list of GridTrace
+        Film over the cycles of its grid and of the coarser ones, coarsest first.
+    roughness : Roughness
+        Heights on the levels.
+    options : Options
+        Order of the wedge.
+    """
+    if len(traces) < 2 or not traces[-1].reports:
+        return None
+    domain = 0.0
+    if level.far_field is not None:
+        domain = far_field_error(level.equations.groups, level.grid.domain)
+    if not roughness.is_rough:
+        return error_estimate(traces, options.wedge_order, domain)
+    # grids that resolve the same heights
+    comparable = traces[roughness.first_comparable :]
+    if len(comparable) < 2:
+        points, amplitude = roughness.points, roughness.amplitude
+        return single_grid_estimate(traces[-1], level.grid.dx, points, amplitude, domain)
+    return error_estimate(comparable, options.wedge_order, domain, rough=True)
+
+
+@dataclass(slots=True)
+class Goal:
+    """The relative error of the film to reach, and the limits of memory and time.
+
+    Parameters
+    ----------
+    scaled, options : ScaledProblem, Options
+        The contact, and the options of the user.
+    """
+
+    scaled: ScaledProblem
+    options: Options
+    obstacle: str = ""
+    """Why no finer grid follows."""
+    _has_tried: bool = False
+    _started: float = field(default_factory=time.perf_counter)
+    _last: float = field(default_factory=time.perf_counter)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the error decides the number of nodes."""
+        return self.options.points == "auto"
+
+    def fitting(self, plan: Options) -> Options:
+        """Return options of the planned grid, halved until it fits into the memory."""
+        available = available_memory() or math.inf
+        while self.is_open and can_be_halved(plan, LEAST_HALVINGS):
+            if needed_memory(plan, self.scaled.problem) <= available:
+                break
+            ny, nx = ((n - 1) // 2 + 1 for n in plan.shape)
+            plan = plan.on_points(nx, ny)
+        return plan
+
+    def begin_grid(self) -> None:
+        """Note the time at which the work on a grid begins."""
+        self._last = time.perf_counter()
+
+    def is_met(self, errors: ErrorEstimate | None, part: float = 1.0) -> bool:
+        """Return whether the error estimates are below the error to reach.
+
+        Parameters
+        ----------
+        errors : ErrorEstimate or None
+            Estimates on a grid.
+        part : float
+            Minimum film over the film to which its error is relative [-].
+        """
+        if errors is None:
+            return False
+        return max(errors.central, part * errors.minimum) <= self.options.target
+
+    def may_try_once(self, level: Level) -> bool:
+        """Return whether a finer grid may follow one that diverged, which is tried once."""
+        if not self.is_open or self._has_tried:
+            return False
+        self._has_tried = True
+        return self.may_refine(level)
+
+    def may_refine(self, level: Level) -> bool:
+        """Return whether a grid of twice the intervals may follow ``level``; else say why."""
+        nx, ny = (2 * (n - 1) + 1 for n in level.grid.points)
+        now, limit = time.perf_counter(), self.options.max_time
+        expected = FACTOR * (now - self._last)
+        needed = needed_memory(self.options.on_points(nx, ny), self.scaled.problem)
+        available = available_memory() or math.inf
+        self.obstacle = ""
+        if max(nx, ny) > LARGEST:
+            self.obstacle = f"grids have at most {LARGEST} nodes along one direction"
+        elif needed > available:
+            self.obstacle = (
+                f"{nx} x {ny} nodes need {needed / 1e9:.2g} GB of memory, and "
+                f"{available / 1e9:.2g} GB are available"
+            )
+        elif now - self._started + expected > limit:
+            self.obstacle = (
+                f"{nx} x {ny} nodes would take {expected:.3g} s more, and numerics.max_time is "
+                f"{limit:g} s"
+            )
+        return not self.obstacle

@@ -1,0 +1,71 @@
+"""Pressure far from the contact: similarity solution, edges of a grid, load outside."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from tehl.grid import Grid
+from tehl.operators.far_field import FarField, angular_pressure
+from tehl.operators.film import gap
+from tehl.options import Domain
+from tehl.scaling import groups
+from tests.reference import moes_contact
+
+GROUPS = groups(moes_contact(2.0, 5.0))
+DOMAIN = Domain(x=(-20.0, 10.0), y=(-15.0, 15.0))
+
+
+def test_the_pressure_of_a_circular_contact_is_the_closed_form():
+    angle, f = angular_pressure(1.0)
+    front = math.atan(3.0)
+    # f and f' vanish at the front
+    factor = 0.1 * math.cos(front) / math.cosh(3.0 * (math.pi - front))
+    expected = factor * np.cosh(3.0 * (math.pi - angle)) - 0.1 * np.cos(angle)
+    assert f == pytest.approx(np.where(angle > front, expected, 0.0), abs=1e-4 * f.max())
+
+
+@pytest.mark.parametrize("ratio", [0.2, 0.5, 2.0, 5.0])
+def test_the_pressure_solves_its_equation_where_it_is_positive(ratio):
+    angle, f = angular_pressure(ratio)
+    g = (np.cos(angle) ** 2 + ratio * np.sin(angle) ** 2) ** 3
+    flux = 0.5 * (g[1:] + g[:-1]) * np.diff(f) / np.diff(angle)
+    left = np.diff(flux) / np.diff(angle)[0] - 9.0 * g[1:-1] * f[1:-1]
+    wet = f[1:-1] > 0.0
+    assert left[wet] == pytest.approx(np.cos(angle[1:-1][wet]), abs=1e-6)
+    assert np.all(np.cos(angle[1:-1][~wet]) >= -1e-12)  # dry where the gap opens
+    assert np.all(np.diff(f[f > 0.0])[:3] > 0.0)
+
+
+def test_the_edges_have_the_pressure_of_the_rigid_gap():
+    grid = Grid(nx=65, ny=65, domain=DOMAIN, mirror=False)
+    far, pressure = FarField(grid, GROUPS), np.zeros(grid.shape)
+    far.set_edges(pressure, gap(grid, GROUPS))
+    _, f = angular_pressure(1.0)
+    # upstream on the axis
+    assert pressure[32, 0] == pytest.approx(8.0 * GROUPS.lambda_bar * f[-1] / 20.0**3, rel=1e-6)
+    assert pressure[32, -1] == 0.0
+    assert pressure[0] == pytest.approx(pressure[-1])
+    assert np.count_nonzero(pressure[1:-1, 1:-1]) == 0
+
+
+def test_the_load_outside_is_the_integral_of_the_pressure():
+    grid = Grid(nx=65, ny=65, domain=DOMAIN, mirror=False)
+    far, base, (angle, f) = FarField(grid, GROUPS), 3.0, angular_pressure(1.0)
+    field = gap(grid, GROUPS)
+
+    def ray(a: float) -> float:
+        """Integral of P r dr from the edge outwards."""
+        cosine, sine = math.cos(a), math.sin(a)
+        ends = [(10.0 if cosine > 0 else -20.0) / cosine, 15.0 / sine]
+        start = min(ends)
+        shape = float(np.interp(a, angle, f))
+
+        def integrand(r: float) -> float:
+            return 2.0 * GROUPS.lambda_bar * shape * r**2 / (base + 0.5 * r**2) ** 2
+
+        return quad(integrand, start, math.inf)[0]
+
+    expected = 2.0 * quad(ray, 1e-6, math.pi - 1e-6, limit=200)[0]
+    assert far.load(field + base, field) == pytest.approx(expected, rel=1e-3)

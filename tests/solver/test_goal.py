@@ -1,0 +1,88 @@
+"""Accuracy on request: the grid follows from the error to reach, the domain from the film."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from tehl.options import Domain, Options
+from tehl.result import ConvergenceError
+from tehl.solver import solve
+from tests.reference import moes_contact
+from tests.solver.rough import wavy
+
+
+def grids(result) -> list[int]:
+    """Return the nodes of the grids, in the order of their first cycle."""
+    return list(dict.fromkeys(report.points[0] for report in result.history))
+
+
+@pytest.mark.parametrize(
+    ("load", "speed", "ratio"), [(1.0, 2.0, 1.0), (7.0, 5.0, 0.2), (50.0, 10.0, 2.0), (500, 5, 1)]
+)
+@pytest.mark.parametrize("error", [0.02, 0.005])
+def test_the_film_is_as_accurate_as_stated(load, speed, ratio, error):
+    problem = moes_contact(load, speed, radius_ratio=ratio)
+    found = solve(problem, Options(error=error))
+    assert max(found.errors.central, found.errors.minimum) <= error
+    finer = solve(problem, Options(points=2 * max(grids(found)) - 1, error=0.2 * error))
+    for name in ("central", "minimum"):
+        there = getattr(finer.film_scaled, name)
+        bar = getattr(found.errors, name)
+        assert getattr(found.film_scaled, name) == pytest.approx(there, rel=bar)
+
+
+def test_no_grid_is_solved_twice():
+    found = grids(solve(moes_contact(300.0, 5.0), Options(error=0.004)))
+    assert found == sorted(found)
+    assert all(fine == 2 * coarse - 1 for coarse, fine in pairwise(found))
+
+
+def test_a_smaller_error_takes_a_finer_grid_and_a_larger_domain():
+    runs = [solve(moes_contact(20.0, 10.0), Options(error=error)) for error in (0.05, 0.005)]
+    meshes = [np.diff(run.scaled.x)[0] for run in runs]
+    assert meshes[1] < 0.5 * meshes[0]
+    assert runs[1].scaled.x[0] < 1.3 * runs[0].scaled.x[0]
+
+
+def test_the_grid_between_rough_surfaces_resolves_their_waves():
+    found = solve(wavy((57.21, 10.52), (0.1, 0.5, 0.0)), Options(error=0.02))
+    width = np.diff(found.scaled.x)[0]
+    assert 0.5 / width > 12.0
+    assert found.errors.central <= 0.02
+
+
+def test_the_time_limits_the_grid_and_the_result_says_so():
+    with pytest.raises(ConvergenceError) as caught:
+        solve(moes_contact(20.0, 5.0), Options(error=1e-4, max_time=0.05))
+    status = caught.value.result.status
+    assert status.cause == "error_not_reached"
+    assert "numerics.max_time is 0.05 s" in status.message
+    assert "numerics.error = " in status.hint
+    # following the hint works
+    wanted = status.hint.split('"')[1]
+    assert solve(moes_contact(20.0, 5.0), Options(error=wanted)).status.converged
+
+
+@pytest.mark.parametrize("load", [0.1, 1.0])
+def test_a_rigid_contact_follows_its_similarity_law(load):
+    # isoviscous and rigid: H in half-widths of the gap does not depend on the load
+    results = [solve(moes_contact(m, 1e-3), Options(error=0.005)) for m in (load, 0.5 * load)]
+    # H_Moes M^2 is constant, and H = H_Moes (3 M / 2)^(-2/3)
+    first, second = (run.film_scaled.central for run in results)
+    assert first / second == pytest.approx(0.5 ** (8.0 / 3.0), rel=0.02 if load == 1.0 else 0.005)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("load", [1.0, 2.0, 3.0, 5.0])
+@pytest.mark.parametrize("speed", [1e-3, 5.0, 10.0])
+def test_a_nearly_rigid_contact_agrees_with_a_domain_four_times_as_wide(load, speed):
+    problem = moes_contact(load, speed)
+    found = solve(problem, Options())
+    x, y = found.scaled.x, found.scaled.y
+    domain = Domain(x=(4 * x[0], 4 * x[-1]), y=(4 * y[0], 4 * y[-1]))
+    points = tuple(8 * (n.size - 1) + 1 for n in (x, y))  # and twice as fine
+    wide = solve(problem, Options(points=points, domain=domain, edges="far_field"))
+    assert found.film_scaled.central == pytest.approx(
+        wide.film_scaled.central, rel=found.errors.central
+    )
