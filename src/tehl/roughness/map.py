@@ -34,8 +34,8 @@ class Map(MapSettings):
 
     @property
     def rms(self) -> float:
-        """Return Sq of the prepared heights [m], before they are tapered."""
-        return float(self.load().values.std())
+        """Return Sq of the prepared heights [m], over measured points, before they are tapered."""
+        return self.load().sq
 
     @property
     def fingerprint(self) -> str:
