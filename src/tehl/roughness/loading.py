@@ -30,6 +30,7 @@ _LEAST = 4
 _TAPER = 0.1
 _LOWEST, _HIGHEST = 1e-12, 10e-6
 _ROUNDING = 1e-12
+_PHASES = ("rad", "radian", "radians", "waves", "wave", "fringes", "fringe", "fr", "wv")
 _WIDEST, _FINEST, _TALLEST = 1.0, 1e-10, 1.0
 
 
@@ -52,7 +53,7 @@ def raw_map(surface: MapSettings) -> RawMap:
     """Return the content of the file of a map; errors name the file."""
     path = found_file(surface)
     with _naming(surface):
-        return read(path, layout=surface.layout, variable=surface.variable)
+        return read(path, layout=surface.layout, variable=surface.variable, form=surface.format)
 
 
 def heights_of(surface: MapSettings) -> Heights:
@@ -143,6 +144,11 @@ def _compare(what: str, stated: str | None, found: str | None, notes: list[str])
 
 def _metres(unit: str, what: str, key: str) -> float:
     factor = metres(unit)
+    if factor is None and unit.lower() in _PHASES:
+        raise InputError(
+            f"has its {what} in {unit}, a phase: state the height of one, which is wavelength / "
+            f'(4 pi) for a radian in reflection, {key} = "50.4 nm"'
+        )
     if factor is None:
         raise InputError(
             f'has the unit {unit[:20]!r} for its {what}, which is not a length: give {key} = "um"'

@@ -5,6 +5,7 @@ those of the contact, x along entrainment; a surface carries its heights along x
 """
 
 import math
+import re
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator
@@ -173,24 +174,32 @@ _WORDS = {"micron": "um"} | {
     for prefix, letter in (("", ""), ("milli", "m"), ("micro", "u"), ("nano", "n"))
     for metre in ("meter", "metre")
 }
+_MULTIPLE = re.compile(r"([\d.]+(?:[eE][+-]?\d+)?)?\s*(.+)")
 _ANGSTROMS = ("Å", "\N{ANGSTROM SIGN}", "angstrom", "A")
 
 
 def metres(unit: str) -> float | None:
-    """Return the factor from a unit of length to metres; None if it is not one."""
+    """Return the factor from a unit of length, or a multiple such as "50 nm", to metres.
+
+    None if it is not one.
+    """
     text = unit.strip().removeprefix("Â")  # a micro sign of two bytes, read as two letters
     if text in _ANGSTROMS or text.lower() in _ANGSTROMS:
         return 1e-10
-    word = _WORDS.get(text.lower()) or _WORDS.get(text.lower().removesuffix("s"), text)
+    match = _MULTIPLE.fullmatch(text)
+    number, name = (match[1] or "1", match[2]) if match else ("1", text)
+    word = _WORDS.get(name.lower()) or _WORDS.get(name.lower().removesuffix("s"), name)
     try:
-        return quantity(Length).parse(f"1 {word}")
+        return quantity(Length).parse(f"{number} {word}")
     except ValueError:
         return None
 
 
 def _is_length(unit: str) -> str:
     if metres(unit) is None:
-        raise ValueError('is not a unit of length: give one such as "um"')
+        raise ValueError(
+            'is not a unit of length: give one such as "um", or a multiple such as "50 nm"'
+        )
     return unit
 
 
