@@ -8,7 +8,8 @@ import numpy as np
 
 from tehl.options import Options, coarsenable
 from tehl.problem import ContactProblem
-from tehl.roughness import AnyRoughness, Bump, Dimple, Ridge, WaveVector
+from tehl.roughness import AnyRoughness, WaveVector
+from tehl.roughness.features import FeatureModel
 from tehl.wave_theory import LinearTheory, expected_waves
 
 CONVERGES, RESOLVES = 8, 16
@@ -113,7 +114,7 @@ class _Look(NamedTuple):
 def _look(roughness: AnyRoughness, problem: ContactProblem, mesh: tuple[float, float]) -> _Look:
     if roughness.is_smooth:
         return _Look(0.0, 0.0, (math.inf, math.inf))
-    if problem.transient is not None and isinstance(roughness, Bump | Dimple | Ridge):
+    if problem.transient is not None and isinstance(roughness, FeatureModel):
         roughness = roughness.model_copy(update={"x": 0.0})  # when it is in the middle
     resolved, hertz = roughness.resolved_on(*mesh), problem.hertz
     widths, waves = (hertz.half_width_x, hertz.half_width_y), resolved.shortest_wavelengths
