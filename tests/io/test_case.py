@@ -9,6 +9,7 @@ import pytest
 
 from tehl.errors import InputError
 from tehl.io.case import case_from_tables, case_schema, read_case, read_case_and_options
+from tehl.io.templates import template_text
 from tehl.options import Domain, coarsenable, coarsenings
 from tests.cases import ball_tables
 
@@ -302,7 +303,7 @@ def test_a_file_that_cannot_be_read_is_reported(tmp_path: Path):
         (b"a = " + b"9" * 5000, "too many digits"),
         (b"x" * 100_000, "line 1: 'xxx"),
         (bytes(5000), "line 1: "),
-        (b"\xff\xfea\x00", "UTF-8"),
+        (b"\xff\xfea\x00b", "UTF-16"),
         (b"#" * 2_000_000, "larger than 1 MB"),
         (b'"a\\nb" = 3', "is not a known key"),
     ],
@@ -426,3 +427,12 @@ def test_a_key_near_one_of_the_stated_law_is_suggested_from_that_law(case: Path)
 def test_a_roughness_without_its_type_is_reported_with_the_known_types(stated, words):
     with pytest.raises(InputError, match=words):
         case_from_tables(ball_tables(surface_1={"material": "steel", "roughness": stated}))
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-16-le", "utf-16-be"])
+def test_a_case_file_may_be_in_the_encodings_of_windows(tmp_path, encoding):
+    text = template_text("ball-on-disc").replace("[contact]", "# µ\n[contact]", 1)
+    mark = "\ufeff" if encoding[-2:] in ("le", "be") else ""
+    (tmp_path / "a.toml").write_text(mark + text, encoding=encoding)
+    (tmp_path / "b.toml").write_text(text, encoding="utf-8")
+    assert read_case(tmp_path / "a.toml") == read_case(tmp_path / "b.toml")

@@ -1,7 +1,6 @@
 """Heights as text: a table of heights, or columns x, y and z; ambiguous files are rejected."""
 
 import re
-from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -9,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 
+from tehl.encoding import encoding_of
 from tehl.errors import InputError
 from tehl.roughness.files.header import Header
 from tehl.roughness.files.raw import LARGEST_MAP, RawMap, check_count, shown, step
@@ -91,7 +91,7 @@ def _lines(path: Path, header: Header) -> Iterator[tuple[int, list[str]]]:
 def _encoding(path: Path) -> str:
     """Return the encoding of a text by its first bytes."""
     with path.open("rb") as file:
-        return "utf-16" if file.read(2) in (BOM_UTF16_LE, BOM_UTF16_BE) else "utf-8-sig"
+        return encoding_of(file.read(2))
 
 
 def _evened(rows: list[Array], marked: list[bool], numbers: list[int]) -> Array:
