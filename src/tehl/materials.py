@@ -66,12 +66,10 @@ def _by_name(value: object) -> object:
     """Return the table of a name; a table is returned unchanged."""
     if isinstance(value, Mapping | Solid):
         return value
-    known = read_tables(SOLIDS)
     if not isinstance(value, str):
-        raise ValueError(
-            f"must be the name of a solid ({', '.join(known)}) or a table with {_NEEDS}"
-        )
-    return find_table(known, value, "solid", _NEEDS)
+        known = ", ".join(read_tables(SOLIDS))
+        raise ValueError(f"must be the name of a solid ({known}) or a table with {_NEEDS}")
+    return find_table(SOLIDS, value, "solid", _NEEDS)
 
 
 NamedSolid = Annotated[Solid, BeforeValidator(_by_name, json_schema_input_type=str | Solid)]

@@ -176,7 +176,7 @@ def _by_name(value: object) -> object:
 
 
 def _named(name: str) -> dict[str, Any]:
-    return find_table(read_tables(OILS), name, "oil", "viscosity and density")
+    return find_table(OILS, name, "oil", "viscosity and density")
 
 
 class OilByName(Table):

@@ -6,14 +6,17 @@ those of the contact, x along entrainment; a surface carries its heights along x
 
 import math
 import re
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator
 
 from tehl.typing import Array, np
-from tehl.units import Length, Quantity, Table, quantity
+from tehl.units import Height, Length, Quantity, Table, quantity
 
 _ROUNDING = 1e-12
+_PER_MEAN = math.sqrt(0.5 * math.pi)
+"""Root mean square over mean absolute height of Gaussian heights."""
 _STEEPEST = 0.25
 
 Extent = tuple[tuple[float, float], tuple[float, float]]
@@ -146,6 +149,23 @@ class TileModel(RoughnessModel):
 def wavelength_of(number: float) -> float:
     """Return the wavelength [m] at a wave ``number`` [rad/m]."""
     return 2.0 * math.pi / number if number > 0 else math.inf
+
+
+def with_rms(stated: Any, mean: str, rms: str) -> Any:
+    """Return a table with the root mean square height ``rms`` where it has the ``mean`` absolute.
+
+    Raises ValueError if it states both, and they differ from those of Gaussian heights.
+    """
+    if not isinstance(stated, Mapping) or stated.get(mean) is None:
+        return stated
+    try:
+        of_mean = _PER_MEAN * quantity(Height).parse(stated[mean])
+    except ValueError:
+        return {rms: 0.0, **stated}  # the field itself reports its mistake
+    given = stated.get(rms)
+    if given and given != of_mean:
+        raise ValueError(f"states {mean} and {rms}: only one of them may be given")
+    return {**stated, rms: of_mean}
 
 
 def check_gentle(amplitude: float, **lengths: float) -> None:
