@@ -481,3 +481,21 @@ def test_a_crop_is_that_part_of_the_file(file):
     surface = stated(file, crop={"x": ["20 um", "80 um"]}, level="mean")
     part = HEIGHTS[:, 10:40]
     np.testing.assert_allclose(surface.load().values, part - part.mean())
+
+
+def test_a_symmetric_map_is_even_unless_it_is_turned_or_moved(tmp_path):
+    np.save(tmp_path / "a.npy", HEIGHTS + HEIGHTS[::-1])
+    for keys, even in (
+        ({}, True),
+        ({"x": "1 mm", "rotate": "180 deg", "level": "quadratic", "lambda_s": "8 um"}, True),
+        ({"y": "1 um"}, False),
+        ({"rotate": "90 deg"}, False),
+        ({"crop": {"y": ["0 um", "20 um"]}}, False),
+    ):
+        surface = stated(str(tmp_path / "a.npy"), unit="m", **keys)
+        assert surface.is_even_in_y == even
+        if even:
+            x, y = np.linspace(-5e-5, 5e-5, 17)[None, :], np.linspace(0, 5e-5, 9)[:, None]
+            filtered = surface.resolved_on(7e-6, 7e-6)
+            for one in (surface, filtered):
+                np.testing.assert_allclose(one.height(x, y), one.height(x, -y), atol=1e-13)
