@@ -4,10 +4,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Field, WithJsonSchema
 
 from tehl.errors import InputError
-from tehl.named import find_table, read_tables
+from tehl.named import find_table, known_names, read_tables
 from tehl.units import Pressure, SolidConductivity, SolidDensity, SolidHeatCapacity, Table
 
 
@@ -72,4 +72,5 @@ def _by_name(value: object) -> object:
     return find_table(SOLIDS, value, "solid", _NEEDS)
 
 
-NamedSolid = Annotated[Solid, BeforeValidator(_by_name, json_schema_input_type=str | Solid)]
+SolidName = Annotated[str, WithJsonSchema(known_names(SOLIDS))]
+NamedSolid = Annotated[Solid, BeforeValidator(_by_name, json_schema_input_type=SolidName | Solid)]

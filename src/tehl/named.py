@@ -35,6 +35,14 @@ def _names(path: Path) -> dict[str, str]:
     }
 
 
+def known_names(path: Path) -> dict[str, Any]:
+    """Return the JSON schema of a name: the tables of a file with their aliases."""
+    words = (
+        word for name, one in _content(path).items() for word in (name, *one.get(_ALIASES, ()))
+    )
+    return {"type": "string", "enum": list(words)}
+
+
 def _plain(name: str) -> str:
     """Return a name without what people write differently: capitals, blanks, hyphens, dots."""
     return re.sub(r"[\W_]+", "", name.lower())

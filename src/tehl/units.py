@@ -68,6 +68,8 @@ LONGEST_UNIT = 40
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _TURNING = re.compile(r"(?:rpm|RPM|r/min|rev/min|U/min|1/min|min\^?-1|min⁻¹)(?![\w/^*])")
+_FLAT = "|[+]?inf"
+"""What the schema of a radius allows beside numbers."""
 _GROUP = re.compile(r"\(([^()]*)\)")
 _FACTOR = re.compile(
     r"\s*([*/·.]?)\s*(<\d+>|[+-]?\d+|[A-Za-zµμ°%]+|-|)"
@@ -249,10 +251,15 @@ class Quantity:
             number["exclusiveMinimum"] = 0
         elif self.sign == "non-negative":
             number["minimum"] = 0
+        example = self.example.strip('"')
+        sign = "[+-]?" if self.sign == "any" else "[+]?"
+        unit = "" if self.unit == "-" else r"(\s+\S.*|[A-Za-zµμ°%].*)"
+        pattern = rf"^\s*({sign}(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?{unit}{_FLAT * self.flat})\s*$"
+        text: JsonSchemaValue = {"type": "string", "pattern": pattern, "examples": [example]}
         if self.unit == "-":
-            return number | {"examples": [float(self.example)]}
+            return {"anyOf": [number | {"examples": [float(example)]}, text]}
         return {
-            "anyOf": [{"type": "string", "examples": [self.example]}, number],
+            "anyOf": [text, number],
             "description": f"{self.name}; a bare number is in {self.unit}",
         }
 
