@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy import fft
 
+from tehl.roughness.tile import response
 from tehl.typing import Array, BoolArray
 
 
@@ -118,7 +119,7 @@ def spectrum(heights: Array, pixel: tuple[float, float], rings: int = 60) -> Spe
 
 
 def share_beyond(heights: Array, pixel: tuple[float, float], mesh: tuple[float, float]) -> float:
-    """Return which share of the variance a mesh loses: waves of two widths or less.
+    """Return which share of the variance a mesh loses, in waves shorter than four widths.
 
     Parameters
     ----------
@@ -128,5 +129,5 @@ def share_beyond(heights: Array, pixel: tuple[float, float], mesh: tuple[float, 
     ny, nx = heights.shape
     power = fft.dctn(heights - heights.mean(), type=2, norm="ortho") ** 2  # no jumps at edges
     x, y = np.arange(nx) / (2.0 * nx * pixel[0]), np.arange(ny) / (2.0 * ny * pixel[1])
-    lost = (x >= 0.5 / mesh[0]) | (y >= 0.5 / mesh[1])[:, None]
-    return float(power[lost].sum() / power.sum()) if power.sum() > 0 else 0.0
+    lost = 1.0 - response(x, y, mesh, radial=False) ** 2
+    return float((power * lost).sum() / power.sum()) if power.sum() > 0 else 0.0
