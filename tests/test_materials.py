@@ -1,9 +1,13 @@
 """Solids and the library of named ones."""
 
+import re
+import tomllib
+
 import pytest
 from pydantic import ValidationError
 
 from tehl.errors import InputError
+from tehl.lubricant.fluid import OILS
 from tehl.materials import SOLIDS, Solid, material, reduced_modulus
 from tehl.named import read_tables
 
@@ -44,3 +48,29 @@ def test_an_unknown_name_lists_the_known_and_suggests_one():
 def test_an_invalid_poisson_ratio_is_rejected(ratio: float):
     with pytest.raises(ValidationError):
         Solid(young_modulus=2e11, poisson_ratio=ratio)
+
+
+@pytest.mark.parametrize(
+    ("alias", "name"),
+    [
+        ("100Cr6", "steel"),
+        ("AISI 52100", "steel"),
+        ("sae-52100", "steel"),
+        ("STEEL", "steel"),
+        ("Si3N4", "silicon-nitride"),
+        ("Silicon Nitride", "silicon-nitride"),
+        ("ZrO2", "zirconia"),
+        ("n-bk7", "glass"),
+        ("aluminum", "aluminium"),
+    ],
+)
+def test_a_solid_is_found_by_other_names(alias: str, name: str):
+    assert material(alias) == material(name)
+
+
+def test_no_two_tables_have_one_name():
+    for path in (SOLIDS, OILS):
+        tables = tomllib.loads(path.read_text(encoding="utf-8"))
+        words = [w for name, one in tables.items() for w in (name, *one.get("aliases", ()))]
+        plain = [re.sub(r"[\W_]+", "", word.lower()) for word in words]
+        assert len(set(plain)) == len(plain)

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from tehl.heat import FilmEnergy, source_form
-from tehl.problem import ContactProblem
+from tehl.problem import ContactProblem, Surface
 from tehl.scaling import groups
 from tests.cases import ball_tables, moes_problem
 
@@ -261,3 +261,11 @@ def test_a_line_contact_is_rejected():
     tables = ball_tables(contact=radii | {"load": 80, "entrainment_speed": 1})
     with pytest.raises(ValidationError, match="line contact"):
         ContactProblem.model_validate(tables)
+
+
+def test_ra_of_a_surface_becomes_rq():
+    found = Surface.model_validate({"material": "100Cr6", "ra_roughness": "0.1 um"})
+    assert found.rms_roughness == pytest.approx(0.1253e-6, rel=1e-3)
+    assert Surface.model_validate_json(found.model_dump_json()) == found
+    with pytest.raises(ValidationError, match="states ra_roughness and rms_roughness"):
+        Surface(material="steel", ra_roughness=1e-7, rms_roughness=1e-7)

@@ -20,6 +20,7 @@ from tehl.units import (
     Pressure,
     PressureCoefficient,
     Radius,
+    Speed,
     Temperature,
     TemperatureCoefficient,
     Viscosity,
@@ -35,6 +36,9 @@ from tehl.units import (
         (Viscosity, "40 mPa.s", 0.04),
         (Density, "890 kg/m3", 890.0),
         (KinematicViscosity, "32 mm2/s", 32e-6),
+        (Speed, "90 m/min", 1.5),
+        (Speed, "500 rpm at 40 mm", 500 / 60 * 2 * math.pi * 0.04),
+        (Speed, "500 1/min at 4 cm", 500 / 60 * 2 * math.pi * 0.04),
         (PressureCoefficient, "20 1/GPa", 2e-8),
         (PressureCoefficient, "20 GPa^-1", 2e-8),
         (PressureCoefficient, "20 GPa⁻¹", 2e-8),
@@ -96,6 +100,23 @@ def test_an_invalid_force_is_rejected_with_an_example(text: object, words: str):
     assert 'expected a force such as "80 N"' in str(caught.value)
 
 
+@pytest.mark.parametrize(
+    ("kind", "text", "words"),
+    [
+        (Speed, "500 rpm", 'rotational speed .rpm.: give the radius .* "500 rpm at 40 mm"'),
+        (Speed, "500 min^-1", "rotational speed"),
+        (Speed, "500 rpm at 40", "lacks a unit"),
+        (Speed, "500 rpm at 40 N", "unit of a force"),
+        (Speed, "500 rpm at", "does not begin with a number"),
+        (Speed, "-500 rpm at 40 mm", "must be positive"),
+        (Force, "500 rpm", "rotational speed"),
+    ],
+)
+def test_a_rotational_speed_needs_a_radius(kind: object, text: str, words: str):
+    with pytest.raises(ValueError, match=words):
+        quantity(kind).parse(text)
+
+
 def test_a_unit_gives_the_same_bits_as_the_number_in_si():
     assert quantity(PressureCoefficient).parse("22 1/GPa") == 2.2e-8
     assert quantity(Height).parse("0.05 um") == 5e-8
@@ -152,4 +173,4 @@ def test_the_schema_shows_string_and_number():
     properties = Model.model_json_schema()["properties"]
     kinds = {choice["type"] for choice in properties["load"]["anyOf"]}
     assert kinds == {"string", "number"}
-    assert properties["ratio"]["type"] == "number"
+    assert {choice["type"] for choice in properties["ratio"]["anyOf"]} == kinds

@@ -1,7 +1,7 @@
 """A contact: two surfaces, a lubricant, a load and a motion, and what follows from them in SI."""
 
 import math
-from typing import TYPE_CHECKING, Annotated, ClassVar, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
 from pydantic import AfterValidator, model_validator
 
@@ -11,6 +11,7 @@ from tehl.hertz import HertzContact, hertz_contact, load_of_pressure
 from tehl.lubricant import NamedLubricant
 from tehl.materials import NamedSolid, reduced_modulus
 from tehl.roughness import AnyRoughness, Smooth
+from tehl.roughness.model import with_rms
 from tehl.transient import Transient
 from tehl.units import (
     Force,
@@ -67,11 +68,18 @@ class Surface(_WithRadii):
     """Radii along and across entrainment [m]; infinite is flat, negative is hollow."""
     rms_roughness: Height = 0.0
     """Rq [m], for the lambda ratio of a smooth calculation."""
+    ra_roughness: Height | None = None
+    """Ra [m], instead of Rq: of Gaussian heights, Rq = Ra sqrt(pi/2)."""
     roughness: AnyRoughness = Smooth()
     """Heights of the surface; smooth if left out."""
     temperature: Temperature | None = None
     """Temperature far from the contact [K], in thermal runs; None is that of the oil at the
     inlet."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _convert_ra(cls, stated: Any) -> Any:
+        return with_rms(stated, "ra_roughness", "rms_roughness")
 
     @model_validator(mode="after")
     def _must_be_rough_once(self) -> Self:

@@ -4,10 +4,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Field, WithJsonSchema
 
 from tehl.errors import InputError
-from tehl.named import find_table, read_tables
+from tehl.named import find_table, known_names, read_tables
 from tehl.units import Pressure, SolidConductivity, SolidDensity, SolidHeatCapacity, Table
 
 
@@ -66,12 +66,11 @@ def _by_name(value: object) -> object:
     """Return the table of a name; a table is returned unchanged."""
     if isinstance(value, Mapping | Solid):
         return value
-    known = read_tables(SOLIDS)
     if not isinstance(value, str):
-        raise ValueError(
-            f"must be the name of a solid ({', '.join(known)}) or a table with {_NEEDS}"
-        )
-    return find_table(known, value, "solid", _NEEDS)
+        known = ", ".join(read_tables(SOLIDS))
+        raise ValueError(f"must be the name of a solid ({known}) or a table with {_NEEDS}")
+    return find_table(SOLIDS, value, "solid", _NEEDS)
 
 
-NamedSolid = Annotated[Solid, BeforeValidator(_by_name, json_schema_input_type=str | Solid)]
+SolidName = Annotated[str, WithJsonSchema(known_names(SOLIDS))]
+NamedSolid = Annotated[Solid, BeforeValidator(_by_name, json_schema_input_type=SolidName | Solid)]

@@ -6,6 +6,7 @@ from typing import Literal
 from tehl.fields import Fields, FilmHeat, FilmShear, FilmSummary, SurfaceHeights
 from tehl.options import Options
 from tehl.problem import ContactProblem
+from tehl.roughness.resolution import Resolution
 from tehl.scaling import Groups, ScaledProblem, Scales
 from tehl.typing import Array
 
@@ -180,6 +181,8 @@ class Solution:
     """Temperatures; None in an isothermal run."""
     heights: SurfaceHeights | None = None
     """Heights of rough surfaces; None when both are smooth."""
+    resolution: Resolution | None = None
+    """Which part of the stated heights the grid carries; None when both surfaces are smooth."""
 
     @property
     def scaled_problem(self) -> ScaledProblem:

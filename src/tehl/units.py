@@ -67,6 +67,9 @@ LONGEST_UNIT = 40
 """Characters of a unit."""
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+_TURNING = re.compile(r"(?:rpm|RPM|r/min|rev/min|U/min|1/min|min\^?-1|min⁻¹)(?![\w/^*])")
+_FLAT = "|[+]?inf"
+"""What the schema of a radius allows beside numbers."""
 _GROUP = re.compile(r"\(([^()]*)\)")
 _FACTOR = re.compile(
     r"\s*([*/·.]?)\s*(<\d+>|[+-]?\d+|[A-Za-zµμ°%]+|-|)"
@@ -177,8 +180,22 @@ class Quantity:
             return number
         if self.unit == "K" and unit in _CELSIUS:
             return number + _ZERO_CELSIUS
+        if turning := _TURNING.match(unit):
+            return number * self._per_turn(unit, unit[turning.end() :].strip())
         factor = self._factor(unit)
         return number if factor == 1.0 else float(f"{number * factor:.15g}")  # 22 1/GPa is 2.2e-8
+
+    def _per_turn(self, unit: str, radius: str) -> float:
+        """Return the speed [m/s] at a radius where one revolution per minute is made."""
+        if self.unit != "m/s":
+            raise ValueError(f"has the unit of a rotational speed ({unit[:20]}); {self._expected}")
+        at, _, length = radius.partition(" ")
+        if at != "at":
+            raise ValueError(
+                f"has the unit of a rotational speed ({unit[:20]}): give the radius at which the "
+                'surface moves too, such as "500 rpm at 40 mm", or a speed such as "1.5 m/s"'
+            )
+        return 2.0 * math.pi / 60.0 * quantity(Length).parse(length)
 
     def _factor(self, unit: str) -> float:
         """Return the factor from ``unit`` to SI."""
@@ -234,10 +251,15 @@ class Quantity:
             number["exclusiveMinimum"] = 0
         elif self.sign == "non-negative":
             number["minimum"] = 0
+        example = self.example.strip('"')
+        sign = "[+-]?" if self.sign == "any" else "[+]?"
+        unit = "" if self.unit == "-" else r"(\s+\S.*|[A-Za-zµμ°%].*)"
+        pattern = rf"^\s*({sign}(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?{unit}{_FLAT * self.flat})\s*$"
+        text: JsonSchemaValue = {"type": "string", "pattern": pattern, "examples": [example]}
         if self.unit == "-":
-            return number | {"examples": [float(self.example)]}
+            return {"anyOf": [number | {"examples": [float(example)]}, text]}
         return {
-            "anyOf": [{"type": "string", "examples": [self.example]}, number],
+            "anyOf": [text, number],
             "description": f"{self.name}; a bare number is in {self.unit}",
         }
 

@@ -2,14 +2,19 @@
 
 import json
 import os
+import re
 from pathlib import Path
 from typing import Any
 
 import pytest
+from pydantic import TypeAdapter
 
 from tehl.errors import InputError
 from tehl.io.case import case_from_tables, case_schema, read_case, read_case_and_options
+from tehl.io.templates import template_text
+from tehl.materials import material
 from tehl.options import Domain, coarsenable, coarsenings
+from tehl.units import Force, Number, PressureCoefficient, Radius, Speed, quantity
 from tests.cases import ball_tables
 
 CASE = """
@@ -302,7 +307,7 @@ def test_a_file_that_cannot_be_read_is_reported(tmp_path: Path):
         (b"a = " + b"9" * 5000, "too many digits"),
         (b"x" * 100_000, "line 1: 'xxx"),
         (bytes(5000), "line 1: "),
-        (b"\xff\xfea\x00", "UTF-8"),
+        (b"\xff\xfea\x00b", "UTF-16"),
         (b"#" * 2_000_000, "larger than 1 MB"),
         (b'"a\\nb" = 3', "is not a known key"),
     ],
@@ -374,6 +379,38 @@ def test_the_schema_has_every_law_and_the_thermal_keys():
     assert "temperature" in parts["Surface"]["properties"]
 
 
+def test_the_schema_has_the_names_of_solids_and_oils():
+    schema = case_schema()
+    oils = next(one["enum"] for one in schema["properties"]["lubricant"]["anyOf"] if "enum" in one)
+    assert {"mineral-oil", "iso-vg-68", "VG 68"} <= set(oils)
+    choices = schema["$defs"]["Surface"]["properties"]["material"]["anyOf"]
+    solids = next(one["enum"] for one in choices if "enum" in one)
+    assert {"steel", "100Cr6", "Si3N4"} <= set(solids)
+    assert all(material(name) for name in solids)
+
+
+@pytest.mark.parametrize(
+    ("kind", "good", "bad"),
+    [
+        (Force, ("80 N", "8e1N", " .5 kN", "+3 N"), ("80", "-80 N", "eighty N", "")),
+        (Speed, ("1.5 m/s", "500 rpm at 4 cm"), ("1.5",)),
+        (PressureCoefficient, ("22 1/GPa", "0 1/Pa"), ("22", "1")),
+        (Radius, ("-20 mm", "inf"), ("-inf", "20")),
+        (Number, ("-0.25", "1e3"), ("0.25 m", "x")),
+    ],
+)
+def test_the_schema_accepts_the_texts_that_are_read(kind: Any, good: Any, bad: Any):
+    choices = TypeAdapter(kind).json_schema(mode="validation")["anyOf"]
+    pattern = next(one["pattern"] for one in choices if "pattern" in one)
+    for text in good:
+        assert re.search(pattern, text)
+        quantity(kind).parse(text)
+    for text in bad:
+        assert not re.search(pattern, text)
+        with pytest.raises(ValueError, match="such as"):
+            quantity(kind).parse(text)
+
+
 def _is_law(part: dict[str, Any]) -> bool:
     return "const" in part.get("properties", {}).get("law", {})
 
@@ -426,3 +463,12 @@ def test_a_key_near_one_of_the_stated_law_is_suggested_from_that_law(case: Path)
 def test_a_roughness_without_its_type_is_reported_with_the_known_types(stated, words):
     with pytest.raises(InputError, match=words):
         case_from_tables(ball_tables(surface_1={"material": "steel", "roughness": stated}))
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-16-le", "utf-16-be"])
+def test_a_case_file_may_be_in_the_encodings_of_windows(tmp_path, encoding):
+    text = template_text("ball-on-disc").replace("[contact]", "# µ\n[contact]", 1)
+    mark = "\ufeff" if encoding[-2:] in ("le", "be") else ""
+    (tmp_path / "a.toml").write_text(mark + text, encoding=encoding)
+    (tmp_path / "b.toml").write_text(text, encoding="utf-8")
+    assert read_case(tmp_path / "a.toml") == read_case(tmp_path / "b.toml")

@@ -14,8 +14,9 @@ import pytest
 from tehl.errors import FileFormatError, InputError
 from tehl.io import store
 from tehl.io.atomic import check_writable
-from tehl.io.store import load, save, to_dataset
+from tehl.io.store import load, load_summary, save, to_dataset
 from tehl.result import Result
+from tehl.studies import Store
 from tests.fixtures_result import CASE, make_result
 
 
@@ -284,3 +285,47 @@ def test_a_damaged_byte_anywhere_is_reported_in_one_line_or_harmless(result, tmp
             assert "bad.nc" in message
             assert "\n" not in message
             assert "Unable" not in message or "truncated or damaged" in message
+
+
+@pytest.mark.parametrize("extra", [{"a": 1 + 2j}, {"a": np.array([1j])}, {"a": object()}])
+def test_extra_blocks_that_are_not_plain_data_are_rejected(result, tmp_path, extra):
+    with pytest.raises(InputError, match="not plain data"):
+        save(result, tmp_path / "a.nc", extra=extra)
+    assert not list(tmp_path.iterdir())
+
+
+def test_extra_blocks_that_are_nested_too_deeply_are_rejected(result, tmp_path):
+    deep: dict = {}
+    for _ in range(10**5):
+        deep = {"a": deep}
+    with pytest.raises(InputError, match="nested too deeply"):
+        save(result, tmp_path / "a.nc", extra=deep)
+    while deep:  # or its destructor would recurse
+        deep = deep["a"]
+
+
+def test_a_name_with_a_nul_is_reported_before_any_work(result, tmp_path):
+    for act in (
+        lambda: save(result, f"{tmp_path}/a\0b.nc"),
+        lambda: load(f"{tmp_path}/a\0b.nc"),
+        lambda: Store(f"{tmp_path}/a\0b"),
+    ):
+        with pytest.raises(InputError, match=r"a\?b") as error:
+            act()
+        assert str(error.value).isprintable()
+
+
+def test_complex_fields_and_deep_summaries_are_rejected(result, tmp_path):
+    path = tmp_path / "a.nc"
+    save(result, path)
+    with h5py.File(path, "a") as file:
+        values = file["P"][...]
+        del file["P"]
+        file["P"] = values + 1j
+    with pytest.raises(FileFormatError, match="P does not hold real numbers"):
+        load(path)
+    save(result, path)
+    with h5py.File(path, "a") as file:
+        file.attrs["summary"] = "[" * 20_000 + "]" * 20_000
+    with pytest.raises(FileFormatError, match="truncated or damaged"):
+        load_summary(path)

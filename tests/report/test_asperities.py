@@ -128,3 +128,44 @@ def test_a_measured_surface_is_explained(tmp_path):
     found = explained(table).roughness
     assert found.composite == pytest.approx(0.05e-6 / math.sqrt(2), rel=0.05)
     assert found.shortest_wave == pytest.approx(1e-4, rel=0.1)
+
+
+@pytest.fixture
+def noisy(tmp_path):
+    """Return a map of which a usual grid loses most: waves of 100 um below those of 8 um."""
+    x = np.arange(800) * 1e-6
+    short = 2 * np.cos(2 * np.pi * x / 8e-6) * np.cos(2 * np.pi * x / 8e-6)[:, None]
+    np.save(tmp_path / "a.npy", 0.035 * np.cos(2 * np.pi * x / 1e-4) + 0.068 * short)
+    return {"type": "map", "file": str(tmp_path / "a.npy"), "unit": "um", "pixel": "1 um"}
+
+
+def test_what_a_grid_loses_is_explained_and_lambda_is_that_of_the_full_surface(noisy):
+    case = explained(noisy, numerics={"points": 257})
+    assert case.roughness.composite == pytest.approx(72.3e-9, rel=0.03)
+    assert case.lambda_ratio == pytest.approx(case.central_film / case.roughness.composite)
+    assert any("of the variance in waves too short" in question for question in case.questions)
+    assert "of the variance is lost" in as_text(case)
+    block = as_summary(case)["roughness"]["resolution"]
+    assert block["lost_share"] > 0.8
+    json.dumps(block, allow_nan=False)
+
+
+@pytest.mark.parametrize("wanted", ["points_to_converge", "points_to_answer"])
+def test_the_proposed_grid_of_a_map_does_not_move_away(noisy, wanted):
+    proposed = getattr(explained(noisy).roughness, wanted)
+    followed = explained(noisy, numerics={"points": proposed})
+    assert getattr(followed.roughness, wanted) == proposed
+    assert followed.roughness.resolution.lost_share < 0.02
+    assert not [one for one in followed.questions if "shortest wave" in one or "variance" in one]
+
+
+def test_what_begins_upstream_is_explained_as_it_passes(noisy):
+    bump = {"type": "bump", "amplitude": "0.1 um", "radius": "60 um", "x": "-3 mm"}
+    for roughness in (noisy | {"x": "-2 mm"}, [bump, noisy | {"x": "-2 mm"}]):
+        case = explained(roughness, transient={})
+        assert case.roughness.composite == pytest.approx(72.3e-9, rel=0.03)
+        assert 1 < case.lambda_ratio < 100
+        assert not [one for one in case.questions if "beside the contact" in one]
+    standing = explained(noisy | {"x": "-2 mm"})
+    assert (standing.roughness.composite, standing.lambda_ratio) == (0.0, None)
+    assert any("lies beside the contact" in one for one in standing.questions)

@@ -252,3 +252,12 @@ def test_grid_row_and_question_agree_on_what_the_nodes_are_for():
     question = next(text for text in case.questions if "coarse" in text)
     assert f"{case.needed_points} nodes keep the central film within about 3 %" in question
     assert f"{case.needed_points} give the central film to about 3 %" in as_text(case)
+
+
+def test_an_estimated_pressure_coefficient_is_shown():
+    case = explained("lubricant.viscosity.alpha", "estimated")
+    assert "estimated by Wooster's relation: within 20 %" in as_text(case)
+    numbers = as_summary(case)
+    assert numbers["pressure_coefficient_1_pa"] == pytest.approx(21.46e-9, rel=1e-3)
+    assert numbers["pressure_coefficient_estimated"]
+    assert "estimated by" not in as_text(explained())

@@ -1,6 +1,7 @@
 """Files of heights for tests."""
 
 import hashlib
+import struct
 import zipfile
 
 import numpy as np
@@ -65,4 +66,28 @@ def write_xyz(path, heights, dx=2.0, dy=3.0, mark=" "):
     order = np.random.default_rng(1).permutation(rows.size)
     table = np.column_stack((columns * dx, rows * dy, heights[rows, columns]))[order]
     np.savetxt(path, table, delimiter=mark, fmt="%.9g")
+    return path
+
+
+def write_metropro(path, heights, *, pixel=2e-6, resolution=1):
+    """Write a file of Zygo MetroPro, format 1, with heights [m]."""
+    ny, nx = heights.shape
+    scale, wavelength = 0.5, 633e-9
+    counts = heights / (scale * wavelength) * (4096, 32768, 131072)[resolution]
+    header = bytearray(834)
+    fields = {
+        0: (">I", 0x881B036F),
+        4: (">H", 1),
+        6: (">I", 834),
+        68: (">HH", nx, ny),
+        72: (">I", 4 * nx * ny),
+        164: (">ff", scale, wavelength),
+        176: (">f", 1.0),
+        184: (">f", pixel),
+        218: (">h", resolution),
+    }
+    for place, (form, *values) in fields.items():
+        struct.pack_into(form, header, place, *values)
+    data = np.where(np.isfinite(heights), np.nan_to_num(counts).round(), 2147483640)
+    path.write_bytes(bytes(header) + data.astype(">i4").tobytes())
     return path

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import BaseModel, ValidationError
 
-from tehl.roughness import AnyRoughness, Bump, Crossed, Dimple, Ridge, Smooth, Sum, Wave
+from tehl.roughness import AnyRoughness, Bump, Crossed, Dimple, Pocket, Ridge, Smooth, Sum, Wave
 
 
 class Body(BaseModel):
@@ -37,6 +37,7 @@ crossed = st.builds(
 )
 bumps = st.builds(Bump, amplitude=heights, radius=lengths, x=places, y=places)
 dimples = st.builds(Dimple, amplitude=heights, width=lengths, x=places, y=places)
+pockets = st.builds(Pocket, amplitude=heights, radius=lengths, x=places, y=places)
 ridges = st.builds(
     Ridge,
     amplitude=heights,
@@ -46,7 +47,7 @@ ridges = st.builds(
     y=places,
     profile=st.sampled_from(["gaussian", "cosine", "damped"]),
 )
-singles = st.one_of(waves, crossed, bumps, dimples, ridges, st.just(Smooth()))
+singles = st.one_of(waves, crossed, bumps, dimples, pockets, ridges, st.just(Smooth()))
 sums = st.lists(singles, max_size=3).map(lambda parts: Sum(parts=tuple(parts)))
 surfaces = singles | sums
 
@@ -216,3 +217,13 @@ def test_the_schema_has_tables_and_lists():
 def test_wrong_tables_are_reported(stated, words):
     with pytest.raises(ValidationError, match=words):
         surface(stated)
+
+
+def test_the_pocket_is_that_of_its_formula():
+    pocket = surface({"type": "pocket", "amplitude": "-1 um", "radius": "40 um", "x": "10 um"})
+    r = np.hypot(X - 1e-5, Y)
+    expected = -1e-6 * np.cos(np.pi * r / 8e-5) * np.exp(-2 * (r / 4e-5) ** 2)
+    np.testing.assert_allclose(pocket.height(X, Y), expected, atol=1e-20)
+    edge = pocket.extent(1e-3)[0][1]
+    assert abs(pocket.height(np.array(edge), np.array(0.0))) == pytest.approx(0.02e-6, rel=0.05)
+    assert pocket.shortest_wavelength == pytest.approx(68e-6)

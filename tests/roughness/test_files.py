@@ -17,8 +17,8 @@ import xarray as xr
 
 from tehl.errors import InputError
 from tehl.roughness import Map
-from tehl.roughness.files import checked, read
-from tests.roughness.files import relief, write_x3p, write_xyz
+from tehl.roughness.files import INSTRUMENTS, checked, read
+from tests.roughness.files import relief, write_metropro, write_x3p, write_xyz
 
 HEIGHTS = relief()
 HOLED = HEIGHTS.copy()
@@ -190,6 +190,97 @@ def test_files_of_instruments_need_an_extra_or_are_read(tmp_path):
     np.testing.assert_allclose(surface.load().values, expected, atol=1e-11)
 
 
+def test_the_binary_dat_of_zygo_is_read_or_needs_the_extra(tmp_path):
+    path = write_metropro(tmp_path / "map.dat", HOLED)
+    if find_spec("SurfaceTopography") is None:
+        with pytest.raises(InputError, match=r'format metropro, .* pip install "tehl\[surfaces\]"'):
+            read(path)
+        return
+    found = read(path)
+    np.testing.assert_allclose(found.heights, HOLED, atol=1e-11)
+    assert (found.unit, found.pixel) == ("m", pytest.approx((2e-6, 2e-6)))
+    assert "metropro, read by SurfaceTopography" in found.kind
+    renamed = path.rename(tmp_path / "map.bin")
+    assert read(renamed, form="metropro").heights.shape == HOLED.shape
+    with pytest.raises(InputError, match="does not state how far its points are apart"):
+        Map(file=str(write_metropro(path, HEIGHTS, pixel=0.0))).load()
+
+
+def test_without_the_library_one_sentence_names_the_extra(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "SurfaceTopography.IO", None)
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
+    path = write_metropro(tmp_path / "map.dat", HOLED)
+    with pytest.raises(InputError, match=r'format metropro, .* pip install "tehl\[surfaces\]"'):
+        read(path)
+
+
+def test_a_format_is_forced(tmp_path):
+    np.savetxt(tmp_path / "map.log", HEIGHTS * 1e6)
+    with pytest.raises(InputError, match='or state one, format = "text"'):
+        read(tmp_path / "map.log")
+    np.testing.assert_allclose(read(tmp_path / "map.log", form="text").heights, HEIGHTS * 1e6)
+    with pytest.raises(InputError, match="not a file of numpy"):
+        read(tmp_path / "map.log", form="npy")
+
+
+def test_each_format_that_a_case_may_state_has_a_reader(tmp_path):
+    stated = Map.model_json_schema()["properties"]["format"]["enum"]
+    assert set(stated) == {"auto", "npy", "npz", "text", "netcdf", "x3p", *INSTRUMENTS}
+    path = tmp_path / "a.bin"
+    path.write_bytes(b"\0" * 99)
+    for form in stated:
+        with pytest.raises(InputError):
+            read(path, form=form)
+
+
+def test_npz_is_read(tmp_path):
+    np.savez_compressed(tmp_path / "one.npz", z=HEIGHTS)
+    np.testing.assert_array_equal(read(tmp_path / "one.npz").heights, HEIGHTS)
+    np.savez(tmp_path / "two.npz", z=HEIGHTS, x=np.arange(3.0), bad=np.array([object()]))
+    found = read(tmp_path / "two.npz", variable="z")
+    np.testing.assert_array_equal(found.heights, HEIGHTS)
+    assert found.kind == "numpy archive, array z"
+    for name, words in ((None, "has z, x, bad: say which"), ("y", 'called "y": it has z, x, bad')):
+        with pytest.raises(InputError, match=words):
+            read(tmp_path / "two.npz", variable=name)
+    with pytest.raises(InputError, match="holds objects"):
+        read(tmp_path / "two.npz", variable="bad")
+
+
+HEADERS = {
+    "comments": "# Channel: Height\n# Width: 64.0 um\n# Height: 72.0 µm\n# Value units: um\n",
+    "keys": "Instrument: A 1\nSize = 64 um x 72 um\nData unit: um\n\n",
+    "counts": "Size: 32 x 24\nPixel size: 2 um, 3 um\nData unit: [um]\n",
+    "phase": "Pixel_Size = 0.002 mm x 3 um\nData unit = rad\nConversion factor = 1e-6 m/rad\n",
+    "comma": "Size: 0,064 mm x 0,072 mm\nunit: rad\nconversion factor: 1 um\n",
+}
+
+
+@pytest.mark.parametrize("name", HEADERS)
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
+def test_the_header_of_a_text_states_size_and_unit(tmp_path, name, encoding):
+    path = tmp_path / "map.asc"
+    rows = "\n".join(" ".join(f"{value:.9g}" for value in row) for row in HEIGHTS * 1e6)
+    path.write_text(HEADERS[name] + rows, encoding=encoding)
+    found = read(path)
+    np.testing.assert_allclose(found.heights, HEIGHTS * 1e6, rtol=1e-8)
+    assert (found.pixel, found.pixel_units) == (pytest.approx((2e-6, 3e-6)), ("m", "m"))
+    loaded = Map(file=str(path), level="mean").load()
+    np.testing.assert_allclose(loaded.values, HEIGHTS - HEIGHTS.mean(), atol=1e-14)
+
+
+def test_a_phase_without_its_height_is_explained(tmp_path):
+    path = tmp_path / "map.txt"
+    path.write_text("Data unit: rad\npixel size: 2 um\n")
+    with path.open("a") as file:
+        np.savetxt(file, HEIGHTS * 1e7)
+    with pytest.raises(InputError, match=r"heights in rad, a phase: .* unit = \"50.4 nm\""):
+        Map(file=str(path)).load()
+    loaded = Map(file=str(path), unit="50.4 nm", level="mean").load()
+    expected = 0.504 * (HEIGHTS - HEIGHTS.mean())
+    np.testing.assert_allclose(loaded.values, expected, atol=1e-15)
+
+
 # ---- wrong files
 
 
@@ -228,6 +319,12 @@ WRONG = {
     "several layers": ("a.npy", saved(np.zeros((2, 3, 4))), "shape 2 x 3 x 4"),
     "text garbage": ("a.csv", b"1 2 3 4\n1 2 hello 4\n", "line 2 has 'hello'"),
     "prose": ("a.txt", b"It was a dark and stormy night; the rain fell.", "line 1 has|no numbers"),
+    "words above": (
+        "a.txt",
+        b"Zygo XYZ Data\nsome more\n1 2 3\n",
+        'line 2 .* header are "key: val',
+    ),
+    "half npz": ("a.npz", b"PK\x03\x04" + b"\0" * 99, "not a whole .npz file"),
     "binary text": ("a.txt", b"\x89PNG\xff\xfe\x00", "not a text in UTF-8"),
     "ragged": ("a.csv", b"1,2,3,4\n1,2,3\n", "line 2 has 3 numbers, .* have 4"),
     "ragged by two": ("a.csv", b"1,2,3,4\n1,2,\n", "line 2 has 2 numbers, .* have 4"),

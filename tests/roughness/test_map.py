@@ -391,6 +391,63 @@ def test_spikes_go_and_the_rest_stays():
     assert without_outliers(HEIGHTS, 20.0)[1] == 0
 
 
+X, Y = np.arange(160.0)[None, :], np.arange(120.0)[:, None]
+SMOOTH = {
+    "wave": np.cos(2 * np.pi * X / 12) + 0 * Y,
+    "crossed waves": np.cos(2 * np.pi * X / 12) * np.cos(2 * np.pi * Y / 14),
+    "dent in a plane": np.where(np.hypot(X - 80, Y - 60) < 24, -1.0, 0.0)
+    * np.cos(np.pi * np.hypot(X - 80, Y - 60) / 48) ** 2,
+    "bump": np.exp(-((X - 80.3) ** 2 + (Y - 60.4) ** 2) / 5**2),
+    "ball": -1e-3 * (X**2 + Y**2),
+    "plane": 3 * X - 2 * Y,
+    "flat": 0 * X + 0 * Y,
+}
+
+
+@pytest.mark.parametrize("name", SMOOTH)
+@pytest.mark.parametrize("sigmas", [0.5, 3.0])
+def test_no_point_of_a_smooth_map_is_a_spike(name, sigmas):
+    assert without_outliers(1e-7 * SMOOTH[name] + 76e-3, sigmas)[1] == 0
+
+
+@pytest.mark.parametrize("name", SMOOTH)
+def test_spikes_of_smooth_maps_are_found(name):
+    spiked = 1e-7 * SMOOTH[name]
+    spiked[30:32, 40:42] += 3e-5
+    spiked[90, 100] -= 3e-5
+    cleaned, count = without_outliers(spiked, 3.0)
+    assert (count, np.isnan(cleaned).sum()) == (5, 5)
+    assert np.isnan(cleaned[30:32, 40:42]).all()
+
+
+def test_a_missing_point_is_not_a_spike_and_makes_none():
+    holed = 1e-7 * (SMOOTH["wave"] + SMOOTH["plane"])
+    holed[20:25, 30:38] = np.nan
+    assert without_outliers(holed, 3.0)[1] == 0
+
+
+def test_spikes_and_missing_points_are_counted_apart_and_do_not_count(tmp_path):
+    heights = relief(NY, NX)
+    gaps, spikes = np.zeros((NY, NX), bool), np.zeros((NY, NX), bool)
+    gaps[5:10, 20:22], spikes[30, 8:11] = True, True
+    file = np.where(gaps, np.nan, np.where(spikes, heights + 5e-5, heights))
+    np.save(tmp_path / "a.npy", file)
+    loaded = stated(str(tmp_path / "a.npy"), unit="m", outliers=8.0, fill="linear").load()
+    np.testing.assert_array_equal(loaded.measured, ~(gaps | spikes))
+    assert (loaded.spikes, loaded.notes[:2]) == (
+        3,
+        ("3 spikes (0.098 %) were removed", "10 missing points (0.33 %) were filled"),
+    )
+    # the plane and Sq by least squares over the measured points alone
+    rows, columns = np.nonzero(loaded.measured)
+    terms = np.column_stack((np.ones(rows.size), rows, columns))
+    rest = heights[loaded.measured]
+    rest -= terms @ np.linalg.lstsq(terms, rest)[0]
+    assert loaded.sq == pytest.approx(rest.std(), rel=1e-9)
+    with pytest.raises(InputError, match=r"13 points without a height .*3 of them removed"):
+        stated(str(tmp_path / "a.npy"), unit="m", outliers=8.0, fill="refuse").load()
+
+
 @pytest.mark.parametrize(("how", "order"), [("mean", 0), ("plane", 1), ("quadratic", 2)])
 def test_levelling_removes_the_stated_form_only(how, order):
     x, y = np.linspace(0, 3, 40)[None, :], np.linspace(-1, 5, 30)[:, None]
@@ -424,3 +481,21 @@ def test_a_crop_is_that_part_of_the_file(file):
     surface = stated(file, crop={"x": ["20 um", "80 um"]}, level="mean")
     part = HEIGHTS[:, 10:40]
     np.testing.assert_allclose(surface.load().values, part - part.mean())
+
+
+def test_a_symmetric_map_is_even_unless_it_is_turned_or_moved(tmp_path):
+    np.save(tmp_path / "a.npy", HEIGHTS + HEIGHTS[::-1])
+    for keys, even in (
+        ({}, True),
+        ({"x": "1 mm", "rotate": "180 deg", "level": "quadratic", "lambda_s": "8 um"}, True),
+        ({"y": "1 um"}, False),
+        ({"rotate": "90 deg"}, False),
+        ({"crop": {"y": ["0 um", "20 um"]}}, False),
+    ):
+        surface = stated(str(tmp_path / "a.npy"), unit="m", **keys)
+        assert surface.is_even_in_y == even
+        if even:
+            x, y = np.linspace(-5e-5, 5e-5, 17)[None, :], np.linspace(0, 5e-5, 9)[:, None]
+            filtered = surface.resolved_on(7e-6, 7e-6)
+            for one in (surface, filtered):
+                np.testing.assert_allclose(one.height(x, y), one.height(x, -y), atol=1e-13)

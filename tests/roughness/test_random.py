@@ -173,3 +173,18 @@ def test_a_sum_is_resolved_part_by_part():
 def test_wrong_spectra_are_reported(keys, words):
     with pytest.raises(ValidationError, match=words):
         Random(rms=1e-7, **keys)
+
+
+def test_ra_is_that_of_gaussian_heights():
+    found = Random.model_validate({"type": "random", "ra": "50 nm", "correlation_length": "20 um"})
+    assert found.rms == pytest.approx(62.67e-9, rel=1e-4)
+    x = np.arange(1500) * 5e-6
+    assert np.abs(found.height(x[None, :], x[:, None])).mean() == pytest.approx(50e-9, rel=0.02)
+    assert Random.model_validate_json(found.model_dump_json()) == found
+    for keys, words in (
+        ({"rms": "60 nm"}, "states ra and rms"),
+        ({"kurtosis": 4}, "Gaussian heights"),
+        ({"ra": "1 N"}, "unit of a force"),
+    ):
+        with pytest.raises(ValidationError, match=words):
+            Random.model_validate({"ra": "50 nm", "correlation_length": "20 um"} | keys)

@@ -31,6 +31,16 @@ def test_a_sine_has_the_parameters_of_a_sine():
     assert found.correlation_lengths[1] == math.inf
 
 
+def test_points_that_were_not_measured_do_not_count():
+    heights, measured = sine(), np.ones((300, 400), bool)
+    measured[100:140, 200:280] = False
+    filled = np.where(measured, heights, 1e-6)
+    found, whole = statistics(filled, PIXEL, measured), statistics(heights, PIXEL)
+    assert (found.sq, found.sa, found.sz, found.sku) == pytest.approx(
+        (whole.sq, whole.sa, whole.sz, whole.sku), rel=1e-9
+    )
+
+
 def test_the_correlation_lengths_of_a_random_surface_are_found():
     surface = Random(rms=1e-7, correlation_length=2e-5, correlation_length_y=4e-5, seed=3)
     x = np.arange(800) * 2e-6

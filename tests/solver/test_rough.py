@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from tehl import load
 from tehl.cli.text import as_text
 from tehl.errors import InputError
 from tehl.operators.heights import full_weighting, heights_of
@@ -12,6 +13,7 @@ from tehl.result import ConvergenceError
 from tehl.scaling import ScaledProblem, scales
 from tehl.solver.anderson import Anderson
 from tehl.solver.steady import finest_grid, solve
+from tests.cases import ball_tables
 from tests.reference import DOMAIN, moes_contact
 from tests.solver.rough import bumpy, rough_film, wave_on
 from tests.solver.runs import film_of, tight
@@ -184,3 +186,23 @@ def test_the_short_waves_of_a_map_are_filtered_and_not_rejected(tmp_path):
     problem = ScaledProblem.of(ContactProblem.model_validate(case))
     with pytest.raises(InputError, match="the shortest wave has"):
         heights_of(problem, grid)
+
+
+def test_waves_that_the_grid_loses_are_reported_and_count_for_lambda(tmp_path):
+    x = np.arange(800) * 1e-6
+    short = 2 * np.cos(2 * np.pi * x / 8e-6) * np.cos(2 * np.pi * x / 8e-6)[:, None]
+    np.save(tmp_path / "a.npy", 10 * np.cos(2 * np.pi * x / 1e-4) + 20 * short)
+    table = {"type": "map", "file": str(tmp_path / "a.npy"), "unit": "nm", "pixel": "1 um"}
+    surface = {"material": "steel", "roughness": table}
+    case = ContactProblem.model_validate(ball_tables(surface_2=surface))
+    result = solve(case, Options(points=65))
+    found = result.roughness
+    assert found.composite == pytest.approx(21.2e-9, rel=0.1)
+    assert max(found.sq_on_grid) < 8e-9
+    assert found.resolution.lost_share > 0.85
+    block = result.summary()["roughness"]
+    assert block["composite_sq_on_grid_m"] == max(found.sq_on_grid)
+    assert "of the variance in waves too short" in block["warning"]
+    assert "warning          the grid carries" in as_text(result)
+    result.save(tmp_path / "a.nc")
+    assert load(tmp_path / "a.nc").resolution == result.resolution

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from tehl.errors import InputError
 from tehl.studies import Axis, Sample, cases_of
-from tehl.studies.axes import block_of
+from tehl.studies.axes import block_of, block_of_file
 from tehl.studies.plan import changed
 from tests.study.contacts import QUICK, problem
 
@@ -156,3 +156,21 @@ def test_an_invalid_axis_is_reported_in_one_sentence(axes, words):
     with pytest.raises(InputError, match=words.replace("(", r"\(")) as error:
         cases_of(problem(), axes, QUICK)
     assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
+@pytest.mark.parametrize("mark", [";", "\t"])
+def test_a_list_of_cases_may_be_that_of_a_spreadsheet(tmp_path, mark, encoding):
+    rows = (
+        ("name", "contact.load [N]", "contact.slide_roll_ratio", "title"),
+        ("first, light", "1,5", "-0,25", "a, b"),
+        ("second", "1,5e2", "0.5", "2,5 x"),
+    )
+    path = tmp_path / "list.csv"
+    path.write_text("\n".join(mark.join(row) for row in rows), encoding=encoding)
+    found = block_of_file(path)
+    assert found.titles == ("first, light", "second")
+    assert [[one.value for one in row] for row in found.rows] == [
+        ["1.5 N", -0.25, "a, b"],
+        ["1.5e2 N", 0.5, "2.5 x"],
+    ]

@@ -158,6 +158,7 @@ def as_summary(found: "Preview") -> dict[str, Any]:
         "rotate_rad": surface.rotate,
         "middle_m": [surface.x, surface.y],
         "missing": found.missing,
+        "spikes": heights.spikes,
         "level": surface.level,
         "lambda_c_m": surface.lambda_c,
         "lambda_s_m": surface.lambda_s,

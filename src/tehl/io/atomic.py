@@ -53,8 +53,8 @@ def check_writable(path: str | Path, *, sources: tuple[str | Path, ...] = ()) ->
     That is if ``path`` is one of the ``sources`` read for it, not a regular file or
     write-protected, or if its folder is missing or not writable.
     """
+    _check_kind(path)  # an invalid name too
     shown, target = shortened(path), Path(os.path.realpath(path))
-    _check_kind(path)
     if not target.parent.is_dir():
         raise InputError(f"output {shown}: the folder {shortened(target.parent)} does not exist")
     if target.exists():
@@ -91,6 +91,8 @@ def check_folder(folder: str | Path) -> None:
 def check_place(folder: str | Path) -> Path:
     """Return the existing part of the path of a folder; raise an InputError if it is a file."""
     place, shown = Path(folder), shortened(folder)
+    if "\0" in str(folder):
+        raise InputError(f"output folder {shown} cannot be made: its name holds a NUL")
     try:
         while not place.exists():
             if place.is_symlink():

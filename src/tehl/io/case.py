@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError, create_model
 
+from tehl.encoding import encoding_of
 from tehl.errors import InputError
 from tehl.io.atomic import shortened
 from tehl.io.mistakes import NUMERICS, describe, short, shown
@@ -121,9 +122,9 @@ def _text(path: Path) -> str:
     if len(content) > _LARGEST:
         raise InputError(f"larger than {_LARGEST // 10**6} MB, so not a case file")
     try:
-        return content.decode("utf-8-sig")
+        return content.decode(encoding_of(content))
     except UnicodeDecodeError:
-        raise InputError("not a UTF-8 text file, so not a case file") from None
+        raise InputError("not a text file in UTF-8 or UTF-16, so not a case file") from None
 
 
 def _syntax(message: str, text: str) -> str:

@@ -244,7 +244,10 @@ class Reader:
 
     def _array(self, column: Column) -> Array:
         """Return an array; a coordinate increases, a field has the shape of its coordinates."""
-        values = np.asarray(self.arrays[column.name], np.float64)
+        values = self.arrays[column.name]
+        if values.dtype.kind not in "fiu":
+            raise ValueError(f"{column.name} does not hold real numbers")
+        values = np.asarray(values, np.float64)
         if column.name in _AXES.values():
             if not (values.ndim == 1 and (np.diff(values) > 0).all()):
                 raise ValueError(f"the coordinate {column.name} does not increase")

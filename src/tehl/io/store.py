@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from tehl.errors import FileFormatError, InputError
-from tehl.io.atomic import replacing
+from tehl.io.atomic import replacing, shortened
 from tehl.io.content import (
     FORMAT_VERSION,
     KINDS,
@@ -69,13 +69,26 @@ def save(
     Raises
     ------
     InputError
-        If the file cannot be written there.
+        If the file cannot be written there, or ``extra`` is not plain data.
     """
     attrs = attributes(result)
     if extra:
-        attrs["summary"] = json.dumps(json.loads(attrs["summary"]) | plain(extra), allow_nan=False)
+        attrs["summary"] = _extended(attrs["summary"], extra)
     with replacing(path) as temporary:
         temporary.write_bytes(_image(variables(result), attrs))
+
+
+def _extended(summary: str, extra: dict[str, Any]) -> str:
+    """Return a summary with extra blocks; raise InputError if JSON cannot hold them."""
+    try:
+        return json.dumps(json.loads(summary) | plain(extra), allow_nan=False)
+    except RecursionError:
+        raise InputError("extra blocks of a result are nested too deeply") from None
+    except (TypeError, ValueError) as error:
+        raise InputError(
+            f"extra blocks of a result are not plain data: {_first_line(error)}; give numbers, "
+            "texts, lists and tables"
+        ) from None
 
 
 def _image(arrays: Iterable[Variable], attrs: Mapping[str, Any]) -> bytes:
@@ -132,7 +145,7 @@ def load(path: str | Path) -> Result | TransientResult:
         ) from None
     except ValueError as error:
         raise FileFormatError(f"{source} is not a valid tehl result: {_reason(error)}") from None
-    except (TypeError, AttributeError, IndexError) as error:
+    except (TypeError, AttributeError, IndexError, RecursionError) as error:
         raise _damaged(source, error) from None
 
 
@@ -159,7 +172,7 @@ def load_summary(path: str | Path) -> dict[str, Any]:
     attrs = _read(source)[1]
     try:
         content = json.loads(attrs.get("summary", "{}"))
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, RecursionError) as error:
         raise _damaged(source, error) from None
     return content if isinstance(content, dict) else {}
 
@@ -185,7 +198,7 @@ def _read(source: Path) -> tuple[Arrays, Attributes]:
 
 def _check_signature(source: Path) -> None:
     if not source.is_file():
-        raise InputError(f"result file {source} does not exist")
+        raise InputError(f"result file {shortened(source)} does not exist")
     try:
         with source.open("rb") as file:
             start = file.read(len(_HDF5_SIGNATURE))

@@ -12,6 +12,7 @@ from pydantic import (
     Field,
     Tag,
     ValidationInfo,
+    WithJsonSchema,
     field_validator,
 )
 
@@ -21,7 +22,7 @@ from tehl.lubricant.law import Law
 from tehl.lubricant.shear import Newtonian, ShearLaw
 from tehl.lubricant.viscosity import ViscosityLaw
 from tehl.lubricant.walther import Walther
-from tehl.named import find_table, read_tables
+from tehl.named import find_table, known_names, read_tables
 from tehl.typing import Array
 from tehl.units import Conductivity, HeatCapacity, PressureCoefficient, Table, Temperature
 
@@ -143,6 +144,7 @@ def _grown(stated: Property, name: str, pressure: Array) -> Array:
 
 
 OILS = Path(__file__).with_name("oils.toml")
+OilName = Annotated[str, WithJsonSchema(known_names(OILS))]
 _LAWS = {"viscosity", "density"}
 
 
@@ -176,13 +178,13 @@ def _by_name(value: object) -> object:
 
 
 def _named(name: str) -> dict[str, Any]:
-    return find_table(read_tables(OILS), name, "oil", "viscosity and density")
+    return find_table(OILS, name, "oil", "viscosity and density")
 
 
 class OilByName(Table):
     """A named oil with what is added to it, as the JSON schema of a case shows it."""
 
-    name: str
+    name: OilName
     shear: ShearLaw = Newtonian()
     conductivity: AnyConductivity | None = None
     heat_capacity: AnyHeatCapacity | None = None
@@ -190,6 +192,6 @@ class OilByName(Table):
 
 
 NamedLubricant = Annotated[
-    Lubricant, BeforeValidator(_by_name, json_schema_input_type=str | Lubricant | OilByName)
+    Lubricant, BeforeValidator(_by_name, json_schema_input_type=OilName | Lubricant | OilByName)
 ]
 """An oil: by its name, by its laws, or by its name with additions such as ``temperature``."""

@@ -39,6 +39,11 @@ class ViscosityModel(Law):
         return self.pressure_coefficient_at(self.reference_temperature)
 
     @property
+    def is_estimated(self) -> bool:
+        """Return whether the pressure coefficient is an estimate."""
+        return isinstance(getattr(self, "alpha", None), str)
+
+    @property
     def temperature_coefficient(self) -> float:
         """Return ``-d ln eta / dT`` at the reference temperature [1/K]."""
         return self.temperature_coefficient_at(self.reference_temperature)

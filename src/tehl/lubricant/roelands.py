@@ -6,7 +6,8 @@ from typing import Any, Literal, Self
 from pydantic import model_validator
 
 from tehl.lubricant.law import ExponentialFall, Values, ViscosityModel, exponential, limited
-from tehl.units import PressureCoefficient, Ratio, Temperature, TemperatureCoefficient, Viscosity
+from tehl.lubricant.pressure import NEEDED, Alpha, pressure_coefficient_of
+from tehl.units import Ratio, Temperature, TemperatureCoefficient, Viscosity
 
 ROELANDS_OFFSET = 9.67  # -ln of 6.31e-5 Pa s, the viscosity at Roelands' common point
 ROELANDS_PRESSURE = 1.96e8  # [Pa], in the definition of z
@@ -21,18 +22,19 @@ class _RoelandsPressure(ViscosityModel):
 
     law: str
     eta_0: Viscosity
-    alpha: PressureCoefficient | None = None
+    alpha: Alpha | None = None
     z: Ratio | None = None
     gamma: TemperatureCoefficient | None = None
 
     @model_validator(mode="after")
     def _must_have_a_slope(self) -> Self:
         if (self.alpha is None) == (self.z is None):
-            raise ValueError("needs exactly one of alpha and z")
+            raise ValueError(NEEDED)
         if not self.viscosity_span > 0:
             raise ValueError(
                 f"has eta_0 = {self.eta_0:g} Pa s, but the Roelands law needs more than 6.3e-5 Pa s"
             )
+        pressure_coefficient_of(self.alpha, self.eta_0)  # raises where none can be estimated
         return self
 
     @property
@@ -45,13 +47,13 @@ class _RoelandsPressure(ViscosityModel):
         """Return z [-], stated or from alpha."""
         if self.z is not None:
             return self.z
-        return (self.alpha or 0.0) * ROELANDS_PRESSURE / self.viscosity_span
+        return self.pressure_coefficient * ROELANDS_PRESSURE / self.viscosity_span
 
     @property
     def pressure_coefficient(self) -> float:
-        """Return alpha [1/Pa], stated or from z."""
+        """Return alpha [1/Pa], stated, estimated or from z."""
         if self.alpha is not None:
-            return self.alpha
+            return pressure_coefficient_of(self.alpha, self.eta_0)
         return (self.z or 0.0) * self.viscosity_span / ROELANDS_PRESSURE
 
 
@@ -69,8 +71,9 @@ class Roelands(_RoelandsPressure):
     ----------
     eta_0 : float
         Viscosity at ambient pressure and ``reference_temperature`` [Pa s].
-    alpha : float or None
-        Pressure coefficient at ambient pressure [1/Pa], ``z = 1.96e8 alpha / (ln eta_0 + 9.67)``.
+    alpha : float, "estimated" or None
+        Pressure coefficient at ambient pressure [1/Pa], or Wooster's estimate;
+        ``z = 1.96e8 alpha / (ln eta_0 + 9.67)``.
     z : float or None
         Pressure index [-].
     gamma : float or None

@@ -1,14 +1,15 @@
 """Viscosity laws: dynamic viscosity as a function of pressure and temperature."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from tehl.lubricant.law import ExponentialFall, Values, ViscosityModel
+from tehl.lubricant.pressure import NEEDED, Alpha, pressure_coefficient_of
 from tehl.lubricant.roelands import Roelands, RoelandsExponential
 from tehl.lubricant.tait import TaitDoolittle
 from tehl.lubricant.walther import Walther
-from tehl.units import PressureCoefficient, Temperature, TemperatureCoefficient, Viscosity
+from tehl.units import Temperature, TemperatureCoefficient, Viscosity
 
 
 class Barus(ExponentialFall):
@@ -20,20 +21,27 @@ class Barus(ExponentialFall):
     law: Literal["barus"] = "barus"
     eta_0: Viscosity
     """Viscosity at ambient pressure and ``reference_temperature`` [Pa s]."""
-    alpha: PressureCoefficient
-    """Pressure coefficient [1/Pa]."""
+    alpha: Alpha | None = None
+    """Pressure coefficient [1/Pa], or "estimated"."""
     gamma: TemperatureCoefficient | None = None
     """Temperature coefficient [1/K]; None: independent of temperature."""
     reference_temperature: Temperature = 313.15
     """T_0 [K]."""
 
+    @model_validator(mode="after")
+    def _must_have_a_slope(self) -> Self:
+        if self.alpha is None:
+            raise ValueError(NEEDED.replace("exactly one of alpha and z", "alpha"))
+        pressure_coefficient_of(self.alpha, self.eta_0)  # raises where none can be estimated
+        return self
+
     def pressure_coefficient_at(self, temperature: float) -> float:
         """Return alpha [1/Pa] at any ``temperature`` [K]."""
         del temperature
-        return self.alpha
+        return pressure_coefficient_of(self.alpha, self.eta_0)
 
     def _growth(self, pressure: Values) -> Values:
-        return self.alpha * pressure
+        return self.pressure_coefficient * pressure
 
 
 class ConstantViscosity(ViscosityModel):

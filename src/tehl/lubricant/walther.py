@@ -7,11 +7,11 @@ from pydantic import Field, model_validator
 
 from tehl.errors import InputError
 from tehl.lubricant.law import Values, ViscosityModel, exponential, functions, limited
+from tehl.lubricant.pressure import NEEDED, Alpha, pressure_coefficient_of
 from tehl.lubricant.roelands import PER_ROELANDS_PRESSURE, ROELANDS_OFFSET, ROELANDS_PRESSURE
 from tehl.units import (
     Density,
     KinematicViscosity,
-    PressureCoefficient,
     Ratio,
     Temperature,
     TemperatureCoefficient,
@@ -45,8 +45,8 @@ class Walther(ViscosityModel):
     nu_40: KinematicViscosity
     nu_100: Annotated[KinematicViscosity, Field(examples=["9 mm^2/s"])]
     """Kinematic viscosities at 40 and 100 degC [m^2/s]."""
-    alpha: PressureCoefficient | None = None
-    """Pressure coefficient at ambient pressure and ``alpha_temperature`` [1/Pa]."""
+    alpha: Alpha | None = None
+    """Pressure coefficient at ambient pressure and ``alpha_temperature`` [1/Pa], or "estimated"."""
     z: Ratio | None = None
     """Pressure index [-]."""
     alpha_temperature: Temperature = _FORTY
@@ -60,7 +60,7 @@ class Walther(ViscosityModel):
     @model_validator(mode="after")
     def _must_be_complete(self) -> Self:
         if (self.alpha is None) == (self.z is None):
-            raise ValueError("needs exactly one of alpha and z")
+            raise ValueError(NEEDED)
         thin, thick = self.nu_100 * _MM2_PER_S, self.nu_40 * _MM2_PER_S
         if not 0.5 <= thin < thick <= 1e6:
             raise ValueError(
@@ -84,12 +84,17 @@ class Walther(ViscosityModel):
         """Return z [-], stated or from alpha."""
         if self.z is not None:
             return self.z
-        return (self.alpha or 0.0) * ROELANDS_PRESSURE / self._span(self.alpha_temperature)
+        return self._alpha * ROELANDS_PRESSURE / self._span(self.alpha_temperature)
+
+    @property
+    def _alpha(self) -> float:
+        """Return alpha at its temperature [1/Pa], stated or estimated."""
+        return pressure_coefficient_of(self.alpha, self._ambient(self.alpha_temperature))
 
     def pressure_coefficient_at(self, temperature: float) -> float:
         """Return ``d ln eta / dp`` [1/Pa] at ambient pressure and ``temperature`` [K]."""
         if self.alpha is not None and temperature == self.alpha_temperature:
-            return self.alpha
+            return self._alpha
         return self.pressure_index * self._span(temperature) / ROELANDS_PRESSURE
 
     def temperature_coefficient_at(self, temperature: float) -> float:

@@ -128,7 +128,7 @@ def _draw_spectrum(axes: Axes, preview: Preview) -> None:
     axes.grid(which="major", lw=0.3)
     if mesh is None or preview.lost is None:
         return
-    cut_off = 2.0 * max(mesh.spacing) * MICRO
+    cut_off = 4.0 * max(mesh.spacing) * MICRO
     longest, shortest = axes.get_xlim()
     if cut_off > shortest:
         axes.axvspan(min(cut_off, longest), shortest, color=ORANGE, alpha=0.15, lw=0)

@@ -9,6 +9,7 @@ import numpy as np
 from tehl.film_formulas import expected_film
 from tehl.post.film import no_film
 from tehl.post.waves.response import REACH, WaveResponse, wave_notes, wave_responses
+from tehl.roughness.resolution import Resolution
 from tehl.solution import Solution
 from tehl.typing import Array, BoolArray
 
@@ -34,8 +35,12 @@ class RoughFilm:
     """Numbers of the film between rough surfaces."""
 
     sq: tuple[float, float]
-    """Root mean square height of each surface where |X|, |Y| < 1, as the grid carries it; the
-    stated ``rms_roughness`` of a surface that is computed as smooth [m]."""
+    """Root mean square height of each full surface where |X|, |Y| < 1; the stated ``rms_roughness``
+    of a surface that is computed as smooth [m]."""
+    sq_on_grid: tuple[float, float]
+    """The same of what the grid carries [m]."""
+    resolution: Resolution | None
+    """Which part of the stated heights that is."""
     composite: float
     """Of both together, ``sqrt(Sq_1^2 + Sq_2^2)`` [m]."""
     lambda_ratio: float
@@ -86,6 +91,8 @@ def rough_film(result: Solution, smooth: Solution | None = None) -> RoughFilm | 
     row, column = (int(np.argmin(np.abs(axis))) for axis in (result.scaled.y, result.scaled.x))
     return RoughFilm(
         sq=(first, second),
+        sq_on_grid=sq_on_grid(result),
+        resolution=result.resolution,
         composite=composite,
         lambda_ratio=middle_film(result) / composite,
         lambda_by_formula=formula / composite,
@@ -102,7 +109,22 @@ def rough_film(result: Solution, smooth: Solution | None = None) -> RoughFilm | 
 
 
 def sq_of(result: Solution) -> tuple[float, float]:
-    """Return Sq of both surfaces where |X|, |Y| < 1, or the one stated of smooth ones [m]."""
+    """Return Sq of both full surfaces where |X|, |Y| < 1, or the one stated of smooth ones [m].
+
+    Waves that the grid does not carry count by their share of the variance.
+    """
+    whole, found = result.resolution, sq_on_grid(result)
+    if result.heights is None or whole is None:
+        return found
+    first, second = (
+        on_grid * sq / kept if on_grid > 0 and kept > 0 else on_grid or sq
+        for on_grid, sq, kept in zip(found, whole.sq, whole.kept, strict=True)
+    )
+    return first, second
+
+
+def sq_on_grid(result: Solution) -> tuple[float, float]:
+    """Return Sq of what the grid carries where |X|, |Y| < 1, or the one stated [m]."""
     stated = (result.problem.surface_1.rms_roughness, result.problem.surface_2.rms_roughness)
     if result.heights is None:
         return stated

@@ -2,20 +2,21 @@
 
 import math
 from dataclasses import asdict, dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
+from tehl.operators.resolution import resolution_of, sample_of
 from tehl.options import Options, coarsenable
 from tehl.problem import ContactProblem
-from tehl.roughness import AnyRoughness, Bump, Dimple, Ridge, WaveVector
+from tehl.roughness import AnyRoughness, Sum, WaveVector
+from tehl.roughness.resolution import Resolution
 from tehl.wave_theory import LinearTheory, expected_waves
 
 CONVERGES, RESOLVES = 8, 16
 """Nodes on the shortest wave with which runs converge, and with which ripples are right to 3 %."""
 LARGEST = 16385
 """Nodes per direction beyond which no number is proposed."""
-_SAMPLES = (129, 513)
 _THEORY = ("film_ratio", "pressure", "elastic_pressure")
 
 
@@ -24,14 +25,16 @@ class Asperities:
     """Heights of the surfaces in a contact and on a grid."""
 
     sq: tuple[float, float]
-    """Root mean square height of each surface where |X|, |Y| < 1; ``rms_roughness`` where a smooth
-    surface states it [m]."""
+    """Root mean square height of each full surface where |X|, |Y| < 1, as it passes the contact in
+    a transient run; ``rms_roughness`` where a smooth surface states it [m]."""
     composite: float
     """Of both [m]."""
+    resolution: Resolution
+    """Which part of the stated heights the grid carries."""
     steepest: float
     """Largest slope of the heights [-]."""
     shortest_wave: float
-    """Shortest wave along either axis [m]."""
+    """Shortest wave along either axis of the full surfaces [m]."""
     points_per_wave: float
     """Nodes of the grid on it [-]."""
     points_to_converge: int
@@ -51,7 +54,9 @@ class Asperities:
             | {name: getattr(theory, name) for name in _THEORY}
             for wave, theory in self.waves
         ]
-        return asdict(self) | {"waves": waves}
+        lost = {"lost_share": self.resolution.lost_share, "warning": self.resolution.warning}
+        found = asdict(self) | {"waves": waves}
+        return found | {"resolution": found["resolution"] | lost}
 
 
 def asperities(
@@ -76,18 +81,20 @@ def asperities(
     if not problem.is_rough:
         return None
     surfaces = {"surface_1": problem.surface_1, "surface_2": problem.surface_2}
-    looks = [_look(one.roughness, problem, mesh) for one in surfaces.values()]
+    roughs = [one.roughness for one in surfaces.values()]
+    resolution = resolution_of(problem, mesh) or Resolution(sq=(0.0, 0.0), kept=(0.0, 0.0))
     first, second = (
-        look.sq or one.rms_roughness for look, one in zip(looks, surfaces.values(), strict=True)
+        sq or one.rms_roughness for sq, one in zip(resolution.sq, surfaces.values(), strict=True)
     )
-    waves = [min(pair) for pair in zip(*(look.waves for look in looks), strict=True)]
+    waves = [min(pair) for pair in zip(*(one.shortest_wavelengths for one in roughs), strict=True)]
     counts = [wave / step for wave, step in zip(waves, mesh, strict=True)]
     fewest, axis = min((count, number) for number, count in enumerate(counts))
     size = (2.0 * problem.hertz.half_width_x, 2.0 * problem.hertz.half_width_y)
     return Asperities(
         sq=(first, second),
         composite=math.hypot(first, second),
-        steepest=max(look.steepest for look in looks),
+        resolution=resolution,
+        steepest=max(_steepest(one, problem, mesh) for one in roughs),
         shortest_wave=waves[axis],
         points_per_wave=fewest,
         points_to_converge=_needed(options, fewest, axis, CONVERGES),
@@ -97,32 +104,29 @@ def asperities(
         remarks=tuple(
             f"{name}: {sentence}"
             for name, one in surfaces.items()
-            for sentence in one.roughness.fits(*size)
+            for sentence in _as_it_passes(one.roughness, problem).fits(*size)
         ),
     )
 
 
-class _Look(NamedTuple):
-    """Sq, largest slope and shortest waves of a surface in the contact, as a mesh carries it."""
-
-    sq: float
-    steepest: float
-    waves: tuple[float, float]
-
-
-def _look(roughness: AnyRoughness, problem: ContactProblem, mesh: tuple[float, float]) -> _Look:
+def _steepest(roughness: AnyRoughness, problem: ContactProblem, mesh: tuple[float, float]) -> float:
+    """Return the largest slope of a surface in the contact, as a mesh carries it [-]."""
     if roughness.is_smooth:
-        return _Look(0.0, 0.0, (math.inf, math.inf))
-    if problem.transient is not None and isinstance(roughness, Bump | Dimple | Ridge):
-        roughness = roughness.model_copy(update={"x": 0.0})  # when it is in the middle
-    resolved, hertz = roughness.resolved_on(*mesh), problem.hertz
-    widths, waves = (hertz.half_width_x, hertz.half_width_y), resolved.shortest_wavelengths
-    finest = max(2.0 * width / wave for width, wave in zip(widths, waves, strict=True))
-    count = int(min(max(_SAMPLES[0], RESOLVES * finest), _SAMPLES[1]))
-    x, y = (np.linspace(-width, width, count) for width in widths)
-    heights = np.broadcast_to(resolved.height(x[None, :], y[:, None]), (count, count))
-    slopes = np.hypot(*np.gradient(heights, y, x))
-    return _Look(float(np.std(heights)), float(slopes.max()), waves)
+        return 0.0
+    resolved, place = roughness.resolved_on(*mesh), sample_of(roughness, problem)
+    heights = np.broadcast_to(resolved.height(*place), (place.y.size, place.x.size))
+    slopes = np.gradient(heights, place.y[:, 0], place.x[0])
+    return float(np.hypot(*slopes).max())
+
+
+def _as_it_passes(roughness: AnyRoughness, problem: ContactProblem) -> AnyRoughness:
+    """Return a surface with its parts in the middle of the contact, if they move through it."""
+    if problem.transient is None:
+        return roughness
+    if isinstance(roughness, Sum):
+        parts = tuple(_as_it_passes(part, problem) for part in roughness.parts)
+        return roughness.model_copy(update={"parts": parts})
+    return roughness.model_copy(update={"x": 0.0}) if hasattr(roughness, "x") else roughness
 
 
 def _needed(options: Options, fewest: float, axis: int, wanted: int) -> int:

@@ -8,6 +8,7 @@ from tehl.film_formulas import FilmEstimate, expected_film, film_estimates, regi
 from tehl.grid import Grid
 from tehl.heat import FilmEnergy, source_form
 from tehl.inlet_heating import inlet_factors, inlet_heating_factor, thermal_loading
+from tehl.lubricant.pressure import UNCERTAINTY
 from tehl.memory import available_memory, needed_memory
 from tehl.options import Domain, Options, coarsenable
 from tehl.problem import ContactProblem
@@ -119,6 +120,7 @@ def as_text(case: Explanation) -> str:
         loading=thermal_loading(problem),
         regime=regime(case.scaled.groups),
         resolves=RESOLVES,
+        uncertainty=UNCERTAINTY,
         stated=isinstance(case.options.domain, Domain),
         untitled=UNTITLED,
     ).rstrip()
@@ -145,6 +147,8 @@ def as_summary(case: Explanation) -> dict[str, Any]:
         "expected_heat": heat,
         "sources": list(case.sources),
         "thermal": problem.thermal is not None,
+        "pressure_coefficient_1_pa": problem.pressure_coefficient,
+        "pressure_coefficient_estimated": problem.lubricant.viscosity.is_estimated,
         "temperature_law": problem.lubricant.viscosity.temperature_law,
         "inlet_temperature_k": problem.inlet_temperature,
         "domain": case.domain.model_dump(mode="json"),

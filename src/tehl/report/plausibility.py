@@ -301,6 +301,8 @@ def _about_grid(options: Options, groups: Groups) -> Iterator[str]:
 def _about_heights(scaled: ScaledProblem, options: Options, found: Asperities) -> Iterator[str]:
     film, pressure = expected_film(scaled), scaled.problem.hertz.pressure
     yield from found.remarks
+    if found.resolution.warning is not None:
+        yield found.resolution.warning
     if found.points_per_wave < CONVERGES:
         enough, better = (
             f"{'more than ' if points > LARGEST else ''}{min(points, LARGEST)} nodes"

@@ -1,6 +1,7 @@
 """Heights of the surfaces, positive outwards."""
 
-from tehl.roughness.features import Bump, Dimple, Ridge
+from tehl.roughness.features import Bump, Dimple, Pocket, Ridge
+from tehl.roughness.formula import Formula
 from tehl.roughness.map import Map
 from tehl.roughness.map_settings import Crop
 from tehl.roughness.model import Roughness, Smooth
@@ -14,7 +15,9 @@ __all__ = [
     "Crop",
     "Crossed",
     "Dimple",
+    "Formula",
     "Map",
+    "Pocket",
     "Random",
     "Ridge",
     "Roughness",

@@ -1,4 +1,4 @@
-"""Features that stand alone: ridges and grooves, bumps and dents, dimples."""
+"""Features that stand alone: ridges and grooves, bumps and dents, dimples, pockets."""
 
 import math
 from typing import ClassVar, Literal, Self
@@ -128,6 +128,35 @@ class Dimple(FeatureModel):
 
     def _at_rest(self, x: Array, y: Array) -> Array:
         return self.amplitude * _damped_cosine(self._squared_distance(x, y))
+
+
+class Pocket(FeatureModel):
+    r"""The smooth pocket of laser-textured surfaces, a cosine under a Gaussian.
+
+    .. math:: s = A \cos\frac{\pi r}{2b} \, \exp\{-2 (r/b)^2\}
+
+    It goes through zero at b; beyond, less than 2 % of A are left.
+
+    Attributes
+    ----------
+    amplitude : float
+        A [m]; negative is a dimple of that depth.
+    radius : float
+        b [m].
+    x, y : float
+        Where it stands at time zero [m].
+    """
+
+    LENGTH = "radius"
+    SHORTEST = 1.7
+    REACH = 0.93
+
+    type: Literal["pocket"] = "pocket"
+    radius: Wavelength
+
+    def _at_rest(self, x: Array, y: Array) -> Array:
+        square = self._squared_distance(x, y)
+        return self.amplitude * np.exp(-2.0 * square) * np.cos(0.5 * np.pi * np.sqrt(square))
 
 
 class Ridge(FeatureModel):

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -29,6 +30,7 @@ _LEAST = 4
 _TAPER = 0.1
 _LOWEST, _HIGHEST = 1e-12, 10e-6
 _ROUNDING = 1e-12
+_PHASES = ("rad", "radian", "radians", "waves", "wave", "fringes", "fringe", "fr", "wv")
 _WIDEST, _FINEST, _TALLEST = 1.0, 1e-10, 1.0
 
 
@@ -51,7 +53,7 @@ def raw_map(surface: MapSettings) -> RawMap:
     """Return the content of the file of a map; errors name the file."""
     path = found_file(surface)
     with _naming(surface):
-        return read(path, layout=surface.layout, variable=surface.variable)
+        return read(path, layout=surface.layout, variable=surface.variable, form=surface.format)
 
 
 def heights_of(surface: MapSettings) -> Heights:
@@ -80,12 +82,13 @@ def _loaded(surface: MapSettings, stamp: object) -> Heights:
         highest = _highest(raw.heights, factor)
         pixel = _pixel(surface, raw, notes)
         heights = _cropped(surface, *_oriented(surface, raw.heights * factor, pixel))
-        values = levelled(_whole(surface, heights.values, notes), surface.level)
-        values = _filtered(surface, values, heights, notes)
-        _check_heights(surface, values, highest, factor)
+        heights = _whole(surface, heights, notes)
+        values = levelled(heights.values, surface.level, heights.measured)
+        heights = replace(heights, values=_filtered(surface, values, heights, notes))
+        _check_heights(surface, heights, highest * factor)
     fades = ", heights fall to zero before" if surface.outside == "flat" else ""
     notes.append(f"{BEYOND[surface.outside]}{fades}")
-    return Heights(values=values, pixel=heights.pixel, notes=tuple(notes))
+    return replace(heights, notes=tuple(notes))
 
 
 @lru_cache(maxsize=4)
@@ -141,6 +144,11 @@ def _compare(what: str, stated: str | None, found: str | None, notes: list[str])
 
 def _metres(unit: str, what: str, key: str) -> float:
     factor = metres(unit)
+    if factor is None and unit.lower() in _PHASES:
+        raise InputError(
+            f"has its {what} in {unit}, a phase: state the height of one, which is wavelength / "
+            f'(4 pi) for a radian in reflection, {key} = "50.4 nm"'
+        )
     if factor is None:
         raise InputError(
             f'has the unit {unit[:20]!r} for its {what}, which is not a length: give {key} = "um"'
@@ -205,8 +213,9 @@ def _oriented(surface: MapSettings, values: Array, pixel: tuple[float, float]) -
 
 
 def _cropped(surface: MapSettings, values: Array, pixel: tuple[float, float]) -> Heights:
+    values = np.where(np.isfinite(values), values, np.nan)
     if surface.crop is None:
-        return Heights(values=values, pixel=pixel)
+        return Heights(values=values, pixel=pixel, measured=np.isfinite(values))
     parts = []
     for axis, count, step in zip("yx", values.shape, pixel[::-1], strict=True):
         span = getattr(surface.crop, axis)
@@ -220,23 +229,23 @@ def _cropped(surface: MapSettings, values: Array, pixel: tuple[float, float]) ->
     values = values[parts[0], parts[1]]
     if not np.isfinite(values).any():
         raise InputError("has no point with a height where crop leaves it")
-    return Heights(values=values, pixel=pixel)
+    return Heights(values=values, pixel=pixel, measured=np.isfinite(values))
 
 
 # ---- heights
 
 
-def _whole(surface: MapSettings, values: Array, notes: list[str]) -> Array:
+def _whole(surface: MapSettings, heights: Heights, notes: list[str]) -> Heights:
     """Return heights without spikes and gaps."""
-    values = np.where(np.isfinite(values), values, np.nan)
+    values, spikes = heights.values, 0
     gaps = int(np.isnan(values).sum())
     if surface.outliers is not None:
         values, spikes = without_outliers(values, surface.outliers)
-        notes.append(f"{spikes} spikes were removed")
-    whole = filled(values, surface.fill)
+        notes.append(f"{spikes} spikes ({100 * spikes / values.size:.2g} %) were removed")
+    whole = filled(values, surface.fill, spikes)
     if gaps:
         notes.append(f"{gaps} missing points ({100 * gaps / values.size:.2g} %) were filled")
-    return whole
+    return replace(heights, values=whole, measured=np.isfinite(values), spikes=spikes)
 
 
 def _filtered(surface: MapSettings, values: Array, heights: Heights, notes: list[str]) -> Array:
@@ -255,19 +264,17 @@ def _filtered(surface: MapSettings, values: Array, heights: Heights, notes: list
     return values
 
 
-def _check_heights(surface: MapSettings, values: Array, highest: float, factor: float) -> None:
-    """Reject heights that are constant or outside the physical range."""
-    if not np.ptp(values) > _ROUNDING * highest * factor:
+def _check_heights(surface: MapSettings, heights: Heights, highest: float) -> None:
+    """Reject heights that are constant or outside the physical range; ``highest`` in [m]."""
+    if not np.ptp(heights.values[heights.measured]) > _ROUNDING * highest:
         raise InputError("is constant: it has no roughness")
-    off = float(np.std(values))
-    how = f'after level = "{surface.level}"'
+    off, how = heights.sq, f'after level = "{surface.level}"'
     if not off >= _LOWEST:
         has_filters = surface.lambda_c is not None or surface.lambda_s is not None
         filters = ", and do lambda_c and lambda_s leave any" if has_filters else ""
         raise InputError(
             f"has Sq = {off:.3g} m {how}, less than {_LOWEST:g} m and than is measured, where "
-            f"{highest:.3g} in the file is {highest * factor:.3g} m: is the unit right"
-            f"{filters}?"
+            f"the largest number of the file is {highest:.3g} m: is the unit right{filters}?"
         )
     if not off <= _HIGHEST:
         raise InputError(

@@ -11,6 +11,8 @@ if TYPE_CHECKING:
     from tehl.roughness.tile import Tile
 
 _COARSE = 10.0
+_ALIKE = 1e-6
+"""Largest difference of a map and its mirror image that counts as equal, over Sq."""
 _LARGE = 20.0
 
 
@@ -21,6 +23,14 @@ class Map(MapSettings):
     without it. Columns lie along x, rows along y, the first row at the least y. What is done goes
     in this order: transpose, flip, upside_down, crop, outliers, fill, level, lambda_c, lambda_s.
     """
+
+    @property
+    def is_even_in_y(self) -> bool:
+        """Return whether the prepared map mirrors at y = 0, neither turned nor moved."""
+        if self.y != 0.0 or direction(self.rotate)[1] != 0.0:
+            return False
+        heights = self._tile.heights
+        return float(abs(heights - heights[::-1]).max()) <= _ALIKE * self.rms
 
     @property
     def shortest_wavelengths(self) -> tuple[float, float]:
@@ -34,8 +44,8 @@ class Map(MapSettings):
 
     @property
     def rms(self) -> float:
-        """Return Sq of the prepared heights [m], before they are tapered."""
-        return float(self.load().values.std())
+        """Return Sq of the prepared heights [m], over measured points, before they are tapered."""
+        return self.load().sq
 
     @property
     def fingerprint(self) -> str:

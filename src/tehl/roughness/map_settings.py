@@ -8,6 +8,11 @@ from pydantic import ValidationInfo, field_validator, model_validator
 from tehl.roughness.model import Edge, Lengths, LengthUnit, Position, Span, TileModel, Wavelength
 from tehl.units import Angle, Height, PositiveNumber, Table
 
+_First = Literal["al3d", "bcr", "datx", "di", "ezd", "frt", "gwy", "ibw", "jpk", "lext", "mdt"]
+_Rest = Literal["metropro", "mi", "mnt", "nms", "opd", "opdx", "os3d", "plu", "plux", "qep", "sdf"]
+_Last = Literal["sur", "tmd", "vk", "zmg", "zon"]
+_Format = Literal["auto", "npy", "npz", "text", "netcdf", "x3p", _First, _Rest, _Last]
+
 
 class Crop(Table):
     """A part of a map, in the coordinates of the file: from its first column and row."""
@@ -29,7 +34,10 @@ class MapSettings(TileModel):
 
     type: Literal["map"] = "map"
     file: str
-    """Its path; the ending decides the format."""
+    """Its path; the ending decides the format, and the first bytes that of a .dat file."""
+    format: _Format = "auto"
+    """Format to read it as, whatever its ending: one of tehl's own readers or of
+    SurfaceTopography's."""
     unit: LengthUnit | None = None
     """Of the heights; needed where the file does not say."""
     xy_unit: LengthUnit | None = None
@@ -41,7 +49,7 @@ class MapSettings(TileModel):
     layout: Literal["auto", "matrix", "xyz"] = "auto"
     """What the numbers of a text are."""
     variable: str | None = None
-    """Which variable of a NetCDF file."""
+    """Which variable of a NetCDF file, or array of an npz file."""
     transpose: bool = False
     flip_x: bool = False
     flip_y: bool = False

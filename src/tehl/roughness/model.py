@@ -5,14 +5,18 @@ those of the contact, x along entrainment; a surface carries its heights along x
 """
 
 import math
+import re
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator
 
 from tehl.typing import Array, np
-from tehl.units import Length, Quantity, Table, quantity
+from tehl.units import Height, Length, Quantity, Table, quantity
 
 _ROUNDING = 1e-12
+_PER_MEAN = math.sqrt(0.5 * math.pi)
+"""Root mean square over mean absolute height of Gaussian heights."""
 _STEEPEST = 0.25
 
 Extent = tuple[tuple[float, float], tuple[float, float]]
@@ -147,6 +151,23 @@ def wavelength_of(number: float) -> float:
     return 2.0 * math.pi / number if number > 0 else math.inf
 
 
+def with_rms(stated: Any, mean: str, rms: str) -> Any:
+    """Return a table with the root mean square height ``rms`` where it has the ``mean`` absolute.
+
+    Raises ValueError if it states both, and they differ from those of Gaussian heights.
+    """
+    if not isinstance(stated, Mapping) or stated.get(mean) is None:
+        return stated
+    try:
+        of_mean = _PER_MEAN * quantity(Height).parse(stated[mean])
+    except ValueError:
+        return {rms: 0.0, **stated}  # the field itself reports its mistake
+    given = stated.get(rms)
+    if given and given != of_mean:
+        raise ValueError(f"states {mean} and {rms}: only one of them may be given")
+    return {**stated, rms: of_mean}
+
+
 def check_gentle(amplitude: float, **lengths: float) -> None:
     """Raise ValueError if an amplitude [m] is large beside a length of its slopes [m].
 
@@ -173,24 +194,32 @@ _WORDS = {"micron": "um"} | {
     for prefix, letter in (("", ""), ("milli", "m"), ("micro", "u"), ("nano", "n"))
     for metre in ("meter", "metre")
 }
+_MULTIPLE = re.compile(r"([\d.]+(?:[eE][+-]?\d+)?)?\s*(.+)")
 _ANGSTROMS = ("Å", "\N{ANGSTROM SIGN}", "angstrom", "A")
 
 
 def metres(unit: str) -> float | None:
-    """Return the factor from a unit of length to metres; None if it is not one."""
+    """Return the factor from a unit of length, or a multiple such as "50 nm", to metres.
+
+    None if it is not one.
+    """
     text = unit.strip().removeprefix("Â")  # a micro sign of two bytes, read as two letters
     if text in _ANGSTROMS or text.lower() in _ANGSTROMS:
         return 1e-10
-    word = _WORDS.get(text.lower()) or _WORDS.get(text.lower().removesuffix("s"), text)
+    match = _MULTIPLE.fullmatch(text)
+    number, name = (match[1] or "1", match[2]) if match else ("1", text)
+    word = _WORDS.get(name.lower()) or _WORDS.get(name.lower().removesuffix("s"), name)
     try:
-        return quantity(Length).parse(f"1 {word}")
+        return quantity(Length).parse(f"{number} {word}")
     except ValueError:
         return None
 
 
 def _is_length(unit: str) -> str:
     if metres(unit) is None:
-        raise ValueError('is not a unit of length: give one such as "um"')
+        raise ValueError(
+            'is not a unit of length: give one such as "um", or a multiple such as "50 nm"'
+        )
     return unit
 
 

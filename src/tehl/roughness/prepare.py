@@ -15,8 +15,11 @@ Fill = Literal["auto", "linear", "nearest", "refuse"]
 
 FEW, MOST = 0.01, 0.5
 """Share of missing points that is filled by default, and that no filling bridges."""
-_NEIGHBOURS = 5
-_NORMAL = 1.4826
+_NEIGHBOURS, _EXPLAINS = 5, 7
+"""Points along the edges of the windows of the medians, and of the range of these."""
+_BEYOND = 5.0
+"""Standard deviations beyond which a distance does not count for their size."""
+_ROUNDING = 1e-12
 _DEGREE = {"mean": 0, "plane": 1, "quadratic": 2}
 _ALPHA = math.sqrt(math.log(2.0) / math.pi)
 _RIM = 12
@@ -33,6 +36,11 @@ class Heights:
     """[m], (ny, nx); rows along x."""
     pixel: tuple[float, float]
     """Distances (dx, dy) of the lattice [m]."""
+    measured: BoolArray
+    """Which points have a measured height, (ny, nx); at the others, gaps and spikes, it is filled.
+    Statistics leave them out."""
+    spikes: int = 0
+    """Points that were removed as spikes."""
     notes: tuple[str, ...] = ()
     """What a reader of the result should know."""
 
@@ -42,42 +50,84 @@ class Heights:
         ny, nx = self.values.shape
         return nx * self.pixel[0], ny * self.pixel[1]
 
+    @property
+    def sq(self) -> float:
+        """Return the root mean square height Sq over the measured points [m]."""
+        return float(self.values[self.measured].std())
+
 
 def without_outliers(values: Array, sigmas: float) -> tuple[Array, int]:
-    """Return heights with spikes as missing points, and the number of spikes.
+    r"""Return heights with spikes as missing points, and the number of spikes.
 
-    A spike lies further from the median of the 5 x 5 points around it than ``sigmas`` times the
-    usual distance, 1.48 times the median one.
+    With :math:`m` the median of the 5 x 5 points around each, a point is a spike if
+
+    .. math:: |z - m| > \max\left(k \sigma,\ \max_{7 \times 7} m - \min_{7 \times 7} m\right)
+
+    where :math:`\sigma` is the standard deviation of :math:`z - m` without the spikes. The second
+    bound is what a smooth surface explains: a quadratic one leaves its median by at most 0.7 of the
+    range of the medians in 5 x 5 points, crossed waves of 12 points by that in 7 x 7. Spikes do not
+    widen it, since a median ignores up to 12 of its 25 points.
+
+    Parameters
+    ----------
+    values : (ny, nx) array
+        Heights; NaN or infinite where nothing was measured.
+    sigmas : float
+        k [-].
     """
     there = np.isfinite(values)
-    whole = np.where(there, values, np.median(values[there]))
-    off = np.abs(whole - ndimage.median_filter(whole, _NEIGHBOURS, mode="nearest"))
-    spikes = there & (off > sigmas * _NORMAL * max(float(np.median(off[there])), 1e-300))
+    whole = _nearest(values, ~there)
+    median = ndimage.median_filter(whole, _NEIGHBOURS, mode="nearest")
+    explained = ndimage.maximum_filter(median, _EXPLAINS, mode="nearest")
+    explained -= ndimage.minimum_filter(median, _EXPLAINS, mode="nearest")
+    off = np.abs(whole - median)
+    rounding = _ROUNDING * float(np.abs(whole).max())
+    limit = np.maximum(explained, max(sigmas * _usual(off[there]), rounding))
+    spikes = there & (off > limit)
     return np.where(spikes, np.nan, values), int(spikes.sum())
 
 
-def filled(values: Array, how: Fill) -> Array:
+def _usual(distances: Array) -> float:
+    """Return the root mean square of distances without those beyond five times itself."""
+    while True:
+        usual = math.sqrt(float(np.mean(distances**2)))
+        kept = distances[distances <= _BEYOND * usual]
+        if kept.size == distances.size:
+            return usual
+        distances = kept
+
+
+def _nearest(values: Array, missing: BoolArray) -> Array:
+    """Return heights with the nearest one at each missing point."""
+    if not missing.any():
+        return values
+    places = ndimage.distance_transform_edt(missing, return_distances=False, return_indices=True)
+    return values[tuple(places)]
+
+
+def filled(values: Array, how: Fill, spikes: int = 0) -> Array:
     """Return heights with their gaps, NaN or infinite, filled.
 
     "linear" spans a membrane over each gap (Laplace's equation), "nearest" takes the nearest
-    height, "auto" is "linear" for up to 1 % of the points. Raises InputError if more are missing.
+    height, "auto" is "linear" for up to 1 % of the points. Raises InputError if more are missing;
+    the message counts the ``spikes`` among them apart.
     """
     missing = ~np.isfinite(values)
-    count = int(missing.sum())
-    if count == 0:
+    if not missing.any():
         return values
-    _check_gaps(missing, how, count)
-    nearest = ndimage.distance_transform_edt(missing, return_distances=False, return_indices=True)
-    whole = values[tuple(nearest)]
+    _check_gaps(missing, how, spikes)
+    whole = _nearest(values, missing)
     return whole if how == "nearest" else _with_membranes(whole, missing)
 
 
-def _check_gaps(missing: BoolArray, how: Fill, count: int) -> None:
+def _check_gaps(missing: BoolArray, how: Fill, spikes: int) -> None:
+    count = int(missing.sum())
     share = count / missing.size
     row, column = (int(places[0]) for places in np.nonzero(missing))
+    removed = f", {spikes} of them removed as spikes" if spikes else ""
     gaps = (
-        f"has {count} points without a height ({100 * share:.2g} %), the first in row {row + 1}, "
-        f"column {column + 1}"
+        f"has {count} points without a height ({100 * share:.2g} %{removed}), the first in row "
+        f"{row + 1}, column {column + 1}"
     )
     if share == 1.0:
         raise InputError("has no point with a height")
@@ -121,31 +171,36 @@ def _with_membranes(whole: Array, missing: BoolArray) -> Array:
     return result
 
 
-def levelled(values: Array, how: Level) -> Array:
-    """Return heights without their mean, plane or quadratic form, by least squares."""
+def levelled(values: Array, how: Level, measured: BoolArray | None = None) -> Array:
+    """Return heights without their mean, plane or quadratic form.
+
+    The form is fitted by least squares to the points that were ``measured``; None is all.
+    """
     if how == "none":
         return values
-    off = values - values.mean()
-    rows, columns, weights, _ = _fitted(off, _DEGREE[how])
+    there = np.ones(values.shape, bool) if measured is None else measured
+    off = values - values[there].mean()
+    rows, columns, weights, _ = _fitted(off, _DEGREE[how], there)
     return np.asarray(off - rows.T @ (weights @ columns))
 
 
-def _fitted(off: Array, degree: int) -> tuple[Array, Array, Array, float]:
+def _fitted(off: Array, degree: int, there: BoolArray) -> tuple[Array, Array, Array, float]:
     """Return powers of y and of x, their weights by least squares, and the fit's mean square."""
     rows, columns = (
-        np.vander(np.linspace(-1.0, 1.0, count), degree + 1, increasing=True).T
+        np.vander(np.linspace(-1.0, 1.0, count), 2 * degree + 1, increasing=True).T
         for count in off.shape
     )
     powers = [(i, j) for i in range(degree + 1) for j in range(degree + 1 - i)]
-    # sums over the map part into sums over rows and columns, so that no term is ever a map
-    along, across = columns @ columns.T, rows @ rows.T
-    products = [[across[i, k] * along[j, m] for k, m in powers] for i, j in powers]
-    sums = rows @ off @ columns.T
+    # sums of powers in both directions, so that no term is ever a map
+    both = rows @ there @ columns.T
+    products = [[both[i + k, j + m] for k, m in powers] for i, j in powers]
+    rows, columns = rows[: degree + 1], columns[: degree + 1]
+    sums = rows @ np.where(there, off, 0.0) @ columns.T
     moments = np.array([sums[power] for power in powers])
     weights = np.zeros((degree + 1, degree + 1))
     found = np.linalg.solve(np.array(products), moments)
     weights[tuple(np.transpose(powers))] = found
-    return rows, columns, weights, float(found @ moments) / off.size
+    return rows, columns, weights, float(found @ moments) / int(there.sum())
 
 
 def gaussian_mean(heights: Array, pixel: tuple[float, float], cut_off: float) -> Array:
@@ -199,9 +254,11 @@ class Form(NamedTuple):
 
 def form_of(heights: Heights) -> Form:
     """Return the quadratic form of a map by least squares."""
-    flat = levelled(heights.values, "plane")  # a slope that was left is not a curvature
-    _, _, weights, square = _fitted(flat - flat.mean(), _DEGREE["quadratic"])
-    sq, sags = float(np.std(flat)), (float(weights[0, 2]), float(weights[2, 0]))
+    there = heights.measured
+    flat = levelled(heights.values, "plane", there)  # a slope that was left is not a curvature
+    flat -= flat[there].mean()
+    _, _, weights, square = _fitted(flat, _DEGREE["quadratic"], there)
+    sq, sags = float(np.std(flat[there])), (float(weights[0, 2]), float(weights[2, 0]))
     ny, nx = heights.values.shape
     half_x, half_y = 0.5 * (nx - 1) * heights.pixel[0], 0.5 * (ny - 1) * heights.pixel[1]
     curvatures = (2.0 * sags[0] / half_x**2, 2.0 * sags[1] / half_y**2)

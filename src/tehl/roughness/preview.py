@@ -51,7 +51,7 @@ class Preview:
 
     @property
     def missing(self) -> int:
-        """Return the number of points of the file without a height."""
+        """Return the number of points of the file without a height, removed spikes not counted."""
         return int(np.sum(~np.isfinite(self.raw.heights)))
 
 
@@ -67,7 +67,7 @@ def preview(surface: Map, mesh: Mesh | None = None) -> Preview:
         file=shown(surface.file),
         raw=raw_map(surface),
         heights=heights,
-        statistics=statistics(values, pixel),
+        statistics=statistics(values, pixel, heights.measured),
         spectrum=spectrum(values, pixel),
         mesh=mesh,
         lost=None if mesh is None else share_beyond(values, pixel, mesh.spacing),

@@ -2,12 +2,19 @@
 
 import math
 from functools import lru_cache
-from typing import TYPE_CHECKING, Annotated, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
 from tehl.errors import InputError
-from tehl.roughness.model import TileModel, Wavelength, check_gentle, direction, wavelength_of
+from tehl.roughness.model import (
+    TileModel,
+    Wavelength,
+    check_gentle,
+    direction,
+    wavelength_of,
+    with_rms,
+)
 from tehl.typing import Array, np
 from tehl.units import Angle, Height, Number, PositiveNumber
 
@@ -53,6 +60,8 @@ class Random(TileModel):
     type: Literal["random"] = "random"
     rms: Height
     """Sq [m]; a period of the surface has it exactly."""
+    ra: Height | None = None
+    """Ra or Sa [m], instead of Sq: of Gaussian heights, Sq = Sa sqrt(pi/2)."""
     spectrum: Literal["gaussian", "self-affine"] = "gaussian"
     """Shape of the spectrum."""
     correlation_length: Wavelength | None = None
@@ -78,6 +87,11 @@ class Random(TileModel):
     transformation [1]_ of a Gaussian surface; a period meets them to 1e-3. They change the
     autocorrelation a little."""
 
+    @model_validator(mode="before")
+    @classmethod
+    def _convert_ra(cls, stated: Any) -> Any:
+        return with_rms(stated, "ra", "rms")
+
     @model_validator(mode="after")
     def _must_have_a_spectrum(self) -> Self:
         needed, foreign = _LENGTHS if self.spectrum == "gaussian" else reversed(_LENGTHS)
@@ -95,6 +109,8 @@ class Random(TileModel):
 
     @model_validator(mode="after")
     def _moments_must_be_possible(self) -> Self:
+        if self.ra is not None and (self.skewness, self.kurtosis) != (0.0, 3.0):
+            raise ValueError("ra holds for Gaussian heights: with skewness or kurtosis state rms")
         most = math.sqrt((_LARGEST_KURTOSIS - 2.1) / 1.5)
         if not abs(self.skewness) <= most:
             raise ValueError(

@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy import fft
 
-from tehl.typing import Array
+from tehl.roughness.tile import response
+from tehl.typing import Array, BoolArray
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -28,20 +29,32 @@ class Statistics:
     within half of the map."""
 
 
-def statistics(heights: Array, pixel: tuple[float, float]) -> Statistics:
-    """Return the parameters of heights [m], (ny, nx), without gaps; their mean is subtracted."""
-    off = heights - heights.mean()
-    sq = float(np.sqrt(np.mean(off**2)))
-    scaled = off / sq if sq > 0 else np.full_like(off, np.nan)
+def statistics(
+    heights: Array, pixel: tuple[float, float], measured: BoolArray | None = None
+) -> Statistics:
+    """Return the parameters of heights; their mean is subtracted.
+
+    Parameters
+    ----------
+    heights, pixel : (ny, nx) array, (dx, dy)
+        Heights without gaps, and distances of their points [m].
+    measured : (ny, nx) array or None
+        Which points count; None is all. Correlation lengths are those of all points.
+    """
+    there = np.ones(heights.shape, bool) if measured is None else measured
+    off = heights - heights[there].mean()
+    valid = off[there]
+    sq = float(np.sqrt(np.mean(valid**2)))
+    scaled = valid / sq if sq > 0 else np.full_like(valid, np.nan)
     slope_y, slope_x = np.gradient(off, pixel[1], pixel[0])
     along, across = (_correlation_length(off, axis) for axis in (1, 0))
     return Statistics(
         sq=sq,
-        sa=float(np.mean(np.abs(off))),
-        sz=float(np.ptp(off)),
+        sa=float(np.mean(np.abs(valid))),
+        sz=float(np.ptp(valid)),
         ssk=float(np.mean(scaled**3)),
         sku=float(np.mean(scaled**4)),
-        sdq=float(np.sqrt(np.mean(slope_x**2 + slope_y**2))),
+        sdq=float(np.sqrt(np.mean((slope_x**2 + slope_y**2)[there]))),
         correlation_lengths=(along * pixel[0], across * pixel[1]),
     )
 
@@ -106,7 +119,7 @@ def spectrum(heights: Array, pixel: tuple[float, float], rings: int = 60) -> Spe
 
 
 def share_beyond(heights: Array, pixel: tuple[float, float], mesh: tuple[float, float]) -> float:
-    """Return which share of the variance a mesh loses: waves of two widths or less.
+    """Return which share of the variance a mesh loses, in waves shorter than four widths.
 
     Parameters
     ----------
@@ -116,5 +129,5 @@ def share_beyond(heights: Array, pixel: tuple[float, float], mesh: tuple[float, 
     ny, nx = heights.shape
     power = fft.dctn(heights - heights.mean(), type=2, norm="ortho") ** 2  # no jumps at edges
     x, y = np.arange(nx) / (2.0 * nx * pixel[0]), np.arange(ny) / (2.0 * ny * pixel[1])
-    lost = (x >= 0.5 / mesh[0]) | (y >= 0.5 / mesh[1])[:, None]
-    return float(power[lost].sum() / power.sum()) if power.sum() > 0 else 0.0
+    lost = 1.0 - response(x, y, mesh, radial=False) ** 2
+    return float((power * lost).sum() / power.sum()) if power.sum() > 0 else 0.0

@@ -6,7 +6,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
 
-from tehl.roughness.features import Bump, Dimple, Ridge
+from tehl.roughness.features import Bump, Dimple, Pocket, Ridge
+from tehl.roughness.formula import Formula
 from tehl.roughness.map import Map
 from tehl.roughness.model import Roughness, RoughnessModel, Smooth
 from tehl.roughness.random import Random
@@ -80,7 +81,7 @@ class Superposition(_Added):
     parts: tuple[Roughness, ...]
 
 
-_Single = Smooth | Wave | Crossed | Ridge | Bump | Dimple | Random | Map
+_Single = Smooth | Wave | Crossed | Ridge | Bump | Dimple | Pocket | Formula | Random | Map
 OneRoughness = Annotated[_Single, Field(discriminator="type")]
 """A surface that is not a sum."""
 

@@ -125,10 +125,10 @@ class Tile(Roughness):
         (ny, nx), (width, height) = self.heights.shape, self.size
         if self.edge == "periodic":
             x, y = fft.rfftfreq(nx) * nx / width, np.abs(fft.fftfreq(ny)) * ny / height
-            spectrum = fft.rfft2(self.heights) * _response(x, y, mesh, radial=radial)
+            spectrum = fft.rfft2(self.heights) * response(x, y, mesh, radial=radial)
             return fft.irfft2(spectrum, (ny, nx))
         x, y = np.arange(nx) / (2.0 * width), np.arange(ny) / (2.0 * height)
-        spectrum = fft.dctn(self.heights, type=2) * _response(x, y, mesh, radial=radial)
+        spectrum = fft.dctn(self.heights, type=2) * response(x, y, mesh, radial=radial)
         return fft.idctn(spectrum, type=2)
 
     def _coarsened(self, mesh: Pair, rim: tuple[int, int], *, radial: bool) -> "Tile":
@@ -149,7 +149,7 @@ class Tile(Roughness):
         )
         along, across = (_cosines(kept[k], shape[k], rim[k], whole[k]) for k in (0, 1))
         x, y = (np.arange(kept[k]) / (2.0 * lengths[k]) for k in (0, 1))
-        spectrum = (across @ self.heights @ along.T) * _response(x, y, mesh, radial=radial)
+        spectrum = (across @ self.heights @ along.T) * response(x, y, mesh, radial=radial)
         spectrum *= nx * ny / (whole[0] * whole[1])
         heights = fft.idctn(np.pad(spectrum, ((0, ny - kept[1]), (0, nx - kept[0]))), type=2)
         pixel = (lengths[0] / nx, lengths[1] / ny)
@@ -235,8 +235,18 @@ def _cosines(waves: int, count: int, rim: int, whole: int) -> Array:
     return 2.0 * np.cos(np.pi * np.arange(waves)[:, None] * places)
 
 
-def _response(x: Array, y: Array, mesh: Pair, *, radial: bool) -> Array:
-    """Return which part of each wave passes, by its waves per metre along x and y."""
+def response(x: Array, y: Array, mesh: Pair, *, radial: bool) -> Array:
+    """Return which part of the amplitude of each wave a mesh lets pass.
+
+    Parameters
+    ----------
+    x, y : (nx,) array, (ny,) array
+        Waves per metre along x and y.
+    mesh : (float, float)
+        Mesh widths [m].
+    radial : bool
+        Whether a wave is judged by its length, not by that along x and that along y.
+    """
     y = y[:, None]
     parts = [np.hypot(x, y) * mesh[0]] if radial else [x * mesh[0], y * mesh[1]]
     beyond = (np.clip((part - KEPT) / (LOST - KEPT), 0.0, 1.0) for part in parts)

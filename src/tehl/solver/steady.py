@@ -15,6 +15,7 @@ from tehl.grid import Grid, can_mirror
 from tehl.kernels.warmup import warm_up
 from tehl.memory import check_memory
 from tehl.operators.heights import heights_of
+from tehl.operators.resolution import resolution_of
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import ConvergenceError, Result
@@ -216,6 +217,10 @@ def _result(
         shear=shear,
         heat=heat,
         heights=_surfaces(run),
+        resolution=resolution_of(
+            scaled.problem,
+            (grid.dx * scaled.scales.half_width_x, grid.dy * scaled.scales.half_width_y),
+        ),
     )
 
 

@@ -14,6 +14,7 @@ from typing import Annotated, Any, Literal, Self
 import numpy as np
 from pydantic import Field, model_validator
 
+from tehl.encoding import encoding_of
 from tehl.errors import InputError
 from tehl.io.atomic import shortened
 from tehl.io.case import plain_value
@@ -34,6 +35,7 @@ _LONGEST = 60
 """Characters of a value in a message."""
 _TITLES = "name"
 """Column of a list of cases that names them."""
+_DECIMAL_COMMA = re.compile(r"^([+-]?\d+),(\d+)(?=[eE\s]|$)")
 _UNIT = re.compile(r"(.*?)\s*\[(.*)\]\s*")
 _LARGEST = 50_000_000
 """Bytes of a list of cases."""
@@ -239,7 +241,8 @@ def block_of_file(path: Path) -> Block:
     """Return the cases listed in a CSV file as a block.
 
     The first line has dotted paths, optionally with a unit: ``contact.load [N]``; a column ``name``
-    names the cases. An empty cell keeps the value of the base case.
+    names the cases. An empty cell keeps the value of the base case. Cells are separated by commas,
+    or by semicolons or tabs, with which numbers may have decimal commas.
     """
     shown = shortened(path)
     lines = _lines(path, shown)
@@ -266,12 +269,17 @@ def _lines(path: Path, shown: str) -> list[list[str]]:
             raise InputError(
                 f"{shown} is larger than {_LARGEST // 10**6} MB, so not a list of cases"
             )
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            reader = csv.reader(file)
+        with path.open("rb") as start:
+            encoding = encoding_of(start.read(2))
+        with path.open(encoding=encoding, newline="") as file:
+            reader = csv.reader(file, delimiter=_delimiter(file.readline()))
+            file.seek(0)
             lines = [(reader.line_num, [cell.strip() for cell in line]) for line in reader]
+            if reader.dialect.delimiter != ",":
+                lines = [(number, [_pointed(cell) for cell in line]) for number, line in lines]
     except FileNotFoundError:
         raise InputError(f"list of cases {shown} does not exist") from None
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
+    except (OSError, UnicodeError, csv.Error) as error:
         raise InputError(f"{shown} cannot be read as a list of cases: {error}") from None
     lines = [(number, line) for number, line in lines if any(line)]
     for number, line in lines:
@@ -281,6 +289,16 @@ def _lines(path: Path, shown: str) -> list[list[str]]:
                 f"{len(lines[0][1])}"
             )
     return [line for _, line in lines]
+
+
+def _delimiter(first: str) -> str:
+    """Return what separates the cells of a list: semicolon, tab or comma."""
+    return next((mark for mark in ";\t" if mark in first), ",")
+
+
+def _pointed(cell: str) -> str:
+    """Return a cell with a decimal point in place of a decimal comma."""
+    return _DECIMAL_COMMA.sub(r"\1.\2", cell)
 
 
 def _column(cell: str) -> tuple[str, str]:

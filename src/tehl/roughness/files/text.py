@@ -2,12 +2,15 @@
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Literal
 
 import numpy as np
 
+from tehl.encoding import encoding_of
 from tehl.errors import InputError
+from tehl.roughness.files.header import Header
 from tehl.roughness.files.raw import LARGEST_MAP, RawMap, check_count, shown, step
 from tehl.typing import Array
 
@@ -24,27 +27,36 @@ def read_text(path: Path, layout: Layout) -> RawMap:
     """Return the heights of a text file.
 
     Numbers are separated by commas, semicolons, tabs or blanks; lines that begin with ``#``, ``%``
-    or ``//`` and one line of names are skipped; nothing and ``nan`` are points without a height,
-    but a mark at the end of a row that is as long as the others without it is not a point.
+    or ``//``, lines ``key: value`` or ``key = value`` before the first number, and one line of
+    names are its header, whose unit, conversion factor and size count; nothing and ``nan`` are
+    points without a height, but a mark at the end of a row that is as long as the others without it
+    is not a point.
     ``layout`` = "auto" takes three columns as x, y and z if the first two make a lattice, and never
     as a table. Raises InputError, with the line, if the file holds anything else.
     """
-    table = _table(path)
+    header = Header()
+    table = _table(path, header)
     if layout == "matrix" or (layout == "auto" and table.shape[1] != 3):
         check_count(table.shape)
-        return RawMap(heights=table, kind="table of heights")
+        return RawMap(
+            heights=table,
+            kind="table of heights",
+            unit=header.unit,
+            pixel=header.pixel(table.shape),
+            pixel_units=("m", "m"),
+        )
     if table.shape[1] != 3:
         raise InputError(f"has {table.shape[1]} columns, but x, y and z are three")
-    return _lattice(table)
+    return replace(_lattice(table), unit=header.unit)
 
 
-def _table(path: Path) -> Array:
+def _table(path: Path, header: Header) -> Array:
     if path.stat().st_size > _LARGEST_TEXT:
         raise InputError(f"is a text of more than {_LARGEST_TEXT // 10**9} GB: store it as .npy")
     rows: list[Array] = []
     marked: list[bool] = []
     numbers: list[int] = []
-    for number, cells in _lines(path):
+    for number, cells in _lines(path, header):
         marked.append(not cells[-1] and len(cells) > 1)
         rows.append(_row(cells[:-1] if marked[-1] else cells, number))
         numbers.append(number)
@@ -57,22 +69,29 @@ def _table(path: Path) -> Array:
     return _evened(rows, marked, numbers)
 
 
-def _lines(path: Path) -> Iterator[tuple[int, list[str]]]:
-    """Yield the number and the cells of each line of data."""
+def _lines(path: Path, header: Header) -> Iterator[tuple[int, list[str]]]:
+    """Yield the number and the cells of each line of data; fill the header."""
     is_first = True
     try:
-        with path.open(encoding="utf-8-sig", errors="strict") as file:
+        with path.open(encoding=_encoding(path), errors="strict") as file:
             for number, line in enumerate(file, start=1):
                 text = line.strip("\r\n \0")
                 is_blank = not text.strip() and text.count("\t") < 2  # tabs: missing points
-                if is_blank or text.lstrip().startswith(_COMMENT):
+                is_header = is_first and header.takes(text.lstrip(" #%/"))
+                if is_blank or is_header or text.lstrip().startswith(_COMMENT):
                     continue
                 cells = _cells(text)
                 if not (is_first and len(text) < 400 and _are_names(cells)):
                     yield number, cells
                 is_first = False
     except UnicodeDecodeError:
-        raise InputError("is not a text in UTF-8") from None
+        raise InputError("is not a text in UTF-8 or UTF-16") from None
+
+
+def _encoding(path: Path) -> str:
+    """Return the encoding of a text by its first bytes."""
+    with path.open("rb") as file:
+        return encoding_of(file.read(2))
 
 
 def _evened(rows: list[Array], marked: list[bool], numbers: list[int]) -> Array:
@@ -112,7 +131,10 @@ def _row(cells: list[str], number: int) -> Array:
     cells = [_MISSING.get(cell.lower(), cell) for cell in cells]
     for cell in cells:
         if not _is_number(cell):
-            raise InputError(f"line {number} has {shown(cell, 40)!r}, which is not a number")
+            raise InputError(
+                f"line {number} has {shown(cell, 40)!r}, which is not a number: lines of a header "
+                'are "key: value", or begin with #'
+            )
     return np.array(cells, dtype=np.float64)
 
 

@@ -1,0 +1,104 @@
+"""Which part of the heights of rough surfaces a grid carries.
+
+Waves that are short for a grid, and for the steps of a transient run, are filtered off measured and
+random surfaces; formulas are carried whole.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from tehl.duration import components
+from tehl.problem import ContactProblem
+from tehl.roughness import AnyRoughness, Roughness
+from tehl.roughness.resolution import Resolution
+from tehl.typing import Array
+
+_COUNT = 513
+_LEAST = 1e-13
+"""Sq below which a surface counts as flat [m]."""
+_MOST_WINDOWS = 8
+
+
+class Sample(NamedTuple):
+    """Places in a square around the contact, or around what passes it: x and y [m]."""
+
+    x: Array
+    y: Array
+
+
+def resolution_of(problem: ContactProblem, mesh: tuple[float, float]) -> Resolution | None:
+    """Return Sq of the surfaces in the contact, and of what a mesh carries; None of smooth ones.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        The contact.
+    mesh : (float, float)
+        Mesh widths along x and y [m].
+
+    Raises
+    ------
+    InputError
+        If a measured surface cannot be read.
+    """
+    if not problem.is_rough:
+        return None
+    pairs = [
+        _pair(surface.roughness, problem, (_along(problem, number, mesh[0]), mesh[1]))
+        for number, surface in enumerate((problem.surface_1, problem.surface_2), start=1)
+    ]
+    whole, kept = zip(*pairs, strict=True)
+    return Resolution(sq=whole, kept=kept)
+
+
+def _along(problem: ContactProblem, number: int, step: float) -> float:
+    """Return the distance of heights along x that grid and time steps resolve [m]."""
+    if problem.transient is None:
+        return step
+    moved = abs(problem.motion.speed_of(number)) / problem.entrainment_speed
+    return step * max(problem.transient.stride * moved, 1.0)
+
+
+def _pair(
+    roughness: AnyRoughness, problem: ContactProblem, mesh: tuple[float, float]
+) -> tuple[float, float]:
+    if roughness.is_smooth:
+        return 0.0, 0.0
+    place = sample_of(roughness, problem)
+    resolved = roughness.resolved_on(*mesh)
+    whole = _sq(roughness, place)
+    return whole, whole if resolved is roughness else min(_sq(resolved, place), whole)
+
+
+def sample_of(roughness: AnyRoughness, problem: ContactProblem) -> Sample:
+    """Return places where ``roughness`` lies in the contact, or passes it in a transient run.
+
+    They are uniform but for random shifts, so that no wave is aliased to a constant.
+    """
+    half = (problem.hertz.half_width_x, problem.hertz.half_width_y)
+    shifts = np.random.default_rng(0).random((2, _COUNT))
+    x, y = (
+        width * (2.0 * (np.arange(_COUNT) + shift) / _COUNT - 1.0)
+        for width, shift in zip(half, shifts, strict=True)
+    )
+    samples = [Sample(x[None, :] + centre, y[:, None]) for centre in _centres(roughness, problem)]
+    if len(samples) == 1:
+        return samples[0]
+    return max(samples, key=lambda one: _sq(roughness, one))
+
+
+def _centres(roughness: AnyRoughness, problem: ContactProblem) -> list[float]:
+    """Return the middles along x of what passes the contact: the origin in a steady case [m]."""
+    if problem.transient is None:
+        return [0.0]
+    extents = (part.extent(problem.hertz.half_width_y)[0] for part in components(roughness))
+    middles = {0.5 * sum(ends) if math.isfinite(sum(ends)) else 0.0 for ends in extents}
+    return sorted(middles)[:_MOST_WINDOWS] or [0.0]
+
+
+def _sq(roughness: Roughness, place: Sample) -> float:
+    heights = np.broadcast_to(roughness.height(*place), (_COUNT, _COUNT))
+    found = float(np.std(heights))
+    return found if found > _LEAST else 0.0
