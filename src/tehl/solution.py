@@ -106,6 +106,14 @@ class ErrorEstimate:
     """Change by further cycles, relative [-]."""
     domain: float = 0.0
     """From the edges of a domain with the far field, relative [-]."""
+    pressure_max: float | None = None
+    traction_mid_film: float | None = None
+    film_rise_max: float | None = None
+    mid_film_rise_central: float | None = None
+    surface_1_rise_max: float | None = None
+    surface_2_rise_max: float | None = None
+    """Error bars of further values, all parts together, relative [-]; None if the contact does not
+    have the value, or too few grids do."""
 
     @property
     def central(self) -> float:

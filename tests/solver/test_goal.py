@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from tehl.options import Domain, Options
+from tehl.problem import ContactProblem
 from tehl.result import ConvergenceError
 from tehl.solver import solve
-from tests.reference import moes_contact
+from tests.reference import heated_contact, moes_contact
 from tests.solver.rough import wavy
 
 
@@ -86,3 +87,41 @@ def test_a_nearly_rigid_contact_agrees_with_a_domain_four_times_as_wide(load, sp
     assert found.film_scaled.central == pytest.approx(
         wide.film_scaled.central, rel=found.errors.central
     )
+
+
+NAMES = ("pressure_max", "traction_mid_film", "film_rise_max", "mid_film_rise_central")
+
+
+def values(run) -> dict[str, float]:
+    """Return the values that have error bars beside the film."""
+    return {
+        "pressure_max": float(run.scaled.pressure.max()),
+        "traction_mid_film": run.traction.mid_film,
+        "film_rise_max": run.temperature.film_rise_max,
+        "mid_film_rise_central": run.temperature.mid_film_rise_central,
+    }
+
+
+@pytest.mark.parametrize("shear", [None, {"law": "eyring", "stress": 5e6}])
+def test_pressure_traction_and_temperatures_have_error_bars_that_hold(shear):
+    problem = heated_contact(0.5, shear=shear)
+    found = solve(problem, Options())
+    finer = values(solve(problem, Options(points=2 * found.scaled.x.size - 1)))
+    for name, value in values(found).items():
+        bar = getattr(found.errors, name)
+        assert 0.0 < bar < 0.3
+        assert value == pytest.approx(finer[name], rel=bar)
+
+
+def test_an_isothermal_film_in_pure_rolling_has_neither_traction_nor_temperature_bars():
+    errors = solve(moes_contact(20.0, 5.0), Options()).errors
+    assert errors.pressure_max is not None
+    assert [getattr(errors, name) for name in NAMES[1:]] == [None, None, None]
+
+
+def test_thinning_at_a_steep_spike_converges_with_damping():
+    # pure rolling, L = 16: undamped, mobility and pressure of the spike oscillate and diverge
+    case = moes_contact(6.38, 15.98).model_dump(exclude_none=True)
+    case["lubricant"]["shear"] = {"law": "eyring", "stress": 2.8e6}
+    found = solve(ContactProblem.model_validate(case), Options())
+    assert max(found.errors.central, found.errors.minimum) <= 0.02

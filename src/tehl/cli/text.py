@@ -53,7 +53,8 @@ def _bar(result: Result | TransientResult, name: str) -> str:
         bar = f"{estimate.value * factor:.5g} +- {estimate.uncertainty * factor:.2g} {unit}"
         return f"   certified {bar} ({parts})"
     errors = None if isinstance(result, TransientResult) else result.errors
-    error = getattr(errors, name.removeprefix("film_"), None)
+    film = {"film_central": "central", "film_minimum": "minimum"}
+    error = getattr(errors, film.get(name, name), None)
     if error is None:
         return ""
     percent = 100.0 * abs(error)

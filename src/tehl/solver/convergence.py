@@ -6,7 +6,7 @@ stopping and errors).
 """
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 import numpy as np
@@ -25,6 +25,8 @@ second order; measured up to 0.65 for the minimum film between waves (87 of them
 nodes)."""
 SMOOTH_PART, WAVE_PART = 1.7, 20.0
 """Factors of the two terms of `single_grid_estimate`."""
+SPIKE_GROWTH = 2.0
+"""Further growth of the pressure spike over its last change."""
 SHARED = 0.25
 """Part of the change of the central film below which the error of the minimum is not estimated: two
 coarse grids may agree on a thin minimum by chance."""
@@ -97,6 +99,7 @@ class Trace:
 class GridTrace:
     """Film and temperature rise over the cycles on one grid, with the reports of the cycles.
 
+    ``measured`` has further values after the last cycle (`tehl.solver.measures`).
     ``damping`` is the damping factor of heat and thinning between rough surfaces, 1 is undamped: no
     convergence rate is below 1 - damping.
     """
@@ -105,6 +108,7 @@ class GridTrace:
     minimum: Trace = field(default_factory=Trace)
     rise: Trace = field(default_factory=Trace)
     reports: list[CycleReport] = field(default_factory=list)
+    measured: dict[str, float] = field(default_factory=dict)
     largest_change: float = LARGEST_CHANGE
     least_cycles: int = LEAST_CYCLES
     damping: float = 1.0
@@ -238,7 +242,36 @@ def error_estimate(
         if rough and changes[-1] > film:  # far from the limit
             bar = changes[-1]
         bars.append(max(bar, SHARED * changes[0]) / film)
-    return _estimate(traces[-1], domain, *bars)
+    estimate = _estimate(traces[-1], domain, *bars)
+    return replace(estimate, **further_errors(traces, ROUGH_PART if rough else 1.0, domain))
+
+
+def further_errors(traces: list[GridTrace], otherwise: float, domain: float) -> dict[str, float]:
+    """Return the relative error bars of the values that at least two grids have measured.
+
+    The pressure spike grows with each finer grid, to first order, and may exceed the central
+    pressure on finer grids only: it may still grow by twice its last change.
+
+    Parameters
+    ----------
+    traces : list of GridTrace
+        Grids halved each time, coarsest first.
+    otherwise : float
+        As in `discretisation_bar`.
+    domain : float
+        Relative error from the edges of the domain [-].
+    """
+    found = {}
+    for name, last in traces[-1].measured.items():
+        values = [one.measured[name] for one in traces[-3:] if name in one.measured]
+        if name == "spike" or len(values) < 2 or last == 0.0:
+            continue
+        bar = discretisation_bar(values, otherwise)
+        if name == "pressure_max":
+            before, spike = (one.measured["spike"] for one in traces[-2:])
+            bar = max(bar, spike + SPIKE_GROWTH * max(spike - before, 0.0) - last)
+        found[name] = abs(bar / last) + domain
+    return found
 
 
 def single_grid_estimate(

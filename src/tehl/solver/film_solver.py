@@ -39,6 +39,7 @@ from tehl.solver.goal import Goal, estimated_errors
 from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.ladder import Strategy
 from tehl.solver.level import Level
+from tehl.solver.measures import measured
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.newton import Newton
 from tehl.solver.thermal import Coupling
@@ -48,6 +49,8 @@ FIRST_STEPS = 6
 """Newton steps on the coarsest grid at the start; that they may not converge does no harm."""
 MOST_CYCLES = 4
 """Most cycles on a grid that only provides the start for the next finer one."""
+TOO_COARSE = 0.5
+"""Error bar of the film beyond which the grid may be why the cycles do not converge."""
 LEAST_GRIDS = 2
 """Most grids that give no error bars: the coarsest one does not resolve the contact."""
 HERTZ_CYCLES = 2
@@ -92,7 +95,7 @@ class FilmSolver:
             hierarchy.scaled,
             self.options,
             slide_in_steps=strategy.slide_in_steps,
-            damping=strategy.damping if heights is not None else 1.0,
+            damping=strategy.damping,
             any_grid_final=self.goal.is_open,
         )
         self.roughness = Roughness(hierarchy.levels, heights, strategy.continuation)
@@ -135,6 +138,7 @@ class FilmSolver:
                 self.accepted = self._approximate(levels)
                 if self._is_last(levels):
                     self._finish(levels)
+                    self._measure(levels)
 
         full_multigrid(self.levels, self._solve_coarsest, self._start, improve)
         return self._has_converged()
@@ -143,16 +147,16 @@ class FilmSolver:
         """Solve on the finest grid, and append a finer one if the goal is not reached."""
         try:
             self._solve_finest()
+            self._measure(self.levels)
         except TouchingError:
             raise
         except DivergedError:
-            if not (force and self.goal.may_try_once(self.finest)):
+            if not (force and self.goal.may_try(self.finest)):
                 raise
             self._discard(self.levels)
             self._refine()
         else:
-            stuck = force and not self._has_converged() and self.goal.may_try_once(self.finest)
-            if stuck or self._needs_finer_grid():
+            if self._needs_finer_grid(force=force):
                 self._refine()
 
     def _has_converged(self) -> bool:
@@ -173,12 +177,19 @@ class FilmSolver:
             return 1.0
         return max(float(self.finest.film.h.min()), 0.0) / self.hierarchy.expected_film
 
-    def _needs_finer_grid(self) -> bool:
-        """Return whether the finest grid converged to a film that is not accurate enough."""
-        if not (self.goal.is_open and self._has_converged()):
+    def _needs_finer_grid(self, *, force: bool) -> bool:
+        """Return whether a finer grid follows: the film is not accurate, or does not converge.
+
+        A grid too coarse explains cycles that do not converge; else another strategy may help.
+        """
+        if not self.goal.is_open:
             return False
-        positive = float(self.finest.film.h.min()) > self.finest.equations.floor
-        if positive and self.goal.is_met(self.errors(), self.minimum_part()):
+        errors, part = self.errors(), self.minimum_part()
+        resolved = float(self.finest.film.h.min()) > self.finest.equations.floor
+        if not self._has_converged():
+            resolved = resolved and self.goal.is_met(errors, part, TOO_COARSE)
+            return (force or not resolved) and self.goal.may_try(self.finest)
+        if resolved and self.goal.is_met(errors, part):
             return False
         return self.goal.may_refine(self.finest)
 
@@ -231,6 +242,7 @@ class FilmSolver:
         """Iterate on a coarser grid; return whether its solution is a start for the next grid."""
         try:
             self._iterate(levels)
+            self._measure(levels)
         except DivergedError:
             accepted = False
         else:
@@ -310,6 +322,11 @@ class FilmSolver:
                 # a combination of states must not wet the nodes that the last cycle cavitated
                 wet = np.append(fine.film.p.ravel() > 0.0, True)
                 fine.set_unknowns(np.where(wet, combined, 0.0))
+
+    def _measure(self, levels: Sequence[Level]) -> None:
+        """Record further values of the last of ``levels``."""
+        scaled, state = self.hierarchy.scaled, self.coupling.state
+        self.traces[-1].measured = measured(levels[-1], scaled, state)
 
     def _finish(self, levels: Sequence[Level]) -> None:
         """Make the last of ``levels`` the finest, and iterate until it has converged or stalled."""

@@ -15,6 +15,8 @@ from tehl.solver.level import Level
 
 FACTOR = 5.0
 """Expected time on a grid over that on the next coarser one, which has a quarter of its nodes."""
+MOST_TRIES = 2
+"""Finer grids that follow grids on which the cycles do not converge."""
 LEAST_HALVINGS = 3
 """Halvings of the smallest grid that is planned."""
 LARGEST = 16385
@@ -66,7 +68,7 @@ class Goal:
     options: Options
     obstacle: str = ""
     """Why no finer grid follows."""
-    _has_tried: bool = False
+    _tries: int = 0
     _started: float = field(default_factory=time.perf_counter)
     _last: float = field(default_factory=time.perf_counter)
 
@@ -89,8 +91,10 @@ class Goal:
         """Note the time at which the work on a grid begins."""
         self._last = time.perf_counter()
 
-    def is_met(self, errors: ErrorEstimate | None, part: float = 1.0) -> bool:
-        """Return whether the error estimates are below the error to reach.
+    def is_met(
+        self, errors: ErrorEstimate | None, part: float = 1.0, error: float | None = None
+    ) -> bool:
+        """Return whether the error estimates are below the error to reach, or ``error``.
 
         Parameters
         ----------
@@ -98,16 +102,18 @@ class Goal:
             Estimates on a grid.
         part : float
             Minimum film over the film to which its error is relative [-].
+        error : float
+            Another relative error [-].
         """
         if errors is None:
             return False
-        return max(errors.central, part * errors.minimum) <= self.options.target
+        return max(errors.central, part * errors.minimum) <= (error or self.options.target)
 
-    def may_try_once(self, level: Level) -> bool:
-        """Return whether a finer grid may follow one that diverged, which is tried once."""
-        if not self.is_open or self._has_tried:
+    def may_try(self, level: Level) -> bool:
+        """Return whether a finer grid may follow one that did not converge."""
+        if not self.is_open or self._tries == MOST_TRIES:
             return False
-        self._has_tried = True
+        self._tries += 1
         return self.may_refine(level)
 
     def may_refine(self, level: Level) -> bool:

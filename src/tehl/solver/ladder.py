@@ -63,6 +63,8 @@ SMOOTH = (Strategy(relaxation=FAST), Strategy(relaxation=ROBUST))
 COUPLED = (
     Strategy(relaxation=BROAD),
     Strategy(relaxation=ROBUST),
+    Strategy(relaxation=BROAD, damping=0.5),
+    Strategy(relaxation=ROBUST, damping=0.3, patience=2),
     Strategy(relaxation=ROBUST, slide_in_steps=True),
 )
 BETWEEN_ROUGH = (
@@ -106,4 +108,4 @@ def ladder(problem: ContactProblem, options: Options, *, rough: bool) -> tuple[S
         return cycles if problem.is_coupled else BETWEEN_ROUGH
     if not problem.is_coupled:
         return SMOOTH
-    return COUPLED if problem.slide_roll_ratio else COUPLED[:2]
+    return COUPLED if problem.slide_roll_ratio else COUPLED[:-1]

@@ -10,7 +10,6 @@ from tehl.duration import misplaced, number_of_steps
 from tehl.errors import InputError
 from tehl.grid import Grid
 from tehl.kernels.warmup import warm_up
-from tehl.operators.heated_film import stress_unit
 from tehl.operators.heights import MovingHeights
 from tehl.options import Options
 from tehl.problem import ContactProblem
@@ -19,8 +18,8 @@ from tehl.scaling import ScaledProblem
 from tehl.solution import Status
 from tehl.solver.cost import Clock
 from tehl.solver.level import Level
+from tehl.solver.measures import mid_film_traction
 from tehl.solver.monitor import SILENT, StepMonitor
-from tehl.solver.outputs import newtonian_sliding
 from tehl.solver.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH
 from tehl.solver.steady import Attempt, finest_grid, try_strategies
 from tehl.solver.transient.checks import check_load, check_stride, check_waves
@@ -155,24 +154,14 @@ class Run:
         numbers = {
             "time": time_now,
             "load": load,
-            "traction": self._traction(load),
+            "traction": mid_film_traction(
+                self.level, self.scaled, self.stepper.solver.coupling.state, load
+            ),
             "temperature_rise": self.stepper.solver.coupling.temperature_rise(),
             "cycles": end.cycles if end else 0,
             "change": end.change if end else 0.0,
         }
         self.record.note(self.level, heights, numbers, keep=step in self.kept)
-
-    def _traction(self, load: float) -> float:
-        """Return the mid-film traction coefficient."""
-        level, state = self.level, self.stepper.solver.coupling.state
-        if state is not None:
-            stress = state.view("tau_x").T
-        else:
-            stress = newtonian_sliding(level, self.scaled)
-        wet = np.where(level.film.p > 0.0, stress, 0.0)
-        area = self.scales.half_width_x * self.scales.half_width_y
-        unit = stress_unit(self.scales) * area / (self.scales.load * load)
-        return level.equations.load.integral(wet) * unit
 
     def _report(self, step: int, end: StepEnd) -> StepReport:
         _, _, central, minimum, *_ = self.record.rows[-1]

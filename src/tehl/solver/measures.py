@@ -1,0 +1,75 @@
+"""Values beside the film that get error bars: pressure, traction and temperatures on each grid."""
+
+import numpy as np
+
+from tehl.operators.energy import FilmState
+from tehl.operators.heated_film import stress_unit
+from tehl.post.heat import lagrange_weights
+from tehl.scaling import ScaledProblem
+from tehl.solver.film_summary import central_value
+from tehl.solver.level import Level
+from tehl.solver.outputs import newtonian_sliding
+
+SPIKE_FROM = 0.5
+"""X downstream of which the pressure spike is searched, in Hertz half-widths."""
+
+
+def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> dict[str, float]:
+    """Return the values of a converged grid by name.
+
+    ``pressure_max`` and ``spike``, the largest pressure downstream [-]; of a sliding contact
+    ``traction_mid_film`` [-]; of a heated film the rises that `tehl.post.heat.Temperature` has [K].
+
+    Parameters
+    ----------
+    level, scaled : Level, ScaledProblem
+        The grid, and the contact.
+    state : FilmState or None
+        Temperature and stress on that grid; None for an isothermal Newtonian film.
+    """
+    pressure = level.film.p
+    found = {
+        "pressure_max": float(pressure.max()),
+        "spike": float(pressure[:, level.grid.x > SPIKE_FROM].max()),
+    }
+    if state is not None and state.grid != level.grid:
+        return found
+    if scaled.problem.slide_roll_ratio:
+        found["traction_mid_film"] = mid_film_traction(level, scaled, state)
+    if state is not None and state.model.terms.heat:
+        found |= _rises(state)
+    return found
+
+
+def mid_film_traction(
+    level: Level, scaled: ScaledProblem, state: FilmState | None, load: float = 1.0
+) -> float:
+    """Return the mid-film traction coefficient, the integral of the stress over the load [-].
+
+    Parameters
+    ----------
+    level, scaled : Level, ScaledProblem
+        The grid, and the contact.
+    state : FilmState or None
+        Stress of a heated or shear-thinning film.
+    load : float
+        Load over that of the contact [-].
+    """
+    stress = newtonian_sliding(level, scaled) if state is None else state.view("tau_x").T
+    wet, scales = np.where(level.film.p > 0.0, stress, 0.0), scaled.scales
+    area = scales.half_width_x * scales.half_width_y
+    unit = stress_unit(scales) * area / (scales.load * load)
+    return level.equations.load.integral(wet) * unit
+
+
+def _rises(state: FilmState) -> dict[str, float]:
+    """Return the temperature rises of a film over the oil at the inlet [K]."""
+    temperature, inlet = state.temperature, state.film.scaled.scales.temperature
+    weights = lagrange_weights(state.film.across.zeta, 0.5)
+    middle = np.ascontiguousarray(np.einsum("k,xky->yx", weights, temperature))
+    return {
+        "film_rise_max": float(temperature.max()) - inlet,
+        "mid_film_rise_central": central_value(state.grid, middle) - inlet,
+        "surface_1_rise_max": float(temperature[:, 0].max()) - inlet,
+        "surface_2_rise_max": float(temperature[:, -1].max()) - inlet,
+    }
