@@ -90,6 +90,17 @@ def test_the_multilevel_sum_is_as_accurate_on_a_fine_grid():
     assert np.abs(error).max() < 5e-5
 
 
+def test_the_multilevel_sum_has_no_ripple_from_node_to_node():
+    # the pressure of a stiff contact would have to balance it
+    grid = grid_of(257, 257, mirror=True, domain=DOMAIN)
+    pressure = hertz_pressure(grid)
+    error = deflection("mlmi", grid, pressure) - deflection("fft", grid, pressure)
+    inner = (slice(1, -1), slice(1, -1))
+    beside = error[1:-1, 2:] + error[1:-1, :-2] + error[2:, 1:-1] + error[:-2, 1:-1]
+    ripple = (error[inner] - 0.25 * beside)[np.hypot.outer(grid.y, grid.x)[inner] < 0.8]
+    assert np.abs(ripple).max() < 2e-6
+
+
 @pytest.mark.parametrize("name", ["mlmi", "fft", "lines", "direct"])
 def test_deflection_is_linear(name):
     grid = grid_of(33, 33, mirror=True)

@@ -22,10 +22,14 @@ from tehl.typing import Array
 
 ALONG, ACROSS = 8, 2
 """Patch half-widths on the finest grid, along the axis that is halved and across it."""
+FAR = 40
+"""Nodes beyond the patch of which the corrections are lumped."""
 SMALLEST = 400
 """Nodes at or below which the sum is direct."""
 PAD = 24
 """Ghost rows and columns of the work arrays on each side."""
+LARGEST_GROWTH = 10
+"""Most nodes by which the patch grows: it stays within the ghost rows."""
 STEPS = (1, 3, 5)
 WEIGHTS = (150.0 / 256.0, -25.0 / 256.0, 3.0 / 256.0)
 """Sixth-order interpolation of a midpoint: offsets to both sides, in fine mesh widths, weights."""
@@ -114,7 +118,8 @@ class MultilevelDeformation:
         while _count(self.stages[-1].box) > SMALLEST:
             axis, fine = finer_axis(influence, stride), self.stages[-1]
             # an error on a coarse grid weighs as much as one on the finest: the patch grows
-            patch = patch_corrections(influence, (axis, stride[0], stride[1]), halved[axis])
+            growth = min(2 * halved[axis], LARGEST_GROWTH)
+            patch = patch_corrections(influence, (axis, stride[0], stride[1]), growth)
             self.stages.append(_coarser(fine.box, axis))
             self.halvings.append(_halve(patch, axis, fine, self.stages[-1]))
             stride[axis] *= 2
@@ -189,12 +194,31 @@ def patch_corrections(influence: Influence, step: tuple[int, int, int], growth: 
         Corrections by the two half-widths of the patch.
     """
     axis, row_stride, column_stride = step
-    nodes = np.arange(ALONG + growth + 1)
-    along = np.arange(ALONG + growth + STEPS[-1] + 1.0)[:, None]
-    across = np.arange(ACROSS + growth + 1.0)[None, :]
+    reach, width = ALONG + growth + 1, ACROSS + growth + 1
+    nodes = np.arange(reach + FAR)
+    along = np.arange(nodes.size + STEPS[-1] + 0.0)[:, None]
+    across = np.arange(width + FAR + 0.0)[None, :]
     rows, columns = (along, across) if axis == 0 else (across, along)
     kernel = influence(rows * row_stride, columns * column_stride)
     missed = kernel[nodes]
     for k, w in zip(STEPS, WEIGHTS, strict=True):
         missed -= w * (kernel[nodes + k] + kernel[np.abs(nodes - k)])
-    return np.ascontiguousarray(missed if axis == 0 else missed.T)
+    patch = _lumped(missed, reach, width)
+    return np.ascontiguousarray(patch if axis == 0 else patch.T)
+
+
+def _lumped(missed: Array, reach: int, width: int) -> Array:
+    """Return the patch, with the sum of what is outside at its middle.
+
+    Even and odd offsets apart: each connects nodes of another parity, and for smooth sources what
+    is left out would be a ripple of the deflection from node to node, which the pressure of a stiff
+    contact must balance.
+    """
+    # both signs of an offset
+    counts = np.outer(*(np.where(np.arange(n) > 0, 2.0, 1.0) for n in missed.shape))
+    outside = missed * counts
+    outside[:reach, :width] = 0.0
+    patch = missed[:reach, :width].copy()
+    patch[0, 0] += outside[::2].sum()
+    patch[1, 0] += 0.5 * outside[1::2].sum()
+    return patch

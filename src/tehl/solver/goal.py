@@ -109,6 +109,11 @@ class Goal:
             return False
         return max(errors.central, part * errors.minimum) <= (error or self.options.target)
 
+    @property
+    def is_over(self) -> bool:
+        """Whether the time is over, so that no other strategy is tried."""
+        return self.is_open and time.perf_counter() - self._started > self.options.max_time
+
     def may_try(self, level: Level) -> bool:
         """Return whether a finer grid may follow one that did not converge."""
         if not self.is_open or self._tries == MOST_TRIES:

@@ -150,7 +150,7 @@ def try_strategies(
         # Newton's method costs so much that the cycles before it are tried to the end
         only_newton_left = all(one.newton for one in rungs[number + 1 :])
         attempts.append(_run(run, force=only_newton_left))
-        if attempts[-1].is_final:
+        if attempts[-1].is_final or goal.is_over:
             break
     best = min(attempts, key=lambda attempt: attempt.rank)
     result = _result(best, options, tuple(history.reports), clock.cost())
