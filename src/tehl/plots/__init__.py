@@ -62,12 +62,13 @@ PICTURES: Pictures = {
     "pressure_surface": pressure_surface,
     "centre_lines": centre_lines,
     "residuals": residual_history,
-    **{
-        f"interferogram_{light}": partial(interferogram, optics=Optics(light=light))
-        for light in ("white", "dichromatic", "monochromatic")
-    },
 }
 """Pictures of every steady result."""
+INTERFEROGRAMS: Pictures = {
+    f"interferogram_{light}": partial(interferogram, optics=Optics(light=light))
+    for light in ("white", "dichromatic", "monochromatic")
+}
+"""Pictures of a film under a transparent surface."""
 
 
 def pictures_of(result: Result | TransientResult, smooth: Result | None = None) -> Pictures:
@@ -96,6 +97,9 @@ def pictures_of(result: Result | TransientResult, smooth: Result | None = None) 
         found["temperature_layers"] = temperature_layers
         found["temperature_section"] = temperature_section
         found["surface_heat"] = surface_heat
+    solids = (result.problem.surface_1.material, result.problem.surface_2.material)
+    if any(solid.transparent for solid in solids):
+        found |= INTERFEROGRAMS
     return found
 
 

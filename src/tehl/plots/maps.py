@@ -168,7 +168,7 @@ def heights_map(result: Result) -> Figure:
     found, note = rough_film(result), ""
     if found is not None:
         sq = length(found.composite)
-        note = f"Sq = {sq} of both surfaces, lambda ratio {found.lambda_ratio:.3g}"
+        note = f"Sq = {sq} of both surfaces, λ = {found.lambda_central:.3g}"
     picture, axes = map_figure(result, note)
     low, high = (float(value) for value in np.percentile(heights, _SHOWN))
     low, high = (low, high) if high > low else (low - 0.5, high + 0.5)

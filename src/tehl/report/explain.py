@@ -4,7 +4,14 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from tehl.domain import AIM, domain_of, needed_points, planned, recommended_domain
-from tehl.film_formulas import FilmEstimate, expected_film, film_estimates, regime
+from tehl.film_formulas import (
+    FilmEstimate,
+    Lubrication,
+    expected_film,
+    film_estimates,
+    lubrication,
+    regime,
+)
 from tehl.grid import Grid
 from tehl.heat import FilmEnergy, source_form
 from tehl.inlet_heating import inlet_factors, inlet_heating_factor, thermal_loading
@@ -39,8 +46,8 @@ class Explanation:
     """Central film to expect [m]."""
     films: tuple[FilmEstimate, ...]
     """By each formula."""
-    lambda_ratio: float | None
-    """Central film over roughness of both surfaces [-]; None when no roughness is stated."""
+    composite: float
+    """Sq of both surfaces together [m]; zero when no roughness is stated."""
     roughness: Asperities | None
     """Heights of the surfaces in this contact; None where both are smooth."""
     peclet: tuple[float | None, ...]
@@ -64,6 +71,22 @@ class Explanation:
     questions: tuple[str, ...]
     """Values that are not plausible."""
 
+    @property
+    def lambda_central(self) -> float | None:
+        """Central film over ``composite`` [-]; None without roughness."""
+        return self.central_film / self.composite if self.composite > 0 else None
+
+    @property
+    def lambda_minimum(self) -> float | None:
+        """Minimum film over ``composite`` [-]; None without roughness or a valid formula."""
+        films = [film.minimum_m for film in self.films if film.valid and film.minimum_m is not None]
+        return films[0] / self.composite if films and self.composite > 0 else None
+
+    @property
+    def lubrication(self) -> Lubrication | None:
+        """Boundary, mixed or full film, by ``lambda_central``; None without roughness."""
+        return None if self.lambda_central is None else lubrication(self.lambda_central)
+
 
 def explain(problem: ContactProblem, options: Options) -> Explanation:
     """Return what formulas say about a case, without solving it."""
@@ -74,7 +97,6 @@ def explain(problem: ContactProblem, options: Options) -> Explanation:
     grid = Grid(nx=nx, ny=ny, domain=domain, mirror=False)
     mesh = (grid.dx * scaled.scales.half_width_x, grid.dy * scaled.scales.half_width_y)
     heights, plan = asperities(problem, options, mesh, film), transient_plan(scaled, options, mesh)
-    rough = problem.rms_roughness if heights is None else heights.composite
     bodies = body_effect(scaled)
     heat = expected_heat(scaled, bodies)
     thinnest = bodies.groups if bodies is not None and bodies.ratio < 1 else groups
@@ -83,7 +105,7 @@ def explain(problem: ContactProblem, options: Options) -> Explanation:
         options=options,
         central_film=film,
         films=film_estimates(groups, scaled.scales),
-        lambda_ratio=film / rough if rough > 0 else None,
+        composite=problem.rms_roughness if heights is None else heights.composite,
         roughness=heights,
         peclet=tuple(None if one is None else abs(one) for one in problem.solid_peclet),
         sources=_sources(problem),
@@ -137,7 +159,9 @@ def as_summary(case: Explanation) -> dict[str, Any]:
         "regime": regime(case.scaled.groups),
         "central_film_m": case.central_film,
         "films": [asdict(film) | {"valid": film.valid} for film in case.films],
-        "lambda_ratio": case.lambda_ratio,
+        "lambda_central": case.lambda_central,
+        "lambda_minimum": case.lambda_minimum,
+        "lubrication": case.lubrication,
         "roughness": None if roughness is None else roughness.summary(),
         "solid_peclet": list(case.peclet),
         "inlet_heating_factor": inlet_heating_factor(problem),
