@@ -121,7 +121,13 @@ def converged(table: "pd.DataFrame") -> "pd.DataFrame":
     return found
 
 
-def dress(axes: Axes, table: "pd.DataFrame", columns: tuple[Column, Column], log: str) -> None:
+def dress(
+    axes: Axes,
+    table: "pd.DataFrame",
+    columns: tuple[Column, Column],
+    log: str,
+    title: str | None,
+) -> None:
     """Give axes their titles, scales, a light grid, and a note on cases that are not shown.
 
     Parameters
@@ -134,7 +140,11 @@ def dress(axes: Axes, table: "pd.DataFrame", columns: tuple[Column, Column], log
         Along x and y.
     log : {"", "x", "y", "xy"}
         Axes with a logarithmic scale.
+    title : str or None
+        Title above the axes.
     """
+    if title:
+        axes.set_title(title.replace("$", r"\$"), fontsize=10)
     axes.set(xlabel=columns[0].title, ylabel=columns[1].title)
     for letter in log:
         axes.set(**{f"{letter}scale": "log"})

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tehl.errors import InputError
-from tehl.plots.frame import BLUE, ORANGE, PLAIN
+from tehl.plots.frame import BLUE, ORANGE, PLAIN, empty, figure_of
 from tehl.plots.table_columns import Column, certified, converged, dress, find_column, numbers
 from tehl.typing import Array
 from tehl.units import Quantity
@@ -25,13 +25,16 @@ _LARGEST_OVERLAY = 10**7
 """Bytes of a file of measured points."""
 
 
-def curves(
+def curves(  # noqa: PLR0913 (one call, as in other libraries of pictures)
     table: "pd.DataFrame",
     x: str,
     y: str,
     hue: str | None = None,
     style: str | None = None,
     log: str = "",
+    *,
+    ax: Axes | None = None,
+    title: str | None = None,
 ) -> Figure:
     """Draw ``y`` against ``x``, a curve for each combination of ``hue`` and ``style``.
 
@@ -46,6 +49,10 @@ def curves(
         Columns that distinguish curves, by colour and by line.
     log : {"", "x", "y", "xy"}
         Axes with a logarithmic scale.
+    ax : Axes or None
+        Where to draw; None makes a figure.
+    title : str or None
+        Title above the curves.
 
     Returns
     -------
@@ -63,8 +70,7 @@ def curves(
     hues, styles = _distinct(rows, hue), _distinct(rows, style)
     if len(hues) * len(styles) > _MOST_CURVES:
         raise InputError(f"{len(hues) * len(styles)} curves are too many for a picture")
-    picture = Figure(figsize=(7.0, 5.0), layout="constrained")
-    axes = picture.add_subplot()
+    axes = empty(ax)
     for i, one in enumerate(hues):
         for k, other in enumerate(styles):
             chosen, name = _chosen(rows, ((hue, one), (style, other)))
@@ -76,9 +82,9 @@ def curves(
             look |= {"marker": _MARKS[k % len(_MARKS)], "ms": 4.0, "label": name}
             colour, error = COLOURS[i % len(COLOURS)], None if bars is None else bars[order]
             axes.errorbar(across.values[order], up.values[order], error, color=colour, **look)
-    dress(axes, table, (across, up), log)
+    dress(axes, table, (across, up), log, title)
     _legend(axes)
-    return picture
+    return figure_of(axes)
 
 
 def _distinct(table: "pd.DataFrame", name: str | None) -> list[Any]:
