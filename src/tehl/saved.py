@@ -1,4 +1,4 @@
-"""What steady and transient results have in common: they are saved, summarised and exported.
+"""What steady and transient results have in common: they are saved, summarised and shown.
 
 Users expect these methods on the object itself, and reading a file makes such an object, so that
 `tehl.io` needs both classes. This module is therefore the only one with imports inside functions
@@ -34,3 +34,15 @@ class Saved:
         from tehl.io.summary import summary  # noqa: PLC0415
 
         return summary(self)
+
+    def __repr__(self: Any) -> str:
+        """Return the main numbers in one line."""
+        from tehl.io.headline import as_line  # noqa: PLC0415
+
+        return as_line(self)
+
+    def _repr_html_(self: Any) -> str:
+        """Return the main numbers as a table, for notebooks."""
+        from tehl.io.headline import as_html  # noqa: PLC0415
+
+        return as_html(self)

@@ -10,6 +10,7 @@ import pytest
 
 from tehl.film_formulas import expected_central_film
 from tehl.io.case import case_from_tables
+from tehl.options import Options
 from tehl.report.explain import Explanation, as_summary, as_text, explain
 from tehl.report.readable import length
 from tests.cases import ball_tables
@@ -275,3 +276,11 @@ def test_an_estimated_pressure_coefficient_is_shown():
     assert numbers["pressure_coefficient_1_pa"] == pytest.approx(21.46e-9, rel=1e-3)
     assert numbers["pressure_coefficient_estimated"]
     assert "estimated by" not in as_text(explained())
+
+
+def test_a_problem_explains_itself():
+    case = explained()
+    found = case.scaled.problem.explain(case.options)
+    assert found == case
+    assert repr(found) == as_text(case)
+    assert case.scaled.problem.explain().domain == explain(case.scaled.problem, Options()).domain

@@ -1,6 +1,7 @@
 """Explain a case before the solve, by formulas alone."""
 
 from dataclasses import asdict, dataclass
+from html import escape
 from typing import Any
 
 from tehl.domain import AIM, domain_of, needed_points, planned, recommended_domain
@@ -34,9 +35,9 @@ LEAST_RISE, LEAST_TRACTION = 0.1, 1e-4
 """Temperature rise [K] and traction coefficient below which no number is shown."""
 
 
-@dataclass(frozen=True, kw_only=True, slots=True)
+@dataclass(frozen=True, kw_only=True, slots=True, repr=False)
 class Explanation:
-    """What formulas say about a case."""
+    """What formulas say about a case; shown as ``tehl explain`` prints it."""
 
     scaled: ScaledProblem
     """The contact with its groups and scales."""
@@ -71,6 +72,14 @@ class Explanation:
     questions: tuple[str, ...]
     """Values that are not plausible."""
 
+    def __repr__(self) -> str:
+        """Return the text of ``tehl explain``."""
+        return as_text(self)
+
+    def _repr_html_(self) -> str:
+        """Return the same for notebooks."""
+        return f"<pre>{escape(as_text(self))}</pre>"
+
     @property
     def lambda_central(self) -> float | None:
         """Central film over ``composite`` [-]; None without roughness."""
@@ -88,10 +97,11 @@ class Explanation:
         return None if self.lambda_central is None else lubrication(self.lambda_central)
 
 
-def explain(problem: ContactProblem, options: Options) -> Explanation:
+def explain(problem: ContactProblem, options: Options | None = None) -> Explanation:
     """Return what formulas say about a case, without solving it."""
+    asked = options or Options()
     scaled = ScaledProblem.of(problem)
-    asked, options = options, planned(scaled, options)
+    options = planned(scaled, asked)
     groups, film, (ny, nx) = scaled.groups, expected_film(scaled), options.shape
     wanted, domain = recommended_domain(groups, asked.target), domain_of(groups, options)
     grid = Grid(nx=nx, ny=ny, domain=domain, mirror=False)

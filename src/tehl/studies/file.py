@@ -225,15 +225,17 @@ def cases_of(
     """
     base = problem.model_dump(mode="json", exclude_unset=True)
     base["numerics"] = (options or Options()).model_dump(mode="json", exclude_unset=True)
+    listed: list[Any] = (
+        [{"path": path, "values": list(values)} for path, values in axes.items()]
+        if isinstance(axes, Mapping)
+        else list(axes)
+    )
+    tables = {"case": base, "axes": listed, "sample": sample, "certify": certify}
     try:
-        if isinstance(axes, Mapping):
-            axes = [Axis(path=path, values=list(values)) for path, values in axes.items()]
-        stated = StudyFile(
-            case=base, axes=list(axes), sample=sample, certify=certify, title=problem.title
-        )
+        stated = StudyFile.model_validate(tables | {"title": problem.title})
         return study_of(plan_of(stated, Path(), unlimited=True))
     except ValidationError as error:
-        raise InputError(first_mistake(error, {})) from None
+        raise InputError(first_mistake(error, tables)) from None
     except ValueError as error:
         raise InputError(str(error)) from None
 
