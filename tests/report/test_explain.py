@@ -62,7 +62,7 @@ def test_a_roughness_gives_lambda_by_both_films_and_the_regime_in_words(rms, wor
     shown = (
         f"{case.lambda_central:.3g} by the central film, {case.lambda_minimum:.3g} by the minimum"
     )
-    assert f"{shown} film: {words}, Tallian 1967) with Sq = " in as_text(case)
+    assert f"{shown} film: {words}, Tallian 1967)\n" in as_text(case)
 
 
 def steel(**odd: float) -> dict[str, float]:

@@ -87,9 +87,10 @@ class Explanation:
 
     @property
     def lambda_minimum(self) -> float | None:
-        """Minimum film over ``composite`` [-]; None without roughness or a valid formula."""
-        films = [film.minimum_m for film in self.films if film.valid and film.minimum_m is not None]
-        return films[0] / self.composite if films and self.composite > 0 else None
+        """Minimum film, by a formula in its range if there is one, over ``composite`` [-]."""
+        films = sorted(self.films, key=lambda film: not film.valid)
+        minimum = next(film.minimum_m for film in films if film.minimum_m is not None)
+        return minimum / self.composite if self.composite > 0 else None
 
     @property
     def lubrication(self) -> Lubrication | None:
