@@ -15,7 +15,8 @@ from tehl.errors import InputError
 from tehl.io.store import save
 from tehl.plots import PICTURES
 from tehl.plots.maps import film_levels
-from tehl.result import Status
+from tehl.solution import Status
+from tests.fixtures_result import CASE, make_result
 from tests.fixtures_transient import make_transient
 
 MAPS = ("film_map", "pressure_map", "interferogram")
@@ -35,6 +36,19 @@ def test_maps_show_the_contact_in_equal_aspect(result, name):
     assert rims[0].width == pytest.approx(2e6 * result.scales.half_width_x)
     assert axes.get_aspect() == 1.0
     assert "µm" in axes.get_xlabel()
+
+
+@pytest.mark.parametrize("name", MAPS)
+@pytest.mark.parametrize(("radius_y", "word"), [(0.4, "compressed"), (0.004, "stretched")])
+def test_maps_of_slender_contacts_are_stretched_and_say_so(name, radius_y, word):
+    contact = CASE["contact"] | {"radius_x": 0.02, "radius_y": radius_y}
+    del contact["radius"]
+    axes = getattr(plots, name)(make_result(case={**CASE, "contact": contact})).axes[0]
+    axes.figure.draw_without_rendering()
+    place = axes.get_position()
+    shape = place.height * axes.figure.get_figheight() / (place.width * axes.figure.get_figwidth())
+    assert 0.6 < shape < 1.65
+    assert word in axes.get_ylabel()
 
 
 @pytest.mark.parametrize("draw", PICTURES.values(), ids=PICTURES)

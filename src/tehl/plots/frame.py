@@ -35,6 +35,8 @@ PLAIN: dict[str, Any] = {"fontsize": 8, "frameon": False}
 _ALARM: dict[str, Any] = {"color": "white", "backgroundcolor": "#b3001b", "weight": "bold"}
 _LONGEST = 5.8
 _SLENDER = 6.0
+_DRAWN = 1.6
+"""Largest height over width, or width over height, of a map as drawn."""
 
 Span = tuple[float, float]
 
@@ -166,7 +168,7 @@ def map_axes(
 
 def _map_size(result: Result) -> tuple[float, float]:
     """Return width and height of the figure of a map [inch]."""
-    ratio = slenderness(result)
+    ratio = shape(result)
     longest = 4.9 if 0.5 < ratio < 2.0 else _LONGEST
     width, height = (longest, longest * ratio) if ratio < 1 else (longest / ratio, longest)
     return max(width + 1.8, 5.6), max(height + 1.6, 3.4)
@@ -195,6 +197,21 @@ def window(result: Result) -> tuple[Span, Span]:
         low, high = ((end - np.sign(end)) * tips + np.sign(end) for end in span)
         spans.append((max(low * sides, float(axis[0])), min(high * sides, float(axis[-1]))))
     return spans[0], spans[1]
+
+
+def stretched(result: Result) -> float:
+    """Return the scale of y over that of x on maps: one unless the window is slender."""
+    true = slenderness(result)
+    return float(np.clip(true, 1.0 / _DRAWN, _DRAWN)) / true
+
+
+def shape(result: Result) -> float:
+    """Return the height of a map over its width, as drawn."""
+    return slenderness(result) * stretched(result)
+
+
+def _stretch_in_words(stretch: float) -> str:
+    return f"stretched {stretch:.2g}:1" if stretch > 1 else f"compressed 1:{1 / stretch:.2g}"
 
 
 def slenderness(result: Result) -> float:
@@ -227,12 +244,17 @@ def centre_row(result: Result) -> int:
 
 
 def dress_contact(axes: Axes, result: Result) -> None:
-    """Give axes micrometres, equal aspect, the window and the Hertz ellipse of ``result``."""
+    """Give axes micrometres, the window and the Hertz ellipse of ``result``.
+
+    The aspect is equal, and of a slender contact stretched so that its map can be read.
+    """
     widths = (result.scales.half_width_x * MICRO, result.scales.half_width_y * MICRO)
     x, y = ((low * a, high * a) for (low, high), a in zip(window(result), widths, strict=True))
-    axes.set_aspect("equal")
-    axes.set(xlabel="x along entrainment [µm]", ylabel="y [µm]", xlim=x, ylim=y)
-    slender = np.ptp(y) / np.ptp(x)
+    stretch = stretched(result)
+    axes.set_aspect(stretch)
+    label = "y [µm]" if stretch == 1.0 else f"y [µm], {_stretch_in_words(stretch)}"
+    axes.set(xlabel="x along entrainment [µm]", ylabel=label, xlim=x, ylim=y)
+    slender = shape(result)
     axes.xaxis.set_major_locator(MaxNLocator(3 if slender > 2 else 8, steps=STEPS))
     axes.yaxis.set_major_locator(MaxNLocator(3 if slender < 0.5 else 8, steps=STEPS))
     style: dict[str, Any] = {"color": "white", "ls": "--", "lw": 1.1, "zorder": 5}
@@ -258,7 +280,8 @@ def legend_above(axes: Axes, *others: Line2D) -> None:
 
 def colour_axes(axes: Axes) -> Axes:
     """Return axes for a colour bar at the right of a map, as tall as the map."""
-    thick = 0.045 * max(float(np.ptp(axes.get_ylim()) / np.ptp(axes.get_xlim())), 1.0)
+    drawn = float(np.ptp(axes.get_ylim()) / np.ptp(axes.get_xlim())) * float(axes.get_aspect())
+    thick = 0.045 * max(drawn, 1.0)
     return axes.inset_axes((1.0 + 0.8 * thick, 0.0, thick, 1.0))
 
 

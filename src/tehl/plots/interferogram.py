@@ -10,7 +10,7 @@ Colours are the spectrum under the CIE 1931 observer, turned into sRGB.
 """
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -130,7 +130,8 @@ def interferogram(
     axes = map_axes(result, chosen.caption(), ax=ax, title=title)
     extent = (x[0] * MICRO, x[-1] * MICRO, y[0] * MICRO, y[-1] * MICRO)
     limits = {"xlim": axes.get_xlim(), "ylim": axes.get_ylim()}
-    axes.imshow(colours(thickness, chosen), extent=extent, origin="lower", interpolation="bilinear")
+    style: dict[str, Any] = {"origin": "lower", "interpolation": "bilinear"}
+    axes.imshow(colours(thickness, chosen), extent=extent, aspect=axes.get_aspect(), **style)
     axes.set(**limits)
     return figure_of(axes)
 

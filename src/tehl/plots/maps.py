@@ -27,7 +27,7 @@ from tehl.plots.frame import (
     map_axes,
     mark_levels,
     nice_levels,
-    slenderness,
+    shape,
     window_part,
     window_places,
 )
@@ -59,7 +59,7 @@ def film_map(result: Result, *, ax: Axes | None = None, title: bool | None = Tru
     inner, outer = film_levels(low, central)
     lines = axes.contour(*places, film, levels=inner, colors="white", linewidths=0.7)
     outside = axes.contour(*places, film, levels=outer, colors="black", linewidths=0.5, alpha=0.6)
-    if 0.5 < slenderness(result) < 2.0:  # slender contacts have no room for labels
+    if 0.5 < shape(result) < 2.0:  # slender contacts have no room for labels
         axes.clabel(lines, inner[1::2], fontsize=7, fmt="%.3g")
         axes.clabel(outside, fontsize=7, fmt="%.3g")
     legend_above(axes, *_mark_minimum(axes, result))
@@ -199,7 +199,7 @@ def micro_film_map(
     ripples = micro_film(result, smooth)
     contact = in_contact(result, 1.0 if ripples.by_reference else FILTERED)
     part, places = window_part(result), window_places(result)
-    side_by_side = slenderness(result) > 0.5
+    side_by_side = shape(result) > 0.5
     picture = figure(result, (9.6, 5.2) if side_by_side else (6.4, 6.4), title=title)
     panels = picture.subplots(*((1, 2) if side_by_side else (2, 1)))
     less = "less that of smooth surfaces" if ripples.by_reference else "less its long waves"

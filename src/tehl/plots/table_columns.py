@@ -101,16 +101,33 @@ def numbers(table: "pd.DataFrame", name: str) -> Column:
 
 
 def certified(rows: "pd.DataFrame", column: Column) -> tuple[Column, Array | None]:
-    """Return a column with certified values where there are any, and its error bars."""
+    """Return a column with certified values where there are any, and its error bars.
+
+    The bar of a film that is not certified is the estimated error of its grid.
+    """
     name = f"uncertainty.{column.name}"
+    estimated = _estimated(rows, column)
     if f"{name}.value" not in rows:
-        return column, None
+        return column, estimated
     known, bars = (
         rows[f"{name}.{part}"].to_numpy(np.float64, na_value=np.nan)
         for part in ("value", "uncertainty")
     )
     values = np.where(np.isfinite(known), known * column.factor, column.values)
-    return replace(column, values=values), np.nan_to_num(bars) * abs(column.factor)
+    fallback = np.zeros(len(rows)) if estimated is None else estimated
+    bars = np.where(np.isfinite(bars), bars * abs(column.factor), fallback)
+    return replace(column, values=values), bars
+
+
+def _estimated(rows: "pd.DataFrame", column: Column) -> Array | None:
+    """Return the estimated discretisation errors of a column of films, None for other columns."""
+    which = {"film.h_c": "central", "film.H_c": "central", "film.h_m": "minimum"}
+    which["film.H_m"] = "minimum"
+    error = f"errors.discretisation_{which.get(column.name[:8])}"
+    if error not in rows:
+        return None
+    relative = rows[error].to_numpy(np.float64, na_value=np.nan)
+    return np.nan_to_num(np.abs(relative * column.values))
 
 
 def converged(table: "pd.DataFrame") -> "pd.DataFrame":

@@ -36,7 +36,7 @@ from tehl.plots.frame import (
     inner_levels,
     map_axes,
     mark_levels,
-    slenderness,
+    shape,
     span_part,
     window,
     window_part,
@@ -105,7 +105,7 @@ def temperature_layers(result: Result, *, title: bool | None = True) -> Figure:
     """Draw the temperature rise on both surfaces and on layers between, in one scale of colours."""
     found = _heat_of(result)[1]
     layers = _layers(result)
-    slender = slenderness(result)
+    slender = shape(result)
     columns = 2 if slender < 0.5 else 3 if slender < 2.0 else 6
     rows = len(layers) // columns
     width = 6.6 / columns

@@ -54,6 +54,7 @@ class StudyFile(Table):
     keep: Keep = "summary"
     warm_start: StrictBool = False
     store: str | None = None
+    one_domain: StrictBool = True
     largest: Annotated[int, Field(ge=1)] | None = None
     pictures: list[Picture] = Field(default_factory=list)
 
@@ -118,7 +119,7 @@ def plan_of(
     overrides, unlimited
         As of :func:`read_study`; an invalid study raises an InputError or ValueError.
     """
-    groups = groups_of(stated.axes)
+    groups = groups_of([axis.with_values(folder) for axis in stated.axes])
     listed = () if stated.cases is None else (block_of_file(folder / stated.cases),)
     count = math.prod(count_of(group, stated.sample) for group in groups)
     count *= math.prod(len(block.rows) for block in listed)
@@ -137,6 +138,7 @@ def plan_of(
         keep=stated.keep,
         warm_start=stated.warm_start,
         store=None if stated.store is None else folder / stated.store,
+        one_domain=stated.one_domain,
         pictures=pictures,
     )
 
