@@ -8,6 +8,8 @@ that close a circle; nothing else below `tehl.io` may import it.
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from tehl.headline import as_html, as_line
+
 if TYPE_CHECKING:
     import xarray as xr
 
@@ -37,12 +39,8 @@ class Saved:
 
     def __repr__(self: Any) -> str:
         """Return the main numbers in one line."""
-        from tehl.io.headline import as_line  # noqa: PLC0415
-
-        return as_line(self)
+        return as_line(type(self).__name__, self.summary())
 
     def _repr_html_(self: Any) -> str:
         """Return the main numbers as a table, for notebooks."""
-        from tehl.io.headline import as_html  # noqa: PLC0415
-
-        return as_html(self)
+        return as_html(self.summary())

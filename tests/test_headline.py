@@ -19,7 +19,7 @@ def test_a_result_is_one_short_line(result, stalled):
 
 def test_a_result_without_a_film_has_no_values(stalled):
     none = replace(stalled.film_scaled, minimum=-0.1)
-    assert "film none, the last iterate is not positive" in repr(replace(stalled, film_scaled=none))
+    assert "minimum film none" in repr(replace(stalled, film_scaled=none))
 
 
 def test_a_transient_result_shows_its_extremes():
