@@ -3,8 +3,10 @@
 import pandas as pd
 import pytest
 
+from tehl.domain import recommended_domain
 from tehl.errors import InputError
 from tehl.options import Domain
+from tehl.scaling import groups
 from tehl.studies import read_study, study_of
 from tehl.studies.sheet import check_sheet, sheet, write_sheet
 
@@ -107,15 +109,17 @@ def test_an_axis_takes_its_values_from_a_column_of_a_file(tmp_path):
             planned(tmp_path, f'file = "{name}"')
 
 
-SPEEDS = 'values = ["0.8 m/s", "1.5 m/s", "2.5 m/s"]'  # M = 121, 76 and 51
+SPEEDS = 'values = ["0.1 m/s", "1.5 m/s", "10 m/s"]'
 
 
 def test_cases_along_one_axis_share_a_domain_unless_told_otherwise(tmp_path):
-    shared = {case.options.domain for case in planned(tmp_path, SPEEDS)}
-    assert shared == {Domain(x=(-6.5, 1.5), y=(-4.0, 4.0))}
+    cases = planned(tmp_path, SPEEDS)
+    thick = recommended_domain(groups(cases[-1].problem), cases[-1].options.target)
+    assert {case.options.domain for case in cases} == {thick}
+    assert {case.options.edges for case in cases} == {"far_field"}
     own = {case.options.domain for case in planned(tmp_path, SPEEDS, "one_domain = false")}
     assert own == {"auto"}
-    wide = 'values = ["0.1 m/s", "1.5 m/s", "10 m/s"]'
+    wide = 'values = ["0.1 m/s", "1.5 m/s", "60 m/s"]'
     assert {case.options.domain for case in planned(tmp_path, wide)} == {"auto"}
     stated = "numerics = { domain = { x = [-5, 2], y = [-3, 3] } }"
     assert {case.options.domain for case in planned(tmp_path, SPEEDS, numerics=stated)} == {

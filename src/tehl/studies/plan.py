@@ -10,7 +10,7 @@ from typing import Any, get_args
 
 from pydantic import BaseModel
 
-from tehl.domain import recommended_domain
+from tehl.domain import domain_of
 from tehl.errors import InputError
 from tehl.io.case import case_from_tables
 from tehl.options import Domain, Options, check_certifiable
@@ -94,14 +94,20 @@ def _on_one_domain(cases: list[Case]) -> list[Case]:
     """
     if any(isinstance(case.options.domain, Domain) for case in cases):
         return cases
-    found = {recommended_domain(groups(case.problem)) for case in cases}
+    found = {domain_of(groups(case.problem), case.options) for case in cases}
     ends = [(*one.x, *one.y) for one in found]
     spans = [[abs(end) for end in edge] for edge in zip(*ends, strict=True)]
     if len(found) == 1 or any(max(span) > _WIDEST * min(span) for span in spans):
         return cases
     west, east, south, north = (max(span) for span in spans)
-    options = {"domain": Domain(x=(-west, east), y=(-south, north))}
-    return [replace(case, options=case.options.model_copy(update=options)) for case in cases]
+    domain = Domain(x=(-west, east), y=(-south, north))
+    return [replace(case, options=_on_domain(case.options, domain)) for case in cases]
+
+
+def _on_domain(options: Options, domain: Domain) -> Options:
+    """Return options with a domain that counts as recommended: with the far field on its edges."""
+    edges = "far_field" if options.edges == "auto" else options.edges
+    return options.model_copy(update={"domain": domain, "edges": edges})
 
 
 def _case(plan: Plan, rows: tuple[int, ...], units: dict[str, str]) -> Case:
