@@ -12,6 +12,8 @@ sys.path.insert(0, str(HERE))
 
 import figures  # noqa: E402
 import gallery  # noqa: E402
+import notebook  # noqa: E402
+import samples  # noqa: E402
 
 import tehl  # noqa: E402
 
@@ -32,7 +34,9 @@ myst_heading_anchors = 3
 napoleon_google_docstring = False
 napoleon_use_ivar = True
 napoleon_use_rtype = False
-autodoc_typehints = "none"
+autodoc_typehints = "signature"
+autodoc_typehints_format = "short"
+python_maximum_signature_line_length = 90
 autodoc_member_order = "bysource"
 toc_object_entries_show_parents = "hide"
 exclude_patterns = ["_build"]
@@ -91,3 +95,5 @@ def setup(app: Any) -> None:
 
 figures.make(HERE / "theory" / "figures")
 gallery.make(HERE.parent / "examples", HERE / "gallery")
+samples.make(HERE / "samples", gallery.newest(HERE / "samples.py"))
+notebook.make(HERE.parent / "examples" / "tutorial.ipynb", HERE / "tutorials" / "notebook.md")

@@ -48,3 +48,28 @@ def test_only_exports_are_listed():
 def test_an_unknown_export_is_an_attribute_error():
     with pytest.raises(AttributeError, match="nonsense"):
         _ = tehl.nonsense
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "sentence"),
+    [
+        ("Options", {"points": 7}, "Options.points = 7: must be a whole number from 17 to 16385"),
+        ("Contact", {"lod": 80}, "Contact.lod is not a known key; did you mean load?"),
+        ("ContactProblem", {}, "ContactProblem.contact is missing"),
+    ],
+)
+def test_a_mistake_of_a_call_is_one_sentence(name, values, sentence):
+    with pytest.raises(tehl.InputError) as caught:
+        getattr(tehl, name)(**values)
+    assert str(caught.value) == sentence
+
+
+def test_modules_of_post_and_pictures_are_reachable_and_loaded_on_use():
+    script = (
+        "import sys, tehl; tehl.post.film.profile_x; print('matplotlib' in sys.modules); "
+        "tehl.plots.film_map; print('matplotlib' in sys.modules)"
+    )
+    assert fresh(script).split() == ["False", "True"]
+    assert dir(tehl.post) == sorted(tehl.post.__all__)
+    with pytest.raises(AttributeError, match="nonsense"):
+        _ = tehl.post.nonsense

@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
+from tehl.errors import InputError
 from tehl.heat import FilmEnergy, source_form
 from tehl.problem import ContactProblem, Surface
 from tehl.scaling import groups
@@ -267,5 +268,5 @@ def test_ra_of_a_surface_becomes_rq():
     found = Surface.model_validate({"material": "100Cr6", "ra_roughness": "0.1 um"})
     assert found.rms_roughness == pytest.approx(0.1253e-6, rel=1e-3)
     assert Surface.model_validate_json(found.model_dump_json()) == found
-    with pytest.raises(ValidationError, match="states ra_roughness and rms_roughness"):
+    with pytest.raises(InputError, match="states ra_roughness and rms_roughness"):
         Surface(material="steel", ra_roughness=1e-7, rms_roughness=1e-7)

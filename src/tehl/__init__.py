@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from tehl.version import SOLVER_VERSION, __version__
 
 if TYPE_CHECKING:
-    from tehl import plots, studies
+    from tehl import plots, post, studies
     from tehl.errors import FileFormatError, InputError, TehlError
     from tehl.io.case import read_case, read_case_and_options
     from tehl.io.store import load
@@ -49,6 +49,7 @@ __all__ = [
     "material",
     "oil",
     "plots",
+    "post",
     "read_case",
     "read_case_and_options",
     "solve",
@@ -78,7 +79,7 @@ _HOMES = {
 
 def __getattr__(name: str) -> Any:
     """Load an export from its module."""
-    if name in ("plots", "studies"):
+    if name in ("plots", "post", "studies"):
         return import_module(f"tehl.{name}")
     if name not in _HOMES:
         raise AttributeError(f"module 'tehl' has no attribute {name!r}")

@@ -9,6 +9,9 @@ References
 .. [2] R. J. Chittenden, D. Dowson, J. F. Dunn and C. M. Taylor, Proc. R. Soc. A 397 (1985),
    245-294.
 .. [3] G. Nijenbanning, C. H. Venner and H. Moes, Wear 176 (1994), 217-229.
+.. [4] T. E. Tallian, ASLE Transactions 10 (1967), 418-439.
+.. [5] B. J. Hamrock, S. R. Schmid and B. O. Jacobson, Fundamentals of Fluid Film Lubrication,
+   2nd ed. (2004), chapter 3.
 """
 
 import math
@@ -22,6 +25,9 @@ Regime = Literal[
     "rigid-isoviscous", "elastic-isoviscous", "rigid-piezoviscous", "elastic-piezoviscous"
 ]
 
+Lubrication = Literal["boundary", "mixed", "full film"]
+FULL_FILM, BOUNDARY = 3.0, 1.0
+"""Lambda from which the film separates the surfaces, and below which asperities carry the load."""
 
 WIDE, SLENDER = 0.7, 1.4
 """R_x/R_y below and above which the formulas for the minimum film lose accuracy.
@@ -185,6 +191,16 @@ def regime(groups: Groups) -> Regime:
     if expected_central_film(groups) < 1.0:
         return "elastic-piezoviscous" if piezoviscous else "elastic-isoviscous"
     return "rigid-piezoviscous" if piezoviscous else "rigid-isoviscous"
+
+
+def lubrication(lambda_central: float) -> Lubrication:
+    """Return in words how far a film separates the asperities, by lambda of the central film [4]_.
+
+    The limits are those of the textbooks [5]_: 1 and 3.
+    """
+    if lambda_central >= FULL_FILM:
+        return "full film"
+    return "mixed" if lambda_central >= BOUNDARY else "boundary"
 
 
 FORMULAS = (

@@ -5,7 +5,8 @@ right. `tehl.io.case` turns them into `InputError` with the name of the file.
 """
 
 import math
-from typing import Self
+from importlib import import_module
+from typing import Any, Self
 
 from pydantic import model_validator
 
@@ -46,6 +47,14 @@ class ContactProblem(PointContact):
     def _check(self) -> Self:
         check(self)
         return self
+
+    def explain(self, options: Any = None) -> Any:
+        """Return what ``tehl explain`` prints, a :class:`tehl.report.explain.Explanation`.
+
+        ``options`` are the :class:`tehl.Options` of the solve; the defaults if left out.
+        """
+        # By name, when called: the explanation stands on many floors above the problem.
+        return import_module("tehl.report.explain").explain(self, options)
 
 
 def check(problem: PointContact) -> None:

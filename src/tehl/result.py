@@ -10,7 +10,7 @@ from tehl.saved import Saved
 from tehl.solution import Solution
 
 
-@dataclass(frozen=True, kw_only=True, slots=True)
+@dataclass(frozen=True, kw_only=True, slots=True, repr=False)
 class Result(Saved, Solution):
     """Result of one steady solve."""
 

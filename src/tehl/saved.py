@@ -1,4 +1,4 @@
-"""What steady and transient results have in common: they are saved, summarised and exported.
+"""What steady and transient results have in common: they are saved, summarised and shown.
 
 Users expect these methods on the object itself, and reading a file makes such an object, so that
 `tehl.io` needs both classes. This module is therefore the only one with imports inside functions
@@ -7,6 +7,8 @@ that close a circle; nothing else below `tehl.io` may import it.
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from tehl.headline import as_html, as_line
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -34,3 +36,11 @@ class Saved:
         from tehl.io.summary import summary  # noqa: PLC0415
 
         return summary(self)
+
+    def __repr__(self: Any) -> str:
+        """Return the main numbers in one line."""
+        return as_line(type(self).__name__, self.summary())
+
+    def _repr_html_(self: Any) -> str:
+        """Return the main numbers as a table, for notebooks."""
+        return as_html(self.summary())

@@ -93,7 +93,7 @@ class HistoryBars:
     """Of the largest pressure [Pa]."""
 
 
-@dataclass(frozen=True, kw_only=True, slots=True)
+@dataclass(frozen=True, kw_only=True, slots=True, repr=False)
 class TransientResult(Saved):
     """Result of one transient solve."""
 

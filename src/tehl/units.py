@@ -9,11 +9,23 @@ import math
 import re
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Annotated, Any, Literal
+from importlib import import_module
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    GetCoreSchemaHandler,
+    GetJsonSchemaHandler,
+    ValidationError,
+)
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
+
+if TYPE_CHECKING:
+    from pydantic._internal._model_construction import ModelMetaclass
+else:
+    ModelMetaclass = type(BaseModel)  # pydantic does not export it
 
 Dimension = tuple[int, int, int, int]
 """Exponents of metre, kilogram, second, kelvin."""
@@ -78,7 +90,18 @@ _FACTOR = re.compile(
 _SUPERSCRIPTS = str.maketrans({"²": "^2", "³": "^3", "⁻": "-", "¹": "1"})
 
 
-class Table(BaseModel):
+class _OneSentence(ModelMetaclass):
+    """Class of tables: a mistake of a call in Python is an InputError of one sentence."""
+
+    def __call__(self, *args: Any, **values: Any) -> Any:
+        try:
+            return super().__call__(*args, **values)
+        except ValidationError as error:
+            # By name, after a mistake: its sentences know all tables.
+            raise import_module("tehl.io.mistakes").of_call(error, values, self) from None
+
+
+class Table(BaseModel, metaclass=_OneSentence):
     """Base of the tables of a case or study file: constant, without unknown keys."""
 
     model_config = ConfigDict(

@@ -1,6 +1,7 @@
 """The command as a user meets it: output, exit codes, and what it does not load."""
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -167,3 +168,19 @@ def test_python_runs_the_package_as_the_command():
     command = [sys.executable, "-m", "tehl", "--version"]
     done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
     assert done.stdout.startswith("tehl ")
+
+
+def _completing(tmp_path: Path, *arguments: str, **environment: str):
+    """Run ``tehl`` with another home and no detection of the shell."""
+    names = {"HOME": str(tmp_path), "_TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION": "1"}
+    command = [sys.executable, "-c", "from tehl.cli import main; main()", *arguments]
+    env = os.environ | names | environment
+    return subprocess.run(command, capture_output=True, text=True, env=env, check=False, timeout=60)
+
+
+def test_the_shell_completes_subcommands_once_installed(tmp_path):
+    done = _completing(tmp_path, "--install-completion", "bash")
+    assert done.returncode == 0, done.stderr
+    assert "_TEHL_COMPLETE" in (tmp_path / ".bash_completions" / "tehl.sh").read_text()
+    words = {"COMP_WORDS": "tehl so", "COMP_CWORD": "1", "_TEHL_COMPLETE": "complete_bash"}
+    assert _completing(tmp_path, **words).stdout.split() == ["solve"]

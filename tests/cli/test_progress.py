@@ -7,8 +7,15 @@ from collections.abc import Callable
 
 import pytest
 
-from tehl.cli.progress import StudyProgress, duration, progress, study_progress
+from tehl.cli.progress import (
+    StudyProgress,
+    compile_kernels,
+    duration,
+    progress,
+    study_progress,
+)
 from tehl.heat import Thermal
+from tehl.kernels.warmup import Progress as Compiling
 from tehl.studies import Row
 from tehl.transient_result import StepReport
 from tests.fixtures_result import make_result
@@ -151,3 +158,20 @@ def test_a_study_on_a_pipe_writes_a_line_now_and_then_and_names_failures(capsys)
 
 def test_a_time_is_shown_in_a_unit_that_suits():
     assert [duration(s) for s in (5, 600, 7200)] == ["5 s", "10 min", "2.0 h"]
+
+
+def test_compiling_shows_a_bar_that_fits_80_columns(terminal, monkeypatch):
+    def warm_up(*, coupled: bool, report: Callable[[Compiling], None]) -> None:
+        assert coupled
+        names = ("relaxation of points", "march of the energy equation", "summation of patches")
+        report(Compiling(done=3, total=12, names=names, seconds_left=40.0))
+
+    monkeypatch.setattr("tehl.kernels.cache.is_cold", lambda **_: True)
+    monkeypatch.setattr("tehl.kernels.warmup.warm_up", warm_up)
+    shown = terminal()
+    compile_kernels(coupled=True)
+    lines = plain(shown.getvalue())
+    bar = next(line for line in lines if "compiling once, 3 of 12 done" in line)
+    assert len(bar.partition(" 40 s left")[0].strip()) >= 5
+    assert "40 s left" in bar
+    assert all(len(line) <= 80 for line in lines)

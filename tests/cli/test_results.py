@@ -69,6 +69,27 @@ def test_plots_land_in_the_folder(stored, run, monkeypatch):
     assert [p.name for p in (stored.parent / "pictures").iterdir()] == ["film.png"]
 
 
+def test_one_picture_lands_in_a_file_of_any_format(stored, run):
+    target = stored.parent / "film.svg"
+    done = run("plot", str(stored), "-o", str(target), "--only", "film", "--no-title")
+    assert done.out == f"{target}\n"
+    assert target.read_text().startswith("<?xml")
+    several = run("plot", str(stored), "-o", str(target), "--only", "film,pressure")
+    assert several.code == 2
+    assert "a file holds one picture, and 2 are asked for; choose one by --only" in several.err
+
+
+def test_pictures_are_listed_chosen_and_drawn_in_a_format(stored, run):
+    names = run("plot", str(stored), "--list").out.split()
+    assert names[:2] == ["film", "pressure"]
+    assert not (stored.parent / "ball_plots").exists()
+    assert run("plot", str(stored), "--only", "film", "--format", "pdf").code == 0
+    assert [path.name for path in (stored.parent / "ball_plots").iterdir()] == ["film.pdf"]
+    done = run("plot", str(stored), "--only", "temperature")
+    assert done.code == 2
+    assert "picture temperature: unknown; the result has film" in done.err
+
+
 def test_the_report_lands_beside_the_result(stored, run, monkeypatch):
     monkeypatch.setattr("tehl.report.page.CAPTIONS", {})
     assert run("report", str(stored)).code == 0

@@ -75,9 +75,11 @@ def test_the_effect_of_heat_names_its_formulas(thermal):
     assert "formula" not in as_text(thermal, bare)
 
 
-def test_a_rough_run_has_its_lambda_ratio_and_the_rest_of_its_wave(rough, smooth):
+def test_a_rough_run_has_lambda_its_regime_and_the_rest_of_its_wave(rough, smooth):
     lines = {line[2:19].strip(): line[19:] for line in as_text(rough).splitlines()[1:]}
-    assert f"lambda = {rough.roughness.lambda_ratio:.3g} " in lines["roughness"]
+    found = rough.roughness
+    by_both = f"{found.lambda_central:.3g} by the central film, {found.lambda_minimum:.3g} by the"
+    assert lines["lambda"] == f"{by_both} minimum film: full film (at least 3, Tallian 1967)"
     assert " at 45 deg: " in lines["waves left"]
     assert "20 % in the film (theory" in as_text(
         rough, Comparisons(rough_film=rough_film(rough, smooth))

@@ -6,13 +6,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from matplotlib.patches import Ellipse
 from matplotlib.text import Text
 
 from tehl import plots
+from tehl.errors import InputError
 from tehl.io.store import save
 from tehl.plots import PICTURES
 from tehl.plots.maps import film_levels
+from tehl.solution import Status
+from tests.fixtures_result import CASE, make_result
+from tests.fixtures_transient import make_transient
 
 MAPS = ("film_map", "pressure_map", "interferogram")
 
@@ -31,6 +36,19 @@ def test_maps_show_the_contact_in_equal_aspect(result, name):
     assert rims[0].width == pytest.approx(2e6 * result.scales.half_width_x)
     assert axes.get_aspect() == 1.0
     assert "µm" in axes.get_xlabel()
+
+
+@pytest.mark.parametrize("name", MAPS)
+@pytest.mark.parametrize(("radius_y", "word"), [(0.4, "compressed"), (0.004, "stretched")])
+def test_maps_of_slender_contacts_are_stretched_and_say_so(name, radius_y, word):
+    contact = CASE["contact"] | {"radius_x": 0.02, "radius_y": radius_y}
+    del contact["radius"]
+    axes = getattr(plots, name)(make_result(case={**CASE, "contact": contact})).axes[0]
+    axes.figure.draw_without_rendering()
+    place = axes.get_position()
+    shape = place.height * axes.figure.get_figheight() / (place.width * axes.figure.get_figwidth())
+    assert 0.6 < shape < 1.65
+    assert word in axes.get_ylabel()
 
 
 @pytest.mark.parametrize("draw", PICTURES.values(), ids=PICTURES)
@@ -80,6 +98,50 @@ def test_a_non_finite_state_is_still_drawn(stalled):
     broken = replace(stalled, scaled=fields, film_scaled=numbers)
     for draw in PICTURES.values():
         draw(broken).draw_without_rendering()
+
+
+ONE_AXES = (
+    *("film_map", "pressure_map", "shear_stress_map", "heights_map", "mid_film_temperature"),
+    *("interferogram", "film_distribution", "residual_history"),
+)
+
+
+@pytest.mark.parametrize("name", ONE_AXES)
+def test_a_picture_with_one_axes_draws_into_given_ones(name, result, rough, sheared, thermal):
+    of = {"shear_stress_map": sheared, "heights_map": rough, "film_distribution": rough}
+    run = thermal if "temperature" in name else of.get(name, result)
+    figure = Figure()
+    left, right = figure.subplots(1, 2)
+    assert getattr(plots, name)(run, ax=right) is figure
+    assert right.has_data()
+    assert not left.has_data()
+    assert "Ball on disc" not in texts(figure)
+    failed = replace(run, status=Status(kind="stalled", cause="grid_too_coarse"))
+    getattr(plots, name)(failed, ax=left)
+    assert "NOT CONVERGED: stalled: grid too coarse" in texts(figure)
+
+
+@pytest.mark.parametrize("title", [False, None])
+def test_each_picture_leaves_out_its_title(title, thermal, rough):
+    for run in (replace(thermal, shear=None), rough, make_transient()):
+        for draw in plots.pictures_of(run).values():
+            assert draw(run, title=title)._suptitle is None
+
+
+def test_a_notebook_shows_a_picture_as_it_is(result):
+    picture = plots.film_map(result)
+    assert picture._repr_png_().startswith(b"\x89PNG")
+    assert not hasattr(picture, "number")  # pyplot, which would show it again, does not know it
+
+
+@pytest.mark.parametrize(("ending", "begin"), [("pdf", b"%PDF"), ("svg", b"<?xml")])
+def test_chosen_pictures_are_saved_as_vectors(result, tmp_path, ending, begin):
+    pictures = plots.chosen(plots.pictures_of(result), ["residuals", "film"])
+    paths = plots.save_all(result, tmp_path, pictures=pictures, ending=ending)
+    assert [path.name for path in paths] == [f"residuals.{ending}", f"film.{ending}"]
+    assert all(path.read_bytes().startswith(begin) for path in paths)
+    with pytest.raises(InputError, match="picture heights: unknown; the result has film, "):
+        plots.chosen(plots.pictures_of(result), ["heights"])
 
 
 def test_an_empty_history_is_reported(result):

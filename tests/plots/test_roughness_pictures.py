@@ -74,5 +74,5 @@ def test_a_smooth_result_raises_an_input_error(result, draw):
 
 def test_pictures_use_the_reference_run_that_is_given(rough, smooth, tmp_path, monkeypatch):
     monkeypatch.setattr("tehl.plots.PICTURES", {})
-    paths = plots.save_all(rough, tmp_path, dpi=40, smooth=smooth)
+    paths = plots.save_all(rough, tmp_path, dpi=40, pictures=pictures_of(rough, smooth))
     assert [path.stem for path in paths] == list(OURS)

@@ -52,6 +52,42 @@ def test_a_curve_runs_along_x_with_certified_values_and_their_bars(table):
     assert figure.get_supxlabel() == "1 of 6 cases failed and are left out"
 
 
+def test_an_axis_that_is_not_named_distinguishes_curves(table):
+    first, second = drawn(curves(table, "contact.load", "film.h_min_m"))
+    assert first[0] == [20.0, 40.0, 80.0]
+    assert second[0] == [20.0, 80.0]
+
+
+def test_cases_that_no_column_distinguishes_are_points_without_a_line(table):
+    plain = table.drop(columns=["lubricant.shear"])
+    bars = curves(plain, "contact.load", "film.h_min_m").axes[0].containers
+    assert [bar.lines[0].get_linestyle() for bar in bars] == ["None"]
+
+
+def test_samples_are_points_without_a_line(table):
+    sampled = table.drop(columns=["lubricant.shear"])[:3].assign(speed=[1.0, 2.0, 3.0])
+    sampled.insert(1, "contact.entrainment_speed", sampled.pop("speed"))
+    bars = curves(sampled, "contact.load", "film.h_min_m").axes[0].containers
+    assert [bar.lines[0].get_linestyle() for bar in bars] == ["None"]
+    zipped = sampled.assign(**{"contact.entrainment_speed": [3.0, 1.0, 2.0]})
+    bars = curves(zipped, "contact.load", "film.h_min_m").axes[0].containers
+    assert [bar.lines[0].get_linestyle() for bar in bars] == ["-"]
+
+
+def test_the_bar_of_a_film_that_is_not_certified_is_the_error_of_its_grid(table):
+    uncertified = table[[n for n in table if not n.startswith("uncertainty")]]
+    uncertified = uncertified.assign(**{"errors.discretisation_minimum": 0.05})
+    uncertified.attrs = table.attrs
+    bars = curves(uncertified, "contact.load", "film.h_min_m").axes[0].containers[0]
+    segments = bars.lines[2][0].get_segments()
+    assert np.ptp(segments[0][:, 1]) == pytest.approx(2 * 0.05 * 20.0)
+
+
+def test_curves_have_the_title_of_their_study(table):
+    axes = curves(table, "contact.load", "film.h_min_m", title="costs $5").axes[0]
+    assert axes.get_title() == r"costs \$5"
+
+
 def test_a_minus_turns_the_sign_and_short_names_suffice(table):
     figure = curves(table, "load", "-mid_film", hue="shear", log="xy")
     assert drawn(figure)[0][1] == pytest.approx([0.02, 0.04, 0.08])
@@ -101,7 +137,7 @@ def test_measured_points_are_converted_to_the_units_of_the_picture(table, tmp_pa
     figure = curves(table, "load", "h_min_m")
     overlay(figure, table, "load", "h_min_m", path=path)
     assert drawn(figure)[-2] == ([20.0], pytest.approx([21.0]))
-    assert figure.axes[0].get_legend_handles_labels()[1] == ["lab", "b"]
+    assert figure.axes[0].get_legend_handles_labels()[1][-2:] == ["lab", "b"]
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,8 @@
 """Pictures of a transient run: what they show, on which axes, and files that appear whole."""
 
+import base64
+import json
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -104,3 +107,15 @@ def test_a_run_without_fields_shows_its_line_at_all_steps():
 def test_a_frame_rate_of_zero_raises_an_input_error(tmp_path):
     with pytest.raises(InputError, match="per_second = 0: must be positive"):
         animate(make_transient(), tmp_path / "film.gif", per_second=0)
+
+
+def test_an_animated_page_holds_its_moments_and_needs_no_network(tmp_path):
+    run = make_transient()
+    problem = run.start.problem.model_copy(update={"title": "</title><b>bold</b> {braces}"})
+    animate(replace(run, start=replace(run.start, problem=problem)), tmp_path / "run.html", dpi=30)
+    page = (tmp_path / "run.html").read_text(encoding="utf-8")
+    moments = json.loads(re.search(r"const moments = (\[.*?\]);", page)[1])
+    assert len(moments) == len(run.frames.step)
+    assert all(base64.b64decode(one).startswith(b"\x89PNG") for one in moments)
+    assert not re.search(r"https?:|<link|src=\"(?!data)", page)
+    assert "<b>" not in page

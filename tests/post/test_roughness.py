@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from tehl.errors import InputError
+from tehl.film_formulas import lubrication
 from tehl.heat import Thermal
 from tehl.io.store import load_summary, save
 from tehl.io.summary import from_block, roughness_block
@@ -30,17 +31,24 @@ def test_sq_is_that_of_the_heights_in_the_contact(rough):
     assert found.sq[0] == 0.0
     # |X|, |Y| < 1 does not hold whole waves
     assert found.composite == pytest.approx(AMPLITUDE * unit / math.sqrt(2), rel=0.02)
-    assert found.lambda_ratio == pytest.approx(0.1 * math.sqrt(2) / AMPLITUDE, rel=0.02)
+    assert found.lambda_central == pytest.approx(0.1 * math.sqrt(2) / AMPLITUDE, rel=0.02)
     assert found.largest_pressure == rough.scaled.pressure.max()
     assert found.minimum_at == rough.film_scaled.minimum_at
 
 
-def test_a_stated_roughness_of_a_smooth_film_has_its_lambda_ratio(result):
+def test_a_stated_roughness_of_a_smooth_film_has_its_lambda_central(result):
     rms = {"surface_1": {"material": "steel", "rms_roughness": 3e-8},
            "surface_2": {"material": "steel", "rms_roughness": 4e-8}}  # fmt: skip
     found = rough_film(replace(result, problem=ContactProblem.model_validate({**CASE, **rms})))
     assert found.composite == pytest.approx(5e-8)
+    assert found.lambda_central == pytest.approx(result.film.central / 5e-8)
+    assert found.lambda_minimum == pytest.approx(result.film.minimum / 5e-8)
     assert found.waves == ()
+
+
+def test_the_regime_of_lubrication_follows_the_limits_of_the_textbooks():
+    words = [lubrication(value) for value in (0.99, 1.0, 2.99, 3.0)]
+    assert words == ["boundary", "mixed", "mixed", "full film"]
 
 
 def test_a_smooth_film_and_no_film_have_no_numbers(result, rough):

@@ -48,10 +48,10 @@ def test_the_initial_film_is_the_smooth_reference_of_each_field(run):
 def test_the_numbers_of_rough_films_are_those_of_the_snapshot(run):
     last = film_at(run)
     found = rough_film(last, smooth_start(run))
-    assert found.lambda_ratio == pytest.approx(
+    assert found.lambda_central == pytest.approx(
         run.history.film_central[-1] / found.composite, rel=0.2
     )
-    assert area_below(last, 2.0 * found.lambda_ratio * found.composite) == pytest.approx(1.0)
+    assert area_below(last, 2.0 * found.lambda_central * found.composite) == pytest.approx(1.0)
 
 
 def test_a_field_that_was_not_stored_is_an_error(run):

@@ -28,14 +28,14 @@ def test_smooth_surfaces_have_no_section():
     assert as_summary(case)["roughness"] is None
 
 
-def test_a_wave_has_its_sq_slope_and_lambda_ratio():
+def test_a_wave_has_its_sq_slope_and_lambda_central():
     case = explained(WAVE)
     found = case.roughness
     assert found.sq[0] == 0.0
     # 5.5 waves in the contact, so that the mean is not quite zero
     assert found.composite == pytest.approx(50e-9 / math.sqrt(2), rel=0.02)
     assert found.steepest == pytest.approx(2 * math.pi * 50e-9 / 80e-6, rel=0.02)
-    assert case.lambda_ratio == pytest.approx(case.central_film / found.composite)
+    assert case.lambda_central == pytest.approx(case.central_film / found.composite)
     assert case.questions == ()
     json.dumps(as_summary(case), allow_nan=False)
 
@@ -90,7 +90,7 @@ def test_a_bump_beside_a_stated_roughness_counts_both():
     case = explained(bump, surface_1=surface)
     assert case.roughness.sq[0] == 30e-9
     assert case.roughness.waves == ()
-    assert case.lambda_ratio == pytest.approx(case.central_film / case.roughness.composite)
+    assert case.lambda_central == pytest.approx(case.central_film / case.roughness.composite)
 
 
 ODD = [
@@ -142,7 +142,7 @@ def noisy(tmp_path):
 def test_what_a_grid_loses_is_explained_and_lambda_is_that_of_the_full_surface(noisy):
     case = explained(noisy, numerics={"points": 257})
     assert case.roughness.composite == pytest.approx(72.3e-9, rel=0.03)
-    assert case.lambda_ratio == pytest.approx(case.central_film / case.roughness.composite)
+    assert case.lambda_central == pytest.approx(case.central_film / case.roughness.composite)
     assert any("of the variance in waves too short" in question for question in case.questions)
     assert "of the variance is lost" in as_text(case)
     block = as_summary(case)["roughness"]["resolution"]
@@ -164,8 +164,8 @@ def test_what_begins_upstream_is_explained_as_it_passes(noisy):
     for roughness in (noisy | {"x": "-2 mm"}, [bump, noisy | {"x": "-2 mm"}]):
         case = explained(roughness, transient={})
         assert case.roughness.composite == pytest.approx(72.3e-9, rel=0.03)
-        assert 1 < case.lambda_ratio < 100
+        assert 1 < case.lambda_central < 100
         assert not [one for one in case.questions if "beside the contact" in one]
     standing = explained(noisy | {"x": "-2 mm"})
-    assert (standing.roughness.composite, standing.lambda_ratio) == (0.0, None)
+    assert (standing.roughness.composite, standing.lambda_central) == (0.0, None)
     assert any("lies beside the contact" in one for one in standing.questions)

@@ -10,6 +10,7 @@ import pytest
 
 from tehl.film_formulas import expected_central_film
 from tehl.io.case import case_from_tables
+from tehl.options import Options
 from tehl.report.explain import Explanation, as_summary, as_text, explain
 from tehl.report.readable import length
 from tests.cases import ball_tables
@@ -39,15 +40,29 @@ def test_the_numbers_are_those_of_the_case():
     )
     # |u| a / (2 diffusivity) with the diffusivity of steel, 46 / (7850 * 470) m^2/s
     assert case.peclet[0] == pytest.approx(1.5 * 219.7e-6 / (2 * 1.2468e-5), rel=1e-3)
-    assert case.lambda_ratio is None
+    assert case.lambda_central is case.lambda_minimum is case.lubrication is None
     assert case.domain == case.recommended_domain
     assert case.memory > 0
     assert case.seconds > 0
 
 
-def test_a_roughness_gives_a_lambda_ratio():
-    case = explained("surface_1.rms_roughness", "0.05 um")
-    assert case.lambda_ratio == pytest.approx(case.central_film / 0.05e-6)
+@pytest.mark.parametrize(
+    ("rms", "words"),
+    [
+        (0.05, "full film (at least 3"),
+        (0.2, "mixed lubrication (1 to 3"),
+        (2.0, "boundary lubrication (below 1"),
+    ],
+)
+def test_a_roughness_gives_lambda_by_both_films_and_the_regime_in_words(rms, words):
+    case = explained("surface_1.rms_roughness", f"{rms} um")
+    minimum = next(film.minimum_m for film in case.films if film.valid and film.minimum_m)
+    assert case.lambda_central == pytest.approx(case.central_film / (rms * 1e-6))
+    assert case.lambda_minimum == pytest.approx(minimum / (rms * 1e-6))
+    shown = (
+        f"{case.lambda_central:.3g} by the central film, {case.lambda_minimum:.3g} by the minimum"
+    )
+    assert f"{shown} film: {words}, Tallian 1967)\n" in as_text(case)
 
 
 def steel(**odd: float) -> dict[str, float]:
@@ -261,3 +276,11 @@ def test_an_estimated_pressure_coefficient_is_shown():
     assert numbers["pressure_coefficient_1_pa"] == pytest.approx(21.46e-9, rel=1e-3)
     assert numbers["pressure_coefficient_estimated"]
     assert "estimated by" not in as_text(explained())
+
+
+def test_a_problem_explains_itself():
+    case = explained()
+    found = case.scaled.problem.explain(case.options)
+    assert found == case
+    assert repr(found) == as_text(case)
+    assert case.scaled.problem.explain().domain == explain(case.scaled.problem, Options()).domain

@@ -1,19 +1,27 @@
 """The report of either kind of result: one file, everything in it, all text escaped."""
 
+import re
+import shutil
+import subprocess
 from dataclasses import replace
 from html.parser import HTMLParser
 
 import pytest
 
 from tehl.inlet_heating import InletFactor
+from tehl.materials import material
+from tehl.plots import pictures_of
 from tehl.post.micro_film import roughness_effect
 from tehl.post.thermal_effect import ThermalEffect
 from tehl.post.transient import largest_change
 from tehl.post.waves import passing_wave
+from tehl.problem import ContactProblem
 from tehl.report import page as module
 from tehl.report.page import report_text
 from tehl.report.readable import input_rows
-from tehl.solution import Status
+from tehl.solution import Estimate, Status
+from tests.fixtures_result import CASE
+from tests.fixtures_rough import make_rough
 from tests.fixtures_transient import make_certified, make_transient, passing
 from tests.post.test_transient import wave_case
 
@@ -63,7 +71,7 @@ def one_picture(monkeypatch):
 
 
 def test_pictures_are_embedded_and_all_links_are_local(page):
-    assert len(page.sources) == 7
+    assert len(page.sources) == 5
     assert all(source.startswith("data:image/png;base64,") for source in page.sources)
 
 
@@ -91,7 +99,7 @@ def test_a_thermal_run_has_sections_of_heat_and_traction(thermal, result):
 
 def test_pictures_of_heat_are_embedded(thermal):
     page = Page(report_text(thermal, dpi=30))
-    assert len(page.sources) == 12
+    assert len(page.sources) == 10
     assert any("plane y = 0" in word for word in page.words)
 
 
@@ -204,6 +212,60 @@ def test_inputs_carry_their_units(result):
     assert rows["surface_1.material.young_modulus"] == "206 GPa"
 
 
+def _with(result, **surface):
+    """Return a result with a table of surface 1 that states more."""
+    case = {**CASE, "surface_1": CASE["surface_1"] | surface}
+    return replace(result, problem=ContactProblem.model_validate(case))
+
+
+@pytest.mark.usefixtures("one_picture")
+@pytest.mark.parametrize(
+    ("rms", "regime"), [(3e-8, "Full film"), (1e-7, "Mixed"), (1e-6, "Boundary lubrication")]
+)
+def test_the_lubrication_regime_stands_above_the_result(result, rms, regime):
+    words = " ".join(Page(report_text(_with(result, rms_roughness=rms))).words)
+    assert 0 < words.index(f"{regime}") < words.index("largest pressure")
+    assert "valleys" not in words  # the surfaces were computed as smooth
+    bare = " ".join(Page(report_text(result)).words)
+    assert "No roughness is stated" in bare
+    assert regime not in bare
+
+
+@pytest.mark.usefixtures("one_picture")
+def test_a_certified_traction_stands_with_its_bar_in_the_first_table(sheared):
+    bar = Estimate(
+        value=-0.0412,
+        uncertainty=0.0013,
+        discretisation=0.0013,
+        domain=0.0,
+        observed_order=None,
+        values=(-0.04, -0.041),
+    )
+    run = replace(sheared, uncertainty={"traction_mid_film": bar})
+    words = " ".join(Page(report_text(run)).words)
+    assert words.index("-0.0412 ± 0.0013") < words.index("Pictures")
+
+
+def test_opaque_pairs_have_no_interferograms(result):
+    assert not any("interferogram" in name for name in pictures_of(result))
+    assert "interferogram_white" in pictures_of(_with(result, material="glass"))
+
+
+@pytest.mark.skipif(shutil.which("chromium") is None, reason="needs chromium")
+def test_the_fullest_report_prints_on_six_pages(thermal, tmp_path):
+    rough = make_rough(thermal.scaled.x.size)
+    glass = replace(thermal, heights=rough.heights, problem=rough.problem)
+    solids = glass.problem.surface_1.model_copy(update={"material": material("glass")})
+    glass = replace(glass, problem=glass.problem.model_copy(update={"surface_1": solids}))
+    glass = replace(glass, history=12 * glass.history)
+    page, printed = tmp_path / "report.html", tmp_path / "report.pdf"
+    page.write_text(report_text(glass, dpi=30), encoding="utf-8")
+    chromium = ("chromium", "--headless", "--no-sandbox", "--disable-gpu")
+    target = (f"--user-data-dir={tmp_path / 'home'}", f"--print-to-pdf={printed}", page.as_uri())
+    subprocess.run((*chromium, *target), check=True, capture_output=True)
+    assert 1 < len(re.findall(rb"/Type ?/Page\b", printed.read_bytes())) <= 6
+
+
 @pytest.mark.usefixtures("one_picture")
 def test_a_certified_value_stands_first_with_its_bar(certified):
     words = " ".join(Page(report_text(certified, dpi=40)).words)
@@ -238,7 +300,11 @@ def test_a_rough_film_has_a_section_with_its_waves_and_pictures(rough, smooth):
     effect = roughness_effect(rough, smooth)
     page = Page(report_text(rough, dpi=30, roughness=effect, smooth=smooth))
     words = " ".join(page.words)
-    assert "lambda ratio" in words
+    found = rough.roughness
+    assert (
+        f"λ = {found.lambda_central:.3g} by the central film, {found.lambda_minimum:.3g}" in words
+    )
+    assert "valleys along x" in words
     assert "left in the film" in words
     assert "(20 %)" in words
     assert "Film with roughness and without" in words

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 from scipy import fft
 
+from tehl.errors import InputError
 from tehl.roughness import Random, Sum, Wave
 
 LENGTH = 2e-5
@@ -166,12 +167,12 @@ def test_a_sum_is_resolved_part_by_part():
         ({"correlation_length": 1e-5, "correlation_length_y": 1e-200}, "1e-12 m and 1e[+]06 m"),
         ({"spectrum": "self-affine", "roll_off": 1e200}, r"roll_off = 1e\+200 m must lie between"),
         ({"correlation_length": 1e-7}, "not small beside correlation_length"),
-        ({"correlation_length": 1e-5, "seed": -1}, "greater than or equal to 0"),
-        ({"correlation_length": 1e-5, "seed": 1.5}, "valid integer"),
+        ({"correlation_length": 1e-5, "seed": -1}, "whole number from 0"),
+        ({"correlation_length": 1e-5, "seed": 1.5}, "whole number from 0"),
     ],
 )
 def test_wrong_spectra_are_reported(keys, words):
-    with pytest.raises(ValidationError, match=words):
+    with pytest.raises(InputError, match=words):
         Random(rms=1e-7, **keys)
 
 

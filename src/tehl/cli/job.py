@@ -171,7 +171,7 @@ def _show(result: Result | TransientResult, compared: Comparisons, job: Job) -> 
     if compared.smooth is not None:
         typer.echo(f"written: {smooth_file(job.target)}", err=True)
     if job.plot is not None:
-        from tehl.plots import save_all
+        from tehl.plots import pictures_of, save_all
 
-        for path in save_all(result, job.plot, smooth=compared.smooth):
+        for path in save_all(result, job.plot, pictures=pictures_of(result, compared.smooth)):
             typer.echo(f"written: {path}", err=True)

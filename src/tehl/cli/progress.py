@@ -15,7 +15,7 @@ from rich.live import Live
 from rich.markup import escape
 from rich.progress import BarColumn, Progress, ProgressColumn, Task, TextColumn
 from rich.progress_bar import ProgressBar
-from rich.table import Table
+from rich.table import Column, Table
 from rich.text import Text
 
 if TYPE_CHECKING:
@@ -53,6 +53,8 @@ _STEP: Columns = {
 }
 _LINES, _ROWS = 20, 10
 """Of a transient run: plain lines, and steps in the live view."""
+_BESIDE = 47
+"""Characters beside a bar of 20 and the time left, in a line of 80."""
 _EVERY = 10.0
 """Seconds between two plain lines of a study."""
 SHOWN = 20
@@ -115,7 +117,9 @@ def compile_kernels(*, coupled: bool) -> None:
         typer.echo("compiling the kernels once, which takes 10 to 60 s", err=True)
         warm_up(coupled=coupled)
         return
-    columns = (BarColumn(bar_width=20), _CountDown(), TextColumn("{task.description}"))
+    beside = Column(no_wrap=True, overflow="ellipsis", max_width=_BESIDE)
+    words = TextColumn("{task.description}", table_column=beside)
+    columns = (BarColumn(bar_width=20), _CountDown(), words)
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("", total=None)
 

@@ -2,35 +2,92 @@
 
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 from typer import Option, echo
 
 from tehl.cli.arguments import Stored
+from tehl.errors import InputError
+
+if TYPE_CHECKING:
+    from tehl.plots import Pictures
+    from tehl.result import Result
+    from tehl.transient_result import TransientResult
 
 Format = StrEnum("Format", ["csv", "vtk", "npz", "mat"])
+Image = StrEnum("Image", ["png", "pdf", "svg"])
 What = StrEnum("What", ["lines", "fields", "history"])
 
 
-def plot(
+def plot(  # noqa: PLR0913 (the options of the command)
     stored: Stored,
+    *,
     output: Annotated[
         Path | None,
-        Option("-o", "--output", metavar="DIR", help="Folder; RESULT_plots if left out."),
+        Option(
+            "-o",
+            "--output",
+            help="Folder, RESULT_plots if left out; or a file .png, .pdf or .svg for one picture.",
+        ),
     ] = None,
+    only: Annotated[
+        str | None,
+        Option(metavar="NAME,NAME", help="Draw these pictures only, such as film,pressure."),
+    ] = None,
+    show_list: Annotated[
+        bool, Option("--list", help="List the names of the pictures; draw nothing.")
+    ] = False,
+    ending: Annotated[
+        Image, Option("--format", help="Format of the files in a folder.")
+    ] = Image.png,
+    title: Annotated[bool, Option(help="Draw titles.")] = True,
     dpi: Annotated[int, Option(min=30, max=1200, help="Dots per inch.")] = 150,
 ) -> None:
-    """Draw all pictures of a stored result, steady or transient; nothing is solved."""
+    """Draw the pictures of a stored result, steady or transient; nothing is solved."""
     from tehl.cli.reference_runs import smooth_beside
-    from tehl.io.atomic import check_folder
     from tehl.io.store import load
-    from tehl.plots import save_all
+    from tehl.plots import chosen, pictures_of, save_all
+
+    file, folder = _destination(stored, output)
+    result = load(stored)
+    found = pictures_of(result, smooth_beside(stored, result))
+    pictures = chosen(found, only.replace(",", " ").split() if only else ())
+    if show_list:
+        echo("\n".join(pictures))
+    elif file is not None:
+        _draw_one(result, pictures, file, title=title, dpi=dpi)
+    else:
+        style: dict[str, Any] = {"dpi": dpi, "ending": ending.value, "title": title}
+        for path in save_all(result, folder, pictures=pictures, **style):
+            echo(path)
+
+
+def _destination(stored: Path, output: Path | None) -> tuple[Path | None, Path]:
+    """Return file, if the output is one, and folder of the pictures, both checked."""
+    from tehl.io.atomic import check_folder, check_writable
 
     folder = stored.with_name(f"{stored.stem}_plots") if output is None else output
+    if output is not None and output.suffix[1:].lower() in tuple(Image) and not output.is_dir():
+        check_writable(output, sources=(stored,))
+        return output, output.parent
     check_folder(folder)
-    result = load(stored)
-    for path in save_all(result, folder, dpi=dpi, smooth=smooth_beside(stored, result)):
-        echo(path)
+    return None, folder
+
+
+def _draw_one(
+    result: "Result | TransientResult", pictures: "Pictures", path: Path, *, title: bool, dpi: int
+) -> None:
+    """Draw one picture into a file."""
+    from tehl.plots import save_picture
+
+    if len(pictures) != 1:
+        raise InputError(
+            f"output {path}: a file holds one picture, and {len(pictures)} are asked for; "
+            f"choose one by --only: {', '.join(pictures)}"
+        )
+    ((_, draw),) = pictures.items()
+    save_picture(draw(result, title=title), path, dpi=dpi)
+    echo(path)
 
 
 def animate(

@@ -46,6 +46,21 @@ def study(  # noqa: PLR0913 (the options of the command)
             show_default=False,
         ),
     ],
+    sheet: Annotated[
+        Path | None,
+        Option(
+            "--sheet",
+            metavar="FILE",
+            help="Write columns of what is finished, .csv or .xlsx; solve nothing.",
+        ),
+    ] = None,
+    columns: Annotated[
+        str | None,
+        Option(
+            metavar="NAME [UNIT],...",
+            help='Columns of the sheet, "load [N], h_min_m [nm], max_pa [GPa]"; all if left out.',
+        ),
+    ] = None,
     yes: Annotated[bool, Option("--yes", help="Accept any number of cases.")] = False,
     as_json: AsJson = False,
     quiet: Quiet = False,

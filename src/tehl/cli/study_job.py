@@ -15,7 +15,7 @@ import typer
 
 from tehl.cli.progress import SHOWN, duration, study_progress
 from tehl.errors import InputError
-from tehl.io.atomic import check_place, shortened
+from tehl.io.atomic import check_place, check_writable, shortened
 from tehl.studies.case import Row
 from tehl.studies.file import read_study
 from tehl.studies.folder import (
@@ -35,6 +35,7 @@ from tehl.studies.pictures import Picture, picture_of, save
 from tehl.studies.plan import Plan, Study, study_of
 from tehl.studies.runner import Outcome
 from tehl.studies.runner import run as solve
+from tehl.studies.sheet import check_sheet, write_sheet
 from tehl.studies.tables import OPEN, table
 
 if TYPE_CHECKING:
@@ -58,6 +59,8 @@ class StudyJob:
     replace: bool
     table_only: bool
     plots: list[str]
+    sheet: Path | None
+    columns: str | None
     yes: bool
     as_json: bool
     quiet: bool
@@ -70,13 +73,14 @@ def run(job: StudyJob) -> bool:
     or not writable, or workers that do not start, an OSError, and finished cases are kept.
     """
     workers, pictures = _workers(job.jobs), [picture_of(words) for words in job.plots]
+    _check_sheet(job)
     plan, folder = _plan(job)
     _check_folder(folder, job.source)
     try:
         study = study_of(plan)
     except InputError as error:
         raise InputError(f"{shortened(job.source)}: {error}") from None
-    show_only = job.table_only or bool(pictures)
+    show_only = job.table_only or bool(pictures) or job.sheet is not None
     if show_only or not job.replace:
         check_same(plan, folder)
     if job.dry_run:
@@ -103,6 +107,19 @@ def _workers(jobs: str | None) -> int:
         return number
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
     return max(1, cores or 1)
+
+
+def _check_sheet(job: StudyJob) -> None:
+    if job.sheet is None:
+        if job.columns is not None:
+            raise InputError("--columns chooses those of a sheet: give --sheet FILE.csv or .xlsx")
+        return
+    check_sheet(job.sheet)
+    check_writable(job.sheet, sources=(job.source,))
+
+
+def _columns(job: StudyJob) -> list[str]:
+    return [part.strip() for part in (job.columns or "").split(",") if part.strip()]
 
 
 def _plan(job: StudyJob) -> tuple[Plan, Path]:
@@ -173,7 +190,9 @@ def _check_resources(
 
 def _table(study: Study, folder: Path) -> "pd.DataFrame":
     with closing(store_of(study.plan, folder)) as store:
-        return table(study.cases, store, study.units)
+        frame = table(study.cases, store, study.units)
+    frame.attrs["title"] = study.plan.title
+    return frame
 
 
 def _write(frame: "pd.DataFrame", folder: Path, pictures: tuple[Picture, ...]) -> Written:
@@ -194,6 +213,9 @@ def _show_finished(study: Study, folder: Path, pictures: list[Picture], job: Stu
         raise InputError(f"no case of the study is finished yet in {folder}")
     check_can_write(folder)
     files = [str(save(one, frame, folder)) for one in pictures]
+    if job.sheet is not None:
+        write_sheet(frame, job.sheet, _columns(job))
+        files.append(str(job.sheet))
     if job.table_only:
         written = _write(frame, folder, study.plan.pictures)
         files += [*written["table"], *written["pictures"]]

@@ -31,7 +31,7 @@ def as_text(result: Result | TransientResult, compared: Comparisons | None = Non
         compared=compared,
         no_film=no_film(start),
         result=result,
-        rough=compared.rough_film or (None if transient else start.roughness),
+        rough=compared.rough_film or start.roughness,
         title=start.problem.title or UNTITLED,
     ).rstrip()
 

@@ -10,6 +10,7 @@ from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
+from tehl.errors import InputError
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.units import Quantity
@@ -67,6 +68,11 @@ def describe(error: ValidationError, data: object, model: Model, prefix: str = "
     name = ".".join(_key(part) for part in ((prefix, *path) if prefix else path))
     mistake = _Mistake(name, path, first, _models_at(model, path), table)
     return _SENTENCES.get(first["type"], _pydantic_sentence)(mistake)
+
+
+def of_call(error: ValidationError, values: Mapping[str, Any], model: Model) -> InputError:
+    """Return the first mistake of a call ``model(**values)`` in Python as an error to raise."""
+    return InputError(describe(error, values, model, model.__name__))
 
 
 # ---- where the mistake is

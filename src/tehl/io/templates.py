@@ -7,8 +7,8 @@ from tehl.errors import InputError
 
 _NAMES = {
     "cases": (
-        *("ball-on-disc", "moes", "gear-ellipse", "rough", "thermal", "dimple", "data-sheet"),
-        "passing-dent",
+        *("ball-on-disc", "moes", "bearing", "gear-ellipse", "rough", "thermal", "dimple"),
+        *("data-sheet", "passing-dent"),
     ),
     "studies": ("traction-curve", "film-vs-speed", "film-vs-load", "moes-map", "stribeck"),
 }

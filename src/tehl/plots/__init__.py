@@ -1,20 +1,24 @@
 """Pictures of a result; each function returns a matplotlib figure and touches no global state.
 
-Those of one result are also here by name, to draw all of them.
+A notebook shows the figure when it is the value of a cell. Functions that draw one axes take
+``ax``, those of a result ``title=False``. Pictures of one result are also here by name, to draw all
+of them.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 from matplotlib.figure import Figure
 
+from tehl.errors import InputError
 from tehl.io.atomic import check_folder, replacing
+from tehl.plots.animation import animate
 from tehl.plots.convergence import residual_history
 from tehl.plots.interferogram import Optics, interferogram
 from tehl.plots.lines import centre_lines, film_distribution, pressure_surface, rough_centre_line
 from tehl.plots.maps import film_map, heights_map, micro_film_map, pressure_map, shear_stress_map
+from tehl.plots.surface import surface_preview
 from tehl.plots.table_curves import curves
 from tehl.plots.table_maps import contour_map, film_deviations, moes_map
 from tehl.plots.temperature import (
@@ -30,6 +34,7 @@ from tehl.transient_result import TransientResult
 
 __all__ = [
     "Optics",
+    "animate",
     "centre_lines",
     "contour_map",
     "curves",
@@ -37,23 +42,29 @@ __all__ = [
     "film_distribution",
     "film_map",
     "heights_map",
+    "history",
     "interferogram",
     "micro_film_map",
     "mid_film_temperature",
     "moes_map",
+    "moments",
+    "passage",
+    "pictures_of",
     "pressure_map",
     "pressure_surface",
     "residual_history",
     "rough_centre_line",
     "save_all",
     "shear_stress_map",
+    "space_time",
     "surface_heat",
+    "surface_preview",
     "temperature_layers",
     "temperature_section",
     "traction_curve",
 ]
 
-Pictures = dict[str, Callable[[Any], Figure]]
+Pictures = dict[str, Callable[..., Figure]]
 """Functions that draw a result, by name."""
 
 PICTURES: Pictures = {
@@ -62,12 +73,13 @@ PICTURES: Pictures = {
     "pressure_surface": pressure_surface,
     "centre_lines": centre_lines,
     "residuals": residual_history,
-    **{
-        f"interferogram_{light}": partial(interferogram, optics=Optics(light=light))
-        for light in ("white", "dichromatic", "monochromatic")
-    },
 }
 """Pictures of every steady result."""
+INTERFEROGRAMS: Pictures = {
+    f"interferogram_{light}": partial(interferogram, optics=Optics(light=light))
+    for light in ("white", "dichromatic", "monochromatic")
+}
+"""Pictures of a film under a transparent surface."""
 
 
 def pictures_of(result: Result | TransientResult, smooth: Result | None = None) -> Pictures:
@@ -96,17 +108,34 @@ def pictures_of(result: Result | TransientResult, smooth: Result | None = None) 
         found["temperature_layers"] = temperature_layers
         found["temperature_section"] = temperature_section
         found["surface_heat"] = surface_heat
+    solids = (result.problem.surface_1.material, result.problem.surface_2.material)
+    if any(solid.transparent for solid in solids):
+        found |= INTERFEROGRAMS
     return found
+
+
+def chosen(pictures: Pictures, names: Iterable[str]) -> Pictures:
+    """Return the named ones of ``pictures``, all without names.
+
+    Raises InputError if a name is not among them.
+    """
+    wanted = list(dict.fromkeys(names))
+    for name in wanted:
+        if name not in pictures:
+            raise InputError(f"picture {name}: unknown; the result has {', '.join(pictures)}")
+    return {name: pictures[name] for name in wanted} if wanted else pictures
 
 
 def save_all(
     result: Result | TransientResult,
     folder: str | Path,
     *,
+    pictures: Pictures | None = None,
     dpi: int = 150,
-    smooth: Result | None = None,
+    ending: str = "png",
+    title: bool = True,
 ) -> list[Path]:
-    """Draw all pictures of ``result`` as PNG files; each appears whole or not at all.
+    """Draw pictures of ``result`` as files; each appears whole or not at all.
 
     Parameters
     ----------
@@ -114,10 +143,14 @@ def save_all(
         What to draw.
     folder : str or Path
         Where; made if it is missing.
+    pictures : dict or None
+        Functions that draw, by name; all of :func:`pictures_of` by default.
     dpi : int
         Dots per inch.
-    smooth : Result or None
-        Smooth reference run on the same grid, for pictures of ripples.
+    ending : {"png", "pdf", "svg"}
+        Format.
+    title : bool
+        Whether the pictures have titles.
 
     Returns
     -------
@@ -132,9 +165,14 @@ def save_all(
     place = Path(folder)
     check_folder(place)
     place.mkdir(parents=True, exist_ok=True)
-    paths = []
-    for name, draw in pictures_of(result, smooth).items():
-        paths.append(place / f"{name}.png")
-        with replacing(paths[-1]) as temporary:
-            draw(result).savefig(temporary, dpi=dpi, format="png")
+    wanted = pictures_of(result) if pictures is None else pictures
+    paths = [place / f"{name}.{ending}" for name in wanted]
+    for path, draw in zip(paths, wanted.values(), strict=True):
+        save_picture(draw(result, title=title), path, dpi=dpi)
     return paths
+
+
+def save_picture(picture: Figure, path: Path, *, dpi: int) -> None:
+    """Write a picture in the format of the extension of ``path``, whole or not at all."""
+    with replacing(path) as temporary:
+        picture.savefig(temporary, dpi=dpi, format=path.suffix[1:].lower())

@@ -1,11 +1,15 @@
 """A transient run as an animation: a map of the film above, the line y = 0 below."""
 
+import base64
+import io
+import json
 import shutil
+from html import escape
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib.animation import AbstractMovieWriter, FFMpegWriter, HTMLWriter
+from matplotlib.animation import FFMpegWriter
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.image import AxesImage
@@ -31,8 +35,6 @@ MOST = 200
 """Largest number of moments in an animation of the line y = 0 alone."""
 _UPPER, _LOWER = (0.13, 0.41, 0.69, 0.51), (0.13, 0.07, 0.75, 0.255)
 """Axes of map and lines: left, bottom, width and height in parts of the picture."""
-_LARGEST_PAGE = 200.0
-"""Largest size of the pictures in a page [MB]."""
 
 
 def animate(
@@ -81,16 +83,66 @@ def _write(movie: "Movie", path: Path, per_second: int) -> None:
         duration = round(1e3 / per_second)
         first.save(path, save_all=True, append_images=others, duration=duration, loop=0)
         return
-    page: dict[str, Any] = {"embed_frames": True, "embed_limit": _LARGEST_PAGE}
-    writer: AbstractMovieWriter = (
-        HTMLWriter(fps=per_second, default_mode="loop", **page)
-        if path.suffix == ".html"
-        else FFMpegWriter(fps=per_second)
-    )
+    if path.suffix == ".html":
+        path.write_text(_page(movie, per_second), encoding="utf-8")
+        return
+    writer = FFMpegWriter(fps=per_second)
     with writer.saving(movie.picture, str(path), movie.picture.dpi):
         for number in numbers:
             movie.show(number)
             writer.grab_frame()
+
+
+_PAGE = """<!DOCTYPE html>
+<html lang="en">
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{title}</title>
+<style>
+body {{ font: 15px system-ui, sans-serif; text-align: center; margin: 1rem; }}
+img {{ max-width: 100%; }}
+input {{ width: min(30rem, 70vw); vertical-align: middle; }}
+button {{ min-width: 5rem; }}
+</style>
+<img id="picture" alt="{title}">
+<p><button id="play">pause</button> <input id="place" type="range" min="0" value="0"
+aria-label="moment"></p>
+<script>
+const moments = {moments};
+const [picture, place, play] = ["picture", "place", "play"].map(id => document.getElementById(id));
+let timer = null;
+function show(number) {{
+  picture.src = "data:image/png;base64," + moments[number];
+  place.value = number;
+}}
+function run() {{
+  timer = setInterval(() => show((Number(place.value) + 1) % moments.length), {pause});
+  play.textContent = "pause";
+}}
+function stop() {{
+  clearInterval(timer);
+  timer = null;
+  play.textContent = "play";
+}}
+place.max = moments.length - 1;
+place.addEventListener("input", () => {{ stop(); show(Number(place.value)); }});
+play.addEventListener("click", () => timer === null ? run() : stop());
+show(0);
+run();
+</script>
+</html>
+"""
+
+
+def _page(movie: "Movie", per_second: int) -> str:
+    """Return a page with all moments inside, which needs no network."""
+    moments = []
+    for number in range(len(movie.steps)):
+        buffer = io.BytesIO()
+        Image.fromarray(movie.pixels(number)).save(buffer, format="png", optimize=True)
+        moments.append(base64.b64encode(buffer.getvalue()).decode("ascii"))
+    title = escape(movie.run.start.problem.title or "Lubricated point contact")
+    return _PAGE.format(title=title, moments=json.dumps(moments), pause=round(1e3 / per_second))
 
 
 def check_format(path: str | Path) -> str:

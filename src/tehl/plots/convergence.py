@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator, NullFormatter
 
-from tehl.plots.frame import BLUE, GREEN, ORANGE, PLAIN, figure
+from tehl.plots.frame import BLUE, GREEN, ORANGE, PLAIN, figure_of, single
 from tehl.result import Result
 
 _CURVES = (
@@ -22,19 +22,20 @@ _ROOM = 0.09
 """Part of all cycles from which on a grid has room for its number of nodes above."""
 
 
-def residual_history(result: Result) -> Figure:
+def residual_history(
+    result: Result, *, ax: Axes | None = None, title: bool | None = True
+) -> Figure:
     """Draw residual, changes and load error of each cycle, grid after grid.
 
     The axis is logarithmic, with one in kelvin at the right for a thermal run; vertical lines
     separate the grids.
     """
-    picture = figure(result, (7.0, 4.6))
-    axes = picture.add_subplot()
+    axes = single(result, (7.0, 4.6), ax=ax, title=title)
     axes.set(xlabel="cycle", ylabel="residual, change of P, load error [-]", yscale="log")
     axes.grid(axis="y", lw=0.3)
     if not result.history:
         axes.text(0.5, 0.5, "no cycles were recorded", ha="center", transform=axes.transAxes)
-        return picture
+        return figure_of(axes)
     lines = [_draw(axes, result, curve) for curve in _CURVES]
     if result.heat is not None:
         right, colour = axes.twinx(), _HEAT_CURVE[-1]
@@ -47,7 +48,7 @@ def residual_history(result: Result) -> Figure:
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     below: dict[str, Any] = {"bbox_to_anchor": (0.5, -0.13), "ncols": 3 if len(lines) == 3 else 2}
     axes.legend(handles=lines, loc="upper center", **below, **PLAIN)
-    return picture
+    return figure_of(axes)
 
 
 def _draw(axes: Axes, result: Result, curve: tuple[str, str, str, str]) -> Line2D:

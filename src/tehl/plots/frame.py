@@ -1,5 +1,6 @@
 """Parts that the pictures of a contact share: title, banner, window, map, colour bar, legend."""
 
+import io
 from textwrap import fill
 from typing import Any
 
@@ -31,15 +32,32 @@ MAP: dict[str, Any] = {"shading": "gouraud", "rasterized": True}
 """Style of the colours of a map."""
 PLAIN: dict[str, Any] = {"fontsize": 8, "frameon": False}
 """Style of a small legend."""
+_ALARM: dict[str, Any] = {"color": "white", "backgroundcolor": "#b3001b", "weight": "bold"}
 _LONGEST = 5.8
 _SLENDER = 6.0
+_DRAWN = 1.6
+"""Largest height over width, or width over height, of a map as drawn."""
 
 Span = tuple[float, float]
 
 
+class Picture(Figure):
+    """A figure outside pyplot, which a notebook shows when it is the value of a cell."""
+
+    def _repr_png_(self) -> bytes:
+        """Return the picture as PNG, for notebooks."""
+        buffer = io.BytesIO()
+        self.savefig(buffer, format="png", dpi=self.dpi, bbox_inches="tight")
+        return buffer.getvalue()
+
+
 def figure(
-    result: Result | TransientResult, size: tuple[float, float] = (7.0, 5.6), note: str = ""
-) -> Figure:
+    result: Result | TransientResult,
+    size: tuple[float, float] = (7.0, 5.6),
+    note: str = "",
+    *,
+    title: bool | None = True,
+) -> Picture:
     """Return an empty figure under the title of ``result``, with a banner if not converged.
 
     Parameters
@@ -48,16 +66,56 @@ def figure(
         Gives title, groups and status.
     size, note : (float, float), str
         Width and height [inch], and the last line of the title.
+    title : bool or None
+        Whether it has a title.
     """
     start = result.start if isinstance(result, TransientResult) else result
-    title = fill(start.problem.title, 80).replace("$", r"\$") or "Lubricated point contact"
-    picture = Figure(figsize=size, layout="constrained")
-    picture.suptitle(f"{title}\n{_subtitle(result, start)}\n{note}".strip(), fontsize=9)
+    picture = Picture(figsize=size, layout="constrained")
+    if title:
+        words = fill(start.problem.title, 80).replace("$", r"\$") or "Lubricated point contact"
+        picture.suptitle(f"{words}\n{_subtitle(result, start)}\n{note}".strip(), fontsize=9)
     if not result.status.converged:
-        cause = result.status.outcome.removeprefix("not converged").removeprefix(": ")
-        style: dict[str, Any] = {"color": "white", "backgroundcolor": "#b3001b", "weight": "bold"}
-        picture.supxlabel(f"NOT CONVERGED: {cause}".rstrip(": "), fontsize=11, **style)
+        picture.supxlabel(_banner(result), fontsize=11, **_ALARM)
     return picture
+
+
+def _banner(result: Result | TransientResult) -> str:
+    cause = result.status.outcome.removeprefix("not converged").removeprefix(": ")
+    return f"NOT CONVERGED: {cause}".rstrip(": ")
+
+
+def single(
+    result: Result, size: tuple[float, float], *, ax: Axes | None, title: bool | None
+) -> Axes:
+    """Return the axes of a picture that has one: ``ax`` itself, or those of a new figure.
+
+    Parameters
+    ----------
+    result : Result
+        Gives title, groups and status of a new figure; ``ax`` gets the banner only.
+    size : (float, float)
+        Width and height of a new figure [inch].
+    ax : Axes or None
+        Where to draw; None makes a figure.
+    title : bool or None
+        Whether a new figure has a title.
+    """
+    if ax is None:
+        return figure(result, size, title=title).add_subplot()
+    _mark_failure(ax, result)
+    return ax
+
+
+def empty(ax: Axes | None, size: tuple[float, float] = (7.0, 5.0)) -> Axes:
+    """Return ``ax``, or the axes of a new figure without a title."""
+    return Picture(figsize=size, layout="constrained").add_subplot() if ax is None else ax
+
+
+def _mark_failure(axes: Axes, result: Result) -> None:
+    """Put the banner of a result that did not converge into axes of the caller's figure."""
+    if not result.status.converged:
+        place: dict[str, Any] = {"transform": axes.transAxes, "ha": "center", "zorder": 9}
+        axes.text(0.5, 0.03, _banner(result), fontsize=8, **place, **_ALARM)
 
 
 def _subtitle(result: Result | TransientResult, start: Result) -> str:
@@ -82,20 +140,45 @@ def length(metres: float) -> str:
     return f"{metres * 1e9:.1f} nm" if abs(metres) < 1e-7 else f"{metres * 1e6:.3f} µm"
 
 
-def map_figure(result: Result, note: str = "") -> tuple[Figure, Axes]:
-    """Return a figure for one map, shaped as the contact, and its axes with arrow and legend.
+def map_axes(
+    result: Result, note: str = "", *, ax: Axes | None = None, title: bool | None = True
+) -> Axes:
+    """Return the axes of one map, with arrow and legend: ``ax``, or those of a new figure.
 
-    ``note`` ends the title.
+    Parameters
+    ----------
+    result : Result
+        Gives title, groups, status and window.
+    note : str
+        Last line of the title.
+    ax : Axes or None
+        Where to draw; None makes a figure shaped as the contact.
+    title : bool or None
+        Whether a new figure has a title.
     """
-    ratio = slenderness(result)
+    if ax is None:
+        ax = figure(result, _map_size(result), note, title=title).add_subplot()
+    else:
+        _mark_failure(ax, result)
+    dress_contact(ax, result)
+    entrainment_arrow(ax)
+    legend_above(ax)
+    return ax
+
+
+def _map_size(result: Result) -> tuple[float, float]:
+    """Return width and height of the figure of a map [inch]."""
+    ratio = shape(result)
     longest = 4.9 if 0.5 < ratio < 2.0 else _LONGEST
     width, height = (longest, longest * ratio) if ratio < 1 else (longest / ratio, longest)
-    picture = figure(result, (max(width + 1.8, 5.6), max(height + 1.6, 3.4)), note)
-    axes = picture.add_subplot()
-    dress_contact(axes, result)
-    entrainment_arrow(axes)
-    legend_above(axes)
-    return picture, axes
+    return max(width + 1.8, 5.6), max(height + 1.6, 3.4)
+
+
+def figure_of(axes: Axes) -> Figure:
+    """Return the whole figure that axes belong to."""
+    found = axes.get_figure(root=True)
+    assert isinstance(found, Figure)
+    return found
 
 
 def window(result: Result) -> tuple[Span, Span]:
@@ -114,6 +197,21 @@ def window(result: Result) -> tuple[Span, Span]:
         low, high = ((end - np.sign(end)) * tips + np.sign(end) for end in span)
         spans.append((max(low * sides, float(axis[0])), min(high * sides, float(axis[-1]))))
     return spans[0], spans[1]
+
+
+def stretched(result: Result) -> float:
+    """Return the scale of y over that of x on maps: one unless the window is slender."""
+    true = slenderness(result)
+    return float(np.clip(true, 1.0 / _DRAWN, _DRAWN)) / true
+
+
+def shape(result: Result) -> float:
+    """Return the height of a map over its width, as drawn."""
+    return slenderness(result) * stretched(result)
+
+
+def _stretch_in_words(stretch: float) -> str:
+    return f"stretched {stretch:.2g}:1" if stretch > 1 else f"compressed 1:{1 / stretch:.2g}"
 
 
 def slenderness(result: Result) -> float:
@@ -146,12 +244,17 @@ def centre_row(result: Result) -> int:
 
 
 def dress_contact(axes: Axes, result: Result) -> None:
-    """Give axes micrometres, equal aspect, the window and the Hertz ellipse of ``result``."""
+    """Give axes micrometres, the window and the Hertz ellipse of ``result``.
+
+    The aspect is equal, and of a slender contact stretched so that its map can be read.
+    """
     widths = (result.scales.half_width_x * MICRO, result.scales.half_width_y * MICRO)
     x, y = ((low * a, high * a) for (low, high), a in zip(window(result), widths, strict=True))
-    axes.set_aspect("equal")
-    axes.set(xlabel="x along entrainment [µm]", ylabel="y [µm]", xlim=x, ylim=y)
-    slender = np.ptp(y) / np.ptp(x)
+    stretch = stretched(result)
+    axes.set_aspect(stretch)
+    label = "y [µm]" if stretch == 1.0 else f"y [µm], {_stretch_in_words(stretch)}"
+    axes.set(xlabel="x along entrainment [µm]", ylabel=label, xlim=x, ylim=y)
+    slender = shape(result)
     axes.xaxis.set_major_locator(MaxNLocator(3 if slender > 2 else 8, steps=STEPS))
     axes.yaxis.set_major_locator(MaxNLocator(3 if slender < 0.5 else 8, steps=STEPS))
     style: dict[str, Any] = {"color": "white", "ls": "--", "lw": 1.1, "zorder": 5}
@@ -177,7 +280,8 @@ def legend_above(axes: Axes, *others: Line2D) -> None:
 
 def colour_axes(axes: Axes) -> Axes:
     """Return axes for a colour bar at the right of a map, as tall as the map."""
-    thick = 0.045 * max(float(np.ptp(axes.get_ylim()) / np.ptp(axes.get_xlim())), 1.0)
+    drawn = float(np.ptp(axes.get_ylim()) / np.ptp(axes.get_xlim())) * float(axes.get_aspect())
+    thick = 0.045 * max(drawn, 1.0)
     return axes.inset_axes((1.0 + 0.8 * thick, 0.0, thick, 1.0))
 
 

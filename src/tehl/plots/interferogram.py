@@ -10,12 +10,13 @@ Colours are the spectrum under the CIE 1931 observer, turned into sRGB.
 """
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tehl.plots.frame import MICRO, map_figure, window_part
+from tehl.plots.frame import MICRO, figure_of, map_axes, window_part
 from tehl.result import Result
 from tehl.typing import Array
 
@@ -93,8 +94,26 @@ class Optics:
         return f"synthetic interferogram: {light}, n = {self.refractive_index:g} at ambient{spacer}"
 
 
-def interferogram(result: Result, optics: Optics | None = None) -> Figure:
-    """Draw the film as an optical rig shows it; in white light if ``optics`` is left out."""
+def interferogram(
+    result: Result,
+    optics: Optics | None = None,
+    *,
+    ax: Axes | None = None,
+    title: bool | None = True,
+) -> Figure:
+    """Draw the film as an optical rig shows it; in white light if ``optics`` is left out.
+
+    Parameters
+    ----------
+    result : Result
+        What to draw, as if seen through a transparent surface.
+    optics : Optics or None
+        Light, layers and oil.
+    ax : Axes or None
+        Where to draw; None makes a figure.
+    title : bool or None
+        Whether a new figure has a title.
+    """
     from scipy.interpolate import RectBivariateSpline  # noqa: PLC0415 (0.3 s)
 
     chosen, part = Optics() if optics is None else optics, window_part(result)
@@ -108,12 +127,13 @@ def interferogram(result: Result, optics: Optics | None = None) -> Figure:
     law = result.problem.lubricant.density
     ratio = law.density(pressure, result.scales.temperature) / result.scales.density
     thickness = RectBivariateSpline(y, x, chosen.thickness(film, ratio))(fine_y, fine_x)
-    picture, axes = map_figure(result, chosen.caption())
+    axes = map_axes(result, chosen.caption(), ax=ax, title=title)
     extent = (x[0] * MICRO, x[-1] * MICRO, y[0] * MICRO, y[-1] * MICRO)
     limits = {"xlim": axes.get_xlim(), "ylim": axes.get_ylim()}
-    axes.imshow(colours(thickness, chosen), extent=extent, origin="lower", interpolation="bilinear")
+    style: dict[str, Any] = {"origin": "lower", "interpolation": "bilinear"}
+    axes.imshow(colours(thickness, chosen), extent=extent, aspect=axes.get_aspect(), **style)
     axes.set(**limits)
-    return picture
+    return figure_of(axes)
 
 
 def colours(thickness: Array, optics: Optics) -> Array:

@@ -22,6 +22,8 @@ from tehl.plots.frame import (
     WINDOW,
     centre_row,
     figure,
+    figure_of,
+    single,
     span_part,
 )
 from tehl.plots.maps import FILTERED, heights_of
@@ -38,14 +40,14 @@ _AROUND = (-1.4, 1.4)
 _PROFILES = 45
 
 
-def centre_lines(result: Result) -> Figure:
+def centre_lines(result: Result, *, title: bool | None = True) -> Figure:
     """Draw pressure and film along x (y = 0) and along y (x = 0), with the dry contact dashed.
 
     Pressure [GPa] and film [um] are on twin axes; a thermal run has two more panels beside them,
     with the temperature rises [K].
     """
     thermal = result.heat is not None
-    picture = figure(result, (12.4, 7.2) if thermal else (7.2, 7.2))
+    picture = figure(result, (12.4, 7.2) if thermal else (7.2, 7.2), title=title)
     grid = picture.subplots(2, 2 if thermal else 1, squeeze=False)
     column = int(np.argmin(np.abs(result.scaled.x)))
     lines: tuple[Line, Line] = ((centre_row(result), slice(None)), (slice(None), column))
@@ -93,7 +95,9 @@ def _show_film_behind(axes: Axes, film: Axes, result: Result, most: float) -> No
     axes.patch.set_visible(False)
 
 
-def rough_centre_line(result: Result, smooth: Result | None = None) -> Figure:
+def rough_centre_line(
+    result: Result, smooth: Result | None = None, *, title: bool | None = True
+) -> Figure:
     """Draw pressure, film and the surfaces along y = 0.
 
     The upper panel has pressure [GPa] and film [um], those of the smooth reference run drawn thin,
@@ -103,7 +107,7 @@ def rough_centre_line(result: Result, smooth: Result | None = None) -> Figure:
     heights, row = heights_of(result).together, centre_row(result)
     inside = np.abs(result.scaled.x) <= _REACH
     place = result.x[inside] * MICRO
-    picture = figure(result, (7.6, 7.0))
+    picture = figure(result, (7.6, 7.0), title=title)
     upper, lower = picture.subplots(2, 1, sharex=True, height_ratios=[1.5, 1.0])
     dry = hertz_pressure(result.scaled.x[inside], result.scaled.y[row])
     upper.plot(place, dry * result.scales.hertz_pressure * GIGA, color="0.45", ls="--", lw=1.0)
@@ -127,7 +131,9 @@ def rough_centre_line(result: Result, smooth: Result | None = None) -> Figure:
     return picture
 
 
-def film_distribution(result: Result) -> Figure:
+def film_distribution(
+    result: Result, *, ax: Axes | None = None, title: bool | None = True
+) -> Figure:
     """Draw the distribution of the film thickness over the Hertz contact.
 
     Beside the histogram are the part of the contact that has a thinner film, and Sq. Raises
@@ -139,8 +145,7 @@ def film_distribution(result: Result) -> Figure:
     edges, share = film_histogram(result)
     below = 100.0 * np.concatenate([[0.0], np.cumsum(share * np.diff(edges))])
     edges, share = edges * 1e9, share * 1e-9
-    picture = figure(result, (6.8, 4.6))
-    axes = picture.add_subplot()
+    axes = single(result, (6.8, 4.6), ax=ax, title=title)
     axes.stairs(share, edges, fill=True, color="#9db8dc")
     axes.set(xlabel="film thickness h [nm]", ylabel="part of the contact by film [1/nm]")
     axes.set_xlim(float(edges[0]), float(edges[-1]))
@@ -153,16 +158,16 @@ def film_distribution(result: Result) -> Figure:
     if math.isfinite(median):
         axes.axvline(median * 1e9, color="0.3", lw=1.0, label="median film")
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, **PLAIN)
-    return picture
+    return figure_of(axes)
 
 
-def pressure_surface(result: Result) -> Figure:
+def pressure_surface(result: Result, *, title: bool | None = True) -> Figure:
     """Draw the pressure as profiles along x, one behind another, seen from the outlet.
 
     The profiles are rows of the stored field: nothing is interpolated, and the spike stands free.
     Wide contacts are drawn at most 2.5 times as wide as long; the axes show the true size.
     """
-    picture = figure(result, (7.0, 5.4))
+    picture = figure(result, (7.0, 5.4), title=title)
     axes: Any = picture.add_subplot(projection="3d", computed_zorder=False)
     columns = span_part(result.scaled.x, _AROUND)
     every = np.arange(result.scaled.y.size)[span_part(result.scaled.y, _AROUND)]

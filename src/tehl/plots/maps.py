@@ -20,13 +20,14 @@ from tehl.plots.frame import (
     dress_contact,
     entrainment_arrow,
     figure,
+    figure_of,
     inner_levels,
     legend_above,
     length,
-    map_figure,
+    map_axes,
     mark_levels,
     nice_levels,
-    slenderness,
+    shape,
     window_part,
     window_places,
 )
@@ -42,14 +43,14 @@ _SHOWN = (0.5, 99.5)
 _LINES: dict[str, Any] = {"colors": "black", "linewidths": 0.6}
 
 
-def film_map(result: Result) -> Figure:
+def film_map(result: Result, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
     """Draw the film thickness with labelled contour lines and the Hertz contact.
 
     Colours are logarithmic, from just below the minimum film to 1.6 times the central film, and
     contour lines lie close below 1.1 times the central film, so that the horseshoe and the side
     lobes show.
     """
-    picture, axes = map_figure(result)
+    axes = map_axes(result, ax=ax, title=title)
     places, film = window_places(result), result.film_thickness[window_part(result)] * MICRO
     low, central = _film_range(result, film)
     bottom, top = 0.95 * low, 1.6 * central
@@ -58,18 +59,18 @@ def film_map(result: Result) -> Figure:
     inner, outer = film_levels(low, central)
     lines = axes.contour(*places, film, levels=inner, colors="white", linewidths=0.7)
     outside = axes.contour(*places, film, levels=outer, colors="black", linewidths=0.5, alpha=0.6)
-    if 0.5 < slenderness(result) < 2.0:  # slender contacts have no room for labels
+    if 0.5 < shape(result) < 2.0:  # slender contacts have no room for labels
         axes.clabel(lines, inner[1::2], fontsize=7, fmt="%.3g")
         axes.clabel(outside, fontsize=7, fmt="%.3g")
     legend_above(axes, *_mark_minimum(axes, result))
     label = "film thickness h [µm]"
-    bar = picture.colorbar(mesh, cax=colour_axes(axes), extend="max", label=label)
+    bar = figure_of(axes).colorbar(mesh, cax=colour_axes(axes), extend="max", label=label)
     bar.ax.yaxis.set_minor_locator(NullLocator())
     bar.ax.yaxis.set_minor_formatter(NullFormatter())
     ticks = nice_levels((low, top), 8)
     ticks = ticks[(ticks >= bottom) & (ticks <= top)]
     bar.ax.set_yticks(ticks, [f"{tick:.4g}" for tick in ticks], fontsize=8)
-    return picture
+    return figure_of(axes)
 
 
 def _film_range(result: Result, film: Array) -> tuple[float, float]:
@@ -101,7 +102,7 @@ def _mark_minimum(axes: Axes, result: Result) -> list[Line2D]:
     return axes.plot(*places, "r+", ms=6, mew=1.3, zorder=7, label="minimum film")
 
 
-def pressure_map(result: Result) -> Figure:
+def pressure_map(result: Result, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
     """Draw the pressure [GPa] as a map with contour lines, marked on the colour bar.
 
     Lines follow a slightly smoothed copy of the pressure.
@@ -110,11 +111,13 @@ def pressure_map(result: Result) -> Figure:
     top = float(np.max(pressure, initial=0.0, where=np.isfinite(pressure)))
     levels = nice_levels((0.0, top if top > 0 else 1.0), 8)
     levels = levels[(levels > 0) & (levels < top)] if top > 0 else levels[1:]
-    picture, axes = map_figure(result)
+    axes = map_axes(result, ax=ax, title=title)
     mesh = axes.pcolormesh(*places, pressure, cmap="cividis", **MAP)
     lines = axes.contour(*places, _smoothed(pressure), levels=levels, **_LINES)
-    mark_levels(picture.colorbar(mesh, cax=colour_axes(axes), label="pressure p [GPa]"), lines)
-    return picture
+    mark_levels(
+        figure_of(axes).colorbar(mesh, cax=colour_axes(axes), label="pressure p [GPa]"), lines
+    )
+    return figure_of(axes)
 
 
 def _smoothed(field: Array) -> Array:
@@ -128,7 +131,9 @@ def _smoothed(field: Array) -> Array:
     return field
 
 
-def shear_stress_map(result: Result) -> Figure:
+def shear_stress_map(
+    result: Result, *, ax: Axes | None = None, title: bool | None = True
+) -> Figure:
     """Draw the magnitude of the shear stress at mid-film [MPa] as a map.
 
     Raises InputError if the result has no shear stresses.
@@ -140,7 +145,7 @@ def shear_stress_map(result: Result) -> Figure:
         f"SRR = {result.problem.slide_roll_ratio:.4g}; traction {traction.mid_film:.4g} "
         f"at mid-film, {traction.surface_1:.4g} and {traction.surface_2:.4g} on surfaces 1 and 2"
     )
-    picture, axes = map_figure(result, note)
+    axes = map_axes(result, note, ax=ax, title=title)
     places = window_places(result)
     stress = np.hypot(shear.mid_film, shear.across)[window_part(result)] * 1e-6
     top = float(np.max(stress, initial=0.0, where=np.isfinite(stress)))
@@ -148,8 +153,8 @@ def shear_stress_map(result: Result) -> Figure:
     mesh = axes.pcolormesh(*places, stress, cmap="cividis", clim=span, **MAP)
     lines = axes.contour(*places, stress, levels=inner_levels((0.0, top)), **_LINES)
     label = "magnitude of the shear stress at mid-film [MPa]"
-    mark_levels(picture.colorbar(mesh, cax=colour_axes(axes), label=label), lines)
-    return picture
+    mark_levels(figure_of(axes).colorbar(mesh, cax=colour_axes(axes), label=label), lines)
+    return figure_of(axes)
 
 
 def heights_of(result: Result) -> SurfaceHeights:
@@ -159,7 +164,7 @@ def heights_of(result: Result) -> SurfaceHeights:
     return result.heights
 
 
-def heights_map(result: Result) -> Figure:
+def heights_map(result: Result, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
     """Draw the heights of both surfaces together [nm], as the grid carries them.
 
     Peaks narrow the film. Raises InputError if both surfaces are smooth.
@@ -168,8 +173,8 @@ def heights_map(result: Result) -> Figure:
     found, note = rough_film(result), ""
     if found is not None:
         sq = length(found.composite)
-        note = f"Sq = {sq} of both surfaces, lambda ratio {found.lambda_ratio:.3g}"
-    picture, axes = map_figure(result, note)
+        note = f"Sq = {sq} of both surfaces, λ = {found.lambda_central:.3g}"
+    axes = map_axes(result, note, ax=ax, title=title)
     low, high = (float(value) for value in np.percentile(heights, _SHOWN))
     low, high = (low, high) if high > low else (low - 0.5, high + 0.5)
     mesh = axes.pcolormesh(*window_places(result), heights, clim=(low, high), **MAP)
@@ -177,11 +182,13 @@ def heights_map(result: Result) -> Figure:
     ends = {(True, True): "both", (True, False): "min", (False, True): "max"}
     beyond = ends.get((bool(heights.min() < low - slack), bool(heights.max() > high + slack)))
     label = "height of both surfaces, outwards [nm]"
-    picture.colorbar(mesh, cax=colour_axes(axes), extend=beyond or "neither", label=label)
-    return picture
+    figure_of(axes).colorbar(mesh, cax=colour_axes(axes), extend=beyond or "neither", label=label)
+    return figure_of(axes)
 
 
-def micro_film_map(result: Result, smooth: Result | None = None) -> Figure:
+def micro_film_map(
+    result: Result, smooth: Result | None = None, *, title: bool | None = True
+) -> Figure:
     """Draw the ripples of film [nm] and pressure [MPa] side by side.
 
     The smooth reference run is subtracted; without it long waves are filtered off, and the ripples
@@ -192,8 +199,8 @@ def micro_film_map(result: Result, smooth: Result | None = None) -> Figure:
     ripples = micro_film(result, smooth)
     contact = in_contact(result, 1.0 if ripples.by_reference else FILTERED)
     part, places = window_part(result), window_places(result)
-    side_by_side = slenderness(result) > 0.5
-    picture = figure(result, (9.6, 5.2) if side_by_side else (6.4, 6.4))
+    side_by_side = shape(result) > 0.5
+    picture = figure(result, (9.6, 5.2) if side_by_side else (6.4, 6.4), title=title)
     panels = picture.subplots(*((1, 2) if side_by_side else (2, 1)))
     less = "less that of smooth surfaces" if ripples.by_reference else "less its long waves"
     for axes, name, values, unit in (

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Ellipse, Polygon
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from tehl.plots.frame import BLUE, MICRO, ORANGE, PLAIN, STEPS, outline
+from tehl.plots.frame import BLUE, MICRO, ORANGE, PLAIN, STEPS, Picture, outline
 from tehl.roughness.preview import Preview, View, view
 
 _CLIPPED, _COUNTED = 0.1, 10**6
@@ -19,13 +19,13 @@ _SLENDER = 2.0
 _BINS = 81
 
 
-def surface_preview(preview: Preview) -> Figure:
+def surface_preview(preview: Preview, *, title: bool | None = True) -> Figure:
     """Draw a measured surface after its preparation.
 
     The picture has the map with the contact, rotated and shifted as stated, the distribution of
     heights, and the power spectral density with the waves that the mesh loses.
     """
-    picture, seen = Figure(figsize=_SIZE, layout="constrained"), view(preview)
+    picture, seen = Picture(figsize=_SIZE, layout="constrained"), view(preview)
     width, height = seen.size
     if width > _SLENDER * height:
         parts = picture.subfigures(2, 1, squeeze=False, height_ratios=[0.8, 1.0])[:, 0]
@@ -42,7 +42,8 @@ def surface_preview(preview: Preview) -> Figure:
         for word, value in (("Sq", found.sq), ("Sa", found.sa), ("Sz", found.sz))
     )
     shape = f"Ssk = {found.ssk:.2f}, Sku = {found.sku:.2f}"
-    picture.suptitle(f"{name}\n{heights}, {shape}", fontsize=9)
+    if title:
+        picture.suptitle(f"{name}\n{heights}, {shape}", fontsize=9)
     _draw_map(parts[0].add_subplot(), preview, seen)
     _draw_heights(panels[0], preview)
     _draw_spectrum(panels[1], preview)

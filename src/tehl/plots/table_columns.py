@@ -29,7 +29,8 @@ _TITLES = {
     "traction.mid_film": "traction coefficient",
     "temperature.film_rise_max_k": "largest temperature rise of the film",
     "temperature.mid_film_rise_central_k": "central temperature rise at mid-film",
-    "roughness.lambda_ratio": "film over roughness λ",
+    "roughness.lambda_central": "central film over roughness λ",
+    "roughness.lambda_minimum": "minimum film over roughness λ",
     "contact.slide_roll_ratio": "slide-to-roll ratio $(u_1 - u_2)/u_m$",
     "contact.entrainment_speed": "entrainment speed $u_m$",
     "contact.load": "load $w$",
@@ -100,16 +101,33 @@ def numbers(table: "pd.DataFrame", name: str) -> Column:
 
 
 def certified(rows: "pd.DataFrame", column: Column) -> tuple[Column, Array | None]:
-    """Return a column with certified values where there are any, and its error bars."""
+    """Return a column with certified values where there are any, and its error bars.
+
+    The bar of a film that is not certified is the estimated error of its grid.
+    """
     name = f"uncertainty.{column.name}"
+    estimated = _estimated(rows, column)
     if f"{name}.value" not in rows:
-        return column, None
+        return column, estimated
     known, bars = (
         rows[f"{name}.{part}"].to_numpy(np.float64, na_value=np.nan)
         for part in ("value", "uncertainty")
     )
     values = np.where(np.isfinite(known), known * column.factor, column.values)
-    return replace(column, values=values), np.nan_to_num(bars) * abs(column.factor)
+    fallback = np.zeros(len(rows)) if estimated is None else estimated
+    bars = np.where(np.isfinite(bars), bars * abs(column.factor), fallback)
+    return replace(column, values=values), bars
+
+
+def _estimated(rows: "pd.DataFrame", column: Column) -> Array | None:
+    """Return the estimated discretisation errors of a column of films, None for other columns."""
+    which = {"film.h_c": "central", "film.H_c": "central", "film.h_m": "minimum"}
+    which["film.H_m"] = "minimum"
+    error = f"errors.discretisation_{which.get(column.name[:8])}"
+    if error not in rows:
+        return None
+    relative = rows[error].to_numpy(np.float64, na_value=np.nan)
+    return np.nan_to_num(np.abs(relative * column.values))
 
 
 def converged(table: "pd.DataFrame") -> "pd.DataFrame":
@@ -120,7 +138,13 @@ def converged(table: "pd.DataFrame") -> "pd.DataFrame":
     return found
 
 
-def dress(axes: Axes, table: "pd.DataFrame", columns: tuple[Column, Column], log: str) -> None:
+def dress(
+    axes: Axes,
+    table: "pd.DataFrame",
+    columns: tuple[Column, Column],
+    log: str,
+    title: str | None,
+) -> None:
     """Give axes their titles, scales, a light grid, and a note on cases that are not shown.
 
     Parameters
@@ -133,7 +157,11 @@ def dress(axes: Axes, table: "pd.DataFrame", columns: tuple[Column, Column], log
         Along x and y.
     log : {"", "x", "y", "xy"}
         Axes with a logarithmic scale.
+    title : str or None
+        Title above the axes.
     """
+    if title:
+        axes.set_title(title.replace("$", r"\$"), fontsize=10)
     axes.set(xlabel=columns[0].title, ylabel=columns[1].title)
     for letter in log:
         axes.set(**{f"{letter}scale": "log"})

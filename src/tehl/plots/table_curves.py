@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tehl.errors import InputError
-from tehl.plots.frame import BLUE, ORANGE, PLAIN
+from tehl.plots.frame import BLUE, ORANGE, PLAIN, empty, figure_of
 from tehl.plots.table_columns import Column, certified, converged, dress, find_column, numbers
 from tehl.typing import Array
 from tehl.units import Quantity
@@ -25,27 +25,39 @@ _LARGEST_OVERLAY = 10**7
 """Bytes of a file of measured points."""
 
 
-def curves(
+def curves(  # noqa: PLR0913 (one call, as in other libraries of pictures)
     table: "pd.DataFrame",
     x: str,
     y: str,
     hue: str | None = None,
     style: str | None = None,
     log: str = "",
+    *,
+    ax: Axes | None = None,
+    title: str | None = None,
 ) -> Figure:
     """Draw ``y`` against ``x``, a curve for each combination of ``hue`` and ``style``.
+
+    Axes of the study that are not named distinguish curves too, where several cases have one x;
+    where that does not suffice, or the other axes wander along x as samples do, cases are points
+    without a line.
 
     Parameters
     ----------
     table : pandas.DataFrame
         As :func:`tehl.studies.table` returns it. Cases that did not converge are left out, and
-        counted below. Of certified cases the certified value is drawn, with its error bar.
+        counted below. Of certified cases the certified value is drawn with its error bar, of others
+        the film with the estimated error of its grid.
     x, y : str
         Columns of numbers; the last part of a dotted name suffices, and a minus turns the sign.
     hue, style : str or None
         Columns that distinguish curves, by colour and by line.
     log : {"", "x", "y", "xy"}
         Axes with a logarithmic scale.
+    ax : Axes or None
+        Where to draw; None makes a figure.
+    title : str or None
+        Title above the curves.
 
     Returns
     -------
@@ -60,11 +72,11 @@ def curves(
     rows = converged(table)
     across = numbers(rows, x)
     up, bars = certified(rows, numbers(rows, y))
+    hue, style, joined = _distinguished(rows, across.name, hue, style)
     hues, styles = _distinct(rows, hue), _distinct(rows, style)
     if len(hues) * len(styles) > _MOST_CURVES:
         raise InputError(f"{len(hues) * len(styles)} curves are too many for a picture")
-    picture = Figure(figsize=(7.0, 5.0), layout="constrained")
-    axes = picture.add_subplot()
+    axes = empty(ax)
     for i, one in enumerate(hues):
         for k, other in enumerate(styles):
             chosen, name = _chosen(rows, ((hue, one), (style, other)))
@@ -72,13 +84,41 @@ def curves(
             if not chosen.any():
                 continue
             order = np.flatnonzero(chosen)[np.argsort(across.values[chosen], kind="stable")]
-            look: dict[str, Any] = {"ls": _LINES[k % len(_LINES)], "lw": 1.3, "capsize": 2.5}
+            line = _LINES[k % len(_LINES)] if joined else "none"
+            look: dict[str, Any] = {"ls": line, "lw": 1.3, "capsize": 2.5}
             look |= {"marker": _MARKS[k % len(_MARKS)], "ms": 4.0, "label": name}
             colour, error = COLOURS[i % len(COLOURS)], None if bars is None else bars[order]
             axes.errorbar(across.values[order], up.values[order], error, color=colour, **look)
-    dress(axes, table, (across, up), log)
+    dress(axes, table, (across, up), log, title)
     _legend(axes)
-    return picture
+    return figure_of(axes)
+
+
+def _distinguished(
+    rows: "pd.DataFrame", x: str, hue: str | None, style: str | None
+) -> tuple[str | None, str | None, bool]:
+    """Return hue and style that leave one case per x on each curve, and whether to join cases."""
+    keys = [find_column(rows, name) for name in (hue, style) if name is not None]
+    labels = [str(name) for name in rows.columns[: list(rows.columns).index("status")]]
+    varied = [n for n in labels if n not in (x, "name", *keys) and 1 < rows[n].nunique()]
+    for name in varied:
+        if None not in (hue, style) or not rows.duplicated([x, *keys]).any():
+            break
+        if rows[name].nunique() <= len(COLOURS) and rows.duplicated([x, *keys, name]).sum() < (
+            rows.duplicated([x, *keys]).sum()
+        ):
+            hue, style = (name, style) if hue is None else (hue, name)
+            keys.append(name)
+    joined = not rows.duplicated([x, *keys]).any()
+    return hue, style, joined and not any(_wanders(rows, x, n) for n in varied if n not in keys)
+
+
+def _wanders(rows: "pd.DataFrame", x: str, name: str) -> bool:
+    """Return whether a column of numbers goes up and down along x, as that of a sample does."""
+    values = rows.sort_values(x, kind="stable").groupby(x, sort=True)[name].first()
+    if values.dtype == object:
+        return False
+    return not (values.is_monotonic_increasing or values.is_monotonic_decreasing)
 
 
 def _distinct(table: "pd.DataFrame", name: str | None) -> list[Any]:

@@ -11,6 +11,7 @@ from matplotlib.tri import Triangulation
 
 from tehl.errors import InputError
 from tehl.film_formulas import FilmRatio, chittenden, hamrock_dowson, nijenbanning_venner_moes
+from tehl.plots.frame import Picture, empty, figure_of
 from tehl.plots.table_columns import FAILED, converged, dress, numbers
 from tehl.scaling import Groups
 from tehl.typing import Array
@@ -31,7 +32,16 @@ _COMPUTED = {"central": "film.H_central_moes", "minimum": "film.H_min_moes"}
 _GROUPS = ("M", "L", "U", "W", "G", "lambda_bar", "alpha_bar", "ellipticity", "radius_ratio")
 
 
-def contour_map(table: "pd.DataFrame", x: str, y: str, z: str, log: str = "") -> Figure:
+def contour_map(  # noqa: PLR0913 (one call, as in other libraries of pictures)
+    table: "pd.DataFrame",
+    x: str,
+    y: str,
+    z: str,
+    log: str = "",
+    *,
+    ax: Axes | None = None,
+    title: str | None = None,
+) -> Figure:
     """Draw contours of a column over two others, which need not form a grid.
 
     Parameters
@@ -42,6 +52,10 @@ def contour_map(table: "pd.DataFrame", x: str, y: str, z: str, log: str = "") ->
         Columns of numbers.
     log : {"", "x", "y", "xy"}
         Axes with a logarithmic scale.
+    ax : Axes or None
+        Where to draw; None makes a figure.
+    title : str or None
+        Title above the map.
 
     Raises
     ------
@@ -50,15 +64,14 @@ def contour_map(table: "pd.DataFrame", x: str, y: str, z: str, log: str = "") ->
     """
     rows = converged(table)
     across, up, shown = numbers(rows, x), numbers(rows, y), numbers(rows, z)
-    picture = Figure(figsize=(6.6, 5.0), layout="constrained")
-    axes = picture.add_subplot()
+    axes = empty(ax, (6.6, 5.0))
     known = np.isfinite(shown.values)
     mesh = _mesh(across.values[known], up.values[known], log)
     filled = axes.tricontourf(mesh, shown.values[known], 14, cmap="viridis")
-    picture.colorbar(filled, ax=axes, label=shown.title)
+    figure_of(axes).colorbar(filled, ax=axes, label=shown.title)
     axes.plot(across.values, up.values, "k.", ms=1.5, alpha=0.5)
-    dress(axes, table, (across, up), log)
-    return picture
+    dress(axes, table, (across, up), log, title)
+    return figure_of(axes)
 
 
 def moes_map(table: "pd.DataFrame") -> Figure:
@@ -71,7 +84,7 @@ def moes_map(table: "pd.DataFrame") -> Figure:
     rows = converged(table)
     load, speed = numbers(rows, "groups.M").values, numbers(rows, "groups.L").values
     mesh = _mesh(load, speed, "xy")
-    picture = Figure(figsize=(11.5, 6.8), layout="constrained")
+    picture = Picture(figsize=(11.5, 6.8), layout="constrained")
     panels = picture.subplots(2, 3, sharex=True, sharey=True).ravel()
     film = np.log10(numbers(rows, "film.H_central_moes").values)
     panels[0].tricontourf(mesh, film, 14, cmap="viridis")

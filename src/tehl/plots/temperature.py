@@ -32,10 +32,11 @@ from tehl.plots.frame import (
     dress_contact,
     entrainment_arrow,
     figure,
+    figure_of,
     inner_levels,
-    map_figure,
+    map_axes,
     mark_levels,
-    slenderness,
+    shape,
     span_part,
     window,
     window_part,
@@ -56,7 +57,9 @@ _HIGHEST = 3.0
 """Films that the section shows, in central films."""
 
 
-def mid_film_temperature(result: Result) -> Figure:
+def mid_film_temperature(
+    result: Result, *, ax: Axes | None = None, title: bool | None = True
+) -> Figure:
     """Draw the temperature rise half-way between the surfaces [K] as a map."""
     found = _heat_of(result)[1]
     note = (
@@ -64,12 +67,12 @@ def mid_film_temperature(result: Result) -> Figure:
         f"in the film, {found.surface_1_rise_max:.3g} and {found.surface_2_rise_max:.3g} K "
         "on the surfaces"
     )
-    picture, axes = map_figure(result, note)
+    axes = map_axes(result, note, ax=ax, title=title)
     rise = (found.mid_film - found.inlet)[window_part(result)]
     mesh, lines = _coloured(axes, window_places(result), rise, _span(rise))
     label = "mid-film temperature rise [K]"
-    mark_levels(picture.colorbar(mesh, cax=colour_axes(axes), label=label), lines)
-    return picture
+    mark_levels(figure_of(axes).colorbar(mesh, cax=colour_axes(axes), label=label), lines)
+    return figure_of(axes)
 
 
 def _heat_of(result: Result) -> tuple[FilmHeat, Temperature]:
@@ -98,16 +101,16 @@ def _coloured(
     return mesh, axes.contour(*places, np.nan_to_num(rise), levels=levels, **line)
 
 
-def temperature_layers(result: Result) -> Figure:
+def temperature_layers(result: Result, *, title: bool | None = True) -> Figure:
     """Draw the temperature rise on both surfaces and on layers between, in one scale of colours."""
     found = _heat_of(result)[1]
     layers = _layers(result)
-    slender = slenderness(result)
+    slender = shape(result)
     columns = 2 if slender < 0.5 else 3 if slender < 2.0 else 6
     rows = len(layers) // columns
     width = 6.6 / columns
     height = float(np.clip(rows * (width * slender + 0.4), 2.2, 10.0)) + 1.4
-    picture = figure(result, (8.6, height))
+    picture = figure(result, (8.6, height), title=title)
     picture.set_layout_engine("compressed")  # closes the gaps that equal aspects leave
     grid = picture.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)
     part, places = window_part(result), window_places(result)
@@ -139,7 +142,7 @@ def _layers(result: Result) -> dict[str, Array]:
     }
 
 
-def temperature_section(result: Result) -> Figure:
+def temperature_section(result: Result, *, title: bool | None = True) -> Figure:
     """Draw the temperature rise in the plane y = 0, over z/h and over z, in one scale of colours.
 
     Between its nodes across the film the temperature is a cubic spline.
@@ -152,7 +155,7 @@ def temperature_section(result: Result) -> Figure:
     zeta = np.linspace(0.0, 1.0, _ACROSS)
     rise = np.nan_to_num(heat.temperature[:, row, columns] - found.inlet)
     rise = CubicSpline(heat.zeta, rise, axis=0)(zeta)
-    picture = figure(result, (7.6, 7.0))
+    picture = figure(result, (7.6, 7.0), title=title)
     upper, lower = picture.subplots(2, 1, sharex=True)
     along = np.broadcast_to(x, rise.shape)
     for axes, height in ((upper, np.ones_like(x)), (lower, film)):
@@ -179,12 +182,12 @@ def _mark_ends(axes: Axes, result: Result, colour: str, width: float) -> None:
         axes.axvline(place, color=colour, lw=width, ls="--")
 
 
-def surface_heat(result: Result) -> Figure:
+def surface_heat(result: Result, *, title: bool | None = True) -> Figure:
     """Draw temperature rises [K] and heat fluxes into the solids [MW/m^2] along y = 0."""
     heat = _heat_of(result)[0]
     row = centre_row(result)
     x = result.x * MICRO
-    picture = figure(result, (7.2, 6.6))
+    picture = figure(result, (7.2, 6.6), title=title)
     upper, lower = picture.subplots(2, 1, sharex=True)
     for rise, style in rises(result, (row, slice(None))):
         upper.plot(x, rise, **style)

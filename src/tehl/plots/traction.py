@@ -4,10 +4,11 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tehl.errors import InputError
-from tehl.plots.frame import BLUE, GIGA, ORANGE, PLAIN
+from tehl.plots.frame import BLUE, GIGA, ORANGE, PLAIN, empty, figure_of
 from tehl.result import Result
 from tehl.typing import Array
 
@@ -15,7 +16,12 @@ _STYLES = {True: ("o-", ORANGE, "thermal"), False: ("s--", BLUE, "isothermal")}
 _FADING = (1.0, 0.55, 0.3)
 
 
-def traction_curve(runs: Sequence[Result] | Mapping[str, Any]) -> Figure:
+def traction_curve(
+    runs: Sequence[Result] | Mapping[str, Any],
+    *,
+    ax: Axes | None = None,
+    title: bool | None = True,
+) -> Figure:
     """Draw the traction coefficient at mid-film against the slide-to-roll ratio.
 
     The coefficient is drawn as friction: positive where surface 1 is the faster, so with the sign
@@ -29,8 +35,7 @@ def traction_curve(runs: Sequence[Result] | Mapping[str, Any]) -> Figure:
     table = _columns(_of_results(runs) if isinstance(runs, Sequence) else runs)
     if not table["slide_roll_ratio"].size:
         raise InputError("there is no traction to draw: no run has shear stresses")
-    picture = Figure(figsize=(7.0, 5.0), layout="constrained")
-    axes = picture.add_subplot()
+    axes = empty(ax)
     cases = list(dict.fromkeys(table["case"].tolist()))
     for thermal, (style, colour, word) in _STYLES.items():
         for number, case in enumerate(cases):
@@ -43,8 +48,8 @@ def traction_curve(runs: Sequence[Result] | Mapping[str, Any]) -> Figure:
             look: dict[str, Any] = {"color": colour, "ms": 4.5, "lw": 1.3, "label": label}
             alpha = _FADING[number % len(_FADING)]
             axes.plot(100.0 * ratio[order], -traction[order], style, alpha=alpha, **look)
-    _dress(axes, table, cases)
-    return picture
+    _dress(axes, table, cases if title else [])
+    return figure_of(axes)
 
 
 def _dress(axes: Any, table: dict[str, Array], cases: list[str]) -> None:

@@ -38,7 +38,7 @@ def time_unit(run: TransientResult) -> tuple[float, str]:
     return (1e3, "ms") if run.history.time[-1] >= _MILLISECOND else (1e6, "µs")
 
 
-def history(run: TransientResult) -> Figure:
+def history(run: TransientResult, *, title: bool | None = True) -> Figure:
     """Draw film, largest pressure, traction, and rise and load if they change, over the time.
 
     The upper axis is the distance that the mean of both surfaces has moved. Bands are the error
@@ -54,7 +54,7 @@ def history(run: TransientResult) -> Figure:
         curves.append(("largest rise [K]", numbers.temperature_rise, "#8a1c7c"))
     if np.ptp(numbers.load) > 0:
         curves.append(("load [N]", numbers.load * run.start.problem.load, "0.2"))
-    picture = figure(run, (7.0, 1.8 + 1.6 * (1 + len(curves))))
+    picture = figure(run, (7.0, 1.8 + 1.6 * (1 + len(curves))), title=title)
     panels = picture.subplots(1 + len(curves), sharex=True)
     panels[0].plot(time, numbers.film_central * MICRO, color=FILM, label="central")
     panels[0].plot(time, numbers.film_minimum * MICRO, color=FILM, ls="--", label="minimum")
@@ -95,7 +95,7 @@ def _draw_error_bars(panels: Sequence[Axes], run: TransientResult, bars: History
         axes.fill_between(time, low, high, color=colour, alpha=0.25, lw=0)
 
 
-def space_time(run: TransientResult) -> Figure:
+def space_time(run: TransientResult, *, title: bool | None = True) -> Figure:
     """Draw film and pressure along y = 0 over place and time.
 
     Lines are the paths of points on both surfaces (and of the oil between them, dotted, at the mean
@@ -105,7 +105,7 @@ def space_time(run: TransientResult) -> Figure:
     part = _window(run)
     x, time = run.x[part] * MICRO, run.history.time * factor
     film, pressure = run.profiles.film[:, part] * MICRO, run.profiles.pressure[:, part] * GIGA
-    picture = figure(run, (8.4, 4.8))
+    picture = figure(run, (8.4, 4.8), title=title)
     left, right = picture.subplots(1, 2, sharey=True)
     low, high = float(film.min()), _largest_inside(run, run.profiles.film)
     top = high + 0.25 * (high - low)
@@ -141,7 +141,9 @@ def _draw_paths(axes: Axes, run: TransientResult, factor: float) -> None:
         line.set(label=label, path_effects=effects)
 
 
-def moments(run: TransientResult, times: Sequence[float] | None = None) -> Figure:
+def moments(
+    run: TransientResult, times: Sequence[float] | None = None, *, title: bool | None = True
+) -> Figure:
     """Draw pressure and film along y = 0 at several moments, above the undeformed rough body.
 
     ``times`` [s] are rounded to steps; by default they are four while the roughness passes. The
@@ -152,7 +154,7 @@ def moments(run: TransientResult, times: Sequence[float] | None = None) -> Figur
     steps = moments_of(run)
     if times is not None:
         steps = [int(np.argmin(np.abs(reached - time))) for time in times]
-    picture = figure(run, (7.2, 0.9 + 1.75 * len(steps)))
+    picture = figure(run, (7.2, 0.9 + 1.75 * len(steps)), title=title)
     panels = picture.subplots(len(steps), 1, sharex=True, squeeze=False)[:, 0]
     for axes, step in zip(panels, steps, strict=True):
         CentreLines(run, axes).show(step)
@@ -222,11 +224,11 @@ def _largest_inside(run: TransientResult, film: Array) -> float:
     return float(film[..., np.abs(run.start.scaled.x) < 0.8].max()) * MICRO
 
 
-def passage(run: TransientResult) -> Figure:
+def passage(run: TransientResult, *, title: bool | None = True) -> Figure:
     """Draw the range of film and pressure along y = 0 over the run."""
     found, start, part = envelope(run), run.profiles, _window(run)
     x = found.x[part] * MICRO
-    picture = figure(run, (7.0, 6.2))
+    picture = figure(run, (7.0, 6.2), title=title)
     upper, lower = picture.subplots(2, 1, sharex=True)
     for axes, span, first, colour, unit in (
         (upper, (found.pressure_least, found.pressure_largest), start.pressure[0], PRESSURE, GIGA),

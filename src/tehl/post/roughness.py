@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl.film_formulas import expected_film
+from tehl.film_formulas import Lubrication, expected_film, lubrication
 from tehl.post.film import no_film
 from tehl.post.waves.response import REACH, WaveResponse, wave_notes, wave_responses
 from tehl.roughness.resolution import Resolution
@@ -18,6 +18,8 @@ QUANTILES = (0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
 SHALLOWEST = 0.01
 """Depth of a ripple that counts, over the mean film of the line [-]."""
 _LINE = 0.8
+_SMOOTH = 1e-12
+"""Sq of both surfaces up to which they are smooth [m]: the foot of a bump far upstream."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -43,8 +45,11 @@ class RoughFilm:
     """Which part of the stated heights that is."""
     composite: float
     """Of both together, ``sqrt(Sq_1^2 + Sq_2^2)`` [m]."""
-    lambda_ratio: float
-    """Mean film where |X|, |Y| < 0.4 over ``composite`` [-]."""
+    lambda_central: float
+    """Central film over ``composite`` [-]; between rough surfaces the central film is the mean
+    where |X|, |Y| < 0.4, so that no single asperity decides."""
+    lambda_minimum: float
+    """Minimum film over ``composite`` [-]."""
     lambda_by_formula: float
     """Central film of the smooth contact by formula over ``composite`` [-]."""
     quantiles: tuple[tuple[float, float], ...]
@@ -65,6 +70,11 @@ class RoughFilm:
     wave_notes: tuple[str, ...]
     """What is left out of them, and why."""
 
+    @property
+    def lubrication(self) -> Lubrication:
+        """Boundary, mixed or full film, by ``lambda_central``."""
+        return lubrication(self.lambda_central)
+
 
 def rough_film(result: Solution, smooth: Solution | None = None) -> RoughFilm | None:
     """Return the numbers of the film between rough surfaces.
@@ -84,17 +94,19 @@ def rough_film(result: Solution, smooth: Solution | None = None) -> RoughFilm | 
     """
     first, second = sq_of(result)
     composite = math.hypot(first, second)
-    if no_film(result) or not composite > 0:
+    if no_film(result) or not composite > _SMOOTH:
         return None
     film = film_in_contact(result)
     formula = expected_film(result.scaled_problem)
+    central = result.film.central if result.heights is None else middle_film(result)
     row, column = (int(np.argmin(np.abs(axis))) for axis in (result.scaled.y, result.scaled.x))
     return RoughFilm(
         sq=(first, second),
         sq_on_grid=sq_on_grid(result),
         resolution=result.resolution,
         composite=composite,
-        lambda_ratio=middle_film(result) / composite,
+        lambda_central=central / composite,
+        lambda_minimum=result.film.minimum / composite,
         lambda_by_formula=formula / composite,
         quantiles=tuple(zip(QUANTILES, map(float, np.quantile(film, QUANTILES)), strict=True)),
         below_composite=area_below(result, composite),

@@ -1,10 +1,18 @@
 """Explain a case before the solve, by formulas alone."""
 
 from dataclasses import asdict, dataclass
+from html import escape
 from typing import Any
 
 from tehl.domain import AIM, domain_of, needed_points, planned, recommended_domain
-from tehl.film_formulas import FilmEstimate, expected_film, film_estimates, regime
+from tehl.film_formulas import (
+    FilmEstimate,
+    Lubrication,
+    expected_film,
+    film_estimates,
+    lubrication,
+    regime,
+)
 from tehl.grid import Grid
 from tehl.heat import FilmEnergy, source_form
 from tehl.inlet_heating import inlet_factors, inlet_heating_factor, thermal_loading
@@ -27,9 +35,9 @@ LEAST_RISE, LEAST_TRACTION = 0.1, 1e-4
 """Temperature rise [K] and traction coefficient below which no number is shown."""
 
 
-@dataclass(frozen=True, kw_only=True, slots=True)
+@dataclass(frozen=True, kw_only=True, slots=True, repr=False)
 class Explanation:
-    """What formulas say about a case."""
+    """What formulas say about a case; shown as ``tehl explain`` prints it."""
 
     scaled: ScaledProblem
     """The contact with its groups and scales."""
@@ -39,8 +47,8 @@ class Explanation:
     """Central film to expect [m]."""
     films: tuple[FilmEstimate, ...]
     """By each formula."""
-    lambda_ratio: float | None
-    """Central film over roughness of both surfaces [-]; None when no roughness is stated."""
+    composite: float
+    """Sq of both surfaces together [m]; zero when no roughness is stated."""
     roughness: Asperities | None
     """Heights of the surfaces in this contact; None where both are smooth."""
     peclet: tuple[float | None, ...]
@@ -64,17 +72,42 @@ class Explanation:
     questions: tuple[str, ...]
     """Values that are not plausible."""
 
+    def __repr__(self) -> str:
+        """Return the text of ``tehl explain``."""
+        return as_text(self)
 
-def explain(problem: ContactProblem, options: Options) -> Explanation:
+    def _repr_html_(self) -> str:
+        """Return the same for notebooks."""
+        return f"<pre>{escape(as_text(self))}</pre>"
+
+    @property
+    def lambda_central(self) -> float | None:
+        """Central film over ``composite`` [-]; None without roughness."""
+        return self.central_film / self.composite if self.composite > 0 else None
+
+    @property
+    def lambda_minimum(self) -> float | None:
+        """Minimum film, by a formula in its range if there is one, over ``composite`` [-]."""
+        films = sorted(self.films, key=lambda film: not film.valid)
+        minimum = next(film.minimum_m for film in films if film.minimum_m is not None)
+        return minimum / self.composite if self.composite > 0 else None
+
+    @property
+    def lubrication(self) -> Lubrication | None:
+        """Boundary, mixed or full film, by ``lambda_central``; None without roughness."""
+        return None if self.lambda_central is None else lubrication(self.lambda_central)
+
+
+def explain(problem: ContactProblem, options: Options | None = None) -> Explanation:
     """Return what formulas say about a case, without solving it."""
+    asked = options or Options()
     scaled = ScaledProblem.of(problem)
-    asked, options = options, planned(scaled, options)
+    options = planned(scaled, asked)
     groups, film, (ny, nx) = scaled.groups, expected_film(scaled), options.shape
     wanted, domain = recommended_domain(groups, asked.target), domain_of(groups, options)
     grid = Grid(nx=nx, ny=ny, domain=domain, mirror=False)
     mesh = (grid.dx * scaled.scales.half_width_x, grid.dy * scaled.scales.half_width_y)
     heights, plan = asperities(problem, options, mesh, film), transient_plan(scaled, options, mesh)
-    rough = problem.rms_roughness if heights is None else heights.composite
     bodies = body_effect(scaled)
     heat = expected_heat(scaled, bodies)
     thinnest = bodies.groups if bodies is not None and bodies.ratio < 1 else groups
@@ -83,7 +116,7 @@ def explain(problem: ContactProblem, options: Options) -> Explanation:
         options=options,
         central_film=film,
         films=film_estimates(groups, scaled.scales),
-        lambda_ratio=film / rough if rough > 0 else None,
+        composite=problem.rms_roughness if heights is None else heights.composite,
         roughness=heights,
         peclet=tuple(None if one is None else abs(one) for one in problem.solid_peclet),
         sources=_sources(problem),
@@ -137,7 +170,9 @@ def as_summary(case: Explanation) -> dict[str, Any]:
         "regime": regime(case.scaled.groups),
         "central_film_m": case.central_film,
         "films": [asdict(film) | {"valid": film.valid} for film in case.films],
-        "lambda_ratio": case.lambda_ratio,
+        "lambda_central": case.lambda_central,
+        "lambda_minimum": case.lambda_minimum,
+        "lubrication": case.lubrication,
         "roughness": None if roughness is None else roughness.summary(),
         "solid_peclet": list(case.peclet),
         "inlet_heating_factor": inlet_heating_factor(problem),

@@ -48,6 +48,8 @@ CAPTIONS = {
     "interferogram_dichromatic": "Synthetic interferogram, two lines.",
 }
 """Pictures of a report, in its order."""
+LONGEST = 12
+"""Cycles that a report lists."""
 _CERTIFIED = {
     "pressure_max": "gpa",
     "film_rise_max": "kelvin",
@@ -87,6 +89,7 @@ def report_text(
     content |= {
         "effect": effect,
         "heat": result.heat,
+        "longest": LONGEST,
         "rough": rough_film(result, smooth),
         "roughness_effect": roughness,
     }
@@ -104,6 +107,7 @@ def _shared(result: Result | TransientResult, pictures: Pictures, dpi: int) -> d
         "formulas": film_estimates(start.groups, start.scales),
         "inputs": _inputs(start),
         "no_film": no_film(start),
+        "rough": start.roughness,
         "pictures": [
             (caption, _embedded(pictures[name](result), dpi))
             for name, caption in CAPTIONS.items()

@@ -26,7 +26,7 @@ End = float | int | str
 Ends = tuple[End, End]
 Steps = tuple[End, End, Annotated[int, Field(ge=1)]]
 
-_KINDS = ("values", "linspace", "geomspace", "uniform", "loguniform")
+_KINDS = ("values", "file", "linspace", "geomspace", "uniform", "loguniform")
 """Ways to state the values of an axis."""
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+|inf|nan)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
 _DIGITS = 12
@@ -58,6 +58,10 @@ class Axis(Table):
     """Of its column in the table; the path if left out."""
     values: list[Any] | None = None
     """Numbers, words, quantities or tables; ``false`` leaves the key out of the case."""
+    file: str | None = None
+    """CSV file with the values in a column; beside the study file."""
+    column: str | None = None
+    """Heading of that column without its unit; the path if left out."""
     names: list[str] | None = None
     """Names of the values in the table."""
     linspace: Steps | None = None
@@ -77,8 +81,7 @@ class Axis(Table):
             raise ValueError(f"{how}: give one of {', '.join(_KINDS)}")
         if self.values == []:
             raise ValueError("has an empty list of values")
-        if self.names is not None and len(self.names) != len(self.values or ()):
-            raise ValueError("must have as many names as values")
+        self._check_file_and_names()
         if self.zip is not None and self.is_sampled:
             raise ValueError("is sampled, and all sampled axes vary together: remove zip")
         if not all(part.strip() for part in self.path.split(".")):
@@ -92,6 +95,13 @@ class Axis(Table):
             self._check_repeated()
         return self
 
+    def _check_file_and_names(self) -> None:
+        if self.column is not None and self.file is None:
+            raise ValueError("states column without a file")
+        known = self.file is None and self.names is not None
+        if known and len(self.names or ()) != len(self.values or ()):
+            raise ValueError("must have as many names as values")
+
     def _check_repeated(self) -> None:
         if (steps := self.linspace or self.geomspace) and steps[0] == steps[1] and steps[2] > 1:
             raise ValueError(f"has the value {steps[0]} {steps[2]} times: give two different ends")
@@ -100,6 +110,16 @@ class Axis(Table):
             word, count = next(iter(words.most_common(1)), ("", 0))
             if count > 1:
                 raise ValueError(f"has the {what} {word[:_LONGEST]} twice: give each once")
+
+    def with_values(self, folder: Path) -> "Axis":
+        """Return the axis with the values of its file, whose path begins in ``folder``."""
+        if self.file is None:
+            return self
+        values = values_of_file(folder / self.file, self.column or self.path)
+        return Axis.model_validate(
+            self.model_dump(exclude={"file", "column", "values"}, exclude_none=True)
+            | {"values": values}
+        )
 
     @property
     def is_sampled(self) -> bool:
@@ -260,6 +280,23 @@ def block_of_file(path: Path) -> Block:
         rows=tuple(tuple(_setting(line[k], columns[k][1]) for k in varied) for line in lines[1:]),
         titles=tuple(line[paths.index(_TITLES)] for line in lines[1:]) if _TITLES in paths else (),
     )
+
+
+def values_of_file(path: Path, column: str) -> list[Any]:
+    """Return the values of one column of a CSV file, with the unit of its heading.
+
+    A file with a single column may have any heading. An InputError names file and columns.
+    """
+    shown = shortened(path)
+    lines = _lines(path, shown)
+    headings = [_column(cell) for cell in lines[0]] if lines else []
+    names = [name for name, _ in headings]
+    if len(lines) < 2 or (column not in names and len(names) > 1):
+        found = f"its columns are {', '.join(names)}" if names else "it is empty"
+        raise InputError(f"{shown} has no values of {column}: {found}")
+    place = names.index(column) if column in names else 0
+    cells = [_setting(line[place], headings[place][1]) for line in lines[1:]]
+    return [cell.value for cell in cells if cell is not None]
 
 
 def _lines(path: Path, shown: str) -> list[list[str]]:

@@ -54,6 +54,7 @@ class StudyFile(Table):
     keep: Keep = "summary"
     warm_start: StrictBool = False
     store: str | None = None
+    one_domain: StrictBool = True
     largest: Annotated[int, Field(ge=1)] | None = None
     pictures: list[Picture] = Field(default_factory=list)
 
@@ -118,7 +119,7 @@ def plan_of(
     overrides, unlimited
         As of :func:`read_study`; an invalid study raises an InputError or ValueError.
     """
-    groups = groups_of(stated.axes)
+    groups = groups_of([axis.with_values(folder) for axis in stated.axes])
     listed = () if stated.cases is None else (block_of_file(folder / stated.cases),)
     count = math.prod(count_of(group, stated.sample) for group in groups)
     count *= math.prod(len(block.rows) for block in listed)
@@ -137,6 +138,7 @@ def plan_of(
         keep=stated.keep,
         warm_start=stated.warm_start,
         store=None if stated.store is None else folder / stated.store,
+        one_domain=stated.one_domain,
         pictures=pictures,
     )
 
@@ -225,15 +227,17 @@ def cases_of(
     """
     base = problem.model_dump(mode="json", exclude_unset=True)
     base["numerics"] = (options or Options()).model_dump(mode="json", exclude_unset=True)
+    listed: list[Any] = (
+        [{"path": path, "values": list(values)} for path, values in axes.items()]
+        if isinstance(axes, Mapping)
+        else list(axes)
+    )
+    tables = {"case": base, "axes": listed, "sample": sample, "certify": certify}
     try:
-        if isinstance(axes, Mapping):
-            axes = [Axis(path=path, values=list(values)) for path, values in axes.items()]
-        stated = StudyFile(
-            case=base, axes=list(axes), sample=sample, certify=certify, title=problem.title
-        )
+        stated = StudyFile.model_validate(tables | {"title": problem.title})
         return study_of(plan_of(stated, Path(), unlimited=True))
     except ValidationError as error:
-        raise InputError(first_mistake(error, {})) from None
+        raise InputError(first_mistake(error, tables)) from None
     except ValueError as error:
         raise InputError(str(error)) from None
 

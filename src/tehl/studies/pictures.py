@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 Range = tuple[float, float]
 _DPI = 200
-_KEYS = ("x", "y", "z", "hue", "style", "log", "map", "overlay", "file", "format")
+_KEYS = ("x", "y", "z", "hue", "style", "log", "map", "overlay", "file", "format", "title")
 """What ``--plot`` can state."""
 
 
@@ -34,6 +34,7 @@ class Picture(Table):
     y_range: Range | None = None
     map: Literal["moes"] | None = None
     overlay: str | None = None
+    title: str | None = None
     format: Literal["png", "pdf", "svg"] = "png"
     file: Annotated[str, Field(pattern=r"^[A-Za-z0-9._-]+$")] | None = None
 
@@ -117,9 +118,10 @@ def draw(picture: Picture, table: "pd.DataFrame") -> "Figure":
     if picture.map is not None:
         return moes_map(table)
     x, y = str(picture.x), str(picture.y)
+    title = table.attrs.get("title") if picture.title is None else picture.title
     if picture.z is not None:
-        return contour_map(table, x, y, picture.z, picture.log)
-    figure = curves(table, x, y, picture.hue, picture.style, picture.log)
+        return contour_map(table, x, y, picture.z, picture.log, title=title)
+    figure = curves(table, x, y, picture.hue, picture.style, picture.log, title=title)
     if picture.overlay is not None:
         overlay(figure, table, x, y, path=Path(picture.overlay))
     figure.axes[0].set(xlim=picture.x_range, ylim=picture.y_range)

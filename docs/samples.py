@@ -1,0 +1,35 @@
+"""Run the commands that pages show, and keep what they print, so that samples cannot go stale."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+COMMANDS = {
+    "ball": ("ball-on-disc", ("--plot", "pictures")),
+    "thermal": ("thermal", ("--with-isothermal",)),
+    "rough": ("rough", ("--with-smooth",)),
+    "bearing": ("bearing", ("--plot", "pictures")),
+    "gear": ("gear-ellipse", ("--plot", "pictures")),
+}
+"""By name of the sample: its template, and options of the solve."""
+
+
+def make(folder: Path, newest: float) -> None:
+    """Write case, explanation and result of each sample into ``folder``, unless they are newer."""
+    for name, (template, options) in COMMANDS.items():
+        place = folder / name
+        place.mkdir(parents=True, exist_ok=True)
+        done = place / "solve.txt"
+        if done.exists() and done.stat().st_mtime > newest:
+            continue
+        (place / "case.toml").write_text(printed(place, "new", template), encoding="utf-8")
+        explained = printed(place, "explain", "case.toml")
+        (place / "explain.txt").write_text(explained, encoding="utf-8")
+        solved = printed(place, "solve", "case.toml", "-o", "film.nc", "--quiet", *options)
+        done.write_text(solved, encoding="utf-8")
+
+
+def printed(place: Path, *words: str) -> str:
+    """Return what ``tehl`` prints in a folder."""
+    command = [sys.executable, "-m", "tehl", *words]
+    return subprocess.run(command, cwd=place, check=True, capture_output=True, text=True).stdout
