@@ -71,8 +71,8 @@ class CycleReport:
     """Largest change of the film temperature in this cycle, where the pressure exceeds a fiftieth
     of the Hertz pressure [K]; zero in an isothermal run."""
     temperature_rise: float = 0.0
-    """Largest rise of the film temperature over the inlet [K]; zero in an isothermal run; not
-    stored."""
+    """Largest rise of the film temperature over the inlet, or largest fall, negative, if that is
+    larger [K]; zero in an isothermal run; not stored."""
     mean_change: float = 0.0
     """Sum of the changes of pressure in this cycle over the sum of pressures [-]; not stored."""
 

@@ -15,8 +15,9 @@ from tehl.options import Options
 from tehl.solution import CycleReport, ErrorEstimate
 
 LEAST_CYCLES = 2
-LEAST_RATE, GUESSED_RATE, LARGEST_RATE = 0.2, 0.3, 0.8
-"""Bounds on the convergence rate per cycle in iteration errors, and its value from one change."""
+LEAST_RATE, GUESSED_RATE, LARGEST_RATE, LARGEST_ALTERNATING = 0.2, 0.3, 0.95, 0.8
+"""Least convergence rate per cycle in iteration errors, its value from one change, and its largest
+value where changes have the same sign, and where they alternate."""
 SAFETY = 2.0
 """Factor on a discretisation error from three grids: the coarser ones are not fully converged."""
 ROUGH_PART = 0.7
@@ -84,15 +85,20 @@ class Trace:
     least_rate: float = LEAST_RATE
 
     def iteration_error(self) -> float:
-        """Estimate the change by all further cycles: d q / (1 - q), last change d, rate q."""
+        """Estimate the change by all further cycles: d q / (1 - q), last change d, rate q.
+
+        Changes of one sign add up: q may be as near to one as they show. Those of alternating signs
+        nearly cancel.
+        """
         if len(self.values) < 2:
             return float("inf")
-        last = abs(self.values[-1] - self.values[-2])
+        last = self.values[-1] - self.values[-2]
         rate = max(GUESSED_RATE, self.least_rate)
         if len(self.values) > 2:
-            before = abs(self.values[-2] - self.values[-3])
-            rate = min(max(last / before if before > 0 else 0.0, self.least_rate), LARGEST_RATE)
-        return last * rate / (1.0 - rate)
+            before = self.values[-2] - self.values[-3]
+            largest = LARGEST_RATE if last * before > 0.0 else LARGEST_ALTERNATING
+            rate = min(max(abs(last / before) if before else 0.0, self.least_rate), largest)
+        return abs(last) * rate / (1.0 - rate)
 
 
 @dataclass(slots=True)
@@ -101,7 +107,8 @@ class GridTrace:
 
     ``measured`` has further values after the last cycle (`tehl.solver.measures`).
     ``damping`` is the damping factor of heat and thinning between rough surfaces, 1 is undamped: no
-    convergence rate is below 1 - damping.
+    convergence rate is below 1 - damping. ``negligible`` is the relative iteration error of the
+    film that is always accepted.
     """
 
     central: Trace = field(default_factory=Trace)
@@ -112,6 +119,7 @@ class GridTrace:
     largest_change: float = LARGEST_CHANGE
     least_cycles: int = LEAST_CYCLES
     damping: float = 1.0
+    negligible: float = 0.0
 
     def __post_init__(self) -> None:
         self.least_cycles = max(LEAST_CYCLES, math.ceil(1.0 / self.damping))
@@ -162,7 +170,7 @@ def converged(now: GridTrace, coarser: GridTrace | None, options: Options) -> bo
     if options.accuracy == "tight":
         last = now.reports[-1]
         change = max(last.residual, last.change, abs(last.load_error)) / now.damping
-        kelvin = max(last.temperature_rise, 1.0) * TIGHTER * options.tolerance
+        kelvin = max(abs(last.temperature_rise), 1.0) * TIGHTER * options.tolerance
         return change <= options.tolerance and last.temperature_change <= kelvin
     return film_converged(now, coarser) and temperature_converged(now, coarser)
 
@@ -173,13 +181,13 @@ def temperature_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
     Or below `RISE_ERROR`, or below `LEAST_KELVIN`.
     """
     last = now.reports[-1]
-    largest = LARGEST_KELVIN_CHANGE * last.temperature_rise
+    largest = LARGEST_KELVIN_CHANGE * abs(last.temperature_rise)
     if last.temperature_change > max(largest, LEAST_KELVIN):
         return False
     before = coarser.rise.values[-1:] if coarser else []
     # second order: a third of the change from the coarser grid
     discretisation = abs(last.temperature_rise - before[0]) / 3.0 if before else 0.0
-    limit = max(discretisation / 3.0, RISE_ERROR * last.temperature_rise, LEAST_KELVIN)
+    limit = max(discretisation / 3.0, RISE_ERROR * abs(last.temperature_rise), LEAST_KELVIN)
     return now.rise.iteration_error() <= limit
 
 
@@ -199,7 +207,10 @@ def film_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
     limit = max(abs(a.values[-1] - b.values[-1]) / 3.0 for a, b in pairs) / 3.0
     # of two numbers the one with the smaller discretisation error may take a tenth of the limit
     return all(
-        a.iteration_error() <= max(abs(a.values[-1] - b.values[-1]) / 9.0, 0.1 * limit)
+        a.iteration_error()
+        <= max(
+            abs(a.values[-1] - b.values[-1]) / 9.0, 0.1 * limit, now.negligible * abs(a.values[-1])
+        )
         for a, b in pairs
     )
 
@@ -268,7 +279,7 @@ def further_errors(traces: list[GridTrace], otherwise: float, domain: float) -> 
             continue
         bar = discretisation_bar(values, otherwise)
         if name == "pressure_max":
-            before, spike = (one.measured["spike"] for one in traces[-2:])
+            before, spike = [one.measured["spike"] for one in traces if one.measured][-2:]
             bar = max(bar, spike + SPIKE_GROWTH * max(spike - before, 0.0) - last)
         found[name] = abs(bar / last) + domain
     return found

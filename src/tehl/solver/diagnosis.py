@@ -1,5 +1,6 @@
 """Why an iteration failed: the status of a run that diverged or stalled, with its likely cause."""
 
+import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -13,6 +14,7 @@ from tehl.solution import Status
 from tehl.solver.film_solver import FilmSolver
 from tehl.solver.film_summary import film_summary
 from tehl.solver.level import Level
+from tehl.units import percentage
 
 LARGEST_TRACTION = 0.1
 """Largest shear stress of oils over pressure."""
@@ -36,7 +38,7 @@ def diverged(run: FilmSolver) -> Status:
     """Return the status of a run that diverged, with its likely cause."""
     (nx, ny), groups = run.finest.grid.points, run.groups
     what = f"The iteration diverged on {nx} x {ny} nodes at M = {groups.M:.4g}, L = {groups.L:.4g}."
-    found, other = _likely_cause(run), _smoother_hint(run)
+    found, other = _likely_cause(run), _smoother_hint(run) or _error_hint(run)
     if found is None:
         hint = (
             f"Take {grid_hint((nx, ny), groups)}, or approach the case in steps from less load, "
@@ -76,7 +78,10 @@ def not_reached(run: FilmSolver) -> Status:
     if found is not None:
         message, hint = f"{message} Likely cause: {found.message}", found.hint
     return Status(
-        kind="stalled", cause="stalled", message=message, hint=_smoother_hint(run) or hint
+        kind="stalled",
+        cause="stalled",
+        message=message,
+        hint=_smoother_hint(run) or _error_hint(run) or hint,
     )
 
 
@@ -102,6 +107,20 @@ def thinnest(level: Level) -> tuple[float, float, float]:
     found = film_summary(level.grid, level.film.h)
     node = float(level.film.h.min())
     return (min(found.minimum, node), *found.minimum_at)
+
+
+def _error_hint(run: FilmSolver) -> str:
+    """Return the hint to the error that a coarser grid reached, empty if there is none."""
+    if not run.goal.is_open or run.roughness.is_rough:
+        return ""
+    reached = run.reached_before()
+    if reached is None:
+        return ""
+    (nx, ny), error = reached
+    return (
+        f'Set numerics.error = "{math.ceil(110.0 * error)} %": {nx} x {ny} nodes converged to an '
+        f"error of {percentage(error)}."
+    )
 
 
 def _smoother_hint(run: FilmSolver) -> str:

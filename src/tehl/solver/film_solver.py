@@ -33,6 +33,7 @@ from tehl.solver.convergence import (
     film_converged,
     must_stop,
     stalled,
+    temperature_converged,
 )
 from tehl.solver.fmg import full_multigrid
 from tehl.solver.goal import Goal, estimated_errors
@@ -53,6 +54,8 @@ TOO_COARSE = 0.5
 """Error bar of the film beyond which the grid may be why the cycles do not converge."""
 LEAST_GRIDS = 2
 """Most grids that give no error bars: the coarsest one does not resolve the contact."""
+MOST_DOUBLINGS = 4
+"""Most doublings of `MOST_CYCLES`, one per coarser grid, where temperatures converge slowly."""
 HERTZ_CYCLES = 2
 """Cycles after which a grid that started from the Hertz pressure has a film."""
 COARSE_NODES = 33
@@ -167,6 +170,18 @@ class FilmSolver:
         """Return estimated errors of the film on the last grid; None before its first cycle."""
         level = self.levels[len(self.traces) - 1]
         return estimated_errors(level, self.traces, self.roughness, self.options)
+
+    def reached_before(self) -> tuple[tuple[int, int], float] | None:
+        """Return nodes and error bar of the finest grid that converged before the last one."""
+        for number in range(len(self.traces) - 2, LEAST_GRIDS - 1, -1):
+            trace, level = self.traces[number], self.levels[number]
+            if not trace.reports or not self._is_acceptable(trace):
+                continue
+            known = self.traces[: number + 1]
+            errors = estimated_errors(level, known, self.roughness, self.options)
+            if errors is not None and max(errors.central, errors.minimum) < TOO_COARSE:
+                return level.grid.points, max(errors.central, errors.minimum)
+        return None
 
     def minimum_part(self) -> float:
         """Return the minimum film over the film to which its error is relative [-].
@@ -298,7 +313,9 @@ class FilmSolver:
         fine.update()
         self._start_heat(levels, has_film=not self.from_hertz)
         largest = LARGEST_ROUGH_CHANGE if self.roughness.is_on(levels) else LARGEST_CHANGE
-        trace = GridTrace(largest_change=largest, damping=self.coupling.damping)
+        trace = GridTrace(
+            largest_change=largest, damping=self.coupling.damping, negligible=self.goal.negligible
+        )
         self.traces.append(trace)
         newton, anderson = self._newton(levels), self._anderson(levels)
         step = newton.step if newton else partial(self.hierarchy.cycle, levels)
@@ -306,6 +323,9 @@ class FilmSolver:
         done = self._raise_heights(levels, newton) if begins else 0
         trace.note(*fine.nodal_film())
         most = MOST_STEPS if newton else MOST_CYCLES
+        if self.coupling.state is not None and not newton:
+            # smooth parts of the temperature may converge slowly: on coarse grids that costs little
+            most <<= min(len(self.levels) - len(levels), MOST_DOUBLINGS)
         if finest:
             most = self.strategy.patience * self.options.max_cycles
         for number in range(1, most + 1):
@@ -342,7 +362,10 @@ class FilmSolver:
         """Return whether the iteration on a grid has converged or stalled."""
         coarser = self._coarser_trace()
         if not finest:
-            return film_converged(trace, coarser)
+            done = film_converged(trace, coarser)
+            if self.coupling.state is None or len(trace.reports) < MOST_CYCLES:
+                return done and temperature_converged(trace, coarser)
+            return (done and temperature_converged(trace, coarser)) or stalled(trace, 2)
         return must_stop(trace, coarser, self.options) or stalled(trace, self.strategy.patience)
 
     def _start_heat(self, levels: Sequence[Level], *, has_film: bool) -> None:

@@ -19,6 +19,8 @@ MOST_TRIES = 2
 """Finer grids that follow grids on which the cycles do not converge."""
 LEAST_HALVINGS = 3
 """Halvings of the smallest grid that is planned."""
+NEGLIGIBLE = 0.05
+"""Iteration error that is accepted, over the error to reach: the error bars contain it."""
 LARGEST = 16385
 """Most nodes along one direction."""
 
@@ -76,6 +78,11 @@ class Goal:
     def is_open(self) -> bool:
         """Whether the error decides the number of nodes."""
         return self.options.points == "auto"
+
+    @property
+    def negligible(self) -> float:
+        """Relative iteration error of the film that is always accepted [-]."""
+        return NEGLIGIBLE * self.options.target if self.is_open else 0.0
 
     def fitting(self, plan: Options) -> Options:
         """Return options of the planned grid, halved until it fits into the memory."""

@@ -18,6 +18,7 @@ from tehl.solver.relaxation import (
     GENTLE,
     ROBUST,
     ROUGH,
+    STEEP,
     Relaxation,
 )
 
@@ -59,12 +60,16 @@ class Strategy:
         return f"the {self.name} smoother{steps}"
 
 
-SMOOTH = (Strategy(relaxation=FAST), Strategy(relaxation=ROBUST))
+SMOOTH = (
+    Strategy(relaxation=FAST),
+    Strategy(relaxation=ROBUST),
+    Strategy(relaxation=STEEP),
+)
 COUPLED = (
     Strategy(relaxation=BROAD),
-    Strategy(relaxation=ROBUST),
+    Strategy(relaxation=ROBUST, patience=3),
     Strategy(relaxation=BROAD, damping=0.5),
-    Strategy(relaxation=ROBUST, damping=0.3, patience=2),
+    Strategy(relaxation=ROBUST, damping=0.3, patience=3),
     Strategy(relaxation=ROBUST, slide_in_steps=True),
 )
 BETWEEN_ROUGH = (

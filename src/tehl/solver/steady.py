@@ -152,7 +152,7 @@ def try_strategies(
         attempts.append(_run(run, force=only_newton_left))
         if attempts[-1].is_final or goal.is_over:
             break
-    best = min(attempts, key=lambda attempt: attempt.rank)
+    best = min(reversed(attempts), key=lambda attempt: attempt.rank)  # of equals the most robust
     result = _result(best, options, tuple(history.reports), clock.cost())
     return best, result
 

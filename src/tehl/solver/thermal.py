@@ -133,7 +133,7 @@ class Coupling:
         return self.film is not None and self.state is None
 
     def update(self, levels: Sequence[Level]) -> tuple[float, float]:
-        """Sweep; return the largest change and the largest rise of the temperature [K].
+        """Sweep; return the largest change, and the largest rise or fall of the temperature [K].
 
         One sweep per cycle; more while the temperature changes by more than `LARGE_CHANGE`. When it
         hardly changes, the sweep of the next cycle is skipped, unless the accuracy is tight.
@@ -147,11 +147,19 @@ class Coupling:
             self.change = self._sweep(self.state, levels, STEPS)
             if self.change < LARGE_CHANGE or self.sweeps_left:
                 break
-        before, self.rise = self.rise, self.temperature_rise()
-        steady = abs(self.rise - before) < SMALL_RISE_CHANGE * self.rise
+        before, self.rise = self.rise, self._deviation()
+        steady = abs(self.rise - before) < SMALL_RISE_CHANGE * abs(self.rise)
         may_skip = self.state.sweeps >= LEAST_SWEEPS and not self.thorough and self.damping == 1.0
-        self.skip = may_skip and steady and self.change < SMALL_CHANGE * self.rise
+        self.skip = may_skip and steady and self.change < SMALL_CHANGE * abs(self.rise)
         return self.change, self.rise
+
+    def _deviation(self) -> float:
+        """Return the largest rise over the inlet, or the largest fall if that is larger [K]."""
+        if self.state is None:
+            return 0.0
+        inlet, temperature = self.scaled.scales.temperature, self.state.temperature
+        rise, fall = float(temperature.max()) - inlet, float(temperature.min()) - inlet
+        return rise if rise >= -fall else fall
 
     def temperature_rise(self) -> float:
         """Return the largest temperature rise over the inlet [K]."""

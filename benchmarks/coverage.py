@@ -1,0 +1,162 @@
+"""Random contacts from the defaults: which reach the stated error, and whether the bars hold.
+
+``python -m benchmarks.coverage --contacts 1000 --seed 1`` prints which contacts of each class
+converge to 2 %, with the causes of the others; ``--judge`` solves each that converges once more on
+a grid four times as fine (twice, if that takes more than 2049 nodes or is heated) and prints how
+the differences compare with the error bars. ``--minutes`` bounds the time.
+"""
+
+import argparse
+import json
+import sys
+import time
+from collections import Counter
+from concurrent.futures import ProcessPoolExecutor
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from benchmarks.random_contacts import contact
+from benchmarks.table import Cell, Table
+from tehl.errors import InputError
+from tehl.options import Options
+from tehl.result import ConvergenceError, Result
+from tehl.scaling import groups
+from tehl.solver import solve
+
+CLASSES = ("isothermal", "thinning", "heated", "rough")
+RANGES = (("M < 7", 0.0, 7.0), ("M 7-500", 7.0, 500.0), ("M > 500", 500.0, np.inf))
+NAMES = ("film_central", "film_minimum", "pressure_max", "traction_mid_film", "film_rise_max")
+FINEST, FINEST_HEATED = 2049, 1025
+"""Most nodes of a judge that is four times as fine."""
+
+
+def values(result: Result) -> dict[str, float]:
+    """Return the values of a result that have error bars."""
+    film, traction, heat = result.film_scaled, result.traction, result.temperature
+    found = {
+        "film_central": film.central,
+        "film_minimum": film.minimum,
+        "pressure_max": float(result.scaled.pressure.max()),
+    }
+    if traction is not None:
+        found["traction_mid_film"] = traction.mid_film
+    if heat is not None:
+        found["film_rise_max"] = heat.film_rise_max
+    return found
+
+
+def bars(result: Result) -> dict[str, float]:
+    """Return the relative error bars of a result."""
+    errors = result.errors
+    if errors is None:
+        return {}
+    found = {"film_central": errors.central, "film_minimum": errors.minimum}
+    further = {name: getattr(errors, name) for name in NAMES[2:]}
+    return found | {name: bar for name, bar in further.items() if bar is not None}
+
+
+def row(task: tuple[int, int, float, bool]) -> dict[str, Any]:
+    """Solve contact ``number`` of a seed with a limit of time [s]; judge it on request."""
+    seed, number, limit, judge = task
+    problem, kind = contact(seed, number)
+    found: dict[str, Any] = {"number": number, "class": kind, "M": groups(problem).M}
+    began = time.process_time()
+    try:
+        result = solve(problem, Options(max_time=limit))
+    except ConvergenceError as error:
+        result = error.result
+    except InputError as error:
+        return found | {"cause": "input", "message": str(error), "seconds": 0.0}
+    nodes = result.scaled.x.size
+    found |= {
+        "cause": result.status.cause,
+        "message": result.status.message,
+        "hint": result.status.hint,
+        "nodes": nodes,
+        "seconds": time.process_time() - began,
+        "bars": bars(result),
+    }
+    if judge and result.status.converged:
+        found["off"] = _off(result, nodes, heated=kind == "heated")
+    return found
+
+
+def _off(result: Result, nodes: int, *, heated: bool) -> dict[str, float]:
+    """Return the differences to a finer grid over the error bars; none if that did not converge."""
+    finer = 4 * (nodes - 1) + 1
+    if finer > (FINEST_HEATED if heated else FINEST):
+        finer = 2 * (nodes - 1) + 1
+    try:
+        there = values(solve(result.problem, Options(points=finer)))
+    except (ConvergenceError, InputError):
+        return {}
+    here, known = values(result), bars(result)
+    return {
+        name: abs(here[name] - there[name]) / (bar * abs(here[name]))
+        for name, bar in known.items()
+        if name in there
+    }
+
+
+def robustness(rows: list[dict[str, Any]]) -> Table:
+    """Return how many contacts of each class reached the error."""
+    made = Table(
+        title=f"Contacts that reach 2 % from the defaults ({len(rows)} random contacts)",
+        columns=("class", *(name for name, _, _ in RANGES), "CPU s, median", "largest"),
+    )
+    for kind in CLASSES:
+        cells: list[Cell] = [kind]
+        every = [one for one in rows if one["class"] == kind]
+        for _, low, high in RANGES:
+            within = [one for one in every if low <= one["M"] < high]
+            good = sum(one["cause"] is None for one in within)
+            cells.append(f"{good} of {len(within)}")
+        seconds = [one["seconds"] for one in every] or [0.0]
+        made.rows.append((*cells, float(np.median(seconds)), max(seconds)))
+    counts = Counter(one["cause"] or "converged" for one in rows)
+    made.notes.append(", ".join(f"{count} {name}" for name, count in counts.most_common()))
+    return made
+
+
+def coverage(rows: list[dict[str, Any]]) -> Table:
+    """Return how the differences to finer grids compare with the error bars."""
+    made = Table(
+        title="Differences to finer grids over the error bars",
+        columns=("value", "judged", "within 1 %", "within 2 %", "median", "largest"),
+    )
+    for name in NAMES:
+        off = np.array([one["off"][name] for one in rows if name in one.get("off", {})])
+        if off.size:
+            parts = (100.0 * float((off <= limit).mean()) for limit in (1.0, 2.0))
+            made.rows.append((name, off.size, *parts, float(np.median(off)), float(off.max())))
+    return made
+
+
+def main() -> None:
+    """Solve the contacts, and print the tables."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.coverage", description=__doc__)
+    parser.add_argument("--contacts", type=int, default=200)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--judge", action="store_true", help="judge the error bars")
+    parser.add_argument("--minutes", type=float, default=60.0, help="no contact begins later")
+    parser.add_argument("--limit", type=float, default=60.0, help="numerics.max_time [s]")
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--json", type=Path, help="also write a line for each contact")
+    given = parser.parse_args()
+    tasks = ((given.seed, k, given.limit, given.judge) for k in range(given.contacts))
+    rows, end = [], time.monotonic() + 60.0 * given.minutes
+    with ProcessPoolExecutor(given.jobs) as pool:
+        while time.monotonic() < end and (some := list(islice(tasks, 4 * given.jobs))):
+            rows += pool.map(row, some)
+            if given.json:
+                given.json.write_text("".join(json.dumps(one) + "\n" for one in rows))
+    sys.stdout.write(robustness(rows).text() + "\n")
+    if given.judge:
+        sys.stdout.write(coverage(rows).text() + "\n")
+
+
+if __name__ == "__main__":
+    main()
