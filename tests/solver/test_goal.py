@@ -1,14 +1,16 @@
 """Accuracy on request: the grid follows from the error to reach, the domain from the film."""
 
+import tomllib
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
+from tehl.io.templates import template_text
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.result import ConvergenceError
-from tehl.solver import solve
+from tehl.solver import solve, solve_transient
 from tests.reference import heated_contact, moes_contact
 from tests.solver.rough import wavy
 
@@ -125,3 +127,14 @@ def test_thinning_at_a_steep_spike_converges_with_damping():
     case["lubricant"]["shear"] = {"law": "eyring", "stress": 2.8e6}
     found = solve(ContactProblem.model_validate(case), Options())
     assert max(found.errors.central, found.errors.minimum) <= 0.02
+
+
+def test_a_transient_run_finds_its_grid_and_resolves_what_moves_in():
+    case = tomllib.loads(template_text("passing-dent"))
+    del case["numerics"]
+    case["transient"]["duration"] = "0.1 ms"
+    run = solve_transient(ContactProblem.model_validate(case), Options())
+    assert run.status.converged
+    assert run.start.errors.central <= 0.02
+    width = (run.start.x[1] - run.start.x[0]) * 1e6
+    assert 4.0 * 60.0 / width > 12.0  # four radii of the dent

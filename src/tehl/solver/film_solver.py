@@ -212,7 +212,8 @@ class FilmSolver:
         """Return whether a grid is accurate enough, or no finer one may follow."""
         if not (self.goal.is_open and self.accepted and len(levels) > LEAST_GRIDS):
             return False
-        if self.roughness.is_rough or self.coupling.is_pending:
+        # roughness, also such that moves in later, needs the planned grid
+        if self.hierarchy.scaled.problem.is_rough or self.coupling.is_pending:
             return False
         if not float(levels[-1].film.h.min()) > levels[-1].equations.floor:
             return False
