@@ -159,6 +159,7 @@ MISTAKES = [
     ("title=4", "title = 4", "must be a string"),
     ("numerics=3", "numerics = 3", "must be a table"),
     ("numerics.points=100", "numerics.points = 100", "cannot be coarsened"),
+    ("numerics={error='1 %', points=129}", "numerics.error = 1 %", "both stated"),
     ("numerics.points=[129, 100]", "numerics.points = 100", "cannot be coarsened"),
     ("numerics.points=5", "numerics.points = 5", "a whole number from 17 to 16385"),
     ("numerics.points=[129]", "numerics.points = [129]", "two numbers"),

@@ -269,6 +269,12 @@ def test_grid_row_and_question_agree_on_what_the_nodes_are_for():
     assert f"{case.needed_points} give the central film to about 3 %" in as_text(case)
 
 
+def test_the_grid_to_expect_is_shown_with_the_error_to_reach():
+    case = explained()
+    assert case.follows
+    assert "nodes   expected for an error of 2 %" in as_text(case)
+
+
 def test_an_estimated_pressure_coefficient_is_shown():
     case = explained("lubricant.viscosity.alpha", "estimated")
     assert "estimated by Wooster's relation: within 20 %" in as_text(case)
@@ -280,7 +286,7 @@ def test_an_estimated_pressure_coefficient_is_shown():
 
 def test_a_problem_explains_itself():
     case = explained()
-    found = case.scaled.problem.explain(case.options)
+    found = case.scaled.problem.explain(Options())
     assert found == case
     assert repr(found) == as_text(case)
     assert case.scaled.problem.explain().domain == explain(case.scaled.problem, Options()).domain

@@ -16,6 +16,7 @@ from tehl.io.atomic import shortened
 from tehl.io.mistakes import NUMERICS, describe, short, shown
 from tehl.options import Options
 from tehl.problem import ContactProblem
+from tehl.units import percentage
 
 _LONG_KEY = re.compile(r"(?m)^[\s\[]*(?:[^\s.,=#]+\s*\.\s*){100}")
 """A key of more than a hundred parts."""
@@ -71,6 +72,11 @@ def case_from_tables(
     physics = {key: value for key, value in tables.items() if key != NUMERICS}
     problem = _validated(ContactProblem, physics, prefix="", folder=folder)
     options = _validated(Options, tables.get(NUMERICS, {}), prefix=NUMERICS)
+    if options.error is not None and options.points != "auto":
+        raise InputError(
+            f"numerics.error = {percentage(options.error)} and numerics.points are both stated: "
+            'the error decides the number of nodes; remove one, or set numerics.points = "auto"'
+        )
     return problem, options
 
 

@@ -44,7 +44,9 @@ class Explanation:
     scaled: ScaledProblem
     """The contact with its groups and scales."""
     options: Options
-    """Its numerics."""
+    """Its numerics, with the number of nodes to expect if an error is to be reached."""
+    follows: bool
+    """Whether the number of nodes follows from the error to reach."""
     central_film: float
     """Central film to expect [m]."""
     films: tuple[FilmEstimate, ...]
@@ -116,6 +118,7 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
     return Explanation(
         scaled=scaled,
         options=options,
+        follows=asked.points == "auto",
         central_film=film,
         films=film_estimates(groups, scaled.scales),
         composite=problem.rms_roughness if heights is None else heights.composite,
