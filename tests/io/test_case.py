@@ -473,3 +473,19 @@ def test_a_case_file_may_be_in_the_encodings_of_windows(tmp_path, encoding):
     (tmp_path / "a.toml").write_text(mark + text, encoding=encoding)
     (tmp_path / "b.toml").write_text(text, encoding="utf-8")
     assert read_case(tmp_path / "a.toml") == read_case(tmp_path / "b.toml")
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "points", "error"),
+    [
+        ("numerics.error='1 %'", "numerics.points=129", 129, None),
+        ("numerics.points=129", "numerics.error='1 %'", "auto", 0.01),
+    ],
+)
+def test_a_change_of_the_nodes_or_the_error_replaces_the_other(
+    tmp_path, first, second, points, error
+):
+    path = tmp_path / "case.toml"
+    path.write_text(template_text("ball-on-disc"), encoding="utf-8")
+    _, options = read_case_and_options(path, [first, second])
+    assert (options.points, options.error) == (points, error)

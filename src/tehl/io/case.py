@@ -143,6 +143,11 @@ def _syntax(message: str, text: str) -> str:
     return f"line {number}: {line} is not valid TOML: {short(reason, 100)}"
 
 
+def replaced_by(path: str) -> str:
+    """Return the key that a change of ``path`` removes: nodes and error exclude each other."""
+    return {"numerics.points": "error", "numerics.error": "points"}.get(path, "")
+
+
 def change(tables: dict[str, Any], override: str) -> None:
     """Apply one override ``key.path=value`` in place; raise an InputError if it is invalid."""
     key, equals, text = (part.strip() for part in override.partition("="))
@@ -162,6 +167,7 @@ def change(tables: dict[str, Any], override: str) -> None:
         if not isinstance(node, dict):
             raise InputError(f"invalid override {shown(override)}: {short(name)} is not a table")
     node[names[-1]] = plain_value(text)
+    node.pop(replaced_by(key), None)
 
 
 def plain_value(text: str) -> object:

@@ -12,7 +12,7 @@ from pydantic import BaseModel
 
 from tehl.domain import domain_of
 from tehl.errors import InputError
-from tehl.io.case import case_from_tables
+from tehl.io.case import case_from_tables, replaced_by
 from tehl.options import Domain, Options, check_certifiable
 from tehl.problem import ContactProblem
 from tehl.scaling import groups
@@ -161,6 +161,7 @@ def changed(tables: Mapping[str, Any], path: str, value: Any) -> dict[str, Any]:
         if not isinstance(below, Mapping):
             raise ValueError(f"{path} goes through {key}, which is not a table in the base case")
         after[key] = changed(below, deeper, value)
+        after[key].pop(replaced_by(path), None)
     elif value is False:
         after.pop(key, None)
     else:
