@@ -286,6 +286,8 @@ def further_errors(traces: list[GridTrace], otherwise: float, domain: float) -> 
             bar = max(discretisation_bar(values, otherwise), _spike(spikes) - last)
         else:
             bar = max(discretisation_bar(values, otherwise), abs(values[-1] - values[-2]))
+        if "rise" in name:
+            bar += LEAST_KELVIN  # the cycles stop there
         found[name] = abs(bar / last) + domain
     return found
 
