@@ -101,7 +101,7 @@ class FarField:
         self.growth = cosine**2 + ratio * sine**2
         ends = np.where(cosine < 0.0, grid.domain.x[0], grid.domain.x[1])
         along = ends / np.where(np.abs(cosine) < 1e-12, 1e-12, cosine)
-        # the mean of both sides
+        # one row for each side of the line y = 0
         across = stretch * np.array([[-grid.domain.y[0]], [grid.domain.y[1]]]) / sine
         self.radius = np.minimum(along, across)
         width = np.full(ANGLES, angle[1])

@@ -142,6 +142,8 @@ class FilmSolver:
                 if self._is_last(levels):
                     self._finish(levels)
                     self._measure(levels)
+                    if self._needs_finer_grid(force=force):
+                        self._refine()
 
         full_multigrid(self.levels, self._solve_coarsest, self._start, improve)
         return self._has_converged()

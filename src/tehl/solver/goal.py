@@ -44,7 +44,7 @@ def estimated_errors(
     if len(traces) < 2 or not traces[-1].reports:
         return None
     domain = 0.0
-    if level.far_field is not None:
+    if level.equations.far_field is not None:
         domain = far_field_error(level.equations.groups, level.grid.domain)
     if not roughness.is_rough:
         return error_estimate(traces, options.wedge_order, domain)

@@ -293,7 +293,7 @@ def values_of_file(path: Path, column: str) -> list[Any]:
     names = [name for name, _ in headings]
     if len(lines) < 2 or (column not in names and len(names) > 1):
         found = f"its columns are {', '.join(names)}" if names else "it is empty"
-        raise InputError(f"{shown} has no values of {column}: {found}")
+        raise InputError(f"{shown}: values of {column} are missing; {found}")
     place = names.index(column) if column in names else 0
     cells = [_setting(line[place], headings[place][1]) for line in lines[1:]]
     return [cell.value for cell in cells if cell is not None]
