@@ -136,7 +136,7 @@ def expected_bar(scaled: ScaledProblem, domain: Domain, nodes: float) -> float:
     nodes : float
         Nodes per direction.
     """
-    groups, width = scaled.groups, (domain.x[1] - domain.x[0]) / (nodes - 1)
+    groups, width = scaled.entering, (domain.x[1] - domain.x[0]) / (nodes - 1)
     film = expected_central_film(groups)
     factor = BAR * (BAR_COUPLED if scaled.problem.is_coupled else 1.0)
     loads = groups.M**0.77 * max(groups.L, 0.1) ** 0.2
@@ -155,7 +155,7 @@ def expected_points(scaled: ScaledProblem, domain: Domain, error: float) -> int:
     error : float
         Relative error of central and minimum film [-].
     """
-    groups, scales = scaled.groups, scaled.scales
+    groups, scales = scaled.entering, scaled.scales
     left = max(error - far_field_error(groups, domain), 0.5 * error)
     problem = scaled.problem
     waves = [one.roughness.shortest_wavelengths for one in (problem.surface_1, problem.surface_2)]
@@ -175,7 +175,7 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
     """
     if options.points != "auto":
         return options
-    nodes = expected_points(scaled, domain_of(scaled.groups, options), options.target)
+    nodes = expected_points(scaled, domain_of(scaled.entering, options), options.target)
     return options.on_points(nodes, nodes)
 
 

@@ -1,7 +1,7 @@
 """Scales of a contact, which make it dimensionless, and its dimensionless groups."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from tehl.problem import ContactProblem
 
@@ -67,6 +67,14 @@ class ScaledProblem:
         """Scale a problem."""
         return cls(problem=problem, scales=scales(problem), groups=groups(problem))
 
+    @property
+    def entering(self) -> Groups:
+        """The groups with the viscosity of the oil that enters the contact.
+
+        Along the bodies it has taken their temperature; the film formulas and the far field follow.
+        """
+        return _with_viscosity(self.groups, _body_viscosity(self.problem))
+
 
 def scales(problem: ContactProblem) -> Scales:
     """Return one unit of each dimensionless quantity of ``problem`` in SI."""
@@ -101,4 +109,25 @@ def groups(problem: ContactProblem) -> Groups:
         ellipticity=hertz.ellipticity,
         radius_ratio=radius / problem.radius_y,
         deflection_factor=2.0 * hertz.pressure * radius / (math.pi * modulus * hertz.half_width_x),
+    )
+
+
+def _body_viscosity(problem: ContactProblem) -> float:
+    """Return the viscosity of the oil at the temperatures of the bodies, over that at the inlet."""
+    heat = problem.heat
+    if heat is None or heat.bulk_1 == heat.bulk_2 == heat.temperature:
+        return 1.0
+    ambient = problem.lubricant.viscosity.ambient
+    first, second = (float(ambient(bulk)) for bulk in (heat.bulk_1, heat.bulk_2))
+    return math.sqrt(first * second) / problem.ambient_viscosity
+
+
+def _with_viscosity(known: Groups, factor: float) -> Groups:
+    """Return the groups of the same contact with ``factor`` times the viscosity."""
+    return replace(
+        known,
+        M=known.M * factor**-0.75,
+        L=known.L * factor**0.25,
+        U=known.U * factor,
+        lambda_bar=known.lambda_bar * factor,
     )

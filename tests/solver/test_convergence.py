@@ -5,7 +5,7 @@ import pytest
 
 from tehl.kernels.properties import Factors
 from tehl.solver.convergence import LEAST_CYCLES, LEAST_RATE, GridTrace, error_estimate
-from tehl.solver.thermal import damped
+from tehl.solver.thermal import LARGEST_STEP, damped
 
 
 @pytest.mark.parametrize("damping", [0.3, 0.5])
@@ -38,11 +38,23 @@ def test_the_bar_of_a_rough_minimum_far_from_its_limit_is_its_whole_change(
 
 
 def test_damped_factors_converge_to_the_new_ones() -> None:
-    """Damped in their logarithms, except for the rest of the mobility, which may vanish."""
+    """Damped in their logarithms, the whole mobility at the pressure of the new sweep."""
     old = Factors(*(np.array([value]) for value in (0.0, 1.0, 1.0, 1.0, 2.0)))
-    new = Factors(*(np.array([value]) for value in (0.5, 100.0, 0.9, 16.0, 2.0)))
-    half = damped(old, new, 0.5)
-    np.testing.assert_allclose(np.ravel(half), [0.25, 10.0, 0.9**0.5, 4.0, 2.0])
+    new = Factors(*(np.array([value]) for value in (0.5, 1.0, 0.9, 1.2, 2.0)))
+    mobility = np.array([0.5])
+    half = damped(old, new, mobility, 0.5)
+    assert half.rest + half.mobility * mobility == pytest.approx(0.5**0.5)
+    np.testing.assert_allclose(np.ravel(half[2:]), [0.9**0.5, 1.2**0.5, 2.0])
     for _ in range(60):
-        old = damped(old, new, 0.3)
+        old = damped(old, new, mobility, 0.3)
     np.testing.assert_allclose(np.ravel(old), np.ravel(new), rtol=1e-8)
+
+
+def test_a_sweep_changes_the_factors_by_a_limited_step() -> None:
+    """The gradient of a pressure not in balance may ask for 1e9 times the mobility."""
+    old = Factors(*(np.array([value]) for value in (0.0, 1.0, 1.0, 1.0, 1.0)))
+    new = Factors(*(np.array([value]) for value in (3e8, 1e9, 1.0, 20.0, 0.1)))
+    step = damped(old, new, np.array([1.0]), 1.0)
+    assert step.rest + step.mobility == pytest.approx(np.exp(LARGEST_STEP))
+    assert step.stretch_x == pytest.approx(np.exp(LARGEST_STEP))
+    assert step.stretch_y == pytest.approx(np.exp(-LARGEST_STEP))

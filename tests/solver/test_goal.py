@@ -121,12 +121,37 @@ def test_an_isothermal_film_in_pure_rolling_has_neither_traction_nor_temperature
     assert [getattr(errors, name) for name in NAMES[1:]] == [None, None, None]
 
 
-def test_thinning_at_a_steep_spike_converges_with_damping():
-    # pure rolling, L = 16: undamped, mobility and pressure of the spike oscillate and diverge
-    case = moes_contact(6.38, 15.98).model_dump(exclude_none=True)
-    case["lubricant"]["shear"] = {"law": "eyring", "stress": 2.8e6}
+@pytest.mark.parametrize(
+    ("load", "speed", "changes"),
+    [
+        (6.38, 15.98, {"shear": {"law": "eyring", "stress": 2.8e6}}),
+        (144.0, 19.2, {"shear": {"law": "eyring", "stress": 4e6}}),
+    ],
+)
+def test_thinning_at_a_steep_spike_converges_with_damping(load, speed, changes):
+    # pure rolling: undamped, mobility and pressure of the spike oscillate and diverge
+    case = moes_contact(load, speed).model_dump(exclude_none=True)
+    case["lubricant"] |= changes
     found = solve(ContactProblem.model_validate(case), Options())
     assert max(found.errors.central, found.errors.minimum) <= 0.02
+
+
+@pytest.mark.parametrize("load", [3.0, 100.0])
+def test_between_warm_bodies_the_film_hardly_depends_on_the_domain(load):
+    # so slow that the oil is as warm as the bodies before it reaches the domain
+    case = heated_contact(0.5).model_dump(exclude_none=True)
+    case["contact"] = {"radius": 0.02, "moes_load": load, "moes_speed": 5.0}
+    for side in ("surface_1", "surface_2"):
+        case[side]["temperature"] = heated_contact(0.5).inlet_temperature + 25.0
+    problem = ContactProblem.model_validate(case)
+    found = solve(problem, Options())
+    x, y = found.scaled.x, found.scaled.y
+    domain = Domain(x=(1.5 * x[0], 1.5 * x[-1]), y=(1.5 * y[0], 1.5 * y[-1]))
+    points = 3 * (x.size - 1) // 32 * 16 + 1
+    wide = solve(problem, Options(points=points, domain=domain, edges="far_field"))
+    for name in ("central", "minimum"):
+        there = getattr(wide.film_scaled, name)
+        assert getattr(found.film_scaled, name) == pytest.approx(there, rel=5e-3)
 
 
 def test_a_transient_run_finds_its_grid_and_resolves_what_moves_in():

@@ -82,6 +82,7 @@ class FarField:
     """
 
     def __init__(self, grid: Grid, groups: Groups) -> None:
+        self.groups = groups
         ratio, stretch = groups.radius_ratio, groups.ellipticity
         angle, f = angular_pressure(ratio)
         x, y = grid.x[None, :], stretch * grid.y[:, None]

@@ -85,8 +85,8 @@ class Equations:
             load=Load(grid),
             target=load * TARGET,
             gap=gap(grid, groups),
-            far_field=FarField(grid, groups) if options.has_far_field else None,
-            floor=FLOOR * expected_central_film(groups),
+            far_field=FarField(grid, scaled.entering) if options.has_far_field else None,
+            floor=FLOOR * expected_central_film(scaled.entering),
         )
 
 

@@ -58,6 +58,8 @@ MOST_DOUBLINGS = 4
 """Most doublings of `MOST_CYCLES`, one per coarser grid, where temperatures converge slowly."""
 HERTZ_CYCLES = 2
 """Cycles after which a grid that started from the Hertz pressure has a film."""
+ISOTHERMAL_CYCLES = 4
+"""Cycles before damped heat begins."""
 COARSE_NODES = 33
 """Least nodes along x of the coarse grid in the preconditioner of Newton's method."""
 DAMPED_MEMORY = 3
@@ -281,7 +283,8 @@ class FilmSolver:
         first, last = trace.reports[0], trace.reports[-1]
         # fewer cycles than MOST_CYCLES: it converged before
         falling = last.cycle < MOST_CYCLES or last.residual < self.options.tolerance
-        if self.strategy.newton:  # it may start so close that its residual cannot halve
+        if self.strategy.newton or self.coupling.damping < 1.0:
+            # it may start so close that its residual cannot halve; heat comes step by step
             falling = falling or film_converged(trace, self._coarser_trace())
         falling = falling or last.residual < 0.5 * first.residual
         return falling and last.change < LARGEST_CHANGE and abs(last.load_error) < LARGEST_CHANGE
@@ -311,10 +314,11 @@ class FilmSolver:
 
     def _iterate(self, levels: Sequence[Level]) -> None:
         """Iterate on the last of ``levels`` until it has converged, stalled or used its cycles."""
-        fine, finest = levels[-1], levels[-1] is self.finest
+        fine, finer = levels[-1], len(self.levels) - len(levels)
+        finest = not finer
         fine.pose_problem()
         fine.update()
-        self._start_heat(levels, has_film=not self.from_hertz)
+        done = self._start_heat(levels)
         largest = LARGEST_ROUGH_CHANGE if self.roughness.is_on(levels) else LARGEST_CHANGE
         trace = GridTrace(
             largest_change=largest, damping=self.coupling.damping, negligible=self.goal.negligible
@@ -323,18 +327,16 @@ class FilmSolver:
         newton, anderson = self._newton(levels), self._anderson(levels)
         step = newton.step if newton else partial(self.hierarchy.cycle, levels)
         begins = len(levels) - 1 == self.roughness.first  # the first level with the heights
-        done = self._raise_heights(levels, newton) if begins else 0
+        done += self._raise_heights(levels, newton) if begins else 0
         trace.note(*fine.nodal_film())
         most = MOST_STEPS if newton else MOST_CYCLES
         if self.coupling.state is not None and not newton:
             # smooth parts of the temperature may converge slowly: on coarse grids that costs little
-            most <<= min(len(self.levels) - len(levels), MOST_DOUBLINGS)
+            damped = self.coupling.damping < 1.0
+            most <<= MOST_DOUBLINGS if damped else min(finer, MOST_DOUBLINGS)
         if finest:
             most = self.strategy.patience * self.options.max_cycles
         for number in range(1, most + 1):
-            if number > HERTZ_CYCLES and self.from_hertz and not finest:
-                self.from_hertz = False  # these cycles have made a film that heat can act on
-                self._start_heat(levels, has_film=True)
             before = fine.unknowns() if anderson else None
             report = self._iteration(levels, step, number + done)
             trace.add(report)
@@ -371,12 +373,23 @@ class FilmSolver:
             return (done and temperature_converged(trace, coarser)) or stalled(trace, 2)
         return must_stop(trace, coarser, self.options) or stalled(trace, self.strategy.patience)
 
-    def _start_heat(self, levels: Sequence[Level], *, has_film: bool) -> None:
-        """Start heat and shear thinning on the last of ``levels``, if it resolves them."""
-        finest = levels[-1] is self.finest
-        if self.coupling.begin(levels, finest=finest, has_film=has_film):
+    def _start_heat(self, levels: Sequence[Level]) -> int:
+        """Start heat and shear thinning on the last of ``levels``, if it resolves them.
+
+        Isothermal cycles come first where the film is not in balance: it would flow and heat far
+        too much. Return their number.
+        """
+        cycles = 0
+        if self.coupling.is_pending and self.strategy.damping < 1.0:
+            cycles = ISOTHERMAL_CYCLES
+        elif self.coupling.is_pending and self.from_hertz:
+            cycles = HERTZ_CYCLES
+        for number in range(1, cycles + 1):
+            self._iteration(levels, partial(self.hierarchy.cycle, levels), number)
+        if self.coupling.begin(levels, finest=levels[-1] is self.finest):
             for level in levels:
                 level.set_relaxation(self.strategy.relaxation)
+        return cycles
 
     def _coarser_trace(self) -> GridTrace | None:
         """Return the trace of the next coarser grid; None if its film is not comparable."""

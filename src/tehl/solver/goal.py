@@ -43,9 +43,8 @@ def estimated_errors(
     """
     if len(traces) < 2 or not traces[-1].reports:
         return None
-    domain = 0.0
-    if level.equations.far_field is not None:
-        domain = far_field_error(level.equations.groups, level.grid.domain)
+    far_field = level.equations.far_field
+    domain = far_field_error(far_field.groups, level.grid.domain) if far_field else 0.0
     if not roughness.is_rough:
         return error_estimate(traces, options.wedge_order, domain)
     # grids that resolve the same heights

@@ -115,7 +115,7 @@ class Hierarchy:
         load : float
             Load that the film carries, over that of the contact [-].
         """
-        flow, film = flow_table(scaled), expected_central_film(scaled.groups)
+        flow, film = flow_table(scaled), expected_central_film(scaled.entering)
         grids = halved_grids(finest)
         widest = max(1.0, (2.0 * film) ** 0.5)  # of the parabolic gap, where the film is thick
         while grids[0].dx > widest and len(grids) > LEAST_GRIDS and grids[1].nx <= LARGEST_DENSE:

@@ -68,8 +68,8 @@ SMOOTH = (
 COUPLED = (
     Strategy(relaxation=BROAD),
     Strategy(relaxation=ROBUST, patience=3),
-    Strategy(relaxation=BROAD, damping=0.5),
     Strategy(relaxation=ROBUST, damping=0.3, patience=3),
+    Strategy(relaxation=STEEP, damping=0.3, patience=3),
     Strategy(relaxation=ROBUST, slide_in_steps=True),
 )
 BETWEEN_ROUGH = (

@@ -43,7 +43,7 @@ class Relaxation:
 FAST = Relaxation(name="fast", threshold=1.0, point=0.7, dipole=0.6)
 BROAD = Relaxation(name="broad", threshold=10.0, point=0.7, dipole=0.6)
 ROBUST = Relaxation(name="robust", threshold=1.0, point=0.4, dipole=0.3, lines=4, stiff=True)
-STEEP = Relaxation(name="steep", threshold=3.0, point=0.4, dipole=0.3, stiff=True)
+STEEP = Relaxation(name="steep", threshold=3.0, point=0.25, dipole=0.2, stiff=True)
 ROUGH = Relaxation(name="rough", threshold=1.0, point=0.6, dipole=0.4, lines=4)
 CAREFUL = Relaxation(name="careful", threshold=1.0, point=0.5, dipole=0.35, lines=4, stiff=True)
 GENTLE = Relaxation(name="gentle", threshold=1.0, point=0.3, dipole=0.2, lines=4, stiff=True)

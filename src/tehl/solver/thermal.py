@@ -39,6 +39,9 @@ UNFINISHED = 100.0
 """Change of temperature [K] reported for a sweep below the full sliding speed."""
 CARRIED = ("temperature", "tau_x", "tau_y")
 """Fields of the film that a sweep starts from."""
+LARGEST_STEP = 0.5
+"""Largest change of the logarithms of mobility and density per sweep. On a steep front the gradient
+of a pressure not yet converged may increase the mobility by orders of magnitude."""
 FIRST_CHANGE = 8.0
 """Change of temperature [K] at which the first sweeps end."""
 
@@ -83,11 +86,11 @@ class Coupling:
         self.factors: properties.Factors | None = None
         self.change, self.rise, self.skip = 0.0, 0.0, False
 
-    def begin(self, levels: Sequence[Level], *, finest: bool, has_film: bool) -> bool:
+    def begin(self, levels: Sequence[Level], *, finest: bool) -> bool:
         """Heat the last of ``levels``; return whether it is heated or thinned.
 
         It starts from the temperatures of the next coarser grid, if there are any. A coarser grid
-        that does not resolve the film, or has no film yet, stays isothermal.
+        that does not resolve the film stays isothermal.
 
         Parameters
         ----------
@@ -95,14 +98,12 @@ class Coupling:
             Coarsest first.
         finest : bool
             Whether the last one is the level of the result, or may become it.
-        has_film : bool
-            Whether its film results from cycles, not directly from the Hertz pressure.
         """
         if self.film is None:
             return False
         fine, coarser = levels[-1], self.state
         large = min(fine.grid.nx, fine.grid.ny) > COUPLED_FROM
-        resolved = has_film and float(fine.film.h.min()) > RESOLVED * fine.equations.floor
+        resolved = float(fine.film.h.min()) > RESOLVED * fine.equations.floor
         if not (finest or coarser is not None or (large and resolved)):
             return False
         self.skip = False
@@ -123,7 +124,7 @@ class Coupling:
             return True
         # the first heated grid starts from the inlet temperature everywhere
         for _ in range(FIRST_SWEEPS):
-            if self._sweep(state, levels, FIRST_STEPS) < FIRST_CHANGE:
+            if self._sweep(state, levels, FIRST_STEPS) < FIRST_CHANGE or self.damping < 1.0:
                 break
         return True
 
@@ -145,7 +146,7 @@ class Coupling:
             return self.change, self.rise
         for _ in range(MOST_SWEEPS):
             self.change = self._sweep(self.state, levels, STEPS)
-            if self.change < LARGE_CHANGE or self.sweeps_left:
+            if self.change < LARGE_CHANGE or self.sweeps_left or self.damping < 1.0:
                 break
         before, self.rise = self.rise, self._deviation()
         steady = abs(self.rise - before) < SMALL_RISE_CHANGE * abs(self.rise)
@@ -252,8 +253,11 @@ class Coupling:
         isothermal = properties.Film(fine.film.p, np.ones(shape), *np.empty((5, *shape)))
         flow = fine.equations.flow
         properties.factors_of(heated, isothermal, flow.table, flow.step, factors)
-        if fine.factors is not None and self.damping < 1.0:
-            factors = damped(fine.factors, factors, self.damping)
+        before = fine.factors
+        if before is None and self.damping < 1.0:
+            before = properties.Factors(np.zeros(shape), *np.ones((4, *shape)))  # isothermal
+        if before is not None:
+            factors = damped(before, factors, isothermal.eps, self.damping)
         self._set_factors(levels, factors)
 
     @staticmethod
@@ -267,16 +271,26 @@ class Coupling:
         fine.write_source()
 
 
-def damped(old: properties.Factors, new: properties.Factors, damping: float) -> properties.Factors:
-    """Return factors between old and new ones, in logarithms.
+def damped(
+    old: properties.Factors, new: properties.Factors, isothermal: Array, damping: float
+) -> properties.Factors:
+    """Return factors between old and new ones, in logarithms, at most `LARGEST_STEP` away.
 
     Parameters
     ----------
     old, new : Factors
         Of the last sweep and of this one.
+    isothermal : array (ny, nx)
+        Isothermal Newtonian mobility at the pressure of this sweep [-].
     damping : float
-        Part of the way [-]. Linear for ``rest`` of the mobility, which may vanish.
+        Part of the way [-].
     """
-    rest = old.rest + damping * (new.rest - old.rest)
-    others = (a * (b / a) ** damping for a, b in zip(old[1:], new[1:], strict=True))
-    return properties.Factors(rest, *others)
+
+    def step(before: Array, after: Array) -> Array:
+        change = damping * np.log(after / before)
+        return before * np.exp(np.clip(change, -LARGEST_STEP, LARGEST_STEP))
+
+    before, after = (one.rest + one.mobility * isothermal for one in (old, new))
+    part = step(before, after) / after
+    others = (step(a, b) for a, b in zip(old[2:], new[2:], strict=True))
+    return properties.Factors(part * new.rest, part * new.mobility, *others)
