@@ -13,7 +13,7 @@ from tehl.operators.flow import flow_table
 from tehl.operators.jacobian import interpolation, jacobian, neighbours_of
 from tehl.scaling import ScaledProblem
 from tehl.solution import Status
-from tehl.solver import film_solver, steady
+from tehl.solver import iteration, steady
 from tehl.solver.continuation import MOST_STEPS, RAISED, raise_by_newton
 from tehl.solver.convergence import DivergedError
 from tehl.solver.equations import Equations
@@ -223,7 +223,7 @@ def test_heights_are_raised_on_the_finest_grid_if_the_start_from_the_coarser_fil
             raise DivergedError
         return search(self, change)
 
-    monkeypatch.setattr(film_solver, "raise_by_newton", noted)
+    monkeypatch.setattr(iteration, "raise_by_newton", noted)
     plain = finished(problem, options)
     assert raised == [(33, False)]
     monkeypatch.setattr(Newton, "line_search", failing)

@@ -109,7 +109,8 @@ class GridTrace:
     ``measured`` has further values after the last cycle (`tehl.solver.measures`).
     ``damping`` is the damping factor of heat and thinning between rough surfaces, 1 is undamped: no
     convergence rate is below 1 - damping. ``negligible`` is the relative iteration error of the
-    film that is always accepted.
+    film that is always accepted. A grid on which the iteration ``diverged`` is not compared with
+    others.
     """
 
     central: Trace = field(default_factory=Trace)
@@ -121,6 +122,7 @@ class GridTrace:
     least_cycles: int = LEAST_CYCLES
     damping: float = 1.0
     negligible: float = 0.0
+    diverged: bool = False
 
     def __post_init__(self) -> None:
         self.least_cycles = max(LEAST_CYCLES, math.ceil(1.0 / self.damping))

@@ -41,14 +41,15 @@ def estimated_errors(
     options : Options
         Order of the wedge.
     """
-    if len(traces) < 2 or not traces[-1].reports:
+    if len(traces) < 2 or not traces[-1].reports or traces[-1].diverged:
         return None
     far_field = level.equations.far_field
     domain = far_field_error(far_field.groups, level.grid.domain) if far_field else 0.0
     if not roughness.is_rough:
-        return error_estimate(traces, options.wedge_order, domain)
+        comparable = [trace for trace in traces if not trace.diverged]
+        return error_estimate(comparable, options.wedge_order, domain)
     # grids that resolve the same heights
-    comparable = traces[roughness.first_comparable :]
+    comparable = [trace for trace in traces[roughness.first_comparable :] if not trace.diverged]
     if len(comparable) < 2:
         points, amplitude = roughness.points, roughness.amplitude
         return single_grid_estimate(traces[-1], level.grid.dx, points, amplitude, domain)

@@ -1,0 +1,254 @@
+"""The iteration on one grid of a steady contact: cycles or Newton steps, heights, heat, its end."""
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from itertools import count
+
+import numpy as np
+
+from tehl.operators.heights import Heights
+from tehl.solution import CycleReport
+from tehl.solver.anderson import Anderson
+from tehl.solver.continuation import (
+    MOST_STEPS,
+    SMOOTH_CYCLES,
+    Roughness,
+    TouchingError,
+    raise_by_newton,
+)
+from tehl.solver.convergence import (
+    LARGEST_CHANGE,
+    LARGEST_ROUGH_CHANGE,
+    GridTrace,
+    check_divergence,
+    film_converged,
+    must_stop,
+    stalled,
+    temperature_converged,
+)
+from tehl.solver.goal import Goal
+from tehl.solver.hierarchy import Hierarchy
+from tehl.solver.ladder import Strategy
+from tehl.solver.level import Level
+from tehl.solver.measures import measured
+from tehl.solver.monitor import Monitor
+from tehl.solver.newton import Newton
+from tehl.solver.thermal import Coupling
+from tehl.typing import Array
+
+MOST_CYCLES = 4
+"""Most cycles on a grid that only provides the start for the next finer one."""
+MOST_DOUBLINGS = 4
+"""Most doublings of `MOST_CYCLES`, one per coarser grid, where temperatures converge slowly."""
+HERTZ_CYCLES = 2
+"""Cycles after which a grid that started from the Hertz pressure has a film."""
+ISOTHERMAL_CYCLES = 4
+"""Cycles before damped heat begins."""
+COARSE_NODES = 33
+"""Least nodes along x of the coarse grid in the preconditioner of Newton's method."""
+DAMPED_MEMORY = 3
+"""Most earlier cycles combined if heat and thinning are damped: older ones had another flow."""
+
+
+class GridIteration:
+    """The iteration on the last of some levels, with what it has in common on all grids.
+
+    Parameters
+    ----------
+    hierarchy, strategy : Hierarchy, Strategy
+        The levels; method and settings.
+    heights : Heights or None
+        Heights of the surfaces on the finest grid; None for smooth surfaces.
+    goal, monitor : Goal, Monitor
+        The error to reach; receives the report of each cycle.
+    """
+
+    def __init__(
+        self,
+        hierarchy: Hierarchy,
+        strategy: Strategy,
+        heights: Heights | None,
+        goal: Goal,
+        monitor: Monitor,
+    ) -> None:
+        self.hierarchy, self.strategy, self.options = hierarchy, strategy, hierarchy.options
+        self.levels, self.goal, self.monitor = hierarchy.levels, goal, monitor
+        self.coupling = Coupling(
+            hierarchy.scaled,
+            self.options,
+            slide_in_steps=strategy.slide_in_steps,
+            damping=strategy.damping,
+            any_grid_final=goal.is_open,
+        )
+        self.roughness = Roughness(hierarchy.levels, heights, strategy.continuation)
+        self.traces: list[GridTrace] = []  # of each grid, coarsest first
+        self.from_hertz = False  # the present grid started from the Hertz pressure
+
+    @property
+    def finest(self) -> Level:
+        """The level of the result."""
+        return self.hierarchy.finest
+
+    def _iterate(self, levels: Sequence[Level]) -> None:
+        """Iterate on the last of ``levels`` until it has converged, stalled or used its cycles."""
+        fine, finer = levels[-1], len(self.levels) - len(levels)
+        finest = not finer
+        fine.pose_problem()
+        fine.update()
+        done = self._start_heat(levels)
+        largest = LARGEST_ROUGH_CHANGE if self.roughness.is_on(levels) else LARGEST_CHANGE
+        trace = GridTrace(
+            largest_change=largest, damping=self.coupling.damping, negligible=self.goal.negligible
+        )
+        self.traces.append(trace)
+        newton, anderson = self._newton(levels), self._anderson(levels)
+        step = newton.step if newton else partial(self.hierarchy.cycle, levels)
+        begins = len(levels) - 1 == self.roughness.first  # the first level with the heights
+        done += self._raise_heights(levels, newton) if begins else 0
+        trace.note(*fine.nodal_film())
+        most = MOST_STEPS if newton else MOST_CYCLES
+        if self.coupling.state is not None and not newton:
+            # smooth parts of the temperature may converge slowly: on coarse grids that costs little
+            damped = self.coupling.damping < 1.0
+            most <<= MOST_DOUBLINGS if damped else min(finer, MOST_DOUBLINGS)
+        if finest:
+            most = self.strategy.patience * self.options.max_cycles
+        for number in range(1, most + 1):
+            before = fine.unknowns() if anderson else None
+            report = self._iteration(levels, step, number + done)
+            trace.add(report)
+            if self._is_done(trace, finest=finest):
+                return
+            if anderson is not None and before is not None:
+                combined = anderson.combine(before, fine.unknowns())
+                # a combination of states must not wet the nodes that the last cycle cavitated
+                wet = np.append(fine.film.p.ravel() > 0.0, True)
+                fine.set_unknowns(np.where(wet, combined, 0.0))
+
+    def _measure(self, levels: Sequence[Level]) -> None:
+        """Record further values of the last of ``levels``."""
+        scaled, state = self.hierarchy.scaled, self.coupling.state
+        self.traces[-1].measured = measured(levels[-1], scaled, state)
+
+    def _finish(self, levels: Sequence[Level]) -> None:
+        """Make the last of ``levels`` the finest, and iterate until it has converged or stalled."""
+        del self.levels[len(levels) :]
+        trace = self.traces[-1]
+        while not self._is_done(trace, finest=True):
+            number = len(trace.reports) + 1
+            if number > self.options.max_cycles:
+                return
+            trace.add(self._iteration(levels, partial(self.hierarchy.cycle, levels), number))
+
+    def _is_done(self, trace: GridTrace, *, finest: bool) -> bool:
+        """Return whether the iteration on a grid has converged or stalled."""
+        coarser = self._coarser_trace()
+        if not finest:
+            done = film_converged(trace, coarser)
+            if self.coupling.state is None or len(trace.reports) < MOST_CYCLES:
+                return done and temperature_converged(trace, coarser)
+            return (done and temperature_converged(trace, coarser)) or stalled(trace, 2)
+        return must_stop(trace, coarser, self.options) or stalled(trace, self.strategy.patience)
+
+    def _start_heat(self, levels: Sequence[Level]) -> int:
+        """Start heat and shear thinning on the last of ``levels``, if it resolves them.
+
+        Isothermal cycles come first where the film is not in balance: it would flow and heat far
+        too much. Return their number.
+        """
+        cycles = 0
+        if self.coupling.is_pending and self.strategy.damping < 1.0:
+            cycles = ISOTHERMAL_CYCLES
+        elif self.coupling.is_pending and self.from_hertz:
+            cycles = HERTZ_CYCLES
+        for number in range(1, cycles + 1):
+            self._iteration(levels, partial(self.hierarchy.cycle, levels), number)
+        if self.coupling.begin(levels, finest=levels[-1] is self.finest):
+            for level in levels:
+                level.set_relaxation(self.strategy.relaxation)
+        return cycles
+
+    def _coarser_trace(self) -> GridTrace | None:
+        """Return the trace of the next coarser grid; None if its film is not comparable."""
+        number = len(self.traces) - 1
+        # the coarsest grid is too coarse to compare; a film without the heights is another one
+        if number < 2 or number == self.roughness.first_comparable or self.traces[-2].diverged:
+            return None
+        return self.traces[-2]
+
+    def _newton(self, levels: Sequence[Level]) -> Newton | None:
+        """Return Newton's method if the strategy has it and the last of ``levels`` has heights."""
+        if not (self.strategy.newton and self.roughness.is_on(levels)):
+            return None
+        coarse = next(level.grid for level in levels if level.grid.nx >= COARSE_NODES)
+        return Newton(levels[-1], coarse)
+
+    def _anderson(self, levels: Sequence[Level]) -> Anderson | None:
+        """Return the acceleration of the cycles if the last of ``levels`` has heights."""
+        memory = self.strategy.memory
+        if self.coupling.damping < 1.0:
+            memory = min(memory, DAMPED_MEMORY)
+        return Anderson(memory) if memory and self.roughness.is_on(levels) else None
+
+    def _raise_heights(self, levels: Sequence[Level], newton: Newton | None) -> int:
+        """Raise the heights on the first level that has them; return the number of iterations."""
+        fine, numbers, cycle = levels[-1], count(1), partial(self.hierarchy.cycle, levels)
+
+        def iterate(step: Callable[[], object]) -> float:
+            return self._iteration(levels, step, next(numbers)).residual
+
+        # the smooth film is the start of the continuation, and of a restart on a finer grid
+        fine.apply_heights(0.0)
+        for _ in range(SMOOTH_CYCLES):
+            iterate(cycle)
+        self.roughness.smooth = (len(levels) - 1, fine.film.p.copy(), fine.rigid_approach)
+        if newton is None:
+            ramp = self.strategy.continuation.ramp
+            for part in range(1, ramp):
+                fine.apply_heights(part / ramp)
+                iterate(cycle)
+        else:
+            try:
+                solve_part = partial(iterate, newton.step)
+                raise_by_newton(fine, solve_part, newton.refresh, finest=fine is self.finest)
+            except TouchingError:  # its film is the result
+                self.traces[-1].add(self._report(fine, fine.film.p.copy(), 0, (0.0, 0.0)))
+                raise
+        fine.apply_heights(1.0)
+        fine.update()
+        return next(numbers) - 1
+
+    def _iteration(
+        self, levels: Sequence[Level], step: Callable[[], object], number: int
+    ) -> CycleReport:
+        """Perform one cycle or Newton step on the last of ``levels``, update heat, and report."""
+        fine = levels[-1]
+        before = fine.film.p.copy()
+        step()
+        fine.update()
+        heating = self.coupling.update(levels)
+        report = self._report(fine, before, number, heating)
+        self.monitor.cycle(report)
+        return report
+
+    def _report(
+        self, level: Level, before: Array, number: int, heating: tuple[float, float]
+    ) -> CycleReport:
+        residual = level.evaluate_residual()
+        np.subtract(level.film.p, before, out=before)
+        central, minimum = level.nodal_film()
+        report = CycleReport(
+            points=level.grid.points,
+            cycle=number,
+            residual=residual,
+            change=float(max(before.max(), -before.min())),
+            load_error=level.load_error(),
+            film_central=central,
+            film_minimum=minimum,
+            smoother=self.strategy.name,
+            temperature_change=heating[0],
+            temperature_rise=heating[1],
+            mean_change=float(np.abs(before).sum() / (level.film.p.sum() or 1.0)),
+        )
+        check_divergence(report, self.hierarchy.expected_film, rough=self.roughness.is_rough)
+        return report
