@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tehl.domain import needed_points, recommended_domain
+from tehl.domain import expected_points, recommended_domain
 from tehl.errors import InputError
 from tehl.options import Domain, Options, coarsenable, coarsenings
 from tehl.scaling import groups
@@ -71,7 +71,8 @@ def test_the_proposed_domain_grows_with_the_accuracy():
 
 
 def test_heavier_loads_need_more_points():
-    points = [needed_points(groups(moes_contact(m, 10.0))) for m in (20, 200, 2000)]
+    contacts = [groups(moes_contact(m, 10.0)) for m in (20, 200, 2000)]
+    points = [expected_points(one, recommended_domain(one), 0.02) for one in contacts]
     assert points == sorted(points)
     assert points[0] < points[-1]
     assert all(coarsenings(n) >= 1 for n in points)

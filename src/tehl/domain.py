@@ -7,9 +7,6 @@ from tehl.film_formulas import expected_central_film, moes_film_unit
 from tehl.options import USUAL_ERROR, Domain, Options
 from tehl.scaling import Groups, ScaledProblem
 
-NODES = tuple(2**k * n + 1 for k in range(4, 12) for n in (2, 3))
-AIM = 0.03332
-"""Relative error of the central film on the proposed grid."""
 CAUTION = 2.0
 """Factor on the slope of the film formula by load, which is half of what wider domains show between
 M = 2 and 5."""
@@ -101,29 +98,9 @@ def domain_error(groups: Groups, domain: Domain) -> float:
     return max(CAUTION * slope * missing, elastic)
 
 
-def mesh_error(groups: Groups, domain: Domain, nodes: float) -> float:
-    """Estimate the relative error of the central film on ``nodes`` per direction of a domain.
-
-    It is about 1.7 h^2 / H^1.2 with mesh width h and film H (measured at M = 100 to 500).
-    """
-    width = (domain.x[1] - domain.x[0]) / (nodes - 1)
-    return float(1.7 * width**2 / expected_central_film(groups) ** 1.2)
-
-
-def grid_error(groups: Groups, nodes: int) -> float:
-    """Return `mesh_error` on the recommended domain."""
-    return mesh_error(groups, recommended_domain(groups), nodes)
-
-
-def needed_points(groups: Groups) -> int:
-    """Return the nodes per direction at which `grid_error` is about three percent.
-
-    The error of the minimum film is larger. Coarser grids may converge too, with larger errors.
-    """
-    return next((nodes for nodes in NODES if grid_error(groups, nodes) <= AIM), NODES[-1])
-
-
-def expected_bar(scaled: ScaledProblem, domain: Domain, nodes: float) -> float:
+def expected_bar(
+    groups: Groups, domain: Domain, nodes: float, *, is_coupled: bool = False
+) -> float:
     """Return the error bar of the film by the mesh to expect, the larger of central and minimum.
 
     A fit to 215 random smooth contacts with M = 2 to 2000, L = 0.5 to 20 and R_y/R_x = 0.5 to 5
@@ -131,41 +108,57 @@ def expected_bar(scaled: ScaledProblem, domain: Domain, nodes: float) -> float:
 
     Parameters
     ----------
-    scaled, domain : ScaledProblem, Domain
+    groups, domain : Groups, Domain
         The contact, and the domain of the solve.
     nodes : float
         Nodes per direction.
+    is_coupled : bool
+        Whether the film is heated or thins by shear.
     """
-    groups, width = scaled.entering, (domain.x[1] - domain.x[0]) / (nodes - 1)
+    width = (domain.x[1] - domain.x[0]) / (nodes - 1)
     film = expected_central_film(groups)
-    factor = BAR * (BAR_COUPLED if scaled.problem.is_coupled else 1.0)
+    factor = BAR * (BAR_COUPLED if is_coupled else 1.0)
     loads = groups.M**0.77 * max(groups.L, 0.1) ** 0.2
     return float(factor * width**2 * loads / (film**0.59 * groups.ellipticity**1.05))
 
 
-def expected_points(scaled: ScaledProblem, domain: Domain, error: float) -> int:
+def expected_points(
+    groups: Groups,
+    domain: Domain,
+    error: float,
+    *,
+    is_coupled: bool = False,
+    least: float = 0.0,
+) -> int:
     """Return the nodes per direction on which the error bars of the film will be below an error.
-
-    Waves of the surfaces get `WAVE_NODES` nodes, if not more than `ROUGH_NODES` follow.
 
     Parameters
     ----------
-    scaled, domain : ScaledProblem, Domain
+    groups, domain : Groups, Domain
         The contact, and the domain of the solve.
     error : float
         Relative error of central and minimum film [-].
+    is_coupled : bool
+        Whether the film is heated or thins by shear.
+    least : float
+        Nodes that must be exceeded, for waves of the surfaces.
     """
-    groups, scales = scaled.entering, scaled.scales
-    left = max(error - far_field_error(groups, domain), 0.5 * error)
-    problem = scaled.problem
+    left = max(error - far_field_error(groups, domain), 0.5 * error) / MARGIN
+    enough = (
+        nodes
+        for nodes in FAMILIES
+        if nodes > least and expected_bar(groups, domain, nodes, is_coupled=is_coupled) <= left
+    )
+    return next(enough, FAMILIES[-1])
+
+
+def _nodes_of_waves(scaled: ScaledProblem, domain: Domain) -> float:
+    """Return the nodes that put `WAVE_NODES` on the shortest wave, `ROUGH_NODES` at most."""
+    problem, scales = scaled.problem, scaled.scales
     waves = [one.roughness.shortest_wavelengths for one in (problem.surface_1, problem.surface_2)]
     along = (domain.x[1] - domain.x[0]) * scales.half_width_x / min(wave[0] for wave in waves)
     across = (domain.y[1] - domain.y[0]) * scales.half_width_y / min(wave[1] for wave in waves)
-    least = min(WAVE_NODES * max(along, across), ROUGH_NODES)
-    for nodes in FAMILIES:
-        if MARGIN * expected_bar(scaled, domain, nodes) <= left and nodes > least:
-            return nodes
-    return FAMILIES[-1]
+    return min(WAVE_NODES * max(along, across), ROUGH_NODES)
 
 
 def planned(scaled: ScaledProblem, options: Options) -> Options:
@@ -175,7 +168,14 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
     """
     if options.points != "auto":
         return options
-    nodes = expected_points(scaled, domain_of(scaled.entering, options), options.target)
+    domain = domain_of(scaled.entering, options)
+    nodes = expected_points(
+        scaled.entering,
+        domain,
+        options.target,
+        is_coupled=scaled.problem.is_coupled,
+        least=_nodes_of_waves(scaled, domain),
+    )
     return options.on_points(nodes, nodes)
 
 

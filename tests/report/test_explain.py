@@ -234,7 +234,6 @@ def test_the_film_between_warm_bodies_is_that_of_oil_at_their_mean_temperature()
     assert case.bodies.central_film == pytest.approx(as_warm.central_film)
     assert case.bodies.ratio == pytest.approx(as_warm.central_film / case.central_film)
     assert case.bodies.ratio < 0.7
-    assert case.needed_points >= explained().needed_points
     assert json.loads(json.dumps(as_summary(case)))["bodies"]["surface_1"] == pytest.approx(40)
 
 
@@ -262,11 +261,14 @@ def test_hardly_any_sliding_shows_no_zeros():
     assert "traction" not in as_text(case)
 
 
-def test_grid_row_and_question_agree_on_what_the_nodes_are_for():
-    case = explained("numerics.points", 65)
+def test_a_stated_grid_is_shown_with_the_expected_one_and_its_error_in_question():
+    case, usual = explained("numerics.points", 65), explained()
+    assert case.expected_points == usual.expected_points == usual.options.shape[0]
+    assert f"65 x 65 nodes   {case.expected_points} expected for an error of 2 %" in as_text(case)
     question = next(text for text in case.questions if "coarse" in text)
-    assert f"{case.needed_points} nodes keep the central film within about 3 %" in question
-    assert f"{case.needed_points} give the central film to about 3 %" in as_text(case)
+    assert "numerics.points = 65: the expected error of the film is about 17 %" in question
+    assert 'set numerics.error = "2 %" instead' in question
+    assert explained("numerics.points", case.expected_points).questions == ()
 
 
 def test_the_grid_to_expect_is_shown_with_the_error_to_reach():

@@ -4,7 +4,7 @@ from dataclasses import asdict, dataclass
 from html import escape
 from typing import Any
 
-from tehl.domain import AIM, domain_of, needed_points, planned, recommended_domain
+from tehl.domain import domain_of, planned, recommended_domain
 from tehl.film_formulas import (
     FilmEstimate,
     Lubrication,
@@ -18,7 +18,7 @@ from tehl.heat import FilmEnergy, source_form
 from tehl.inlet_heating import inlet_factors, inlet_heating_factor, thermal_loading
 from tehl.lubricant.pressure import UNCERTAINTY
 from tehl.memory import available_memory, needed_memory
-from tehl.options import Domain, Options, coarsenable
+from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.report.asperities import CONVERGES, RESOLVES, Asperities, asperities
 from tehl.report.expected_heat import BodyEffect, ExpectedHeat, body_effect, expected_heat
@@ -66,8 +66,8 @@ class Explanation:
     domain: Domain
     recommended_domain: Domain
     """The domain of the solve, stated or recommended, and the one recommended for the load."""
-    needed_points: int
-    """Nodes per direction that give the central film to about three percent."""
+    expected_points: int
+    """Nodes per direction on which the error to reach is expected."""
     memory: float
     seconds: float
     """Estimated peak memory [byte] and time [s] of a solve."""
@@ -106,7 +106,8 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
     """Return what formulas say about a case, without solving it."""
     asked = options or Options()
     scaled = ScaledProblem.of(problem)
-    options = planned(scaled, asked)
+    follows = planned(scaled, asked.model_copy(update={"points": "auto"}))
+    options = follows if asked.points == "auto" else asked
     groups, film, (ny, nx) = scaled.groups, expected_film(scaled), options.shape
     wanted, domain = recommended_domain(groups, asked.target), domain_of(groups, options)
     grid = Grid(nx=nx, ny=ny, domain=domain, mirror=False)
@@ -114,7 +115,6 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
     heights, plan = asperities(problem, options, mesh, film), transient_plan(scaled, options, mesh)
     bodies = body_effect(scaled)
     heat = expected_heat(scaled, bodies)
-    thinnest = bodies.groups if bodies is not None and bodies.ratio < 1 else groups
     return Explanation(
         scaled=scaled,
         options=options,
@@ -129,7 +129,7 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
         heat=heat,
         domain=domain,
         recommended_domain=wanted,
-        needed_points=coarsenable(needed_points(thinnest) - 2)[1],
+        expected_points=follows.shape[0],
         memory=needed_memory(options, problem),
         seconds=expected_seconds(problem, ny * nx),
         time=plan,
@@ -157,7 +157,6 @@ def as_text(case: Explanation) -> str:
     return render(
         "explain.txt",
         case=case,
-        aim=AIM,
         available=available_memory(),
         converges=CONVERGES,
         inlet_factors=inlet_factors(problem),
@@ -202,7 +201,7 @@ def as_summary(case: Explanation) -> dict[str, Any]:
         "domain": case.domain.model_dump(mode="json"),
         "recommended_domain": case.recommended_domain.model_dump(mode="json"),
         "points": list(reversed(case.options.shape)),
-        "needed_points": case.needed_points,
+        "expected_points": case.expected_points,
         "memory_bytes": case.memory,
         "seconds": case.seconds,
         "time": plan,

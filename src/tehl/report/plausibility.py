@@ -4,17 +4,16 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from tehl.domain import (
-    AIM,
     domain_error,
-    grid_error,
-    needed_points,
+    domain_of,
+    expected_bar,
     planned,
     recommended_domain,
 )
 from tehl.film_formulas import expected_film
 from tehl.heat import FAR_BODY, LAYERS
 from tehl.lubricant import Limiting, Roelands, RoelandsExponential, Walther
-from tehl.options import Domain, Options, coarsenable
+from tehl.options import Domain, Options
 from tehl.problem import ContactProblem, Surface
 from tehl.report.asperities import CONVERGES, LARGEST, RESOLVES, Asperities
 from tehl.report.expected_heat import NOTICEABLE, BodyEffect, ExpectedHeat
@@ -94,7 +93,6 @@ def questions(
     heights : Asperities or None
         Heights of rough surfaces.
     """
-    thinner = bodies.groups if bodies is not None and bodies.ratio < 1 else scaled.groups
     ranges = (one.question() for one in typical_ranges(scaled))
     return (
         *(question for question in ranges if question),
@@ -103,7 +101,7 @@ def questions(
         *_about_heat(scaled.problem, heat),
         *_about_bodies(bodies),
         *_about_domain(options, scaled.groups),
-        *_about_grid(options, thinner),
+        *_about_grid(options, scaled),
         *(_about_heights(scaled, planned(scaled, options), heights) if heights else ()),
     )
 
@@ -278,7 +276,7 @@ def _about_domain(options: Options, groups: Groups) -> Iterator[str]:
         )
 
 
-def _about_grid(options: Options, groups: Groups) -> Iterator[str]:
+def _about_grid(options: Options, scaled: ScaledProblem) -> Iterator[str]:
     if options.points == "auto":
         return
     if options.error is not None:
@@ -286,16 +284,14 @@ def _about_grid(options: Options, groups: Groups) -> Iterator[str]:
             f"numerics.points is stated, so numerics.error = {percentage(options.error)} is not "
             "enforced: remove one of them"
         )
-    needed, nodes = needed_points(groups), min(options.shape)
-    if nodes >= needed:
-        return
-    off = min(grid_error(groups, nodes), 1.0)
-    percent = float(f"{100 * off:.1g}")
-    yield (
-        f"numerics.points = {nodes} is coarse for so thin a film: the central film may deviate by "
-        f"{percent:g} %, the minimum by several times as much, or the run may not converge; "
-        f"{coarsenable(needed - 2)[1]} nodes keep the central film within about {100 * AIM:.0f} %"
-    )
+    groups, nodes, coupled = scaled.groups, min(options.shape), scaled.problem.is_coupled
+    bar = expected_bar(groups, domain_of(groups, options), nodes, is_coupled=coupled)
+    if bar > options.target:
+        size = "above 100 %" if bar > 1.0 else f"about {percentage(bar)}"
+        yield (
+            f"numerics.points = {nodes}: the expected error of the film is {size}, and a coarse "
+            f'grid may not converge; set numerics.error = "{percentage(options.target)}" instead'
+        )
 
 
 def _about_heights(scaled: ScaledProblem, options: Options, found: Asperities) -> Iterator[str]:

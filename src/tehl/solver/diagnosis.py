@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from tehl.domain import needed_points
+from tehl.domain import expected_points, recommended_domain
 from tehl.film_formulas import expected_central_film, expected_film
 from tehl.grid import Grid
 from tehl.heat import FAR_BODY, FilmEnergy
@@ -19,6 +19,8 @@ from tehl.units import percentage
 LARGEST_TRACTION = 0.1
 """Largest shear stress of oils over pressure."""
 
+RESOLVED = 0.1
+"""Expected error of the film from which on a grid does not resolve it."""
 LESS_ROUGH = "Take lower or longer asperities, a higher speed, or more nodes (numerics.points)."
 _SHEAR_HINT = (
     'State lubricant.shear, such as { law = "eyring", stress = "5 MPa" }, or slide less '
@@ -203,14 +205,15 @@ def _shear_stress(scaled: ScaledProblem) -> Iterator[LikelyCause]:
 
 def _film_below_grid(grid: Grid, groups: Groups) -> Iterator[LikelyCause]:
     """Yield the grid if it cannot resolve the expected film."""
-    needed, here = needed_points(groups), min(grid.nx, grid.ny)
+    needed, here = expected_points(groups, grid.domain, RESOLVED), min(grid.nx, grid.ny)
     if not needed > here:
         return
     yield LikelyCause(
         cause="film_below_grid",
         message=(
-            f"The expected film is H = {expected_central_film(groups):.2g}, which takes {needed} "
-            f"nodes per direction or more to resolve; the grid has {here}."
+            f"The expected film is H = {expected_central_film(groups):.2g}, which takes about "
+            f"{needed} nodes per direction for an error of {percentage(RESOLVED)}; the grid has "
+            f"{here}."
         ),
         hint=f"Take {grid_hint(grid.points, groups)}.",
     )
@@ -223,4 +226,5 @@ def _round(value: float) -> str:
 
 def grid_hint(points: tuple[int, int], groups: Groups) -> str:
     """Return the key and value of the recommended grid, at least twice as fine as ``points``."""
-    return f"numerics.points = {max(needed_points(groups), 2 * max(points) - 1)}"
+    needed = expected_points(groups, recommended_domain(groups), RESOLVED)
+    return f"numerics.points = {max(needed, 2 * max(points) - 1)}"
