@@ -23,6 +23,12 @@ def test_the_agreed_keys_are_there(result, block):
     assert set(KEYS[block].split()) <= set(summary(result)[block])
 
 
+def test_error_bars_of_the_film_are_the_sum_of_their_parts(result):
+    errors = summary(result)["errors"]
+    assert errors["central"] == pytest.approx(1e-3 + 1e-4)
+    assert errors["minimum"] == pytest.approx(4e-3 + 2e-4)
+
+
 def test_temperature_and_traction_do_not_apply(result):
     content = summary(result)
     assert content["temperature"] is None

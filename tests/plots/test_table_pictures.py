@@ -74,13 +74,19 @@ def test_samples_are_points_without_a_line(table):
     assert [bar.lines[0].get_linestyle() for bar in bars] == ["-"]
 
 
-def test_the_bar_of_a_film_that_is_not_certified_is_the_error_of_its_grid(table):
+@pytest.mark.parametrize(
+    ("column", "error", "value"),
+    [("film.h_min_m", "minimum", 20.0), ("traction.mid_film", "traction_mid_film", 0.02)],
+)
+def test_the_bar_of_a_value_that_is_not_certified_is_its_estimated_error(
+    table, column, error, value
+):
     uncertified = table[[n for n in table if not n.startswith("uncertainty")]]
-    uncertified = uncertified.assign(**{"errors.discretisation_minimum": 0.05})
+    uncertified = uncertified.assign(**{f"errors.{error}": 0.05})
     uncertified.attrs = table.attrs
-    bars = curves(uncertified, "contact.load", "film.h_min_m").axes[0].containers[0]
+    bars = curves(uncertified, "contact.load", column).axes[0].containers[0]
     segments = bars.lines[2][0].get_segments()
-    assert np.ptp(segments[0][:, 1]) == pytest.approx(2 * 0.05 * 20.0)
+    assert np.ptp(segments[0][:, 1]) == pytest.approx(2 * 0.05 * value)
 
 
 def test_curves_have_the_title_of_their_study(table):

@@ -42,7 +42,7 @@ def test_a_wave_has_its_sq_slope_and_lambda_central():
 
 def test_the_proposed_nodes_put_eight_and_sixteen_on_a_wave():
     found = explained(WAVE, numerics={"points": 257}).roughness
-    for points, wanted in ((found.points_to_converge, 8), (found.points_to_answer, 16)):
+    for points, wanted in ((found.points_to_converge, 8), (found.points_to_resolve, 16)):
         there = explained(WAVE, numerics={"points": points}).roughness.points_per_wave
         assert there >= wanted
     assert found.points_per_wave == pytest.approx(
@@ -150,7 +150,7 @@ def test_what_a_grid_loses_is_explained_and_lambda_is_that_of_the_full_surface(n
     json.dumps(block, allow_nan=False)
 
 
-@pytest.mark.parametrize("wanted", ["points_to_converge", "points_to_answer"])
+@pytest.mark.parametrize("wanted", ["points_to_converge", "points_to_resolve"])
 def test_the_proposed_grid_of_a_map_does_not_move_away(noisy, wanted):
     proposed = getattr(explained(noisy).roughness, wanted)
     followed = explained(noisy, numerics={"points": proposed})

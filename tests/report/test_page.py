@@ -202,6 +202,13 @@ def test_a_failure_is_shown_with_its_hint(stalled):
     assert "No error could be estimated" in words
 
 
+@pytest.mark.usefixtures("one_picture")
+def test_the_error_of_the_largest_pressure_is_shown(result):
+    errors = replace(result.errors, pressure_max=0.099)
+    words = " ".join(Page(report_text(replace(result, errors=errors), dpi=40)).words)
+    assert "about 9.9 %" in words
+
+
 def test_inputs_carry_their_units(result):
     rows = dict(input_rows(result.problem))
     assert rows["contact.load"] == "80 N"

@@ -15,7 +15,7 @@ from tehl.post.roughness import RoughFilm
 from tehl.post.traction import Traction
 from tehl.post.waves.response import WaveResponse
 from tehl.result import Result
-from tehl.solution import Estimate
+from tehl.solution import ErrorEstimate, Estimate
 from tehl.transient_result import HistoryBars, TransientResult
 from tehl.typing import Array
 
@@ -144,12 +144,16 @@ def _steady(result: Result) -> Block:
         "heat": None if heat is None else _heat(heat),
         "roughness": None if rough is None else roughness_block(rough),
         "convergence": _convergence(result),
-        "errors": asdict(result.errors) if result.errors else None,
+        "errors": None if result.errors is None else _errors(result.errors),
         "cost": {"points": [scaled.x.size, scaled.y.size]} | asdict(result.cost),
     }
     if result.uncertainty:
         content["uncertainty"] = {"film": {}, "pressure": {}} | _mirrored(result, _STEADY)
     return content
+
+
+def _errors(found: ErrorEstimate) -> Block:
+    return {"central": found.central, "minimum": found.minimum} | asdict(found)
 
 
 def _groups(result: Result) -> Block:

@@ -38,6 +38,17 @@ _TITLES = {
     "contact.moes_load": "M",
     "contact.moes_speed": "L",
 }
+_ERRORS = {
+    **dict.fromkeys(("film.h_central_m", "film.H_central", "film.H_central_moes"), "central"),
+    **dict.fromkeys(("film.h_min_m", "film.H_min", "film.H_min_moes"), "minimum"),
+    **dict.fromkeys(("pressure.max_pa", "pressure.P_max"), "pressure_max"),
+    "traction.mid_film": "traction_mid_film",
+    "temperature.film_rise_max_k": "film_rise_max",
+    "temperature.mid_film_rise_central_k": "mid_film_rise_central",
+    "temperature.surface_1_rise_max_k": "surface_1_rise_max",
+    "temperature.surface_2_rise_max_k": "surface_2_rise_max",
+}
+"""Names of the error bars of columns."""
 _SUITABLE: dict[str, tuple[tuple[float, float, str], ...]] = {
     "m": ((1e-7, 1e9, "nm"), (1e-3, 1e6, "µm"), (1.0, 1e3, "mm")),
     "Pa": ((1e4, 1.0, "Pa"), (3e8, 1e-6, "MPa"), (np.inf, 1e-9, "GPa")),
@@ -103,7 +114,7 @@ def numbers(table: "pd.DataFrame", name: str) -> Column:
 def certified(rows: "pd.DataFrame", column: Column) -> tuple[Column, Array | None]:
     """Return a column with certified values where there are any, and its error bars.
 
-    The bar of a film that is not certified is the estimated error of its grid.
+    The bar of a value that is not certified is its estimated error.
     """
     name = f"uncertainty.{column.name}"
     estimated = _estimated(rows, column)
@@ -120,10 +131,8 @@ def certified(rows: "pd.DataFrame", column: Column) -> tuple[Column, Array | Non
 
 
 def _estimated(rows: "pd.DataFrame", column: Column) -> Array | None:
-    """Return the estimated discretisation errors of a column of films, None for other columns."""
-    which = {"film.h_c": "central", "film.H_c": "central", "film.h_m": "minimum"}
-    which["film.H_m"] = "minimum"
-    error = f"errors.discretisation_{which.get(column.name[:8])}"
+    """Return the estimated errors of a column, None where there are none."""
+    error = f"errors.{_ERRORS.get(column.name)}"
     if error not in rows:
         return None
     relative = rows[error].to_numpy(np.float64, na_value=np.nan)

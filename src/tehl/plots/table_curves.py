@@ -47,7 +47,7 @@ def curves(  # noqa: PLR0913 (one call, as in other libraries of pictures)
     table : pandas.DataFrame
         As :func:`tehl.studies.table` returns it. Cases that did not converge are left out, and
         counted below. Of certified cases the certified value is drawn with its error bar, of others
-        the film with the estimated error of its grid.
+        the value with its estimated error.
     x, y : str
         Columns of numbers; the last part of a dotted name suffices, and a minus turns the sign.
     hue, style : str or None

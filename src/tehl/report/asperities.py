@@ -38,7 +38,7 @@ class Asperities:
     points_per_wave: float
     """Nodes of the grid on it [-]."""
     points_to_converge: int
-    points_to_answer: int
+    points_to_resolve: int
     """Nodes per direction that put 8 and 16 on it."""
     stands: bool
     """Whether the roughness stands still in the contact."""
@@ -78,11 +78,11 @@ def asperities(
     InputError
         If a measured surface cannot be read.
     """
-    if not problem.is_rough:
+    resolution = resolution_of(problem, mesh)
+    if resolution is None:
         return None
     surfaces = {"surface_1": problem.surface_1, "surface_2": problem.surface_2}
     roughs = [one.roughness for one in surfaces.values()]
-    resolution = resolution_of(problem, mesh) or Resolution(sq=(0.0, 0.0), kept=(0.0, 0.0))
     first, second = (
         sq or one.rms_roughness for sq, one in zip(resolution.sq, surfaces.values(), strict=True)
     )
@@ -98,7 +98,7 @@ def asperities(
         shortest_wave=waves[axis],
         points_per_wave=fewest,
         points_to_converge=_needed(options, fewest, axis, CONVERGES),
-        points_to_answer=_needed(options, fewest, axis, RESOLVES),
+        points_to_resolve=_needed(options, fewest, axis, RESOLVES),
         stands=problem.transient is None,
         waves=tuple(expected_waves(problem, film)),
         remarks=tuple(

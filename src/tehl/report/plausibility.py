@@ -302,7 +302,7 @@ def _about_heights(scaled: ScaledProblem, options: Options, found: Asperities) -
     if found.points_per_wave < CONVERGES:
         enough, better = (
             f"{'more than ' if points > LARGEST else ''}{min(points, LARGEST)} nodes"
-            for points in (found.points_to_converge, found.points_to_answer)
+            for points in (found.points_to_converge, found.points_to_resolve)
         )
         yield (
             f"numerics.points = {min(options.shape)}: {found.points_per_wave:.2g} nodes on the "

@@ -35,8 +35,10 @@ class FeatureModel(RoughnessModel):
     rms: ClassVar[float] = 0.0  # one feature has no share of an infinite surface
 
     amplitude: SignedHeight
+    """Height of the top [m]; negative is a depression."""
     x: Position = 0.0
     y: Position = 0.0
+    """Where it stands at time zero [m]; a point of the crest of a ridge."""
 
     @model_validator(mode="after")
     def _must_be_gentle(self) -> Self:
@@ -77,15 +79,6 @@ class Bump(FeatureModel):
     r"""A Gaussian bump, or with a negative amplitude a dent.
 
     .. math:: s = A \exp\{-r^2/r_0^2\}
-
-    Attributes
-    ----------
-    amplitude : float
-        A [m]; negative is a dent.
-    radius : float
-        r_0 [m], where the height is A/e.
-    x, y : float
-        Where it stands at time zero [m].
     """
 
     LENGTH = "radius"
@@ -94,6 +87,7 @@ class Bump(FeatureModel):
 
     type: Literal["bump"] = "bump"
     radius: Wavelength
+    """r_0 [m], where the height is A/e."""
 
     def _at_rest(self, x: Array, y: Array) -> Array:
         return self.amplitude * np.exp(-self._squared_distance(x, y))
@@ -107,15 +101,6 @@ class Dimple(FeatureModel):
     With a negative amplitude it is a dent with the rim of displaced material around it. It goes
     through zero at w/4, and less than a third of a percent is left beyond w/2.
 
-    Attributes
-    ----------
-    amplitude : float
-        A [m]; negative is a dent.
-    width : float
-        w [m].
-    x, y : float
-        Where it stands at time zero [m].
-
     References
     ----------
     .. [1] C. H. Venner and A. A. Lubrecht, Multilevel Methods in Lubrication, Elsevier, 2000.
@@ -125,6 +110,7 @@ class Dimple(FeatureModel):
 
     type: Literal["dimple"] = "dimple"
     width: Wavelength
+    """w [m]."""
 
     def _at_rest(self, x: Array, y: Array) -> Array:
         return self.amplitude * _damped_cosine(self._squared_distance(x, y))
@@ -136,15 +122,6 @@ class Pocket(FeatureModel):
     .. math:: s = A \cos\frac{\pi r}{2b} \, \exp\{-2 (r/b)^2\}
 
     It goes through zero at b; beyond, less than 2 % of A are left.
-
-    Attributes
-    ----------
-    amplitude : float
-        A [m]; negative is a dimple of that depth.
-    radius : float
-        b [m].
-    x, y : float
-        Where it stands at time zero [m].
     """
 
     LENGTH = "radius"
@@ -153,6 +130,7 @@ class Pocket(FeatureModel):
 
     type: Literal["pocket"] = "pocket"
     radius: Wavelength
+    """b [m]."""
 
     def _at_rest(self, x: Array, y: Array) -> Array:
         square = self._squared_distance(x, y)
@@ -168,20 +146,6 @@ class Ridge(FeatureModel):
 
     with t the distance from the crest.
 
-    Attributes
-    ----------
-    amplitude : float
-        A [m]; negative is a groove.
-    width : float
-        b [m]: of a Gaussian profile where the height is A/e, of a cosine from foot to foot, of a
-        damped cosine as of :class:`Dimple`.
-    angle : float
-        [rad]; zero is transverse: the crest along y, across the entrainment.
-    profile : {"gaussian", "cosine", "damped"}
-        Shape across the crest, in the order of the formulas; "damped" is that of [1]_.
-    x, y : float
-        A point of the crest at time zero [m].
-
     References
     ----------
     .. [1] C. H. Venner and A. A. Lubrecht, Numerical simulation of a transverse ridge in a circular
@@ -190,8 +154,12 @@ class Ridge(FeatureModel):
 
     type: Literal["ridge"] = "ridge"
     width: Wavelength
+    """b [m]: of a Gaussian profile where the height is A/e, of a cosine from foot to foot, of a
+    damped cosine as of :class:`Dimple`."""
     angle: Angle = 0.0
+    """[rad]; zero is transverse: the crest along y, across the entrainment."""
     profile: Literal["gaussian", "cosine", "damped"] = "gaussian"
+    """Shape across the crest, in the order of the formulas; "damped" is that of [1]_."""
 
     @property
     def is_even_in_y(self) -> bool:

@@ -42,9 +42,9 @@ _BLOCKS = {
     "ripples_x.depth_m ripples_y.count ripples_y.depth_m "
     + " ".join(f"waves.0.{key}" for key in _WAVE.split()),
     "convergence": "cycles residual change load_error heat_balance_error",
-    "errors": "discretisation_central discretisation_minimum iteration_central iteration_minimum "
-    "domain pressure_max traction_mid_film film_rise_max mid_film_rise_central surface_1_rise_max "
-    "surface_2_rise_max",
+    "errors": "central minimum discretisation_central discretisation_minimum iteration_central "
+    "iteration_minimum domain pressure_max traction_mid_film film_rise_max mid_film_rise_central "
+    "surface_1_rise_max surface_2_rise_max",
     "cost": "points.0 cpu_seconds wall_seconds work",
 }
 """Columns of the summary by their blocks; of a list, those of its first entry."""
