@@ -47,6 +47,12 @@ def test_a_fine_mesh_and_a_formula_lose_nothing(table):
     assert resolution_of(ContactProblem.model_validate(ball_tables()), (1e-5, 1e-5)) is None
 
 
+def test_sa_of_a_wave_is_its_amplitude_over_half_pi():
+    wave = {"type": "wave", "amplitude": "50 nm", "wavelength": "80 um"}
+    found = resolution_of(problem(wave), (1e-5, 1e-5))
+    assert found.sa == (0.0, pytest.approx(50e-9 * 2 / math.pi, rel=0.01))
+
+
 @pytest.mark.parametrize("many", [False, True])
 def test_a_moving_map_or_list_counts_as_it_passes_the_contact(table, many):
     upstream = table | {"x": "-2 mm"}

@@ -35,6 +35,7 @@ def test_a_wave_has_its_sq_slope_and_lambda_central():
     # 5.5 waves in the contact, so that the mean is not quite zero
     assert found.composite == pytest.approx(50e-9 / math.sqrt(2), rel=0.02)
     assert found.steepest == pytest.approx(2 * math.pi * 50e-9 / 80e-6, rel=0.02)
+    assert "Sa                    surface 1 0 nm   surface 2 31." in as_text(case)
     assert case.lambda_central == pytest.approx(case.central_film / found.composite)
     assert case.questions == ()
     json.dumps(as_summary(case), allow_nan=False)

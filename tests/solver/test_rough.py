@@ -9,6 +9,7 @@ from tehl.errors import InputError
 from tehl.operators.heights import full_weighting, heights_of
 from tehl.options import Options
 from tehl.problem import ContactProblem
+from tehl.report.page import report_text
 from tehl.result import ConvergenceError
 from tehl.scaling import ScaledProblem, scales
 from tehl.solver.anderson import Anderson
@@ -202,7 +203,10 @@ def test_waves_that_the_grid_loses_are_reported_and_count_for_lambda(tmp_path):
     assert found.resolution.lost_share > 0.85
     block = result.summary()["roughness"]
     assert block["composite_sq_on_grid_m"] == max(found.sq_on_grid)
+    assert 0.7 < block["surface_2_sa_m"] / block["surface_2_sq_m"] < 0.9
     assert "of the variance in waves too short" in block["warning"]
     assert "warning          the grid carries" in as_text(result)
+    assert f"nm of both, Sa = 0 nm and {1e9 * block['surface_2_sa_m']:.4g} nm" in as_text(result)
+    assert "mean absolute height of surface 1 and of surface 2" in report_text(result, dpi=40)
     result.save(tmp_path / "a.nc")
     assert load(tmp_path / "a.nc").resolution == result.resolution

@@ -229,6 +229,8 @@ def roughness_block(found: RoughFilm) -> Block:
         "surface_1_sq_m": found.sq[0],
         "surface_2_sq_m": found.sq[1],
         "composite_sq_m": found.composite,
+        "surface_1_sa_m": found.resolution.sa[0] if found.resolution else None,
+        "surface_2_sa_m": found.resolution.sa[1] if found.resolution else None,
         "surface_1_sq_on_grid_m": found.sq_on_grid[0],
         "surface_2_sq_on_grid_m": found.sq_on_grid[1],
         "composite_sq_on_grid_m": math.hypot(*found.sq_on_grid),

@@ -29,7 +29,7 @@ class Sample(NamedTuple):
 
 
 def resolution_of(problem: ContactProblem, mesh: tuple[float, float]) -> Resolution | None:
-    """Return Sq of the surfaces in the contact, and of what a mesh carries; None of smooth ones.
+    """Return Sq and Sa of surfaces in the contact, and Sq on a mesh; None where both are smooth.
 
     Parameters
     ----------
@@ -45,12 +45,12 @@ def resolution_of(problem: ContactProblem, mesh: tuple[float, float]) -> Resolut
     """
     if not problem.is_rough:
         return None
-    pairs = [
-        _pair(surface.roughness, problem, (_along(problem, number, mesh[0]), mesh[1]))
+    found = [
+        _one(surface.roughness, problem, (_along(problem, number, mesh[0]), mesh[1]))
         for number, surface in enumerate((problem.surface_1, problem.surface_2), start=1)
     ]
-    whole, kept = zip(*pairs, strict=True)
-    return Resolution(sq=whole, kept=kept)
+    sq, sa, kept = zip(*found, strict=True)
+    return Resolution(sq=sq, sa=sa, kept=kept)
 
 
 def _along(problem: ContactProblem, number: int, step: float) -> float:
@@ -61,15 +61,17 @@ def _along(problem: ContactProblem, number: int, step: float) -> float:
     return step * max(problem.transient.stride * moved, 1.0)
 
 
-def _pair(
+def _one(
     roughness: AnyRoughness, problem: ContactProblem, mesh: tuple[float, float]
-) -> tuple[float, float]:
+) -> tuple[float, float, float]:
+    """Return Sq and Sa of a surface, and Sq of what a mesh carries of it [m]."""
     if roughness.is_smooth:
-        return 0.0, 0.0
+        return 0.0, 0.0, 0.0
     place = sample_of(roughness, problem)
     resolved = roughness.resolved_on(*mesh)
-    whole = _sq(roughness, place)
-    return whole, whole if resolved is roughness else min(_sq(resolved, place), whole)
+    sq, heights = _sq(roughness, place), _heights(roughness, place)
+    sa = float(np.abs(heights - heights.mean()).mean()) if sq else 0.0
+    return sq, sa, sq if resolved is roughness else min(_sq(resolved, place), sq)
 
 
 def sample_of(roughness: AnyRoughness, problem: ContactProblem) -> Sample:
@@ -99,6 +101,9 @@ def _centres(roughness: AnyRoughness, problem: ContactProblem) -> list[float]:
 
 
 def _sq(roughness: Roughness, place: Sample) -> float:
-    heights = np.broadcast_to(roughness.height(*place), (_COUNT, _COUNT))
-    found = float(np.std(heights))
+    found = float(np.std(_heights(roughness, place)))
     return found if found > _LEAST else 0.0
+
+
+def _heights(roughness: Roughness, place: Sample) -> Array:
+    return np.broadcast_to(roughness.height(*place), (_COUNT, _COUNT))

@@ -14,8 +14,10 @@ class Resolution:
     sq: tuple[float, float]
     """Root mean square height of each full surface where |X|, |Y| < 1, at the time when it passes
     the contact [m]."""
+    sa: tuple[float, float]
+    """Mean absolute height of the same [m]."""
     kept: tuple[float, float]
-    """Of the same without the waves that are too short for the grid [m]."""
+    """``sq`` without the waves that are too short for the grid [m]."""
 
     @property
     def lost_share(self) -> float:

@@ -35,11 +35,11 @@ _BLOCKS = {
     "traction": "surface_1 mid_film surface_2 sliding rolling rolling_by_film closure_error "
     "credible friction_power_w",
     "heat": "shear_w compression_w surface_1_w surface_2_w carried_out_w solid_peclet.0 sources.0",
-    "roughness": "surface_1_sq_m surface_2_sq_m composite_sq_m surface_1_sq_on_grid_m "
-    "surface_2_sq_on_grid_m composite_sq_on_grid_m lost_share warning lambda_central "
-    "lambda_minimum lambda_by_formula lubrication film_quantiles.0.part film_quantiles.0.h_m "
-    "area_below_composite_sq area_below_half_median minimum_at.0 P_max ripples_x.count "
-    "ripples_x.depth_m ripples_y.count ripples_y.depth_m "
+    "roughness": "surface_1_sq_m surface_2_sq_m composite_sq_m surface_1_sa_m surface_2_sa_m "
+    "surface_1_sq_on_grid_m surface_2_sq_on_grid_m composite_sq_on_grid_m lost_share warning "
+    "lambda_central lambda_minimum lambda_by_formula lubrication film_quantiles.0.part "
+    "film_quantiles.0.h_m area_below_composite_sq area_below_half_median minimum_at.0 P_max "
+    "ripples_x.count ripples_x.depth_m ripples_y.count ripples_y.depth_m "
     + " ".join(f"waves.0.{key}" for key in _WAVE.split()),
     "convergence": "cycles residual change load_error heat_balance_error",
     "errors": "central minimum discretisation_central discretisation_minimum iteration_central "
