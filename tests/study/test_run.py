@@ -8,11 +8,13 @@ import pytest
 
 from tehl import solver
 from tehl.errors import InputError
+from tehl.io.case import case_from_tables
 from tehl.solution import Cost
-from tehl.studies import Case, Row, Store, engines, run, runner, table
+from tehl.studies import Case, Row, Store, engines, run, runner, study, table
 from tehl.studies.case import flat, row_of, unit_of
 from tehl.studies.tables import is_number
 from tehl.studies.worker import solve_in_turn
+from tests.cases import ball_tables
 from tests.study.contacts import Notes, assert_same_numbers, cases, failing
 
 
@@ -34,6 +36,16 @@ def test_each_case_has_a_row_with_the_numbers_of_its_summary(finished):
         assert row.summary["film.h_min_m"] == pytest.approx(result.film.minimum, rel=1e-15)
         assert row.summary["film.minimum_at.0"] == result.film_scaled.minimum_at[0]
         assert row.cost == result.cost
+
+
+def test_films_along_an_axis_are_smooth_though_grids_and_domains_differ():
+    speeds = np.geomspace(1.0, 4.0, 7)
+    problem, options = case_from_tables(ball_tables())
+    found = study(problem, {"contact.entrainment_speed": speeds.tolist()}, options)
+    assert found["cost.points.0"].nunique() > 1
+    for name in ("film.h_central_m", "film.h_min_m"):
+        films, along = np.log(found[name].to_numpy(float)), np.log(speeds)
+        assert films == pytest.approx(np.polyval(np.polyfit(along, films, 2), along), abs=5e-3)
 
 
 def test_the_kept_fields_are_those_of_a_solve(finished):

@@ -1,28 +1,23 @@
-"""Columns of a table in chosen units; values of an axis from a file; one domain along an axis."""
+"""Columns of a table in chosen units; values of an axis from a file."""
 
 import pandas as pd
 import pytest
 
-from tehl.domain import recommended_domain
 from tehl.errors import InputError
-from tehl.options import Domain
-from tehl.scaling import groups
 from tehl.studies import read_study, study_of
 from tehl.studies.sheet import check_sheet, sheet, write_sheet
 
 STUDY = """
 case = "case.toml"
-{keys}
 [[axes]]
 path = "contact.entrainment_speed"
 {values}
 """
 CASE = """
-contact = {{ radius = "20 mm", load = "80 N", entrainment_speed = "1.5 m/s" }}
-surface_1 = {{ material = "steel" }}
-surface_2 = {{ material = "steel" }}
+contact = { radius = "20 mm", load = "80 N", entrainment_speed = "1.5 m/s" }
+surface_1 = { material = "steel" }
+surface_2 = { material = "steel" }
 lubricant = "mineral-oil"
-{numerics}
 """
 
 
@@ -91,10 +86,10 @@ def test_a_sheet_is_written_by_its_ending(table, tmp_path, ending):
         check_sheet(tmp_path / "films.pdf")
 
 
-def planned(folder, values: str, keys: str = "", numerics: str = ""):
+def planned(folder, values: str):
     """Return the cases of a study file with one axis."""
-    (folder / "case.toml").write_text(CASE.format(numerics=numerics))
-    (folder / "study.toml").write_text(STUDY.format(values=values, keys=keys))
+    (folder / "case.toml").write_text(CASE)
+    (folder / "study.toml").write_text(STUDY.format(values=values))
     return study_of(read_study(folder / "study.toml")).cases
 
 
@@ -109,19 +104,7 @@ def test_an_axis_takes_its_values_from_a_column_of_a_file(tmp_path):
             planned(tmp_path, f'file = "{name}"')
 
 
-SPEEDS = 'values = ["0.1 m/s", "1.5 m/s", "10 m/s"]'
-
-
-def test_cases_along_one_axis_share_a_domain_unless_told_otherwise(tmp_path):
-    cases = planned(tmp_path, SPEEDS)
-    thick = recommended_domain(groups(cases[-1].problem), cases[-1].options.target)
-    assert {case.options.domain for case in cases} == {thick}
-    assert {case.options.edges for case in cases} == {"far_field"}
-    own = {case.options.domain for case in planned(tmp_path, SPEEDS, "one_domain = false")}
-    assert own == {"auto"}
-    wide = 'values = ["0.1 m/s", "1.5 m/s", "60 m/s"]'
-    assert {case.options.domain for case in planned(tmp_path, wide)} == {"auto"}
-    stated = "numerics = { domain = { x = [-5, 2], y = [-3, 3] } }"
-    assert {case.options.domain for case in planned(tmp_path, SPEEDS, numerics=stated)} == {
-        Domain(x=(-5.0, 2.0), y=(-3.0, 3.0))
-    }
+def test_more_values_along_an_axis_leave_the_other_cases_as_they_are(tmp_path):
+    few = planned(tmp_path, 'values = ["0.1 m/s", "1.5 m/s"]')
+    more = planned(tmp_path, 'values = ["0.1 m/s", "1.5 m/s", "10 m/s"]')
+    assert [case.key for case in more[:2]] == [case.key for case in few]

@@ -82,7 +82,7 @@ class Explanation:
 
     def _repr_html_(self) -> str:
         """Return the same for notebooks."""
-        return f"<pre>{escape(as_text(self))}</pre>"
+        return f'<pre style="font-family: monospace">{escape(as_text(self))}</pre>'
 
     @property
     def lambda_central(self) -> float | None:

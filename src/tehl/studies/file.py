@@ -54,7 +54,6 @@ class StudyFile(Table):
     keep: Keep = "summary"
     warm_start: StrictBool = False
     store: str | None = None
-    one_domain: StrictBool = True
     largest: Annotated[int, Field(ge=1)] | None = None
     pictures: list[Picture] = Field(default_factory=list)
 
@@ -138,7 +137,6 @@ def plan_of(
         keep=stated.keep,
         warm_start=stated.warm_start,
         store=None if stated.store is None else folder / stated.store,
-        one_domain=stated.one_domain,
         pictures=pictures,
     )
 

@@ -10,12 +10,10 @@ from typing import Any, get_args
 
 from pydantic import BaseModel
 
-from tehl.domain import domain_of
 from tehl.errors import InputError
 from tehl.io.case import case_from_tables, replaced_by
-from tehl.options import Domain, Options, check_certifiable
+from tehl.options import Options, check_certifiable
 from tehl.problem import ContactProblem
-from tehl.scaling import groups
 from tehl.studies.axes import Block, Setting
 from tehl.studies.case import Case, Label
 from tehl.studies.pictures import Picture
@@ -26,8 +24,6 @@ _SHOWN = 5
 """Labels in the name of a case."""
 _LONGEST = 60
 """Characters of a label."""
-_WIDEST = 2.0
-"""Largest factor between the domains of cases that are solved on one."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -46,7 +42,6 @@ class Plan:
     keep: Keep = "summary"
     warm_start: bool = False
     store: Path | None = None
-    one_domain: bool = True
     pictures: tuple[Picture, ...] = ()
 
     @property
@@ -80,34 +75,7 @@ def study_of(plan: Plan) -> Study:
         raise InputError(
             'warm_start saves nothing at this accuracy: state numerics.accuracy = "tight" too'
         )
-    if plan.one_domain and len(plan.blocks) == 1:
-        cases = _on_one_domain(cases)
     return Study(plan=plan, cases=tuple(cases), units=units)
-
-
-def _on_one_domain(cases: list[Case]) -> list[Case]:
-    """Return cases along one axis on one domain that holds those recommended for each of them.
-
-    Where the recommended domain jumps from case to case, films would jump by its error. Cases with
-    a stated domain, or with domains so different that one would make the grid of some too coarse,
-    stay as they are.
-    """
-    if any(isinstance(case.options.domain, Domain) for case in cases):
-        return cases
-    found = {domain_of(groups(case.problem), case.options) for case in cases}
-    ends = [(*one.x, *one.y) for one in found]
-    spans = [[abs(end) for end in edge] for edge in zip(*ends, strict=True)]
-    if len(found) == 1 or any(max(span) > _WIDEST * min(span) for span in spans):
-        return cases
-    west, east, south, north = (max(span) for span in spans)
-    domain = Domain(x=(-west, east), y=(-south, north))
-    return [replace(case, options=_on_domain(case.options, domain)) for case in cases]
-
-
-def _on_domain(options: Options, domain: Domain) -> Options:
-    """Return options with a domain that counts as recommended: with the far field on its edges."""
-    edges = "far_field" if options.edges == "auto" else options.edges
-    return options.model_copy(update={"domain": domain, "edges": edges})
 
 
 def _case(plan: Plan, rows: tuple[int, ...], units: dict[str, str]) -> Case:
