@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 _ALIASES = "aliases"
+_SEPARATORS = r"[\W_]*"
 Tables = dict[str, dict[str, Any]]
 
 
@@ -36,16 +37,25 @@ def _names(path: Path) -> dict[str, str]:
 
 
 def known_names(path: Path) -> dict[str, Any]:
-    """Return the JSON schema of a name: the tables of a file with their aliases."""
-    words = (
+    """Return the JSON schema of a name: the tables of a file with their aliases.
+
+    Editors complete the ``enum``; the ``pattern`` accepts all that `find_table` does.
+    """
+    words = [
         word for name, one in _content(path).items() for word in (name, *one.get(_ALIASES, ()))
-    )
-    return {"type": "string", "enum": list(words)}
+    ]
+    alike = "|".join(_SEPARATORS.join(map(_any_case, word)) for word in _names(path))
+    pattern = f"^{_SEPARATORS}({alike}){_SEPARATORS}$"
+    return {"type": "string", "anyOf": [{"enum": words}, {"pattern": pattern}]}
+
+
+def _any_case(letter: str) -> str:
+    return f"[{letter}{letter.upper()}]" if letter.isalpha() else letter
 
 
 def _plain(name: str) -> str:
     """Return a name without what people write differently: capitals, blanks, hyphens, dots."""
-    return re.sub(r"[\W_]+", "", name.lower())
+    return re.sub(_SEPARATORS, "", name.lower())
 
 
 def find_table(path: Path, name: str, kind: str, needs: str) -> dict[str, Any]:

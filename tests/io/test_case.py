@@ -1,46 +1,14 @@
 """Case files: what is read, and the sentence that each mistake gets."""
 
-import json
-import os
-import re
 from pathlib import Path
-from typing import Any
 
 import pytest
-from pydantic import TypeAdapter
 
 from tehl.errors import InputError
-from tehl.io.case import case_from_tables, case_schema, read_case, read_case_and_options
+from tehl.io.case import case_from_tables, read_case, read_case_and_options
 from tehl.io.templates import template_text
-from tehl.materials import material
 from tehl.options import Domain, coarsenable, coarsenings
-from tehl.units import Force, Number, PressureCoefficient, Radius, Speed, quantity
 from tests.cases import ball_tables
-
-CASE = """
-title = "a ball"
-[contact]
-radius = "20 mm"
-load = "80 N"
-entrainment_speed = "1.5 m/s"
-[surface_1]
-material = "steel"
-[surface_2]
-material = { young_modulus = "82 GPa", poisson_ratio = 0.206 }
-[lubricant]
-viscosity = { law = "roelands", eta_0 = "0.04 Pa s", alpha = "22 1/GPa" }
-density = { law = "dowson-higginson", rho_0 = "890 kg/m^3" }
-[numerics]
-points = 129
-domain = { x = [-4.5, 1.5], y = [-3.0, 3.0] }
-"""
-
-
-@pytest.fixture
-def case(tmp_path: Path) -> Path:
-    path = tmp_path / "case.toml"
-    path.write_text(CASE, encoding="utf-8")
-    return path
 
 
 def test_a_case_becomes_problem_and_options(case: Path):
@@ -270,150 +238,10 @@ def test_flat_on_flat_is_rejected():
         case_from_tables(ball_tables(contact=contact, surface_1=flat, surface_2=flat))
 
 
-@pytest.mark.parametrize(
-    ("text", "number", "shown"),
-    [
-        ("[contact\nload = 3", 1, "[contact"),
-        ('a = 1\nload = "80 N', 2, "80 N"),
-        ("a = 1\n\nload = 80 N", 3, "load = 80 N"),
-        ("a = 1\na = 2\n", 2, "a = 2"),
-        ("x = '''abc", 1, "abc"),
-    ],
-)
-def test_a_toml_syntax_error_shows_its_line(tmp_path: Path, text: str, number: int, shown: str):
-    path = tmp_path / "slip.toml"
-    path.write_text(text, encoding="utf-8")
-    with pytest.raises(InputError) as caught:
-        read_case(path)
-    assert f"line {number}: " in str(caught.value)
-    assert shown in str(caught.value)
-
-
-def test_a_file_that_cannot_be_read_is_reported(tmp_path: Path):
-    with pytest.raises(InputError, match="case file does not exist"):
-        read_case(tmp_path / "none.toml")
-    with pytest.raises(InputError, match="cannot be read"):
-        read_case(tmp_path)
-    (tmp_path / "binary.toml").write_bytes(b"\x89HDF\r\n\xff\xfe")
-    with pytest.raises(InputError, match="UTF-8"):
-        read_case(tmp_path / "binary.toml")
-
-
-@pytest.mark.parametrize(
-    ("content", "words"),
-    [
-        (b"a = " + b"[" * 5000, "nested too deeply"),
-        (b"a." * 5000 + b"b = 1", "nested too deeply"),
-        (b'title = "two\\u0000lines"', "must be one line without control characters"),
-        (b"a = " + b"9" * 5000, "too many digits"),
-        (b"x" * 100_000, "line 1: 'xxx"),
-        (bytes(5000), "line 1: "),
-        (b"\xff\xfea\x00b", "UTF-16"),
-        (b"#" * 2_000_000, "larger than 1 MB"),
-        (b'"a\\nb" = 3', "is not a known key"),
-    ],
-)
-def test_a_strange_file_is_reported_in_one_short_line(tmp_path: Path, content: bytes, words: str):
-    path = tmp_path / "strange.toml"
-    path.write_bytes(content)
-    with pytest.raises(InputError) as caught:
-        read_case(path)
-    message = str(caught.value)
-    assert words in message
-    assert message.startswith(str(path))
-    assert "\n" not in message
-    assert len(message) < 300 + len(str(path))
-
-
-def test_a_byte_order_mark_is_accepted(case: Path):
-    text = case.read_bytes()
-    case.write_bytes(b"\xef\xbb\xbf" + text)
-    assert read_case(case).load == 80.0
-
-
-def test_a_named_pipe_is_rejected_at_once(tmp_path: Path):
-    os.mkfifo(tmp_path / "pipe.toml")
-    with pytest.raises(InputError, match="not a regular file"):
-        read_case(tmp_path / "pipe.toml")
-
-
-def test_a_case_comes_through_a_pipe_without_a_name(case: Path):
-    reading, writing = os.pipe()
-    os.write(writing, case.read_bytes())
-    os.close(writing)
-    assert read_case(f"/dev/fd/{reading}").load == 80.0
-    os.close(reading)
-
-
 @pytest.mark.parametrize("change", ["numerics.points", "=3", "contact..load=3", "title.x=3"])
 def test_an_invalid_override_is_reported(case: Path, change: str):
     with pytest.raises(InputError, match="invalid override"):
         read_case_and_options(case, [change])
-
-
-def test_the_schema_has_every_table_and_forbids_others():
-    schema = json.loads(json.dumps(case_schema()))
-    tables = {"title", "contact", "surface_1", "surface_2", "lubricant", "thermal", "transient"}
-    assert set(schema["properties"]) == tables | {"numerics"}
-    assert schema["additionalProperties"] is False
-    named = {choice.get("type") for choice in schema["properties"]["lubricant"]["anyOf"]}
-    assert "string" in named
-
-
-def test_the_schema_states_the_limits_of_options():
-    options = case_schema()["$defs"]["Options"]["properties"]
-    assert options["points"]["anyOf"][0] == {"minimum": 17, "maximum": 16385, "type": "integer"}
-    assert options["pre_sweeps"]["maximum"] == 10
-    assert options["tolerance"]["exclusiveMaximum"] == 1
-
-
-def test_the_schema_has_every_law_and_the_thermal_keys():
-    parts = json.loads(json.dumps(case_schema()))["$defs"]
-    laws = {part["properties"]["law"]["const"] for part in parts.values() if _is_law(part)}
-    viscosity = {"roelands", "roelands-exponential", "barus", "walther", "tait-doolittle"}
-    shear = {"newtonian", "eyring", "carreau", "limiting"}
-    assert laws == viscosity | shear | {"dowson-higginson", "tait", "constant"}
-    thermal = parts["Thermal"]["properties"]
-    assert set(thermal) == {"temperature", "reynolds", "layers", "scheme", "sources"}
-    assert thermal["scheme"]["enum"] == ["chebyshev", "uniform"]
-    assert parts["OilByName"]["required"] == ["name"]
-    assert "temperature" in parts["Surface"]["properties"]
-
-
-def test_the_schema_has_the_names_of_solids_and_oils():
-    schema = case_schema()
-    oils = next(one["enum"] for one in schema["properties"]["lubricant"]["anyOf"] if "enum" in one)
-    assert {"mineral-oil", "iso-vg-68", "VG 68"} <= set(oils)
-    choices = schema["$defs"]["Surface"]["properties"]["material"]["anyOf"]
-    solids = next(one["enum"] for one in choices if "enum" in one)
-    assert {"steel", "100Cr6", "Si3N4"} <= set(solids)
-    assert all(material(name) for name in solids)
-
-
-@pytest.mark.parametrize(
-    ("kind", "good", "bad"),
-    [
-        (Force, ("80 N", "8e1N", " .5 kN", "+3 N"), ("80", "-80 N", "eighty N", "")),
-        (Speed, ("1.5 m/s", "500 rpm at 4 cm"), ("1.5",)),
-        (PressureCoefficient, ("22 1/GPa", "0 1/Pa"), ("22", "1")),
-        (Radius, ("-20 mm", "inf"), ("-inf", "20")),
-        (Number, ("-0.25", "1e3"), ("0.25 m", "x")),
-    ],
-)
-def test_the_schema_accepts_the_texts_that_are_read(kind: Any, good: Any, bad: Any):
-    choices = TypeAdapter(kind).json_schema(mode="validation")["anyOf"]
-    pattern = next(one["pattern"] for one in choices if "pattern" in one)
-    for text in good:
-        assert re.search(pattern, text)
-        quantity(kind).parse(text)
-    for text in bad:
-        assert not re.search(pattern, text)
-        with pytest.raises(ValueError, match="such as"):
-            quantity(kind).parse(text)
-
-
-def _is_law(part: dict[str, Any]) -> bool:
-    return "const" in part.get("properties", {}).get("law", {})
 
 
 @pytest.mark.parametrize("nodes", range(33, 1200, 7))
@@ -464,15 +292,6 @@ def test_a_key_near_one_of_the_stated_law_is_suggested_from_that_law(case: Path)
 def test_a_roughness_without_its_type_is_reported_with_the_known_types(stated, words):
     with pytest.raises(InputError, match=words):
         case_from_tables(ball_tables(surface_1={"material": "steel", "roughness": stated}))
-
-
-@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-16-le", "utf-16-be"])
-def test_a_case_file_may_be_in_the_encodings_of_windows(tmp_path, encoding):
-    text = template_text("ball-on-disc").replace("[contact]", "# µ\n[contact]", 1)
-    mark = "\ufeff" if encoding[-2:] in ("le", "be") else ""
-    (tmp_path / "a.toml").write_text(mark + text, encoding=encoding)
-    (tmp_path / "b.toml").write_text(text, encoding="utf-8")
-    assert read_case(tmp_path / "a.toml") == read_case(tmp_path / "b.toml")
 
 
 @pytest.mark.parametrize(
