@@ -67,7 +67,7 @@ class Surface(_WithRadii):
     radius_y: Radius | None = None
     """Radii along and across entrainment [m]; infinite is flat, negative is hollow."""
     rms_roughness: Height = 0.0
-    """Rq [m], for the lambda ratio of a smooth calculation."""
+    """Rq [m], for lambda of a smooth calculation."""
     ra_roughness: Height | None = None
     """Ra [m], instead of Rq: of Gaussian heights, Rq = Ra sqrt(pi/2)."""
     roughness: AnyRoughness = Smooth()

@@ -1,4 +1,4 @@
-"""The film of a rough contact: lambda ratio, distribution, ripples."""
+"""The film of a rough contact: lambda, distribution, ripples."""
 
 import math
 from collections.abc import Sequence
