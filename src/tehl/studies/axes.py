@@ -1,6 +1,5 @@
 """Axes of a study and the values along them; blocks of axes that vary together."""
 
-import csv
 import json
 import math
 import re
@@ -14,10 +13,9 @@ from typing import Annotated, Any, Literal, Self
 import numpy as np
 from pydantic import Field, model_validator
 
-from tehl.encoding import encoding_of
 from tehl.errors import InputError
 from tehl.io.atomic import shortened
-from tehl.io.case import plain_value
+from tehl.studies.lists import heading, lines_of_file, value_of, values_of_file
 from tehl.studies.tables import is_reserved
 from tehl.typing import Array
 from tehl.units import Table
@@ -35,10 +33,6 @@ _LONGEST = 60
 """Characters of a value in a message."""
 _TITLES = "name"
 """Column of a list of cases that names them."""
-_DECIMAL_COMMA = re.compile(r"^([+-]?\d+),(\d+)(?=[eE\s]|$)")
-_UNIT = re.compile(r"(.*?)\s*\[(.*)\]\s*")
-_LARGEST = 50_000_000
-"""Bytes of a list of cases."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -265,10 +259,10 @@ def block_of_file(path: Path) -> Block:
     or by semicolons or tabs, with which numbers may have decimal commas.
     """
     shown = shortened(path)
-    lines = _lines(path, shown)
+    lines = lines_of_file(path)
     if len(lines) < 2:
         raise InputError(f"{shown} lists no cases: give a line of paths and a line per case")
-    columns = [_column(cell) for cell in lines[0]]
+    columns = [heading(cell) for cell in lines[0]]
     paths = [path for path, _ in columns]
     if "" in lines[0] or len(set(lines[0])) < len(lines[0]):
         raise InputError(f"{shown}: each column needs a different path in the first line")
@@ -282,71 +276,8 @@ def block_of_file(path: Path) -> Block:
     )
 
 
-def values_of_file(path: Path, column: str) -> list[Any]:
-    """Return the values of one column of a CSV file, with the unit of its heading.
-
-    A file with a single column may have any heading. An InputError names file and columns.
-    """
-    shown = shortened(path)
-    lines = _lines(path, shown)
-    headings = [_column(cell) for cell in lines[0]] if lines else []
-    names = [name for name, _ in headings]
-    if len(lines) < 2 or (column not in names and len(names) > 1):
-        found = f"its columns are {', '.join(names)}" if names else "it is empty"
-        raise InputError(f"{shown}: values of {column} are missing; {found}")
-    place = names.index(column) if column in names else 0
-    cells = [_setting(line[place], headings[place][1]) for line in lines[1:]]
-    return [cell.value for cell in cells if cell is not None]
-
-
-def _lines(path: Path, shown: str) -> list[list[str]]:
-    """Return the cells of the lines that are not empty, all of the same number."""
-    try:
-        if path.stat().st_size > _LARGEST:
-            raise InputError(
-                f"{shown} is larger than {_LARGEST // 10**6} MB, so not a list of cases"
-            )
-        with path.open("rb") as start:
-            encoding = encoding_of(start.read(2))
-        with path.open(encoding=encoding, newline="") as file:
-            reader = csv.reader(file, delimiter=_delimiter(file.readline()))
-            file.seek(0)
-            lines = [(reader.line_num, [cell.strip() for cell in line]) for line in reader]
-            if reader.dialect.delimiter != ",":
-                lines = [(number, [_pointed(cell) for cell in line]) for number, line in lines]
-    except FileNotFoundError:
-        raise InputError(f"list of cases {shown} does not exist") from None
-    except (OSError, UnicodeError, csv.Error) as error:
-        raise InputError(f"{shown} cannot be read as a list of cases: {error}") from None
-    lines = [(number, line) for number, line in lines if any(line)]
-    for number, line in lines:
-        if len(line) != len(lines[0][1]):
-            raise InputError(
-                f"{shown}: line {number} has {len(line)} cells, but the first has "
-                f"{len(lines[0][1])}"
-            )
-    return [line for _, line in lines]
-
-
-def _delimiter(first: str) -> str:
-    """Return what separates the cells of a list: semicolon, tab or comma."""
-    return next((mark for mark in ";\t" if mark in first), ",")
-
-
-def _pointed(cell: str) -> str:
-    """Return a cell with a decimal point in place of a decimal comma."""
-    return _DECIMAL_COMMA.sub(r"\1.\2", cell)
-
-
-def _column(cell: str) -> tuple[str, str]:
-    match = _UNIT.fullmatch(cell)
-    return (match[1], match[2].strip()) if match else (cell, "")
-
-
 def _setting(cell: str, unit: str) -> Setting | None:
-    if not cell:
-        return None
-    return Setting(f"{cell} {unit}" if unit not in ("", "-", "1") else plain_value(cell))
+    return Setting(value_of(cell, unit)) if cell else None
 
 
 def check_axes(blocks: Sequence[Block]) -> None:

@@ -1,0 +1,83 @@
+"""Lists of cases and of values in CSV files, as spreadsheets save them."""
+
+import csv
+import re
+from pathlib import Path
+from typing import Any
+
+from tehl.encoding import encoding_of
+from tehl.errors import InputError
+from tehl.io.atomic import shortened
+from tehl.io.case import plain_value
+
+_DECIMAL_COMMA = re.compile(r"^([+-]?\d+),(\d+)(?=[eE\s]|$)")
+_UNIT = re.compile(r"(.*?)\s*\[(.*)\]\s*")
+_LARGEST = 50_000_000
+"""Bytes of a list."""
+
+
+def values_of_file(path: Path, column: str) -> list[Any]:
+    """Return the values of one column of a CSV file, with the unit of its heading.
+
+    A file with a single column may have any heading. An InputError names file and columns.
+    """
+    shown = shortened(path)
+    lines = lines_of_file(path)
+    headings = [heading(cell) for cell in lines[0]] if lines else []
+    names = [name for name, _ in headings]
+    if len(lines) < 2 or (column not in names and len(names) > 1):
+        found = f"its columns are {', '.join(names)}" if names else "it is empty"
+        raise InputError(f"{shown}: values of {column} are missing; {found}")
+    place = names.index(column) if column in names else 0
+    return [value_of(line[place], headings[place][1]) for line in lines[1:] if line[place]]
+
+
+def lines_of_file(path: Path) -> list[list[str]]:
+    """Return the cells of the lines of a CSV file that are not empty, all of the same number."""
+    shown = shortened(path)
+    try:
+        if path.stat().st_size > _LARGEST:
+            raise InputError(
+                f"{shown} is larger than {_LARGEST // 10**6} MB, so not a list of cases"
+            )
+        with path.open("rb") as start:
+            encoding = encoding_of(start.read(2))
+        with path.open(encoding=encoding, newline="") as file:
+            reader = csv.reader(file, delimiter=_delimiter(file.readline()))
+            file.seek(0)
+            lines = [(reader.line_num, [cell.strip() for cell in line]) for line in reader]
+            if reader.dialect.delimiter != ",":
+                lines = [(number, [_pointed(cell) for cell in line]) for number, line in lines]
+    except FileNotFoundError:
+        raise InputError(f"list of cases {shown} does not exist") from None
+    except (OSError, UnicodeError, csv.Error) as error:
+        raise InputError(f"{shown} cannot be read as a list of cases: {error}") from None
+    lines = [(number, line) for number, line in lines if any(line)]
+    for number, line in lines:
+        if len(line) != len(lines[0][1]):
+            raise InputError(
+                f"{shown}: line {number} has {len(line)} cells, but the first has "
+                f"{len(lines[0][1])}"
+            )
+    return [line for _, line in lines]
+
+
+def _delimiter(first: str) -> str:
+    """Return what separates the cells of a list: semicolon, tab or comma."""
+    return next((mark for mark in ";\t" if mark in first), ",")
+
+
+def _pointed(cell: str) -> str:
+    """Return a cell with a decimal point in place of a decimal comma."""
+    return _DECIMAL_COMMA.sub(r"\1.\2", cell)
+
+
+def heading(cell: str) -> tuple[str, str]:
+    """Return the name and the unit of a column."""
+    match = _UNIT.fullmatch(cell)
+    return (match[1], match[2].strip()) if match else (cell, "")
+
+
+def value_of(cell: str, unit: str) -> object:
+    """Return the value of a cell of a column with a unit."""
+    return f"{cell} {unit}" if unit not in ("", "-", "1") else plain_value(cell)
