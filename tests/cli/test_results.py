@@ -76,7 +76,7 @@ def test_one_picture_lands_in_a_file_of_any_format(stored, run):
     assert target.read_text().startswith("<?xml")
     several = run("plot", str(stored), "-o", str(target), "--only", "film,pressure")
     assert several.code == 2
-    assert "a file holds one picture, and 2 are asked for; choose one by --only" in several.err
+    assert "a file holds one picture, not 2; choose one by --only" in several.err
 
 
 def test_pictures_are_listed_chosen_and_drawn_in_a_format(stored, run):

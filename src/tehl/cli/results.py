@@ -82,7 +82,7 @@ def _draw_one(
 
     if len(pictures) != 1:
         raise InputError(
-            f"output {path}: a file holds one picture, and {len(pictures)} are asked for; "
+            f"output {path}: a file holds one picture, not {len(pictures)}; "
             f"choose one by --only: {', '.join(pictures)}"
         )
     ((_, draw),) = pictures.items()
