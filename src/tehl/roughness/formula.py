@@ -17,7 +17,7 @@ _FLAT, _ALIKE = 1e-9, 1e-9
 
 
 class _Samples(NamedTuple):
-    """What samples of a formula tell: Sq [m], shortest wavelengths [m], whether it is even in y."""
+    """What samples of a formula show: Sq [m], shortest wavelengths [m], whether it is even in y."""
 
     rms: float
     largest: float
@@ -95,7 +95,7 @@ def _heights(formula: str, x: Array, y: Array) -> Array:
 
 @lru_cache(maxsize=16)
 def _samples(formula: str) -> _Samples:
-    """Return what samples of a formula tell."""
+    """Return what samples of a formula show."""
     random = np.random.default_rng(0)
     wide = random.uniform(-_REACH, _REACH, (2, _COUNT))
     angle = random.uniform(0.0, 2.0 * np.pi, _COUNT)
