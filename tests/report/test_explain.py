@@ -13,6 +13,7 @@ from tehl.io.case import case_from_tables
 from tehl.options import Options
 from tehl.report.explain import Explanation, as_summary, as_text, explain
 from tehl.report.readable import length
+from tehl.solver.steady import finest_grid
 from tests.cases import ball_tables
 
 
@@ -235,6 +236,13 @@ def test_the_film_between_warm_bodies_is_that_of_oil_at_their_mean_temperature()
     assert case.bodies.ratio == pytest.approx(as_warm.central_film / case.central_film)
     assert case.bodies.ratio < 0.7
     assert json.loads(json.dumps(as_summary(case)))["bodies"]["surface_1"] == pytest.approx(40)
+
+
+def test_domain_and_grid_between_cold_bodies_are_those_of_the_solve():
+    case = with_bodies("0 degC", "0 degC")
+    grid = finest_grid(case.scaled, case.options)
+    assert case.domain == case.recommended_domain == grid.domain
+    assert case.domain != with_bodies("40 degC", "40 degC").domain
 
 
 def test_a_contact_by_moes_numbers_keeps_load_and_speed_between_warm_bodies():

@@ -108,7 +108,7 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
     scaled = ScaledProblem.of(problem)
     follows = planned(scaled, asked.model_copy(update={"points": "auto"}))
     options = follows if asked.points == "auto" else asked
-    groups, film, (ny, nx) = scaled.groups, expected_film(scaled), options.shape
+    groups, film, (ny, nx) = scaled.entering, expected_film(scaled), options.shape
     wanted, domain = recommended_domain(groups, asked.target), domain_of(groups, options)
     grid = Grid(nx=nx, ny=ny, domain=domain, mirror=False)
     mesh = (grid.dx * scaled.scales.half_width_x, grid.dy * scaled.scales.half_width_y)
@@ -120,7 +120,7 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
         options=options,
         follows=asked.points == "auto",
         central_film=film,
-        films=film_estimates(groups, scaled.scales),
+        films=film_estimates(scaled.groups, scaled.scales),
         composite=problem.rms_roughness if heights is None else heights.composite,
         roughness=heights,
         peclet=tuple(None if one is None else abs(one) for one in problem.solid_peclet),

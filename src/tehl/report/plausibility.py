@@ -100,7 +100,7 @@ def questions(
         *_about_sliding(scaled.problem),
         *_about_heat(scaled.problem, heat),
         *_about_bodies(bodies),
-        *_about_domain(options, scaled.groups),
+        *_about_domain(options, scaled.entering),
         *_about_grid(options, scaled),
         *(_about_heights(scaled, planned(scaled, options), heights) if heights else ()),
     )
@@ -284,7 +284,7 @@ def _about_grid(options: Options, scaled: ScaledProblem) -> Iterator[str]:
             f"numerics.points is stated, so numerics.error = {percentage(options.error)} is not "
             "enforced: remove one of them"
         )
-    groups, nodes, coupled = scaled.groups, min(options.shape), scaled.problem.is_coupled
+    groups, nodes, coupled = scaled.entering, min(options.shape), scaled.problem.is_coupled
     bar = expected_bar(groups, domain_of(groups, options), nodes, is_coupled=coupled)
     if bar > options.target:
         size = "above 100 %" if bar > 1.0 else f"about {percentage(bar)}"
