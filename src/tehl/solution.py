@@ -114,6 +114,9 @@ class ErrorEstimate:
     surface_2_rise_max: float | None = None
     """Error bars of further values, all parts together, relative [-]; None if the contact does not
     have the value, or too few grids do."""
+    spike_resolved: bool = True
+    """Whether the largest pressure will stay the largest on finer grids: if not, the pressure spike
+    is narrower than the mesh and may exceed it."""
 
     @property
     def central(self) -> float:

@@ -123,6 +123,15 @@ def test_pressure_traction_and_temperatures_have_error_bars_that_hold(shear):
         assert value == pytest.approx(finer[name], rel=bar)
 
 
+@pytest.mark.parametrize(("load", "speed", "resolved"), [(10, 2, True), (10, 10, False)])
+def test_a_spike_narrower_than_the_mesh_is_stated(load, speed, resolved):
+    problem = moes_contact(load, speed)
+    found = solve(problem, Options())
+    finer = solve(problem, Options(points=4 * found.scaled.x.size - 3)).scaled.pressure.max()
+    change = finer / found.scaled.pressure.max() - 1.0
+    assert found.errors.spike_resolved == resolved == (abs(change) <= found.errors.pressure_max)
+
+
 def test_an_isothermal_film_in_pure_rolling_has_neither_traction_nor_temperature_bars():
     errors = solve(moes_contact(20.0, 5.0), Options()).errors
     assert errors.pressure_max is not None

@@ -6,8 +6,10 @@ stopping and errors).
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -260,14 +262,15 @@ def error_estimate(
     found = further_errors(traces, ROUGH_PART if rough else 1.0, domain)
     if "traction_mid_film" in found:  # the shear rate is the sliding speed over the film
         found["traction_mid_film"] = max(found["traction_mid_film"], estimate.central)
-    return replace(estimate, **found)
+    others: dict[str, Any] = found | {"spike_resolved": _resolves_spike(traces, found)}
+    return replace(estimate, **others)
 
 
 def further_errors(traces: list[GridTrace], otherwise: float, domain: float) -> dict[str, float]:
     """Return the relative error bars of the values that at least two grids have measured.
 
     Each is at least the last change: temperature and stress converge with the film, but less
-    regularly. The pressure spike may exceed the central pressure on finer grids only (`_spike`).
+    regularly.
 
     Parameters
     ----------
@@ -283,15 +286,19 @@ def further_errors(traces: list[GridTrace], otherwise: float, domain: float) -> 
         values = [one.measured[name] for one in traces[-3:] if name in one.measured]
         if name == "spike" or len(values) < 2 or last == 0.0:
             continue
-        if name == "pressure_max":
-            spikes = [one.measured["spike"] for one in traces if one.measured][-3:]
-            bar = max(discretisation_bar(values, otherwise), _spike(spikes) - last)
-        else:
-            bar = max(discretisation_bar(values, otherwise), abs(values[-1] - values[-2]))
+        bar = max(discretisation_bar(values, otherwise), abs(values[-1] - values[-2]))
         if "rise" in name:
             bar += LEAST_KELVIN  # the cycles stop there
         found[name] = abs(bar / last) + domain
     return found
+
+
+def _resolves_spike(traces: list[GridTrace], errors: Mapping[str, float]) -> bool:
+    """Return whether the spike stays below the largest pressure and its error bar, on any grid."""
+    spikes = [one.measured["spike"] for one in traces if one.measured][-3:]
+    if len(spikes) < 2:
+        return True
+    return _spike(spikes) <= (1.0 + errors["pressure_max"]) * traces[-1].measured["pressure_max"]
 
 
 def _spike(values: list[float]) -> float:
