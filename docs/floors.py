@@ -26,6 +26,7 @@ NAMES = (
     "solution",
     "one grid",
     "proposed domain",
+    "entering oil",
     "grids and formulas",
     "scaled problem",
     "problem",

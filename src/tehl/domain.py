@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+from tehl.entering import entry_error
 from tehl.film_formulas import expected_central_film, moes_film_unit
 from tehl.options import USUAL_ERROR, Domain, Options
 from tehl.scaling import Groups, ScaledProblem
@@ -10,6 +11,8 @@ from tehl.scaling import Groups, ScaledProblem
 CAUTION = 2.0
 """Factor on the slope of the film formula by load, which is half of what wider domains show between
 M = 2 and 5."""
+WIDEST = 2.5
+"""Largest factor on the domain because of the temperature of the bodies."""
 ELASTIC = 0.1
 """Error by zero pressure on the edges over the square of the width of the gap over the distance of
 the sides (0.05 to 0.08 measured for M = 10 to 100)."""
@@ -168,7 +171,7 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
     """
     if options.points != "auto":
         return options
-    domain = domain_of(scaled.entering, options)
+    domain = domain_of(scaled, options)
     nodes = expected_points(
         scaled.entering,
         domain,
@@ -179,8 +182,20 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
     return options.on_points(nodes, nodes)
 
 
-def domain_of(groups: Groups, options: Options) -> Domain:
-    """Return the domain of a solve: the stated or the recommended one."""
+def domain_of(scaled: ScaledProblem, options: Options) -> Domain:
+    """Return the domain of a solve: the stated or the chosen one."""
     if isinstance(options.domain, Domain):
         return options.domain
-    return recommended_domain(groups, options.target)
+    return chosen_domain(scaled, options.target)
+
+
+def chosen_domain(scaled: ScaledProblem, error: float) -> Domain:
+    """Return the recommended domain, wider where bodies still warm or cool the oil that enters."""
+    domain = recommended_domain(scaled.entering, error)
+    excess = entry_error(scaled, domain) / (0.5 * error)
+    if excess <= 1.0:
+        return domain
+    factor = min(excess ** (1.0 / 3.0), WIDEST)
+    (inlet, outlet), (south, north) = domain.x, domain.y
+    x, y = (factor * inlet, factor * outlet), (factor * south, factor * north)
+    return Domain.model_construct(x=x, y=y)

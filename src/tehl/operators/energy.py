@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tehl.film_formulas import expected_central_film
+from tehl.entering import kept_part
 from tehl.grid import Grid
 from tehl.kernels.energy.march import sweep
 from tehl.kernels.energy.records import GHOSTS, Fields, Surfaces, Terms, scratch
@@ -189,33 +189,16 @@ def initial_fields(grid: Grid, film: HeatedFilm) -> Fields:
     nx, ny, heat = grid.nx, padded_rows(grid), film.heat
     whole = (nx + 2 * GHOSTS, heat.layers, ny + 2 * GHOSTS)
     temperature = np.empty(whole)
+    rows = grid.y[0] + grid.dy * np.arange(-GHOSTS, ny + GHOSTS)
     across = heat.bulk_1 + (heat.bulk_2 - heat.bulk_1) * film.across.zeta
     colder = film.scaled.scales.temperature - across
-    temperature[:] = across[:, None] + colder[:, None] * unchanged(grid, film)
+    temperature[:] = across[:, None] + colder[:, None] * kept_part(film.scaled, -grid.x[0], rows)
     temperature[GHOSTS:-GHOSTS, :, GHOSTS:-GHOSTS] = across[None, :, None]
     fields = Fields(*(np.zeros((nx, ny)) for _ in Fields._fields))._replace(
         temperature=temperature, past=np.zeros((1, 1, 1)), pressing=np.zeros((1, 1))
     )
     fields.capacity[:], fields.conductivity[:], fields.h[:] = 1.0, 1.0, FAR_FILM
     return fields
-
-
-def unchanged(grid: Grid, film: HeatedFilm) -> Array:
-    """Return which part of T - T_b oil has kept when it enters the domain, (rows with ghosts,) [-].
-
-    Upstream the oil passes the parabolic gap  H = (X^2 + s^2)/2,  s^2 = D kappa^2 Y^2 + 2 H_c,  and
-    takes the temperature T_b of the bodies: in plug flow  dT/dX = -pi^2/(Pe H^2) (T - T_b).
-    """
-    groups, peclet = film.scaled.entering, film.model(grid, 1).terms.peclet
-    if not peclet:
-        return np.ones(1)
-    rows = np.arange(-GHOSTS, padded_rows(grid) + GHOSTS)
-    y = groups.ellipticity * (grid.y[0] + grid.dy * rows)
-    s = np.sqrt(groups.radius_ratio * y**2 + 2.0 * expected_central_film(groups))
-    inlet = -grid.x[0]
-    distance = 2.0 / s**3 * np.arctan2(s, inlet) - 2.0 * inlet / (s**2 * (inlet**2 + s**2))
-    kept: Array = np.exp(-(np.pi**2) / peclet * distance)
-    return kept
 
 
 def pressure_slopes(grid: Grid, groups: Groups, pressure: Array) -> tuple[Array, Array]:

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from tehl.entering import film_peclet
 from tehl.grid import Grid
 from tehl.heat import FilmEnergy
 from tehl.kernels.energy.records import BLOCK, GHOSTS, Model, Surface, Terms
@@ -102,13 +103,12 @@ def film_terms(grid: Grid, scaled: ScaledProblem, wedge_order: int) -> Terms:
     """
     problem, scales, groups = scaled.problem, scaled.scales, scaled.groups
     conductivity = problem.lubricant.ambient_conductivity or 1.0
-    capacity = problem.lubricant.ambient_heat_capacity or 0.0
     across = scales.film_thickness**2 / conductivity
     along = scales.speed / scales.half_width_x
     w0, w1, w2 = UPSTREAM[wedge_order]
     slide = -problem.slide_roll_ratio
     return Terms(
-        peclet=scales.density * capacity * along * across,
+        peclet=film_peclet(scaled),
         compression=scales.hertz_pressure * along * across,
         brinkman=scales.viscosity * scales.speed**2 / conductivity,
         poiseuille=12.0 / groups.lambda_bar,

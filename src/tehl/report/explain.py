@@ -4,7 +4,7 @@ from dataclasses import asdict, dataclass
 from html import escape
 from typing import Any
 
-from tehl.domain import domain_of, planned, recommended_domain
+from tehl.domain import chosen_domain, domain_of, planned
 from tehl.film_formulas import (
     FilmEstimate,
     Lubrication,
@@ -108,8 +108,8 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
     scaled = ScaledProblem.of(problem)
     follows = planned(scaled, asked.model_copy(update={"points": "auto"}))
     options = follows if asked.points == "auto" else asked
-    groups, film, (ny, nx) = scaled.entering, expected_film(scaled), options.shape
-    wanted, domain = recommended_domain(groups, asked.target), domain_of(groups, options)
+    film, (ny, nx) = expected_film(scaled), options.shape
+    wanted, domain = chosen_domain(scaled, asked.target), domain_of(scaled, options)
     grid = Grid(nx=nx, ny=ny, domain=domain, mirror=False)
     mesh = (grid.dx * scaled.scales.half_width_x, grid.dy * scaled.scales.half_width_y)
     heights, plan = asperities(problem, options, mesh, film), transient_plan(scaled, options, mesh)

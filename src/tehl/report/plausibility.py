@@ -4,11 +4,11 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from tehl.domain import (
+    chosen_domain,
     domain_error,
     domain_of,
     expected_bar,
     planned,
-    recommended_domain,
 )
 from tehl.film_formulas import expected_film
 from tehl.heat import FAR_BODY, LAYERS
@@ -17,7 +17,7 @@ from tehl.options import Domain, Options
 from tehl.problem import ContactProblem, Surface
 from tehl.report.asperities import CONVERGES, LARGEST, RESOLVES, Asperities
 from tehl.report.expected_heat import NOTICEABLE, BodyEffect, ExpectedHeat
-from tehl.scaling import Groups, ScaledProblem
+from tehl.scaling import ScaledProblem
 from tehl.units import percentage
 
 SLIDING = 0.02
@@ -100,7 +100,7 @@ def questions(
         *_about_sliding(scaled.problem),
         *_about_heat(scaled.problem, heat),
         *_about_bodies(bodies),
-        *_about_domain(options, scaled.entering),
+        *_about_domain(options, scaled),
         *_about_grid(options, scaled),
         *(_about_heights(scaled, planned(scaled, options), heights) if heights else ()),
     )
@@ -250,9 +250,9 @@ def _about_bodies(bodies: BodyEffect | None) -> Iterator[str]:
             )
 
 
-def _about_domain(options: Options, groups: Groups) -> Iterator[str]:
+def _about_domain(options: Options, scaled: ScaledProblem) -> Iterator[str]:
     """Yield edges of a stated domain that are near, and what it truncates."""
-    stated, wanted = options.domain, recommended_domain(groups, options.target)
+    stated, wanted = options.domain, chosen_domain(scaled, options.target)
     if not isinstance(stated, Domain):
         return
     for name, here, there in (
@@ -268,7 +268,7 @@ def _about_domain(options: Options, groups: Groups) -> Iterator[str]:
             )
     if options.has_far_field:
         return
-    missing = domain_error(groups, stated)
+    missing = domain_error(scaled.entering, stated)
     if missing > LEAST_DOMAIN_ERROR:
         yield (
             "numerics.domain: zero pressure on its edges may change the film by up to "
@@ -285,7 +285,7 @@ def _about_grid(options: Options, scaled: ScaledProblem) -> Iterator[str]:
             "enforced: remove one of them"
         )
     groups, nodes, coupled = scaled.entering, min(options.shape), scaled.problem.is_coupled
-    bar = expected_bar(groups, domain_of(groups, options), nodes, is_coupled=coupled)
+    bar = expected_bar(groups, domain_of(scaled, options), nodes, is_coupled=coupled)
     if bar > options.target:
         size = "above 100 %" if bar > 1.0 else f"about {percentage(bar)}"
         yield (

@@ -126,7 +126,7 @@ class FilmSolver(GridIteration):
     def errors(self) -> ErrorEstimate | None:
         """Return estimated errors of the film on the last grid; None before its first cycle."""
         level = self.levels[len(self.traces) - 1]
-        return estimated_errors(level, self.traces, self.roughness, self.options)
+        return estimated_errors(level, self.traces, self.roughness, self.hierarchy)
 
     def reached_before(self) -> tuple[tuple[int, int], float] | None:
         """Return nodes and error bar of the finest grid that converged before the last one."""
@@ -135,7 +135,7 @@ class FilmSolver(GridIteration):
             if not trace.reports or not self._is_acceptable(trace):
                 continue
             known = self.traces[: number + 1]
-            errors = estimated_errors(level, known, self.roughness, self.options)
+            errors = estimated_errors(level, known, self.roughness, self.hierarchy)
             if errors is not None and max(errors.central, errors.minimum) < TOO_COARSE:
                 return level.grid.points, max(errors.central, errors.minimum)
         return None
@@ -163,7 +163,7 @@ class FilmSolver(GridIteration):
             return (force or not resolved) and self.goal.may_try(self.finest)
         if resolved and self.goal.is_met(errors, part):
             return False
-        return self.goal.may_refine(self.finest)
+        return self.goal.may_refine(self.finest, errors)
 
     def _is_last(self, levels: Sequence[Level]) -> bool:
         """Return whether a grid is accurate enough, or no finer one may follow."""

@@ -5,13 +5,16 @@ import time
 from dataclasses import dataclass, field
 
 from tehl.domain import far_field_error
+from tehl.entering import entry_error
 from tehl.memory import available_memory, needed_memory
 from tehl.options import Options, can_be_halved
 from tehl.scaling import ScaledProblem
 from tehl.solution import ErrorEstimate
 from tehl.solver.continuation import Roughness
 from tehl.solver.convergence import GridTrace, error_estimate, single_grid_estimate
+from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.level import Level
+from tehl.units import percentage
 
 FACTOR = 5.0
 """Expected time on a grid over that on the next coarser one, which has a quarter of its nodes."""
@@ -26,7 +29,7 @@ LARGEST = 16385
 
 
 def estimated_errors(
-    level: Level, traces: list[GridTrace], roughness: Roughness, options: Options
+    level: Level, traces: list[GridTrace], roughness: Roughness, hierarchy: Hierarchy
 ) -> ErrorEstimate | None:
     """Return estimated errors of the film on the last grid; None before its first cycle.
 
@@ -38,22 +41,24 @@ def estimated_errors(
         Film over the cycles of its grid and of the coarser ones, coarsest first.
     roughness : Roughness
         Heights on the levels.
-    options : Options
-        Order of the wedge.
+    hierarchy : Hierarchy
+        The contact, and the order of the wedge.
     """
+    scaled, order = hierarchy.scaled, hierarchy.options.wedge_order
     if len(traces) < 2 or not traces[-1].reports or traces[-1].diverged:
         return None
-    far_field = level.equations.far_field
-    domain = far_field_error(far_field.groups, level.grid.domain) if far_field else 0.0
+    edges, domain = level.grid.domain, 0.0
+    if level.equations.far_field is not None:
+        domain = far_field_error(scaled.entering, edges) + entry_error(scaled, edges)
     if not roughness.is_rough:
         comparable = [trace for trace in traces if not trace.diverged]
-        return error_estimate(comparable, options.wedge_order, domain)
+        return error_estimate(comparable, order, domain)
     # grids that resolve the same heights
     comparable = [trace for trace in traces[roughness.first_comparable :] if not trace.diverged]
     if len(comparable) < 2:
         points, amplitude = roughness.points, roughness.amplitude
         return single_grid_estimate(traces[-1], level.grid.dx, points, amplitude, domain)
-    return error_estimate(comparable, options.wedge_order, domain, rough=True)
+    return error_estimate(comparable, order, domain, rough=True)
 
 
 @dataclass(slots=True)
@@ -128,15 +133,23 @@ class Goal:
         self._tries += 1
         return self.may_refine(level)
 
-    def may_refine(self, level: Level) -> bool:
-        """Return whether a grid of twice the intervals may follow ``level``; else say why."""
+    def may_refine(self, level: Level, errors: ErrorEstimate | None = None) -> bool:
+        """Return whether a grid of twice the intervals may follow ``level``; else say why.
+
+        It would not reduce the part of the domain in the ``errors``.
+        """
         nx, ny = (2 * (n - 1) + 1 for n in level.grid.points)
         now, limit = time.perf_counter(), self.options.max_time
         expected = FACTOR * (now - self._last)
         needed = needed_memory(self.options.on_points(nx, ny), self.scaled.problem)
         available = available_memory() or math.inf
         self.obstacle = ""
-        if max(nx, ny) > LARGEST:
+        if errors is not None and errors.domain > self.options.target:
+            self.obstacle = (
+                f"{percentage(errors.domain)} are due to the domain, upstream of which the bodies "
+                "warm or cool the oil"
+            )
+        elif max(nx, ny) > LARGEST:
             self.obstacle = f"grids have at most {LARGEST} nodes along one direction"
         elif needed > available:
             self.obstacle = (

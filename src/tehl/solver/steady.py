@@ -183,7 +183,7 @@ def _run(run: FilmSolver, *, force: bool) -> Attempt:
 
 def finest_grid(scaled: ScaledProblem, options: Options) -> Grid:
     """Return the grid of the result: the stated or recommended domain, half of it if symmetric."""
-    domain, (ny, nx) = domain_of(scaled.entering, options), options.shape
+    domain, (ny, nx) = domain_of(scaled, options), options.shape
     halves = options.half_domain == "auto" and scaled.problem.is_even_in_y
     return Grid(nx=nx, ny=ny, domain=domain, mirror=halves and can_mirror(options.shape, domain))
 
