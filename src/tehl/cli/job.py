@@ -135,6 +135,7 @@ def _steady(problem: ContactProblem, options: Options, job: Job) -> Result | Tra
 def _transient(problem: ContactProblem, options: Options, job: Job) -> Result | TransientResult:
     """Solve a transient case; when it is interrupted, a checkpoint is left beside the target."""
     from tehl.cli.checkpoint import Keeper
+
     with busy("loading the solver", quiet=job.quiet):
         from tehl.solver import certify_transient, solve_transient
 
