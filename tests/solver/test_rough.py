@@ -119,7 +119,7 @@ def test_a_minimum_with_an_error_above_100_percent_is_reported_and_bounded():
     assert fine.status.message is None
     text = as_text(coarse)
     assert "uncertain        The minimum film" in text
-    assert "hint             If the minimum matters" in text
+    assert "hint             Set numerics.points = 257" in text
 
 
 def test_a_film_that_is_not_positive_is_reported_with_its_place():

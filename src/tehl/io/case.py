@@ -6,7 +6,7 @@ import stat
 import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from pydantic import BaseModel, ValidationError, create_model
 
@@ -16,8 +16,10 @@ from tehl.io.atomic import shortened
 from tehl.io.mistakes import NUMERICS, describe, short, shown
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.solution import Settings
 from tehl.units import percentage
+
+if TYPE_CHECKING:
+    from tehl.solution import Settings
 
 _LONG_KEY = re.compile(r"(?m)^[\s\[]*(?:[^\s.,=#]+\s*\.\s*){100}")
 """A key of more than a hundred parts."""
@@ -173,7 +175,7 @@ def changed(tables: Mapping[str, Any], path: str, value: Any) -> dict[str, Any]:
     return after
 
 
-def with_settings(options: Options, settings: Settings) -> Options:
+def with_settings(options: Options, settings: "Settings") -> Options:
     """Return options with those of ``settings`` that are numerical; an InputError if invalid."""
     tables: dict[str, Any] = {NUMERICS: options.model_dump(exclude_defaults=True)}
     for path, value in settings.items():

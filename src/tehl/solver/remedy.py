@@ -17,7 +17,9 @@ ERRORS = (0.5, 0.2, 0.05)
 THINNING = {"law": "eyring", "stress": "5 MPa"}
 """The shear law of a usual oil."""
 LONGER = 3.0
-"""Time for the trials over that of the failed solve."""
+"""Time for the trials over that of the failed solve, up to ``numerics.max_time``."""
+LEAST_SECONDS = 1.0
+"""Least time for the trials."""
 Solve = Callable[[ContactProblem, Options], Result]
 
 
@@ -33,7 +35,8 @@ def working_hint(failed: Result, solve: Solve, monitor: Monitor) -> Hint:
     monitor : Monitor
         Receives what is tried.
     """
-    end = time.perf_counter() + max(LONGER * failed.cost.wall_seconds, 1.0)
+    limit = min(LONGER * failed.cost.wall_seconds, failed.options.max_time)
+    end = time.perf_counter() + max(limit, LEAST_SECONDS)
     found = None
     for trials in (_errors(failed), _other_physics(failed)):
         for settings, problem, options in trials:
@@ -65,8 +68,10 @@ Trial = tuple[Settings, ContactProblem, Options]
 
 
 def _errors(failed: Result) -> Iterator[Trial]:
-    """Yield larger errors to reach."""
-    for error in ERRORS:
+    """Yield larger errors to reach, that of the present hint included."""
+    settings = failed.status.hint.settings if failed.status.hint else {}
+    named = Options.model_validate({"error": settings.get("numerics.error", ERRORS[0])}).target
+    for error in sorted({*ERRORS, named}, reverse=True):
         if error > failed.options.target:
             options = failed.options.model_copy(update={"error": error})
             yield {"numerics.error": percentage(error)}, failed.problem, options

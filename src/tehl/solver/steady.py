@@ -106,7 +106,9 @@ def solve(
         )
     _, result = try_strategies(problem, options, monitor=monitor, rough=True, guess=guess)
     if not result.status.converged:
-        if options.points == "auto" and result.status.kind in ("diverged", "stalled"):
+        status = result.status
+        unsure = status.kind in ("diverged", "stalled") or status.cause == "error_not_reached"
+        if options.points == "auto" and unsure:
             result = _with_working_hint(result, monitor)
         raise ConvergenceError(result.status.message or "not converged", result)
     return result
