@@ -10,7 +10,7 @@ DOCS := $(VENV)/.stamp-docs
 DEMO := out/demo
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test check format bench paper docs validate clean
+.PHONY: help demo test check format bench coverage paper docs validate clean
 
 help:  ## list the targets
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-10s %s\n", $$1, $$2}'
@@ -52,6 +52,9 @@ format: $(DEV)  ## let ruff write the formatting
 
 bench: $(DEV)  ## one table: time, work, rate, memory, growth with the grid
 	$(BIN)/python -m benchmarks
+
+coverage: $(DEV)  ## random contacts: which reach 2 %, whether error bars hold and hints work
+	$(BIN)/python -m benchmarks.coverage --contacts 300 --judge --follow
 
 paper: $(DEV)  ## the paper on which this package is based, recomputed and judged in out/paper
 	$(BIN)/python -m paper -o out/paper

@@ -1,1 +1,1 @@
-"""Time, work, rate, memory and robustness of the solver: ``python -m benchmarks``."""
+"""Time, work, rate and memory of the solver: ``python -m benchmarks``."""

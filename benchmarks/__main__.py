@@ -1,8 +1,4 @@
-"""Benchmarks: ``python -m benchmarks [TOPIC ...] [--quick] [--points N] [--json FILE]``.
-
-``heat --judge`` also solves each contact of its sweep on a grid twice as fine; ``heat --jobs 2``
-solves two contacts at a time.
-"""
+"""Benchmarks: ``python -m benchmarks [TOPIC ...] [--quick] [--points N] [--json FILE]``."""
 
 import argparse
 import json
@@ -16,7 +12,6 @@ from benchmarks import (
     deformation,
     domain,
     rate,
-    robustness,
     rough,
     speed,
     thermal,
@@ -29,8 +24,7 @@ TOPICS: dict[str, Callable[..., Table | Iterable[Table]]] = {
     "rate": rate.table,
     "deformation": deformation.table,
     "domain": domain.table,
-    "robustness": robustness.table,
-    "heat": thermal.tables,
+    "heat": thermal.table,
     "waves": waves.table,
     "rough": rough.tables,
     "asperities": asperities.tables,
@@ -44,8 +38,6 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("topics", nargs="*", help=f"of {', '.join(TOPICS)}")
     parser.add_argument("--quick", action="store_true", help="small grids, few cases")
     parser.add_argument("--points", type=int, default=257, help="grid of the sweeps")
-    parser.add_argument("--judge", action="store_true", help="heat: judge by twice finer grids")
-    parser.add_argument("--jobs", type=int, default=1, help="heat: processes of the sweep")
     parser.add_argument("--json", type=Path, help="also write the tables to this file")
     given = parser.parse_args()
     for topic in given.topics:
@@ -60,10 +52,8 @@ def main() -> None:
     tables = []
     for topic in given.topics or BY_DEFAULT:
         make = TOPICS[topic]
-        if topic in ("robustness", "rough", "asperities"):
+        if topic in ("rough", "asperities"):
             make = partial(make, given.points)
-        if topic == "heat":
-            make = partial(make, given.points, finer=given.judge, jobs=given.jobs)
         made = make(quick=given.quick)
         for table in [made] if isinstance(made, Table) else made:
             tables.append(table.as_dict())

@@ -11,15 +11,13 @@ from collections.abc import Iterator
 
 from tests.reference import DOMAIN
 
-from benchmarks.measure import fft_unit
+from benchmarks.measure import attempt, fft_unit
 from benchmarks.rough import CONTACTS, wave
 from benchmarks.table import Cell, Table
-from tehl import solve, solve_transient
+from tehl import solve_transient
 from tehl.io.case import case_from_tables
 from tehl.io.templates import template_text
 from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import ConvergenceError, Result
 from tehl.transient_result import TransientResult
 
 SHAPE = (0.03, 0.5, 45)
@@ -44,14 +42,6 @@ def standing_row(load: float, speed: float, points: int) -> tuple[Cell, ...]:
     last, status = runs[-1].history[-1], runs[-1].status
     return (load, speed, status.cause or status.kind, last.smoother, last.cycle,
             statistics.median(seconds), statistics.median(work))  # fmt: skip
-
-
-def attempt(problem: ContactProblem, options: Options) -> Result:
-    """Return the result, also of a run that did not converge."""
-    try:
-        return solve(problem, options)
-    except ConvergenceError as error:
-        return error.result
 
 
 def passing_row(slide: float, run: TransientResult, unit: float) -> tuple[Cell, ...]:

@@ -1,9 +1,10 @@
-"""Random contacts from the defaults: which reach the stated error, and whether the bars hold.
+"""Random contacts from the defaults: which reach 2 %, whether error bars hold and hints work.
 
 ``python -m benchmarks.coverage --contacts 1000 --seed 1`` prints which contacts of each class
 converge to 2 %, with the causes of the others. ``--judge`` solves each that converges once more on
 a grid four times as fine, twice if that takes more than 1025 nodes or 513 of a heated one, and
-prints how the differences compare with the error bars. ``--minutes`` bounds the time.
+prints how the differences compare with the error bars. ``--follow`` solves each that fails once
+more with the settings of its hint. ``--minutes`` bounds the time.
 """
 
 import argparse
@@ -18,13 +19,14 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.measure import attempt
 from benchmarks.random_contacts import contact
 from benchmarks.table import Cell, Table
 from tehl.errors import InputError
+from tehl.io.case import case_from_tables, changed
 from tehl.options import Options
-from tehl.result import ConvergenceError, Result
+from tehl.result import Result
 from tehl.scaling import groups
-from tehl.solver import solve
 
 CLASSES = ("isothermal", "thinning", "heated", "rough")
 RANGES = (("M < 7", 0.0, 7.0), ("M 7-500", 7.0, 500.0), ("M > 500", 500.0, np.inf))
@@ -58,30 +60,46 @@ def bars(result: Result) -> dict[str, float]:
     return found | {name: bar for name, bar in further.items() if bar is not None}
 
 
-def row(task: tuple[int, int, float, bool]) -> dict[str, Any]:
-    """Solve contact ``number`` of a seed with a limit of time [s]; judge it on request."""
-    seed, number, limit, judge = task
+def row(task: tuple[int, int, float, bool, bool]) -> dict[str, Any]:
+    """Solve contact ``number`` of a seed with a limit of time [s]; judge or follow on request."""
+    seed, number, limit, judge, follow = task
     problem, kind = contact(seed, number)
     found: dict[str, Any] = {"number": number, "class": kind, "M": groups(problem).M}
-    began = time.process_time()
+    began, options = time.process_time(), Options(max_time=limit)
     try:
-        result = solve(problem, Options(max_time=limit))
-    except ConvergenceError as error:
-        result = error.result
+        result = attempt(problem, options)
     except InputError as error:
         return found | {"cause": "input", "message": str(error), "seconds": 0.0}
-    nodes = result.scaled.x.size
+    status = result.status
     found |= {
-        "cause": result.status.cause,
-        "message": result.status.message,
-        "hint": result.status.hint,
-        "nodes": nodes,
+        "cause": status.cause,
+        "message": status.message,
+        "hint": status.hint and str(status.hint),
+        "nodes": result.scaled.x.size,
         "seconds": time.process_time() - began,
         "bars": bars(result),
     }
-    if judge and result.status.converged:
-        found["off"] = _off(result, nodes, heated=kind == "heated")
+    if judge and status.converged:
+        found["off"] = _off(result, result.scaled.x.size, heated=kind == "heated")
+    if follow and not status.converged:
+        found["followed"] = _followed(result)
     return found
+
+
+def _followed(result: Result) -> str:
+    """Return how a contact ends with the settings of its hint, or that the hint has none."""
+    settings = result.status.hint.settings if result.status.hint else {}
+    if not settings:
+        return "no setting"
+    tables = result.problem.model_dump(exclude_none=True)
+    tables["numerics"] = result.options.model_dump(exclude_defaults=True)
+    for path, value in settings.items():
+        tables = changed(tables, path, value)
+    try:
+        status = attempt(*case_from_tables(tables)).status
+    except InputError as error:
+        return f"input: {error}"
+    return status.cause or status.kind
 
 
 def _off(result: Result, nodes: int, *, heated: bool) -> dict[str, float]:
@@ -92,14 +110,14 @@ def _off(result: Result, nodes: int, *, heated: bool) -> dict[str, float]:
     if finer > AFFORDABLE:
         return {}
     try:
-        there = values(solve(result.problem, Options(points=finer)))
-    except (ConvergenceError, InputError):
+        judge = attempt(result.problem, Options(points=finer))
+    except InputError:
         return {}
-    here, known = values(result), bars(result)
+    here, there, known = values(result), values(judge), bars(result)
     return {
         name: abs(here[name] - there[name]) / (bar * abs(here[name]))
         for name, bar in known.items()
-        if name in there
+        if name in there and judge.status.converged
     }
 
 
@@ -137,27 +155,49 @@ def coverage(rows: list[dict[str, Any]]) -> Table:
     return made
 
 
+def hints(rows: list[dict[str, Any]]) -> Table:
+    """Return the hints that were followed, by cause, and the contacts where they failed."""
+    followed = [one for one in rows if "followed" in one]
+    worked = sum(one["followed"] == "converged" for one in followed)
+    made = Table(
+        title=f"Hints that worked when followed: {worked} of {len(followed)}",
+        columns=("cause", "followed", "worked"),
+    )
+    for cause, count in Counter(one["cause"] for one in followed).most_common():
+        ends = [one["followed"] for one in followed if one["cause"] == cause]
+        made.rows.append((cause, count, ends.count("converged")))
+    made.notes.extend(
+        f"contact {one['number']}: {one['cause']}, then {one['followed']}; {one['hint']}"
+        for one in followed
+        if one["followed"] != "converged"
+    )
+    return made
+
+
 def main() -> None:
     """Solve the contacts, and print the tables."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.coverage", description=__doc__)
     parser.add_argument("--contacts", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--judge", action="store_true", help="judge the error bars")
+    parser.add_argument("--follow", action="store_true", help="follow the hints of failed contacts")
     parser.add_argument("--minutes", type=float, default=60.0, help="no contact begins later")
     parser.add_argument("--limit", type=float, default=60.0, help="numerics.max_time [s]")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--json", type=Path, help="also write a line for each contact")
     given = parser.parse_args()
-    tasks = ((given.seed, k, given.limit, given.judge) for k in range(given.contacts))
+    settings = (given.limit, given.judge, given.follow)
+    tasks = ((given.seed, number, *settings) for number in range(given.contacts))
     rows, end = [], time.monotonic() + 60.0 * given.minutes
     with ProcessPoolExecutor(given.jobs) as pool:
-        while time.monotonic() < end and (some := list(islice(tasks, 4 * given.jobs))):
+        while time.monotonic() < end and (some := list(islice(tasks, given.jobs))):
             rows += pool.map(row, some)
             if given.json:
                 given.json.write_text("".join(json.dumps(one) + "\n" for one in rows))
-    sys.stdout.write(robustness(rows).text() + "\n")
-    if given.judge:
-        sys.stdout.write(coverage(rows).text() + "\n")
+    tables = [robustness(rows)]
+    tables += [coverage(rows)] if given.judge else []
+    tables += [hints(rows)] if given.follow else []
+    sys.stdout.write("\n".join(table.text() for table in tables))
 
 
 if __name__ == "__main__":

@@ -3,8 +3,7 @@
 import numpy as np
 from tests.reference import DOMAIN, moes_contact
 
-from benchmarks.measure import cpu_seconds
-from benchmarks.robustness import attempt
+from benchmarks.measure import attempt, cpu_seconds
 from benchmarks.table import Cell, Table
 from tehl.grid import Grid
 from tehl.operators.deformation import (

@@ -2,7 +2,7 @@
 
 from tests.reference import DOMAIN, moes_contact
 
-from benchmarks.robustness import attempt
+from benchmarks.measure import attempt
 from benchmarks.table import Cell, Table
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem

@@ -14,7 +14,9 @@ from scipy import fft
 
 from tehl.options import Options
 from tehl.problem import ContactProblem
+from tehl.result import ConvergenceError, Result
 from tehl.scaling import ScaledProblem
+from tehl.solver import solve
 from tehl.solver.film_solver import FilmSolver
 from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.ladder import Strategy
@@ -62,6 +64,14 @@ def fft_unit(points: int) -> float:
 
     ways = [by_scipy, by_numpy] if np.lib.NumpyVersion(np.__version__) >= "2.0.0" else [by_scipy]
     return min(cpu_seconds(way, FFT_REPEATS) for way in ways)
+
+
+def attempt(problem: ContactProblem, options: Options) -> Result:
+    """Return the result, also of a run that did not converge."""
+    try:
+        return solve(problem, options)
+    except ConvergenceError as error:
+        return error.result
 
 
 def multigrid(

@@ -11,7 +11,7 @@ from tehl.post.film import dry_gap, hertz_pressure
 from tehl.problem import ContactProblem
 from tehl.result import Result
 from tehl.scaling import groups, scales
-from tehl.solution import Cost, CycleReport, ErrorEstimate, Estimate, Provenance, Status
+from tehl.solution import Cost, CycleReport, ErrorEstimate, Estimate, Hint, Provenance, Status
 
 CASE = {
     "title": "Ball on disc",
@@ -116,6 +116,6 @@ def stalled(result: Result) -> Result:
         kind="stalled",
         cause="grid_too_coarse",
         message="the grid is too coarse for the film",
-        hint="take points = 513",
+        hint=Hint("take points = 513"),
     )
     return replace(result, status=status)

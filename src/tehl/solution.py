@@ -1,5 +1,7 @@
 """The solution of a steady problem: fields, film numbers, status, error bars, history. Frozen."""
 
+import json
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -11,6 +13,36 @@ from tehl.scaling import Groups, ScaledProblem, Scales
 from tehl.typing import Array
 
 StatusKind = Literal["converged", "not_converged", "diverged", "stalled"]
+Settings = Mapping[str, bool | int | float | str | dict[str, str]]
+"""Values to set in a case, by dotted keys: ``{"numerics.points": 257}``; False removes a key."""
+
+
+@dataclass(frozen=True, slots=True)
+class Hint:
+    """What to try after a failure: settings and the reason for them, or advice alone."""
+
+    advice: str = ""
+    settings: Settings = field(default_factory=dict)
+
+    def __str__(self) -> str:
+        text = settings_text(self.settings)
+        text = f"{text[:1].upper()}{text[1:]}"
+        return f"{text}: {self.advice}" if text and self.advice else self.advice or f"{text}."
+
+
+def settings_text(settings: Settings) -> str:
+    """Return settings in words: set numerics.points = 257 and remove numerics.domain."""
+    return " and ".join(
+        f"remove {key}" if value is False else f"set {key} = {_toml(value)}"
+        for key, value in settings.items()
+    )
+
+
+def _toml(value: object) -> str:
+    """Return a word, a number, or a table of words as a case file states it."""
+    if not isinstance(value, dict):
+        return json.dumps(value)
+    return "{ " + ", ".join(f"{key} = {_toml(inner)}" for key, inner in value.items()) + " }"
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -22,7 +54,7 @@ class Status:
     cause: str | None = None
     """Name of the cause when not converged, for programs: ``"grid_too_coarse"``."""
     message: str | None = None
-    hint: str | None = None
+    hint: Hint | None = None
     """The cause and what to try. In a converged certified result ``message`` says how its grids
     ended; a ``hint`` in a converged result means that its minimum film is uncertain, and names the
     grid to try."""

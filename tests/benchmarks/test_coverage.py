@@ -1,7 +1,7 @@
 """The tables of random contacts."""
 
 import pytest
-from benchmarks.coverage import coverage, robustness, row
+from benchmarks.coverage import coverage, hints, robustness, row
 from benchmarks.random_contacts import contact
 
 
@@ -25,6 +25,18 @@ def test_a_contact_that_fails_counts_by_its_cause_and_others_by_their_bars():
 
 def test_a_light_contact_is_solved_and_judged():
     number = next(k for k in range(100) if contact(7, k)[1] == "isothermal")
-    found = row((7, number, 30.0, True))
+    found = row((7, number, 30.0, True, True))
     assert found["cause"] is None
     assert 0.0 < found["off"]["film_central"] < 1.0
+    assert "followed" not in found
+
+
+def test_the_hint_of_a_contact_that_fails_is_followed():
+    number = next(k for k in range(100) if contact(7, k)[1] == "isothermal")
+    found = row((7, number, 1e-3, False, True))
+    assert (found["cause"], found["followed"]) == ("error_not_reached", "converged")
+    stuck = found | {"cause": "stalled", "followed": "stalled"}
+    table = hints([found, stuck])
+    assert table.rows == [("error_not_reached", 1, 1), ("stalled", 1, 0)]
+    assert "1 of 2" in table.title
+    assert len(table.notes) == 1

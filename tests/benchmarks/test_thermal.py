@@ -1,6 +1,7 @@
 """The clock of the benchmark of heated films."""
 
-from benchmarks.thermal import EYRING, attempt, speed_contact, timed_parts
+from benchmarks.measure import attempt
+from benchmarks.thermal import EYRING, speed_contact, timed_parts
 
 from tehl.options import Options
 from tehl.solver.hierarchy import Hierarchy

@@ -3,12 +3,14 @@
 import io
 import re
 import sys
+import time
 from collections.abc import Callable
 
 import pytest
 
 from tehl.cli.progress import (
     StudyProgress,
+    busy,
     compile_kernels,
     duration,
     progress,
@@ -175,3 +177,22 @@ def test_compiling_shows_a_bar_that_fits_80_columns(terminal, monkeypatch):
     assert len(bar.partition(" 40 s left")[0].strip()) >= 5
     assert "40 s left" in bar
     assert all(len(line) <= 80 for line in lines)
+
+
+def test_a_live_view_that_does_not_change_shows_the_time(terminal, monkeypatch):
+    shown = terminal()
+    monkeypatch.setattr("tehl.cli.progress._SILENT", 0.1)
+    with progress(HEATED, quiet=False):
+        time.sleep(2.5)
+        assert "working, 2 s" in plain(shown.getvalue())
+    assert "working" not in plain(shown.getvalue())[-1]
+
+
+def test_writing_is_shown_on_a_terminal_only(terminal, capsys):
+    with busy("writing film.nc", quiet=False):
+        pass
+    assert capsys.readouterr().err == ""
+    shown = terminal()
+    with busy("writing film.nc", quiet=False):
+        pass
+    assert "writing film.nc" in shown.getvalue()

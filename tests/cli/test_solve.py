@@ -15,7 +15,7 @@ import pytest
 from tehl import cli
 from tehl.io import store
 from tehl.io.store import load
-from tehl.solution import Status
+from tehl.solution import Hint, Status
 from tests.cli.fixtures_solver import solver
 
 __all__ = ["solver"]
@@ -129,7 +129,10 @@ def test_certify_calls_the_certified_solve(folder, solver, run):
 
 def test_a_failure_is_stored_marked_and_explained(folder, solver, run):
     solver.outcome = Status(
-        kind="stalled", cause="grid_too_coarse", message="the grid is too coarse", hint="take 513"
+        kind="stalled",
+        cause="grid_too_coarse",
+        message="the grid is too coarse",
+        hint=Hint("take 513"),
     )
     done = run("solve", "ball.toml", "-o", "bad.nc")
     assert done.code == 1
@@ -139,7 +142,7 @@ def test_a_failure_is_stored_marked_and_explained(folder, solver, run):
 
 
 def test_a_failure_as_json_names_cause_and_hint(folder, solver, run):
-    solver.outcome = Status(kind="diverged", cause="diverged", message="m", hint="h")
+    solver.outcome = Status(kind="diverged", cause="diverged", message="m", hint=Hint("h"))
     done = run("solve", "ball.toml", "--json")
     content = json.loads(done.out)
     assert done.code == 1
@@ -173,7 +176,9 @@ def test_the_effect_of_heat_is_printed(warm, solver, run):
 
 
 def test_a_reference_run_that_fails_spoils_nothing(warm, solver, run):
-    solver.cold = Status(kind="stalled", cause="grid_too_coarse", message="too coarse", hint="h")
+    solver.cold = Status(
+        kind="stalled", cause="grid_too_coarse", message="too coarse", hint=Hint("h")
+    )
     done = run("solve", "warm.toml", "--with-isothermal", "--json")
     assert done.code == 0
     assert "reference run without heat did not converge" in done.err
@@ -213,7 +218,9 @@ def test_heat_and_roughness_may_be_left_out_in_one_command(wavy, solver, run):
 
 
 def test_a_smooth_reference_that_fails_spoils_nothing(wavy, solver, run):
-    solver.cold = Status(kind="stalled", cause="grid_too_coarse", message="too coarse", hint="h")
+    solver.cold = Status(
+        kind="stalled", cause="grid_too_coarse", message="too coarse", hint=Hint("h")
+    )
     done = run("solve", "wavy.toml", "--with-smooth", "--json")
     assert done.code == 0
     assert "reference run with smooth surfaces did not converge" in done.err
@@ -222,7 +229,7 @@ def test_a_smooth_reference_that_fails_spoils_nothing(wavy, solver, run):
 
 
 def test_a_failure_makes_no_reference_runs(wavy, solver, run):
-    solver.outcome = Status(kind="stalled", cause="grid_too_coarse", message="m", hint="h")
+    solver.outcome = Status(kind="stalled", cause="grid_too_coarse", message="m", hint=Hint("h"))
     assert run("solve", "wavy.toml", "--with-smooth").code == 1
     assert len(solver.calls) == 1
 

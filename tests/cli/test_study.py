@@ -24,7 +24,7 @@ def test_the_table_has_a_row_per_case_and_units_beside_it(folder, run):
     done = run("loads.toml", "-o", "out", "--jobs", "1")
     assert done.code == 1  # one case fails
     assert "slide_roll_ratio = 0.5: It is too coarse." in done.out
-    assert "hint: Take 513." in done.out
+    assert "hint: Set numerics.points = 513." in done.out
     frame = pd.read_csv("out/table.csv")
     assert list(frame["contact.load"]) == [20, 20, 40, 40, 60, 60, 80, 80]
     assert list(frame["status"]).count("converged") == 7
@@ -49,7 +49,17 @@ def test_the_same_command_again_solves_nothing(folder, run):
     assert (found["cases"], found["reused"], found["converged"]) == (8, 8, 7)
     assert [one["cause"] for one in found["failed"]] == ["grid_too_coarse"]
     assert again.out.count("\n") == 1
-    assert run("out", "--jobs", "1", "--retry-failed", "--json").code == 1
+
+
+def test_a_retry_takes_the_settings_of_the_hint_and_the_table_names_them(folder, run):
+    assert run("loads.toml", "-o", "out", "--jobs", "1").code == 1
+    done = run("out", "--jobs", "1", "--retry-failed")
+    assert done.code == 0
+    assert "slide_roll_ratio = 0.5: set numerics.points = 513" in done.out
+    again = json.loads(run("out", "--jobs", "1", "--json").out)
+    assert [one["retry_settings"] for one in again["retried"]] == [{"numerics.points": 513}]
+    frame = pd.read_csv("out/table.csv")
+    assert list(frame["retry_settings"].dropna()) == ["set numerics.points = 513"]
 
 
 def test_another_study_finds_the_cases_of_a_shared_store(folder, run):

@@ -3,6 +3,7 @@
 
 import pytest
 
+from tehl.solution import Hint
 from tehl.studies import Row, runner
 from tehl.studies.file import read_study
 from tests.cli.fixtures_study import CASE, STUDY, folder, names, run
@@ -108,7 +109,7 @@ def test_the_lines_of_a_list_are_counted_as_an_editor_does(folder, run):
 
 def test_a_hint_of_many_cases_is_shown_once(folder, run, monkeypatch):
     def hopeless(case, *_):
-        words = {"cause": "stalled", "message": "It stalls.", "hint": "Take 513."}
+        words = {"cause": "stalled", "message": "It stalls.", "hint": Hint("Take 513.")}
         return Row(key=case.key, status="stalled", **words)
 
     monkeypatch.setattr(runner, "work", hopeless)

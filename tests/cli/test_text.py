@@ -12,7 +12,7 @@ from tehl.post.roughness import rough_film
 from tehl.post.thermal_effect import ThermalEffect
 from tehl.report.page import report_text
 from tehl.report.readable import length
-from tehl.solution import Estimate, Status
+from tehl.solution import Estimate, Hint, Status
 from tests.fixtures_rough import make_rough
 
 
@@ -138,7 +138,9 @@ def test_a_grid_error_above_the_value_itself_is_a_percentage(result):
 
 
 def test_a_failure_has_its_hint_in_a_second_line():
-    status = Status(kind="stalled", cause="grid_too_coarse", message="too coarse", hint="take 513")
+    status = Status(
+        kind="stalled", cause="grid_too_coarse", message="too coarse", hint=Hint("take 513")
+    )
     assert failure_text(status, None) == (
         "tehl: not converged (stalled): too coarse\nhint: take 513"
     )

@@ -19,7 +19,7 @@ from tehl.cli.checkpoint import Keeper
 from tehl.io.checkpoint import Fingerprint
 from tehl.plots import animation
 from tehl.result import ConvergenceError
-from tehl.solution import Status
+from tehl.solution import Hint, Status
 from tests.fixtures_result import make_result
 from tests.fixtures_transient import make_certified, make_transient
 
@@ -204,7 +204,7 @@ def test_json_prints_one_object(folder, run, solved):
 
 def test_an_unfinished_run_is_stored_marked_and_exits_with_1(folder, run, solved):
     status = Status(
-        kind="not_converged", cause="asperity_contact", message="they touch", hint="go faster"
+        kind="not_converged", cause="asperity_contact", message="they touch", hint=Hint("go faster")
     )
     solved(replace(make_transient(), status=status))
     done = run("solve", "wave.toml")
@@ -237,7 +237,7 @@ def test_a_start_that_diverges_is_reported_as_a_diverged_steady_case(folder, run
     assert summary["cause"] == "grid_too_coarse"
     assert summary["hint"]
     assert summary["message"].startswith("The steady film at time zero")
-    assert tehl.load("wave.nc").status.hint == summary["hint"]
+    assert str(tehl.load("wave.nc").status.hint) == summary["hint"]
     assert "film.png" in names(folder / "pictures")
 
 
@@ -280,7 +280,10 @@ def test_a_certified_run_has_its_bars_in_json(folder, run, certified):
 
 def test_a_run_that_has_no_error_bar_exits_with_1_and_is_kept(folder, run, certified):
     status = Status(
-        kind="not_converged", cause="not_certified", message="no bar follows", hint="more points"
+        kind="not_converged",
+        cause="not_certified",
+        message="no bar follows",
+        hint=Hint("more points"),
     )
     certified(replace(make_transient(), status=status))
     done = run("solve", "wave.toml", "--certify")

@@ -19,7 +19,7 @@ from tehl.problem import ContactProblem
 from tehl.report import page as module
 from tehl.report.page import report_text
 from tehl.report.readable import input_rows
-from tehl.solution import Estimate, Status
+from tehl.solution import Estimate, Hint, Status
 from tests.fixtures_result import CASE
 from tests.fixtures_rough import make_rough
 from tests.fixtures_transient import make_certified, make_transient, passing
@@ -186,7 +186,7 @@ def test_error_bars_of_a_transient_run_are_in_si():
 @pytest.mark.usefixtures("one_picture")
 def test_a_transient_run_that_stopped_shows_cause_and_hint():
     status = Status(
-        kind="stalled", cause="step_not_settled", message="A step failed.", hint="Halve it."
+        kind="stalled", cause="step_not_settled", message="A step failed.", hint=Hint("Halve it.")
     )
     words = " ".join(Page(report_text(replace(make_transient(), status=status))).words)
     assert all(

@@ -122,7 +122,7 @@ def test_the_finest_run_is_returned_if_that_on_half_the_intervals_fails(case, po
     assert not run.status.converged
     assert re.search(words, run.status.message)
     assert np.all(run.history.film_minimum > 0)
-    assert run.status.hint.startswith(f"Take numerics.points = {2 * points - 1}")
+    assert str(run.status.hint).startswith(f"Set numerics.points = {2 * points - 1}")
     assert (run.uncertainty, run.bars) == ({}, None)
 
 

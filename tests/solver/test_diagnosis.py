@@ -34,7 +34,7 @@ def test_a_body_far_from_the_temperature_of_the_oil_is_a_likely_cause(kelvin, wa
     assert found is not None
     assert found.cause == "body_temperature"
     assert f"60 K {way}" in found.message
-    assert "surface_2" in found.hint
+    assert "surface_2" in str(found.hint)
 
 
 def test_a_body_near_the_temperature_of_the_oil_is_not_a_likely_cause():
@@ -46,21 +46,22 @@ def test_a_stress_beyond_that_of_oils_is_attributed_to_the_shear_law():
     found = cause_of(sliding, 1025)
     assert found is not None
     assert found.cause == "shear_stress"
-    assert "lubricant.shear" in found.hint
+    assert "lubricant.shear" in str(found.hint)
 
 
 def test_a_film_too_thin_for_the_grid_is_attributed_to_the_grid():
     found = cause_of(moes_contact(1000.0, 5.0), 65)
     assert found is not None
     assert found.cause == "film_below_grid"
-    assert "numerics.points = " in found.hint
+    assert "numerics.points = " in str(found.hint)
 
 
 def test_all_likely_causes_are_reported_and_the_first_names_the_cause():
     found = cause_of(changed("surface_1", temperature=240.0), 33)
     assert found is not None
     assert found.cause == "body_temperature"
-    assert "numerics.points = " in found.hint
+    assert "nodes per direction" in found.message
+    assert "surface_1" in str(found.hint)
 
 
 def test_the_status_of_a_diverged_run_has_the_likely_cause_and_its_hint():
@@ -75,4 +76,4 @@ def test_the_status_of_a_diverged_run_has_the_likely_cause_and_its_hint():
     assert (status.kind, status.cause) == ("diverged", "body_temperature")
     assert "65 x 65" in status.message
     assert "below the oil at the inlet" in status.message
-    assert "within 40 K" in status.hint
+    assert "within 40 K" in str(status.hint)

@@ -10,13 +10,13 @@ from tehl.grid import Grid
 from tehl.io.summary import summary
 from tehl.report.page import report_text
 from tehl.result import Result
-from tehl.solution import ErrorEstimate, Status
+from tehl.solution import ErrorEstimate, Hint, Status
 from tehl.solver.certify import _ending
 from tehl.solver.verdict import is_film, no_film
 from tests.reference import DOMAIN
 
 FLOOR = 0.01
-VAGUE = Status(kind="converged", message="The minimum film is uncertain.", hint="Take more.")
+VAGUE = Status(kind="converged", message="The minimum film is uncertain.", hint=Hint("Take more."))
 
 
 def level(smallest: float, *, valley: bool = False) -> SimpleNamespace:
@@ -78,7 +78,7 @@ def test_an_open_minimum_is_reported_everywhere(result: Result, monkeypatch):
     assert (found["status"], found["message"], found["hint"]) == (
         "converged",
         VAGUE.message,
-        VAGUE.hint,
+        str(VAGUE.hint),
     )
     assert "too coarse for the film" in _ending(vague)
     assert "too coarse for the film" not in _ending(result)
@@ -87,4 +87,4 @@ def test_an_open_minimum_is_reported_everywhere(result: Result, monkeypatch):
 def test_a_certified_result_is_not_vague():
     certified = Status(kind="converged", message="Grids of the error bars: ...")
     assert not certified.is_vague
-    assert not Status(kind="stalled", hint="More.").is_vague
+    assert not Status(kind="stalled", hint=Hint("More.")).is_vague

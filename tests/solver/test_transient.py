@@ -361,7 +361,7 @@ def test_a_step_with_a_film_that_is_not_finite_fails(place, value):
 def test_an_unreachable_tolerance_is_reported():
     run = solve_transient(in_time(0.3, transient={"tolerance": 1e-300, "max_cycles": 5}), OPTIONS)
     assert run.status.cause == "step_not_settled"
-    assert "Set transient.tolerance = 1e-06 or more (now 1e-300)" in str(run.status.hint)
+    assert "Set transient.tolerance = 1e-06: " in str(run.status.hint)
     assert "asperities" not in str(run.status.hint)
 
 

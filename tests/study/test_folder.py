@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from tehl.errors import FileFormatError, InputError
 from tehl.options import Options
-from tehl.solution import Cost
+from tehl.solution import Cost, Hint
 from tehl.studies import Row, Store
 from tehl.studies.axes import Block, Setting
 from tehl.studies.case import Case
@@ -72,7 +72,8 @@ def test_a_row_comes_back_from_its_store(tmp_path_factory, summary, words, secon
         status="converged",
         cause=cause,
         message=message,
-        hint=hint,
+        hint=None if hint is None else Hint(hint, {"numerics.points": 257}),
+        retry_settings={"numerics.error": "4 %", "numerics.domain": False},
         summary=summary,
         cost=cost,
     )

@@ -9,9 +9,9 @@ import pytest
 from tehl import solver
 from tehl.errors import InputError
 from tehl.io.case import case_from_tables
-from tehl.solution import Cost
+from tehl.solution import Cost, Hint
 from tehl.studies import Case, Row, Store, engines, run, runner, study, table
-from tehl.studies.case import flat, row_of, unit_of
+from tehl.studies.case import flat, retried, row_of, unit_of
 from tehl.studies.tables import is_number
 from tehl.studies.worker import solve_in_turn
 from tests.cases import ball_tables
@@ -122,8 +122,32 @@ def test_a_failure_is_tried_again_on_request_only(tmp_path):
     run([failing(), *cases(1)], store)
     assert run([failing(), *cases(1)], store, monitor=tried).reused == 2
     assert tried.names == []
-    run([failing(), *cases(1)], store, retry_failed=True, monitor=again)
-    assert again.names == [("too coarse", "not_converged")]
+    settings = store.row(failing()).hint.settings
+    outcome = run([failing(), *cases(1)], store, retry_failed=True, monitor=again)
+    assert again.names == [("too coarse", "converged")]
+    assert [(case.name, row.retry_settings) for case, row in outcome.retried] == [
+        ("too coarse", settings)
+    ]
+    again = run([failing()], store)
+    assert [row.retry_settings for _, row in again.retried] == [settings]
+    [words] = table([failing()], store)["retry_settings"]
+    assert words == f"set numerics.points = {settings['numerics.points']}"
+
+
+def test_a_retry_never_changes_the_contact():
+    other = Hint("oils thin.", {"lubricant.shear": {"law": "eyring", "stress": "5 MPa"}})
+    row = Row(key="", status="diverged", hint=other, retry_settings={"numerics.error": "3 %"})
+    assert retried(failing(), row).retry_settings == {"numerics.error": "3 %"}
+    assert retried(failing(), replace(row, hint=None)).key == failing().key
+
+
+def test_a_second_retry_adds_the_settings_of_the_second_hint():
+    first = {"numerics.error": "3 %", "numerics.max_cycles": 80}
+    row = Row(key="", status="stalled", hint=Hint("", {"numerics.error": "5 %"}))
+    case = retried(failing(), replace(row, retry_settings=first))
+    assert case.retry_settings == {"numerics.error": "5 %", "numerics.max_cycles": 80}
+    assert (case.solved_options.error, case.solved_options.max_cycles) == (0.05, 80)
+    assert case.solved_options.points == "auto"
 
 
 def test_a_case_that_the_solver_rejects_is_a_row_too(tmp_path):
@@ -215,7 +239,7 @@ def test_each_number_of_a_summary_is_a_column_that_is_known_before(finished):
 
 @pytest.mark.parametrize("kind", ["thermal", "rough"])
 def test_numbers_of_heat_and_roughness_are_columns_that_are_known_before(kind, request):
-    names = row_of("key", request.getfixturevalue(kind)).summary
+    names = row_of(cases(1)[0], request.getfixturevalue(kind)).summary
     assert [name for name in names if not is_number(name)] == []
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import typer
 
+from tehl.cli.progress import busy, progress
 from tehl.cli.reference_runs import REFERENCES, Comparisons, compare, smooth_file
 from tehl.cli.text import as_text, failure_text
 from tehl.domain import planned
@@ -64,7 +65,8 @@ def run(job: Job) -> bool:
         from tehl.solver import with_work
 
         result = with_work(result)  # takes a moment, so for programs only
-    save(result, job.target)
+    with busy(f"writing {job.target}", quiet=job.quiet):
+        save(result, job.target)
     compared = Comparisons()
     if isinstance(result, TransientResult):
         remove_with_parts(checkpoint_of(job.target))
@@ -122,8 +124,8 @@ def _solved(
 
 
 def _steady(problem: ContactProblem, options: Options, job: Job) -> Result | TransientResult:
-    from tehl.cli.progress import progress
-    from tehl.solver import certify, solve
+    with busy("loading the solver", quiet=job.quiet):
+        from tehl.solver import certify, solve
 
     work = certify if job.certify else solve
     with progress(problem, quiet=job.quiet) as monitor:
@@ -133,8 +135,9 @@ def _steady(problem: ContactProblem, options: Options, job: Job) -> Result | Tra
 def _transient(problem: ContactProblem, options: Options, job: Job) -> Result | TransientResult:
     """Solve a transient case; when it is interrupted, a checkpoint is left beside the target."""
     from tehl.cli.checkpoint import Keeper
-    from tehl.cli.progress import progress
-    from tehl.solver import certify_transient, solve_transient
+
+    with busy("loading the solver", quiet=job.quiet):
+        from tehl.solver import certify_transient, solve_transient
 
     keep = Keeper(checkpoint_of(job.target), fingerprint(problem, options))
     start = keep.begin(resume=job.resume)
@@ -155,9 +158,10 @@ def _compared(result: Result, cases: dict[str, ContactProblem], job: Job) -> Com
         if found[what] is None:
             typer.echo(f"tehl: reference run {what} did not converge: {failure}", err=True)
     compared = compare(result, found)
-    save(result, job.target, extra=compared.blocks)
-    if compared.smooth is not None:
-        save(compared.smooth, smooth_file(job.target))
+    with busy(f"writing {job.target}", quiet=job.quiet):
+        save(result, job.target, extra=compared.blocks)
+        if compared.smooth is not None:
+            save(compared.smooth, smooth_file(job.target))
     return compared
 
 
@@ -173,5 +177,7 @@ def _show(result: Result | TransientResult, compared: Comparisons, job: Job) -> 
     if job.plot is not None:
         from tehl.plots import pictures_of, save_all
 
-        for path in save_all(result, job.plot, pictures=pictures_of(result, compared.smooth)):
+        with busy("drawing pictures", quiet=job.quiet):
+            files = save_all(result, job.plot, pictures=pictures_of(result, compared.smooth))
+        for path in files:
             typer.echo(f"written: {path}", err=True)

@@ -1,5 +1,6 @@
 """What a run shows on stderr: a live view on a terminal, plain lines elsewhere, or nothing."""
 
+import math
 import sys
 import time
 from collections import deque
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 from rich import box
-from rich.console import Console, Group
+from rich.console import Console, Group, RenderableType
 from rich.live import Live
 from rich.markup import escape
 from rich.progress import BarColumn, Progress, ProgressColumn, Task, TextColumn
@@ -55,6 +56,8 @@ _LINES, _ROWS = 20, 10
 """Of a transient run: plain lines, and steps in the live view."""
 _BESIDE = 47
 """Characters beside a bar of 20 and the time left, in a line of 80."""
+_SILENT = 2.0
+"""Seconds after which a live view that does not change shows the time."""
 _EVERY = 10.0
 """Seconds between two plain lines of a study."""
 SHOWN = 20
@@ -71,7 +74,7 @@ def progress(problem: "ContactProblem", *, quiet: bool) -> Iterator[Any]:
         yield SILENT
         return
     compile_kernels(coupled=problem.is_coupled)
-    shown: Callable[[Live | None], Any]
+    shown: Callable[[_Ticking | None], Any]
     if problem.transient is None:
         shown = partial(_CycleProgress, thermal=problem.thermal is not None)
     else:
@@ -79,9 +82,23 @@ def progress(problem: "ContactProblem", *, quiet: bool) -> Iterator[Any]:
     if not _is_terminal():
         yield shown(None)
         return
-    console = Console(stderr=True)
-    with Live(console=console, auto_refresh=False, vertical_overflow="visible") as live:
-        yield shown(live)
+    view, console = _Ticking(), Console(stderr=True)
+    with Live(view, console=console, refresh_per_second=1, vertical_overflow="visible") as live:
+        view.live = live
+        try:
+            yield shown(view)
+        finally:
+            view.stop()
+
+
+@contextmanager
+def busy(what: str, *, quiet: bool) -> Iterator[None]:
+    """Show on a terminal that ``what`` is being done."""
+    if quiet or not _is_terminal():
+        yield
+    else:
+        with Console(stderr=True).status(escape(what)):
+            yield
 
 
 @contextmanager
@@ -144,6 +161,36 @@ def _is_terminal() -> bool:
     return sys.stderr is not None and sys.stderr.isatty()
 
 
+class _Ticking:
+    """A live view above the time since it last changed: a sweep of a large grid takes a while."""
+
+    live: Live
+
+    def __init__(self) -> None:
+        self._view: RenderableType = ""
+        self._since = time.monotonic()
+
+    def __rich__(self) -> RenderableType:
+        seconds = time.monotonic() - self._since
+        if not _SILENT < seconds < math.inf:
+            return self._view
+        return Group(self._view, Text(f"working, {seconds:.0f} s"))
+
+    @property
+    def console(self) -> Console:
+        """The console of the view."""
+        return self.live.console
+
+    def update(self, view: RenderableType) -> None:
+        """Show another view at once."""
+        self._view, self._since = view, time.monotonic()
+        self.live.refresh()
+
+    def stop(self) -> None:
+        """Show no more time."""
+        self._since = -math.inf
+
+
 class _Shown:
     """Messages and rows on stderr: in a live view if there is one, else as plain lines."""
 
@@ -172,7 +219,7 @@ class _Shown:
 
 
 class _CycleProgress(_Shown):
-    def __init__(self, live: Live | None, *, thermal: bool = False) -> None:
+    def __init__(self, live: _Ticking | None, *, thermal: bool = False) -> None:
         super().__init__(live, {k: v for k, v in _CYCLE.items() if thermal or k != _HEAT})
         self._rows = None if live is None else self._table()
         self._grid: tuple[int, int] | None = None
@@ -187,12 +234,12 @@ class _CycleProgress(_Shown):
             if self._grid not in (None, report.points):
                 self._rows.add_section()
             self._rows.add_row(*self._cells(report))
-            self._view.update(self._rows, refresh=True)
+            self._view.update(self._rows)
         self._grid = report.points
 
 
 class _StepProgress(_Shown):
-    def __init__(self, live: Live | None, units: "Scales") -> None:
+    def __init__(self, live: _Ticking | None, units: "Scales") -> None:
         super().__init__(live, _STEP)
         self._units = units
         self._rows: deque[list[str]] = deque(maxlen=_ROWS)
@@ -204,7 +251,7 @@ class _StepProgress(_Shown):
         """Show that the steady film at time zero is being solved."""
         if self._view is not None:
             state = "{0.points[0]} x {0.points[1]}, cycle {0.cycle}, {0.residual:.1e}"
-            self._view.update(f"steady film at time zero: {state.format(report)}", refresh=True)
+            self._view.update(f"steady film at time zero: {state.format(report)}")
         elif not self._steady:
             self.message("the steady film at time zero")
         self._steady = True
@@ -235,7 +282,7 @@ class _StepProgress(_Shown):
         for row in self._rows:
             table.add_row(*row)
         bar = ProgressBar(total=report.steps, completed=report.step, width=60)
-        self._view.update(Group(table, bar), refresh=True)
+        self._view.update(Group(table, bar))
 
     def _left(self, report: "StepReport") -> float | None:
         """Return the seconds that are left, from the steps since the first; None at that one."""

@@ -28,7 +28,10 @@ def study(  # noqa: PLR0913 (the options of the command)
         bool, Option("--dry-run", help="Estimate time, memory and disk; solve nothing.")
     ] = False,
     retry_failed: Annotated[
-        bool, Option("--retry-failed", help="Solve failed cases again.")
+        bool,
+        Option(
+            "--retry-failed", help="Solve failed cases again, with the settings of their hints."
+        ),
     ] = False,
     replace: Annotated[
         bool, Option("--replace", help="Replace another study in the folder.")

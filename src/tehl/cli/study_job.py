@@ -16,6 +16,7 @@ import typer
 from tehl.cli.progress import SHOWN, duration, study_progress
 from tehl.errors import InputError
 from tehl.io.atomic import check_place, check_writable, shortened
+from tehl.solution import settings_text
 from tehl.studies.case import Row
 from tehl.studies.file import read_study
 from tehl.studies.folder import (
@@ -243,16 +244,26 @@ def _show_forecast(study: Study, folder: Path, workers: int, *, as_json: bool) -
 
 
 def _outcome_as_json(outcome: Outcome, written: Written) -> str:
-    words = ("status", "cause", "message", "hint")
     failed = [
-        {"name": case.name} | {key: getattr(row, key) for key in words}
+        {
+            "name": case.name,
+            "status": row.status,
+            "cause": row.cause,
+            "message": row.message,
+            "hint": row.hint and str(row.hint),
+        }
         for case, row in outcome.failed
+    ]
+    retried = [
+        {"name": case.name, "retry_settings": dict(row.retry_settings)}
+        for case, row in outcome.retried
     ]
     counts = ("reused", "converged", "cpu_seconds", "wall_seconds")
     found = {
         "status": "not_converged" if failed else "converged",
         "cases": outcome.total,
         "failed": failed,
+        "retried": retried,
         **{name: getattr(outcome, name) for name in counts},
     }
     return json.dumps(found | written)
@@ -272,7 +283,9 @@ def _show_outcome(outcome: Outcome, written: Written) -> None:
         typer.echo(f"  failed: {case.name}: {row.message or row.cause}")
     if len(outcome.failed) > SHOWN:
         typer.echo(f"  and {len(outcome.failed) - SHOWN} more, see the table")
-    hints = Counter(row.hint for _, row in outcome.failed if row.hint)
+    for case, row in outcome.retried[:SHOWN]:
+        typer.echo(f"  converged on retry: {case.name}: {settings_text(row.retry_settings)}")
+    hints = Counter(str(row.hint) for _, row in outcome.failed if row.hint)
     for hint, count in hints.most_common(SHOWN):
         typer.echo(f"  hint: {hint}" if count == 1 else f"  hint for {count} of them: {hint}")
     for path in (*written["table"], *written["pictures"]):

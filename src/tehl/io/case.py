@@ -6,7 +6,7 @@ import stat
 import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from pydantic import BaseModel, ValidationError, create_model
 
@@ -17,6 +17,9 @@ from tehl.io.mistakes import NUMERICS, describe, short, shown
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.units import percentage
+
+if TYPE_CHECKING:
+    from tehl.solution import Settings
 
 _LONG_KEY = re.compile(r"(?m)^[\s\[]*(?:[^\s.,=#]+\s*\.\s*){100}")
 """A key of more than a hundred parts."""
@@ -141,6 +144,43 @@ def _syntax(message: str, text: str) -> str:
     reason = message[: place.start()] if place else message
     line = short(repr(lines[number - 1].strip()), 60)
     return f"line {number}: {line} is not valid TOML: {short(reason, 100)}"
+
+
+def changed(tables: Mapping[str, Any], path: str, value: Any) -> dict[str, Any]:
+    """Return a copy of tables with another value at a path.
+
+    Parameters
+    ----------
+    tables : mapping
+        Tables of a case.
+    path : str
+        Dotted path; a name on the way, such as that of an oil, becomes the table with this name.
+    value
+        The value; ``False`` removes the key.
+    """
+    key, _, deeper = (part.strip() for part in path.partition("."))
+    after = dict(tables)
+    if deeper:
+        below = after.get(key, {})
+        if isinstance(below, str):
+            below = {"name": below}
+        if not isinstance(below, Mapping):
+            raise ValueError(f"{path} goes through {key}, which is not a table in the base case")
+        after[key] = changed(below, deeper, value)
+        after[key].pop(replaced_by(path), None)
+    elif value is False:
+        after.pop(key, None)
+    else:
+        after[key] = value
+    return after
+
+
+def with_settings(options: Options, settings: "Settings") -> Options:
+    """Return options with those of ``settings`` that are numerical; an InputError if invalid."""
+    tables: dict[str, Any] = {NUMERICS: options.model_dump(exclude_defaults=True)}
+    for path, value in settings.items():
+        tables = changed(tables, path, value)
+    return _validated(Options, tables[NUMERICS], prefix=NUMERICS)
 
 
 def replaced_by(path: str) -> str:

@@ -21,7 +21,7 @@ from tehl.solution import CycleReport
 from tehl.transient_result import Frames, History, HistoryBars, Profiles, TransientResult
 from tehl.typing import Array
 
-FORMAT_VERSION = 3
+FORMAT_VERSION = 4
 STEADY, TRANSIENT = KINDS = ("steady", "transient")
 """Values of the attribute ``tehl_kind``."""
 

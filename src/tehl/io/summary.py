@@ -40,8 +40,11 @@ def summary(result: Result | TransientResult) -> Block:
         title, kind, content = result.start.problem.title, {"kind": "transient"}, _transient(result)
     else:
         title, kind, content = result.problem.title, {}, _steady(result)
-    head = {"title": title, "status": status.kind} | _picked(status, "cause", "message", "hint")
-    found: Block = plain(kind | head | content)
+    head = {"title": title, "status": status.kind} | _picked(status, "cause", "message")
+    hint: Block = {"hint": None, "settings": None}
+    if status.hint is not None:
+        hint = {"hint": str(status.hint), "settings": dict(status.hint.settings)}
+    found: Block = plain(kind | head | hint | content)
     return found
 
 

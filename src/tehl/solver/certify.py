@@ -13,7 +13,7 @@ from tehl.operators.heights import UnresolvedError
 from tehl.options import Domain, Options, can_be_halved, check_certifiable
 from tehl.problem import ContactProblem
 from tehl.result import ConvergenceError, Result
-from tehl.solution import NO_COST, Cost, Estimate, Status
+from tehl.solution import NO_COST, Cost, Estimate, Hint, Status
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.steady import solve
 from tehl.solver.verdict import LARGEST_BAR, too_coarse
@@ -166,7 +166,7 @@ def not_certified(result: Result, why: str) -> Status:
         kind="not_converged",
         cause="not_certified",
         message=f"The finest grid converged, but has no error bar: {why}",
-        hint=f"Take numerics.points = {nodes}, or solve without certifying.",
+        hint=Hint("or solve without --certify.", {"numerics.points": nodes}),
     )
 
 

@@ -10,7 +10,7 @@ from tehl.grid import Grid
 from tehl.heat import FAR_BODY, FilmEnergy
 from tehl.problem import ContactProblem
 from tehl.scaling import Groups, ScaledProblem
-from tehl.solution import Status
+from tehl.solution import Hint, Status
 from tehl.solver.film_solver import FilmSolver
 from tehl.solver.film_summary import film_summary
 from tehl.solver.level import Level
@@ -21,11 +21,13 @@ LARGEST_TRACTION = 0.1
 
 RESOLVED = 0.1
 """Expected error of the film from which on a grid does not resolve it."""
-LESS_ROUGH = "Take lower or longer asperities, a higher speed, or more nodes (numerics.points)."
-_SHEAR_HINT = (
-    'State lubricant.shear, such as { law = "eyring", stress = "5 MPa" }, or slide less '
-    "(contact.slide_roll_ratio)."
+LESS_ROUGH = Hint(
+    "Take lower or longer asperities, a higher speed, or more nodes (numerics.points)."
 )
+
+
+MORE_CYCLES = 4
+"""Factor on ``numerics.max_cycles`` in the hint of a run that was still converging."""
 
 
 class LikelyCause(NamedTuple):
@@ -33,7 +35,7 @@ class LikelyCause(NamedTuple):
 
     cause: str
     message: str
-    hint: str
+    hint: Hint
 
 
 def diverged(run: FilmSolver) -> Status:
@@ -42,11 +44,7 @@ def diverged(run: FilmSolver) -> Status:
     what = f"The iteration diverged on {nx} x {ny} nodes at M = {groups.M:.4g}, L = {groups.L:.4g}."
     found, other = _likely_cause(run), _smoother_hint(run) or _error_hint(run)
     if found is None:
-        hint = (
-            f"Take {grid_hint((nx, ny), groups)}, or approach the case in steps from less load, "
-            "less sliding or a thicker film: it has no evident cause of failure."
-        )
-        hint = LESS_ROUGH if run.roughness.is_rough else hint
+        hint = LESS_ROUGH if run.roughness.is_rough else grid_hint((nx, ny), groups)
         return Status(kind="diverged", cause="diverged", message=what, hint=other or hint)
     message = f"{what} Likely cause: {found.message}"
     return Status(kind="diverged", cause=found.cause, message=message, hint=other or found.hint)
@@ -71,12 +69,15 @@ def not_reached(run: FilmSolver) -> Status:
         f"After {len(reports)} cycles on {last.points[0]} x {last.points[1]} nodes the "
         f"{worst} is {numbers[worst]:.1e}; {wanted}."
     )
-    hint = "Increase numerics.max_cycles."
+    hint = Hint(
+        "it was still converging.", {"numerics.max_cycles": MORE_CYCLES * options.max_cycles}
+    )
     if options.accuracy == "change":
-        hint = "Remove numerics.accuracy: a small change per cycle is not an error estimate."
+        advice = "a small change per cycle is not an error estimate."
+        hint = Hint(advice, {"numerics.accuracy": False})
     if options.accuracy == "change" or len(reports) >= options.max_cycles * run.strategy.patience:
         return Status(kind="not_converged", cause="too_few_cycles", message=message, hint=hint)
-    found, hint = _likely_cause(run), f"Take {grid_hint(run.finest.grid.points, run.groups)}."
+    found, hint = _likely_cause(run), grid_hint(run.finest.grid.points, run.groups)
     if found is not None:
         message, hint = f"{message} Likely cause: {found.message}", found.hint
     return Status(
@@ -111,31 +112,26 @@ def thinnest(level: Level) -> tuple[float, float, float]:
     return (min(found.minimum, node), *found.minimum_at)
 
 
-def _error_hint(run: FilmSolver) -> str:
-    """Return the hint to the error that a coarser grid reached, empty if there is none."""
+def _error_hint(run: FilmSolver) -> Hint | None:
+    """Return the hint to the error that a coarser grid reached, None if there is none."""
     if not run.goal.is_open or run.roughness.is_rough:
-        return ""
+        return None
     reached = run.reached_before()
     if reached is None:
-        return ""
+        return None
     (nx, ny), error = reached
-    return (
-        f'Set numerics.error = "{math.ceil(110.0 * error)} %": {nx} x {ny} nodes converged to an '
-        f"error of {percentage(error)}."
-    )
+    advice = f"{nx} x {ny} nodes converged to an error of {percentage(error)}."
+    return Hint(advice, {"numerics.error": f"{math.ceil(110.0 * error)} %"})
 
 
-def _smoother_hint(run: FilmSolver) -> str:
-    """Return the hint to remove a stated smoother, empty if the default was used."""
-    tried = run.options.smoother
-    if tried == "gauss-seidel":
-        return (
-            "Remove numerics.smoother: plain Gauss-Seidel diverges on any grid where the elastic "
-            "deflection dominates."
-        )
-    if tried in ("auto", "robust"):
-        return ""
-    return "Remove numerics.smoother: the default falls back to more robust settings."
+def _smoother_hint(run: FilmSolver) -> Hint | None:
+    """Return the hint to remove a stated smoother, None if the default was used."""
+    if run.options.smoother in ("auto", "robust"):
+        return None
+    advice = "the default falls back to more robust settings."
+    if run.options.smoother == "gauss-seidel":
+        advice = "plain Gauss-Seidel diverges on any grid where the elastic deflection dominates."
+    return Hint(advice, {"numerics.smoother": False})
 
 
 def likely_cause(grid: Grid, scaled: ScaledProblem) -> LikelyCause | None:
@@ -151,7 +147,7 @@ def likely_cause(grid: Grid, scaled: ScaledProblem) -> LikelyCause | None:
     return LikelyCause(
         cause=found[0].cause,
         message=" ".join(one.message for one in found),
-        hint=" ".join(one.hint for one in found),
+        hint=found[0].hint,
     )
 
 
@@ -173,7 +169,7 @@ def _body_temperature(problem: ContactProblem) -> Iterator[LikelyCause]:
             f"{'above' if offset > 0 else 'below'} the oil at the inlet, whose viscosity changes "
             f"by a factor of {_round(ratio)}."
         ),
-        hint=(
+        hint=Hint(
             f"Take a temperature of {name} within {FAR_BODY:g} K of the oil, or an inlet "
             "temperature nearer to it (thermal.temperature): oil takes the temperature of the "
             "body that it wets."
@@ -199,7 +195,10 @@ def _shear_stress(scaled: ScaledProblem) -> Iterator[LikelyCause]:
             f"{_round(stress / pressure)} times the mean pressure of {pressure / 1e9:.2g} GPa; "
             f"oils reach at most {LARGEST_TRACTION:g} times."
         ),
-        hint=_SHEAR_HINT if oil.shear.law == "newtonian" else "Check lubricant.shear and sliding.",
+        hint=Hint(
+            "oils shear at such stresses.",
+            {"lubricant.shear": {"law": "eyring", "stress": "5 MPa"}},
+        ),
     )
 
 
@@ -215,7 +214,7 @@ def _film_below_grid(grid: Grid, groups: Groups) -> Iterator[LikelyCause]:
             f"{needed} nodes per direction for an error of {percentage(RESOLVED)}; the grid has "
             f"{here}."
         ),
-        hint=f"Take {grid_hint(grid.points, groups)}.",
+        hint=grid_hint(grid.points, groups),
     )
 
 
@@ -224,7 +223,7 @@ def _round(value: float) -> str:
     return f"{float(f'{value:.2g}'):g}"
 
 
-def grid_hint(points: tuple[int, int], groups: Groups) -> str:
-    """Return the key and value of the recommended grid, at least twice as fine as ``points``."""
+def grid_hint(points: tuple[int, int], groups: Groups) -> Hint:
+    """Return the hint to the recommended grid, at least twice as fine as ``points``."""
     needed = expected_points(groups, recommended_domain(groups), RESOLVED)
-    return f"numerics.points = {max(needed, 2 * max(points) - 1)}"
+    return Hint(settings={"numerics.points": max(needed, 2 * max(points) - 1)})

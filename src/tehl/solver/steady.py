@@ -1,7 +1,7 @@
 """Solve a steady contact: choose the grid, try the strategies, judge, assemble the result."""
 
 import platform
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
@@ -31,6 +31,7 @@ from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.ladder import ladder
 from tehl.solver.monitor import SILENT, Monitor, Recorder
 from tehl.solver.outputs import film_heat, film_shear, newtonian_shear
+from tehl.solver.remedy import working_hint
 from tehl.solver.verdict import touching, verdict
 
 GRID_CAUSES = (
@@ -105,8 +106,22 @@ def solve(
         )
     _, result = try_strategies(problem, options, monitor=monitor, rough=True, guess=guess)
     if not result.status.converged:
+        status = result.status
+        unsure = status.kind in ("diverged", "stalled") or status.cause == "error_not_reached"
+        if options.points == "auto" and unsure:
+            result = _with_working_hint(result, monitor)
         raise ConvergenceError(result.status.message or "not converged", result)
     return result
+
+
+def _with_working_hint(failed: Result, monitor: Monitor) -> Result:
+    """Return a failed result with a hint whose settings were tried."""
+
+    def attempt(problem: ContactProblem, options: Options) -> Result:
+        return try_strategies(problem, options, monitor=monitor, rough=True)[1]
+
+    hint = working_hint(failed, attempt, monitor)
+    return replace(failed, status=replace(failed.status, hint=hint))
 
 
 def try_strategies(

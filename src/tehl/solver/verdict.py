@@ -12,7 +12,7 @@ import numpy as np
 from tehl.domain import domain_error
 from tehl.operators.energy import FilmState
 from tehl.scaling import Groups
-from tehl.solution import ErrorEstimate, Status
+from tehl.solution import ErrorEstimate, Hint, Status
 from tehl.solver.convergence import LARGEST_LOAD_ERROR
 from tehl.solver.diagnosis import LESS_ROUGH, diverged, grid_hint, not_reached, thinnest
 from tehl.solver.film_solver import FilmSolver
@@ -24,7 +24,8 @@ from tehl.units import percentage
 CONVERGED = Status(kind="converged")
 TOO_COARSE = ("grid_too_coarse", "film_not_positive")
 """Causes that a finer grid removes."""
-MORE = "Raise numerics.max_time, or take a machine with more memory."
+LONGER = 10.0
+"""Factor on ``numerics.max_time`` in the hint of a run that ended for lack of time."""
 LARGEST_BAR = 0.5
 """Relative discretisation error of the film beyond which a grid is too coarse."""
 OPEN = 1.0
@@ -58,7 +59,7 @@ def verdict(run: FilmSolver, *, reached: bool) -> Status:
         return not_reached(run)
     found = _rough_status(run, errors) if run.roughness.is_rough else _smooth_status(run, errors)
     if found.cause in TOO_COARSE and run.goal.obstacle:
-        return replace(found, message=f"{found.message} But {run.goal.obstacle}.", hint=MORE)
+        return replace(found, message=f"{found.message} But {run.goal.obstacle}.", hint=_more(run))
     # a grid too coarse explains cycles that do not converge
     if found.converged and not reached:
         return not_reached(run)
@@ -68,8 +69,16 @@ def verdict(run: FilmSolver, *, reached: bool) -> Status:
     return found
 
 
-def _failed(cause: str, message: str, hint: str) -> Status:
+def _failed(cause: str, message: str, hint: Hint) -> Status:
     return Status(kind="not_converged", cause=cause, message=message, hint=hint)
+
+
+def _more(run: FilmSolver) -> Hint:
+    """Return the hint to more time, if a finer grid needs no more memory than there is."""
+    if "numerics.max_time" not in run.goal.obstacle:
+        return Hint("Take a machine with more memory.")
+    seconds = LONGER * run.options.max_time
+    return Hint("a finer grid needs it.", {"numerics.max_time": f"{seconds:g} s"})
 
 
 def too_coarse(points: tuple[int, int], groups: Groups, error: float) -> Status:
@@ -87,7 +96,7 @@ def too_coarse(points: tuple[int, int], groups: Groups, error: float) -> Status:
         "grid_too_coarse",
         f"The grid of {points[0]} x {points[1]} nodes is too coarse for the film: its estimated "
         f"relative error is {size}.",
-        f"Take {grid_hint(points, groups)}.",
+        grid_hint(points, groups),
     )
 
 
@@ -100,7 +109,7 @@ def _smooth_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
             "film_not_positive",
             f"The discrete film is not positive on {points[0]} x {points[1]} nodes (smallest H = "
             f"{smallest:.3g}): the grid is too coarse for the film.",
-            f"Take {grid_hint(points, run.groups)}.",
+            grid_hint(points, run.groups),
         )
     if errors is None:
         return CONVERGED
@@ -139,9 +148,9 @@ def _minimum_open(level: Level, error: float) -> Status:
             f"about {100 * error:.0f} % on {level.grid.nx} x {level.grid.ny} nodes: it is thin, at "
             f"most about H = {(1.0 + error) * smallest:.2g}, but its value is not known."
         ),
-        hint=(
-            f"If the minimum matters, take numerics.points = {nodes}, which at second order would "
-            f"reduce its error to {100 * KNOWN:.0f} %."
+        hint=Hint(
+            f"at second order this would reduce the error of the minimum to {100 * KNOWN:.0f} %.",
+            {"numerics.points": nodes},
         ),
     )
 
@@ -204,8 +213,10 @@ def _domain_status(run: FilmSolver) -> Status:
             "domain_too_small",
             f"At M = {groups.M:.4g} the contact is nearly rigid and carries load far outside the "
             f"domain: the film may be {100 * left_out:.0f} % too thin.",
-            'Remove numerics.domain, or set numerics.edges = "far_field": the default domain has '
-            "the pressure of the far field on its edges.",
+            Hint(
+                "the default domain has the pressure of the far field on its edges.",
+                {"numerics.domain": False, "numerics.edges": False},
+            ),
         )
     return _edge_status(run)
 
@@ -235,7 +246,7 @@ def _edge_status(run: FilmSolver) -> Status:
                 cause,
                 f"The {name} = {place:.3g} starves the contact (M = {run.groups.M:.4g}): a fully "
                 f"flooded film needs {needed:.2g} or more (unit: Hertz half-widths).",
-                "Remove numerics.domain: the default domain is large enough.",
+                Hint("the default domain is large enough.", {"numerics.domain": False}),
             )
     return CONVERGED
 
@@ -260,7 +271,7 @@ def _error_status(run: FilmSolver) -> Status:
         f"The error bars on {nx} x {ny} nodes are {percentage(errors.central)} of the central and "
         f"{percentage(errors.minimum)} of the minimum film, above numerics.error = "
         f"{percentage(run.options.target)}: {goal.obstacle or 'the next grid does not converge'}.",
-        f'Set numerics.error = "{math.ceil(110 * reached)} %".',
+        Hint(settings={"numerics.error": f"{math.ceil(110 * reached)} %"}),
     )
 
 
@@ -286,7 +297,7 @@ def _heat_status(run: FilmSolver) -> Status:
     return _failed(
         "heat_not_balanced",
         message,
-        "Take more nodes (numerics.points), more layers (thermal.layers), or less sliding.",
+        Hint("Take more nodes (numerics.points), more layers (thermal.layers), or less sliding."),
     )
 
 

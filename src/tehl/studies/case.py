@@ -4,15 +4,16 @@ import hashlib
 import json
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
+from tehl.io.case import with_settings
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import Result
-from tehl.solution import Cost
+from tehl.solution import Cost, Hint, Settings
 from tehl.version import SOLVER_VERSION, __version__
 
 Label = float | str
@@ -22,7 +23,7 @@ _SOLVED = ("converged", "not_converged", "diverged", "stalled")
 """Statuses that come with fields."""
 _UNITS = {"m": "m", "pa": "Pa", "k": "K", "w": "W", "rad": "rad", "seconds": "s"}
 """Unit by the last part of the name of a number."""
-_NOT_NUMBERS = ("title", "status", "cause", "message", "hint")
+_NOT_NUMBERS = ("title", "status", "cause", "message", "hint", "settings")
 """Keys of a summary that a row holds elsewhere."""
 _PARTS_OF_ESTIMATES = ("value", "uncertainty", "discretisation", "domain", "values")
 
@@ -41,6 +42,13 @@ class Case:
     """Values along the axes of the study, for tables and curves."""
     certify: bool = False
     """Solve on three grids and a larger domain, for error bars."""
+    retry_settings: Settings = field(default_factory=dict)
+    """Numerical settings of hints, which a retry takes; not part of the key."""
+
+    @property
+    def solved_options(self) -> Options:
+        """Options with the settings of hints."""
+        return with_settings(self.options, self.retry_settings)
 
     @cached_property
     def key(self) -> str:
@@ -92,9 +100,11 @@ class Row:
     returned nothing."""
     cause: str | None = None
     message: str | None = None
-    hint: str | None = None
+    hint: Hint | None = None
     """Why it failed, as a word and in sentences; message and hint also of a converged case whose
     minimum film is uncertain."""
+    retry_settings: Settings = field(default_factory=dict)
+    """Settings of hints that the solve took."""
     summary: Mapping[str, Scalar] = field(default_factory=dict)
     """Every number and word of the summary, by dotted names: ``"film.h_min_m"``."""
     cost: Cost = Cost(cpu_seconds=0.0, wall_seconds=0.0)  # noqa: RUF009 (frozen)
@@ -111,16 +121,29 @@ class Row:
         return self.status in _SOLVED
 
 
-def row_of(key: str, result: Result) -> Row:
+def retried(case: Case, row: Row) -> Case:
+    """Return a failed case with the settings of its hint, if they are numerical.
+
+    Others would change the contact.
+    """
+    found = row.hint.settings if row.hint else {}
+    numerical = all(key.startswith("numerics.") for key in found)
+    return replace(
+        case, retry_settings={**row.retry_settings, **found} if numerical else row.retry_settings
+    )
+
+
+def row_of(case: Case, result: Result) -> Row:
     """Return the row of a result, converged or not."""
     status, summary = result.status, result.summary()
     numbers = {k: v for k, v in summary.items() if v is not None and k not in _NOT_NUMBERS}
     return Row(
-        key=key,
+        key=case.key,
         status=status.kind,
         cause=status.cause,
         message=status.message,
         hint=status.hint,
+        retry_settings=case.retry_settings,
         summary=dict(flat(numbers)),
         cost=result.cost,
     )

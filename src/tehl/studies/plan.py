@@ -11,7 +11,7 @@ from typing import Any, get_args
 from pydantic import BaseModel
 
 from tehl.errors import InputError
-from tehl.io.case import case_from_tables, replaced_by
+from tehl.io.case import case_from_tables, changed
 from tehl.options import Options, check_certifiable
 from tehl.problem import ContactProblem
 from tehl.studies.axes import Block, Setting
@@ -106,35 +106,6 @@ def _settings(plan: Plan, rows: tuple[int, ...]) -> Iterator[tuple[str, str, Set
         for path, name, setting in zip(block.paths, block.names, block.rows[row], strict=True):
             if setting is not None:
                 yield path, name, setting
-
-
-def changed(tables: Mapping[str, Any], path: str, value: Any) -> dict[str, Any]:
-    """Return a copy of tables with another value at a path.
-
-    Parameters
-    ----------
-    tables : mapping
-        Tables of a case.
-    path : str
-        Dotted path; a name on the way, such as that of an oil, becomes the table with this name.
-    value
-        The value; ``False`` removes the key.
-    """
-    key, _, deeper = (part.strip() for part in path.partition("."))
-    after = dict(tables)
-    if deeper:
-        below = after.get(key, {})
-        if isinstance(below, str):
-            below = {"name": below}
-        if not isinstance(below, Mapping):
-            raise ValueError(f"{path} goes through {key}, which is not a table in the base case")
-        after[key] = changed(below, deeper, value)
-        after[key].pop(replaced_by(path), None)
-    elif value is False:
-        after.pop(key, None)
-    else:
-        after[key] = value
-    return after
 
 
 def _found_at(problem: ContactProblem, options: Options, path: str) -> tuple[Any, str | None]:

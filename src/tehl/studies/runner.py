@@ -10,7 +10,7 @@ from typing import Protocol
 
 from tehl.errors import InputError
 from tehl.kernels.cache import is_cold
-from tehl.studies.case import Case, Row
+from tehl.studies.case import Case, Row, retried
 from tehl.studies.engines import Engine, WorkerDied, engine_of
 from tehl.studies.store import Store
 from tehl.studies.worker import Files, solve_in_turn, work
@@ -62,6 +62,8 @@ class Outcome:
     failed: tuple[tuple[Case, Row], ...]
     """Failed cases, those of before included, in the order of the study; their rows are without
     summaries."""
+    retried: tuple[tuple[Case, Row], ...]
+    """Converged cases that took the settings of hints, those of before included."""
     cpu_seconds: float
     """Of the solves of this run."""
     wall_seconds: float
@@ -96,7 +98,7 @@ def run(  # noqa: PLR0913 (keywords with defaults)
     scheduler : str or None
         Address of a running dask cluster to solve on instead.
     retry_failed : bool
-        Solve failed cases again.
+        Solve failed cases again, with the numerical settings that their hints name.
     warm_start : bool
         Start cases of ``accuracy = "tight"`` from the nearest finished one. It takes a store that
         keeps fields, saves work where neighbours have nearly the same film, and gives the same
@@ -119,6 +121,8 @@ def run(  # noqa: PLR0913 (keywords with defaults)
     every = {case.key: case for case in cases}
     done = store.finished(every.values())
     if retry_failed:
+        failed = {key: row for key, row in done.items() if not row.converged}
+        every |= {key: retried(every[key], row) for key, row in failed.items()}
         done = {key: row for key, row in done.items() if row.converged}
     waiting = [case for key, case in every.items() if key not in done]
     monitor.begin(len(every), len(done))
@@ -136,6 +140,9 @@ def run(  # noqa: PLR0913 (keywords with defaults)
         converged=sum(row.converged for row in rows.values()),
         uncertain=sum(row.converged and row.hint is not None for row in rows.values()),
         failed=tuple((every[key], rows[key]) for key in every if not rows[key].converged),
+        retried=tuple(
+            (every[key], row) for key, row in rows.items() if row.converged and row.retry_settings
+        ),
         cpu_seconds=sum(row.cost.cpu_seconds for row in solved.values()),
         wall_seconds=time.perf_counter() - start,
     )

@@ -10,6 +10,7 @@ import os
 import sqlite3
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager, suppress
+from dataclasses import asdict
 from pathlib import Path
 from typing import Literal, get_args
 
@@ -17,22 +18,23 @@ from tehl.errors import FileFormatError, InputError
 from tehl.io.atomic import check_place
 from tehl.io.store import load_as
 from tehl.result import Result
-from tehl.solution import Cost
+from tehl.solution import Cost, Hint
 from tehl.studies.case import Case, Row
 
 Keep = Literal["summary", "fields"]
 
-_FORMAT = 1
+_FORMAT = 2
 _TIMEOUT = 60.0
 """Seconds to wait for another study that writes into the same store."""
 _REMEDY = "bring back a copy of it, or remove it and all its cases are solved again"
-_COLUMNS = "key, status, cause, message, hint, summary, cpu_seconds, wall_seconds"
+_COLUMNS = "key, status, cause, message, hint, retry_settings, summary, cpu_seconds, wall_seconds"
 _READABLE = "CASE WHEN json_valid(summary) THEN json_type(summary) = 'object' ELSE 0 END"
 """Whether the summary of a row can be read; a row where it cannot is not finished."""
 _SCHEMA = f"""
 CREATE TABLE IF NOT EXISTS rows (
     key TEXT PRIMARY KEY, status TEXT NOT NULL, cause TEXT, message TEXT, hint TEXT,
-    summary TEXT NOT NULL, cpu_seconds REAL NOT NULL, wall_seconds REAL NOT NULL
+    retry_settings TEXT NOT NULL, summary TEXT NOT NULL,
+    cpu_seconds REAL NOT NULL, wall_seconds REAL NOT NULL
 ) WITHOUT ROWID;
 PRAGMA user_version = {_FORMAT};
 """
@@ -197,12 +199,14 @@ class Store:
 
 
 def _line(row: Row) -> tuple[str | float | None, ...]:
-    words = (row.cause, row.message, row.hint)
+    hint = json.dumps(asdict(row.hint)) if row.hint else None
+    words = (row.cause, row.message, hint)
     return (
         row.key,
         row.status,
         # names of files may hold characters that UTF-8 cannot
         *(word and word.encode("utf-8", "replace").decode("utf-8") for word in words),
+        json.dumps(dict(row.retry_settings)),
         json.dumps(dict(row.summary), allow_nan=False),
         row.cost.cpu_seconds,
         row.cost.wall_seconds,
@@ -211,10 +215,18 @@ def _line(row: Row) -> tuple[str | float | None, ...]:
 
 def _row(line: tuple[str, ...]) -> Row | None:
     """Return a row from the columns of the table, None if it is damaged."""
-    key, status, cause, message, hint, summary, cpu, wall = line
+    key, status, cause, message, hint, retry_settings, summary, cpu, wall = line
     try:
         cost = Cost(cpu_seconds=float(cpu), wall_seconds=float(wall))
-        words = {"cause": cause, "message": message, "hint": hint}
-        return Row(key=key, status=status, **words, summary=json.loads(summary), cost=cost)
+        return Row(
+            key=key,
+            status=status,
+            cause=cause,
+            message=message,
+            hint=Hint(**json.loads(hint)) if hint else None,
+            retry_settings=json.loads(retry_settings),
+            summary=json.loads(summary),
+            cost=cost,
+        )
     except (ValueError, TypeError):
         return None

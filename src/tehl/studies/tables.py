@@ -5,6 +5,7 @@ import re
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
+from tehl.solution import settings_text
 from tehl.studies.case import Case, Scalar, unit_of
 from tehl.studies.store import Store
 
@@ -14,8 +15,8 @@ if TYPE_CHECKING:
 OPEN = "open"
 """Status of a case that is not finished."""
 _OUTCOME = ("status", "cause", "message")
-_BUILT_IN = ("name", *_OUTCOME, "hint", "key")
-"""Columns that every table has, and the hint of a case."""
+_BUILT_IN = ("name", *_OUTCOME, "hint", "retry_settings", "key")
+"""Columns that every table has, the hint of a case, and the settings of a retry."""
 
 _WAVE = (
     "wavelength_m angle_rad amplitude_m points_per_wave film_amplitude_m film_phase_rad film_ratio "
@@ -87,6 +88,8 @@ def table(
             line |= {"status": OPEN, "cause": None, "message": None}
         else:
             line |= {name: getattr(row, name) for name in _OUTCOME} | dict(row.summary)
+            if row.retry_settings:
+                line["retry_settings"] = settings_text(row.retry_settings)
         lines.append(line | {"key": case.key})
     labels = [label for case in cases for label in case.labels]
     names = dict.fromkeys(["name", *labels, *_OUTCOME, *(name for line in lines for name in line)])

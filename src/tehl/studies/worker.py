@@ -99,7 +99,7 @@ def work(case: Case, fields: Path | None, guess: Path | None = None) -> Row:
     wall, cpu = time.perf_counter(), time.process_time()
     try:
         result = _solved(case, guess)
-        row = row_of(case.key, result)
+        row = row_of(case, result)
     except Exception as error:  # an error in one case must not end a thousand
         cost = Cost(cpu_seconds=time.process_time() - cpu, wall_seconds=time.perf_counter() - wall)
         return replace(_failed(case, error), cost=cost)
@@ -114,7 +114,14 @@ def _failed(case: Case, error: Exception) -> Row:
         status, cause, message = "bad_input", "bad_input", str(error)
     elif isinstance(error, MemoryError):
         cause, message = "out_of_memory", "not enough memory: take fewer points or fewer jobs"
-    return Row(key=case.key, status=status, cause=cause, message=" ".join(message.split()))
+    message = " ".join(message.split())
+    return Row(
+        key=case.key,
+        status=status,
+        cause=cause,
+        message=message,
+        retry_settings=case.retry_settings,
+    )
 
 
 def _solved(case: Case, guess: Path | None) -> Result:
@@ -126,8 +133,9 @@ def _solved(case: Case, guess: Path | None) -> Result:
         with suppress(TehlError):
             known = load_as(Result, guess)
     try:
+        options = case.solved_options
         if case.certify:
-            return certify(case.problem, case.options)
-        return solve(case.problem, case.options, guess=known)
+            return certify(case.problem, options)
+        return solve(case.problem, options, guess=known)
     except ConvergenceError as error:
         return error.result

@@ -15,7 +15,7 @@ from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import ConvergenceError, Result
 from tehl.scaling import ScaledProblem
-from tehl.solution import Status
+from tehl.solution import Hint, Status
 from tehl.solver.cost import Clock
 from tehl.solver.level import Level
 from tehl.solver.measures import mid_film_traction
@@ -228,14 +228,14 @@ class Run:
     def step_not_settled(self, error: StepError, seconds: float) -> Status:
         """Return ``step_not_settled``: the time step to ``seconds`` did not converge."""
         (nx, ny), tolerance = self.level.grid.points, self.transient.tolerance
-        hint = (
+        hint = Hint(
             "Take lower or longer asperities, more nodes (numerics.points), or more cycles per "
             "step (transient.max_cycles)."
         )
         if error.cause == "stalled" and tolerance < error.change < NEARLY_CONVERGED:
-            hint = (
-                f"Set transient.tolerance = {NEARLY_CONVERGED:g} or more (now {tolerance:g}): the "
-                "pressure has nearly converged."
+            hint = Hint(
+                f"the pressure has nearly converged (now {tolerance:g}).",
+                {"transient.tolerance": NEARLY_CONVERGED},
             )
         return Status(
             kind=error.cause,
@@ -262,9 +262,10 @@ class Run:
                 "film that carries the whole load does not describe; on a finer grid they may "
                 "not. The steps before it are kept."
             )
-            hint = (
-                f"Take numerics.points = {2 * max(grid.points) - 1} to see whether a finer grid "
-                "has a film, else lower or longer asperities, or a higher speed."
+            hint = Hint(
+                "a finer grid may have a film; else take lower or longer asperities, or a higher "
+                "speed.",
+                {"numerics.points": 2 * max(grid.points) - 1},
             )
         else:
             cause = "film_not_positive"
@@ -272,7 +273,9 @@ class Run:
                 f"{where}, between smooth surfaces: the load grows too fast, or beyond the domain. "
                 "The steps before it are kept."
             )
-            hint = "Let the load grow more slowly or less, or take more nodes (numerics.points)."
+            hint = Hint(
+                "Let the load grow more slowly or less, or take more nodes (numerics.points)."
+            )
         return Status(kind="not_converged", cause=cause, message=message, hint=hint)
 
     def result(self, status: Status) -> TransientResult:
