@@ -3,6 +3,7 @@
 import numpy as np
 
 from tehl.operators.energy import FilmState
+from tehl.operators.film import hertz_pressure
 from tehl.operators.heated_film import stress_unit
 from tehl.post.heat import lagrange_weights
 from tehl.scaling import ScaledProblem
@@ -17,7 +18,7 @@ SPIKE_FROM = 0.5
 def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> dict[str, float]:
     """Return the values of a converged grid by name.
 
-    ``pressure_max`` and ``spike``, the largest pressure downstream [-]; of a sliding contact
+    ``pressure_max``, ``spike`` and its ``excess`` over Hertz [-]; of a sliding contact
     ``traction_mid_film`` [-]; of a heated film the rises that `tehl.post.heat.Temperature` has [K].
 
     Parameters
@@ -30,7 +31,7 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
     pressure = level.film.p
     found = {
         "pressure_max": float(pressure.max()),
-        "spike": float(pressure[:, level.grid.x > SPIKE_FROM].max()),
+        **_spike(level),
     }
     if state is not None and state.grid != level.grid:
         return found
@@ -39,6 +40,14 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
     if state is not None and state.model.terms.heat:
         found |= _rises(state)
     return found
+
+
+def _spike(level: Level) -> dict[str, float]:
+    """Return the pressure where it exceeds that of Hertz most, downstream, and its excess [-]."""
+    behind = level.grid.x > SPIKE_FROM
+    pressure = level.film.p[:, behind]
+    excess = pressure - hertz_pressure(level.grid)[:, behind]
+    return {"spike": float(pressure.flat[excess.argmax()]), "excess": float(excess.max())}
 
 
 def mid_film_traction(
