@@ -42,8 +42,8 @@ def expected_seconds(scaled: ScaledProblem, options: Options) -> float:
         cycles * (EACH_CYCLE + newton) + (cycles + STARTING) * each * _nodes(grid)
         for grid, cycles in finer
     )
-    seconds = START + SAMPLES * _sampled(scaled.problem) + FIRST_STEPS * newton + work
-    return seconds * (_surplus(scaled) if options.points == "auto" else 1.0)
+    work *= _surplus(scaled) if options.points == "auto" else 1.0
+    return START + SAMPLES * _sampled(scaled.problem) + FIRST_STEPS * newton + work
 
 
 def expected_cycles(scaled: ScaledProblem, options: Options) -> list[tuple[Grid, int]]:
