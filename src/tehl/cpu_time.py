@@ -58,7 +58,7 @@ def expected_cycles(scaled: ScaledProblem, options: Options) -> list[tuple[Grid,
 
 def _surplus(scaled: ScaledProblem) -> float:
     """Return the factor for grids finer than planned, and for fallbacks."""
-    problem, groups = scaled.problem, scaled.groups
+    problem, groups = scaled.problem, scaled.entering
     thick = groups.M < THICK and groups.L > VISCOUS
     return FINER if problem.is_coupled and thick and not problem.is_rough else SURPLUS
 
