@@ -32,9 +32,9 @@ least L where they do."""
 def expected_seconds(scaled: ScaledProblem, options: Options) -> float:
     """Return the CPU time of a solve to expect on one core of a usual machine [s].
 
-    Constants are medians of 200 random contacts with M = 2 to 2000 and L = 0.5 to 20; 90 % of
-    others are within a factor of two (``python -m benchmarks.coverage``). Contacts that fall back
-    to slower strategies or take two grids more are not foreseen.
+    The constants are a fit to 200 random contacts with M = 2 to 2000 and L = 0.5 to 20
+    (``python -m benchmarks.coverage``). Of others nine of ten take half to twice as long, of heated
+    ones three of four: fallbacks to other strategies and further grids take longer.
     """
     (coarsest, _), *finer = expected_cycles(scaled, options)
     newton, each = COARSEST * _nodes(coarsest) ** 3, _seconds_per_node(scaled.problem)
