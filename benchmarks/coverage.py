@@ -1,7 +1,8 @@
 """Random contacts from the defaults: which reach 2 %, whether error bars hold and hints work.
 
 ``python -m benchmarks.coverage --contacts 1000 --seed 1`` prints which contacts of each class
-converge to 2 %, with the causes of the others. ``--judge`` solves each that converges once more on
+converge to 2 %, with the causes of the others, and how the times compare with those of
+``tehl explain``. ``--judge`` solves each that converges once more on
 a grid four times as fine, twice if that takes more than 1025 nodes or 513 of a heated one, and
 prints how the differences compare with the error bars. ``--follow`` solves each that fails once
 more with the settings of its hint. ``--minutes`` bounds the time.
@@ -22,17 +23,20 @@ import numpy as np
 from benchmarks.measure import attempt
 from benchmarks.random_contacts import contact
 from benchmarks.table import Cell, Table
+from tehl.cpu_time import expected_seconds
 from tehl.errors import InputError
 from tehl.io.case import case_from_tables, changed
 from tehl.options import Options
 from tehl.result import Result
-from tehl.scaling import groups
+from tehl.scaling import ScaledProblem, groups
 
 CLASSES = ("isothermal", "thinning", "heated", "rough")
 RANGES = (("M < 7", 0.0, 7.0), ("M 7-500", 7.0, 500.0), ("M > 500", 500.0, np.inf))
 NAMES = ("film_central", "film_minimum", "pressure_max", "traction_mid_film", "film_rise_max")
 FINEST, FINEST_HEATED, AFFORDABLE = 1025, 513, 2049
 """Most nodes of a judge that is four times as fine, and of any judge."""
+FACTOR = 2.0
+"""Factor within which the times of nine of ten contacts should be."""
 
 
 def values(result: Result) -> dict[str, float]:
@@ -81,6 +85,9 @@ def row(task: tuple[int, int, float, bool, bool]) -> dict[str, Any]:
         "seconds": time.process_time() - began,
         "bars": bars(result),
     }
+    if status.converged:
+        expected = expected_seconds(ScaledProblem.of(problem), options)
+        found["time"] = result.cost.cpu_seconds / expected
     if judge and status.converged:
         found["off"] = _off(result, result.scaled.x.size, heated=kind == "heated")
     if follow and not status.converged:
@@ -143,6 +150,23 @@ def robustness(rows: list[dict[str, Any]]) -> Table:
     return made
 
 
+def times(rows: list[dict[str, Any]]) -> Table:
+    """Return how the CPU times of the contacts that converge compare with those expected."""
+    made = Table(
+        title=f"CPU times over those that tehl explain expects (within a factor of {FACTOR:g})",
+        columns=("class", "contacts", "within, %", "median", "10 %", "90 %"),
+    )
+    for kind in ("all", *CLASSES):
+        ratios = np.array(
+            [one["time"] for one in rows if "time" in one and kind in ("all", one["class"])]
+        )
+        if ratios.size:
+            within = 100.0 * float((np.abs(np.log(ratios)) <= np.log(FACTOR)).mean())
+            quantiles = map(float, np.quantile(ratios, (0.5, 0.1, 0.9)))
+            made.rows.append((kind, ratios.size, within, *quantiles))
+    return made
+
+
 def coverage(rows: list[dict[str, Any]]) -> Table:
     """Return how the differences to finer grids compare with the error bars."""
     made = Table(
@@ -196,7 +220,7 @@ def main() -> None:
             rows += pool.map(row, some)
             if given.json:
                 given.json.write_text("".join(json.dumps(one) + "\n" for one in rows))
-    tables = [robustness(rows)]
+    tables = [robustness(rows), times(rows)]
     tables += [coverage(rows)] if given.judge else []
     tables += [hints(rows)] if given.follow else []
     sys.stdout.write("\n".join(table.text() for table in tables))

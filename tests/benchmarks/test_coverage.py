@@ -1,7 +1,7 @@
 """The tables of random contacts."""
 
 import pytest
-from benchmarks.coverage import coverage, hints, robustness, row
+from benchmarks.coverage import coverage, hints, robustness, row, times
 from benchmarks.random_contacts import contact
 
 
@@ -23,10 +23,18 @@ def test_a_contact_that_fails_counts_by_its_cause_and_others_by_their_bars():
     assert coverage([good, bad]).rows == [("film_central", 1, 100.0, 100.0, 0.5, 0.5)]
 
 
+def test_times_count_by_class_if_they_are_within_a_factor_of_two():
+    ratios = {"isothermal": (0.6, 1.9), "heated": (1.0, 2.1)}
+    rows = [{"class": kind, "time": time} for kind, both in ratios.items() for time in both]
+    within = {kind: (count, part) for kind, count, part, *_ in times([*rows, {}]).rows}
+    assert within == {"all": (4, 75.0), "isothermal": (2, 100.0), "heated": (2, 50.0)}
+
+
 def test_a_light_contact_is_solved_and_judged():
     number = next(k for k in range(100) if contact(7, k)[1] == "isothermal")
     found = row((7, number, 30.0, True, True))
     assert found["cause"] is None
+    assert found["time"] > 0.0
     assert 0.0 < found["off"]["film_central"] < 1.0
     assert "followed" not in found
 

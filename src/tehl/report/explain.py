@@ -4,6 +4,7 @@ from dataclasses import asdict, dataclass
 from html import escape
 from typing import Any
 
+from tehl.cpu_time import expected_seconds
 from tehl.domain import chosen_domain, domain_of, planned
 from tehl.film_formulas import (
     FilmEstimate,
@@ -28,11 +29,6 @@ from tehl.report.rendering import render
 from tehl.report.transient_plan import TransientPlan, transient_plan
 from tehl.scaling import ScaledProblem
 
-LEAST_SECONDS = 0.02
-SECONDS, SECONDS_THINNING, SECONDS_HEATED, SECONDS_ROUGH = 0.8e-6, 1.9e-6, 4.6e-6, 3.3e-6
-"""CPU time of a solve on one core of a usual machine: the least, and per node of the finest full
-grid, of isothermal Newtonian films, of thinning ones, heated ones, and between rough surfaces
-(medians of 70 random contacts; ``python -m benchmarks.coverage``)."""
 LEAST_RISE, LEAST_TRACTION = 0.1, 1e-4
 """Temperature rise [K] and traction coefficient below which no number is shown."""
 
@@ -131,19 +127,11 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
         recommended_domain=wanted,
         expected_points=follows.shape[0],
         memory=needed_memory(options, problem),
-        seconds=expected_seconds(problem, ny * nx),
+        seconds=expected_seconds(scaled, asked),
         time=plan,
         questions=questions(scaled, asked, heat, bodies, heights)
         + (plan.questions if plan else ()),
     )
-
-
-def expected_seconds(problem: ContactProblem, nodes: int) -> float:
-    """Return the CPU time of a solve to expect on ``nodes`` of the finest full grid [s]."""
-    each = SECONDS_ROUGH if problem.is_rough else SECONDS
-    if problem.is_coupled:
-        each = max(each, SECONDS_THINNING if problem.thermal is None else SECONDS_HEATED)
-    return LEAST_SECONDS + each * nodes
 
 
 def _sources(problem: ContactProblem) -> tuple[str | None, ...]:

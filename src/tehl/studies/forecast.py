@@ -4,18 +4,18 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from tehl.cpu_time import expected_seconds
 from tehl.domain import planned
 from tehl.errors import InputError
 from tehl.memory import available_memory, needed_memory
 from tehl.options import Options
-from tehl.report.explain import expected_seconds
 from tehl.scaling import ScaledProblem
 from tehl.studies.case import Case, Row
 
 _CERTIFIED = 3.5
 """Work of a certified solve over that of its finest grid, to tight tolerances."""
 _BASE_SECONDS, _START_SECONDS = 0.025, 3.0
-"""Of a solve, beside those by node; until workers solve."""
+"""Of a case, beside its solve; until workers solve."""
 _ROW_BYTES, _FILE_BYTES = 3_500, 25_000
 """Of a finished case: its row; its file of fields, beside those by node."""
 _FIELD_BYTES, _LAYER_BYTES = 37, 8
@@ -87,7 +87,7 @@ def _plan(case: Case) -> Options:
 
 
 def _seconds(case: Case) -> float:
-    seconds = expected_seconds(case.problem, math.prod(_plan(case).shape)) + _BASE_SECONDS
+    seconds = expected_seconds(ScaledProblem.of(case.problem), case.options) + _BASE_SECONDS
     return seconds * (_CERTIFIED if case.certify else 1.0)
 
 
