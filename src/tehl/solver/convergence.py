@@ -31,8 +31,9 @@ SMOOTH_PART, WAVE_PART = 1.7, 20.0
 SPIKE_GROWTH, UNRESOLVED_GROWTH, SLOWING = 2.0, 6.0, 0.7
 """Further growth of the pressure spike over its last change, where that is less than this part of
 the one before, and where it is not."""
-LARGE_GROWTH = 0.01
-"""Relative growth of the largest pressure on a finer grid above which it must slow down."""
+LARGE_GROWTH, SECOND_ORDER = 0.01, 0.35
+"""Relative growth of the largest pressure on a finer grid above which its change must be less than
+this part of the one before: a quarter is second order."""
 SHARED = 0.25
 """Part of the change of the central film below which the error of the minimum is not estimated: two
 coarse grids may agree on a thin minimum by chance."""
@@ -262,9 +263,13 @@ def error_estimate(
         bars.append(max(bar, SHARED * changes[0]) / film)
     estimate = _estimate(traces[-1], domain, *bars)
     found = further_errors(traces, ROUGH_PART if rough else 1.0, domain)
+    resolved = _resolves_spike(traces, found)
     if "traction_mid_film" in found:  # the shear rate is the sliding speed over the film
         found["traction_mid_film"] = max(found["traction_mid_film"], estimate.central)
-    others: dict[str, Any] = found | {"spike_resolved": _resolves_spike(traces, found)}
+    elif "film_rise_max" in found and not (resolved and _slows(_excess(traces))):
+        # without sliding the oil is hottest where it flows through the spike
+        found["film_rise_max"] = max(found["film_rise_max"], 1.0)
+    others: dict[str, Any] = found | {"spike_resolved": resolved}
     return replace(estimate, **others)
 
 
@@ -302,21 +307,26 @@ def _resolves_spike(traces: list[GridTrace], errors: Mapping[str, float]) -> boo
     L = 11: 0.17, 0.25, 0.34, 0.45, 0.55 on 65 to 1025 nodes), until the spike is the largest
     pressure, which then grows in the same way.
     """
-    known = [one.measured for one in traces if one.measured][-3:]
+    known, excess = [one.measured for one in traces if one.measured][-3:], _excess(traces)
     if len(known) < 2:
         return True
-    largest, excess = ([one[name] for one in known] for name in ("pressure_max", "excess"))
+    largest = [one["pressure_max"] for one in known]
     change = largest[-1] - largest[-2]
-    if change > LARGE_GROWTH * largest[-1] and not _slows(largest):
+    if change > LARGE_GROWTH * largest[-1] and not _slows(largest, SECOND_ORDER):
         return False
     growth = max(excess[-1] - excess[-2], 0.0)
     further = (SPIKE_GROWTH if _slows(excess) else UNRESOLVED_GROWTH) * growth
     return known[-1]["spike"] + further <= (1.0 + errors["pressure_max"]) * largest[-1]
 
 
-def _slows(values: list[float]) -> bool:
-    """Return whether the last change of three values is clearly less than the one before."""
-    return len(values) == 3 and values[2] - values[1] < SLOWING * (values[1] - values[0])
+def _excess(traces: list[GridTrace]) -> list[float]:
+    """Return the excess of the spike over the Hertz pressure on the last grids [-]."""
+    return [one.measured["excess"] for one in traces if one.measured][-3:]
+
+
+def _slows(values: list[float], part: float = SLOWING) -> bool:
+    """Return whether the last change of three values is less than a part of the one before."""
+    return len(values) == 3 and values[2] - values[1] < part * (values[1] - values[0])
 
 
 def single_grid_estimate(
