@@ -59,3 +59,12 @@ def test_stated_nodes_are_not_searched(monkeypatch):
     monkeypatch.setattr(steady, "working_hint", None)
     with pytest.raises(ConvergenceError):
         solve(moes(2000.0), Options(points=33))
+
+
+def test_a_contact_that_lacks_time_gets_an_error_that_was_reached():
+    with pytest.raises(ConvergenceError) as caught:
+        solve(moes(100.0), Options(error=1e-4, max_time=0.05))
+    status = caught.value.result.status
+    assert status.cause in ("error_not_reached", "grid_too_coarse")
+    assert "nodes then converge" in str(status.hint)
+    assert solve(moes(100.0), Options(error=status.hint.settings["numerics.error"]))

@@ -32,7 +32,7 @@ from tehl.solver.ladder import ladder
 from tehl.solver.monitor import SILENT, Monitor, Recorder
 from tehl.solver.outputs import film_heat, film_shear, newtonian_shear
 from tehl.solver.remedy import working_hint
-from tehl.solver.verdict import touching, verdict
+from tehl.solver.verdict import TOO_COARSE, touching, verdict
 
 GRID_CAUSES = (
     "grid_too_coarse",
@@ -42,6 +42,8 @@ GRID_CAUSES = (
     "sides_too_close",
 )
 """Causes of failure that no other strategy removes."""
+WITHOUT_ERROR = ("error_not_reached", *TOO_COARSE)
+"""Causes of failure for which a larger error may converge."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -107,7 +109,7 @@ def solve(
     _, result = try_strategies(problem, options, monitor=monitor, rough=True, guess=guess)
     if not result.status.converged:
         status = result.status
-        unsure = status.kind in ("diverged", "stalled") or status.cause == "error_not_reached"
+        unsure = status.kind in ("diverged", "stalled") or status.cause in WITHOUT_ERROR
         if options.points == "auto" and unsure:
             result = _with_working_hint(result, monitor)
         raise ConvergenceError(result.status.message or "not converged", result)

@@ -24,8 +24,6 @@ from tehl.units import percentage
 CONVERGED = Status(kind="converged")
 TOO_COARSE = ("grid_too_coarse", "film_not_positive")
 """Causes that a finer grid removes."""
-LONGER = 10.0
-"""Factor on ``numerics.max_time`` in the hint of a run that ended for lack of time."""
 LARGEST_BAR = 0.5
 """Relative discretisation error of the film beyond which a grid is too coarse."""
 OPEN = 1.0
@@ -59,7 +57,7 @@ def verdict(run: FilmSolver, *, reached: bool) -> Status:
         return not_reached(run)
     found = _rough_status(run, errors) if run.roughness.is_rough else _smooth_status(run, errors)
     if found.cause in TOO_COARSE and run.goal.obstacle:
-        return replace(found, message=f"{found.message} But {run.goal.obstacle}.", hint=_more(run))
+        return replace(found, message=f"{found.message} But {run.goal.obstacle}.")
     # a grid too coarse explains cycles that do not converge
     if found.converged and not reached:
         return not_reached(run)
@@ -71,14 +69,6 @@ def verdict(run: FilmSolver, *, reached: bool) -> Status:
 
 def _failed(cause: str, message: str, hint: Hint) -> Status:
     return Status(kind="not_converged", cause=cause, message=message, hint=hint)
-
-
-def _more(run: FilmSolver) -> Hint:
-    """Return the hint to more time, if a finer grid needs no more memory than there is."""
-    if "numerics.max_time" not in run.goal.obstacle:
-        return Hint("Take a machine with more memory.")
-    seconds = LONGER * run.options.max_time
-    return Hint("a finer grid needs it.", {"numerics.max_time": f"{seconds:g} s"})
 
 
 def too_coarse(points: tuple[int, int], groups: Groups, error: float) -> Status:
