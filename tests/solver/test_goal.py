@@ -99,6 +99,23 @@ def test_a_nearly_rigid_contact_agrees_with_a_domain_four_times_as_wide(load, sp
     )
 
 
+@pytest.mark.parametrize(
+    "domain", [{"x": (-3.4, 1.5), "y": (-1.2, 1.2)}, {"x": (-1.01, 1.01), "y": (-1.01, 1.01)}]
+)
+def test_a_stated_domain_that_is_too_narrow_for_the_far_field_fails_with_a_hint(domain):
+    problem = moes_contact(75.0, 11.0)
+    usual = solve(problem, Options()).film_scaled
+    with pytest.raises(ConvergenceError) as caught:
+        solve(problem, Options(domain=Domain(**domain), edges="far_field"))
+    found = caught.value.result
+    assert found.status.cause == "error_not_reached"
+    assert "due to numerics.domain" in found.status.message
+    assert found.status.hint.settings["numerics.domain"] is False
+    for name in ("central", "minimum"):
+        there, bar = getattr(usual, name), getattr(found.errors, name)
+        assert getattr(found.film_scaled, name) == pytest.approx(there, rel=bar)
+
+
 NAMES = ("pressure_max", "traction_mid_film", "film_rise_max", "mid_film_rise_central")
 
 

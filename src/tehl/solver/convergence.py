@@ -266,8 +266,8 @@ def error_estimate(
     resolved = _resolves_spike(traces, found)
     if "traction_mid_film" in found:  # the shear rate is the sliding speed over the film
         found["traction_mid_film"] = max(found["traction_mid_film"], estimate.central)
-    elif "film_rise_max" in found and not (resolved and _slows(_excess(traces))):
-        # without sliding the oil is hottest where it flows through the spike
+    elif _is_hottest_inside(traces[-1]) and not (resolved and _slows(_excess(traces))):
+        # without sliding that is where the oil flows through the spike
         found["film_rise_max"] = max(found["film_rise_max"], 1.0)
     others: dict[str, Any] = found | {"spike_resolved": resolved}
     return replace(estimate, **others)
@@ -317,6 +317,13 @@ def _resolves_spike(traces: list[GridTrace], errors: Mapping[str, float]) -> boo
     growth = max(excess[-1] - excess[-2], 0.0)
     further = (SPIKE_GROWTH if _slows(excess) else UNRESOLVED_GROWTH) * growth
     return known[-1]["spike"] + further <= (1.0 + errors["pressure_max"]) * largest[-1]
+
+
+def _is_hottest_inside(trace: GridTrace) -> bool:
+    """Return whether the largest rise is in the oil, not on a surface."""
+    rises = trace.measured
+    surfaces = max(rises.get(f"surface_{side}_rise_max", 0.0) for side in (1, 2))
+    return rises.get("film_rise_max", 0.0) > (1.0 + LARGE_GROWTH) * surfaces
 
 
 def _excess(traces: list[GridTrace]) -> list[float]:

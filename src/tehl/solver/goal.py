@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from tehl.domain import far_field_error
 from tehl.entering import entry_error
 from tehl.memory import available_memory, needed_memory
-from tehl.options import Options, can_be_halved
+from tehl.options import Domain, Options, can_be_halved
 from tehl.scaling import ScaledProblem
 from tehl.solution import ErrorEstimate
 from tehl.solver.continuation import Roughness
@@ -145,10 +145,10 @@ class Goal:
         available = available_memory() or math.inf
         self.obstacle = ""
         if errors is not None and errors.domain > self.options.target:
-            self.obstacle = (
-                f"{percentage(errors.domain)} are due to the domain, upstream of which the bodies "
-                "warm or cool the oil"
-            )
+            cause = "the domain, upstream of which the bodies warm or cool the oil"
+            if isinstance(self.options.domain, Domain):
+                cause = "numerics.domain"
+            self.obstacle = f"{percentage(errors.domain)} are due to {cause}"
         elif max(nx, ny) > LARGEST:
             self.obstacle = f"grids have at most {LARGEST} nodes along one direction"
         elif needed > available:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from functools import partial
 
 from tehl.errors import TehlError
-from tehl.options import Options
+from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.result import Result
 from tehl.solution import Hint, Settings, settings_text
@@ -38,7 +38,7 @@ def working_hint(failed: Result, solve: Solve, monitor: Monitor) -> Hint:
     limit = min(LONGER * failed.cost.wall_seconds, failed.options.max_time)
     end = time.perf_counter() + max(limit, LEAST_SECONDS)
     found = None
-    for trials in (_errors(failed), _other_physics(failed)):
+    for trials in (_default_domain(failed), _errors(failed), _other_physics(failed)):
         for settings, problem, options in trials:
             left = end - time.perf_counter()
             if left <= 0.0:
@@ -65,6 +65,13 @@ def _tried(settings: Settings, solve: Callable[[], Result]) -> Hint | None:
 
 
 Trial = tuple[Settings, ContactProblem, Options]
+
+
+def _default_domain(failed: Result) -> Iterator[Trial]:
+    """Yield the default domain in place of a stated one."""
+    if isinstance(failed.options.domain, Domain):
+        options = failed.options.model_copy(update={"domain": "auto", "edges": "auto"})
+        yield {"numerics.domain": False, "numerics.edges": False}, failed.problem, options
 
 
 def _errors(failed: Result) -> Iterator[Trial]:
