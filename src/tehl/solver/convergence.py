@@ -268,7 +268,7 @@ def error_estimate(
         found["traction_mid_film"] = max(found["traction_mid_film"], estimate.central)
     elif _is_hottest_inside(traces[-1]) and not (resolved and _slows(_excess(traces))):
         # without sliding that is where the oil flows through the spike
-        found["film_rise_max"] = max(found["film_rise_max"], 1.0)
+        found["film_rise_max"] = max(found.get("film_rise_max", 1.0), 1.0)
     others: dict[str, Any] = found | {"spike_resolved": resolved}
     return replace(estimate, **others)
 
