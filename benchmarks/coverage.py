@@ -32,7 +32,10 @@ from tehl.scaling import ScaledProblem, groups
 
 CLASSES = ("isothermal", "thinning", "heated", "rough")
 RANGES = (("M < 7", 0.0, 7.0), ("M 7-500", 7.0, 500.0), ("M > 500", 500.0, np.inf))
-NAMES = ("film_central", "film_minimum", "pressure_max", "traction_mid_film", "film_rise_max")
+NAMES = (
+    *("film_central", "film_minimum", "pressure_max", "traction_mid_film", "film_rise_max"),
+    *("heat_shear", "heat_surface_2", "ripple_film", "ripple_pressure"),
+)
 FINEST, FINEST_HEATED, AFFORDABLE = 1025, 513, 2049
 """Most nodes of a judge that is four times as fine, and of any judge."""
 FACTOR = 2.0
@@ -49,8 +52,13 @@ def values(result: Result) -> dict[str, float]:
     }
     if traction is not None:
         found["traction_mid_film"] = traction.mid_film
-    if heat is not None:
+    if heat is not None and result.heat is not None:
         found["film_rise_max"] = heat.film_rise_max
+        balance = result.heat.balance
+        found |= {"heat_shear": balance.shear, "heat_surface_2": balance.surface_2}
+    if result.heights is not None and result.roughness is not None:
+        rough = result.roughness
+        found |= {"ripple_film": rough.ripple_film, "ripple_pressure": rough.ripple_pressure}
     return found
 
 

@@ -144,6 +144,13 @@ class ErrorEstimate:
     mid_film_rise_central: float | None = None
     surface_1_rise_max: float | None = None
     surface_2_rise_max: float | None = None
+    ripple_film: float | None = None
+    ripple_pressure: float | None = None
+    heat_shear: float | None = None
+    heat_compression: float | None = None
+    heat_surface_1: float | None = None
+    heat_surface_2: float | None = None
+    heat_carried_out: float | None = None
     """Error bars of further values, all parts together, relative [-]; None if the contact does not
     have the value, or too few grids do."""
     spike_resolved: bool = True

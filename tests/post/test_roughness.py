@@ -18,7 +18,7 @@ from tehl.post.micro_film import (
     smooth_reference,
     typical_wavelength,
 )
-from tehl.post.roughness import area_below, film_histogram, film_in_contact, rough_film
+from tehl.post.roughness import area_below, film_histogram, film_in_contact, ripples, rough_film
 from tehl.post.thermal_effect import ThermalEffect
 from tehl.problem import ContactProblem
 from tests.fixtures_result import CASE, make_result
@@ -150,3 +150,14 @@ def test_theory_is_null_where_it_does_not_hold(rough):
     assert block["waves"][0]["theory_film_ratio"] is None
     assert block["waves"][0]["theory_pressure_pa"] is None
     assert block["wave_notes"][0].startswith("no theory")
+
+
+@pytest.mark.parametrize("half", [False, True])
+def test_ripples_are_the_rms_about_a_parabola(half):
+    x = np.linspace(-2.0, 2.0, 401)
+    y = x[200:] if half else x
+    wave = np.cos(40.0 * np.pi * x) + 0.0 * y[:, None]
+    hertz = np.sqrt(np.maximum(0.0, 1.0 - x**2 - y[:, None] ** 2))
+    film = 0.2 + 0.1 * x + 0.05 * y[:, None] ** 2 + 0.01 * wave
+    found = ripples(x, y, film, hertz - 0.3 * wave)
+    assert found == pytest.approx((0.01 / math.sqrt(2.0), 0.3 / math.sqrt(2.0)), rel=0.02)

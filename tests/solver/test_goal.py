@@ -1,5 +1,6 @@
 """Accuracy on request: the grid follows from the error to reach, the domain from the film."""
 
+import math
 import tomllib
 from itertools import pairwise
 
@@ -126,6 +127,9 @@ def values(run) -> dict[str, float]:
         "traction_mid_film": run.traction.mid_film,
         "film_rise_max": run.temperature.film_rise_max,
         "mid_film_rise_central": run.temperature.mid_film_rise_central,
+        "heat_shear": run.heat.balance.shear,
+        "heat_surface_1": run.heat.balance.surface_1,
+        "heat_surface_2": run.heat.balance.surface_2,
     }
 
 
@@ -138,6 +142,19 @@ def test_pressure_traction_and_temperatures_have_error_bars_that_hold(shear):
         bar = getattr(found.errors, name)
         assert 0.0 < bar < 1.0
         assert value == pytest.approx(finer[name], rel=bar)
+
+
+@pytest.mark.parametrize("angle", [0.0, math.pi / 4])
+def test_ripples_of_a_wave_have_error_bars_that_hold(angle):
+    wave = {"type": "wave", "amplitude": 6e-8, "wavelength": 5e-5, "angle": angle}
+    case = moes_contact(75.0, 11.0).model_dump(exclude_none=True)
+    case["surface_2"] |= {"roughness": wave}
+    found = solve(ContactProblem.model_validate(case), Options())
+    finer = solve(found.problem, Options(points=2 * found.scaled.x.size - 1)).roughness
+    for name in ("ripple_film", "ripple_pressure"):
+        bar = getattr(found.errors, name)
+        assert 0.0 < bar < 0.2
+        assert getattr(found.roughness, name) == pytest.approx(getattr(finer, name), rel=bar)
 
 
 @pytest.mark.parametrize(("load", "speed", "resolved"), [(10, 2, True), (10, 10, False)])

@@ -248,6 +248,8 @@ def roughness_block(found: RoughFilm) -> Block:
         "area_below_half_median": found.below_half,
         "minimum_at": found.minimum_at,
         "P_max": found.largest_pressure,
+        "ripple_film_m": found.ripple_film,
+        "ripple_pressure_pa": found.ripple_pressure,
         "ripples_x": {"count": found.ripples_x.count, "depth_m": found.ripples_x.depth},
         "ripples_y": {"count": found.ripples_y.count, "depth_m": found.ripples_y.depth},
         "waves": [_wave(wave) for wave in found.waves],

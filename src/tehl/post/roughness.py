@@ -17,6 +17,8 @@ QUANTILES = (0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
 """Parts of the contact whose films are reported."""
 SHALLOWEST = 0.01
 """Depth of a ripple that counts, over the mean film of the line [-]."""
+MIDDLE = 0.5
+"""Radius of the middle of the contact, in half-widths."""
 _LINE = 0.8
 _SMOOTH = 1e-12
 """Sq of both surfaces up to which they are smooth [m]: the foot of a bump far upstream."""
@@ -62,6 +64,10 @@ class RoughFilm:
     """Where the minimum film is, in half-widths [-]."""
     largest_pressure: float
     """Over the Hertz pressure [-]."""
+    ripple_film: float
+    ripple_pressure: float
+    """Root mean square of the film [m], and of the pressure less that of Hertz [Pa], about a
+    parabola where R < 0.5."""
     ripples_x: Ripples
     ripples_y: Ripples
     """On the centre lines along and across entrainment."""
@@ -100,6 +106,8 @@ def rough_film(result: Solution, smooth: Solution | None = None) -> RoughFilm | 
     formula = expected_film(result.scaled_problem)
     central = result.film.central if result.heights is None else middle_film(result)
     row, column = (int(np.argmin(np.abs(axis))) for axis in (result.scaled.y, result.scaled.x))
+    scaled = result.scaled
+    ripple_film, ripple_pressure = ripples(scaled.x, scaled.y, scaled.film, scaled.pressure)
     return RoughFilm(
         sq=(first, second),
         sq_on_grid=sq_on_grid(result),
@@ -113,11 +121,38 @@ def rough_film(result: Solution, smooth: Solution | None = None) -> RoughFilm | 
         below_half=area_below(result, 0.5 * float(np.median(film))),
         minimum_at=result.film_scaled.minimum_at,
         largest_pressure=float(result.scaled.pressure.max()),
+        ripple_film=ripple_film * result.scales.film_thickness,
+        ripple_pressure=ripple_pressure * result.scales.hertz_pressure,
         ripples_x=_ripples(result.scaled.x, result.film_thickness[row]),
         ripples_y=_ripples(result.scaled.y, result.film_thickness[:, column]),
         waves=wave_responses(result, smooth),
         wave_notes=wave_notes(result),
     )
+
+
+def ripples(x: Array, y: Array, film: Array, pressure: Array) -> tuple[float, float]:
+    """Return the rms of film and of pressure less that of Hertz, about a parabola [-].
+
+    Parameters
+    ----------
+    x : (nx,) array
+    y : (ny,) array
+        Coordinates in half-widths, y of the full or of the half domain.
+    film, pressure : (ny, nx) array
+        Dimensionless.
+    """
+    radius = x**2 + y[:, None] ** 2
+    inside = radius < MIDDLE**2
+    rows, columns = np.nonzero(inside)
+    # a half domain stands for both halves, but its row y = 0 for itself
+    weight = np.where(y[rows] == 0.0, 0.5 if y[0] == 0.0 else 1.0, 1.0)
+    root = np.sqrt(weight / weight.sum())
+    shape = np.stack([np.ones(rows.size), x[columns], x[columns] ** 2, y[rows] ** 2])
+    values = np.stack([film[inside], pressure[inside] - np.sqrt(1.0 - radius[inside])])
+    fitted, *_ = np.linalg.lstsq((root * shape).T, (root * values).T, rcond=None)
+    rest = (values - fitted.T @ shape) * root
+    found = np.linalg.norm(rest, axis=1)
+    return float(found[0]), float(found[1])
 
 
 def sq_of(result: Solution) -> tuple[float, float]:

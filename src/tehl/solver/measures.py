@@ -1,15 +1,18 @@
 """Values beside the film that get error bars: pressure, traction and temperatures on each grid."""
 
+from dataclasses import asdict
+
 import numpy as np
 
 from tehl.operators.energy import FilmState
 from tehl.operators.film import hertz_pressure
 from tehl.operators.heated_film import stress_unit
 from tehl.post.heat import lagrange_weights
+from tehl.post.roughness import ripples
 from tehl.scaling import ScaledProblem
 from tehl.solver.film_summary import central_value
 from tehl.solver.level import Level
-from tehl.solver.outputs import newtonian_sliding
+from tehl.solver.outputs import heat_balance, newtonian_sliding
 
 SPIKE_FROM = 0.5
 """X downstream of which the pressure spike is searched, in Hertz half-widths."""
@@ -18,8 +21,10 @@ SPIKE_FROM = 0.5
 def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> dict[str, float]:
     """Return the values of a converged grid by name.
 
-    ``pressure_max``, ``spike`` and its ``excess`` over Hertz [-]; of a sliding contact
-    ``traction_mid_film`` [-]; of a heated film the rises that `tehl.post.heat.Temperature` has [K].
+    ``pressure_max``, ``spike`` and its ``excess`` over Hertz [-]; of a rough contact
+    ``ripple_film`` and ``ripple_pressure`` [-]; of a sliding one ``traction_mid_film`` [-]; of a
+    heated film the rises that `tehl.post.heat.Temperature` has [K], and ``heat_`` with the names
+    of the powers in `tehl.fields.HeatBalance` [W].
 
     Parameters
     ----------
@@ -33,12 +38,16 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
         "pressure_max": float(pressure.max()),
         **_spike(level),
     }
+    if level.heights is not None:
+        ripple_film, ripple_pressure = ripples(level.grid.x, level.grid.y, level.film.h, pressure)
+        found |= {"ripple_film": ripple_film, "ripple_pressure": ripple_pressure}
     if state is not None and state.grid != level.grid:
         return found
     if scaled.problem.slide_roll_ratio:
         found["traction_mid_film"] = mid_film_traction(level, scaled, state)
     if state is not None and state.model.terms.heat:
-        found |= _rises(state)
+        powers = asdict(heat_balance(state))
+        found |= _rises(state) | {f"heat_{name}": power for name, power in powers.items()}
     return found
 
 

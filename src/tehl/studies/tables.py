@@ -40,12 +40,13 @@ _BLOCKS = {
     "surface_1_sq_on_grid_m surface_2_sq_on_grid_m composite_sq_on_grid_m lost_share warning "
     "lambda_central lambda_minimum lambda_by_formula lubrication film_quantiles.0.part "
     "film_quantiles.0.h_m area_below_composite_sq area_below_half_median minimum_at.0 P_max "
-    "ripples_x.count ripples_x.depth_m ripples_y.count ripples_y.depth_m "
-    + " ".join(f"waves.0.{key}" for key in _WAVE.split()),
+    "ripple_film_m ripple_pressure_pa ripples_x.count ripples_x.depth_m ripples_y.count "
+    "ripples_y.depth_m " + " ".join(f"waves.0.{key}" for key in _WAVE.split()),
     "convergence": "cycles residual change load_error heat_balance_error",
     "errors": "central minimum discretisation_central discretisation_minimum iteration_central "
     "iteration_minimum domain pressure_max traction_mid_film film_rise_max mid_film_rise_central "
-    "surface_1_rise_max surface_2_rise_max spike_resolved",
+    "surface_1_rise_max surface_2_rise_max ripple_film ripple_pressure heat_shear heat_compression "
+    "heat_surface_1 heat_surface_2 heat_carried_out spike_resolved",
     "cost": "points.0 cpu_seconds wall_seconds work",
 }
 """Columns of the summary by their blocks; of a list, those of its first entry."""
