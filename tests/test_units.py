@@ -40,6 +40,7 @@ from tehl.units import (
         (Speed, "500 rpm at 40 mm", 500 / 60 * 2 * math.pi * 0.04),
         (Speed, "500 1/min at 4 cm", 500 / 60 * 2 * math.pi * 0.04),
         (PressureCoefficient, "20 1/GPa", 2e-8),
+        (PressureCoefficient, "20/GPa", 2e-8),
         (PressureCoefficient, "20 GPa^-1", 2e-8),
         (PressureCoefficient, "20 GPa⁻¹", 2e-8),
         (Temperature, "40 degC", 313.15),

@@ -6,7 +6,7 @@ from typing import Annotated, Literal, Self
 from pydantic import BeforeValidator, Field, model_validator
 
 from tehl.errors import InputError
-from tehl.units import PositiveNumber, Table, Time
+from tehl.units import Duration, Share, Table
 
 
 def _not_a_boolean(value: object) -> object:
@@ -60,7 +60,7 @@ def _fault_of_edges(low: float, high: float) -> str:
 class Options(Table):
     """Numerical options of a run; the defaults suit a smooth isothermal contact."""
 
-    error: Annotated[PositiveNumber, Field(ge=1e-4, le=0.5)] | None = None
+    error: Annotated[Share, Field(ge=1e-4, le=0.5)] | None = None
     """Relative error of the central and of the minimum film to reach, such as ``"1 %"``; 2 % if
     neither it nor ``points`` is stated. Full multigrid goes on to finer grids until its estimate is
     below. Between rough surfaces the error of the minimum is relative to the central film of the
@@ -68,7 +68,7 @@ class Options(Table):
     points: Nodes | tuple[Nodes, Nodes] | Literal["auto"] = "auto"
     """Nodes per direction (x, y) of the finest grid, ``n 2^k + 1``: then ``error`` is not enforced,
     and only chooses the domain."""
-    max_time: Time = 3600.0
+    max_time: Duration = 3600.0
     """Time after which no finer grid is started."""
     domain: Domain | Literal["auto"] = "auto"
     """``"auto"`` takes the domain from the Moes load so that it contributes less than 0.3 % to the

@@ -187,6 +187,11 @@ class Quantity:
         return self._check(float(value))
 
     @property
+    def is_share(self) -> bool:
+        """Whether messages have it in per cent."""
+        return "%" in self.example
+
+    @property
     def _expected(self) -> str:
         return f"expected {self.name} such as {self.example}"
 
@@ -205,7 +210,7 @@ class Quantity:
             return number + _ZERO_CELSIUS
         if turning := _TURNING.match(unit):
             return number * self._per_turn(unit, unit[turning.end() :].strip())
-        factor = self._factor(unit)
+        factor = self._factor(f"1{unit}" if unit.startswith("/") else unit)  # 22/GPa
         return number if factor == 1.0 else float(f"{number * factor:.15g}")  # 22 1/GPa is 2.2e-8
 
     def _per_turn(self, unit: str, radius: str) -> float:
@@ -243,6 +248,8 @@ class Quantity:
             raise ValueError(f"is not a number; {self._expected}")
         if math.isinf(number) and not (self.flat and number > 0):
             raise ValueError(f"is not finite; {self._expected}")
+        if self.unit == "K" and not number > 0:
+            raise ValueError(f"is below absolute zero; {self._expected}")
         if self.sign == "positive" and not number > 0:
             raise ValueError(f"must be positive; {self._expected}")
         if self.sign == "non-negative" and not number >= 0:
@@ -280,7 +287,9 @@ class Quantity:
         pattern = rf"^\s*({sign}(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?{unit}{_FLAT * self.flat})\s*$"
         text: JsonSchemaValue = {"type": "string", "pattern": pattern, "examples": [example]}
         if self.unit == "-":
-            return {"anyOf": [number | {"examples": [float(example)]}, text]}
+            return {
+                "anyOf": [number | ({} if self.is_share else {"examples": [float(example)]}), text]
+            }
         return {
             "anyOf": [text, number],
             "description": f"{self.name}; a bare number is in {self.unit}",
@@ -299,6 +308,7 @@ def _kind(dimension: Dimension, unit: str) -> str:
 
 
 Time = Annotated[float, Quantity("a time", "s", '"2 ms"')]
+Duration = Annotated[float, Quantity("a time", "s", '"10 min"')]
 Instant = Annotated[float, Quantity("a time", "s", '"2 ms"', "non-negative")]
 Length = Annotated[float, Quantity("a length", "m", '"20 mm"')]
 Height = Annotated[float, Quantity("a length", "m", '"0.05 um"', "non-negative")]
@@ -333,6 +343,7 @@ SolidHeatCapacity = Annotated[float, Quantity("a heat capacity per mass", "J/kg/
 Angle = Annotated[float, Quantity("an angle", "rad", '"45 deg"', "any")]
 Number = Annotated[float, Quantity("a plain number", "-", "0.25", "any")]
 PositiveNumber = Annotated[float, Quantity("a plain number", "-", "100")]
+Share = Annotated[float, Quantity("a share", "-", '"1 %"')]
 Ratio = Annotated[float, Quantity("a plain number", "-", "0.6", "non-negative")]
 StressSlope = Annotated[float, Quantity("a plain number", "-", "0.04", "non-negative")]
 

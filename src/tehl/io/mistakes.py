@@ -13,7 +13,7 @@ from pydantic_core import ErrorDetails
 from tehl.errors import InputError
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.units import Quantity
+from tehl.units import Quantity, percentage
 
 NUMERICS = "numerics"
 """Table of a case that holds its options."""
@@ -230,18 +230,19 @@ def _limits(mistake: _Mistake) -> str:
     found = {} if field is None else dict(_limits_of(field.annotation, field.metadata))
     if found.pop("whole", False) and {"ge", "le"} <= found.keys():
         return f"must be a whole number from {found['ge']} to {found['le']}"
-    words = [f"{_COMPARISONS[name]} {found[name]:g}" for name in _COMPARISONS if name in found]
+    write = percentage if found.pop("is_share", False) else "{:g}".format
+    words = [f"{text} {write(found[name])}" for name, text in _COMPARISONS.items() if name in found]
     return f"must be {' and '.join(words)}" if words else ""
 
 
 def _limits_of(annotation: Any, notes: list[Any]) -> Iterator[tuple[str, Any]]:
-    """Yield the limits of a field by name, and whether it is a whole number."""
+    """Yield the limits of a field by name, and whether it is a whole number or a share."""
     if annotation is int:
         yield "whole", True
     for note in notes:
         if isinstance(note, FieldInfo):
             yield from _limits_of(None, note.metadata)
-        for name in _COMPARISONS:
+        for name in (*_COMPARISONS, "is_share"):
             if (limit := getattr(note, name, None)) is not None:
                 yield name, limit
     for argument in get_args(annotation):
