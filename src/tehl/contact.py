@@ -12,6 +12,7 @@ from tehl.lubricant import NamedLubricant
 from tehl.materials import NamedSolid, reduced_modulus
 from tehl.roughness import AnyRoughness, Smooth
 from tehl.roughness.model import with_rms
+from tehl.supply import Cavitation, Supply
 from tehl.transient import Transient
 from tehl.units import (
     Force,
@@ -152,6 +153,10 @@ class PointContact(Table):
     """Settings of the heat; None is an isothermal film."""
     transient: Transient | None = None
     """Settings of a transient run, in which roughness moves with its surface; None is steady."""
+    supply: Supply | None = None
+    """The oil that reaches the inlet; None is fully flooded."""
+    cavitation: Cavitation | None = None
+    """What happens to the oil in cavities; None conserves it in starved contacts only."""
 
     @property
     def radii(self) -> Radii:
@@ -300,4 +305,12 @@ class PointContact(Table):
     @property
     def is_even_in_y(self) -> bool:
         """Whether the problem is symmetric in y, so that half of the domain suffices."""
-        return self.surface_1.roughness.is_even_in_y and self.surface_2.roughness.is_even_in_y
+        supply = self.supply is None or self.supply.is_even_in_y
+        surfaces = self.surface_1.roughness, self.surface_2.roughness
+        return supply and all(roughness.is_even_in_y for roughness in surfaces)
+
+    @property
+    def conserves_oil(self) -> bool:
+        """Whether oil is conserved in cavities."""
+        stated = self.cavitation is not None and self.cavitation.model == "conserving"
+        return stated or self.supply is not None

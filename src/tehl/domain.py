@@ -7,6 +7,7 @@ from tehl.entering import entry_error
 from tehl.film_formulas import expected_central_film, moes_film_unit
 from tehl.options import USUAL_ERROR, Domain, Options
 from tehl.scaling import Groups, ScaledProblem
+from tehl.starvation import is_starved, starved_domain, supplied_film
 
 CAUTION = 2.0
 """Factor on the slope of the film formula by load, which is half of what wider domains show between
@@ -106,7 +107,12 @@ def domain_error(groups: Groups, domain: Domain) -> float:
 
 
 def expected_bar(
-    groups: Groups, domain: Domain, nodes: float, *, is_coupled: bool = False
+    groups: Groups,
+    domain: Domain,
+    nodes: float,
+    *,
+    is_coupled: bool = False,
+    film: float | None = None,
 ) -> float:
     """Return the error bar of the film by the mesh to expect, the larger of central and minimum.
 
@@ -121,9 +127,11 @@ def expected_bar(
         Nodes per direction.
     is_coupled : bool
         Whether the film is heated or thins by shear.
+    film : float or None
+        Central film of a starved contact [-].
     """
     width = (domain.x[1] - domain.x[0]) / (nodes - 1)
-    film = expected_central_film(groups)
+    film = expected_central_film(groups) if film is None else film
     factor = BAR * (BAR_COUPLED if is_coupled else 1.0)
     loads = groups.M**0.77 * max(groups.L, 0.1) ** 0.2
     return float(factor * width**2 * loads / (film**0.59 * groups.ellipticity**1.05))
@@ -136,6 +144,7 @@ def expected_points(
     *,
     is_coupled: bool = False,
     least: float = 0.0,
+    film: float | None = None,
 ) -> int:
     """Return the nodes per direction on which the error bars of the film will be below an error.
 
@@ -149,14 +158,15 @@ def expected_points(
         Whether the film is heated or thins by shear.
     least : float
         Nodes that must be exceeded, for waves of the surfaces.
+    film : float or None
+        Central film of a starved contact [-].
     """
     left = max(error - far_field_error(groups, domain), 0.5 * error) / MARGIN
-    enough = (
-        nodes
+    bars = (
+        (nodes, expected_bar(groups, domain, nodes, is_coupled=is_coupled, film=film))
         for nodes in FAMILIES
-        if nodes > least and expected_bar(groups, domain, nodes, is_coupled=is_coupled) <= left
     )
-    return next(enough, FAMILIES[-1])
+    return next((nodes for nodes, bar in bars if nodes > least and bar <= left), FAMILIES[-1])
 
 
 def _nodes_of_waves(scaled: ScaledProblem, domain: Domain) -> float:
@@ -182,6 +192,7 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
         options.target,
         is_coupled=scaled.problem.is_coupled,
         least=_nodes_of_waves(scaled, domain),
+        film=supplied_film(scaled) if is_starved(scaled) else None,
     )
     return options.on_points(nodes, nodes)
 
@@ -194,7 +205,12 @@ def domain_of(scaled: ScaledProblem, options: Options) -> Domain:
 
 
 def chosen_domain(scaled: ScaledProblem, error: float) -> Domain:
-    """Return the recommended domain, wider where bodies still warm or cool the oil that enters."""
+    """Return the recommended domain, wider where bodies still warm or cool the oil that enters.
+
+    That of a starved contact contains all of its film: the pressure on its edges is zero.
+    """
+    if is_starved(scaled):
+        return starved_domain(scaled)
     domain = recommended_domain(scaled.entering, error)
     excess = entry_error(scaled, domain) / (0.5 * error)
     if excess <= 1.0:

@@ -66,6 +66,7 @@ def check(problem: PointContact) -> None:
     check_temperatures(problem)
     check_heat(problem)
     check_transient(problem)
+    check_supply(problem)
     if problem.contact.moes_speed is not None and not problem.pressure_coefficient > 0:
         raise ValueError(
             "contact.moes_speed does not determine a speed: lubricant.viscosity has no pressure "
@@ -192,6 +193,16 @@ def check_transient(problem: PointContact) -> None:
         raise ValueError(
             "transient: nothing changes with time; give a surface roughness, transient.load or "
             "transient.duration"
+        )
+
+
+def check_supply(problem: PointContact) -> None:
+    """Check that the oil of a starved contact is conserved."""
+    supply, cavitation = problem.supply, problem.cavitation
+    if supply is not None and cavitation is not None and cavitation.model == "reynolds":
+        raise ValueError(
+            'cavitation.model = "reynolds" does not know how much oil there is, which [supply] '
+            'states: take "conserving", or leave out [cavitation]'
         )
 
 

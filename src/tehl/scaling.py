@@ -61,11 +61,14 @@ class ScaledProblem:
     problem: ContactProblem
     scales: Scales
     groups: Groups
+    flooded_oil: float | None = None
+    """rho H in the middle of the same contact fully flooded [-]; None is that of the formula."""
 
     @classmethod
-    def of(cls, problem: ContactProblem) -> "ScaledProblem":
+    def of(cls, problem: ContactProblem, flooded_oil: float | None = None) -> "ScaledProblem":
         """Scale a problem."""
-        return cls(problem=problem, scales=scales(problem), groups=groups(problem))
+        scaled, numbers = scales(problem), groups(problem)
+        return cls(problem=problem, scales=scaled, groups=numbers, flooded_oil=flooded_oil)
 
     @property
     def entering(self) -> Groups:

@@ -13,7 +13,7 @@ import numpy as np
 
 from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.raw import raw
-from tehl.kernels.reynolds import Stencil
+from tehl.kernels.reynolds import Stencil, flux_weights
 from tehl.typing import Array, FlagArray, IntArray
 
 HERE, EAST, WEST, NORTH, SOUTH, FAR = range(6)
@@ -35,6 +35,8 @@ class Coarse(NamedTuple):
     eps_h: Array
     stretch_x: Array
     stretch_y: Array
+    partial: FlagArray
+    second: FlagArray
 
 
 class CoarseSystem(NamedTuple):
@@ -155,6 +157,8 @@ def _slopes(state: Coarse, stencil: Stencil, work: Work) -> None:
     here = near[HERE]
     for n in range(EAST, FAR):
         there, along = near[n], n <= WEST
+        if stencil.conserves and n == WEST and state.partial[there] and not state.partial[here]:
+            continue
         c = 0.5 * (stencil.cx if along else stencil.cy)
         mine = c * (state.stretch_x[here] if along else state.stretch_y[here])
         theirs = c * (state.stretch_x[there] if along else state.stretch_y[there])
@@ -163,10 +167,14 @@ def _slopes(state: Coarse, stencil: Stencil, work: Work) -> None:
         by_h[HERE] += drop * mine * eps_h[here]
         by_p[n] += face + drop * theirs * eps_p[there]
         by_h[n] += drop * theirs * eps_h[there]
-    first = near[FAR] == near[WEST]
+    first, far, west = near[FAR] == near[WEST], near[FAR], near[WEST]
     w0 = stencil.w0 - stencil.w2 if first else stencil.w0
     w1 = stencil.w1 + 2.0 * stencil.w2 if first else stencil.w1
     w2 = 0.0 if first else stencil.w2
+    if stencil.conserves:
+        partial = state.partial[here] > 0, state.partial[west] > 0, state.partial[far] > 0
+        orders = state.second[here] > 0, state.second[west] > 0
+        w0, w1, w2 = flux_weights(stencil, partial, orders, 1 if first else 2)
     for n, w in ((HERE, w0), (WEST, w1), (FAR, w2)):
         there = near[n]
         by_p[n] -= w * state.drho[there] * state.h[there]

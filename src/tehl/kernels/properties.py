@@ -8,9 +8,11 @@ times ``step``, rho, its slope times ``step`` (`tehl.operators.flow`).
 
 from typing import NamedTuple
 
+import numpy as np
+
 from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.raw import raw
-from tehl.typing import Array
+from tehl.typing import Array, FlagArray
 
 
 class Film(NamedTuple):
@@ -18,7 +20,9 @@ class Film(NamedTuple):
 
     ``eps_x, eps_y`` are the conductances along x and y: ``eps`` itself, or those of a small change
     of the pressure gradient at constant sliding speed if the film thins in shear
-    (`tehl.kernels.reynolds.tangent_source`).
+    (`tehl.kernels.reynolds.tangent_source`). Of a film whose oil is conserved (`Stencil.conserves`),
+    ``partial`` marks the cavitated nodes whose gap is partly filled, ``second`` the nodes that
+    pass on oil with second order, and ``layer`` (ny,) is the oil that enters each line.
     """
 
     p: Array
@@ -28,6 +32,9 @@ class Film(NamedTuple):
     drho: Array
     eps_x: Array
     eps_y: Array
+    partial: FlagArray = np.zeros((0, 0), np.uint8)
+    second: FlagArray = np.zeros((0, 0), np.uint8)
+    layer: Array = np.zeros(0)
 
 
 class Factors(NamedTuple):

@@ -15,7 +15,7 @@ proven for tridiagonal M-matrices (Brennan and Schwartz 1977).
 Eight lines of one colour are solved at once (`tehl.kernels.lanes`).
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -23,7 +23,7 @@ from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.lanes import LANES, any_of, where
 from tehl.kernels.properties import Film
 from tehl.kernels.raw import raw
-from tehl.kernels.reynolds import Stencil, clear, line_operator, row_below
+from tehl.kernels.reynolds import Stencil, clear, flux_weights, line_operator, row_below
 from tehl.typing import Array, FlagArray, Records
 
 Span = tuple[int, int]
@@ -38,9 +38,12 @@ EAST, ACROSS, MASS_P, RHO, DIPOLE, REST, P, STATE = range(8)
 ``stiffness``; d(rho h)/dp, density, 1 for a dipole, residual, pressure, and its state."""
 BAND = ("west_3", "west_2", "west_1", "centre", "east_1", "east_2")
 """Coefficients of the unknowns at i - 3 .. i + 2."""
-FIELDS = (*LOADED, *BAND, "up_1", "up_2", "u")
-"""Fields of a node; the last three are the eliminated upper bands and the solution."""
-U = len(FIELDS) - 1
+FLUX = ("own", "upstream", "farther", "back")
+"""Where oil is conserved: weights of the mass of the node and of two nodes upstream in the
+difference of the fluxes, and conductance to the west, zero behind a partly filled node."""
+FIELDS = (*LOADED, *BAND, "up_1", "up_2", "u", *FLUX)
+"""Fields of a node; ``up_1, up_2, u`` are the eliminated upper bands and the solution."""
+U, OWN, UPSTREAM, FARTHER, BACK = (FIELDS.index(name) for name in ("u", *FLUX))
 NODE = np.dtype([(name, np.float64, (LANES,)) for name in FIELDS])
 
 
@@ -159,6 +162,26 @@ def _load_line(
         cells[at, P, lane] = film.p[j, i]
         state = CAVITATED if film.p[j, i] <= 0.0 and rest[lane, i] >= 0.0 else FREE
         cells[at, STATE, lane] = KEPT if relaxation.frozen[j, i] else state
+    if stencil.conserves:
+        _load_flux(film, stencil, relaxation, place, span)
+
+
+@helper
+def _load_flux(
+    film: Film, stencil: Stencil, relaxation: LineRelaxation, place: Span, span: Span
+) -> None:
+    """Copy the weights of the oil flux at a span of nodes to a lane."""
+    (j, lane), cells, partial, second = place, relaxation.cells, film.partial, film.second
+    for i in range(max(span[0], 1), span[1]):
+        at, far = i + MARGIN, max(i - 2, 0)
+        here, west, farther = partial[j, i] > 0, partial[j, i - 1] > 0, partial[j, far] > 0
+        orders = second[j, i] > 0, second[j, i - 1] > 0
+        w0, w1, w2 = flux_weights(stencil, (here, west, farther), orders, i)
+        back = 0.5 * stencil.cx * (film.eps_x[j, i] + film.eps_x[j, i - 1])
+        cells[at, OWN, lane] = w0
+        cells[at, UPSTREAM, lane] = w1
+        cells[at, FARTHER, lane] = w2
+        cells[at, BACK, lane] = 0.0 if west and not here else back
 
 
 @helper
@@ -170,22 +193,46 @@ def _leave_out(cells: Array, lane: int, span: Span) -> None:
 
 @helper
 def _fill_band(relaxation: LineRelaxation, stencil: Stencil, i: int) -> None:
-    """Fill the coefficients of node ``i``: change of L there per unit change of each unknown.
-
-    The column follows the type of the unknown: a point changes p at one node, a dipole at its
-    four neighbours too; both change the film along the line.
-    """
-    nodes, p, d = relaxation.nodes, relaxation.point, relaxation.dipole
-    d0, d1, d2, d3, d4 = d[0] - p[0], d[1] - p[1], d[2] - p[2], d[3] - p[3], d[4] - p[4]
+    """Fill the coefficients of node ``i``: change of L there per unit change of each unknown."""
+    if stencil.conserves:
+        here = relaxation.nodes[i + 3]
+        _fill_row(relaxation, i, (here.own, here.upstream, here.farther), here.back)
+        return
     w0, w1, w2 = stencil.w0, stencil.w1, stencil.w2
     if i == 1:
         w0, w1, w2 = w0 - w2, w1 + 2.0 * w2, 0.0
+    _fill_row(relaxation, i, (w0, w1, w2), relaxation.nodes[i + 2].east)
+
+
+@helper
+def _fill_row(
+    relaxation: LineRelaxation, i: int, weights: tuple[Any, Any, Any], west_east: Any
+) -> None:
+    """Fill the coefficients of node ``i``.
+
+    The column follows the type of the unknown: a point changes p at one node, a dipole at its
+    four neighbours too; both change the film along the line.
+
+    Parameters
+    ----------
+    relaxation : LineRelaxation
+        Settings and systems.
+    i : int
+        Number of the node.
+    weights : three floats or lanes
+        Of the mass of the node and of the two nodes upstream.
+    west_east : lanes
+        Conductance to the west.
+    """
+    nodes, p, d = relaxation.nodes, relaxation.point, relaxation.dipole
+    d0, d1, d2, d3, d4 = d[0] - p[0], d[1] - p[1], d[2] - p[2], d[3] - p[3], d[4] - p[4]
+    w0, w1, w2 = weights
     farthest, far, west, here, east, beyond = (
         nodes[i], nodes[i + 1], nodes[i + 2], nodes[i + 3], nodes[i + 4], nodes[i + 5]
     )  # fmt: skip
     # dL/dp at i-2, i-1, i, i+1 and dL/dh at i-2, i-1, i
-    a_ww, a_w, a_e = -w2 * far.mass_p, west.east - w1 * west.mass_p, here.east
-    a_c = -a_e - west.east - here.across - w0 * here.mass_p
+    a_ww, a_w, a_e = -w2 * far.mass_p, west_east - w1 * west.mass_p, here.east
+    a_c = -a_e - west_east - here.across - w0 * here.mass_p
     b_ww, b_w, b_c = -w2 * far.rho, -w1 * west.rho, -w0 * here.rho
     # column of a point at i + s, then the difference if the node relaxes as a dipole
     change = b_ww * d1 + b_w * d2 + b_c * d3 - 0.25 * a_ww

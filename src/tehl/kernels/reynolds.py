@@ -23,7 +23,7 @@ class Stencil(NamedTuple):
 
     ``cx = 1/dx^2``, ``cy = 1/(kappa dy)^2``; ``w0, w1, w2`` weigh rho h of a node and of its
     upstream neighbours: the wedge, in a time step wedge and squeeze at the new time; ``mirror`` is
-    1 if row 0 is a symmetry line.
+    1 if row 0 is a symmetry line; ``conserves`` is 1 if oil is conserved in cavities too.
     """
 
     cx: float
@@ -32,6 +32,7 @@ class Stencil(NamedTuple):
     w1: float
     w2: float
     mirror: int
+    conserves: int = 0
 
 
 @helper
@@ -52,6 +53,16 @@ def clear(field: Array | FlagArray) -> None:
 @helper
 def line_operator(film: Film, stencil: Stencil, j: int, out: Array, row: int) -> None:
     """Write L(p) on line ``j`` to ``row`` of ``out``; the ends are not touched."""
+    _line_flow(film, stencil, j, out, row)
+    if stencil.conserves:
+        _subtract_flux(film, stencil, j, out, row)
+    else:
+        _subtract_wedge(film, stencil, j, out, row)
+
+
+@helper
+def _line_flow(film: Film, stencil: Stencil, j: int, out: Array, row: int) -> None:
+    """Write the pressure flow into each cell of line ``j`` to ``row`` of ``out``."""
     p, eps_x, eps_y, nx = film.p, film.eps_x, film.eps_y, film.p.shape[1]
     south, north = row_below(j), j + 1
     half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
@@ -61,7 +72,6 @@ def line_operator(film: Film, stencil: Stencil, j: int, out: Array, row: int) ->
         flow_x = east * (p[j, i + 1] - p[j, i]) - west * (p[j, i] - p[j, i - 1])
         flow_y = upper * (p[north, i] - p[j, i]) - lower * (p[j, i] - p[south, i])
         out[row, i] = half_x * flow_x + half_y * flow_y
-    _subtract_wedge(film, stencil, j, out, row)
 
 
 @helper
@@ -74,6 +84,154 @@ def _subtract_wedge(film: Film, stencil: Stencil, j: int, out: Array, row: int) 
         upstream = w1 * rho[j, i - 1] * h[j, i - 1]
         farther = w2 * rho[j, i - 2] * h[j, i - 2]
         out[row, i] -= w0 * rho[j, i] * h[j, i] + upstream + farther
+
+
+@helper
+def _subtract_flux(film: Film, stencil: Stencil, j: int, out: Array, row: int) -> None:
+    """Subtract the difference of the oil fluxes through both faces of each cell of a line.
+
+    A film node passes on 3/2 m(i) - 1/2 m(i-1) of its mass m = rho h, or m(i) next to a partly
+    filled node; a partly filled one passes on all that flows in. The value there is that of the
+    node if it were full: above zero, the cell fills. No pressure flow leaves a film upstream into a
+    partly filled cell: it would come back at once. (docs/theory/starvation.md)
+    """
+    p, rho, h, eps_x, nx = film.p, film.rho, film.h, film.eps_x, film.p.shape[1]
+    partial, rate, half_x = film.partial, stencil.w0 - stencil.w2, 0.5 * stencil.cx
+    before, flux = inflow(film, stencil, j)
+    for i in range(1, nx - 1):
+        mass = rho[j, i] * h[j, i]
+        full = mass + 0.5 * (mass - before) if film.second[j, i] else mass
+        if partial[j, i]:
+            gained = out[row, i]
+            if not partial[j, i + 1]:
+                east = half_x * (eps_x[j, i] + eps_x[j, i + 1])
+                gained -= east * (p[j, i + 1] - p[j, i])
+            out[row, i] -= rate * (full - flux)
+            flux += gained / rate
+            before = flux
+            continue
+        if partial[j, i - 1]:
+            out[row, i] += half_x * (eps_x[j, i] + eps_x[j, i - 1]) * (p[j, i] - p[j, i - 1])
+        out[row, i] -= rate * (full - flux)
+        before, flux = mass, full
+
+
+@helper
+def inflow(film: Film, stencil: Stencil, j: int) -> tuple[float, float]:
+    """Return mass at the first node of a line, and oil flux into the second cell."""
+    if film.partial[j, 0]:
+        return film.layer[j], film.layer[j]
+    mass = film.rho[j, 0] * film.h[j, 0]
+    if stencil.w2 > 0.0 and not film.partial[j, 1]:  # the mass continues linearly upstream
+        return mass, 0.5 * (mass + film.rho[j, 1] * film.h[j, 1])
+    return mass, mass
+
+
+@helper
+def flux_weights(
+    stencil: Stencil, partial: tuple[bool, bool, bool], second: tuple[bool, bool], i: int
+) -> tuple[float, float, float]:
+    """Return the weights of m(i), m(i-1), m(i-2) in the difference of the fluxes at node i.
+
+    Parameters
+    ----------
+    stencil : Stencil
+        Weights of the differences.
+    partial : (bool, bool, bool)
+        Whether nodes i, i - 1 and i - 2 are partly filled: what they hold is no function of their
+        film.
+    second : (bool, bool)
+        Whether nodes i and i - 1 pass on oil with second order.
+    i : int
+        Number of the node.
+    """
+    rate = stencil.w0 - stencil.w2
+    own = 1.5 * rate if second[0] else rate
+    if i == 1:
+        ghost = stencil.w2 > 0.0 and not (partial[0] or partial[1])
+        west = 0.0 if partial[1] else -0.5 * rate if second[0] else 0.0
+        if ghost:
+            return own - 0.5 * rate, west - 0.5 * rate, 0.0
+        return own, west if partial[1] else west - rate, 0.0
+    if partial[1]:
+        return own, 0.0, 0.0
+    west = 1.5 * rate if second[1] else rate
+    west = -west - 0.5 * rate if second[0] else -west
+    far = 0.5 * rate if second[1] and not partial[2] else 0.0
+    return own, west, far
+
+
+@kernel
+def mark_partial(film: Film, stencil: Stencil, rhs: Array, scratch: Array) -> None:
+    """Mark the cavitated nodes that stay partly filled: less oil flows in than a full one passes on.
+
+    ``scratch`` is (1, nx).
+    """
+    film, rhs, scratch = raw((film, rhs, scratch))
+    partial, p, nx = film.partial, film.p, film.p.shape[1]
+    for j in range(0 if stencil.mirror else 1, p.shape[0] - 1):
+        partial[j, 0] = film.layer[j] < film.rho[j, 0] * film.h[j, 0]
+        for i in range(1, nx):
+            partial[j, i] = p[j, i] <= 0.0
+        line_operator(film, stencil, j, scratch, 0)
+        for i in range(1, nx - 1):
+            partial[j, i] = p[j, i] <= 0.0 and rhs[j, i] - scratch[0, i] >= 0.0
+
+
+@kernel
+def mark_second_order(film: Film, order: int) -> None:
+    """Mark the nodes with two film nodes upstream, if the wedge is of second order."""
+    film, _ = raw((film, film.p))
+    partial, second = film.partial, film.second
+    ny, nx = film.p.shape
+    for j in range(ny):
+        second[j, 0] = 0
+        second[j, 1] = order > 1 and not partial[j, 0]
+        for i in range(2, nx):
+            second[j, i] = order > 1 and not (partial[j, i - 1] or partial[j, i - 2])
+
+
+@kernel
+def carried_oil(film: Film, stencil: Stencil, out: Array) -> None:
+    """Write the oil at each node, rho h or less where partly filled, to ``out`` (ny, nx)."""
+    film, out = raw((film, out))
+    ny, nx = film.p.shape
+    rate = stencil.w0 - stencil.w2
+    for j in range(ny):
+        for i in range(nx):
+            out[j, i] = film.rho[j, i] * film.h[j, i]
+    for j in range(0 if stencil.mirror else 1, ny - 1):
+        flows = out[j, nx - 1]
+        _, flux = inflow(film, stencil, j)
+        before = out[j, 0]
+        if film.partial[j, 0]:
+            out[j, 0] = flux
+            before = flux
+        for i in range(1, nx - 1):
+            mass = out[j, i]
+            if film.partial[j, i]:
+                gained, back = _flow_into(film, stencil, j, i)
+                out[j, i] = flux + gained / rate
+                flux += (gained - back) / rate
+                before = flux
+            else:
+                flux = mass + 0.5 * (mass - before) if film.second[j, i] else mass
+                before = mass
+        out[j, nx - 1] = flux if film.partial[j, nx - 1] else flows
+
+
+@helper
+def _flow_into(film: Film, stencil: Stencil, j: int, i: int) -> tuple[float, float]:
+    """Return the pressure flow into a partly filled cell, and what of it comes back downstream."""
+    p, eps_x, eps_y = film.p, film.eps_x, film.eps_y
+    south, here = row_below(j), film.p[j, i]
+    half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
+    gained = half_y * (eps_y[j, i] + eps_y[j + 1, i]) * (p[j + 1, i] - here)
+    gained += half_y * (eps_y[j, i] + eps_y[south, i]) * (p[south, i] - here)
+    gained += half_x * (eps_x[j, i] + eps_x[j, i - 1]) * (p[j, i - 1] - here)
+    from_east = half_x * (eps_x[j, i] + eps_x[j, i + 1]) * (p[j, i + 1] - here)
+    back = 0.0 if film.partial[j, i + 1] else from_east
+    return gained + from_east, back
 
 
 @kernel

@@ -68,7 +68,7 @@ def _axes(count: int, *names: str) -> dict[str, int]:
 
 
 def _sample(kernel: Callable[..., Any], seconds: float, **arrays: Any) -> Sample:
-    return Sample(kernel, seconds, arrays)
+    return Sample(kernel, seconds, {"layer": 1} | arrays)
 
 
 _SURFACE = _axes(1, "decay", "older", "newer")
@@ -119,5 +119,8 @@ RARE = (
     _sample(relaxation.stiffen, 0.4),
     _sample(relaxation.relax_points, 0.4, self_film=1),
     _sample(reynolds.diagonal, 0.3),
+    _sample(reynolds.mark_partial, 0.5),
+    _sample(reynolds.mark_second_order, 0.2),
+    _sample(reynolds.carried_oil, 0.3),
 )
-"""Of relaxation settings that few films need; compiled when a solve first calls them."""
+"""Of relaxation settings and starved films, which few need; compiled when a solve first calls them."""

@@ -36,6 +36,36 @@ def restrict_residual(fine: Array, mirror: int, coarse: Array) -> None:
 
 
 @kernel
+def keep_residual(fine: Array, coarse: Array, mirror: int) -> None:
+    """Enlarge residuals that full weighting would give to cavitated coarse nodes in part.
+
+    All of an imbalance of the flux must reach the coarse film: where it begins, its pressure
+    follows from the flux.
+
+    Parameters
+    ----------
+    fine : array (ny, nx)
+        Residual, changed in place.
+    coarse : array (ny // 2 + 1, nx // 2 + 1)
+        Pressure of the coarse grid.
+    mirror : int
+        1 if row 0 is the symmetry line.
+    """
+    fine, coarse = raw((fine, coarse))
+    ny, nx = fine.shape
+    for j in range(0 if mirror else 1, ny - 1):
+        low_j, high_j = j // 2, j // 2 + j % 2
+        for i in range(1, nx - 1):
+            low_i, high_i = i // 2, i // 2 + i % 2
+            wet = 0.0
+            for row in (low_j, high_j):
+                for column in (low_i, high_i):
+                    wet += 0.25 if coarse[row, column] > 0.0 else 0.0
+            if wet > 0.0:
+                fine[j, i] /= wet
+
+
+@kernel
 def restrict_pressure(fine: Array, mirror: int, coarse: Array) -> None:
     """Full weighting where all nine fine values are positive, injection elsewhere and on edges."""
     fine, coarse = raw((fine, coarse))
@@ -55,11 +85,14 @@ def restrict_pressure(fine: Array, mirror: int, coarse: Array) -> None:
 
 
 @kernel
-def correct(p: Array, coarse: Array, before: Array, mirror: int, part: float, limit: float) -> None:
+def correct(
+    p: Array, coarse: Array, before: Array, mirror: int, part: float, limit: float, fronts: int
+) -> None:
     """Add ``part`` of the bilinear interpolation of ``coarse - before`` to the wet nodes of ``p``.
 
-    A node keeps its pressure if any coarse node around it was cavitated: no correction crosses the
-    cavitation front.
+    If any coarse node around a node was cavitated it keeps its pressure: no correction crosses the
+    cavitation front. Where the film begins downstream of a cavity its flux is given, not its
+    pressure: there the pressure changes in proportion to that of the wet coarse nodes around it.
 
     Parameters
     ----------
@@ -71,6 +104,8 @@ def correct(p: Array, coarse: Array, before: Array, mirror: int, part: float, li
         1 if row 0 is the symmetry line.
     part, limit : float
         Factor on the correction; its largest size, over the pressure [-].
+    fronts : int
+        1 if films begin downstream of cavities.
     """
     p, coarse, before = raw((p, coarse, before))
     ny, nx = p.shape
@@ -83,16 +118,22 @@ def correct(p: Array, coarse: Array, before: Array, mirror: int, part: float, li
             low_i = i // 2
             high_i = low_i + (i % 2)
             total = 0.0
+            known = 0.0
             wet = True
             for row in (low_j, high_j):
                 for column in (low_i, high_i):
                     if before[row, column] <= 0.0:
                         wet = False
+                    else:
+                        known += before[row, column]
                     total += coarse[row, column] - before[row, column]
+            largest = limit * p[j, i]
             if wet:
-                largest = limit * p[j, i]
                 change = min(max(part * 0.25 * total, -largest), largest)
                 p[j, i] = max(p[j, i] + change, 0.0)
+            elif fronts and known > 0.0:
+                largest = min(largest, 0.5 * p[j, i])
+                p[j, i] += min(max(part * total / known * p[j, i], -largest), largest)
 
 
 @kernel

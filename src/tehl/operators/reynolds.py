@@ -15,7 +15,9 @@ REACH = 8
 """Nodes along a line in the influence of one node, as the line relaxation uses it."""
 
 
-def steady_stencil(grid: Grid, groups: Groups, wedge_order: int) -> Stencil:
+def steady_stencil(
+    grid: Grid, groups: Groups, wedge_order: int, *, conserves: bool = False
+) -> Stencil:
     """Return the weights of the steady operator: central Poiseuille term, upstream wedge.
 
     Parameters
@@ -26,6 +28,8 @@ def steady_stencil(grid: Grid, groups: Groups, wedge_order: int) -> Stencil:
         The ellipticity scales the differences along y.
     wedge_order : {1, 2}
         Order of the upstream difference: (1, -1) or (3/2, -2, 1/2) over dx.
+    conserves : bool
+        Whether oil is conserved in cavities.
     """
     weights = {1: (1.0, -1.0, 0.0), 2: (1.5, -2.0, 0.5)}[wedge_order]
     w0, w1, w2 = (w / grid.dx for w in weights)
@@ -36,6 +40,7 @@ def steady_stencil(grid: Grid, groups: Groups, wedge_order: int) -> Stencil:
         w1=w1,
         w2=w2,
         mirror=int(grid.mirror),
+        conserves=int(conserves),
     )
 
 

@@ -9,7 +9,8 @@
 
 from dataclasses import dataclass
 
-from tehl.film_formulas import expected_central_film
+import numpy as np
+
 from tehl.grid import Grid
 from tehl.kernels import reynolds
 from tehl.operators.deformation import Deformation, choose
@@ -21,6 +22,7 @@ from tehl.operators.load import TARGET, Load
 from tehl.operators.reynolds import steady_stencil
 from tehl.options import Options
 from tehl.scaling import Groups, ScaledProblem
+from tehl.starvation import EnteringOil, entering_oil, supplied_film
 from tehl.typing import Array
 
 FLOOR = 0.02
@@ -49,6 +51,9 @@ class Equations:
     """Undeformed gap [-], ``grid.shape``."""
     far_field: FarField | None
     """Pressure on the edges and load outside; None if the pressure is zero there."""
+    layer: Array | None
+    """Oil that enters each line, ``rho H``, (ny,), infinite if flooded; None if oil is not
+    conserved in cavities."""
     floor: float
     """Least film in the conductance [-]: the discrete film of coarse grids may not be positive."""
 
@@ -74,20 +79,31 @@ class Equations:
         load : float
             Load that the film carries, over that of the contact [-].
         """
-        groups = scaled.groups
+        groups, oil = scaled.groups, entering_oil(scaled)
+        starved = oil is not None
         return cls(
             grid=grid,
             groups=groups,
             flow=flow,
-            stencil=steady_stencil(grid, groups, options.wedge_order),
+            stencil=steady_stencil(grid, groups, options.wedge_order, conserves=scaled.problem.conserves_oil),
             influence=influence_of(grid, groups),
             deformation=choose(options.deformation, grid, groups),
             load=Load(grid),
             target=load * TARGET,
             gap=gap(grid, groups),
-            far_field=FarField(grid, scaled.entering) if options.has_far_field else None,
-            floor=FLOOR * expected_central_film(scaled.entering),
+            far_field=(
+                FarField(grid, scaled.entering) if options.has_far_field and not starved else None
+            ),
+            layer=_layer(scaled, oil, grid),
+            floor=FLOOR * supplied_film(scaled),
         )
+
+
+def _layer(scaled: ScaledProblem, oil: EnteringOil | None, grid: Grid) -> Array | None:
+    """Return the oil that enters each line of a grid; None if its cavities do not conserve it."""
+    if not scaled.problem.conserves_oil:
+        return None
+    return np.full(grid.shape[0], np.inf) if oil is None else oil(grid.y)
 
 
 @dataclass(slots=True)

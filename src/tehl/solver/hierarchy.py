@@ -6,7 +6,6 @@ from itertools import pairwise
 
 import numpy as np
 
-from tehl.film_formulas import expected_central_film
 from tehl.grid import Grid, halved_grids
 from tehl.kernels import reynolds
 from tehl.kernels.coarsest import Coarse, CoarseSystem, newton_step
@@ -19,6 +18,7 @@ from tehl.solver.equations import Equations
 from tehl.solver.fas import Cycle, cycle
 from tehl.solver.level import Level
 from tehl.solver.relaxation import Relaxation
+from tehl.starvation import supplied_film
 
 UNRESOLVED = 0.5
 """Mesh width of the coarsest grid, in Hertz half-widths, beyond which it does not resolve the
@@ -76,7 +76,13 @@ class CoarsestSolver:
             (ones, ones) if factors is None else (factors.stretch_x, factors.stretch_y)
         )
         return Coarse(
-            *film[:5], eps_p=by_pressure, eps_h=by_film, stretch_x=stretch_x, stretch_y=stretch_y
+            *film[:5],
+            eps_p=by_pressure,
+            eps_h=by_film,
+            stretch_x=stretch_x,
+            stretch_y=stretch_y,
+            partial=film.partial,
+            second=film.second,
         )
 
 
@@ -115,7 +121,7 @@ class Hierarchy:
         load : float
             Load that the film carries, over that of the contact [-].
         """
-        flow, film = flow_table(scaled), expected_central_film(scaled.entering)
+        flow, film = flow_table(scaled), supplied_film(scaled)
         grids = halved_grids(finest)
         widest = max(1.0, (2.0 * film) ** 0.5)  # of the parabolic gap, where the film is thick
         while grids[0].dx > widest and len(grids) > LEAST_GRIDS and grids[1].nx <= LARGEST_DENSE:

@@ -42,6 +42,9 @@ MOST_DOUBLINGS = 4
 """Most doublings of `MOST_CYCLES`, one per coarser grid, where temperatures converge slowly."""
 HERTZ_CYCLES = 2
 """Cycles after which a grid that started from the Hertz pressure has a film."""
+FREE_ORDERS = 4
+"""Cycles after which nodes keep the order with which they pass on oil: else it may change with the
+meniscus, and the meniscus with it."""
 ISOTHERMAL_CYCLES = 4
 """Cycles before damped heat begins."""
 COARSE_NODES = 33
@@ -223,6 +226,7 @@ class GridIteration:
     ) -> CycleReport:
         """Perform one cycle or Newton step on the last of ``levels``, update heat, and report."""
         fine = levels[-1]
+        fine.keeps_orders = number > FREE_ORDERS
         before = fine.film.p.copy()
         step()
         fine.update()

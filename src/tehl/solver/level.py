@@ -50,6 +50,12 @@ class Level:
         p, h, eps, rho, drho, f, g = (np.zeros(shape) for _ in range(7))
         self.is_finest = True  # of those in use: its equations are those of the problem
         self.film = properties.Film(p, h, eps, rho, drho, eps_x=eps, eps_y=eps)
+        if equations.layer is not None:
+            partial, second = np.zeros(shape, np.uint8), np.zeros(shape, np.uint8)
+            self.film = self.film._replace(
+                partial=partial, second=second, layer=equations.layer
+            )
+        self.keeps_orders = False  # the nodes of second order stay as they are
         self.rigid_approach = 0.0
         self.sources = Sources(f, g, equations.target)
         self.residual = np.zeros(shape)
@@ -106,6 +112,24 @@ class Level:
             self.sources.outside = self.far_field.load(h, self.equations.gap)
         self.update_properties()
         self._is_stale = False
+        if self.stencil.conserves and self.is_finest:
+            self._mark_cavities()
+
+    def _mark_cavities(self) -> None:
+        """Mark partly filled nodes, and those that pass on oil with second order."""
+        film, stencil = self.film, self.stencil
+        scratch = np.empty((1, film.p.shape[1]))
+        reynolds.mark_partial(film, stencil, self.sources.reynolds, scratch)
+        if not self.keeps_orders:
+            reynolds.mark_second_order(film, 2 if stencil.w2 > 0.0 else 1)
+
+    def oil(self) -> Array:
+        """Return the oil at each node, rho H or less in a partly filled gap, ``grid.shape`` [-]."""
+        if not self.stencil.conserves:
+            return self.film.rho * self.film.h
+        out = np.empty(self.grid.shape)
+        reynolds.carried_oil(self.film, self.stencil, out)
+        return out
 
     def update_properties(self) -> None:
         """Evaluate conductance and density for the present pressure and film."""
@@ -272,11 +296,13 @@ class Level:
         in every cycle (Venner and Lubrecht 2000, chapter 6, restrict there by injection).
         """
         mirror, frozen = self.stencil.mirror, coarse.smoother.frozen
+        limit = 0.0 if self.stencil.conserves else FROZEN_BELOW
         transfer.restrict_pressure(self.film.p, mirror, coarse.film.p)
-        transfer.freeze(
-            self.film.p, self.smoother.frozen, coarse.film.p, mirror, FROZEN_BELOW, frozen
-        )
+        transfer.freeze(self.film.p, self.smoother.frozen, coarse.film.p, mirror, limit, frozen)
         coarse.is_finest, coarse.sources.outside = False, 0.0
+        if self.stencil.conserves:  # where the film begins is decided on the finest grid too
+            coarse.film.partial[:] = self.film.partial[::2, ::2]
+            reynolds.mark_second_order(coarse.film, 2 if coarse.stencil.w2 > 0.0 else 1)
         # I P and H00: `correct_from` interpolates the change since
         before, _ = coarse.restricted
         before[:] = coarse.film.p
@@ -301,7 +327,10 @@ class Level:
 
         The residual is zero where the fine grid is cavitated: complementarity holds there.
         """
-        transfer.restrict_residual(self.residual, self.stencil.mirror, coarse.residual)
+        mirror = self.stencil.mirror
+        if self.stencil.conserves:
+            transfer.keep_residual(self.residual, coarse.film.p, mirror)
+        transfer.restrict_residual(self.residual, mirror, coarse.residual)
         reynolds.operator(coarse.film, coarse.stencil, coarse.sources.reynolds)
         coarse.sources.reynolds += coarse.residual
 
@@ -317,7 +346,8 @@ class Level:
         back and forth.
         """
         (before, approach), (part, limit) = coarse.restricted, coarse.correction
-        transfer.correct(self.film.p, coarse.film.p, before, self.stencil.mirror, part, limit)
+        mirror, fronts = self.stencil.mirror, self.stencil.conserves
+        transfer.correct(self.film.p, coarse.film.p, before, mirror, part, limit, fronts)
         self.rigid_approach += part * (coarse.rigid_approach - approach)
         self._is_stale = True
 

@@ -19,6 +19,7 @@ from tehl.solver.film_solver import FilmSolver
 from tehl.solver.film_summary import film_summary
 from tehl.solver.level import Level
 from tehl.solver.outputs import heat_balance
+from tehl.starvation import is_starved
 from tehl.units import percentage
 
 CONVERGED = Status(kind="converged")
@@ -195,7 +196,7 @@ def touching(run: FilmSolver, part: float) -> Status:
 def _domain_status(run: FilmSolver) -> Status:
     """Judge whether a domain with zero pressure on its edges is large enough and fully flooded."""
     grid, groups = run.finest.grid, run.groups
-    if run.finest.far_field is not None:
+    if run.finest.far_field is not None or is_starved(run.hierarchy.scaled):
         return CONVERGED
     left_out = domain_error(groups, grid.domain)
     if left_out > LARGEST_DOMAIN_ERROR:

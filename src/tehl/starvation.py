@@ -1,0 +1,169 @@
+"""Starved contacts before the solve: the oil that enters, the film to expect, the domain.
+
+The central film of a starved circular contact follows
+
+    H_c = H_cff r / (1 + r^gamma)^(1/gamma),    r = H_oil / (rho_c H_cff),
+
+with the film H_cff and the density rho_c of the fully flooded contact [1]_ [2]_.
+
+References
+----------
+.. [1] F. Chevalier, A. A. Lubrecht, P. M. E. Cann, F. Colin and G. Dalmaz, J. Tribology 120 (1998),
+   126-133.
+.. [2] D. P. Damiens, C. H. Venner, P. M. E. Cann and A. A. Lubrecht, J. Tribology 126 (2004),
+   105-111.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl.errors import InputError
+from tehl.film_formulas import expected_central_film
+from tehl.options import Domain
+from tehl.scaling import ScaledProblem
+from tehl.typing import Array
+
+GAMMA = 3.0
+"""Exponent of the film law for a circular contact."""
+FLOODED = 20.0
+"""Supply over that of the flooded contact from which the film is flooded within 0.1 %."""
+BACKFLOW, MARGIN = 2.5, 1.2
+"""Gap over layer at the meniscus: far upstream of a flooded point contact the pressure returns 60 %
+of the oil that the surfaces drag in. And a margin."""
+LEAST_INLET, LEAST_SIDE = 2.3, 1.7
+"""Least distances of the inlet edge and of the side edges, in Hertz half-widths."""
+OUTLETS = ((3.0, 0.6), (math.inf, 5.0 / 11.0))
+"""Outlet over inlet, up to these distances of the inlet: X = 0 is a node."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class EnteringOil:
+    """The oil rho H that enters, over Y: at ``y`` [half-widths] the layers ``oil`` [-].
+
+    A layer that does not depend on Y has one entry.
+    """
+
+    y: Array
+    oil: Array
+
+    def __call__(self, y: Array) -> Array:
+        """Return the oil that enters lines at ``y``, linear between the places [-]."""
+        found: Array = np.interp(y, self.y, self.oil)
+        return found
+
+    @property
+    def largest(self) -> float:
+        """Most oil of all lines [-]."""
+        return float(self.oil.max())
+
+    @property
+    def central(self) -> float:
+        """Oil on the line Y = 0 [-]."""
+        return float(self(np.zeros(1))[0])
+
+
+def flooded_oil(scaled: ScaledProblem) -> float:
+    """Return rho H in the middle of the fully flooded contact, computed or by formula [-]."""
+    if scaled.flooded_oil is not None:
+        return scaled.flooded_oil
+    problem, scales = scaled.problem, scaled.scales
+    density = float(problem.lubricant.density.density(scales.hertz_pressure, scales.temperature))
+    return density / scales.density * expected_central_film(scaled.entering)
+
+
+def entering_oil(scaled: ScaledProblem) -> EnteringOil | None:
+    """Return the oil that enters; None if the contact is flooded.
+
+    More oil than `FLOODED` times that of the flooded contact is flooded.
+    """
+    supply = scaled.problem.supply
+    if supply is None:
+        return None
+    unit = (2.0 if supply.each else 1.0) / scaled.scales.film_thickness
+    if supply.ratio is not None:
+        y, oil = np.zeros(1), np.array([supply.ratio * flooded_oil(scaled)])
+    elif supply.layer is not None:
+        y, oil = np.zeros(1), np.array([supply.layer * unit])
+    else:
+        places, layers = np.array(supply.profile).T
+        y, oil = places / scaled.scales.half_width_y, layers * unit
+    found = EnteringOil(y=y, oil=oil)
+    return None if float(oil.min()) > FLOODED * flooded_oil(scaled) else found
+
+
+def is_starved(scaled: ScaledProblem) -> bool:
+    """Return whether a layer of oil limits the film."""
+    return entering_oil(scaled) is not None
+
+
+def supply_ratio(scaled: ScaledProblem) -> float:
+    """Return r, the oil that enters at Y = 0 over that of the flooded contact [-]."""
+    oil = entering_oil(scaled)
+    return math.inf if oil is None else oil.central / flooded_oil(scaled)
+
+
+def starved_part(ratio: float, gamma: float = GAMMA) -> float:
+    """Return the central film over that of the flooded contact by the film law [-].
+
+    Parameters
+    ----------
+    ratio : float
+        r, the oil that enters over that of the flooded contact [-].
+    gamma : float
+        Exponent of the law.
+    """
+    if math.isinf(ratio):
+        return 1.0
+    return float(ratio / (1.0 + ratio**gamma) ** (1.0 / gamma))
+
+
+def supplied_film(scaled: ScaledProblem) -> float:
+    """Return the central film to expect, of a starved contact by the film law [-]."""
+    flooded = expected_central_film(scaled.entering)
+    oil = entering_oil(scaled)
+    if oil is None:
+        return flooded
+    return flooded * starved_part(max(oil.largest / flooded_oil(scaled), 1e-6))
+
+
+def starved_domain(scaled: ScaledProblem) -> Domain:
+    """Return a domain that contains the film of a starved contact, in Hertz half-widths."""
+    oil, groups = entering_oil(scaled), scaled.groups
+    assert oil is not None
+    # where the rigid gap, less the approach of about one, is the thickest that the oil can fill
+    thickest = 2.0 * (MARGIN * BACKFLOW * oil.largest + 1.0)
+    across = groups.radius_ratio * groups.ellipticity**2
+    inlet = max(LEAST_INLET, math.sqrt(thickest))
+    side = max(LEAST_SIDE, math.sqrt(thickest / across))
+    inlet, side = (math.ceil(10.0 * edge) / 10.0 for edge in (inlet, side))
+    part = next(part for limit, part in OUTLETS if inlet <= limit)
+    return Domain.model_construct(x=(-inlet, part * inlet), y=(-side, side))
+
+
+def check_supply(scaled: ScaledProblem, domain: Domain) -> None:
+    """Check that a stated domain can hold the layer, and the profile covers the domain.
+
+    Raises InputError with one sentence.
+    """
+    supply, oil, scales = scaled.problem.supply, entering_oil(scaled), scaled.scales
+    if supply is None or oil is None:
+        return
+    if supply.profile is not None and not (
+        oil.y[0] <= domain.y[0] * (1 - 1e-9) and domain.y[1] * (1 - 1e-9) <= oil.y[-1]
+    ):
+        least, most = (1e3 * edge * scales.half_width_y for edge in domain.y)
+        raise InputError(
+            f"supply.profile: goes from y = {1e3 * supply.profile[0][0]:.4g} to "
+            f"{1e3 * supply.profile[-1][0]:.4g} mm and does not cover the domain, {least:.4g} to "
+            f"{most:.4g} mm: add places there"
+        )
+    gap = 0.5 * domain.x[0] ** 2
+    if oil.central > gap:
+        raise InputError(
+            f"supply: the layer of {1e6 * oil.central * scales.film_thickness:.4g} um is thicker "
+            f"than the gap of about {1e6 * gap * scales.film_thickness:.4g} um at the inlet edge "
+            f"X = {domain.x[0]:.4g}: the contact is flooded there; leave out [supply], or take a "
+            'larger numerics.domain ("auto" is large enough)'
+        )

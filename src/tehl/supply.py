@@ -1,0 +1,65 @@
+"""Supply of oil and cavitation: the ``[supply]`` and ``[cavitation]`` tables of a case."""
+
+from itertools import pairwise
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from tehl.units import Height, Place, PositiveNumber, Table
+
+LARGEST_RATIO = 1e3
+"""Largest supply over what the flooded contact passes on."""
+
+
+class Supply(Table):
+    """The oil that reaches the inlet: a layer on both surfaces, thinner than the gap far upstream.
+
+    Exactly one of ``layer``, ``profile`` and ``ratio`` is stated.
+    """
+
+    layer: Height | None = None
+    """Thickness of the oil on both surfaces together [m]."""
+    each: bool = False
+    """Whether ``layer`` and ``profile`` are on each surface, instead of both together."""
+    profile: Annotated[tuple[tuple[Place, Height], ...], Field(min_length=2)] | None = None
+    """Places y [m] and layers there [m], linear between."""
+    ratio: Annotated[PositiveNumber, Field(le=LARGEST_RATIO)] | None = None
+    """Oil that enters, over what the fully flooded contact passes on at its centre [-]."""
+
+    @model_validator(mode="after")
+    def _once(self) -> Self:
+        stated = [one for one in ("layer", "profile", "ratio") if getattr(self, one) is not None]
+        if not stated:
+            raise ValueError('lacks the oil: give layer = "0.2 um", a profile over y, or a ratio')
+        if len(stated) > 1:
+            raise ValueError(f"states the oil twice: {' and '.join(stated)}; give one")
+        if self.layer is not None and not self.layer > 0.0:
+            raise ValueError("layer must be positive: without oil there is no film")
+        if self.each and self.ratio is not None:
+            raise ValueError("each belongs to layer or profile: ratio is of all the oil")
+        self._check_profile(self.profile or ())
+        return self
+
+    def _check_profile(self, profile: tuple[tuple[float, float], ...]) -> None:
+        if any(later <= earlier for (earlier, _), (later, _) in pairwise(profile)):
+            raise ValueError("profile must have places y that increase")
+        if profile and not max(layer for _, layer in profile) > 0.0:
+            raise ValueError("profile must have a positive layer somewhere")
+
+    @property
+    def is_even_in_y(self) -> bool:
+        """Whether the oil is symmetric about y = 0."""
+        points = self.profile or ()
+        mirrored = tuple((-y, layer) for y, layer in reversed(points))
+        return all(
+            abs(y - other_y) <= 1e-9 * abs(y) and abs(layer - other) <= 1e-9 * abs(layer)
+            for (y, layer), (other_y, other) in zip(points, mirrored, strict=True)
+        )
+
+
+class Cavitation(Table):
+    """What happens to the oil where the pressure is zero."""
+
+    model: Literal["reynolds", "conserving"] = "reynolds"
+    """``"reynolds"`` does not ask where the oil of a cavity comes from or goes to; ``"conserving"``
+    computes how far the gap is filled. A ``[supply]`` needs the latter, and chooses it."""
