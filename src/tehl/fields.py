@@ -127,6 +127,18 @@ class FilmHeat(_ReadOnly):
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class FilmOil(_ReadOnly):
+    """Where the oil is, in a film whose cavities conserve it; read-only arrays."""
+
+    fill: Array
+    """(ny, nx): Part of the gap that is oil, 1 where there is pressure [-]."""
+    entering: Array
+    leaving: Array
+    """(ny,): Oil that enters at the inlet edge and leaves at the outlet, as a layer of ambient
+    density at the entrainment speed [m]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class SurfaceHeights:
     """Heights of rough surfaces, positive outwards, as the grid of the result carries them."""
 

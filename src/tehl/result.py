@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from tehl.errors import TehlError
 from tehl.post.heat import Temperature, temperature
 from tehl.post.roughness import RoughFilm, rough_film
+from tehl.post.starvation import Starvation, starvation
 from tehl.post.traction import Traction, traction
 from tehl.saved import Saved
 from tehl.solution import Solution
@@ -28,6 +29,11 @@ class Result(Saved, Solution):
     def roughness(self) -> RoughFilm | None:
         """Film numbers of rough surfaces, None if no surface states heights or their Sq."""
         return rough_film(self)
+
+    @property
+    def starvation(self) -> Starvation | None:
+        """How far the film is starved, None if no supply is stated."""
+        return starvation(self)
 
 
 class ConvergenceError(TehlError):

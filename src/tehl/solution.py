@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from tehl.fields import Fields, FilmHeat, FilmShear, FilmSummary, SurfaceHeights
+from tehl.fields import Fields, FilmHeat, FilmOil, FilmShear, FilmSummary, SurfaceHeights
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.roughness.resolution import Resolution
@@ -198,6 +198,18 @@ class Provenance:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class Supplied:
+    """Oil of a contact whose cavities conserve it, beside that of the flooded contact."""
+
+    flooded_film: float | None
+    flooded_oil: float | None
+    """Central film H, and rho H there, of the same contact fully flooded and smooth, on its own
+    grid [-]; None if that did not converge, or is this contact."""
+    balance: float
+    """Largest change of the oil flux over the sections across the flow, relative [-]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class Solution:
     """Fields and numbers of one steady solve; `Result` adds what follows from them."""
 
@@ -231,13 +243,20 @@ class Solution:
     """Temperatures; None in an isothermal run."""
     heights: SurfaceHeights | None = None
     """Heights of rough surfaces; None when both are smooth."""
+    oil: FilmOil | None = None
+    """Where the oil is; None if cavities do not conserve it."""
+    supplied: Supplied | None = None
+    """Supply over that of the flooded contact, and balance of the oil; None like ``oil``."""
     resolution: Resolution | None = None
     """Which part of the stated heights the grid carries; None when both surfaces are smooth."""
 
     @property
     def scaled_problem(self) -> ScaledProblem:
         """The problem with its scales and dimensionless groups."""
-        return ScaledProblem(problem=self.problem, scales=self.scales, groups=self.groups)
+        flooded = None if self.supplied is None else self.supplied.flooded_oil
+        return ScaledProblem(
+            problem=self.problem, scales=self.scales, groups=self.groups, flooded_oil=flooded
+        )
 
     @property
     def x(self) -> Array:

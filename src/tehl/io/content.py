@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, create_model
 
-from tehl.fields import Fields, FilmHeat, FilmShear, SurfaceHeights
+from tehl.fields import Fields, FilmHeat, FilmOil, FilmShear, SurfaceHeights
 from tehl.io import tables
 from tehl.io.summary import summary
 from tehl.io.tables import Column
@@ -46,7 +46,7 @@ _AXES = {"x": "X", "y": "Y", "zeta": "zeta", "time": "time"}
 _AXES |= {"frame": "frame_step", "bar": "bar_time"}
 """Array that gives the size of each dimension."""
 _NOT_SCALAR = {
-    Result: ("problem", "options", "scaled", "history", "shear", "heat", "heights"),
+    Result: ("problem", "options", "scaled", "history", "shear", "heat", "heights", "oil"),
     FilmHeat: tuple(column.field for column in tables.HEAT),
     TransientResult: ("start", "history", "profiles", "frames", "bars"),
 }
@@ -91,6 +91,7 @@ def _parts(result: Result | TransientResult) -> Iterator[tuple[Table, Any]]:
             (tables.FIELDS, result),
             (tables.SCALED, result.scaled),
             (tables.HEIGHTS, result.heights),
+            (tables.OIL, result.oil),
             (tables.SHEAR, result.shear),
             (tables.HEAT, result.heat),
             ((*tables.GRIDS, *tables.CYCLES), _columns(result.history)),
@@ -185,6 +186,7 @@ def _steady(arrays: Arrays, attrs: Attributes) -> Result:
         shear=reader.part(FilmShear, tables.SHEAR),
         heat=None if heat is None else FilmHeat(**heat | reader.columns(tables.HEAT)),
         heights=reader.part(SurfaceHeights, tables.HEIGHTS),
+        oil=reader.part(FilmOil, tables.OIL),
     )
 
 

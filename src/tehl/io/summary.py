@@ -12,6 +12,7 @@ from pydantic import TypeAdapter
 from tehl.fields import FilmHeat
 from tehl.post.heat import Temperature
 from tehl.post.roughness import RoughFilm
+from tehl.post.starvation import Starvation
 from tehl.post.traction import Traction
 from tehl.post.waves.response import WaveResponse
 from tehl.result import Result
@@ -130,6 +131,7 @@ def _mirrored(result: Result | TransientResult, places: dict[str, tuple[Path, ..
 def _steady(result: Result) -> Block:
     lubricant, heat, rough = result.problem.lubricant, result.heat, result.roughness
     temperature, traction, scaled = result.temperature, result.traction, result.scaled
+    starved = result.starvation
     content = {
         "laws": {
             "viscosity": lubricant.viscosity.law,
@@ -146,6 +148,7 @@ def _steady(result: Result) -> Block:
         "traction": None if traction is None else _traction(traction),
         "heat": None if heat is None else _heat(heat),
         "roughness": None if rough is None else roughness_block(rough),
+        "starvation": None if starved is None else _starvation(starved),
         "convergence": _convergence(result),
         "errors": None if result.errors is None else _errors(result.errors),
         "cost": {"points": [scaled.x.size, scaled.y.size]} | asdict(result.cost),
@@ -224,6 +227,14 @@ def _traction(found: Traction) -> Block:
 def _heat(heat: FilmHeat) -> Block:
     powers = {f"{name}_w": power for name, power in asdict(heat.balance).items()}
     return powers | {"solid_peclet": heat.solid_peclet, "sources": heat.sources}
+
+
+def _starvation(found: Starvation) -> Block:
+    return _picked(
+        found,
+        *("ratio", "degree", "degree_by_law", "flooded_film_m", "meniscus_m"),
+        *("inlet_distance_m", "entering_m", "leaving_m", "leaving_each_m", "balance"),
+    )
 
 
 def roughness_block(found: RoughFilm) -> Block:

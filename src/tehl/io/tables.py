@@ -57,6 +57,14 @@ HEIGHTS = _table(
     ("surface_1", "height_1", "m", "height of surface 1, positive outwards"),
     ("surface_2", "height_2", "m", "height of surface 2, positive outwards"),
 )
+OIL = (
+    *_table("y x", ("fill", "fill", "1", "part of the gap that is oil")),
+    *_table(
+        "y",
+        ("entering", "oil_entering", "m", "layer of oil at the inlet edge, both surfaces"),
+        ("leaving", "oil_leaving", "m", "layer of oil at the outlet edge, both surfaces"),
+    ),
+)
 HEAT = (
     *_table(
         "zeta",

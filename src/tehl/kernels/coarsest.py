@@ -89,7 +89,7 @@ def newton_step(state: Coarse, stencil: Stencil, system: CoarseSystem, longest: 
         by_p=np.empty(6),
         by_h=np.empty(6),
     )
-    flat = Coarse(*(np.ravel(field) for field in state))
+    flat = Coarse._make(field.ravel() for field in state)
     flags = system._replace(residual=system.residual.ravel(), frozen=system.frozen.ravel())
     return solve_step(flat, stencil, flags, work, (nx, longest))
 

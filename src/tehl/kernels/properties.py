@@ -20,7 +20,7 @@ class Film(NamedTuple):
 
     ``eps_x, eps_y`` are the conductances along x and y: ``eps`` itself, or those of a small change
     of the pressure gradient at constant sliding speed if the film thins in shear
-    (`tehl.kernels.reynolds.tangent_source`). Of a film whose oil is conserved (`Stencil.conserves`),
+    (`tehl.kernels.reynolds.tangent_source`). Where oil is conserved (`Stencil.conserves`),
     ``partial`` marks the cavitated nodes whose gap is partly filled, ``second`` the nodes that
     pass on oil with second order, and ``layer`` (ny,) is the oil that enters each line.
     """

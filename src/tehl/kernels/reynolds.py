@@ -163,7 +163,7 @@ def flux_weights(
 
 @kernel
 def mark_partial(film: Film, stencil: Stencil, rhs: Array, scratch: Array) -> None:
-    """Mark the cavitated nodes that stay partly filled: less oil flows in than a full one passes on.
+    """Mark cavitated nodes that stay partly filled: less oil comes than a full one would pass on.
 
     ``scratch`` is (1, nx).
     """
@@ -192,32 +192,50 @@ def mark_second_order(film: Film, order: int) -> None:
 
 
 @kernel
-def carried_oil(film: Film, stencil: Stencil, out: Array) -> None:
-    """Write the oil at each node, rho h or less where partly filled, to ``out`` (ny, nx)."""
-    film, out = raw((film, out))
+def oil_flow(film: Film, stencil: Stencil, held: Array, passed: Array) -> None:
+    """Write the oil at each node, and the flux through the face to the east, wedge and pressure.
+
+    Parameters
+    ----------
+    film, stencil : Film, Stencil
+        State, and weights of the operator.
+    held, passed : array (ny, nx)
+        rho h, or less where partly filled; flux through the east face of each cell, zero at the
+        last node and on edge lines.
+    """
+    film, held, passed = raw((film, held, passed))
     ny, nx = film.p.shape
     rate = stencil.w0 - stencil.w2
+    clear(passed)
     for j in range(ny):
         for i in range(nx):
-            out[j, i] = film.rho[j, i] * film.h[j, i]
+            held[j, i] = film.rho[j, i] * film.h[j, i]
     for j in range(0 if stencil.mirror else 1, ny - 1):
-        flows = out[j, nx - 1]
-        _, flux = inflow(film, stencil, j)
-        before = out[j, 0]
-        if film.partial[j, 0]:
-            out[j, 0] = flux
-            before = flux
+        before, flux = inflow(film, stencil, j)
+        held[j, 0] = before
+        passed[j, 0] = flux - _face_flow(film, stencil, j, 0) / rate
         for i in range(1, nx - 1):
-            mass = out[j, i]
+            mass = held[j, i]
             if film.partial[j, i]:
                 gained, back = _flow_into(film, stencil, j, i)
-                out[j, i] = flux + gained / rate
+                held[j, i] = flux + gained / rate
                 flux += (gained - back) / rate
                 before = flux
             else:
                 flux = mass + 0.5 * (mass - before) if film.second[j, i] else mass
                 before = mass
-        out[j, nx - 1] = flux if film.partial[j, nx - 1] else flows
+            passed[j, i] = flux - _face_flow(film, stencil, j, i) / rate
+        if film.partial[j, nx - 1]:
+            held[j, nx - 1] = flux
+
+
+@helper
+def _face_flow(film: Film, stencil: Stencil, j: int, i: int) -> float:
+    """Return the pressure flow upstream through the east face; none into a partly filled cell."""
+    if film.partial[j, i]:
+        return 0.0
+    eps = film.eps_x[j, i] + film.eps_x[j, i + 1]
+    return 0.5 * stencil.cx * eps * (film.p[j, i + 1] - film.p[j, i])
 
 
 @helper

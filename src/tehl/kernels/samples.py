@@ -121,6 +121,8 @@ RARE = (
     _sample(reynolds.diagonal, 0.3),
     _sample(reynolds.mark_partial, 0.5),
     _sample(reynolds.mark_second_order, 0.2),
-    _sample(reynolds.carried_oil, 0.3),
+    _sample(reynolds.oil_flow, 0.3),
+    _sample(transfer.keep_residual, 0.2),
+    _sample(transfer.correct_fronts, 0.2),
 )
-"""Of relaxation settings and starved films, which few need; compiled when a solve first calls them."""
+"""Of relaxation settings and starved films that few need; compiled when a solve first calls one."""

@@ -85,14 +85,11 @@ def restrict_pressure(fine: Array, mirror: int, coarse: Array) -> None:
 
 
 @kernel
-def correct(
-    p: Array, coarse: Array, before: Array, mirror: int, part: float, limit: float, fronts: int
-) -> None:
+def correct(p: Array, coarse: Array, before: Array, mirror: int, part: float, limit: float) -> None:
     """Add ``part`` of the bilinear interpolation of ``coarse - before`` to the wet nodes of ``p``.
 
-    If any coarse node around a node was cavitated it keeps its pressure: no correction crosses the
-    cavitation front. Where the film begins downstream of a cavity its flux is given, not its
-    pressure: there the pressure changes in proportion to that of the wet coarse nodes around it.
+    A node keeps its pressure if any coarse node around it was cavitated: no correction crosses the
+    cavitation front.
 
     Parameters
     ----------
@@ -104,8 +101,6 @@ def correct(
         1 if row 0 is the symmetry line.
     part, limit : float
         Factor on the correction; its largest size, over the pressure [-].
-    fronts : int
-        1 if films begin downstream of cavities.
     """
     p, coarse, before = raw((p, coarse, before))
     ny, nx = p.shape
@@ -118,21 +113,42 @@ def correct(
             low_i = i // 2
             high_i = low_i + (i % 2)
             total = 0.0
-            known = 0.0
             wet = True
             for row in (low_j, high_j):
                 for column in (low_i, high_i):
                     if before[row, column] <= 0.0:
                         wet = False
-                    else:
-                        known += before[row, column]
                     total += coarse[row, column] - before[row, column]
-            largest = limit * p[j, i]
             if wet:
+                largest = limit * p[j, i]
                 change = min(max(part * 0.25 * total, -largest), largest)
                 p[j, i] = max(p[j, i] + change, 0.0)
-            elif fronts and known > 0.0:
-                largest = min(largest, 0.5 * p[j, i])
+
+
+@kernel
+def correct_fronts(
+    p: Array, coarse: Array, before: Array, mirror: int, part: float, limit: float
+) -> None:
+    """Correct the nodes that have both wet and cavitated coarse nodes around them.
+
+    Where a film begins downstream of a cavity its flux is given, not its pressure: it changes in
+    proportion to the pressure of the wet coarse nodes. Parameters as in `correct`.
+    """
+    p, coarse, before = raw((p, coarse, before))
+    ny, nx = p.shape
+    for j in range(0 if mirror else 1, ny - 1):
+        low_j, high_j = j // 2, j // 2 + j % 2
+        for i in range(1, nx - 1):
+            low_i, high_i = i // 2, i // 2 + i % 2
+            total, known, wet = 0.0, 0.0, 0
+            for row in (low_j, high_j):
+                for column in (low_i, high_i):
+                    if before[row, column] > 0.0:
+                        total += coarse[row, column] - before[row, column]
+                        known += before[row, column]
+                        wet += 1
+            if 0 < wet < 4:
+                largest = min(limit, 1.0) * p[j, i]
                 p[j, i] += min(max(part * total / known * p[j, i], -largest), largest)
 
 

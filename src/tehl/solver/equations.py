@@ -80,12 +80,12 @@ class Equations:
             Load that the film carries, over that of the contact [-].
         """
         groups, oil = scaled.groups, entering_oil(scaled)
-        starved = oil is not None
+        starved, conserves = oil is not None, scaled.problem.conserves_oil
         return cls(
             grid=grid,
             groups=groups,
             flow=flow,
-            stencil=steady_stencil(grid, groups, options.wedge_order, conserves=scaled.problem.conserves_oil),
+            stencil=steady_stencil(grid, groups, options.wedge_order, conserves=conserves),
             influence=influence_of(grid, groups),
             deformation=choose(options.deformation, grid, groups),
             load=Load(grid),

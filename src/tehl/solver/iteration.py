@@ -33,6 +33,7 @@ from tehl.solver.level import Level
 from tehl.solver.measures import measured
 from tehl.solver.monitor import Monitor
 from tehl.solver.newton import Newton
+from tehl.solver.outputs import oil_balance
 from tehl.solver.thermal import Coupling
 from tehl.typing import Array
 
@@ -42,6 +43,13 @@ MOST_DOUBLINGS = 4
 """Most doublings of `MOST_CYCLES`, one per coarser grid, where temperatures converge slowly."""
 HERTZ_CYCLES = 2
 """Cycles after which a grid that started from the Hertz pressure has a film."""
+MOST_FRONT_CYCLES = 12
+"""The same where a meniscus must be found: on coarse grids that costs little."""
+SETTLED = 0.3
+"""Nodes that a cycle fills or empties, over the number of lines, up to which it moves no
+meniscus."""
+LARGEST_OIL_ERROR = 5e-3
+"""Relative change of the oil flux through the contact that is accepted."""
 FREE_ORDERS = 4
 """Cycles after which nodes keep the order with which they pass on oil: else it may change with the
 meniscus, and the meniscus with it."""
@@ -86,6 +94,7 @@ class GridIteration:
         self.roughness = Roughness(hierarchy.levels, heights, strategy.continuation)
         self.traces: list[GridTrace] = []  # of each grid, coarsest first
         self.from_hertz = False  # the present grid started from the Hertz pressure
+        self.is_settled = True  # the last cycle moved no meniscus
 
     @property
     def finest(self) -> Level:
@@ -114,6 +123,8 @@ class GridIteration:
             # smooth parts of the temperature may converge slowly: on coarse grids that costs little
             damped = self.coupling.damping < 1.0
             most <<= MOST_DOUBLINGS if damped else min(finer, MOST_DOUBLINGS)
+        if fine.stencil.conserves and not newton:
+            most = max(most, MOST_FRONT_CYCLES)
         if finest:
             most = self.strategy.patience * self.options.max_cycles
         for number in range(1, most + 1):
@@ -146,6 +157,8 @@ class GridIteration:
     def _is_done(self, trace: GridTrace, *, finest: bool) -> bool:
         """Return whether the iteration on a grid has converged or stalled."""
         coarser = self._coarser_trace()
+        if not self.is_settled:
+            return stalled(trace, self.strategy.patience)
         if not finest:
             done = film_converged(trace, coarser)
             if self.coupling.state is None or len(trace.reports) < MOST_CYCLES:
@@ -227,9 +240,13 @@ class GridIteration:
         """Perform one cycle or Newton step on the last of ``levels``, update heat, and report."""
         fine = levels[-1]
         fine.keeps_orders = number > FREE_ORDERS
-        before = fine.film.p.copy()
+        before, partial = fine.film.p.copy(), fine.film.partial.copy()
         step()
         fine.update()
+        changed = int(np.count_nonzero(fine.film.partial != partial))
+        self.is_settled = changed <= SETTLED * fine.grid.shape[0]
+        if fine.stencil.conserves:
+            self.is_settled &= oil_balance(fine) <= LARGEST_OIL_ERROR
         heating = self.coupling.update(levels)
         report = self._report(fine, before, number, heating)
         self.monitor.cycle(report)

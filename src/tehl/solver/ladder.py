@@ -110,7 +110,8 @@ def ladder(problem: ContactProblem, options: Options, *, rough: bool) -> tuple[S
     if rough:
         # with heat, Newton steps converge no better than cycles, at ten times the cost
         cycles = tuple(one for one in BETWEEN_ROUGH if not one.newton)
-        return cycles if problem.is_coupled else BETWEEN_ROUGH
+        # and their Jacobian does not know partly filled cavities
+        return cycles if problem.is_coupled or problem.conserves_oil else BETWEEN_ROUGH
     if not problem.is_coupled:
         return SMOOTH
     return COUPLED if problem.slide_roll_ratio else COUPLED[:-1]

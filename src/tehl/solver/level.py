@@ -52,9 +52,7 @@ class Level:
         self.film = properties.Film(p, h, eps, rho, drho, eps_x=eps, eps_y=eps)
         if equations.layer is not None:
             partial, second = np.zeros(shape, np.uint8), np.zeros(shape, np.uint8)
-            self.film = self.film._replace(
-                partial=partial, second=second, layer=equations.layer
-            )
+            self.film = self.film._replace(partial=partial, second=second, layer=equations.layer)
         self.keeps_orders = False  # the nodes of second order stay as they are
         self.rigid_approach = 0.0
         self.sources = Sources(f, g, equations.target)
@@ -123,13 +121,11 @@ class Level:
         if not self.keeps_orders:
             reynolds.mark_second_order(film, 2 if stencil.w2 > 0.0 else 1)
 
-    def oil(self) -> Array:
-        """Return the oil at each node, rho H or less in a partly filled gap, ``grid.shape`` [-]."""
-        if not self.stencil.conserves:
-            return self.film.rho * self.film.h
-        out = np.empty(self.grid.shape)
-        reynolds.carried_oil(self.film, self.stencil, out)
-        return out
+    def oil_flow(self) -> tuple[Array, Array]:
+        """Return the oil at each node, rho H or less, and the flux to the east, ``grid.shape``."""
+        held, passed = np.empty(self.grid.shape), np.empty(self.grid.shape)
+        reynolds.oil_flow(self.film, self.stencil, held, passed)
+        return held, passed
 
     def update_properties(self) -> None:
         """Evaluate conductance and density for the present pressure and film."""
@@ -149,8 +145,8 @@ class Level:
     def conductance_slopes(self) -> tuple[Array, Array]:
         """Return d eps/dP and d eps/dH at the present pressure and film, each ``grid.shape``."""
         film, floor = self.film, self.equations.floor
-        scratch = (np.empty_like(film.p) for _ in range(5))
-        shifted = properties.Film(film.p + PRESSURE_STEP, film.h, *scratch)
+        eps, rho, drho, eps_x, eps_y = (np.empty_like(film.p) for _ in range(5))
+        shifted = properties.Film(film.p + PRESSURE_STEP, film.h, eps, rho, drho, eps_x, eps_y)
         self._evaluate(shifted)
         by_pressure = (shifted.eps - film.eps) / PRESSURE_STEP
         # eps grows as H^3 above the floor and is constant below it
@@ -346,8 +342,10 @@ class Level:
         back and forth.
         """
         (before, approach), (part, limit) = coarse.restricted, coarse.correction
-        mirror, fronts = self.stencil.mirror, self.stencil.conserves
-        transfer.correct(self.film.p, coarse.film.p, before, mirror, part, limit, fronts)
+        mirror = self.stencil.mirror
+        transfer.correct(self.film.p, coarse.film.p, before, mirror, part, limit)
+        if self.stencil.conserves:
+            transfer.correct_fronts(self.film.p, coarse.film.p, before, mirror, part, limit)
         self.rigid_approach += part * (coarse.rigid_approach - approach)
         self._is_stale = True
 

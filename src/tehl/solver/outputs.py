@@ -6,7 +6,7 @@ Poiseuille flow.
 
 import numpy as np
 
-from tehl.fields import FilmHeat, FilmShear, HeatBalance
+from tehl.fields import FilmHeat, FilmOil, FilmShear, HeatBalance
 from tehl.grid import Grid
 from tehl.operators.energy import FilmState, pressure_slopes
 from tehl.operators.heated_film import stress_unit
@@ -102,6 +102,44 @@ def heat_balance(state: FilmState) -> HeatBalance:
     return HeatBalance(
         shear=shear, compression=compression, surface_1=first, surface_2=second, carried_out=out
     )
+
+
+def film_oil(level: Level, scaled: ScaledProblem) -> FilmOil | None:
+    """Return where the oil is; None if cavities do not conserve it."""
+    if not level.stencil.conserves:
+        return None
+    (held, passed), grid, unit = level.oil_flow(), level.grid, scaled.scales.film_thickness
+    film = level.film
+    full = film.rho * np.maximum(film.h, level.equations.floor)
+    fill = np.where(film.partial > 0, np.minimum(held / full, 1.0), 1.0)
+    return FilmOil(
+        fill=grid.unfold(fill),
+        entering=_unfold_line(grid, passed[:, 0] * unit),
+        leaving=_unfold_line(grid, passed[:, -2] * unit),
+    )
+
+
+def _unfold_line(grid: Grid, values: Array) -> Array:
+    return np.concatenate([values[:0:-1], values]) if grid.mirror else values.copy()
+
+
+def oil_balance(level: Level) -> float:
+    """Return the largest change of the oil flux between sections across the flow, relative [-].
+
+    The flux through the side edges counts.
+    """
+    _, passed = level.oil_flow()
+    film, stencil, mirror = level.film, level.stencil, level.grid.mirror
+    weights = np.ones(passed.shape[0])
+    weights[0] = 0.5 if mirror else 0.0
+    weights[-1] = 0.0
+    through = weights @ passed[:, :-1]
+    sides = np.zeros(passed.shape[1])
+    for edge, inner in ((-1, -2), (0, 1))[: 1 if mirror else 2]:
+        eps = 0.5 * (film.eps_y[edge] + film.eps_y[inner])
+        sides += stencil.cy * eps * (film.p[edge] - film.p[inner])
+    gained = np.cumsum(sides[1:-1]) / (stencil.w0 - stencil.w2)
+    return float(np.abs(through[1:] - through[0] - gained).max() / through[0])
 
 
 def _unfold(grid: Grid, field: Array, *, odd: bool = False) -> Array:

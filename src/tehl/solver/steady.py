@@ -20,19 +20,21 @@ from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import ConvergenceError, Result
 from tehl.scaling import ScaledProblem
-from tehl.solution import Cost, CycleReport, Provenance, Status
+from tehl.solution import Cost, CycleReport, Provenance, Status, Supplied
 from tehl.solver.continuation import TouchingError
 from tehl.solver.cost import Clock
 from tehl.solver.diagnosis import diverged
 from tehl.solver.film_solver import FilmSolver
-from tehl.solver.film_summary import film_summary
+from tehl.solver.film_summary import central_value, film_summary
 from tehl.solver.goal import Goal
 from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.ladder import ladder
+from tehl.solver.level import Level
 from tehl.solver.monitor import SILENT, Monitor, Recorder
-from tehl.solver.outputs import film_heat, film_shear, newtonian_shear
+from tehl.solver.outputs import film_heat, film_oil, film_shear, newtonian_shear, oil_balance
 from tehl.solver.remedy import working_hint
 from tehl.solver.verdict import TOO_COARSE, touching, verdict
+from tehl.starvation import check_supply
 
 GRID_CAUSES = (
     "grid_too_coarse",
@@ -147,9 +149,12 @@ def try_strategies(
         Load that the film carries, over that of the contact [-].
     """
     warm_up(coupled=problem.is_coupled)
-    clock, history, scaled = Clock(), Recorder(monitor), ScaledProblem.of(problem)
+    flooded = flooded_film(problem, options, monitor)
+    clock, history = Clock(), Recorder(monitor)
+    scaled = ScaledProblem.of(problem, flooded and flooded[1])
     goal = Goal(scaled, options)
     plan = goal.fitting(planned(scaled, options))
+    check_supply(scaled, domain_of(scaled, plan))
     check_memory(plan, problem)
     grid = finest_grid(scaled, plan)
     heights = heights_of(scaled, grid) if rough else None
@@ -171,7 +176,35 @@ def try_strategies(
             break
     best = min(reversed(attempts), key=lambda attempt: attempt.rank)  # of equals the most robust
     result = _result(best, options, tuple(history.reports), clock.cost())
-    return best, result
+    return best, replace(result, supplied=_supplied(best.run.finest, flooded))
+
+
+def flooded_film(
+    problem: ContactProblem, options: Options, monitor: Monitor = SILENT
+) -> tuple[float, float] | None:
+    """Return H and rho H at the centre of the same contact, flooded and smooth, by a solve [-].
+
+    None for a contact that states no supply, or if the solve does not converge.
+    """
+    if problem.supply is None:
+        return None
+    changes = {"supply": None, "cavitation": None, "transient": None}
+    monitor.message("the fully flooded contact")
+    same = problem.model_copy(update=changes)
+    attempt, result = try_strategies(same, options, monitor=SILENT, rough=False)
+    if not result.status.converged:
+        return None
+    level = attempt.run.finest
+    central = central_value(level.grid, level.film.h)
+    return central, central_value(level.grid, level.film.rho * level.film.h)
+
+
+def _supplied(level: Level, flooded: tuple[float, float] | None) -> Supplied | None:
+    """Return the balance of the oil beside the flooded contact; None if it is not conserved."""
+    if not level.stencil.conserves:
+        return None
+    film, oil = (None, None) if flooded is None else flooded
+    return Supplied(flooded_film=film, flooded_oil=oil, balance=oil_balance(level))
 
 
 def _surfaces(run: FilmSolver) -> SurfaceHeights | None:
@@ -234,6 +267,7 @@ def _result(
         shear=shear,
         heat=heat,
         heights=_surfaces(run),
+        oil=film_oil(level, scaled),
         resolution=resolution_of(
             scaled.problem,
             (grid.dx * scaled.scales.half_width_x, grid.dy * scaled.scales.half_width_y),

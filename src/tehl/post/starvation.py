@@ -1,0 +1,84 @@
+"""Numbers of a starved film: how far it is starved, where it begins, what it leaves behind."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl.solution import Solution
+from tehl.starvation import starved_part, supply_ratio
+from tehl.typing import Array
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Starvation:
+    """The film of a contact that a layer of oil supplies, beside that of the flooded contact."""
+
+    ratio: float
+    """r, oil that enters on y = 0 over what the flooded contact passes on at its centre [-]."""
+    degree: float | None
+    """Central film over that of the flooded contact [-]; None if that is not known."""
+    degree_by_law: float
+    """The same by r / (1 + r^3)^(1/3) for a circular contact [-]."""
+    flooded_film: float | None
+    """Central film of the flooded contact [m]."""
+    meniscus: float | None
+    """Where the film begins on y = 0 [m]; None if the gap is full at the inlet edge."""
+    inlet_distance: float | None
+    """From there to the edge of the Hertz contact [m]."""
+    entering: float
+    leaving: float
+    """Oil on both surfaces together on y = 0, upstream and downstream of the contact [m]."""
+    balance: float
+    """Largest change of the oil flux over the sections across the flow, relative [-]."""
+
+    @property
+    def leaving_each(self) -> float:
+        """Oil on each surface downstream, split evenly [m]."""
+        return 0.5 * self.leaving
+
+
+def starvation(result: Solution) -> Starvation | None:
+    """Return the numbers of a starved film; None if no supply is stated or there is no film."""
+    oil, supplied = result.oil, result.supplied
+    if oil is None or supplied is None or result.problem.supply is None:
+        return None
+    if not result.film.minimum > 0.0:
+        return None
+    unit, ratio = result.scales.film_thickness, supply_ratio(result.scaled_problem)
+    flooded, row = supplied.flooded_film, int(np.argmin(np.abs(result.scaled.y)))
+    begins = meniscus(result)[row]
+    at = None if np.isnan(begins) else float(begins) * result.scales.half_width_x
+    return Starvation(
+        ratio=ratio,
+        degree=None if flooded is None else result.film_scaled.central / flooded,
+        degree_by_law=starved_part(ratio),
+        flooded_film=None if flooded is None else flooded * unit,
+        meniscus=at,
+        inlet_distance=None if at is None else -at - result.scales.half_width_x,
+        entering=float(oil.entering[row]),
+        leaving=float(oil.leaving[row]),
+        balance=supplied.balance,
+    )
+
+
+def meniscus(result: Solution) -> Array:
+    """Return where the film begins on each line, (ny,) [half-widths].
+
+    The cell ahead of the first film node i is partly filled: the film begins at
+    ``x_i - dx (q - q_in) / (m - q_in)``, with the oil q that the cell holds, m if it were full, and
+    the oil q_in that enters. NaN on lines without a film, and where it begins at the inlet edge.
+    """
+    found = np.full(result.scaled.y.size, np.nan)
+    if result.oil is None:
+        return found
+    x, unit = result.scaled.x, result.scales.film_thickness
+    for row, pressure in enumerate(result.scaled.pressure):
+        wet = np.nonzero(pressure > 0.0)[0]
+        if not wet.size or wet[0] < 2:
+            continue
+        ahead = wet[0] - 1
+        full, entering = result.scaled.film[row, ahead], result.oil.entering[row] / unit
+        held = result.oil.fill[row, ahead] * full
+        part = (held - entering) / (full - entering) if full > entering else 0.0
+        found[row] = x[wet[0]] - (x[1] - x[0]) * float(np.clip(part, 0.0, 1.0))
+    return found
