@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from tehl.options import Domain, Options
     from tehl.problem import Contact, ContactProblem, Surface
     from tehl.result import ConvergenceError, Result
-    from tehl.solver import certify, certify_transient, solve, solve_transient
+    from tehl.solver import certify, certify_transient, solve, solve_passes, solve_transient
     from tehl.studies import study
     from tehl.transient_result import TransientResult
 
@@ -53,6 +53,7 @@ __all__ = [
     "read_case",
     "read_case_and_options",
     "solve",
+    "solve_passes",
     "solve_transient",
     "studies",
     "study",
@@ -69,7 +70,9 @@ _HOMES = {
         "tehl.options": ("Domain", "Options"),
         "tehl.problem": ("Contact", "ContactProblem", "Surface"),
         "tehl.result": ("ConvergenceError", "Result"),
-        "tehl.solver": ("certify", "certify_transient", "solve", "solve_transient"),
+        "tehl.solver": (
+            *("certify", "certify_transient", "solve", "solve_passes", "solve_transient"),
+        ),
         "tehl.studies": ("study",),
         "tehl.transient_result": ("TransientResult",),
     }.items()

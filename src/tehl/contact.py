@@ -310,6 +310,11 @@ class PointContact(Table):
         return supply and all(roughness.is_even_in_y for roughness in surfaces)
 
     @property
+    def has_passes(self) -> bool:
+        """Whether the same surfaces pass the contact repeatedly."""
+        return self.supply is not None and self.supply.passes is not None
+
+    @property
     def conserves_oil(self) -> bool:
         """Whether oil is conserved in cavities."""
         stated = self.cavitation is not None and self.cavitation.model == "conserving"

@@ -139,6 +139,22 @@ class FilmOil(_ReadOnly):
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class PassHistory(_ReadOnly):
+    """A starved contact pass after pass; read-only arrays (n,)."""
+
+    number: Array
+    """Of the pass, from 1."""
+    time: Array
+    """At the pass [s]."""
+    film_central: Array
+    film_minimum: Array
+    """Film thickness [m]."""
+    entering: Array
+    leaving: Array
+    """Oil on both surfaces together, on y = 0, before and after the contact [m]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class SurfaceHeights:
     """Heights of rough surfaces, positive outwards, as the grid of the result carries them."""
 

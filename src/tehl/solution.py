@@ -5,7 +5,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from tehl.fields import Fields, FilmHeat, FilmOil, FilmShear, FilmSummary, SurfaceHeights
+from tehl.fields import (
+    Fields,
+    FilmHeat,
+    FilmOil,
+    FilmShear,
+    FilmSummary,
+    PassHistory,
+    SurfaceHeights,
+)
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.roughness.resolution import Resolution
@@ -247,6 +255,8 @@ class Solution:
     """Where the oil is; None if cavities do not conserve it."""
     supplied: Supplied | None = None
     """Supply over that of the flooded contact, and balance of the oil; None like ``oil``."""
+    passes: PassHistory | None = None
+    """Earlier passes of the same surfaces and this one; None of a single film."""
     resolution: Resolution | None = None
     """Which part of the stated heights the grid carries; None when both surfaces are smooth."""
 

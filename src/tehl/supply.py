@@ -5,8 +5,9 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from tehl.units import Height, Place, PositiveNumber, Table
+from tehl.units import Height, Length, Place, PositiveNumber, Quantity, Ratio, Table
 
+MOST_PASSES = 100_000
 LARGEST_RATIO = 1e3
 """Largest supply over what the flooded contact passes on."""
 
@@ -25,6 +26,15 @@ class Supply(Table):
     """Places y [m] and layers there [m], linear between."""
     ratio: Annotated[PositiveNumber, Field(le=LARGEST_RATIO)] | None = None
     """Oil that enters, over what the fully flooded contact passes on at its centre [-]."""
+    passes: Annotated[int, Field(ge=2, le=MOST_PASSES)] | None = None
+    """Times that the same surfaces pass the contact: the oil that leaves it comes back."""
+    track: Length | None = None
+    """Length of the running tracks of both surfaces together [m]: a pass takes half of it over the
+    entrainment speed."""
+    loss: Annotated[Ratio, Field(lt=1.0)] = 0.0
+    """Part of the oil that is lost between two passes [-]."""
+    replenishment: Annotated[float, Quantity("a speed", "m/s", '"0.1 nm/s"', "non-negative")] = 0.0
+    """Oil that comes back to both surfaces together, as thickness over time [m/s]."""
 
     @model_validator(mode="after")
     def _once(self) -> Self:
@@ -38,7 +48,18 @@ class Supply(Table):
         if self.each and self.ratio is not None:
             raise ValueError("each belongs to layer or profile: ratio is of all the oil")
         self._check_profile(self.profile or ())
+        if self.passes is not None and self.track is None:
+            raise ValueError(
+                'track is missing: passes need the length of both running tracks, such as "250 mm"'
+            )
+        if self.passes is None and (self.loss or self.replenishment):
+            raise ValueError("loss and replenishment act between passes: state passes too")
         return self
+
+    def pass_seconds(self, speed: float) -> float:
+        """Return the time between two passes at an entrainment speed [s]."""
+        assert self.track is not None
+        return 0.5 * self.track / speed
 
     def _check_profile(self, profile: tuple[tuple[float, float], ...]) -> None:
         if any(later <= earlier for (earlier, _), (later, _) in pairwise(profile)):

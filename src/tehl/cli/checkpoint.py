@@ -1,32 +1,65 @@
 """Checkpoints of ``tehl solve``: written during a transient run, read by ``--resume``."""
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any, Generic, TypeVar
 
 import typer
 
 from tehl.errors import InputError
 from tehl.io.atomic import check_writable
 from tehl.io.checkpoint import Fingerprint, read_checkpoint, write_checkpoint
-from tehl.solver.transient.snapshot import Snapshot, pack, unpack
+from tehl.solver import passes
+from tehl.solver.transient import snapshot
 
 CHECKPOINT_SECONDS = 30.0
 """CPU time between two checkpoints [s]."""
 
 
-class Keeper:
-    """Takes the snapshot of each step of a run, and writes its checkpoint from time to time."""
+State = TypeVar("State")
 
-    def __init__(self, path: Path, owner: Fingerprint) -> None:
-        self.path, self.owner = path, owner
-        self.last: Snapshot | None = None
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Kind(Generic[State]):
+    """A kind of state: its steps in words and how many are done, and how it becomes arrays."""
+
+    step: str
+    count: Callable[[State], int]
+    pack: Callable[[State], Mapping[str, Any]]
+    unpack: Callable[[Mapping[str, Any]], State]
+    copy: Callable[[State], State]
+
+
+STEPS = Kind(
+    step="step",
+    count=lambda state: len(state.record.rows) - 1,
+    pack=snapshot.pack,
+    unpack=snapshot.unpack,
+    copy=snapshot.Snapshot.copy,
+)
+PASSES = Kind(
+    step="pass",
+    count=lambda state: len(state.rows),
+    pack=passes.pack,
+    unpack=passes.unpack,
+    copy=lambda state: state,
+)
+
+
+class Keeper(Generic[State]):
+    """Takes the state after each step of a run, and writes its checkpoint from time to time."""
+
+    def __init__(self, path: Path, owner: Fingerprint, kind: Kind[State]) -> None:
+        self.path, self.owner, self.kind = path, owner, kind
+        self.last: State | None = None
         self._written, self._reported = time.process_time(), False
 
-    def __call__(self, snapshot: Snapshot) -> None:
+    def __call__(self, state: State) -> None:
         """Keep the state after a step."""
-        self.last = snapshot.copy()
+        self.last = self.kind.copy(state)
         if time.process_time() - self._written >= CHECKPOINT_SECONDS:
             self.write()
             self._written = time.process_time()
@@ -36,7 +69,7 @@ class Keeper:
         if self.last is None:
             return False
         try:
-            write_checkpoint(self.path, self.owner, pack(self.last))
+            write_checkpoint(self.path, self.owner, self.kind.pack(self.last))
         except (OSError, InputError) as error:
             if not self._reported:
                 typer.echo(f"tehl: checkpoint not written: {error}", err=True)
@@ -52,13 +85,13 @@ class Keeper:
         except (KeyboardInterrupt, SystemExit, MemoryError):
             if self.write() and self.last is not None:
                 typer.echo(
-                    f"tehl: step {_step(self.last)} is saved in {self.path}; tehl solve --resume "
+                    f"tehl: {self._where(self.last)} is saved in {self.path}; tehl solve --resume "
                     "continues from it",
                     err=True,
                 )
             raise
 
-    def begin(self, *, resume: bool) -> Snapshot | None:
+    def begin(self, *, resume: bool) -> State | None:
         """Return the state to continue from, None at time zero.
 
         Raises an InputError for a checkpoint without ``resume``, or one of another run.
@@ -75,10 +108,9 @@ class Keeper:
                 f"{self.path} holds an unfinished run: continue it with --resume, or remove it to "
                 "start again"
             )
-        snapshot = unpack(read_checkpoint(self.path, self.owner))
-        typer.echo(f"continuing after step {_step(snapshot)} of {self.path}", err=True)
-        return snapshot
+        state = self.kind.unpack(read_checkpoint(self.path, self.owner))
+        typer.echo(f"continuing after {self._where(state)} of {self.path}", err=True)
+        return state
 
-
-def _step(snapshot: Snapshot) -> int:
-    return len(snapshot.record.rows) - 1
+    def _where(self, state: State) -> str:
+        return f"{self.kind.step} {self.kind.count(state)}"

@@ -68,7 +68,7 @@ def run(job: Job) -> bool:
     with busy(f"writing {job.target}", quiet=job.quiet):
         save(result, job.target)
     compared = Comparisons()
-    if isinstance(result, TransientResult):
+    if isinstance(result, TransientResult) or (problem.has_passes and failure is None):
         remove_with_parts(checkpoint_of(job.target))
     elif references and failure is None:
         compared = _compared(result, references, job)
@@ -98,8 +98,13 @@ def _check_arguments(problem: ContactProblem, job: Job) -> None:
     ):
         if given and problem.transient is not None:
             raise InputError(f"{option} is for steady cases: remove it or [transient]")
-    if job.resume and problem.transient is None:
-        raise InputError("--resume is for transient runs, and the case has no [transient]")
+    if job.resume and problem.transient is None and not problem.has_passes:
+        raise InputError(
+            "--resume is for transient runs and repeated passes, and the case has neither "
+            "[transient] nor supply.passes"
+        )
+    if job.certify and problem.has_passes:
+        raise InputError("--certify is for a single pass: leave it out, or supply.passes")
     if job.resume and job.certify:
         raise InputError(
             "--certify makes several runs and keeps no checkpoint, which belongs to a single one: "
@@ -115,6 +120,8 @@ def _solved(
     A transient run whose start does not converge gives that start, a steady result.
     """
     solve = _steady if problem.transient is None else _transient
+    if problem.has_passes:
+        solve = _passes
     try:
         result = solve(problem, options, job)
     except ConvergenceError as error:
@@ -132,14 +139,27 @@ def _steady(problem: ContactProblem, options: Options, job: Job) -> Result | Tra
         return work(problem, options, monitor=monitor)
 
 
+def _passes(problem: ContactProblem, options: Options, job: Job) -> Result | TransientResult:
+    """Solve repeated passes; when they are interrupted, a checkpoint is left beside the target."""
+    from tehl.cli.checkpoint import PASSES, Keeper
+
+    with busy("loading the solver", quiet=job.quiet):
+        from tehl.solver import solve_passes
+
+    keep = Keeper(checkpoint_of(job.target), fingerprint(problem, options), PASSES)
+    start = keep.begin(resume=job.resume)
+    with keep.on_interrupt(), progress(problem, quiet=job.quiet) as monitor:
+        return solve_passes(problem, options, monitor=monitor, resume=start, keep=keep)
+
+
 def _transient(problem: ContactProblem, options: Options, job: Job) -> Result | TransientResult:
     """Solve a transient case; when it is interrupted, a checkpoint is left beside the target."""
-    from tehl.cli.checkpoint import Keeper
+    from tehl.cli.checkpoint import STEPS, Keeper
 
     with busy("loading the solver", quiet=job.quiet):
         from tehl.solver import certify_transient, solve_transient
 
-    keep = Keeper(checkpoint_of(job.target), fingerprint(problem, options))
+    keep = Keeper(checkpoint_of(job.target), fingerprint(problem, options), STEPS)
     start = keep.begin(resume=job.resume)
     with keep.on_interrupt(), progress(problem, quiet=job.quiet) as monitor:
         if job.certify:

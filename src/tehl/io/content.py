@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, create_model
 
-from tehl.fields import Fields, FilmHeat, FilmOil, FilmShear, SurfaceHeights
+from tehl.fields import Fields, FilmHeat, FilmOil, FilmShear, PassHistory, SurfaceHeights
 from tehl.io import tables
 from tehl.io.summary import summary
 from tehl.io.tables import Column
@@ -43,10 +43,20 @@ class Variable:
 
 
 _AXES = {"x": "X", "y": "Y", "zeta": "zeta", "time": "time"}
-_AXES |= {"frame": "frame_step", "bar": "bar_time"}
+_AXES |= {"frame": "frame_step", "bar": "bar_time", "pass": "pass"}
 """Array that gives the size of each dimension."""
 _NOT_SCALAR = {
-    Result: ("problem", "options", "scaled", "history", "shear", "heat", "heights", "oil"),
+    Result: (
+        "problem",
+        "options",
+        "scaled",
+        "history",
+        "shear",
+        "heat",
+        "heights",
+        "oil",
+        "passes",
+    ),
     FilmHeat: tuple(column.field for column in tables.HEAT),
     TransientResult: ("start", "history", "profiles", "frames", "bars"),
 }
@@ -92,6 +102,7 @@ def _parts(result: Result | TransientResult) -> Iterator[tuple[Table, Any]]:
             (tables.SCALED, result.scaled),
             (tables.HEIGHTS, result.heights),
             (tables.OIL, result.oil),
+            (tables.PASSES, result.passes),
             (tables.SHEAR, result.shear),
             (tables.HEAT, result.heat),
             ((*tables.GRIDS, *tables.CYCLES), _columns(result.history)),
@@ -187,6 +198,7 @@ def _steady(arrays: Arrays, attrs: Attributes) -> Result:
         heat=None if heat is None else FilmHeat(**heat | reader.columns(tables.HEAT)),
         heights=reader.part(SurfaceHeights, tables.HEIGHTS),
         oil=reader.part(FilmOil, tables.OIL),
+        passes=reader.part(PassHistory, tables.PASSES),
     )
 
 

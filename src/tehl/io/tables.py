@@ -65,6 +65,15 @@ OIL = (
         ("leaving", "oil_leaving", "m", "layer of oil at the outlet edge, both surfaces"),
     ),
 )
+PASSES = _table(
+    "pass",
+    ("number", "pass", "1", "number of the pass"),
+    ("time", "pass_time", "s", "time at the pass"),
+    ("film_central", "pass_film_central", "m", "central film"),
+    ("film_minimum", "pass_film_minimum", "m", "minimum film"),
+    ("entering", "pass_oil_entering", "m", "oil before the contact, on y = 0, both surfaces"),
+    ("leaving", "pass_oil_leaving", "m", "oil after the contact, on y = 0, both surfaces"),
+)
 HEAT = (
     *_table(
         "zeta",

@@ -8,9 +8,16 @@ from tehl.errors import InputError
 _NAMES = {
     "cases": (
         *("ball-on-disc", "moes", "bearing", "gear-ellipse", "rough", "thermal", "dimple"),
-        *("data-sheet", "passing-dent"),
+        *("data-sheet", "passing-dent", "starved"),
     ),
-    "studies": ("traction-curve", "film-vs-speed", "film-vs-load", "moes-map", "stribeck"),
+    "studies": (
+        "traction-curve",
+        "film-vs-speed",
+        "film-vs-load",
+        "moes-map",
+        "stribeck",
+        "starvation-curve",
+    ),
 }
 _FILES = {
     name: Path(__file__).with_name(kind) / f"{name}.toml"

@@ -18,6 +18,7 @@ from tehl.plots.convergence import residual_history
 from tehl.plots.interferogram import Optics, interferogram
 from tehl.plots.lines import centre_lines, film_distribution, pressure_surface, rough_centre_line
 from tehl.plots.maps import film_map, heights_map, micro_film_map, pressure_map, shear_stress_map
+from tehl.plots.oil import oil_map
 from tehl.plots.surface import surface_preview
 from tehl.plots.table_curves import curves
 from tehl.plots.table_maps import contour_map, film_deviations, moes_map
@@ -48,6 +49,7 @@ __all__ = [
     "mid_film_temperature",
     "moes_map",
     "moments",
+    "oil_map",
     "passage",
     "pictures_of",
     "pressure_map",
@@ -95,6 +97,8 @@ def pictures_of(result: Result | TransientResult, smooth: Result | None = None) 
             "passage": passage,
         }
     found = dict(PICTURES)
+    if result.starvation is not None:
+        found["oil"] = oil_map
     if result.roughness is not None:
         if result.heights is not None:
             found["heights"] = heights_map

@@ -82,3 +82,22 @@ def meniscus(result: Solution) -> Array:
         part = (held - entering) / (full - entering) if full > entering else 0.0
         found[row] = x[wet[0]] - (x[1] - x[0]) * float(np.clip(part, 0.0, 1.0))
     return found
+
+
+def oil_flux(result: Solution) -> tuple[Array, Array]:
+    """Return the oil flux along x and y per width over the entrainment speed, (ny, nx) each [m].
+
+    Wedge less pressure flow of the isothermal Newtonian oil; in cavities the oil moves along x.
+    """
+    problem, scales, scaled = result.problem, result.scales, result.scaled
+    oil, temperature = problem.lubricant, scales.temperature
+    pressure = result.pressure
+    density = oil.density.density(pressure, temperature) / scales.density
+    viscosity = oil.viscosity.viscosity(pressure, temperature)
+    thick = result.film_thickness
+    fill = np.ones(thick.shape) if result.oil is None else result.oil.fill
+    conductance = density * thick**3 / (12.0 * viscosity * scales.speed)
+    slope_y, slope_x = np.gradient(pressure, result.y, result.x)
+    wet = scaled.pressure > 0.0
+    along = density * fill * thick - np.where(wet, conductance * slope_x, 0.0)
+    return along, np.where(wet, -conductance * slope_y, 0.0)

@@ -28,6 +28,7 @@ from tehl.report.readable import UNTITLED
 from tehl.report.rendering import render
 from tehl.report.transient_plan import TransientPlan, transient_plan
 from tehl.scaling import ScaledProblem
+from tehl.starvation import starved_part, supply_ratio
 
 LEAST_RISE, LEAST_TRACTION = 0.1, 1e-4
 """Temperature rise [K] and traction coefficient below which no number is shown."""
@@ -81,16 +82,31 @@ class Explanation:
         return f'<pre style="font-family: monospace">{escape(as_text(self))}</pre>'
 
     @property
+    def supply_ratio(self) -> float:
+        """Oil that enters over that of the flooded contact, infinite if flooded [-]."""
+        return supply_ratio(self.scaled)
+
+    @property
+    def starved_part(self) -> float:
+        """Central film over that of the flooded contact by the film law [-]."""
+        return starved_part(self.supply_ratio)
+
+    @property
+    def starved_film(self) -> float:
+        """Central film with the oil that is supplied, by formula and film law [m]."""
+        return self.starved_part * self.central_film
+
+    @property
     def lambda_central(self) -> float | None:
         """Central film over ``composite`` [-]; None without roughness."""
-        return self.central_film / self.composite if self.composite > 0 else None
+        return self.starved_film / self.composite if self.composite > 0 else None
 
     @property
     def lambda_minimum(self) -> float | None:
         """Minimum film, by a formula in its range if there is one, over ``composite`` [-]."""
         films = sorted(self.films, key=lambda film: not film.valid)
         minimum = next(film.minimum_m for film in films if film.minimum_m is not None)
-        return minimum / self.composite if self.composite > 0 else None
+        return self.starved_part * minimum / self.composite if self.composite > 0 else None
 
     @property
     def lubrication(self) -> Lubrication | None:
@@ -169,6 +185,9 @@ def as_summary(case: Explanation) -> dict[str, Any]:
         **_contact_as_summary(case),
         "regime": regime(case.scaled.groups),
         "central_film_m": case.central_film,
+        "supply": None
+        if problem.supply is None
+        else {"ratio": case.supply_ratio, "degree": case.starved_part, "film_m": case.starved_film},
         "films": [asdict(film) | {"valid": film.valid} for film in case.films],
         "lambda_central": case.lambda_central,
         "lambda_minimum": case.lambda_minimum,

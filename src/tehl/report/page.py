@@ -34,6 +34,8 @@ CAPTIONS = {
     "pressure": "Pressure.",
     "pressure_surface": "Pressure along x, one profile behind another.",
     "centre_lines": "Pressure and film on the centre lines, with the dry contact.",
+    "oil": "Part of the gap that is oil, the meniscus where the film begins, stream lines.",
+    "passes": "Film and oil pass after pass.",
     "residuals": "Convergence, grid after grid.",
     "heights": "Heights of both surfaces together, positive outwards: peaks narrow the film.",
     "micro_film": "Ripples of film and pressure.",

@@ -3,6 +3,7 @@
 from tehl.solver.certify import certify
 from tehl.solver.cost import with_work
 from tehl.solver.monitor import SILENT, Monitor
+from tehl.solver.passes import solve_passes
 from tehl.solver.steady import solve
 from tehl.solver.transient.certify import certify_transient
 from tehl.solver.transient.run import solve_transient
@@ -13,6 +14,7 @@ __all__ = [
     "certify",
     "certify_transient",
     "solve",
+    "solve_passes",
     "solve_transient",
     "with_work",
 ]

@@ -128,7 +128,7 @@ def _with_working_hint(failed: Result, monitor: Monitor) -> Result:
     return replace(failed, status=replace(failed.status, hint=hint))
 
 
-def try_strategies(
+def try_strategies(  # noqa: PLR0913 (variants of one solve)
     problem: ContactProblem,
     options: Options,
     *,
@@ -136,6 +136,7 @@ def try_strategies(
     rough: bool,
     guess: Result | None = None,
     load: float = 1.0,
+    flooded: tuple[float, float] | None = None,
 ) -> tuple[Attempt, Result]:
     """Try the strategies; return the best attempt at the steady film and its result.
 
@@ -147,9 +148,11 @@ def try_strategies(
         Whether the surfaces have their roughness, at time zero; else they are smooth.
     load : float
         Load that the film carries, over that of the contact [-].
+    flooded : (float, float) or None
+        H and rho H at the centre of the flooded contact [-]; None computes them if oil is supplied.
     """
     warm_up(coupled=problem.is_coupled)
-    flooded = flooded_film(problem, options, monitor)
+    flooded = flooded or flooded_film(problem, options, monitor)
     clock, history = Clock(), Recorder(monitor)
     scaled = ScaledProblem.of(problem, flooded and flooded[1])
     goal = Goal(scaled, options)

@@ -1,0 +1,52 @@
+"""Where the oil is in a starved contact: the filled part of the gap, meniscus and stream lines."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from tehl.plots.frame import (
+    MAP,
+    MICRO,
+    colour_axes,
+    figure_of,
+    legend_above,
+    map_axes,
+    window_part,
+    window_places,
+)
+from tehl.post.starvation import meniscus, oil_flux
+from tehl.result import Result
+
+_STREAMS: dict[str, Any] = {"color": "0.25", "linewidth": 0.5, "arrowsize": 0.6, "density": 0.9}
+
+
+def oil_map(result: Result, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
+    """Draw the part of the gap that is oil, the meniscus, and stream lines of the oil.
+
+    Raises ValueError if the oil of cavities was not conserved.
+    """
+    if result.oil is None:
+        raise ValueError("the result has no oil map: its cavities do not conserve oil")
+    axes = map_axes(result, ax=ax, title=title)
+    part, places = window_part(result), window_places(result)
+    mesh = axes.pcolormesh(*places, result.oil.fill[part], cmap="Blues", vmin=0.0, vmax=1.5, **MAP)
+    along, across = (flux[part] for flux in oil_flux(result))
+    x, y = (np.linspace(axis[0], axis[-1], axis.size) for axis in places)  # to the last bit
+    lines = axes.streamplot(x, y, along, across, **_STREAMS)
+    lines.arrows.set_alpha(0.7)
+    axes.set_xlim(x[0], x[-1])
+    axes.set_ylim(y[0], y[-1])
+    legend_above(axes, *_draw_meniscus(axes, result))
+    label = "part of the gap that is oil"
+    bar = figure_of(axes).colorbar(mesh, cax=colour_axes(axes), label=label)
+    bar.ax.set_ylim(0.0, 1.0)
+    return figure_of(axes)
+
+
+def _draw_meniscus(axes: Axes, result: Result) -> list[Line2D]:
+    scales, at = result.scales, meniscus(result)
+    x, y = at * scales.half_width_x * MICRO, result.y * MICRO
+    return axes.plot(x, y, color="tab:red", lw=1.4, zorder=6, label="meniscus")
