@@ -11,6 +11,7 @@ COMMANDS = {
     "new": "case",
     "explain": "case",
     "solve": "solve",
+    "layer": "layer",
     "study": "study",
     "plot": "results",
     "animate": "results",

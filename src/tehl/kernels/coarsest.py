@@ -13,7 +13,7 @@ import numpy as np
 
 from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.raw import raw
-from tehl.kernels.reynolds import Stencil, flux_weights
+from tehl.kernels.reynolds import STEADILY, Stencil, flux_weights
 from tehl.typing import Array, FlagArray, IntArray
 
 HERE, EAST, WEST, NORTH, SOUTH, FAR = range(6)
@@ -157,7 +157,12 @@ def _slopes(state: Coarse, stencil: Stencil, work: Work) -> None:
     here = near[HERE]
     for n in range(EAST, FAR):
         there, along = near[n], n <= WEST
-        if stencil.conserves and n == WEST and state.partial[there] and not state.partial[here]:
+        if (
+            stencil.conserves == STEADILY
+            and n == WEST
+            and state.partial[there]
+            and not state.partial[here]
+        ):
             continue
         c = 0.5 * (stencil.cx if along else stencil.cy)
         mine = c * (state.stretch_x[here] if along else state.stretch_y[here])
@@ -171,7 +176,7 @@ def _slopes(state: Coarse, stencil: Stencil, work: Work) -> None:
     w0 = stencil.w0 - stencil.w2 if first else stencil.w0
     w1 = stencil.w1 + 2.0 * stencil.w2 if first else stencil.w1
     w2 = 0.0 if first else stencil.w2
-    if stencil.conserves:
+    if stencil.conserves == STEADILY:
         partial = state.partial[here] > 0, state.partial[west] > 0, state.partial[far] > 0
         orders = state.second[here] > 0, state.second[west] > 0
         w0, w1, w2 = flux_weights(stencil, partial, orders, 1 if first else 2)

@@ -23,7 +23,14 @@ from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.lanes import LANES, any_of, where
 from tehl.kernels.properties import Film
 from tehl.kernels.raw import raw
-from tehl.kernels.reynolds import Stencil, clear, flux_weights, line_operator, row_below
+from tehl.kernels.reynolds import (
+    STEADILY,
+    Stencil,
+    clear,
+    flux_weights,
+    line_operator,
+    row_below,
+)
 from tehl.typing import Array, FlagArray, Records
 
 Span = tuple[int, int]
@@ -162,7 +169,7 @@ def _load_line(
         cells[at, P, lane] = film.p[j, i]
         state = CAVITATED if film.p[j, i] <= 0.0 and rest[lane, i] >= 0.0 else FREE
         cells[at, STATE, lane] = KEPT if relaxation.frozen[j, i] else state
-    if stencil.conserves:
+    if stencil.conserves == STEADILY:
         _load_flux(film, stencil, relaxation, place, span)
 
 
@@ -194,7 +201,7 @@ def _leave_out(cells: Array, lane: int, span: Span) -> None:
 @helper
 def _fill_band(relaxation: LineRelaxation, stencil: Stencil, i: int) -> None:
     """Fill the coefficients of node ``i``: change of L there per unit change of each unknown."""
-    if stencil.conserves:
+    if stencil.conserves == STEADILY:
         here = relaxation.nodes[i + 3]
         _fill_row(relaxation, i, (here.own, here.upstream, here.farther), here.back)
         return

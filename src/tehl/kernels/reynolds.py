@@ -17,13 +17,16 @@ from tehl.kernels.properties import Film
 from tehl.kernels.raw import raw
 from tehl.typing import Array, FlagArray
 
+STEADILY, IN_TIME = 1, 2
+
 
 class Stencil(NamedTuple):
     """Weights of the differences on one grid.
 
     ``cx = 1/dx^2``, ``cy = 1/(kappa dy)^2``; ``w0, w1, w2`` weigh rho h of a node and of its
     upstream neighbours: the wedge, in a time step wedge and squeeze at the new time; ``mirror`` is
-    1 if row 0 is a symmetry line; ``conserves`` is 1 if oil is conserved in cavities too.
+    1 if row 0 is a symmetry line; ``conserves`` is `STEADILY` or `IN_TIME` if oil is conserved in
+    cavities too. In a time step what a cell holds does not depend on the present of others.
     """
 
     cx: float
@@ -54,7 +57,7 @@ def clear(field: Array | FlagArray) -> None:
 def line_operator(film: Film, stencil: Stencil, j: int, out: Array, row: int) -> None:
     """Write L(p) on line ``j`` to ``row`` of ``out``; the ends are not touched."""
     _line_flow(film, stencil, j, out, row)
-    if stencil.conserves:
+    if stencil.conserves == STEADILY:
         _subtract_flux(film, stencil, j, out, row)
     else:
         _subtract_wedge(film, stencil, j, out, row)

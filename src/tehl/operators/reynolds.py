@@ -6,7 +6,8 @@
 import numpy as np
 
 from tehl.grid import Grid
-from tehl.kernels.reynolds import Stencil
+from tehl.kernels.properties import Film
+from tehl.kernels.reynolds import IN_TIME, STEADILY, Stencil
 from tehl.operators.influence import Influence
 from tehl.scaling import Groups
 from tehl.typing import Array
@@ -40,7 +41,7 @@ def steady_stencil(
         w1=w1,
         w2=w2,
         mirror=int(grid.mirror),
-        conserves=int(conserves),
+        conserves=STEADILY if conserves else 0,
     )
 
 
@@ -52,7 +53,8 @@ def step_stencil(stencil: Stencil, time_step: float) -> Stencil:
     (docs/theory/numerics-transient.md). Only the first is unknown. Its weight is the same on all
     grids, which take the same time step.
     """
-    return stencil._replace(w0=1.5 / time_step, w1=0.0, w2=0.0)
+    conserves = IN_TIME if stencil.conserves else 0
+    return stencil._replace(w0=1.5 / time_step, w1=0.0, w2=0.0, conserves=conserves)
 
 
 def upstream(field: Array, nodes: int) -> Array:
@@ -79,6 +81,34 @@ def steady_wedge(mass: Array, spacing: float, order: int) -> Array:
     if order == 1:
         return (mass - upstream(mass, 1)) / spacing
     return (1.5 * mass - 2.0 * upstream(mass, 1) + 0.5 * upstream(mass, 2)) / spacing
+
+
+def steady_flux(film: Film, held: Array, spacing: float, order: int) -> Array:
+    """Return the difference of the wedge fluxes along x where cavities conserve oil.
+
+    As in `tehl.kernels.reynolds`, but with all pressure flows counted where they pass: a partly
+    filled node passes on the oil that it holds.
+
+    Parameters
+    ----------
+    film : Film
+        With ``partial`` and ``second``.
+    held : (ny, nx) array
+        Oil at each node [-].
+    spacing : float
+        Mesh width along x [a_x].
+    order : int
+        Order of the wedge.
+    """
+    passed = held.copy()
+    passed[:, 1:] += 0.5 * film.second[:, 1:] * (held[:, 1:] - held[:, :-1])
+    passed = np.where(film.partial > 0, held, passed)
+    full = (film.partial[:, 0] == 0) & (film.partial[:, 1] == 0)
+    if order > 1:
+        passed[full, 0] = 0.5 * (held[full, 0] + held[full, 1])
+    difference = np.zeros_like(held)
+    difference[:, 1:] = (passed[:, 1:] - passed[:, :-1]) / spacing
+    return difference
 
 
 def line_influence(influence: Influence) -> tuple[Array, Array]:

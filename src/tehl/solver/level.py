@@ -110,7 +110,7 @@ class Level:
             self.sources.outside = self.far_field.load(h, self.equations.gap)
         self.update_properties()
         self._is_stale = False
-        if self.stencil.conserves and self.is_finest:
+        if self.stencil.conserves == reynolds.STEADILY and self.is_finest:
             self._mark_cavities()
 
     def _mark_cavities(self) -> None:
@@ -120,6 +120,22 @@ class Level:
         reynolds.mark_partial(film, stencil, self.sources.reynolds, scratch)
         if not self.keeps_orders:
             reynolds.mark_second_order(film, 2 if stencil.w2 > 0.0 else 1)
+
+    def held_oil(self) -> Array:
+        """Return the oil at each node after a time step, ``grid.shape`` [-].
+
+        A node without pressure is not full if less oil has come than a full one holds.
+        """
+        film, rest = self.film, np.empty(self.grid.shape)
+        held: Array = film.rho * film.h
+        if self.stencil.conserves:
+            reynolds.operator(film, self.stencil, rest)
+            np.subtract(self.sources.reynolds, rest, out=rest)
+            missing = np.maximum(rest, 0.0) / self.stencil.w0
+            missing[[0, -1] if not self.grid.mirror else [-1]] = 0.0
+            missing[:, [0, -1]] = 0.0
+            held = np.where(film.p > 0.0, held, np.maximum(held - missing, 0.0))
+        return held
 
     def oil_flow(self) -> tuple[Array, Array]:
         """Return the oil at each node, rho H or less, and the flux to the east, ``grid.shape``."""
@@ -296,7 +312,7 @@ class Level:
         transfer.restrict_pressure(self.film.p, mirror, coarse.film.p)
         transfer.freeze(self.film.p, self.smoother.frozen, coarse.film.p, mirror, limit, frozen)
         coarse.is_finest, coarse.sources.outside = False, 0.0
-        if self.stencil.conserves:  # where the film begins is decided on the finest grid too
+        if self.stencil.conserves == reynolds.STEADILY:  # the finest grid decides where films begin
             coarse.film.partial[:] = self.film.partial[::2, ::2]
             reynolds.mark_second_order(coarse.film, 2 if coarse.stencil.w2 > 0.0 else 1)
         # I P and H00: `correct_from` interpolates the change since

@@ -100,6 +100,7 @@ class Run:
         smooth = transient.start == "smooth"
         self._pose(finest_grid(scaled, planned(scaled, options)), smooth=smooth)  # fails early
         attempt, self.start = _steady_start(problem, options, rough=not smooth, monitor=monitor)
+        self.scaled = attempt.run.hierarchy.scaled  # it knows the flooded film
         self._pose(attempt.run.finest.grid, smooth=smooth)
         settings = COUPLED_SETTINGS if problem.is_coupled else SETTINGS
         self.stepper = Stepper(attempt.run, transient, settings)

@@ -14,10 +14,11 @@ from typing import Literal
 
 import numpy as np
 
-from tehl.operators.reynolds import steady_wedge, step_stencil, upstream
+from tehl.operators.reynolds import steady_flux, steady_wedge, step_stencil, upstream
 from tehl.solver.convergence import LEAST_KELVIN, RUNAWAY
 from tehl.solver.fas import Cycle, cycle
 from tehl.solver.film_solver import FilmSolver
+from tehl.solver.level import Level
 from tehl.solver.relaxation import Relaxation
 from tehl.solver.transient.predictor import Predictor
 from tehl.transient import Transient
@@ -67,8 +68,7 @@ class Stepper:
         self.solver, self.transient, self.settings = solver, transient, settings
         level = solver.finest
         self.time_step = transient.stride * level.grid.dx
-        self.steady = level.film.rho * level.film.h
-        self.wedge = steady_wedge(self.steady, level.grid.dx, solver.options.wedge_order)
+        self.steady, self.wedge = _steady_oil(level, solver.options.wedge_order)
         self.now, self.before = self.steady.copy(), self.steady.copy()
         self.predictor = Predictor(level.film.p, transient.stride)
         # all levels take the same time step, and so the same weight of rho H
@@ -109,7 +109,7 @@ class Stepper:
                 if isinstance(error, StepError):
                     raise
                 raise StepError("diverged", np.nan) from error
-            self.before, self.now = self.now, level.film.rho * level.film.h
+            self.before, self.now = self.now, self._held()
             self.predictor.note(level.film.p)
             self.squeeze.advance()
             self.solver.coupling.advance(self.solver.levels)
@@ -126,6 +126,17 @@ class Stepper:
         last = 2.0 * upstream(self.now - steady, stride)
         before = 0.5 * upstream(self.before - steady, 2 * stride)
         return (last - before + 1.5 * steady) / self.time_step - self.wedge
+
+    def _held(self) -> Array:
+        """Return the oil at each node; on the edges where it enters that of the steady film."""
+        level = self.solver.finest
+        held = level.held_oil()
+        if level.stencil.conserves:
+            starved = level.film.partial[:, 0] > 0
+            held[starved, 0] = self.steady[starved, 0]
+            for edge in (-1,) if level.grid.mirror else (0, -1):
+                held[edge] = self.steady[edge]
+        return held
 
     def choose(self, number: int) -> None:
         """Set the relaxation, with at least the threshold of dipoles that the time step needs."""
@@ -167,6 +178,17 @@ class Stepper:
         more = self.squeeze.update(excess * level.film.rho * level.film.h)
         history += more
         level.sources.reynolds -= more
+
+
+def _steady_oil(level: Level, order: int) -> tuple[Array, Array]:
+    """Return oil and upstream difference of its flux in a steady film, (ny, nx) each [-]."""
+    if not level.stencil.conserves:
+        mass = level.film.rho * level.film.h
+        return mass, steady_wedge(mass, level.grid.dx, order)
+    held, _ = level.oil_flow()
+    for edge in (-1,) if level.grid.mirror else (0, -1):  # nothing is solved there
+        held[edge] = np.minimum(held[edge], level.film.layer[edge])
+    return held, steady_flux(level.film, held, level.grid.dx, order)
 
 
 class Squeeze:

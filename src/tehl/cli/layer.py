@@ -1,0 +1,112 @@
+"""``tehl layer``: how a starved film decays over hours of running, by the law of side flow."""
+
+import csv
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import numpy as np
+from typer import Exit, Option, echo
+
+from tehl.cli.arguments import AsJson, CaseFile, Overrides, Quiet
+from tehl.cli.ending import NOT_CONVERGED
+from tehl.errors import InputError
+from tehl.units import Duration, quantity
+
+if TYPE_CHECKING:
+    from tehl.post.layer import LayerDecay
+    from tehl.problem import ContactProblem
+
+COLUMNS = ("time_s", "film_m", "film_by_formula_m")
+"""Columns of the table: time, and film with F by the solved pressure and by the closed form."""
+Rows = list[tuple[float, float, float]]
+
+
+def layer(  # noqa: PLR0913 (the options of the command)
+    case: CaseFile,
+    *,
+    time: Annotated[str, Option("--time", help='How long it runs, such as "20 min".')],
+    steps: Annotated[int, Option(min=1, max=10000, help="Rows of the table.")] = 10,
+    output: Annotated[
+        Path | None, Option("-o", "--output", help="Also write the table to this CSV file.")
+    ] = None,
+    overrides: Overrides,
+    as_json: AsJson = False,
+    quiet: Quiet = False,
+) -> None:
+    """Show how a starved film decays over time by side flow."""
+    from tehl.cli.progress import progress
+    from tehl.io.atomic import check_writable
+    from tehl.io.case import read_case_and_options
+    from tehl.post.layer import layer_decay
+    from tehl.result import ConvergenceError
+
+    try:
+        end = quantity(Duration).parse(time)
+    except ValueError as error:
+        raise InputError(f'--time = "{time}": {error}') from None
+    stated, options = read_case_and_options(case, overrides)
+    if output is not None:
+        check_writable(output, sources=(case,))
+    problem = _single(stated, case)
+    from tehl.solver import solve
+
+    with progress(problem, quiet=quiet) as monitor:
+        try:
+            result = solve(problem, options, monitor=monitor)
+        except ConvergenceError as error:
+            echo(f"tehl: not converged: {error}", err=True)
+            raise Exit(NOT_CONVERGED) from None
+    decay, times = layer_decay(result), np.linspace(0.0, end, steps + 1)
+    films = decay.film(times), decay.film(times, by_formula=True)
+    rows: Rows = list(zip(times.tolist(), *(film.tolist() for film in films), strict=True))
+    echo(_json(decay, rows) if as_json else _text(problem.title or case.stem, decay, rows))
+    if output is not None:
+        _write(output, rows)
+
+
+def _single(problem: "ContactProblem", case: Path) -> "ContactProblem":
+    """Return the first pass of a case; raise if the law of side flow does not apply to it."""
+    if problem.supply is None or problem.supply.track is None:
+        raise InputError(
+            f"{case}: supply.track is missing, which tehl layer needs: give the length of both "
+            'running tracks together, such as "250 mm"'
+        )
+    if problem.is_rough or problem.transient is not None:
+        raise InputError(
+            f"{case}: the law of side flow is for steady contacts of smooth surfaces: remove "
+            "roughness and [transient]"
+        )
+    return problem.model_copy(update={"supply": problem.supply.model_copy(update={"passes": None})})
+
+
+def _write(path: Path, rows: Rows) -> None:
+    from tehl.io.atomic import replacing
+
+    with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
+        csv.writer(file).writerows([COLUMNS, *rows])
+    echo(f"written: {path}", err=True)
+
+
+def _json(decay: "LayerDecay", rows: Rows) -> str:
+    numbers = {
+        "rate_1_m2_s": decay.rate,
+        "rate_by_formula_1_m2_s": decay.rate_by_formula,
+        "start_m": decay.start,
+        "limit_m": decay.limit,
+    }
+    columns = zip(COLUMNS, map(list, zip(*rows, strict=True)), strict=True)
+    return json.dumps(numbers | dict(columns))
+
+
+def _text(title: str, decay: "LayerDecay", rows: Rows) -> str:
+    lines = [
+        f"{title}: decay of the central film by side flow",
+        f"  F                {decay.rate:.3g} 1/(m^2 s) by the pressure of this contact, "
+        f"{decay.rate_by_formula:.3g} by the closed form for the Hertz pressure",
+    ]
+    if decay.replenishment:
+        lines.append(f"  limit            {1e9 * decay.limit:.4g} nm, where as much oil comes back")
+    lines.append("  time [s]         film [nm]   by the closed form [nm]")
+    lines += [f"  {at:<16.5g} {1e9 * film:<11.4g} {1e9 * other:.4g}" for at, film, other in rows]
+    return "\n".join(lines)

@@ -1,0 +1,145 @@
+r"""Decay of a starved film by side flow, over many passes: the layer between them grows thinner.
+
+In each pass the pressure of the contact squeezes oil sideways. Where the film is much thinner than
+flooded, the layer h_s on each surface obeys [1]_
+
+    dh_s/dt = -F h_s^3 / 3 + R / 2,        h_c = 2 h_s / rho_c,
+
+    F = (2 / l) \int -p_yy / (rho^2 eta) dx     on y = 0,
+
+with the length l of both running tracks, rho over the ambient density, and the replenishment R of
+both surfaces together. For R = 0:  h_c(t) = (rho_c^2 F t / 6 + h_c(0)^-2)^(-1/2). The speed does
+not matter. For the Hertz pressure and Barus oil of constant density the integral is nearly
+
+    F = (2 / l) (p_h / b^2) (a / eta_0) pi ((pi alpha p_h / 2)^(3/2) + 1)^(-2/3).
+
+References
+----------
+.. [1] M. T. van Zoelen, C. H. Venner and P. M. Lugt, Proc. IMechE Part J 224 (2010), 1171-1185.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl.errors import InputError
+from tehl.hertz import HertzContact
+from tehl.solution import Solution
+from tehl.typing import Array
+
+STEPS = 2000
+"""Steps of the layer from the start to the end."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class LayerDecay:
+    """Central film over time by side flow."""
+
+    rate: float
+    """F by the pressure of the solved contact [1/(m^2 s)]."""
+    rate_by_formula: float
+    """F by the closed form for the Hertz pressure [1/(m^2 s)]."""
+    start: float
+    """Central film at time zero [m]."""
+    density: float
+    """Density in the middle of the contact over the ambient one [-]."""
+    replenishment: float
+    """Oil that comes back to both surfaces together [m/s]."""
+
+    def film(self, time: Array, *, by_formula: bool = False) -> Array:
+        """Return the central film at times since the start [m].
+
+        Parameters
+        ----------
+        time : array
+            Increasing from zero [s].
+        by_formula : bool
+            Whether F is that of the closed form.
+        """
+        rate = self.rate_by_formula if by_formula else self.rate
+        decay = self.density**2 * rate / 6.0
+        if not self.replenishment:
+            found: Array = (decay * time + self.start**-2) ** -0.5
+            return found
+        return _with_replenishment(time, self.start, decay, self.replenishment / self.density)
+
+    @property
+    def limit(self) -> float:
+        """Film at which as much oil comes back as is squeezed out, zero without it [m]."""
+        decay = self.density**2 * self.rate / 6.0
+        return (2.0 * self.replenishment / self.density / decay) ** (1.0 / 3.0)
+
+
+def _with_replenishment(time: Array, start: float, decay: float, gain: float) -> Array:
+    """Return h of  dh/dt = gain - decay h^3 / 2  at times, by steps of equal growth [m]."""
+    found, film, now = np.empty(time.shape), start, 0.0
+    for place, end in enumerate(time):
+        steps = max(int(STEPS * (end - now) / max(float(time[-1]), 1e-300)), 1) if end > now else 0
+        for _ in range(steps):
+            step = (end - now) / steps if steps else 0.0
+            # half a step of decay, a step of gain, half a step of decay: second order
+            film = (0.5 * decay * step + film**-2) ** -0.5 + gain * step
+            film = (0.5 * decay * step + film**-2) ** -0.5
+        found[place], now = film, end
+    return found
+
+
+def side_flow_rate(result: Solution, track: float) -> float:
+    """Return F by quadrature of the pressure of a result on y = 0 [1/(m^2 s)].
+
+    Parameters
+    ----------
+    result : Result
+        A solved contact.
+    track : float
+        Length of both running tracks together [m].
+    """
+    row = int(np.argmin(np.abs(result.y)))
+    pressure, oil = result.pressure[row - 1 : row + 2], result.problem.lubricant
+    spacing, temperature = result.y[1] - result.y[0], result.scales.temperature
+    bend = (pressure[2] - 2.0 * pressure[1] + pressure[0]) / spacing**2
+    density = oil.density.density(pressure[1], temperature) / result.scales.density
+    viscosity = oil.viscosity.viscosity(pressure[1], temperature)
+    flow = np.where(pressure[1] > 0.0, -bend / (density**2 * viscosity), 0.0)
+    return float(2.0 / track * np.trapezoid(flow, result.x))
+
+
+def rate_by_formula(hertz: HertzContact, viscosity: float, alpha: float, track: float) -> float:
+    """Return F by the closed form for the Hertz pressure [1/(m^2 s)].
+
+    Parameters
+    ----------
+    hertz : HertzContact
+        The dry contact.
+    viscosity, alpha : float
+        Ambient viscosity [Pa s] and pressure coefficient [1/Pa].
+    track : float
+        Length of both running tracks together [m].
+    """
+    thin = hertz.pressure / hertz.half_width_y**2 * hertz.half_width_x / viscosity * math.pi
+    thick = (0.5 * math.pi * alpha * hertz.pressure) ** 1.5 + 1.0
+    return 2.0 / track * thin * thick ** (-2.0 / 3.0)
+
+
+def layer_decay(result: Solution) -> LayerDecay:
+    """Return how the film of a result decays by side flow.
+
+    Raises InputError if the case states no ``supply.track``.
+    """
+    problem, supply = result.problem, result.problem.supply
+    if supply is None or supply.track is None:
+        raise InputError(
+            'supply.track is missing: give the length of both running tracks, such as "250 mm"'
+        )
+    scales, pressure = result.scales, result.scaled.at_origin(result.pressure)
+    density = float(problem.lubricant.density.density(pressure, scales.temperature))
+    return LayerDecay(
+        rate=side_flow_rate(result, supply.track),
+        rate_by_formula=rate_by_formula(
+            problem.hertz, problem.ambient_viscosity, problem.pressure_coefficient, supply.track
+        ),
+        start=result.film.central,
+        density=density / scales.density,
+        replenishment=supply.replenishment,
+    )
