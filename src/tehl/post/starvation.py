@@ -1,11 +1,12 @@
 """Numbers of a starved film: how far it is starved, where it begins, what it leaves behind."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from tehl.solution import Solution
-from tehl.starvation import starved_part, supply_ratio
+from tehl.starvation import flooded_oil, is_starved, starved_part
 from tehl.typing import Array
 
 
@@ -44,8 +45,12 @@ def starvation(result: Solution) -> Starvation | None:
         return None
     if not result.film.minimum > 0.0:
         return None
-    unit, ratio = result.scales.film_thickness, supply_ratio(result.scaled_problem)
-    flooded, row = supplied.flooded_film, int(np.argmin(np.abs(result.scaled.y)))
+    unit, row = result.scales.film_thickness, int(np.argmin(np.abs(result.scaled.y)))
+    flooded = supplied.flooded_film
+    # of the oil that enters: the supply stated is that of the first pass
+    ratio = float(oil.entering[row]) / unit / flooded_oil(result.scaled_problem)
+    if not is_starved(result.scaled_problem):
+        ratio = math.inf
     begins = meniscus(result)[row]
     at = None if np.isnan(begins) else float(begins) * result.scales.half_width_x
     return Starvation(

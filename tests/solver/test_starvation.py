@@ -1,0 +1,324 @@
+"""Starved films: exact and independent values, conservation, limits, passes, bad input."""
+
+import numpy as np
+import pytest
+
+from tehl.errors import InputError
+from tehl.io.case import case_from_tables
+from tehl.io.store import load, save
+from tehl.kernels import properties, relaxation, reynolds
+from tehl.options import Domain, Options
+from tehl.plots.oil import oil_map
+from tehl.post.layer import LayerDecay, layer_decay
+from tehl.post.starvation import meniscus, oil_flux
+from tehl.problem import ContactProblem
+from tehl.result import Result
+from tehl.scaling import ScaledProblem
+from tehl.solver import solve, solve_passes, solve_transient
+from tests.reference import DOMAIN, moes_contact, read
+
+FILMS, CYLINDERS = (read("starved")[name] for name in ("films", "cylinders"))
+FLOODED_FILM, LOAD = 1.2257484, 0.203957
+"""Exit film of a flooded rigid cylinder over h0, and its load over 24 eta_0 u_m R / h0."""
+
+
+def extrapolated(coarse: float, fine: float) -> float:
+    """Return the limit of second order of values on grids halved once."""
+    return fine + (fine - coarse) / 3.0
+
+
+def starved(load: float, speed: float, **supply: object) -> ContactProblem:
+    """Return a contact of the reference films with a supply of oil."""
+    case = moes_contact(load, speed).model_dump(exclude_none=True)
+    return case_from_tables(case | {"supply": supply})[0]
+
+
+def with_layer(load: float, speed: float, oil: float) -> ContactProblem:
+    """Return a contact with a layer of oil, rho H [-]."""
+    unit = ScaledProblem.of(moes_contact(load, speed)).scales.film_thickness
+    return starved(load, speed, layer=oil * unit)
+
+
+@pytest.fixture(scope="module")
+def film() -> Result:
+    """Return a starved film that is tightly converged."""
+    problem = starved(20.0, 10.0, ratio=0.7)
+    return solve(problem, Options(points=129, accuracy="tight", tolerance=1e-9))
+
+
+# ---- exact: a rigid cylinder in one dimension
+
+
+def cylinder(centre: float, oil: float, nodes: int, upstream: float) -> tuple[float, float]:
+    """Return load and meniscus of a rigid cylinder H = centre + X^2 with a layer of oil."""
+    x = np.linspace(-upstream, 1.5, nodes)
+    dx = x[1] - x[0]
+    h = np.tile(centre + x**2, (3, 1))
+    p, rho = np.zeros_like(h), np.ones_like(h)
+    flags = (np.zeros(h.shape, np.uint8) for _ in range(2))
+    film = properties.Film(
+        p, h, h**3, rho, np.zeros_like(h), h**3, h**3, *flags, layer=np.full(3, oil)
+    )
+    w0, w1, w2 = 1.5 / dx, -2.0 / dx, 0.5 / dx
+    stencil = reynolds.Stencil(1.0 / dx**2, 0.0, w0, w1, w2, 1, reynolds.STEADILY)
+    rest, nodes_, cells = relaxation.workspace(nodes)
+    lines = relaxation.LineRelaxation(
+        xi=0.0,
+        omega_point=1.0,
+        omega_dipole=1.0,
+        point=np.zeros(8),
+        dipole=np.zeros(8),
+        kind=np.zeros(h.shape, np.uint8),
+        delta=np.zeros(h.shape),
+        frozen=np.zeros(h.shape, np.uint8),
+        stiffness=np.zeros(h.shape),
+        rest=rest,
+        nodes=nodes_,
+        cells=cells,
+    )
+    zero, scratch = np.zeros_like(h), np.zeros((1, nodes))
+    for number in range(500):  # the film grows upstream by some nodes per sweep
+        reynolds.mark_partial(film, stencil, zero, scratch)
+        if number < 450:
+            reynolds.mark_second_order(film, 2)
+        relaxation.relax_lines(film, stencil, zero, lines)
+    held, passed = np.zeros_like(h), np.zeros_like(h)
+    reynolds.oil_flow(film, stencil, held, passed)
+    np.testing.assert_allclose(passed[0, :-1], oil, rtol=1e-10)  # through each section
+    first = int(np.nonzero(p[0] > 0.0)[0][0])
+    ahead = (held[0, first - 1] - oil) / (h[0, first - 1] - oil)
+    return float(p[0].sum() * dx), x[first] - dx * ahead
+
+
+@pytest.mark.parametrize("row", CYLINDERS[3:], ids=lambda row: f"r={row['ratio']}")
+def test_a_starved_rigid_cylinder_has_its_exact_load_and_meniscus(row):
+    oil, upstream = row["ratio"] * FLOODED_FILM, row["meniscus"] + 0.737
+    coarse, fine = (cylinder(row["film"], oil, n, upstream) for n in (401, 1601))
+    assert fine[0] == pytest.approx(LOAD, rel=5e-4)
+    # first order: a mesh width
+    assert -fine[1] == pytest.approx(row["meniscus"], abs=(upstream + 1.5) / 1600)
+    # four times finer: sixteen at second order, four at first
+    assert abs(fine[0] - LOAD) < max(abs(coarse[0] - LOAD) / 4.0, 2e-6)
+
+
+# ---- independent films
+
+
+def test_starved_films_agree_with_an_independent_solver():
+    found = FILMS[0]
+    problem = with_layer(found["load"], found["speed"], found["oil"])
+    runs = [
+        solve(problem, Options(points=n, domain=DOMAIN, accuracy="tight", tolerance=1e-7))
+        for n in (129, 257)
+    ]
+    central = extrapolated(*(run.film_scaled.central for run in runs))
+    minimum = extrapolated(*(run.film_scaled.minimum for run in runs))
+    assert central == pytest.approx(found["central"], rel=1e-3)
+    assert minimum == pytest.approx(found["minimum"], rel=3e-3)
+    at = meniscus(runs[1])[128]
+    assert at == pytest.approx(found["meniscus"], abs=0.003)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("found", FILMS, ids=lambda row: f"M={row['load']},r={row['ratio']}")
+def test_all_starved_films_agree_with_an_independent_solver(found):
+    problem = with_layer(found["load"], found["speed"], found["oil"])
+    options = Options(domain=DOMAIN, accuracy="tight", tolerance=1e-6, max_cycles=60)
+    runs = [solve(problem, options.model_copy(update={"points": n})) for n in (257, 513)]
+    central = extrapolated(*(run.film_scaled.central for run in runs))
+    minimum = extrapolated(*(run.film_scaled.minimum for run in runs))
+    assert central == pytest.approx(found["central"], rel=1e-3)
+    assert minimum == pytest.approx(found["minimum"], rel=3e-3)
+    assert meniscus(runs[1])[256] == pytest.approx(found["meniscus"], abs=0.003)
+
+
+# ---- conservation and limits
+
+
+def test_oil_is_conserved_through_every_section(film):
+    assert film.starvation.balance < 1e-8
+    along, across = oil_flux(film)  # in the contact the surfaces drag nearly all of it
+    middle = np.ix_(*(np.abs(axis) < 0.3 for axis in (film.scaled.y, film.scaled.x)))
+    dragged = film.film_thickness[middle]
+    assert np.abs(across[middle]).max() < 0.02 * dragged.mean()
+    assert along[middle] / dragged == pytest.approx(1.15 + 0.0 * dragged, abs=0.02)
+
+
+def test_more_inlet_does_not_change_a_starved_film(film):
+    options = film.options.model_copy(update={"domain": Domain(x=(-3.5, 1.5), y=(-1.9, 1.9))})
+    scales = film.scales
+    problem = starved(20.0, 10.0, layer=float(film.oil.entering[64]))
+    shorter = Domain(x=(-2.5, 1.5), y=(-1.9, 1.9))
+    near = solve(problem, options.model_copy(update={"domain": shorter, "points": (129, 97)}))
+    far = solve(problem, options.model_copy(update={"points": (161, 97)}))
+    assert far.film_scaled.central == pytest.approx(near.film_scaled.central, rel=1e-7)
+    assert meniscus(far)[48] == pytest.approx(meniscus(near)[48], abs=1e-6)
+    assert scales.film_thickness > 0.0
+
+
+@pytest.mark.parametrize("domain", ["auto", DOMAIN])
+def test_conserving_cavities_leave_a_flooded_film_as_it_is(domain):
+    problem = moes_contact(100.0, 10.0)
+    case = problem.model_dump(exclude_none=True) | {"cavitation": {"model": "conserving"}}
+    options = Options(points=129, domain=domain, accuracy="tight", tolerance=1e-8)
+    usual, found = (solve(one, options) for one in (problem, ContactProblem.model_validate(case)))
+    assert found.scaled.film == pytest.approx(usual.scaled.film, abs=1e-7)
+    assert found.oil.fill.min() < 0.5 < usual.film_scaled.central / found.film_scaled.central
+    assert found.supplied.balance < 1e-6
+    assert usual.oil is None
+
+
+def test_the_film_follows_the_law_and_ends_flooded_and_as_thin_as_the_layer():
+    parts = {}
+    for ratio in (0.1, 0.4, 0.7, 3.0, 15.0, 500.0):
+        found = solve(starved(100.0, 8.0, ratio=ratio), Options()).starvation
+        parts[ratio] = found.degree
+        if ratio <= 0.7:
+            assert found.degree == pytest.approx(found.degree_by_law, rel=0.05)
+            assert found.ratio == pytest.approx(ratio)
+    assert parts[0.1] == pytest.approx(0.1, rel=0.02)
+    assert list(parts.values()) == sorted(parts.values())
+    assert parts[15.0] == pytest.approx(1.0, abs=0.01)
+    assert parts[500.0] == pytest.approx(1.0, abs=1e-3)
+
+
+def test_half_and_full_domain_give_the_same_starved_film(film):
+    full = solve(film.problem, film.options.model_copy(update={"half_domain": "never"}))
+    assert full.film_scaled.central == pytest.approx(film.film_scaled.central, rel=1e-6)
+    # the meniscus decides on full and partly filled cells one by one
+    assert np.mean(np.abs(full.oil.fill - film.oil.fill) > 1e-3) < 0.005
+
+
+def test_a_profile_over_y_starves_one_side_more():
+    scaled = ScaledProblem.of(moes_contact(50.0, 8.0))
+    width, unit = scaled.scales.half_width_y, scaled.scales.film_thickness
+    oil = 0.5 * unit
+    profile = ((-2.5 * width, 0.1 * oil), (2.5 * width, 0.7 * oil))
+    found = solve(starved(50.0, 8.0, profile=profile), Options(points=129))
+    rows = (int(np.argmin(np.abs(found.scaled.y - y))) for y in (-0.6, 0.6))
+    column = int(np.argmin(np.abs(found.scaled.x)))
+    less, more = (found.scaled.film[row, column] for row in rows)
+    assert less < 0.9 * more
+
+
+# ---- in time, and pass after pass
+
+
+def test_a_starved_film_stays_as_it_is_while_nothing_changes():
+    case = starved(50.0, 8.0, ratio=0.6).model_dump(exclude_none=True)
+    steady = ContactProblem.model_validate(case)
+    motion = steady.hertz.half_width_x / steady.entrainment_speed
+    case["transient"] = {"duration": 1.5 * motion, "frames": 0}
+    run = solve_transient(ContactProblem.model_validate(case), Options(points=97))
+    assert run.status.converged
+    assert np.ptp(run.history.film_central) < 2e-4 * run.history.film_central[0]
+    assert np.ptp(run.history.film_minimum) < 1e-3 * run.history.film_minimum[0]
+
+
+@pytest.fixture(scope="module")
+def passed() -> Result:
+    """Return the last of some passes."""
+    problem = starved(50.0, 8.0, ratio=1.0, passes=24, track=0.25)
+    return solve_passes(problem, Options(points=97))
+
+
+def test_the_film_decays_from_pass_to_pass_by_what_flows_aside(passed):
+    history = passed.passes
+    assert history.film_central.size == 24
+    assert (np.diff(history.film_central) < 0.0).all()
+    # what leaves on the middle line is what comes to the next pass
+    assert history.entering[1:] == pytest.approx(history.leaving[:-1], rel=1e-9)
+    slope = np.polyfit(np.log(history.number[11:]), np.log(history.film_central[11:]), 1)[0]
+    assert -0.55 < slope < -0.3  # between gamma = 2, severe starvation, and 3
+
+
+def test_passes_continue_where_they_were_stopped(passed):
+    states = []
+    problem, options = passed.problem, Options(points=97)
+    solve_passes(problem, options, keep=states.append)
+    again = solve_passes(problem, options, resume=states[9])
+    for name in ("film_central", "entering", "time"):
+        np.testing.assert_array_equal(getattr(again.passes, name), getattr(passed.passes, name))
+
+
+def test_what_comes_back_ends_the_decay(passed):
+    supply = passed.problem.supply.model_copy(
+        update={"replenishment": 2e-8 / passed.problem.supply.pass_seconds(1.0) / 10.0}
+    )
+    problem = passed.problem.model_copy(update={"supply": supply})
+    more = solve_passes(problem, Options(points=97)).passes.film_central
+    assert more[-1] > 1.02 * passed.passes.film_central[-1]
+
+
+def test_passes_are_stored(passed, tmp_path):
+    save(passed, tmp_path / "passed.nc")
+    again = load(tmp_path / "passed.nc")
+    np.testing.assert_array_equal(again.passes.film_central, passed.passes.film_central)
+    np.testing.assert_array_equal(again.oil.fill, passed.oil.fill)
+    assert again.starvation == passed.starvation
+    assert again.summary()["starvation"]["degree"] == passed.starvation.degree
+    assert oil_map(again).axes
+
+
+def test_the_law_of_side_flow_is_that_of_the_passes(passed):
+    decay = layer_decay(solve(starved(50.0, 8.0, ratio=0.2, track=0.25), Options(points=129)))
+    assert decay.rate == pytest.approx(decay.rate_by_formula, rel=0.1)
+    history = passed.passes
+    tail = slice(15, None)
+    law = LayerDecay(
+        rate=decay.rate,
+        rate_by_formula=decay.rate_by_formula,
+        start=history.film_central[15],
+        density=decay.density,
+        replenishment=0.0,
+    ).film(history.time[tail] - history.time[15])
+    change = history.film_central[15] - history.film_central[-1]
+    assert history.film_central[15] - law[-1] == pytest.approx(change, rel=0.25)
+
+
+def test_a_layer_that_is_fed_ends_at_its_limit():
+    decay = LayerDecay(
+        rate=1e13, rate_by_formula=1e13, start=9e-8, density=1.15, replenishment=1e-11
+    )
+    film = decay.film(np.array([0.0, 1e3, 1e4, 1e5, 1e6]))
+    assert film[0] == 9e-8
+    assert film[-1] == pytest.approx(decay.limit, rel=1e-3)
+
+
+# ---- bad input
+
+
+@pytest.mark.parametrize(
+    ("supply", "text"),
+    [
+        ({}, "lacks the oil"),
+        ({"layer": -1e-7}, "must not be negative"),
+        ({"layer": 0.0}, "must be positive"),
+        ({"layer": float("nan")}, "is not a number"),
+        ({"layer": 1e-7, "ratio": 0.5}, "states the oil twice: layer and ratio"),
+        ({"ratio": 0.5, "each": True}, "ratio is of all the oil"),
+        ({"ratio": 0.5, "passes": 10}, "track is missing"),
+        ({"ratio": 0.5, "loss": 0.1}, "state passes too"),
+        ({"profile": ((0.0, 1e-7), (0.0, 2e-7))}, "places y that increase"),
+    ],
+)
+def test_a_supply_that_makes_no_sense_is_one_sentence(supply, text):
+    with pytest.raises(InputError, match=text) as caught:
+        starved(50.0, 8.0, **supply)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_supply_with_cavities_that_do_not_conserve_is_refused():
+    case = starved(50.0, 8.0, ratio=0.5).model_dump(exclude_none=True)
+    with pytest.raises(InputError, match='take "conserving"'):
+        case_from_tables(case | {"cavitation": {"model": "reynolds"}})
+
+
+def test_a_layer_thicker_than_the_gap_at_the_inlet_is_refused():
+    with pytest.raises(InputError, match="thicker than the gap"):
+        solve(with_layer(50.0, 8.0, 3.0), Options(points=65, domain=Domain(x=(-2, 1.5), y=(-2, 2))))
+
+
+def test_a_profile_that_does_not_cover_the_domain_is_refused():
+    with pytest.raises(InputError, match="does not cover the domain"):
+        solve(starved(50.0, 8.0, profile=((-1e-6, 1e-7), (1e-6, 1e-7))), Options(points=65))
