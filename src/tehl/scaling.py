@@ -63,12 +63,13 @@ class ScaledProblem:
     groups: Groups
     flooded_oil: float | None = None
     """rho H in the middle of the same contact fully flooded [-]; None is that of the formula."""
+    flooded_error: float = 0.0
+    """Its relative error bar [-]."""
 
     @classmethod
-    def of(cls, problem: ContactProblem, flooded_oil: float | None = None) -> "ScaledProblem":
+    def of(cls, problem: ContactProblem) -> "ScaledProblem":
         """Scale a problem."""
-        scaled, numbers = scales(problem), groups(problem)
-        return cls(problem=problem, scales=scaled, groups=numbers, flooded_oil=flooded_oil)
+        return cls(problem=problem, scales=scales(problem), groups=groups(problem))
 
     @property
     def entering(self) -> Groups:

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from tehl.fields import (
@@ -146,6 +146,8 @@ class ErrorEstimate:
     """Change by further cycles, relative [-]."""
     domain: float = 0.0
     """From the edges of a domain with the far field, relative [-]."""
+    supply: float = 0.0
+    """From the flooded film to which ``supply.ratio`` is stated, relative [-]."""
     pressure_max: float | None = None
     traction_mid_film: float | None = None
     film_rise_max: float | None = None
@@ -168,12 +170,12 @@ class ErrorEstimate:
     @property
     def central(self) -> float:
         """Error bar of the central film, all parts together [-]."""
-        return self.discretisation_central + self.iteration_central + self.domain
+        return self.discretisation_central + self.iteration_central + self.domain + self.supply
 
     @property
     def minimum(self) -> float:
         """Error bar of the minimum film, all parts together [-]."""
-        return self.discretisation_minimum + self.iteration_minimum + self.domain
+        return self.discretisation_minimum + self.iteration_minimum + self.domain + self.supply
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -213,6 +215,8 @@ class Supplied:
     flooded_oil: float | None
     """Central film H, and rho H there, of the same contact fully flooded and smooth, on its own
     grid [-]; None if that did not converge, or is this contact."""
+    flooded_error: float
+    """Relative error bar of both [-]."""
     balance: float
     """Largest change of the oil flux over the sections across the flow, relative [-]."""
 
@@ -263,10 +267,11 @@ class Solution:
     @property
     def scaled_problem(self) -> ScaledProblem:
         """The problem with its scales and dimensionless groups."""
-        flooded = None if self.supplied is None else self.supplied.flooded_oil
-        return ScaledProblem(
-            problem=self.problem, scales=self.scales, groups=self.groups, flooded_oil=flooded
-        )
+        scaled = ScaledProblem(problem=self.problem, scales=self.scales, groups=self.groups)
+        known = self.supplied
+        if known is None:
+            return scaled
+        return replace(scaled, flooded_oil=known.flooded_oil, flooded_error=known.flooded_error)
 
     @property
     def x(self) -> Array:

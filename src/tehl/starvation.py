@@ -39,6 +39,17 @@ OUTLETS = ((3.0, 0.6), (math.inf, 5.0 / 11.0))
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class Flooded:
+    """The same contact fully flooded and smooth."""
+
+    film: float
+    oil: float
+    """H and rho H at its centre [-]."""
+    error: float
+    """Relative error bar of both [-]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class EnteringOil:
     """The oil rho H that enters, over Y: at ``y`` [half-widths] the layers ``oil`` [-].
 
@@ -117,6 +128,17 @@ def starved_part(ratio: float, gamma: float = GAMMA) -> float:
     if math.isinf(ratio):
         return 1.0
     return float(ratio / (1.0 + ratio**gamma) ** (1.0 / gamma))
+
+
+def ratio_error(scaled: ScaledProblem) -> float:
+    """Return the relative error of the film by that of the flooded one, to which it is stated.
+
+    The film law says by how much: 1 / (1 + r^gamma), with gamma = 2 at least.
+    """
+    supply = scaled.problem.supply
+    if supply is None or supply.ratio is None:
+        return 0.0
+    return scaled.flooded_error / (1.0 + supply.ratio**2)
 
 
 def supplied_film(scaled: ScaledProblem) -> float:

@@ -2,7 +2,7 @@
 
 import math
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from tehl.domain import far_field_error
 from tehl.entering import entry_error
@@ -14,6 +14,7 @@ from tehl.solver.continuation import Roughness
 from tehl.solver.convergence import GridTrace, error_estimate, single_grid_estimate
 from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.level import Level
+from tehl.starvation import ratio_error
 from tehl.units import percentage
 
 FACTOR = 5.0
@@ -44,6 +45,14 @@ def estimated_errors(
     hierarchy : Hierarchy
         The contact, and the order of the wedge.
     """
+    found = _by_grids(level, traces, roughness, hierarchy)
+    return found and replace(found, supply=ratio_error(hierarchy.scaled))
+
+
+def _by_grids(
+    level: Level, traces: list[GridTrace], roughness: Roughness, hierarchy: Hierarchy
+) -> ErrorEstimate | None:
+    """Return the errors of `estimated_errors` without that of the supply."""
     scaled, order = hierarchy.scaled, hierarchy.options.wedge_order
     if len(traces) < 2 or not traces[-1].reports or traces[-1].diverged:
         return None

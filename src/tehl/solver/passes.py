@@ -17,6 +17,7 @@ from tehl.result import ConvergenceError, Result
 from tehl.solution import Cost
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.steady import TOO_COARSE, try_strategies
+from tehl.starvation import Flooded
 from tehl.supply import Supply
 from tehl.typing import Array
 
@@ -37,8 +38,8 @@ class PassState:
     points: tuple[int, int]
     edges: tuple[float, float, float, float]
     """Nodes, and edges x, y of the domain [half-widths]."""
-    flooded: tuple[float, float] | None
-    """H and rho H of the flooded contact [-]."""
+    flooded: Flooded | None
+    """The flooded contact."""
     cost: Cost = field(default_factory=lambda: Cost(cpu_seconds=0.0, wall_seconds=0.0))
 
 
@@ -150,7 +151,10 @@ def _after(
     layer = oil.leaving.copy()
     layer[[0, -1]] = oil.entering[[1, -2]]  # the edges of the domain pass nothing on
     layer = np.maximum((1.0 - supply.loss) * layer + supply.replenishment * seconds, 0.0)
-    known = (supplied.flooded_film, supplied.flooded_oil)
+    film, mass = supplied.flooded_film, supplied.flooded_oil
+    flooded = None
+    if film is not None and mass is not None:
+        flooded = Flooded(film=film, oil=mass, error=supplied.flooded_error)
     cost = Cost(cpu_seconds=result.cost.cpu_seconds, wall_seconds=result.cost.wall_seconds)
     return PassState(
         rows=(*rows, row),
@@ -158,7 +162,7 @@ def _after(
         layer=layer,
         points=(scaled.x.size, scaled.y.size),
         edges=(scaled.x[0], scaled.x[-1], scaled.y[0], scaled.y[-1]),
-        flooded=None if known[0] is None or known[1] is None else (known[0], known[1]),
+        flooded=flooded,
         cost=cost if before is None else before.cost + cost,
     )
 
@@ -170,7 +174,8 @@ def _history(state: PassState) -> PassHistory:
 
 def pack(state: PassState) -> dict[str, Array]:
     """Return a state as arrays by name."""
-    flooded = (np.nan, np.nan) if state.flooded is None else state.flooded
+    known = state.flooded
+    flooded = (known.film, known.oil, known.error) if known else (np.nan, np.nan, np.nan)
     numbers = (*state.points, *state.edges, *flooded)
     return {
         "rows": np.array(state.rows),
@@ -186,18 +191,18 @@ def unpack(arrays: Mapping[str, Array]) -> PassState:
     Raises InputError if an array is missing or does not fit.
     """
     try:
-        nx, ny, *edges, film, oil, cpu, wall = arrays["numbers"].tolist()
+        nx, ny, *edges, film, oil, error, cpu, wall = arrays["numbers"].tolist()
         state = PassState(
             rows=tuple(tuple(row) for row in arrays["rows"].tolist()),
             y=arrays["y"],
             layer=arrays["layer"],
             points=(int(nx), int(ny)),
             edges=(edges[0], edges[1], edges[2], edges[3]),
-            flooded=None if np.isnan(film) else (film, oil),
+            flooded=None if np.isnan(film) else Flooded(film=film, oil=oil, error=error),
             cost=Cost(cpu_seconds=cpu, wall_seconds=wall),
         )
-    except (KeyError, ValueError, IndexError) as error:
-        raise InputError(f"the checkpoint is damaged ({error}): remove it to start anew") from error
+    except (KeyError, ValueError, IndexError) as fault:
+        raise InputError(f"the checkpoint is damaged ({fault}): remove it to start anew") from fault
     if state.y.shape != state.layer.shape or not np.isfinite(state.layer).all():
         raise InputError("the checkpoint is damaged (its layer of oil): remove it to start anew")
     return state

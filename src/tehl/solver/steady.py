@@ -34,7 +34,7 @@ from tehl.solver.monitor import SILENT, Monitor, Recorder
 from tehl.solver.outputs import film_heat, film_oil, film_shear, newtonian_shear, oil_balance
 from tehl.solver.remedy import working_hint
 from tehl.solver.verdict import TOO_COARSE, touching, verdict
-from tehl.starvation import check_supply
+from tehl.starvation import Flooded, check_supply
 
 GRID_CAUSES = (
     "grid_too_coarse",
@@ -136,7 +136,7 @@ def try_strategies(  # noqa: PLR0913 (variants of one solve)
     rough: bool,
     guess: Result | None = None,
     load: float = 1.0,
-    flooded: tuple[float, float] | None = None,
+    flooded: Flooded | None = None,
 ) -> tuple[Attempt, Result]:
     """Try the strategies; return the best attempt at the steady film and its result.
 
@@ -148,13 +148,15 @@ def try_strategies(  # noqa: PLR0913 (variants of one solve)
         Whether the surfaces have their roughness, at time zero; else they are smooth.
     load : float
         Load that the film carries, over that of the contact [-].
-    flooded : (float, float) or None
-        H and rho H at the centre of the flooded contact [-]; None computes them if oil is supplied.
+    flooded : Flooded or None
+        The flooded contact; None computes it if oil is supplied.
     """
     warm_up(coupled=problem.is_coupled)
     flooded = flooded or flooded_film(problem, options, monitor)
     clock, history = Clock(), Recorder(monitor)
-    scaled = ScaledProblem.of(problem, flooded and flooded[1])
+    scaled = ScaledProblem.of(problem)
+    if flooded is not None:
+        scaled = replace(scaled, flooded_oil=flooded.oil, flooded_error=flooded.error)
     goal = Goal(scaled, options)
     plan = goal.fitting(planned(scaled, options))
     check_supply(scaled, domain_of(scaled, plan))
@@ -184,8 +186,8 @@ def try_strategies(  # noqa: PLR0913 (variants of one solve)
 
 def flooded_film(
     problem: ContactProblem, options: Options, monitor: Monitor = SILENT
-) -> tuple[float, float] | None:
-    """Return H and rho H at the centre of the same contact, flooded and smooth, by a solve [-].
+) -> Flooded | None:
+    """Solve the same contact, flooded and smooth.
 
     None for a contact that states no supply, or if the solve does not converge.
     """
@@ -197,17 +199,24 @@ def flooded_film(
     attempt, result = try_strategies(same, options, monitor=SILENT, rough=False)
     if not result.status.converged:
         return None
-    level = attempt.run.finest
-    central = central_value(level.grid, level.film.h)
-    return central, central_value(level.grid, level.film.rho * level.film.h)
+    grid, film = attempt.run.finest.grid, attempt.run.finest.film
+    return Flooded(
+        film=central_value(grid, film.h),
+        oil=central_value(grid, film.rho * film.h),
+        error=0.0 if result.errors is None else result.errors.central,
+    )
 
 
-def _supplied(level: Level, flooded: tuple[float, float] | None) -> Supplied | None:
+def _supplied(level: Level, flooded: Flooded | None) -> Supplied | None:
     """Return the balance of the oil beside the flooded contact; None if it is not conserved."""
     if not level.stencil.conserves:
         return None
-    film, oil = (None, None) if flooded is None else flooded
-    return Supplied(flooded_film=film, flooded_oil=oil, balance=oil_balance(level))
+    return Supplied(
+        flooded_film=None if flooded is None else flooded.film,
+        flooded_oil=None if flooded is None else flooded.oil,
+        flooded_error=0.0 if flooded is None else flooded.error,
+        balance=oil_balance(level),
+    )
 
 
 def _surfaces(run: FilmSolver) -> SurfaceHeights | None:
