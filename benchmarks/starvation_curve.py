@@ -50,7 +50,7 @@ def part(load: float, speed: float, supply: float, nodes: int) -> float:
 
 
 def rows() -> Iterator[tuple[float, float, float, float, float]]:
-    """Yield the rows of the table: the part extrapolated, two thirds of the last change as error."""
+    """Yield the rows: the part extrapolated, and two thirds of the last change as its error."""
     for load in LOADS:
         for speed in SPEEDS:
             for supply in SUPPLIES:

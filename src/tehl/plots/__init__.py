@@ -18,7 +18,7 @@ from tehl.plots.convergence import residual_history
 from tehl.plots.interferogram import Optics, interferogram
 from tehl.plots.lines import centre_lines, film_distribution, pressure_surface, rough_centre_line
 from tehl.plots.maps import film_map, heights_map, micro_film_map, pressure_map, shear_stress_map
-from tehl.plots.oil import oil_map
+from tehl.plots.oil import oil_map, pass_history
 from tehl.plots.surface import surface_preview
 from tehl.plots.table_curves import curves
 from tehl.plots.table_maps import contour_map, film_deviations, moes_map
@@ -50,6 +50,7 @@ __all__ = [
     "moes_map",
     "moments",
     "oil_map",
+    "pass_history",
     "passage",
     "pictures_of",
     "pressure_map",
@@ -97,8 +98,7 @@ def pictures_of(result: Result | TransientResult, smooth: Result | None = None) 
             "passage": passage,
         }
     found = dict(PICTURES)
-    if result.starvation is not None:
-        found["oil"] = oil_map
+    found |= _of_oil(result)
     if result.roughness is not None:
         if result.heights is not None:
             found["heights"] = heights_map
@@ -115,6 +115,16 @@ def pictures_of(result: Result | TransientResult, smooth: Result | None = None) 
     solids = (result.problem.surface_1.material, result.problem.surface_2.material)
     if any(solid.transparent for solid in solids):
         found |= INTERFEROGRAMS
+    return found
+
+
+def _of_oil(result: Result) -> Pictures:
+    """Return the functions that draw the oil of a starved contact, by name."""
+    found: Pictures = {}
+    if result.starvation is not None:
+        found["oil"] = oil_map
+    if result.passes is not None:
+        found["passes"] = pass_history
     return found
 
 

@@ -14,12 +14,14 @@ from tehl.plots.frame import (
     figure_of,
     legend_above,
     map_axes,
+    single,
     window_part,
     window_places,
 )
 from tehl.post.starvation import meniscus, oil_flux
 from tehl.result import Result
 
+NANO = 1e9
 _STREAMS: dict[str, Any] = {"color": "0.25", "linewidth": 0.5, "arrowsize": 0.6, "density": 0.9}
 
 
@@ -50,3 +52,25 @@ def _draw_meniscus(axes: Axes, result: Result) -> list[Line2D]:
     scales, at = result.scales, meniscus(result)
     x, y = at * scales.half_width_x * MICRO, result.y * MICRO
     return axes.plot(x, y, color="tab:red", lw=1.4, zorder=6, label="meniscus")
+
+
+def pass_history(result: Result, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
+    """Draw the films and the oil that enters, pass after pass, on logarithmic axes.
+
+    Raises ValueError for a result of a single pass.
+    """
+    if result.passes is None:
+        raise ValueError("the result has no history of passes: state supply.passes")
+    axes, passes = single(result, (7.0, 4.8), ax=ax, title=title), result.passes
+    curves: tuple[tuple[Any, dict[str, Any]], ...] = (
+        (passes.entering, {"color": "tab:blue", "ls": "--", "label": "oil that enters, y = 0"}),
+        (passes.film_central, {"color": "black", "label": "central film"}),
+        (passes.film_minimum, {"color": "tab:red", "label": "minimum film"}),
+    )
+    for values, style in curves:
+        axes.loglog(passes.number, values * NANO, **style)
+    axes.set_xlabel("pass")
+    axes.set_ylabel("thickness [nm]")
+    axes.grid(visible=True, which="both", alpha=0.3)
+    axes.legend()
+    return figure_of(axes)

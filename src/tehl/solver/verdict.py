@@ -54,7 +54,8 @@ def verdict(run: FilmSolver, *, reached: bool) -> Status:
     film, errors = run.finest.film, run.errors()
     if not (np.isfinite(film.p).all() and np.isfinite(film.h).all() and film.p.min() >= 0):
         return diverged(run)
-    if not reached and run.roughness.is_rough:  # another strategy may converge on this grid
+    another = run.roughness.is_rough or is_starved(run.hierarchy.scaled)
+    if not reached and another:  # another strategy may converge on this grid
         return not_reached(run)
     found = _rough_status(run, errors) if run.roughness.is_rough else _smooth_status(run, errors)
     if found.cause in TOO_COARSE and run.goal.obstacle:
