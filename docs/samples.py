@@ -10,6 +10,7 @@ COMMANDS = {
     "failure": ("ball-on-disc", ("--set", "numerics.points=33")),
     "thermal": ("thermal", ("--with-isothermal",)),
     "rough": ("rough", ("--with-smooth",)),
+    "starved": ("starved", ()),
     "bearing": ("bearing", ("--plot", "pictures")),
     "gear": ("gear-ellipse", ("--plot", "pictures")),
 }

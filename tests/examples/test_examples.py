@@ -117,6 +117,15 @@ def test_heat_of_the_inlet_thins_a_fast_film_as_formulas_say():
         assert table[8.0]["computed"] == pytest.approx(table[8.0][name], rel=0.12)
 
 
+def test_a_starved_film_follows_its_supply():
+    table = example("starvation").main()
+    for ratio, (degree, law, distance, balance) in table.items():
+        assert degree == pytest.approx(law, rel=0.05)
+        assert balance < 5e-3
+        assert 0.0 < distance < 0.5 * ratio + 0.1
+    assert [row[0] for row in table.values()] == sorted(row[0] for row in table.values())[::-1]
+
+
 def test_a_standing_wave_is_flattened_as_theory_says_and_leaves_stripes():
     table = example("standing_wave").main()
     # an independent multigrid program on the same grid: 0.0606, 0.1154 and 0.0154, 0.0362
