@@ -1,11 +1,16 @@
 """Supply of oil and cavitation: the ``[supply]`` and ``[cavitation]`` tables of a case."""
 
+import re
 from itertools import pairwise
+from pathlib import Path
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, ValidationInfo, field_validator, model_validator
 
-from tehl.units import Height, Length, Place, PositiveNumber, Quantity, Ratio, Table
+from tehl.units import Height, Length, Place, PositiveNumber, Quantity, Ratio, Table, quantity
+
+LARGEST_FILE = 1_000_000
+"""Characters of a profile that are read."""
 
 MOST_PASSES = 100_000
 LARGEST_RATIO = 1e3
@@ -22,8 +27,12 @@ class Supply(Table):
     """Thickness of the oil on both surfaces together [m]."""
     each: bool = False
     """Whether ``layer`` and ``profile`` are on each surface, instead of both together."""
-    profile: Annotated[tuple[tuple[Place, Height], ...], Field(min_length=2)] | None = None
-    """Places y [m] and layers there [m], linear between."""
+    profile: Annotated[
+        Annotated[tuple[tuple[Place, Height], ...], Field(min_length=2)] | None,
+        Field(json_schema_extra=lambda schema: schema["anyOf"].append({"type": "string"})),
+    ] = None
+    """Places y [m] and layers there [m], linear between; or the name of a CSV file with both in two
+    columns, in metres or with their units in its header: ``y [mm], layer [um]``."""
     ratio: Annotated[PositiveNumber, Field(le=LARGEST_RATIO)] | None = None
     """Oil that enters, over what the fully flooded contact passes on at its centre [-]."""
     passes: Annotated[int, Field(ge=2, le=MOST_PASSES)] | None = None
@@ -35,6 +44,14 @@ class Supply(Table):
     """Part of the oil that is lost between two passes [-]."""
     replenishment: Annotated[float, Quantity("a speed", "m/s", '"0.1 nm/s"', "non-negative")] = 0.0
     """Oil that comes back to both surfaces together, as thickness over time [m/s]."""
+
+    @field_validator("profile", mode="before")
+    @classmethod
+    def _read_file(cls, value: object, info: ValidationInfo) -> object:
+        if not isinstance(value, str):
+            return value
+        folder = (info.context or {}).get("folder") or Path()
+        return _read_profile(Path(folder) / value)
 
     @model_validator(mode="after")
     def _once(self) -> Self:
@@ -76,6 +93,37 @@ class Supply(Table):
             abs(y - other_y) <= 1e-9 * abs(y) and abs(layer - other) <= 1e-9 * abs(layer)
             for (y, layer), (other_y, other) in zip(points, mirrored, strict=True)
         )
+
+
+def _read_profile(path: Path) -> list[tuple[float, float]]:
+    """Return the places and layers of a CSV file [m]; raise ValueError with one sentence."""
+    try:
+        text = path.read_text(encoding="utf-8-sig")[:LARGEST_FILE]
+    except (OSError, UnicodeDecodeError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or "not a text file"
+        raise ValueError(f"cannot be read ({reason})") from None
+    rows = [
+        re.split(r"[;,\t]|\s+(?!\[)", line.strip()) for line in text.splitlines() if line.strip()
+    ]
+    units = (1.0, 1.0)
+    if rows and "[" in "".join(rows[0]):
+        units = _units(rows.pop(0))
+    try:
+        pairs = [tuple(float(cell) for cell in row if cell) for row in rows]
+    except ValueError:
+        raise ValueError("is not a CSV file of two columns of numbers, y and layer") from None
+    if not pairs or any(len(pair) != len(units) for pair in pairs):
+        raise ValueError("is not a CSV file of two columns of numbers, y and layer")
+    return [(y * units[0], layer * units[1]) for y, layer in pairs]
+
+
+def _units(header: list[str]) -> tuple[float, float]:
+    """Return the factors of the two columns to metres from a header such as ``y [mm]``."""
+    found = re.findall(r"\[([^\]]*)\]", ",".join(header))
+    if len(found) != len(("y", "layer")):
+        raise ValueError("has a header without both units, such as: y [mm], layer [um]")
+    first, second = (quantity(Place).parse(f"1 {unit}") for unit in found)
+    return first, second
 
 
 class Cavitation(Table):

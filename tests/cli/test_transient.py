@@ -15,7 +15,7 @@ import pytest
 
 import tehl
 from tehl import cli
-from tehl.cli.checkpoint import Keeper
+from tehl.cli.checkpoint import STEPS, Keeper
 from tehl.io.checkpoint import Fingerprint
 from tehl.plots import animation
 from tehl.result import ConvergenceError
@@ -320,13 +320,13 @@ def test_a_steady_case_has_nothing_to_resume(folder, run):
     )
     done = run("solve", "steady.toml", "--resume")
     assert done.code == 2
-    assert "the case has no [transient]" in done.err
+    assert "the case has neither [transient] nor supply.passes" in done.err
 
 
-def test_a_full_disk_does_not_end_a_run(folder, capsys, monkeypatch):
-    keeper = Keeper(folder / "nowhere" / "x", Fingerprint("0.1.0", "abc"))
+def test_a_full_disk_does_not_end_a_run(folder, capsys):
+    kind = replace(STEPS, pack=lambda _: {})
+    keeper = Keeper(folder / "nowhere" / "x", Fingerprint("0.1.0", "abc"), kind)
     keeper.last = object()
-    monkeypatch.setattr("tehl.cli.checkpoint.pack", lambda _: {})
     assert not keeper.write()
     assert not keeper.write()
     assert capsys.readouterr().err.count("checkpoint not written") == 1

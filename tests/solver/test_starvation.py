@@ -308,6 +308,40 @@ def test_a_supply_that_makes_no_sense_is_one_sentence(supply, text):
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "y [mm], layer [um]\n-0.5, 0.2\n0, 0.1\n0.5, 0.2\n",
+        "-5e-4;2e-7\n0;1e-7\n5e-4;2e-7\n",
+        "-5e-4 2e-7\n\n0 1e-7\n5e-4 2e-7",
+    ],
+)
+def test_a_profile_may_be_a_csv_file(text, tmp_path):
+    (tmp_path / "layer.csv").write_text(text, encoding="utf-8")
+    case = moes_contact(50.0, 8.0).model_dump(exclude_none=True)
+    found, _ = case_from_tables(case | {"supply": {"profile": "layer.csv"}}, tmp_path)
+    expected = ((-5e-4, 2e-7), (0.0, 1e-7), (5e-4, 2e-7))
+    np.testing.assert_allclose(found.supply.profile, expected)
+
+
+@pytest.mark.parametrize(
+    ("text", "fault"),
+    [
+        (None, "cannot be read"),
+        ("1,2,3\n4,5,6", "two columns"),
+        ("a,b\n1,2", "two columns"),
+        ("y [mm], layer\n1,2", "without both units"),
+        ("", "two columns"),
+    ],
+)
+def test_a_profile_that_cannot_be_read_is_one_sentence(text, fault, tmp_path):
+    if text is not None:
+        (tmp_path / "layer.csv").write_text(text, encoding="utf-8")
+    case = moes_contact(50.0, 8.0).model_dump(exclude_none=True)
+    with pytest.raises(InputError, match=fault):
+        case_from_tables(case | {"supply": {"profile": "layer.csv"}}, tmp_path)
+
+
 def test_a_supply_with_cavities_that_do_not_conserve_is_refused():
     case = starved(50.0, 8.0, ratio=0.5).model_dump(exclude_none=True)
     with pytest.raises(InputError, match='take "conserving"'):

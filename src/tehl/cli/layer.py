@@ -5,13 +5,11 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import numpy as np
 from typer import Exit, Option, echo
 
 from tehl.cli.arguments import AsJson, CaseFile, Overrides, Quiet
 from tehl.cli.ending import NOT_CONVERGED
 from tehl.errors import InputError
-from tehl.units import Duration, quantity
 
 if TYPE_CHECKING:
     from tehl.post.layer import LayerDecay
@@ -35,11 +33,14 @@ def layer(  # noqa: PLR0913 (the options of the command)
     quiet: Quiet = False,
 ) -> None:
     """Show how a starved film decays over time by side flow."""
+    import numpy as np
+
     from tehl.cli.progress import progress
     from tehl.io.atomic import check_writable
     from tehl.io.case import read_case_and_options
     from tehl.post.layer import layer_decay
     from tehl.result import ConvergenceError
+    from tehl.units import Duration, quantity
 
     try:
         end = quantity(Duration).parse(time)
