@@ -152,6 +152,9 @@ class PassHistory(_ReadOnly):
     entering: Array
     leaving: Array
     """Oil on both surfaces together, on y = 0, before and after the contact [m]."""
+    inlet_distance: Array
+    """From the meniscus to the Hertz contact on y = 0 [m]; 1 where the gap is full at the inlet
+    edge."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

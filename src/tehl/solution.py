@@ -74,14 +74,14 @@ class Status:
 
     @property
     def is_vague(self) -> bool:
-        """Whether the film converged but its minimum, one spot between asperities, is uncertain."""
+        """Whether a film converged but is uncertain: its minimum between peaks, or ``cause``."""
         return self.converged and self.hint is not None
 
     @property
     def outcome(self) -> str:
         """The outcome in words, with the cause if it adds to the kind."""
         if self.is_vague:
-            return "converged, minimum film open"
+            return f"converged, {(self.cause or 'minimum film open').replace('_', ' ')}"
         kind = self.kind.replace("_", " ")
         if self.cause in (None, self.kind):
             return kind

@@ -73,6 +73,7 @@ PASSES = _table(
     ("film_minimum", "pass_film_minimum", "m", "minimum film"),
     ("entering", "pass_oil_entering", "m", "oil before the contact, on y = 0, both surfaces"),
     ("leaving", "pass_oil_leaving", "m", "oil after the contact, on y = 0, both surfaces"),
+    ("inlet_distance", "pass_inlet_distance", "m", "from the meniscus to the Hertz contact, y = 0"),
 )
 HEAT = (
     *_table(

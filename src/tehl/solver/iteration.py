@@ -43,11 +43,11 @@ MOST_DOUBLINGS = 4
 """Most doublings of `MOST_CYCLES`, one per coarser grid, where temperatures converge slowly."""
 HERTZ_CYCLES = 2
 """Cycles after which a grid that started from the Hertz pressure has a film."""
-MOST_FRONT_CYCLES = 12
+MOST_FRONT_CYCLES = 24
 """The same where a meniscus must be found: on coarse grids that costs little."""
-SETTLED = 0.3
-"""Nodes that a cycle fills or empties, over the number of lines, up to which it moves no
-meniscus."""
+SETTLED, SETTLED_COARSE = 0.3, 0.03
+"""Nodes that a cycle fills or empties, over the number of lines, up to which it moves no meniscus:
+on the finest grid, and on coarser ones, where a cycle costs less."""
 LARGEST_OIL_ERROR = 5e-3
 """Relative change of the oil flux through the contact that is accepted."""
 FREE_ORDERS = 4
@@ -244,7 +244,8 @@ class GridIteration:
         step()
         fine.update()
         changed = int(np.count_nonzero(fine.film.partial != partial))
-        self.is_settled = changed <= SETTLED * fine.grid.shape[0]
+        limit = SETTLED if fine is self.finest else SETTLED_COARSE
+        self.is_settled = changed <= limit * fine.grid.shape[0]
         if fine.stencil.conserves:
             self.is_settled &= oil_balance(fine) <= LARGEST_OIL_ERROR
         heating = self.coupling.update(levels)

@@ -12,18 +12,24 @@ import numpy as np
 from tehl.errors import InputError
 from tehl.fields import PassHistory
 from tehl.options import Domain, Options
+from tehl.post.starvation import meniscus
 from tehl.problem import ContactProblem
 from tehl.result import ConvergenceError, Result
-from tehl.solution import Cost
+from tehl.solution import Cost, Hint, Status
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.steady import TOO_COARSE, try_strategies
 from tehl.starvation import Flooded
 from tehl.supply import Supply
 from tehl.typing import Array
 
+LONGEST = 1.0
+"""Inlet distance where the gap is full at the inlet edge [m]."""
+RESOLVED = 0.25
+"""Inlet distance over the mesh width below which the film hardly decays any more: at 0.4 the decay
+of a steel ball on glass is within 5 % of the law of side flow, at 0.23 it has ended."""
 MOST_REFINEMENTS = 2
 """Times that the grid is refined where the film has become too thin for it."""
-COLUMNS = ("time", "film_central", "film_minimum", "entering", "leaving")
+COLUMNS = ("time", "film_central", "film_minimum", "entering", "leaving", "inlet_distance")
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -101,7 +107,14 @@ def solve_passes(
         )
     assert result is not None
     assert state is not None
-    return replace(result, problem=problem, passes=_history(state), cost=state.cost)
+    history = _history(state)
+    return replace(
+        result,
+        problem=problem,
+        passes=history,
+        cost=state.cost,
+        status=_judged(result, history),
+    )
 
 
 def _one_pass(
@@ -147,6 +160,7 @@ def _after(
         result.film.minimum,
         float(oil.entering[middle]),
         float(oil.leaving[middle]),
+        _inlet_distance(result, middle),
     )
     layer = oil.leaving.copy()
     layer[[0, -1]] = oil.entering[[1, -2]]  # the edges of the domain pass nothing on
@@ -164,6 +178,30 @@ def _after(
         edges=(scaled.x[0], scaled.x[-1], scaled.y[0], scaled.y[-1]),
         flooded=flooded,
         cost=cost if before is None else before.cost + cost,
+    )
+
+
+def _inlet_distance(result: Result, row: int) -> float:
+    """Return the distance of the meniscus to the Hertz contact on a line [m]."""
+    distance = (-meniscus(result)[row] - 1.0) * result.scales.half_width_x
+    return float(np.nan_to_num(distance, nan=LONGEST))
+
+
+def _judged(result: Result, history: PassHistory) -> Status:
+    """Return the status of the last pass, with a warning if the side flow is not resolved."""
+    mesh = float(result.x[1] - result.x[0])
+    near = np.nonzero(history.inlet_distance < RESOLVED * mesh)[0]
+    if not near.size:
+        return result.status
+    return Status(
+        kind="converged",
+        cause="side_flow_not_resolved",
+        message=(
+            f"From pass {near[0] + 1} on the meniscus is nearer to the Hertz contact than "
+            f"{1e6 * RESOLVED * mesh:.2g} um, a quarter of a mesh width: the rim, where oil is "
+            "thin enough to flow aside, is not resolved, and the film decays too slowly."
+        ),
+        hint=Hint("for films as thin as this tehl layer has the law of side flow."),
     )
 
 
