@@ -11,7 +11,8 @@ from typing import Any
 
 from tests.reference import CLOSE, DOMAIN, heated_contact, moes_contact, read, wavy_contact
 
-from benchmarks import waves
+from benchmarks import starved_page, waves
+from benchmarks.markdown import head, row
 from benchmarks.table import show
 from tehl.options import Options
 from tehl.post.waves import WaveResponse, wave_responses
@@ -57,16 +58,6 @@ def film(case: dict[str, Any], points: int, density: tuple[float, float]) -> Res
     """Return the film of a case, iterated to the tolerance."""
     problem = moes_contact(case["M"], case["L"], density=density)
     return solve(problem, Options(points=points, domain=DOMAIN, accuracy="tight"))
-
-
-def row(*cells: object) -> str:
-    """Return one line of a table."""
-    return "| " + " | ".join(str(cell) for cell in cells) + " |"
-
-
-def head(*names: str) -> list[str]:
-    """Return the two first lines of a table."""
-    return [row(*names), row(*("---:" for _ in names))]
 
 
 def independent(table: dict[str, Any]) -> Iterator[str]:
@@ -358,6 +349,7 @@ def main() -> None:
         *heated(read("thermal")["independent"]),
         *wavy(),
         *passing(),
+        *starved_page.section(),
         ONE,
     ]
     PAGE.write_text("\n".join(lines), encoding="utf-8")

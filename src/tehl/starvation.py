@@ -34,6 +34,8 @@ BACKFLOW, MARGIN = 2.5, 1.2
 of the oil that the surfaces drag in. And a margin."""
 LEAST_INLET, LEAST_SIDE = 2.3, 1.7
 """Least distances of the inlet edge and of the side edges, in Hertz half-widths."""
+WIDER = 1.3
+"""Factor on the sides if the surfaces pass repeatedly."""
 OUTLETS = ((3.0, 0.6), (math.inf, 5.0 / 11.0))
 """Outlet over inlet, up to these distances of the inlet: X = 0 is a node."""
 
@@ -159,6 +161,8 @@ def starved_domain(scaled: ScaledProblem) -> Domain:
     across = groups.radius_ratio * groups.ellipticity**2
     inlet = max(LEAST_INLET, math.sqrt(thickest))
     side = max(LEAST_SIDE, math.sqrt(thickest / across))
+    if scaled.problem.has_passes:
+        side *= WIDER  # for the ridges of oil beside the track
     inlet, side = (math.ceil(10.0 * edge) / 10.0 for edge in (inlet, side))
     part = next(part for limit, part in OUTLETS if inlet <= limit)
     return Domain.model_construct(x=(-inlet, part * inlet), y=(-side, side))

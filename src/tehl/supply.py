@@ -5,10 +5,12 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, ValidationInfo, field_validator, model_validator
+from pydantic import Field, StrictBool, ValidationInfo, field_validator, model_validator
 
 from tehl.units import Height, Length, Place, PositiveNumber, Quantity, Ratio, Table, quantity
 
+THINNEST, THICKEST = 1e-9, 1e-2
+"""Limits of the thickest layer of a supply [m]."""
 LARGEST_FILE = 1_000_000
 """Characters of a profile that are read."""
 
@@ -25,7 +27,7 @@ class Supply(Table):
 
     layer: Height | None = None
     """Thickness of the oil on both surfaces together [m]."""
-    each: bool = False
+    each: StrictBool = False
     """Whether ``layer`` and ``profile`` are on each surface, instead of both together."""
     profile: Annotated[
         Annotated[tuple[tuple[Place, Height], ...], Field(min_length=2)] | None,
@@ -60,8 +62,8 @@ class Supply(Table):
             raise ValueError('lacks the oil: give layer = "0.2 um", a profile over y, or a ratio')
         if len(stated) > 1:
             raise ValueError(f"states the oil twice: {' and '.join(stated)}; give one")
-        if self.layer is not None and not self.layer > 0.0:
-            raise ValueError("layer must be positive: without oil there is no film")
+        if self.layer is not None:
+            _check_layer("layer", self.layer)
         if self.each and self.ratio is not None:
             raise ValueError("each belongs to layer or profile: ratio is of all the oil")
         self._check_profile(self.profile or ())
@@ -81,8 +83,8 @@ class Supply(Table):
     def _check_profile(self, profile: tuple[tuple[float, float], ...]) -> None:
         if any(later <= earlier for (earlier, _), (later, _) in pairwise(profile)):
             raise ValueError("profile must have places y that increase")
-        if profile and not max(layer for _, layer in profile) > 0.0:
-            raise ValueError("profile must have a positive layer somewhere")
+        if profile:
+            _check_layer("profile", max(layer for _, layer in profile))
 
     @property
     def is_even_in_y(self) -> bool:
@@ -92,6 +94,15 @@ class Supply(Table):
         return all(
             abs(y - other_y) <= 1e-9 * abs(y) and abs(layer - other) <= 1e-9 * abs(layer)
             for (y, layer), (other_y, other) in zip(points, mirrored, strict=True)
+        )
+
+
+def _check_layer(key: str, layer: float) -> None:
+    """Raise ValueError if a layer is no layer of oil."""
+    if not THINNEST <= layer <= THICKEST:
+        raise ValueError(
+            f"{key} = {layer:g} m is no layer of oil: it must be between {1e9 * THINNEST:g} nm, "
+            f"the size of a molecule, and {1e3 * THICKEST:g} mm"
         )
 
 

@@ -12,7 +12,7 @@ from tehl.plots.oil import oil_map
 from tehl.post.layer import LayerDecay, layer_decay
 from tehl.post.starvation import meniscus, oil_flux
 from tehl.problem import ContactProblem
-from tehl.result import Result
+from tehl.result import ConvergenceError, Result
 from tehl.scaling import ScaledProblem
 from tehl.solver import solve, solve_passes, solve_transient
 from tests.reference import DOMAIN, moes_contact, read
@@ -293,7 +293,9 @@ def test_a_layer_that_is_fed_ends_at_its_limit():
     [
         ({}, "lacks the oil"),
         ({"layer": -1e-7}, "must not be negative"),
-        ({"layer": 0.0}, "must be positive"),
+        ({"layer": 0.0}, "no layer of oil"),
+        ({"layer": 1e-12}, "size of a molecule"),
+        ({"layer": 1.0}, "no layer of oil"),
         ({"layer": float("nan")}, "is not a number"),
         ({"layer": 1e-7, "ratio": 0.5}, "states the oil twice: layer and ratio"),
         ({"ratio": 0.5, "each": True}, "ratio is of all the oil"),
@@ -351,6 +353,13 @@ def test_a_supply_with_cavities_that_do_not_conserve_is_refused():
 def test_a_layer_thicker_than_the_gap_at_the_inlet_is_refused():
     with pytest.raises(InputError, match="thicker than the gap"):
         solve(with_layer(50.0, 8.0, 3.0), Options(points=65, domain=Domain(x=(-2, 1.5), y=(-2, 2))))
+
+
+def test_a_meniscus_upstream_of_the_domain_is_said():
+    problem = starved(50.0, 8.0, ratio=0.8)
+    narrow = Domain(x=(-1.2, 1.3), y=(-1.5, 1.5))
+    with pytest.raises(ConvergenceError, match="full at the inlet edge"):
+        solve(problem, Options(points=97, domain=narrow))
 
 
 def test_a_profile_that_does_not_cover_the_domain_is_refused():

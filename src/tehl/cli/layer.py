@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 COLUMNS = ("time_s", "film_m", "film_by_formula_m")
 """Columns of the table: time, and film with F by the solved pressure and by the closed form."""
+SEVERE = 0.35
+"""Film over the flooded one up to which the law of side flow holds."""
 Rows = list[tuple[float, float, float]]
 
 
@@ -61,7 +63,10 @@ def layer(  # noqa: PLR0913 (the options of the command)
     decay, times = layer_decay(result), np.linspace(0.0, end, steps + 1)
     films = decay.film(times), decay.film(times, by_formula=True)
     rows: Rows = list(zip(times.tolist(), *(film.tolist() for film in films), strict=True))
-    echo(_json(decay, rows) if as_json else _text(problem.title or case.stem, decay, rows))
+    starved = result.starvation
+    degree = None if starved is None else starved.degree
+    title = problem.title or case.stem
+    echo(_json(decay, rows) if as_json else _text(title, decay, rows, degree))
     if output is not None:
         _write(output, rows)
 
@@ -100,7 +105,7 @@ def _json(decay: "LayerDecay", rows: Rows) -> str:
     return json.dumps(numbers | dict(columns))
 
 
-def _text(title: str, decay: "LayerDecay", rows: Rows) -> str:
+def _text(title: str, decay: "LayerDecay", rows: Rows, severe: float | None) -> str:
     lines = [
         f"{title}: decay of the central film by side flow",
         f"  F                {decay.rate:.3g} 1/(m^2 s) by the pressure of this contact, "
@@ -108,6 +113,11 @@ def _text(title: str, decay: "LayerDecay", rows: Rows) -> str:
     ]
     if decay.replenishment:
         lines.append(f"  limit            {1e9 * decay.limit:.4g} nm, where as much oil comes back")
+    if severe is not None and severe > SEVERE:
+        lines.append(
+            f"  note             the film begins at {severe:.2g} of the flooded one: the law is "
+            f"for severe starvation, below {SEVERE:g}; until then it decays somewhat faster"
+        )
     lines.append("  time [s]         film [nm]   by the closed form [nm]")
     lines += [f"  {at:<16.5g} {1e9 * film:<11.4g} {1e9 * other:.4g}" for at, film, other in rows]
     return "\n".join(lines)

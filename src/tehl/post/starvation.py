@@ -43,7 +43,7 @@ def starvation(result: Solution) -> Starvation | None:
     oil, supplied = result.oil, result.supplied
     if oil is None or supplied is None or result.problem.supply is None:
         return None
-    if not result.film.minimum > 0.0:
+    if not result.film.minimum > 0.0 or result.status.kind == "diverged":
         return None
     unit, row = result.scales.film_thickness, int(np.argmin(np.abs(result.scaled.y)))
     flooded = supplied.flooded_film

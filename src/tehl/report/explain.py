@@ -28,7 +28,7 @@ from tehl.report.readable import UNTITLED
 from tehl.report.rendering import render
 from tehl.report.transient_plan import TransientPlan, transient_plan
 from tehl.scaling import ScaledProblem
-from tehl.starvation import starved_part, supply_ratio
+from tehl.starvation import check_supply, starved_part, supply_ratio
 
 LEAST_RISE, LEAST_TRACTION = 0.1, 1e-4
 """Temperature rise [K] and traction coefficient below which no number is shown."""
@@ -120,6 +120,7 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
     scaled = ScaledProblem.of(problem)
     follows = planned(scaled, asked.model_copy(update={"points": "auto"}))
     options = follows if asked.points == "auto" else asked
+    check_supply(scaled, domain_of(scaled, options))
     film, (ny, nx) = expected_film(scaled), options.shape
     wanted, domain = chosen_domain(scaled, asked.target), domain_of(scaled, options)
     grid = Grid(nx=nx, ny=ny, domain=domain, mirror=False)

@@ -264,6 +264,8 @@ def error_estimate(
     estimate = _estimate(traces[-1], domain, *bars)
     found = further_errors(traces, ROUGH_PART if rough else 1.0, domain)
     resolved = _resolves_spike(traces, found)
+    if not resolved:  # the stress at the spike grows with its viscosity
+        found.pop("traction_mid_film", None)
     if "traction_mid_film" in found:  # the shear rate is the sliding speed over the film
         found["traction_mid_film"] = max(found["traction_mid_film"], estimate.central)
     elif _is_hottest_inside(traces[-1]) and not (resolved and _slows(_excess(traces))):

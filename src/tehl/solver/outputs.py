@@ -112,6 +112,9 @@ def film_oil(level: Level, scaled: ScaledProblem) -> FilmOil | None:
     film = level.film
     full = film.rho * np.maximum(film.h, level.equations.floor)
     fill = np.where(film.partial > 0, np.minimum(held / full, 1.0), 1.0)
+    fill[-1] = fill[-2]  # nothing is solved on the edges
+    if not grid.mirror:
+        fill[0] = fill[1]
     return FilmOil(
         fill=grid.unfold(fill),
         entering=_unfold_line(grid, passed[:, 0] * unit),

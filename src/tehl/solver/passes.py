@@ -9,12 +9,14 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from tehl.domain import domain_of
 from tehl.errors import InputError
 from tehl.fields import PassHistory
 from tehl.options import Domain, Options
 from tehl.post.starvation import meniscus
 from tehl.problem import ContactProblem
 from tehl.result import ConvergenceError, Result
+from tehl.scaling import ScaledProblem
 from tehl.solution import Cost, Hint, Status
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.steady import TOO_COARSE, try_strategies
@@ -25,8 +27,8 @@ from tehl.typing import Array
 LONGEST = 1.0
 """Inlet distance where the gap is full at the inlet edge [m]."""
 RESOLVED = 0.25
-"""Inlet distance over the mesh width below which the film hardly decays any more: at 0.4 the decay
-of a steel ball on glass is within 5 % of the law of side flow, at 0.23 it has ended."""
+"""Inlet distance over the mesh width below which the film decays more slowly than by the law of
+side flow; a steel ball on glass is within 6 % of it there (docs/validation.md)."""
 MOST_REFINEMENTS = 2
 """Times that the grid is refined where the film has become too thin for it."""
 COLUMNS = ("time", "film_central", "film_minimum", "entering", "leaving", "inlet_distance")
@@ -124,6 +126,9 @@ def _one_pass(
     assert problem.supply is not None
     single = {"passes": None, "track": None, "loss": 0.0, "replenishment": 0.0}
     if state is None:
+        if options.domain == "auto":  # that of passes
+            domain = domain_of(ScaledProblem.of(problem), options)
+            options = options.model_copy(update={"domain": domain})
         first = problem.supply.model_copy(update=single)
         problem = problem.model_copy(update={"supply": first})
         return try_strategies(problem, options, monitor=monitor, rough=True)[1]

@@ -197,7 +197,9 @@ def touching(run: FilmSolver, part: float) -> Status:
 def _domain_status(run: FilmSolver) -> Status:
     """Judge whether a domain with zero pressure on its edges is large enough and fully flooded."""
     grid, groups = run.finest.grid, run.groups
-    if run.finest.far_field is not None or is_starved(run.hierarchy.scaled):
+    if is_starved(run.hierarchy.scaled):
+        return _inlet_status(run)
+    if run.finest.far_field is not None:
         return CONVERGED
     left_out = domain_error(groups, grid.domain)
     if left_out > LARGEST_DOMAIN_ERROR:
@@ -211,6 +213,19 @@ def _domain_status(run: FilmSolver) -> Status:
             ),
         )
     return _edge_status(run)
+
+
+def _inlet_status(run: FilmSolver) -> Status:
+    """Judge whether the film of a starved contact begins within the domain."""
+    grid, film = run.finest.grid, run.finest.film
+    if not film.p[int(np.argmin(np.abs(grid.y))), 1] > 0.0:
+        return CONVERGED
+    return _failed(
+        "inlet_too_short",
+        f"The gap is full at the inlet edge X = {grid.domain.x[0]:.3g}: the meniscus of the "
+        "supply lies upstream of it (unit: Hertz half-widths).",
+        Hint("the default domain holds all of the film.", {"numerics.domain": False}),
+    )
 
 
 def _edge_status(run: FilmSolver) -> Status:
