@@ -232,7 +232,12 @@ def stalled(now: GridTrace, patience: int = 1) -> bool:
 
 
 def error_estimate(
-    traces: list[GridTrace], order: int, domain: float = 0.0, *, rough: bool = False
+    traces: list[GridTrace],
+    order: int,
+    domain: float = 0.0,
+    *,
+    rough: bool = False,
+    newtonian: bool = False,
 ) -> ErrorEstimate:
     """Estimate the relative errors of the film on the last of two or more grids.
 
@@ -246,6 +251,9 @@ def error_estimate(
         Relative error from the edges of the domain [-].
     rough : bool
         Whether the grids carry heights of rough surfaces.
+    newtonian : bool
+        Whether the film is isothermal and Newtonian: then its traction has no bar where the spike
+        is not resolved.
     """
     bars: list[float] = []
     changes: list[float] = []
@@ -264,7 +272,7 @@ def error_estimate(
     estimate = _estimate(traces[-1], domain, *bars)
     found = further_errors(traces, ROUGH_PART if rough else 1.0, domain)
     resolved = _resolves_spike(traces, found)
-    if not resolved:  # the stress at the spike grows with its viscosity
+    if newtonian and not resolved:  # the stress at the spike grows with its viscosity
         found.pop("traction_mid_film", None)
     if "traction_mid_film" in found:  # the shear rate is the sliding speed over the film
         found["traction_mid_film"] = max(found["traction_mid_film"], estimate.central)

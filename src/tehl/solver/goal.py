@@ -56,18 +56,18 @@ def _by_grids(
     scaled, order = hierarchy.scaled, hierarchy.options.wedge_order
     if len(traces) < 2 or not traces[-1].reports or traces[-1].diverged:
         return None
-    edges, domain = level.grid.domain, 0.0
+    edges, domain, newtonian = level.grid.domain, 0.0, not scaled.problem.is_coupled
     if level.equations.far_field is not None:
         domain = far_field_error(scaled.entering, edges) + entry_error(scaled, edges)
     if not roughness.is_rough:
         comparable = [trace for trace in traces if not trace.diverged]
-        return error_estimate(comparable, order, domain)
+        return error_estimate(comparable, order, domain, newtonian=newtonian)
     # grids that resolve the same heights
     comparable = [trace for trace in traces[roughness.first_comparable :] if not trace.diverged]
     if len(comparable) < 2:
         points, amplitude = roughness.points, roughness.amplitude
         return single_grid_estimate(traces[-1], level.grid.dx, points, amplitude, domain)
-    return error_estimate(comparable, order, domain, rough=True)
+    return error_estimate(comparable, order, domain, rough=True, newtonian=newtonian)
 
 
 @dataclass(slots=True)
