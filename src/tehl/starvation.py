@@ -29,9 +29,11 @@ GAMMA = 3.0
 """Exponent of the film law for a circular contact."""
 FLOODED = 20.0
 """Supply over that of the flooded contact from which the film is flooded within 0.1 %."""
-BACKFLOW, MARGIN = 2.5, 1.2
-"""Gap over layer at the meniscus: far upstream of a flooded point contact the pressure returns 60 %
-of the oil that the surfaces drag in. And a margin."""
+MARGIN, MORE, PLENTY = 1.2, 0.4, 3.0
+"""Margin on the gap at the meniscus, more of it per r up to r = 3: near the contact the pressure
+returns more oil than far upstream."""
+BESIDE = 2.5
+"""Gap over layer where the film ends at the sides."""
 LEAST_INLET, LEAST_SIDE = 2.3, 1.7
 """Least distances of the inlet edge and of the side edges, in Hertz half-widths."""
 WIDER = 1.3
@@ -156,11 +158,13 @@ def starved_domain(scaled: ScaledProblem) -> Domain:
     """Return a domain that contains the film of a starved contact, in Hertz half-widths."""
     oil, groups = entering_oil(scaled), scaled.groups
     assert oil is not None
-    # where the rigid gap, less the approach of about one, is the thickest that the oil can fill
-    thickest = 2.0 * (MARGIN * BACKFLOW * oil.largest + 1.0)
     across = groups.radius_ratio * groups.ellipticity**2
-    inlet = max(LEAST_INLET, math.sqrt(thickest))
-    side = max(LEAST_SIDE, math.sqrt(thickest / across))
+    # far upstream the pressure returns 3/(3 + 2 D) of the oil that the surfaces drag in
+    backflow = 1.5 / groups.radius_ratio + 1.0
+    margin = MARGIN + MORE * min(oil.largest / flooded_oil(scaled), PLENTY)
+    # where the rigid gap, less the approach of about one, is the thickest that the oil can fill
+    inlet = max(LEAST_INLET, math.sqrt(2.0 * (margin * backflow * oil.largest + 1.0)))
+    side = max(LEAST_SIDE, math.sqrt(2.0 * (MARGIN * BESIDE * oil.largest + 1.0) / across))
     if scaled.problem.has_passes:
         side *= WIDER  # for the ridges of oil beside the track
     inlet, side = (math.ceil(10.0 * edge) / 10.0 for edge in (inlet, side))

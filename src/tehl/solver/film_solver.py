@@ -120,8 +120,8 @@ class FilmSolver(GridIteration):
                 self._refine()
 
     def _has_converged(self) -> bool:
-        """Return whether the last grid converged."""
-        return converged(self.traces[-1], self._coarser_trace(), self.options)
+        """Return whether the last grid converged, and its oil flux is constant."""
+        return self.is_settled and converged(self.traces[-1], self._coarser_trace(), self.options)
 
     def errors(self) -> ErrorEstimate | None:
         """Return estimated errors of the film on the last grid; None before its first cycle."""
