@@ -197,12 +197,17 @@ def check_transient(problem: PointContact) -> None:
 
 
 def check_supply(problem: PointContact) -> None:
-    """Check that the oil of a starved contact is conserved."""
+    """Check that the oil of a starved contact is conserved, and passes have steady films."""
     supply, cavitation = problem.supply, problem.cavitation
     if supply is not None and cavitation is not None and cavitation.model == "reynolds":
         raise ValueError(
             'cavitation.model = "reynolds" does not know how much oil there is, which [supply] '
             'states: take "conserving", or leave out [cavitation]'
+        )
+    if problem.has_passes and problem.transient is not None:
+        raise ValueError(
+            "supply.passes and [transient] exclude each other: each pass has a steady film; leave "
+            "out one"
         )
 
 

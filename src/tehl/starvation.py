@@ -27,8 +27,9 @@ from tehl.typing import Array
 
 GAMMA = 3.0
 """Exponent of the film law for a circular contact."""
-FLOODED = 20.0
-"""Supply over that of the flooded contact from which the film is flooded within 0.1 %."""
+FLOODED, THIN, LEFT = 50.0, 0.5, 0.002
+"""Supply over that of the flooded contact from which a thin film, H up to `THIN`, is flooded, and
+its error. A thick one is 4 % from flooded at r = 60 and M = 5, and 22 % at M = 2."""
 MARGIN, MORE, PLENTY = 1.2, 0.4, 3.0
 """Margin on the gap at the meniscus, more of it per r up to r = 3: near the contact the pressure
 returns more oil than far upstream."""
@@ -89,10 +90,7 @@ def flooded_oil(scaled: ScaledProblem) -> float:
 
 
 def entering_oil(scaled: ScaledProblem) -> EnteringOil | None:
-    """Return the oil that enters; None if the contact is flooded.
-
-    More oil than `FLOODED` times that of the flooded contact is flooded.
-    """
+    """Return the oil that enters; None if the contact is flooded, by its supply too."""
     supply = scaled.problem.supply
     if supply is None:
         return None
@@ -105,7 +103,9 @@ def entering_oil(scaled: ScaledProblem) -> EnteringOil | None:
         places, layers = np.array(supply.profile).T
         y, oil = places / scaled.scales.half_width_y, layers * unit
     found = EnteringOil(y=y, oil=oil)
-    return None if float(oil.min()) > FLOODED * flooded_oil(scaled) else found
+    flooded = flooded_oil(scaled)
+    is_flooded = flooded <= THIN and float(oil.min()) > FLOODED * flooded
+    return None if is_flooded else found
 
 
 def is_starved(scaled: ScaledProblem) -> bool:
@@ -134,12 +134,15 @@ def starved_part(ratio: float, gamma: float = GAMMA) -> float:
     return float(ratio / (1.0 + ratio**gamma) ** (1.0 / gamma))
 
 
-def ratio_error(scaled: ScaledProblem) -> float:
-    """Return the relative error of the film by that of the flooded one, to which it is stated.
+def supply_error(scaled: ScaledProblem) -> float:
+    """Return the relative error of the film by what is known of the supply.
 
-    The film law says by how much: 1 / (1 + r^gamma), with gamma = 2 at least.
+    Of a stated ratio by the error of the flooded film; the film law says by how much:
+    1 / (1 + r^gamma), with gamma = 2 at least.
     """
     supply = scaled.problem.supply
+    if supply is not None and not is_starved(scaled):
+        return LEFT
     if supply is None or supply.ratio is None:
         return 0.0
     return scaled.flooded_error / (1.0 + supply.ratio**2)

@@ -7,7 +7,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, StrictBool, ValidationInfo, field_validator, model_validator
 
-from tehl.units import Height, Length, Place, PositiveNumber, Quantity, Ratio, Table, quantity
+from tehl.units import Height, Length, Place, Quantity, Ratio, Table, quantity
 
 THINNEST, THICKEST = 1e-9, 1e-2
 """Limits of the thickest layer of a supply [m]."""
@@ -35,7 +35,9 @@ class Supply(Table):
     ] = None
     """Places y [m] and layers there [m], linear between; or the name of a CSV file with both in two
     columns, in metres or with their units in its header: ``y [mm], layer [um]``."""
-    ratio: Annotated[PositiveNumber, Field(le=LARGEST_RATIO)] | None = None
+    ratio: Annotated[float, Quantity("a plain number", "-", "0.5"), Field(le=LARGEST_RATIO)] | None = (
+        None
+    )
     """Oil that enters, over what the fully flooded contact passes on at its centre [-]."""
     passes: Annotated[int, Field(ge=2, le=MOST_PASSES)] | None = None
     """Times that the same surfaces pass the contact: the oil that leaves it comes back."""
@@ -98,11 +100,11 @@ class Supply(Table):
 
 
 def _check_layer(key: str, layer: float) -> None:
-    """Raise ValueError if a layer is no layer of oil."""
+    """Raise ValueError if the thickness of a layer is not that of oil between surfaces."""
     if not THINNEST <= layer <= THICKEST:
         raise ValueError(
-            f"{key} = {layer:g} m is no layer of oil: it must be between {1e9 * THINNEST:g} nm, "
-            f"the size of a molecule, and {1e3 * THICKEST:g} mm"
+            f"{key} = {layer:g} m must be between {1e9 * THINNEST:g} nm, the size of a molecule, "
+            f"and {1e3 * THICKEST:g} mm"
         )
 
 

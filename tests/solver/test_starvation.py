@@ -182,6 +182,21 @@ def test_the_film_follows_the_law_and_ends_flooded_and_as_thin_as_the_layer():
     assert parts[500.0] == pytest.approx(1.0, abs=1e-3)
 
 
+def test_a_starved_thick_film_of_a_wide_contact_exceeds_the_flooded_one():
+    # the flooded pressure reaches far to the sides, that between menisci does not
+    wide = moes_contact(9.7, 7.0, radius_ratio=2.28).model_dump(exclude_none=True)
+    problem = case_from_tables(wide | {"supply": {"ratio": 5.0}})[0]
+    options = Options(points=129)
+    first = solve(problem, options)
+    larger = options.model_copy(update={"domain": Domain(x=(-14.0, 5.6), y=(-6.5, 6.5))})
+    again = solve(problem, larger.on_points(193, 193))
+    assert again.supplied.flooded_film == pytest.approx(first.supplied.flooded_film, rel=0.01)
+    assert first.starvation.degree > 1.05
+    assert again.starvation.degree == pytest.approx(first.starvation.degree, rel=0.02)
+    narrow = solve(problem.model_copy(update={"supply": None}), options)
+    assert first.film_scaled.minimum < narrow.film_scaled.minimum
+
+
 def test_half_and_full_domain_give_the_same_starved_film(film):
     full = solve(film.problem, film.options.model_copy(update={"half_domain": "never"}))
     assert full.film_scaled.central == pytest.approx(film.film_scaled.central, rel=1e-6)
@@ -285,6 +300,14 @@ def test_a_layer_that_is_fed_ends_at_its_limit():
     assert film[-1] == pytest.approx(decay.limit, rel=1e-3)
 
 
+def test_passes_are_not_solved_as_a_single_film(passed):
+    with pytest.raises(InputError, match="tehl.solve_passes"):
+        solve(passed.problem, Options(points=33))
+    tables = passed.problem.model_dump(exclude_none=True)
+    with pytest.raises(InputError, match="each pass has a steady film"):
+        case_from_tables(tables | {"transient": {"duration": 1e-3}})
+
+
 # ---- bad input
 
 
@@ -293,9 +316,9 @@ def test_a_layer_that_is_fed_ends_at_its_limit():
     [
         ({}, "lacks the oil"),
         ({"layer": -1e-7}, "must not be negative"),
-        ({"layer": 0.0}, "no layer of oil"),
+        ({"layer": 0.0}, "size of a molecule"),
         ({"layer": 1e-12}, "size of a molecule"),
-        ({"layer": 1.0}, "no layer of oil"),
+        ({"layer": 1.0}, "between 1 nm"),
         ({"layer": float("nan")}, "is not a number"),
         ({"layer": 1e-7, "ratio": 0.5}, "states the oil twice: layer and ratio"),
         ({"ratio": 0.5, "each": True}, "ratio is of all the oil"),

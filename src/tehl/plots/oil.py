@@ -60,7 +60,7 @@ def pass_history(result: Result, *, ax: Axes | None = None, title: bool | None =
     Raises ValueError for a result of a single pass.
     """
     if result.passes is None:
-        raise ValueError("the result has no history of passes: state supply.passes")
+        raise ValueError("the result is of a single pass: state supply.passes")
     axes, passes = single(result, (7.0, 4.8), ax=ax, title=title), result.passes
     curves: tuple[tuple[Any, dict[str, Any]], ...] = (
         (passes.entering, {"color": "tab:blue", "ls": "--", "label": "oil that enters, y = 0"}),

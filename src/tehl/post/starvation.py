@@ -39,7 +39,7 @@ class Starvation:
 
 
 def starvation(result: Solution) -> Starvation | None:
-    """Return the numbers of a starved film; None if no supply is stated or there is no film."""
+    """Return the numbers of a starved film; None for a flooded one, and after divergence."""
     oil, supplied = result.oil, result.supplied
     if oil is None or supplied is None or result.problem.supply is None:
         return None

@@ -14,7 +14,7 @@ from tehl.solver.continuation import Roughness
 from tehl.solver.convergence import GridTrace, error_estimate, single_grid_estimate
 from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.level import Level
-from tehl.starvation import ratio_error
+from tehl.starvation import supply_error
 from tehl.units import percentage
 
 FACTOR = 5.0
@@ -46,7 +46,7 @@ def estimated_errors(
         The contact, and the order of the wedge.
     """
     found = _by_grids(level, traces, roughness, hierarchy)
-    return found and replace(found, supply=ratio_error(hierarchy.scaled))
+    return found and replace(found, supply=supply_error(hierarchy.scaled))
 
 
 def _by_grids(

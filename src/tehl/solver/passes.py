@@ -9,14 +9,12 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from tehl.domain import domain_of
 from tehl.errors import InputError
 from tehl.fields import PassHistory
 from tehl.options import Domain, Options
 from tehl.post.starvation import meniscus
 from tehl.problem import ContactProblem
 from tehl.result import ConvergenceError, Result
-from tehl.scaling import ScaledProblem
 from tehl.solution import Cost, Hint, Status
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.steady import TOO_COARSE, try_strategies
@@ -123,14 +121,7 @@ def _one_pass(
     problem: ContactProblem, options: Options, state: PassState | None, monitor: Monitor
 ) -> Result:
     """Return the film of the next pass, of the first one without a state."""
-    assert problem.supply is not None
-    single = {"passes": None, "track": None, "loss": 0.0, "replenishment": 0.0}
     if state is None:
-        if options.domain == "auto":  # that of passes
-            domain = domain_of(ScaledProblem.of(problem), options)
-            options = options.model_copy(update={"domain": domain})
-        first = problem.supply.model_copy(update=single)
-        problem = problem.model_copy(update={"supply": first})
         return try_strategies(problem, options, monitor=monitor, rough=True)[1]
     profile = tuple(zip(state.y.tolist(), state.layer.tolist(), strict=True))
     supply = Supply.model_construct(profile=profile)

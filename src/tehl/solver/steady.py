@@ -103,11 +103,15 @@ def solve(
         When the grid does not fit into the memory, or a measured surface cannot be read.
     """
     options = options or Options()
-    if problem.transient is not None:
-        raise InputError(
-            "transient: the case is not steady; solve it with tehl.solve_transient (the command "
-            "tehl solve does so by itself)"
-        )
+    others = (
+        (problem.transient is not None, "transient: the case is not steady", "solve_transient"),
+        (problem.has_passes, "supply.passes: the case has several films", "solve_passes"),
+    )
+    for is_another, why, function in others:
+        if is_another:
+            raise InputError(
+                f"{why}; solve it with tehl.{function} (the command tehl solve does so by itself)"
+            )
     _, result = try_strategies(problem, options, monitor=monitor, rough=True, guess=guess)
     if not result.status.converged:
         status = result.status
@@ -187,7 +191,7 @@ def try_strategies(  # noqa: PLR0913 (variants of one solve)
 def flooded_film(
     problem: ContactProblem, options: Options, monitor: Monitor = SILENT
 ) -> Flooded | None:
-    """Solve the same contact, flooded and smooth.
+    """Solve the same contact, flooded and smooth, on the domain that it needs.
 
     None for a contact that states no supply, or if the solve does not converge.
     """
@@ -196,6 +200,7 @@ def flooded_film(
     changes = {"supply": None, "cavitation": None, "transient": None}
     monitor.message("the fully flooded contact")
     same = problem.model_copy(update=changes)
+    options = options.model_copy(update={"domain": "auto", "edges": "auto"})
     attempt, result = try_strategies(same, options, monitor=SILENT, rough=False)
     if not result.status.converged:
         return None

@@ -16,7 +16,7 @@ from tehl.solution import ErrorEstimate, Hint, Status
 from tehl.solver.convergence import LARGEST_LOAD_ERROR
 from tehl.solver.diagnosis import LESS_ROUGH, diverged, grid_hint, not_reached, thinnest
 from tehl.solver.film_solver import FilmSolver
-from tehl.solver.film_summary import central_value, film_summary
+from tehl.solver.film_summary import film_summary
 from tehl.solver.level import Level
 from tehl.solver.outputs import heat_balance
 from tehl.starvation import is_starved
@@ -37,8 +37,6 @@ KNOWN = 0.5
 """Relative error of the minimum film at which the hint to a finer grid aims."""
 LARGEST_DOMAIN_ERROR = 0.1
 """Estimated part of the central film beyond which a domain is too small."""
-LARGEST_EXCESS = 0.02
-"""Film over that of the flooded contact, less one and both errors, that is accepted."""
 STARVED = 0.9
 """Film over fully flooded film below which an edge is too close."""
 LARGEST_COOLING = 5.0
@@ -221,29 +219,12 @@ def _inlet_status(run: FilmSolver) -> Status:
     """Judge whether the film of a starved contact begins within the domain."""
     grid, film = run.finest.grid, run.finest.film
     if not film.p[int(np.argmin(np.abs(grid.y))), 1] > 0.0:
-        return _flooded_status(run)
+        return CONVERGED
     return _failed(
         "inlet_too_short",
         f"The gap is full at the inlet edge X = {grid.domain.x[0]:.3g}: the meniscus of the "
         "supply lies upstream of it (unit: Hertz half-widths).",
         Hint("the default domain holds all of the film.", {"numerics.domain": False}),
-    )
-
-
-def _flooded_status(run: FilmSolver) -> Status:
-    """Judge whether the film is thinner than that of the flooded contact, but for both errors."""
-    scaled, grid, film = run.hierarchy.scaled, run.finest.grid, run.finest.film
-    errors = run.errors()
-    if scaled.flooded_oil is None or errors is None or run.roughness.is_rough:
-        return CONVERGED
-    excess = central_value(grid, film.rho * film.h) / scaled.flooded_oil - 1.0
-    if excess <= LARGEST_EXCESS + errors.central + scaled.flooded_error:
-        return CONVERGED
-    return _failed(
-        "more_than_flooded",
-        f"The film is {100 * excess:.2g} % thicker than that of the flooded contact, which more "
-        "oil cannot make: the supply is nearly flooded.",
-        Hint("the contact is computed as flooded.", {"supply": False}),
     )
 
 

@@ -87,6 +87,8 @@ def _case(plan: Plan, rows: tuple[int, ...], units: dict[str, str]) -> Case:
     problem, options = case_from_tables(tables, plan.folder)
     if problem.transient is not None:
         raise InputError("has a table [transient]: a study is one of steady films")
+    if problem.has_passes and plan.certify:
+        raise InputError("certify is for a single pass: leave it out, or supply.passes")
     if plan.certify and options.points != "auto":
         check_certifiable(options)
     labels: dict[str, Label] = {}

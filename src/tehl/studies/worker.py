@@ -126,7 +126,11 @@ def _failed(case: Case, error: Exception) -> Row:
 
 def _solved(case: Case, guess: Path | None) -> Result:
     """Return the result, converged or not; a guess that cannot be read is ignored."""
-    from tehl.solver import certify, solve  # noqa: PLC0415 (reading a store compiles nothing)
+    from tehl.solver import (  # noqa: PLC0415 (reading a store compiles nothing)
+        certify,
+        solve,
+        solve_passes,
+    )
 
     known = None
     if guess is not None:
@@ -136,6 +140,8 @@ def _solved(case: Case, guess: Path | None) -> Result:
         options = case.solved_options
         if case.certify:
             return certify(case.problem, options)
+        if case.problem.has_passes:
+            return solve_passes(case.problem, options)
         return solve(case.problem, options, guess=known)
     except ConvergenceError as error:
         return error.result
