@@ -15,6 +15,9 @@ from tehl.problem import ContactProblem
 from tehl.result import ConvergenceError, Result
 from tehl.scaling import ScaledProblem
 from tehl.solver import solve, solve_passes, solve_transient
+from tehl.solver.transient.step import Stepper
+from tehl.starvation import starved_part
+from tehl.starvation_table import starved_degree, table
 from tests.reference import DOMAIN, moes_contact, read
 
 FILMS, CYLINDERS = (read("starved")[name] for name in ("films", "cylinders"))
@@ -230,6 +233,32 @@ def test_a_starved_film_stays_as_it_is_while_nothing_changes():
     assert np.ptp(run.history.film_minimum) < 1e-3 * run.history.film_minimum[0]
 
 
+def test_each_section_conserves_oil_in_time(monkeypatch):
+    tables = starved(20.0, 10.0, ratio=0.7).model_dump(exclude_none=True)
+    load = [[0.0, 1.0], [1e-4, 1.2], [2e-4, 0.9]]
+    transient = {"duration": 2e-4, "tolerance": 1e-9, "max_cycles": 60, "load": load, "frames": 0}
+    errors, advance = [], Stepper.step
+
+    def step(self, heights, load):
+        end = advance(self, heights, load)
+        level, flow = self.solver.finest, np.empty(self.now.shape)
+        film, weight = level.film, level.stencil.w0
+        reynolds.operator(film, level.stencil, flow)  # pressure flow less weight * rho H
+        held = weight * (film.rho * film.h - self.now)
+        missing = (flow + held + level.sources.history)[:-1, 1:-1]
+        missing[0] *= 0.5  # on the symmetry line
+        errors.append(np.abs(missing.sum(axis=0) / (weight * self.now.sum(axis=0)[1:-1])).max())
+        return end
+
+    monkeypatch.setattr(Stepper, "step", step)
+    problem = case_from_tables(tables | {"transient": transient})[0]
+    run = solve_transient(problem, Options(points=49))
+    assert run.status.converged
+    assert np.ptp(run.history.film_central) > 0.01 * run.history.film_central[0]
+    assert len(errors) > 5
+    assert max(errors) < 1e-8
+
+
 @pytest.fixture(scope="module")
 def passed() -> Result:
     """Return the last of some passes."""
@@ -301,7 +330,7 @@ def test_a_layer_that_is_fed_ends_at_its_limit():
 
 
 def test_passes_are_not_solved_as_a_single_film(passed):
-    with pytest.raises(InputError, match="tehl.solve_passes"):
+    with pytest.raises(InputError, match="solve_passes"):
         solve(passed.problem, Options(points=33))
     tables = passed.problem.model_dump(exclude_none=True)
     with pytest.raises(InputError, match="each pass has a steady film"):
@@ -388,3 +417,25 @@ def test_a_meniscus_upstream_of_the_domain_is_said():
 def test_a_profile_that_does_not_cover_the_domain_is_refused():
     with pytest.raises(InputError, match="does not cover the domain"):
         solve(starved(50.0, 8.0, profile=((-1e-6, 1e-7), (1e-6, 1e-7))), Options(points=65))
+
+
+# ---- the table of solved contacts
+
+
+def test_the_table_has_the_film_of_a_solved_contact(film):
+    found, bar = starved_degree(film.groups, film.starvation.ratio)
+    assert film.groups.M == pytest.approx(20.0)
+    assert abs(film.starvation.degree - found) < bar + film.starvation.degree_error
+    assert 0.0 < bar < 0.015
+
+
+def test_the_table_is_accurate_and_ends_in_the_law(film):
+    (loads, speeds, ratios), factors, errors = table()
+    assert np.exp(loads) == pytest.approx([20.0, 50.0, 100.0, 200.0, 500.0])
+    assert errors.max() < 0.012
+    # within 5 % of the law, but for error bars, and thin layers pass the contact whole
+    thin = ratios <= np.log(0.7) + 1e-9
+    assert (abs(factors - 1.0) - errors)[:, :, thin].max() < 0.05
+    assert factors[:, :, 0] == pytest.approx(1.0 + 0.0 * factors[:, :, 0], abs=0.01)
+    assert speeds.size * ratios.size * loads.size == factors.size
+    assert starved_degree(film.groups, 50.0) == (starved_part(50.0), None)

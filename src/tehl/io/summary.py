@@ -232,7 +232,7 @@ def _heat(heat: FilmHeat) -> Block:
 def _starvation(found: Starvation) -> Block:
     return _picked(
         found,
-        *("ratio", "degree", "degree_by_law", "flooded_film_m", "meniscus_m"),
+        *("ratio", "degree", "degree_error", "degree_by_law", "flooded_film_m", "meniscus_m"),
         *("inlet_distance_m", "entering_m", "leaving_m", "leaving_each_m", "balance"),
     )
 

@@ -182,6 +182,25 @@ def mark_partial(film: Film, stencil: Stencil, rhs: Array, scratch: Array) -> No
 
 
 @kernel
+def freeze_inside(film: Film, mirror: int, width: int, out: FlagArray) -> None:
+    """Mark the nodes farther than ``width`` nodes from where a film begins or ends."""
+    film, out, _ = raw((film, out, film.p))
+    partial, (ny, nx) = film.partial, film.p.shape
+    for j in range(ny):
+        for i in range(nx):
+            out[j, i] = 1
+    for j in range(0 if mirror else 1, ny - 1):
+        south = row_below(j)
+        for i in range(1, nx - 1):
+            around = partial[j, i - 1] + partial[south, i] + partial[j + 1, i]
+            if partial[j, i] > 0 or around == 0:
+                continue
+            for row in range(max(j - width, 0), min(j + width + 1, ny)):
+                for column in range(max(i - width, 0), min(i + width + 1, nx)):
+                    out[row, column] = 0
+
+
+@kernel
 def mark_second_order(film: Film, order: int) -> None:
     """Mark the nodes with two film nodes upstream, if the wedge is of second order."""
     film, _ = raw((film, film.p))

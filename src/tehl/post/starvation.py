@@ -18,6 +18,8 @@ class Starvation:
     """r, oil that enters on y = 0 over what the flooded contact passes on at its centre [-]."""
     degree: float | None
     """Central film over that of the flooded contact [-]; None if that is not known."""
+    degree_error: float | None
+    """Error bar of the degree [-]: of both films; None without those."""
     degree_by_law: float
     """The same by r / (1 + r^3)^(1/3) for a circular contact [-]."""
     flooded_film: float | None
@@ -52,10 +54,16 @@ def starvation(result: Solution) -> Starvation | None:
     if not is_starved(result.scaled_problem):
         ratio = math.inf
     begins = meniscus(result)[row]
+    degree, error = None, None
+    if flooded is not None:
+        degree = result.film_scaled.central / flooded
+        if result.errors is not None:
+            error = degree * (result.errors.central + supplied.flooded_error)
     at = None if np.isnan(begins) else float(begins) * result.scales.half_width_x
     return Starvation(
         ratio=ratio,
-        degree=None if flooded is None else result.film_scaled.central / flooded,
+        degree=degree,
+        degree_error=error,
         degree_by_law=starved_part(ratio),
         flooded_film=None if flooded is None else flooded * unit,
         meniscus=at,

@@ -28,7 +28,8 @@ from tehl.report.readable import UNTITLED
 from tehl.report.rendering import render
 from tehl.report.transient_plan import TransientPlan, transient_plan
 from tehl.scaling import ScaledProblem
-from tehl.starvation import check_supply, starved_part, supply_ratio
+from tehl.starvation import check_supply, supply_ratio
+from tehl.starvation_table import starved_degree
 
 LEAST_RISE, LEAST_TRACTION = 0.1, 1e-4
 """Temperature rise [K] and traction coefficient below which no number is shown."""
@@ -88,8 +89,17 @@ class Explanation:
 
     @property
     def starved_part(self) -> float:
-        """Central film over that of the flooded contact by the film law [-]."""
-        return starved_part(self.supply_ratio)
+        """Central film over that of the flooded contact, by the table or the film law [-]."""
+        return self._starved[0]
+
+    @property
+    def starved_error(self) -> float | None:
+        """Error bar of ``starved_part`` by the table [-]; None by the film law."""
+        return self._starved[1]
+
+    @property
+    def _starved(self) -> tuple[float, float | None]:
+        return starved_degree(self.scaled.groups, self.supply_ratio)
 
     @property
     def starved_film(self) -> float:
@@ -188,7 +198,12 @@ def as_summary(case: Explanation) -> dict[str, Any]:
         "central_film_m": case.central_film,
         "supply": None
         if problem.supply is None
-        else {"ratio": case.supply_ratio, "degree": case.starved_part, "film_m": case.starved_film},
+        else {
+            "ratio": case.supply_ratio,
+            "degree": case.starved_part,
+            "degree_error": case.starved_error,
+            "film_m": case.starved_film,
+        },
         "films": [asdict(film) | {"valid": film.valid} for film in case.films],
         "lambda_central": case.lambda_central,
         "lambda_minimum": case.lambda_minimum,

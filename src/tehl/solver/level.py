@@ -32,6 +32,9 @@ decided on the finest grid alone."""
 NEARER = 0.1
 """Residual of a guess over that of the interpolated coarser film, below which the guess is taken.
 Full multigrid starts near the solution, which few neighbours of a study beat."""
+FRONT_SWEEPS, FRONT_WIDTH, FRONT_RESTS = (4, 16), 6, 0.03
+"""Least and most sweeps where a starved film begins, nodes to both sides, and nodes that fill or
+empty over the number of lines from which the meniscus rests."""
 APPROACH_WEIGHT = 10.0
 """Weight of the rigid approach among the pressures in the vector of unknowns."""
 
@@ -272,6 +275,27 @@ class Level:
             self.update()
             self.smoother.sweep(self.film, self.stencil, self.sources.reynolds, self.equations.flow)
             self._is_stale = True
+
+    def relax_fronts(self) -> bool:
+        """Relax where films begin and end until these places rest; return whether they do.
+
+        A cycle moves them by some nodes only: coarse grids keep them. The pressure there hardly
+        changes the film, which is not evaluated between the sweeps.
+        """
+        (least, most), frozen = FRONT_SWEEPS, self.smoother.frozen
+        self.update()
+        for number in range(most):
+            before = self.film.partial.copy()
+            reynolds.freeze_inside(self.film, self.stencil.mirror, FRONT_WIDTH, frozen)
+            self.smoother.sweep(self.film, self.stencil, self.sources.reynolds, self.equations.flow)
+            self._mark_cavities()
+            moved = np.count_nonzero(self.film.partial != before)
+            rests = bool(moved <= FRONT_RESTS * self.grid.shape[0])
+            if rests and number >= least:
+                break
+        frozen[:] = 0
+        self._is_stale = True
+        return rests
 
     def evaluate_residual(self) -> float:
         """Evaluate f - L(P), zero where cavitated; return its mean over the local diagonal."""

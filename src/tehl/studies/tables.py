@@ -42,8 +42,8 @@ _BLOCKS = {
     "film_quantiles.0.h_m area_below_composite_sq area_below_half_median minimum_at.0 P_max "
     "ripple_film_m ripple_pressure_pa ripples_x.count ripples_x.depth_m ripples_y.count "
     "ripples_y.depth_m " + " ".join(f"waves.0.{key}" for key in _WAVE.split()),
-    "starvation": "ratio degree degree_by_law flooded_film_m meniscus_m inlet_distance_m "
-    "entering_m leaving_m leaving_each_m balance",
+    "starvation": "ratio degree degree_error degree_by_law flooded_film_m meniscus_m "
+    "inlet_distance_m entering_m leaving_m leaving_each_m balance",
     "convergence": "cycles residual change load_error heat_balance_error",
     "errors": "central minimum discretisation_central discretisation_minimum iteration_central "
     "iteration_minimum domain supply pressure_max traction_mid_film film_rise_max "
