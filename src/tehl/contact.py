@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
 from pydantic import AfterValidator, model_validator
 
+from tehl.asperities import Asperities
 from tehl.geometry import Motion, Radii, reduced_radii
 from tehl.heat import FilmEnergy, Thermal
 from tehl.hertz import HertzContact, hertz_contact, load_of_pressure
@@ -155,6 +156,8 @@ class PointContact(Table):
     """Settings of a transient run, in which roughness moves with its surface; None is steady."""
     supply: Supply | None = None
     """The oil that reaches the inlet; None is fully flooded."""
+    asperities: Asperities | None = None
+    """Asperities finer than the grid; None has none."""
     cavitation: Cavitation | None = None
     """What happens to the oil in cavities; None conserves it in starved contacts only."""
 
@@ -296,6 +299,14 @@ class PointContact(Table):
     def rms_roughness(self) -> float:
         """Return the stated roughness of both surfaces together, sqrt(Rq_1^2 + Rq_2^2) [m]."""
         return math.hypot(self.surface_1.rms_roughness, self.surface_2.rms_roughness)
+
+    @property
+    def asperity_rms(self) -> float:
+        """Return sigma of the asperities finer than the grid, zero without [m]."""
+        if self.asperities is None:
+            return 0.0
+        stated = self.asperities.rms
+        return self.rms_roughness if stated is None else stated
 
     @property
     def is_rough(self) -> bool:

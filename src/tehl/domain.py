@@ -28,6 +28,9 @@ WIDE_INLET = 0.25
 upstream."""
 OUTLET = 5.0 / 11.0
 """Outlet over inlet: X = 0 is a node of every grid of 16 intervals or more."""
+APART, AROUND = 4.5, 1.3
+"""Separation over sigma from which asperities carry less than 1e-4 of what they do in touch, and
+margin on the gap at the edges."""
 FAMILIES = tuple(2**k * n + 1 for k in range(2, 9) for n in (16, 20, 24, 28))
 """Nodes from which `expected_points` chooses; at least three grids."""
 BAR, BAR_COUPLED, MARGIN = 0.24, 1.16, 1.25
@@ -208,7 +211,26 @@ def chosen_domain(scaled: ScaledProblem, error: float) -> Domain:
     """Return the recommended domain, wider where bodies still warm or cool the oil that enters.
 
     That of a starved contact contains all of its film: the pressure on its edges is zero.
+    Asperities that touch lie within it.
     """
+    if scaled.problem.asperities is not None:
+        return _around_asperities(scaled, _of_film(scaled, error))
+    return _of_film(scaled, error)
+
+
+def _around_asperities(scaled: ScaledProblem, domain: Domain) -> Domain:
+    """Return a domain on whose edges the asperities are `APART`."""
+    groups, sigma = scaled.groups, scaled.problem.asperity_rms / scaled.scales.film_thickness
+    along = math.sqrt(1.0 + 2.0 * AROUND * APART * sigma)
+    across = along / math.sqrt(groups.radius_ratio) / groups.ellipticity
+    inlet = max(-domain.x[0], along)
+    outlet, side = max(domain.x[1], OUTLET * inlet, along), max(domain.y[1], across)
+    x, side = math.ceil(10.0 * max(inlet, outlet / OUTLET)) / 10.0, math.ceil(10.0 * side) / 10.0
+    return Domain.model_construct(x=(-x, OUTLET * x), y=(-side, side))
+
+
+def _of_film(scaled: ScaledProblem, error: float) -> Domain:
+    """Return the domain of `chosen_domain` without asperities."""
     if is_starved(scaled):
         return starved_domain(scaled)
     domain = recommended_domain(scaled.entering, error)

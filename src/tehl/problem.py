@@ -67,6 +67,7 @@ def check(problem: PointContact) -> None:
     check_heat(problem)
     check_transient(problem)
     check_supply(problem)
+    check_asperities(problem)
     if problem.contact.moes_speed is not None and not problem.pressure_coefficient > 0:
         raise ValueError(
             "contact.moes_speed does not determine a speed: lubricant.viscosity has no pressure "
@@ -208,6 +209,21 @@ def check_supply(problem: PointContact) -> None:
         raise ValueError(
             "supply.passes and [transient] exclude each other: each pass has a steady film; leave "
             "out one"
+        )
+
+
+def check_asperities(problem: PointContact) -> None:
+    """Check that the asperities have a height, and that the run can have them."""
+    if problem.asperities is None:
+        return
+    if not problem.asperity_rms > 0.0:
+        raise ValueError(
+            "asperities.rms is missing: give the rms roughness of both surfaces together, such as "
+            '"0.3 um", here or as rms_roughness of the surfaces'
+        )
+    if problem.transient is not None:
+        raise ValueError(
+            "asperities and [transient] exclude each other so far: leave out one of the tables"
         )
 
 

@@ -183,7 +183,7 @@ def test_lines_relaxed_side_by_side_equal_lines_relaxed_one_by_one(shape, mirror
     for colour in range(2):
         for j in range(first + colour, shape[0] - 1, 2):
             relax_batch(one, stencil, rhs, setting, (j, 1))
-    add_dipoles(one.p, setting.delta, mirror)
+    add_dipoles(one, setting.delta, mirror)
     np.testing.assert_allclose(film.p, one.p, rtol=1e-10, atol=1e-12)
 
 

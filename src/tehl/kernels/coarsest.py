@@ -23,7 +23,8 @@ class Coarse(NamedTuple):
     """State of the coarsest grid: fields (ny, nx) and the derivatives of the conductance.
 
     Along x and y the conductance and its derivatives are ``stretch_x`` and ``stretch_y`` times as
-    large.
+    large. With asperities ``rho`` is d(rho h)/dH, ``stiffness`` -dp_a/dH, and ``asperity`` their
+    pressure; without these have no elements.
     """
 
     p: Array
@@ -37,6 +38,8 @@ class Coarse(NamedTuple):
     stretch_y: Array
     partial: FlagArray
     second: FlagArray
+    stiffness: Array
+    asperity: Array
 
 
 class CoarseSystem(NamedTuple):
@@ -54,7 +57,10 @@ class CoarseSystem(NamedTuple):
 
 
 class Work(NamedTuple):
-    """Scratch: matrix, right-hand side, numbers of the free nodes, and data of one node."""
+    """Scratch: matrix, right-hand side, numbers of the free nodes, and data of one node.
+
+    ``dry`` marks nodes where asperities alone carry.
+    """
 
     matrix: Array
     rhs: Array
@@ -63,6 +69,7 @@ class Work(NamedTuple):
     near: IntArray
     by_p: Array
     by_h: Array
+    dry: FlagArray
 
 
 def newton_step(state: Coarse, stencil: Stencil, system: CoarseSystem, longest: float) -> float:
@@ -88,6 +95,7 @@ def newton_step(state: Coarse, stencil: Stencil, system: CoarseSystem, longest: 
         near=np.empty(6, np.int64),
         by_p=np.empty(6),
         by_h=np.empty(6),
+        dry=np.zeros(nodes, np.uint8),
     )
     flat = Coarse._make(field.ravel() for field in state)
     flags = system._replace(residual=system.residual.ravel(), frozen=system.frozen.ravel())
@@ -131,11 +139,44 @@ def _find_free(state: Coarse, system: CoarseSystem, mirror: int, nx: int, free: 
     count = 0
     for j in range(0 if mirror else 1, state.p.shape[0] // nx - 1):
         for here in range(j * nx + 1, j * nx + nx - 1):
-            wet = state.p[here] > 0.0 or system.residual[here] < 0.0
+            wet = state.p[here] != 0.0 or system.residual[here] < 0.0
             if wet and not system.frozen[here]:
                 free[count] = here
                 count += 1
     return count
+
+
+@helper
+def _find_carrying(state: Coarse, system: CoarseSystem, shape: tuple[int, int], work: Work) -> int:
+    """List all nodes, mark those where asperities alone change; return their count.
+
+    ``shape``: mirror, and nodes of a row.
+    """
+    count, (mirror, nx) = 0, shape
+    for j in range(0 if mirror else 1, state.p.shape[0] // nx - 1):
+        for here in range(j * nx + 1, j * nx + nx - 1):
+            wet = state.p[here] != 0.0 or system.residual[here] < 0.0
+            work.dry[here] = not wet or system.frozen[here] > 0
+            work.free[count] = here
+            count += 1
+    return count
+
+
+@helper
+def _touch(state: Coarse, system: CoarseSystem, work: Work) -> None:
+    """Add that the oil loses the pressure which asperities take.
+
+    Where they alone change, the row is that of no change of the oil.
+    """
+    near, by_p, by_h, here = work.near, work.by_p, work.by_h, work.near[HERE]
+    if work.dry[here]:
+        for n in range(6):
+            by_p[n] = 0.0
+            by_h[n] = 0.0
+        by_p[HERE] = 1.0
+        system.residual[here] = 0.0
+    for n in range(6):
+        by_h[n] += by_p[n] * state.stiffness[near[n]]
 
 
 @helper
@@ -217,6 +258,8 @@ def _assemble(
     for row in range(count):
         _find_neighbours(work.free[row], nx, work.near)
         _slopes(state, stencil, work)
+        if state.stiffness.shape[0] > 0:
+            _touch(state, system, work)
         _assemble_row(system, work, row, count)
     for column in range(count):
         twice = stencil.mirror and work.free[column] >= nx
@@ -233,6 +276,9 @@ def solve_step(
     nx, longest = settings
     state, system, work = raw((state, system, work))
     count = _find_free(state, system, stencil.mirror, nx, work.free)
+    touches = state.stiffness.shape[0] > 0
+    if touches:
+        count = _find_carrying(state, system, (stencil.mirror, nx), work)
     _assemble(state, stencil, system, work, (count, nx))
     _solve_dense(work.matrix, work.rhs, count + 1)
     most = 0.0
@@ -241,5 +287,8 @@ def solve_step(
     scale = min(1.0, longest / max(most, 1e-300))
     for row in range(count):
         here = work.free[row]
+        if touches and work.dry[here]:
+            state.asperity[here] += scale * work.rhs[row]
+            continue
         state.p[here] = max(state.p[here] + scale * work.rhs[row], 0.0)
     return scale * work.rhs[count]

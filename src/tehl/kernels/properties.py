@@ -23,6 +23,11 @@ class Film(NamedTuple):
     (`tehl.kernels.reynolds.tangent_source`). Where oil is conserved (`Stencil.conserves`),
     ``partial`` marks the cavitated nodes whose gap is partly filled, ``second`` the nodes that
     pass on oil with second order, and ``layer`` (ny,) is the oil that enters each line.
+
+    With asperities finer than the grid ``p`` is the pressure of the oil, ``asperity`` theirs and
+    ``stiffness`` its slope -dp_a/dH by the separation H of the mean planes; ``h`` is the mean gap
+    and ``opening`` dh/dH; ``channel`` is the thickness that conducts, ``widening`` its relative
+    slope by H. Without they have no elements, and h is H.
     """
 
     p: Array
@@ -35,6 +40,11 @@ class Film(NamedTuple):
     partial: FlagArray = np.zeros((0, 0), np.uint8)
     second: FlagArray = np.zeros((0, 0), np.uint8)
     layer: Array = np.zeros(0)
+    asperity: Array = np.zeros((0, 0))
+    stiffness: Array = np.zeros((0, 0))
+    opening: Array = np.zeros((0, 0))
+    channel: Array = np.zeros((0, 0))
+    widening: Array = np.zeros((0, 0))
 
 
 class Factors(NamedTuple):
@@ -73,7 +83,7 @@ def _line_properties(film: Film, table: Array, step: float, floor: float, j: int
     last, per_step = table.shape[0] - 2, 1.0 / step
     for i in range(film.p.shape[1]):
         x = film.p[j, i] * per_step
-        x = 0.0 if x <= 0.0 else x
+        x = x if x > 0.0 else 0.0  # also of a pressure that is not a number
         k = int(min(x, last))
         t = min(x - k, 1.0)
         s = 1.0 - t
@@ -105,6 +115,69 @@ def properties(film: Film, table: Array, step: float, floor: float) -> None:
     film, table = raw((film, table))
     for j in range(film.p.shape[0]):
         _line_properties(film, table, step, floor, j)
+
+
+@kernel
+def touch(
+    film: Film, separation: Array, table: Array, grid: Array, frozen: FlagArray, reach: float
+) -> None:
+    """Fill the fields of the asperities from the separation H of the mean planes.
+
+    Parameters
+    ----------
+    film : Film
+        Fields (ny, nx). The sum of ``p`` and ``asperity`` stays as it is; where the oil is
+        cavitated, p = 0, or frozen, p stays.
+    separation : array (ny, nx)
+        H [-].
+    table : array (n, 6)
+        Pressure, mean gap and channel over H, each with its slope times the step, row by row.
+    grid : array (2,)
+        H of the first row, and step [-].
+    frozen : array (ny, nx)
+        1 where ``p`` stays.
+    reach : float
+        Film of a smooth change of pressure over that change, by which asperities that lead follow
+        less; below zero ``p`` stays everywhere.
+    """
+    film, separation, table, grid, frozen = raw((film, separation, table, grid, frozen))
+    first, per_step, last = grid[0], 1.0 / grid[1], table.shape[0] - 2
+    for j in range(film.p.shape[0]):
+        for i in range(film.p.shape[1]):
+            x = (separation[j, i] - first) * per_step
+            if not x < last:  # apart, or not a number
+                pressure, fall, gap, opening = 0.0, 0.0, separation[j, i], 1.0
+                channel, widening = gap, 1.0
+            else:
+                k = int(max(x, 0.0))
+                pressure, fall = _hermite(table, k, x - k, 0)
+                gap, opening = _hermite(table, k, x - k, 2)
+                channel, widening = _hermite(table, k, x - k, 4)
+                fall, opening, widening = fall * per_step, opening * per_step, widening * per_step
+            more = pressure - film.asperity[j, i]
+            if reach >= 0.0 and film.p[j, i] != 0.0 and frozen[j, i] == 0:
+                film.p[j, i] -= more
+            elif reach > 0.0:  # a smooth change moves the film too
+                more /= 1.0 - reach * fall
+            film.asperity[j, i] += more
+            film.stiffness[j, i] = -fall
+            film.h[j, i] = gap
+            film.opening[j, i] = opening
+            film.channel[j, i] = channel
+            film.widening[j, i] = widening / channel
+
+
+@helper
+def _hermite(table: Array, k: int, t: float, column: int) -> tuple[float, float]:
+    """Return value and slope times step between rows ``k`` and k + 1; linear below the first."""
+    start, rise = table[k, column], table[k, column + 1]
+    if t < 0.0:
+        return start + t * rise, rise
+    end, fall, s = table[k + 1, column], table[k + 1, column + 1], 1.0 - t
+    low, high = start + t * (rise + 2.0 * start), end + s * (2.0 * end - fall)
+    value = s * s * low + t * t * high
+    slope = 6.0 * s * t * (end - start) + s * (s - 2.0 * t) * rise + t * (t - 2.0 * s) * fall
+    return value, slope
 
 
 @kernel

@@ -39,10 +39,11 @@ PASSES = 6  # of the policy iteration, before clipping
 FREE, CAVITATED, KEPT, WAS_CAVITATED = 0.0, 1.0, 2.0, 3.0  # states of a node
 MARGIN = 3  # empty nodes on both sides of a line
 CHUNK = 32  # nodes copied at a time, so that they stay in the first cache
-LOADED = ("east", "across", "mass_p", "rho", "dipole", "rest", "p", "state")
-EAST, ACROSS, MASS_P, RHO, DIPOLE, REST, P, STATE = range(8)
+LOADED = ("east", "across", "mass_p", "rho", "dipole", "rest", "p", "state", "hardness")
+EAST, ACROSS, MASS_P, RHO, DIPOLE, REST, P, STATE, HARDNESS = range(9)
 """Copied from the fields for each node: conductance to the east; that to both lines beside, with
-``stiffness``; d(rho h)/dp, density, 1 for a dipole, residual, pressure, and its state."""
+``stiffness``; d(rho h)/dp, d(rho h)/dH, 1 for a dipole, residual, pressure, and its state; -dp_a/dH
+of the asperities."""
 BAND = ("west_3", "west_2", "west_1", "centre", "east_1", "east_2")
 """Coefficients of the unknowns at i - 3 .. i + 2."""
 FLUX = ("own", "upstream", "farther", "back")
@@ -62,7 +63,8 @@ class LineRelaxation(NamedTuple):
     colours are done; ``frozen`` (ny, nx) marks nodes of fixed pressure; ``stiffness`` (ny, nx) is
     the contribution of the change of conductance to the diagonal (`stiffen`). ``rest`` (LANES, nx)
     holds the residuals of eight lines, ``nodes`` (nx + 6,) their systems as records `NODE`;
-    ``cells`` (nx + 6, FIELDS, LANES) is a view of ``nodes`` as numbers.
+    ``cells`` (nx + 6, FIELDS, LANES) is a view of ``nodes`` as numbers. ``touches`` is 1 with
+    asperities finer than the grid.
     """
 
     xi: float
@@ -77,6 +79,7 @@ class LineRelaxation(NamedTuple):
     rest: Array
     nodes: Records
     cells: Array
+    touches: int = 0
 
 
 def workspace(nx: int) -> tuple[Array, Records, Array]:
@@ -97,7 +100,9 @@ def mark_dipoles(film: Film, stencil: Stencil, relaxation: LineRelaxation) -> No
         for i in range(1, nx - 1):
             along = max(eps_x[j, i], eps_x[j, i - 1], eps_x[j, i + 1])
             across = max(eps_y[j, i], eps_y[south, i], eps_y[j + 1, i])
-            smallest = min(p[j, i], p[j, i - 1], p[j, i + 1], p[south, i], p[j + 1, i])
+            smallest = min(
+                abs(p[j, i]), abs(p[j, i - 1]), abs(p[j, i + 1]), abs(p[south, i]), abs(p[j + 1, i])
+            )
             if max(along, across) <= limit and smallest > 0.0:
                 kind[j, i] = 1
 
@@ -118,7 +123,7 @@ def stiffen(film: Film, stencil: Stencil, table: Array, step: float, out: Array)
         south = row_below(j)
         for i in range(1, nx - 1):
             p = film.p[j, i]
-            k = int(min(p / step, last))
+            k = int(min(p / step, last)) if p > 0.0 else 0
             decay = max(-table[k, 1] / (table[k, 0] * step), 0.0)
             along = max(film.p[j, i - 1] - p, 0.0) + max(film.p[j, i + 1] - p, 0.0)
             across = max(film.p[south, i] - p, 0.0) + max(film.p[j + 1, i] - p, 0.0)
@@ -131,20 +136,12 @@ def wet_range(film: Film, relaxation: LineRelaxation, j: int, slot: int) -> Span
     """Return the first and last node of a line not cavitated or frozen; (nx, 0) if none."""
     p, frozen, rest, nx = film.p, relaxation.frozen, relaxation.rest, film.p.shape[1]
     low = 1
-    while (
-        low < nx - 1
-        and p[j, low] >= 0.0
-        and (frozen[j, low] or (p[j, low] == 0.0 and rest[slot, low] >= 0.0))
-    ):
+    while low < nx - 1 and (frozen[j, low] or (p[j, low] == 0.0 and rest[slot, low] >= 0.0)):
         low += 1
     if low == nx - 1:
         return nx, 0
     high = nx - 2
-    while (
-        high > low
-        and p[j, high] >= 0.0
-        and (frozen[j, high] or (p[j, high] == 0.0 and rest[slot, high] >= 0.0))
-    ):
+    while high > low and (frozen[j, high] or (p[j, high] == 0.0 and rest[slot, high] >= 0.0)):
         high -= 1
     return low, high
 
@@ -167,8 +164,11 @@ def _load_line(
         cells[at, DIPOLE, lane] = relaxation.kind[j, i]
         cells[at, REST, lane] = rest[lane, i]
         cells[at, P, lane] = film.p[j, i]
-        state = CAVITATED if film.p[j, i] <= 0.0 and rest[lane, i] >= 0.0 else FREE
+        state = CAVITATED if film.p[j, i] == 0.0 and rest[lane, i] >= 0.0 else FREE
         cells[at, STATE, lane] = KEPT if relaxation.frozen[j, i] else state
+        if relaxation.touches:
+            cells[at, RHO, lane] *= film.opening[j, i]
+            cells[at, HARDNESS, lane] = film.stiffness[j, i]
     if stencil.conserves == STEADILY:
         _load_flux(film, stencil, relaxation, place, span)
 
@@ -254,6 +254,34 @@ def _fill_row(
     here.east_1 = a_e + b_ww * p[3] + b_w * p[2] + b_c * p[1] + east.dipole * change
     change = b_ww * d4 + b_w * d3 + b_c * d2 - 0.25 * a_e
     here.east_2 = b_ww * p[4] + b_w * p[3] + b_c * p[2] + beyond.dipole * change
+    if relaxation.touches:
+        hardness = a_ww * far.hardness, a_w * west.hardness
+        _add_asperities(relaxation, i, (*hardness, a_c * here.hardness, a_e * east.hardness))
+
+
+@helper
+def _add_asperities(relaxation: LineRelaxation, i: int, slopes: tuple[Any, Any, Any, Any]) -> None:
+    """Add the change of the oil pressure as asperities take some: p = P - p_a(H).
+
+    ``slopes`` are dL/dp times -dp_a/dH at nodes i - 2 .. i + 1.
+    """
+    nodes, p, d = relaxation.nodes, relaxation.point, relaxation.dipole
+    e_ww, e_w, e_c, e_e = slopes
+    farthest, far, west, here, east, beyond = (
+        nodes[i], nodes[i + 1], nodes[i + 2], nodes[i + 3], nodes[i + 4], nodes[i + 5]
+    )  # fmt: skip
+    change = e_ww * (d[1] - p[1]) + e_w * (d[2] - p[2]) + e_c * (d[3] - p[3]) + e_e * (d[4] - p[4])
+    here.west_3 += e_ww * p[1] + e_w * p[2] + e_c * p[3] + e_e * p[4] + farthest.dipole * change
+    change = e_ww * (d[0] - p[0]) + e_w * (d[1] - p[1]) + e_c * (d[2] - p[2]) + e_e * (d[3] - p[3])
+    here.west_2 += e_ww * p[0] + e_w * p[1] + e_c * p[2] + e_e * p[3] + far.dipole * change
+    change = e_ww * (d[1] - p[1]) + e_w * (d[0] - p[0]) + e_c * (d[1] - p[1]) + e_e * (d[2] - p[2])
+    here.west_1 += e_ww * p[1] + e_w * p[0] + e_c * p[1] + e_e * p[2] + west.dipole * change
+    change = e_ww * (d[2] - p[2]) + e_w * (d[1] - p[1]) + e_c * (d[0] - p[0]) + e_e * (d[1] - p[1])
+    here.centre += e_ww * p[2] + e_w * p[1] + e_c * p[0] + e_e * p[1] + here.dipole * change
+    change = e_ww * (d[3] - p[3]) + e_w * (d[2] - p[2]) + e_c * (d[1] - p[1]) + e_e * (d[0] - p[0])
+    here.east_1 += e_ww * p[3] + e_w * p[2] + e_c * p[1] + e_e * p[0] + east.dipole * change
+    change = e_ww * (d[4] - p[4]) + e_w * (d[3] - p[3]) + e_c * (d[2] - p[2]) + e_e * (d[1] - p[1])
+    here.east_2 += e_ww * p[4] + e_w * p[3] + e_c * p[2] + e_e * p[1] + beyond.dipole * change
 
 
 @helper
@@ -423,18 +451,19 @@ def relax_lines(film: Film, stencil: Stencil, rhs: Array, relaxation: LineRelaxa
         for j in range(first + colour, film.p.shape[0] - 1, 2 * LANES):
             count = min(LANES, (film.p.shape[0] - j) // 2)
             relax_batch(film, stencil, rhs, relaxation, (j, count))
-    add_dipoles(film.p, relaxation.delta, stencil.mirror)
+    add_dipoles(film, relaxation.delta, stencil.mirror)
 
 
 @helper
-def add_dipoles(p: Array, delta: Array, mirror: int) -> None:
-    """Add the stored dipoles to ``p`` and clip at zero."""
-    ny, nx = p.shape
+def add_dipoles(film: Film, delta: Array, mirror: int) -> None:
+    """Add the stored dipoles to ``p`` and clip at zero unless asperities carry."""
+    p, touches, (ny, nx) = film.p, film.stiffness.shape[0] > 0, film.p.shape
     for j in range(0 if mirror else 1, ny - 1):
         south = row_below(j)
         for i in range(1, nx - 1):
             around = delta[j, i - 1] + delta[j, i + 1] + delta[south, i] + delta[j + 1, i]
-            p[j, i] = max(p[j, i] + delta[j, i] - 0.25 * around, 0.0)
+            changed = p[j, i] + delta[j, i] - 0.25 * around
+            p[j, i] = changed if touches else max(changed, 0.0)
 
 
 @kernel

@@ -175,10 +175,10 @@ def mark_partial(film: Film, stencil: Stencil, rhs: Array, scratch: Array) -> No
     for j in range(0 if stencil.mirror else 1, p.shape[0] - 1):
         partial[j, 0] = film.layer[j] < film.rho[j, 0] * film.h[j, 0]
         for i in range(1, nx):
-            partial[j, i] = p[j, i] <= 0.0
+            partial[j, i] = p[j, i] == 0.0
         line_operator(film, stencil, j, scratch, 0)
         for i in range(1, nx - 1):
-            partial[j, i] = p[j, i] <= 0.0 and rhs[j, i] - scratch[0, i] >= 0.0
+            partial[j, i] = p[j, i] == 0.0 and rhs[j, i] - scratch[0, i] >= 0.0
 
 
 @kernel
@@ -314,7 +314,7 @@ def _line_norm(
     total, count = 0.0, 0
     for i in range(1, film.p.shape[1] - 1):
         r = rest[j, i]
-        counts = film.p[j, i] > 0.0 or r < 0.0
+        counts = film.p[j, i] != 0.0 or r < 0.0
         total += abs(r / _node_diagonal(film, stencil, self_film, j, i)) if counts else 0.0
         count += 1 if counts else 0
     return total, count
@@ -346,7 +346,7 @@ def residual(film: Film, stencil: Stencil, rhs: Array, self_film: float, out: Ar
             out[j, i] = rhs[j, i] - out[j, i]
         line_total, line_count = _line_norm(film, stencil, self_film, j, out)
         for i in range(1, nx - 1):
-            out[j, i] = out[j, i] if film.p[j, i] > 0.0 else 0.0
+            out[j, i] = out[j, i] if film.p[j, i] != 0.0 else 0.0
         weight = 1 if (stencil.mirror and j == 0) else 1 + stencil.mirror
         total += weight * line_total
         count += weight * line_count

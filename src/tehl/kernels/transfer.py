@@ -77,16 +77,18 @@ def restrict_pressure(fine: Array, mirror: int, coarse: Array) -> None:
                 coarse[j, i] = fine[fj, fi]
                 continue
             south = fj - 1 if fj > 0 else 1
-            smallest = fine[fj, fi]
+            smallest = abs(fine[fj, fi])
             for row in (south, fj, fj + 1):
                 for column in range(fi - 1, fi + 2):
-                    smallest = min(smallest, fine[row, column])
+                    smallest = min(smallest, abs(fine[row, column]))
             coarse[j, i] = _weigh(fine, fj, fi) if smallest > 0.0 else fine[fj, fi]
 
 
 @kernel
-def correct(p: Array, coarse: Array, before: Array, mirror: int, part: float, limit: float) -> None:
-    """Add ``part`` of the bilinear interpolation of ``coarse - before`` to the wet nodes of ``p``.
+def correct(
+    p: Array, coarse: Array, before: Array, mirror: int, bounds: tuple[float, float, float]
+) -> None:
+    """Add a part of the bilinear interpolation of ``coarse - before`` to the wet nodes of ``p``.
 
     A node keeps its pressure if any coarse node around it was cavitated: no correction crosses the
     cavitation front.
@@ -99,16 +101,18 @@ def correct(p: Array, coarse: Array, before: Array, mirror: int, part: float, li
         Pressure of the coarse grid, and its value before the coarse solve.
     mirror : int
         1 if row 0 is the symmetry line.
-    part, limit : float
-        Factor on the correction; its largest size, over the pressure [-].
+    bounds : (float, float, float)
+        Factor on the correction; its largest size, over the pressure; least pressure, zero but
+        where asperities carry: there an error of both together is one of the oil [-].
     """
+    part, limit, least = bounds
     p, coarse, before = raw((p, coarse, before))
     ny, nx = p.shape
     for j in range(0 if mirror else 1, ny - 1):
         low_j = j // 2
         high_j = low_j + (j % 2)
         for i in range(1, nx - 1):
-            if p[j, i] <= 0.0:
+            if p[j, i] == 0.0:
                 continue
             low_i = i // 2
             high_i = low_i + (i % 2)
@@ -116,13 +120,13 @@ def correct(p: Array, coarse: Array, before: Array, mirror: int, part: float, li
             wet = True
             for row in (low_j, high_j):
                 for column in (low_i, high_i):
-                    if before[row, column] <= 0.0:
+                    if before[row, column] == 0.0:
                         wet = False
                     total += coarse[row, column] - before[row, column]
             if wet:
-                largest = limit * p[j, i]
+                largest = limit * abs(p[j, i])
                 change = min(max(part * 0.25 * total, -largest), largest)
-                p[j, i] = max(p[j, i] + change, 0.0)
+                p[j, i] = max(p[j, i] + change, least)
 
 
 @kernel
@@ -132,7 +136,8 @@ def correct_fronts(
     """Correct the nodes that have both wet and cavitated coarse nodes around them.
 
     Where a film begins downstream of a cavity its flux is given, not its pressure: it changes in
-    proportion to the pressure of the wet coarse nodes. Parameters as in `correct`.
+    proportion to the pressure of the wet coarse nodes. ``part`` and ``limit`` are the first two
+    bounds of `correct`.
     """
     p, coarse, before = raw((p, coarse, before))
     ny, nx = p.shape
@@ -181,5 +186,5 @@ def freeze(
             fj, fi = 2 * j, 2 * i
             for row in (fj - 1 if fj > 0 else 1, fj, fj + 1):
                 for column in range(fi - 1, fi + 2):
-                    if fine[row, column] <= 0.0 or fine_frozen[row, column]:
+                    if fine[row, column] == 0.0 or fine_frozen[row, column]:
                         out[j, i] = 1

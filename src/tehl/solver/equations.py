@@ -13,6 +13,7 @@ import numpy as np
 
 from tehl.grid import Grid
 from tehl.kernels import reynolds
+from tehl.operators.asperities import AsperityTable, asperity_table
 from tehl.operators.deformation import Deformation, choose
 from tehl.operators.far_field import FarField
 from tehl.operators.film import gap
@@ -54,6 +55,8 @@ class Equations:
     layer: Array | None
     """Oil that enters each line, ``rho H``, (ny,), infinite if flooded; None if oil is not
     conserved in cavities."""
+    asperities: AsperityTable | None
+    """Laws of asperities finer than the grid; None without."""
     floor: float
     """Least film in the conductance [-]: the discrete film of coarse grids may not be positive."""
 
@@ -80,6 +83,7 @@ class Equations:
             Load that the film carries, over that of the contact [-].
         """
         groups, oil = scaled.groups, entering_oil(scaled)
+        asperities = asperity_table(scaled)
         starved, conserves = oil is not None, scaled.problem.conserves_oil
         return cls(
             grid=grid,
@@ -95,7 +99,8 @@ class Equations:
                 FarField(grid, scaled.entering) if options.has_far_field and not starved else None
             ),
             layer=_layer(scaled, oil, grid),
-            floor=FLOOR * supplied_film(scaled),
+            asperities=asperities,
+            floor=FLOOR * supplied_film(scaled) if asperities is None else 0.0,
         )
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from tehl.grid import Grid, halved_grids
 from tehl.kernels import reynolds
 from tehl.kernels.coarsest import Coarse, CoarseSystem, newton_step
+from tehl.mixed import shared_load
 from tehl.operators.flow import flow_table
 from tehl.operators.influence import dense_matrix
 from tehl.options import Options
@@ -18,7 +19,6 @@ from tehl.solver.equations import Equations
 from tehl.solver.fas import Cycle, cycle
 from tehl.solver.level import Level
 from tehl.solver.relaxation import Relaxation
-from tehl.starvation import supplied_film
 
 UNRESOLVED = 0.5
 """Mesh width of the coarsest grid, in Hertz half-widths, beyond which it does not resolve the
@@ -31,6 +31,8 @@ approach in another way, and the cycles diverge."""
 THICK = 0.25
 """Expected central film above which two visits help: for a thinner film such a grid has no valid
 discrete solution, and more visits do harm (M = 200 and more on wide domains)."""
+STEPS = 3
+"""Newton steps where asperities carry part of the load, so that little is left to the oil."""
 LONGEST_STEP = 0.3
 """Largest change of pressure in a Newton step on the coarsest grid, in Hertz pressures."""
 
@@ -50,7 +52,11 @@ class CoarsestSolver:
         self.influence = dense_matrix(grid.shape, grid.mirror, equations.influence)
 
     def step(self) -> None:
-        """Perform one Newton step of limited length in place."""
+        """Perform a Newton step of limited length in place, `STEPS` with asperities."""
+        for _ in range(1 if self.level.equations.asperities is None else STEPS):
+            self._step()
+
+    def _step(self) -> None:
         level = self.level
         level.update()
         # unlike evaluate_residual, not zero at cavitated nodes: the Newton step may wet them
@@ -65,7 +71,7 @@ class CoarsestSolver:
             missing_load=level.missing_load(),
         )
         change = newton_step(self._linearised(), level.stencil, system, LONGEST_STEP)
-        level.set_state(level.film.p, level.rigid_approach + change)
+        level.move(change)
 
     def _linearised(self) -> Coarse:
         """Return film and conductance with the derivatives of the conductance."""
@@ -75,14 +81,19 @@ class CoarsestSolver:
         stretch_x, stretch_y = (
             (ones, ones) if factors is None else (factors.stretch_x, factors.stretch_y)
         )
+        rho = film.rho if self.level.equations.asperities is None else film.rho * film.opening
         return Coarse(
-            *film[:5],
+            *film[:3],
+            rho=rho,
+            drho=film.drho,
             eps_p=by_pressure,
             eps_h=by_film,
             stretch_x=stretch_x,
             stretch_y=stretch_y,
             partial=film.partial,
             second=film.second,
+            stiffness=film.stiffness,
+            asperity=film.asperity,
         )
 
 
@@ -121,7 +132,7 @@ class Hierarchy:
         load : float
             Load that the film carries, over that of the contact [-].
         """
-        flow, film = flow_table(scaled), supplied_film(scaled)
+        flow, film = flow_table(scaled), shared_load(scaled).separation
         grids = halved_grids(finest)
         widest = max(1.0, (2.0 * film) ** 0.5)  # of the parabolic gap, where the film is thick
         while grids[0].dx > widest and len(grids) > LEAST_GRIDS and grids[1].nx <= LARGEST_DENSE:

@@ -46,7 +46,7 @@ HERTZ_CYCLES = 2
 """Cycles after which a grid that started from the Hertz pressure has a film."""
 MOST_FRONT_CYCLES = 24
 """The same where a meniscus must be found: on coarse grids that costs little."""
-LARGEST_OIL_ERROR, COARSE_OIL_ERROR = 0.01, 0.003
+LARGEST_OIL_ERROR, COARSE_OIL_ERROR = 0.005, 0.003
 """Relative change of the oil flux through the contact that is accepted on the finest grid, and on
 coarser ones, where it costs less."""
 FREE_ORDERS = 4
@@ -216,7 +216,7 @@ class GridIteration:
         fine.apply_heights(0.0)
         for _ in range(SMOOTH_CYCLES):
             iterate(cycle)
-        self.roughness.smooth = (len(levels) - 1, fine.film.p.copy(), fine.rigid_approach)
+        self.roughness.smooth = (len(levels) - 1, fine.pressure.copy(), fine.rigid_approach)
         if newton is None:
             ramp = self.strategy.continuation.ramp
             for part in range(1, ramp):
@@ -227,7 +227,7 @@ class GridIteration:
                 solve_part = partial(iterate, newton.step)
                 raise_by_newton(fine, solve_part, newton.refresh, finest=fine is self.finest)
             except TouchingError:  # its film is the result
-                self.traces[-1].add(self._report(fine, fine.film.p.copy(), 0, (0.0, 0.0)))
+                self.traces[-1].add(self._report(fine, fine.pressure.copy(), 0, (0.0, 0.0)))
                 raise
         fine.apply_heights(1.0)
         fine.update()
@@ -239,7 +239,7 @@ class GridIteration:
         """Perform one cycle or Newton step on the last of ``levels``, update heat, and report."""
         fine = levels[-1]
         fine.keeps_orders = number > FREE_ORDERS
-        before = fine.film.p.copy()
+        before = fine.pressure.copy()
         if fine.stencil.conserves == STEADILY and number == 1:
             fine.relax_fronts()
         step()
@@ -258,7 +258,7 @@ class GridIteration:
         self, level: Level, before: Array, number: int, heating: tuple[float, float]
     ) -> CycleReport:
         residual = level.evaluate_residual()
-        np.subtract(level.film.p, before, out=before)
+        np.subtract(level.pressure, before, out=before)
         central, minimum = level.nodal_film()
         report = CycleReport(
             points=level.grid.points,
@@ -271,7 +271,7 @@ class GridIteration:
             smoother=self.strategy.name,
             temperature_change=heating[0],
             temperature_rise=heating[1],
-            mean_change=float(np.abs(before).sum() / (level.film.p.sum() or 1.0)),
+            mean_change=float(np.abs(before).sum() / (level.pressure.sum() or 1.0)),
         )
         check_divergence(report, self.hierarchy.expected_film, rough=self.roughness.is_rough)
         return report

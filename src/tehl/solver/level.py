@@ -35,6 +35,8 @@ Full multigrid starts near the solution, which few neighbours of a study beat.""
 FRONT_SWEEPS, FRONT_WIDTH, FRONT_RESTS = (4, 16), 6, 0.03
 """Least and most sweeps where a starved film begins, nodes to both sides, and nodes that fill or
 empty over the number of lines from which the meniscus rests."""
+REACH = 1.5
+"""Film of a smooth change of the pressure in the contact, over that change [-]."""
 APPROACH_WEIGHT = 10.0
 """Weight of the rigid approach among the pressures in the vector of unknowns."""
 
@@ -56,11 +58,19 @@ class Level:
         if equations.layer is not None:
             partial, second = np.zeros(shape, np.uint8), np.zeros(shape, np.uint8)
             self.film = self.film._replace(partial=partial, second=second, layer=equations.layer)
+        self.separation = h  # of the mean planes: the film but for asperities finer than the grid
+        if equations.asperities is not None:
+            self.separation = np.zeros(shape)
+            q, s, opening, channel, widening = (np.zeros(shape) for _ in range(5))
+            self.film = self.film._replace(
+                asperity=q, stiffness=s, opening=opening, channel=channel, widening=widening
+            )
         self.keeps_orders = False  # the nodes of second order stay as they are
         self.rigid_approach = 0.0
         self.sources = Sources(f, g, equations.target)
         self.residual = np.zeros(shape)
         self.restricted = (np.zeros(shape), 0.0)
+        self.kept = np.zeros(shape)  # asperity pressure of that state
         self.heights: Array | None = None
         # of the correction of the next finer grid: factor, and limit of its relative change of P
         self.correction = (1.0, np.inf)
@@ -87,12 +97,24 @@ class Level:
     def set_state(self, pressure: Array, rigid_approach: float) -> None:
         """Set pressure, ``grid.shape``, and rigid approach; the film is stale."""
         self.film.p[:] = pressure
+        self.film.asperity[:] = 0.0  # their part follows with the film
         self.rigid_approach = rigid_approach
         self._is_stale = True
 
+    def move(self, change: float) -> None:
+        """Change the rigid approach."""
+        self.rigid_approach += change
+        self._is_stale = True
+
+    @property
+    def pressure(self) -> Array:
+        """Pressure of oil and asperities together [-]."""
+        film = self.film
+        return film.p if self.equations.asperities is None else film.p + film.asperity
+
     def unknowns(self) -> Array:
         """Return pressure and weighted rigid approach as one vector, (n + 1,)."""
-        return np.append(self.film.p.ravel(), APPROACH_WEIGHT * self.rigid_approach)
+        return np.append(self.pressure.ravel(), APPROACH_WEIGHT * self.rigid_approach)
 
     def set_unknowns(self, vector: Array) -> None:
         """Set pressure and rigid approach from a vector; negative pressures are clipped."""
@@ -103,18 +125,25 @@ class Level:
         """Evaluate film H = H00 + K P + g, conductance and density if they are stale."""
         if not self._is_stale:
             return
-        h = self.film.h
+        h = self.separation
         # the deflection is the largest part of the cost: once per change of the pressure
-        self.equations.deformation.deflect(self.film.p, h)
+        self.equations.deformation.deflect(self.pressure, h)
         np.add(h, self.sources.film, out=h)
         np.add(h, self.rigid_approach, out=h)
         if self.far_field is not None:
             self.far_field.set_edges(self.film.p, h)
             self.sources.outside = self.far_field.load(h, self.equations.gap)
+        self._touch(REACH)
         self.update_properties()
         self._is_stale = False
         if self.stencil.conserves == reynolds.STEADILY and self.is_finest:
             self._mark_cavities()
+
+    def _touch(self, reach: float) -> None:
+        """Evaluate the asperities at the present separation; see `properties.touch`."""
+        laws, frozen = self.equations.asperities, self.smoother.frozen
+        if laws is not None:
+            properties.touch(self.film, self.separation, laws.table, laws.grid, frozen, reach)
 
     def _mark_cavities(self) -> None:
         """Mark partly filled nodes, and those that pass on oil with second order."""
@@ -152,6 +181,8 @@ class Level:
 
     def _evaluate(self, film: properties.Film) -> None:
         flow, floor = self.equations.flow, self.equations.floor
+        if self.equations.asperities is not None:
+            film = film._replace(h=film.channel)  # asperities narrow it
         if self.factors is None:
             properties.properties(film, flow.table, flow.step, floor)
         else:
@@ -165,9 +196,13 @@ class Level:
         """Return d eps/dP and d eps/dH at the present pressure and film, each ``grid.shape``."""
         film, floor = self.film, self.equations.floor
         eps, rho, drho, eps_x, eps_y = (np.empty_like(film.p) for _ in range(5))
-        shifted = properties.Film(film.p + PRESSURE_STEP, film.h, eps, rho, drho, eps_x, eps_y)
+        shifted = properties.Film(
+            film.p + PRESSURE_STEP, film.h, eps, rho, drho, eps_x, eps_y, channel=film.channel
+        )
         self._evaluate(shifted)
         by_pressure = (shifted.eps - film.eps) / PRESSURE_STEP
+        if self.equations.asperities is not None:
+            return by_pressure, 3.0 * film.eps * film.widening
         # eps grows as H^3 above the floor and is constant below it
         by_film = np.where(film.h > floor, 3.0 * film.eps / np.maximum(film.h, floor), 0.0)
         return by_pressure, by_film
@@ -244,14 +279,14 @@ class Level:
 
     def interpolate_from(self, coarse: "Level") -> None:
         """Start from the solution of the next coarser grid, by cubic interpolation."""
-        self.set_state(refine(coarse.film.p, self.grid), coarse.rigid_approach)
+        self.set_state(refine(coarse.pressure, self.grid), coarse.rigid_approach)
 
     def warm_start(self, guess: Result | None) -> None:
         """Start from the film of a similar contact if its residual is much smaller."""
         if guess is None:
             return
         self.pose_problem()
-        pressure, approach, before = self.film.p.copy(), self.rigid_approach, self._distance()
+        pressure, approach, before = self.pressure.copy(), self.rigid_approach, self._distance()
         self.set_state(pressure_on(self.grid, guess), guess.rigid_approach)
         if not self._distance() < NEARER * before:
             self.set_state(pressure, approach)
@@ -306,7 +341,7 @@ class Level:
 
     def missing_load(self) -> float:
         """Return w less the integral of P, inside and outside the domain [-]."""
-        inside = self.equations.load.integral(self.film.p)
+        inside = self.equations.load.integral(self.pressure)
         return self.sources.load - self.sources.outside - inside
 
     def load_error(self) -> float:
@@ -352,9 +387,11 @@ class Level:
         conductance of the coarse grid follow from the injected film.
         """
         g = coarse.sources.film
-        coarse.film.h[:] = self.film.h[::2, ::2]
-        coarse.equations.deformation.deflect(coarse.film.p, g)
-        np.subtract(coarse.film.h, g, out=g)
+        coarse.separation[:] = self.separation[::2, ::2]
+        coarse._touch(-1.0)
+        coarse.kept = coarse.film.asperity.copy()
+        coarse.equations.deformation.deflect(coarse.pressure, g)
+        np.subtract(coarse.separation, g, out=g)
         g -= coarse.rigid_approach
         coarse.update_properties()
 
@@ -372,7 +409,7 @@ class Level:
 
     def restrict_load(self, coarse: "Level") -> None:
         """Pose the load balance:  w_c = sum(P_c) dx_c dy_c + (w - sum(P) dx dy)."""
-        carried = coarse.equations.load.integral(coarse.film.p)
+        carried = coarse.equations.load.integral(coarse.pressure)
         coarse.sources.load = self.missing_load() + carried
 
     def correct_from(self, coarse: "Level") -> None:
@@ -382,10 +419,13 @@ class Level:
         back and forth.
         """
         (before, approach), (part, limit) = coarse.restricted, coarse.correction
-        mirror = self.stencil.mirror
-        transfer.correct(self.film.p, coarse.film.p, before, mirror, part, limit)
+        mirror, now = self.stencil.mirror, coarse.film.p
+        if coarse.equations.asperities is not None:  # the change of both together
+            now = coarse.pressure - coarse.kept
+        least = 0.0 if self.equations.asperities is None else -np.inf
+        transfer.correct(self.film.p, now, before, mirror, (part, limit, least))
         if self.stencil.conserves:
-            transfer.correct_fronts(self.film.p, coarse.film.p, before, mirror, part, limit)
+            transfer.correct_fronts(self.film.p, now, before, mirror, part, limit)
         self.rigid_approach += part * (coarse.rigid_approach - approach)
         self._is_stale = True
 

@@ -76,7 +76,9 @@ class LineSmoother:
     (`tehl.kernels.relaxation.relax_lines`).
     """
 
-    def __init__(self, grid: Grid, influence: Influence, relaxation: Relaxation) -> None:
+    def __init__(
+        self, grid: Grid, influence: Influence, relaxation: Relaxation, *, touches: bool = False
+    ) -> None:
         point, dipole = line_influence(influence)
         others = (influence(line + 1, slice(0, point.size)) for line in range(relaxation.lines))
         point += 2.0 * sum(others, np.zeros(point.size))  # lines on both sides move along
@@ -96,6 +98,7 @@ class LineSmoother:
             rest=rest,
             nodes=nodes,
             cells=cells,
+            touches=int(touches),
         )
         self.is_stiff = relaxation.stiff
 
@@ -122,5 +125,7 @@ class PointSmoother:
 
 def make_smoother(equations: Equations, relaxation: Relaxation) -> Smoother:
     """Return the smoother of one grid: plain Gauss-Seidel if so named, else by lines."""
-    kind = PointSmoother if relaxation is GAUSS_SEIDEL else LineSmoother
-    return kind(equations.grid, equations.influence, relaxation)
+    if relaxation is GAUSS_SEIDEL:
+        return PointSmoother(equations.grid, equations.influence, relaxation)
+    touches = equations.asperities is not None
+    return LineSmoother(equations.grid, equations.influence, relaxation, touches=touches)

@@ -37,6 +37,8 @@ KNOWN = 0.5
 """Relative error of the minimum film at which the hint to a finer grid aims."""
 LARGEST_DOMAIN_ERROR = 0.1
 """Estimated part of the central film beyond which a domain is too small."""
+NEGATIVE = 1e-3
+"""Pressure of the oil below zero that is accepted between asperities [-]: an iteration error."""
 STARVED = 0.9
 """Film over fully flooded film below which an edge is too close."""
 LARGEST_COOLING = 5.0
@@ -52,7 +54,8 @@ def verdict(run: FilmSolver, *, reached: bool) -> Status:
     ``reached`` is whether the cycles met the stopping criterion.
     """
     film, errors = run.finest.film, run.errors()
-    if not (np.isfinite(film.p).all() and np.isfinite(film.h).all() and film.p.min() >= 0):
+    finite = np.isfinite(film.p).all() and np.isfinite(film.h).all()
+    if not (finite and film.p.min() >= -NEGATIVE):
         return diverged(run)
     another = run.roughness.is_rough or is_starved(run.hierarchy.scaled)
     if not reached and another:  # another strategy may converge on this grid

@@ -1,0 +1,191 @@
+"""Asperities below the mesh: laws, exact and dry limits, equations, convergence, bad input."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from tehl.asperities import channel, gaussian_integral, mean_gap
+from tehl.errors import InputError
+from tehl.film_formulas import expected_film
+from tehl.io.case import case_from_tables
+from tehl.kernels import reynolds
+from tehl.operators.influence import dense_matrix
+from tehl.options import Options
+from tehl.problem import ContactProblem
+from tehl.scaling import ScaledProblem
+from tehl.solver import solve
+from tehl.solver.monitor import SILENT
+from tehl.solver.steady import try_strategies
+from tests.reference import moes_contact
+
+
+def rough(
+    load: float, speed: float, ratio: float, *, steep: float = 1e-2, dense: float = 0.05, **other
+) -> ContactProblem:
+    """Return a contact with asperities: film by formula over sigma, sigma/beta, eta beta sigma."""
+    case = moes_contact(load, speed, **other)
+    sigma = expected_film(ScaledProblem.of(case)) / ratio
+    beta = sigma / steep
+    table = {
+        "model": "greenwood-tripp",
+        "rms": sigma,
+        "summit_radius": beta,
+        "summit_density": dense / beta / sigma,
+    }
+    return case_from_tables(case.model_dump(exclude_none=True) | {"asperities": table})[0]
+
+
+# ---- laws
+
+
+@pytest.mark.parametrize("gap", [-3.0, -0.5, 0.0, 1.0, 2.5, 4.0])
+def test_the_integrals_of_greenwood_and_tripp_are_exact(gap):
+    def density(s):
+        return math.exp(-0.5 * s * s) / math.sqrt(2.0 * math.pi)
+
+    at = np.array([gap])
+    for n in (1.5, 2.0, 2.5):
+        exact = quad(lambda s, n=n: (s - gap) ** n * density(s), gap, gap + 20.0, epsrel=1e-11)[0]
+        assert gaussian_integral(n, at)[0] == pytest.approx(exact, rel=1e-9)
+    exact = quad(lambda s: (gap - s) * density(s), gap - 20.0, gap, epsrel=1e-11)[0]
+    assert mean_gap(at)[0] == pytest.approx(exact, rel=1e-9)
+
+
+def test_the_pressure_of_asperities_has_its_published_form():
+    asperities, sigma, modulus = rough(100.0, 8.0, 1.0).asperities, 0.4e-6, 226e9
+    beta, eta = asperities.summit_radius, asperities.summit_density
+    factor = 16.0 * math.sqrt(2.0) * math.pi / 15.0 * (eta * beta * sigma) ** 2
+    at = np.array([1.0])
+    exact = factor * math.sqrt(sigma / beta) * 0.5 * modulus * gaussian_integral(2.5, at)
+    assert asperities.pressure(at, sigma, modulus) == pytest.approx(exact, rel=1e-12)
+    area = math.pi**2 * (eta * beta * sigma) ** 2 * gaussian_integral(2.0, at)
+    assert asperities.area(at, sigma) == pytest.approx(area, rel=1e-12)
+
+
+def test_the_channel_is_that_of_patir_and_cheng_and_stays_open():
+    gaps = np.array([0.5, 1.0, 3.0, 6.0])
+    factors = (channel(gaps) / gaps) ** 3
+    assert factors == pytest.approx([0.320, 0.486, 0.832, 0.969], abs=2e-3)
+    wide = np.linspace(-6.0, 8.0, 400)
+    assert (np.diff(channel(wide)) > 0.0).all()
+    assert channel(wide).min() > 0.0
+
+
+# ---- the film
+
+
+def dense_state(problem: ContactProblem, points: int):
+    """Return the finest level of a tight solve, on which its equations can be checked."""
+    options = Options(points=points, accuracy="tight", tolerance=1e-8, half_domain="never")
+    attempt, result = try_strategies(problem, options, monitor=SILENT, rough=False)
+    assert result.status.converged
+    return attempt.run.finest
+
+
+def test_film_and_asperities_satisfy_their_equations():
+    problem = rough(100.0, 8.0, 0.5)
+    level = dense_state(problem, 65)
+    level.update()
+    film, grid = level.film, level.grid
+    influence = dense_matrix(grid.shape, grid.mirror, level.equations.influence)
+    total = film.p + film.asperity
+    separation = level.rigid_approach + level.equations.gap.ravel() + influence @ total.ravel()
+    assert separation == pytest.approx(level.separation.ravel(), abs=1e-5)
+    scales, sigma = ScaledProblem.of(problem).scales, problem.asperity_rms
+    gaps = level.separation * scales.film_thickness / sigma
+    carried = problem.asperities.pressure(gaps, sigma, problem.reduced_modulus)
+    assert film.asperity == pytest.approx(carried / scales.hertz_pressure, abs=1e-6)
+    assert film.h == pytest.approx(mean_gap(gaps) * sigma / scales.film_thickness, rel=1e-5)
+    assert film.p.min() > -1e-6
+    carried = total.sum() * grid.dx * grid.dy + level.sources.outside
+    assert carried == pytest.approx(2.0 * math.pi / 3.0, rel=2e-3)
+    flow = np.empty(grid.shape)
+    reynolds.operator(film, level.stencil, flow)
+    scale = np.abs(np.diff(film.rho * film.h, axis=1)).max() / grid.dx
+    assert np.abs(flow[1:-1, 1:-1][film.p[1:-1, 1:-1] > 1e-6]).max() < 1e-4 * scale
+
+
+def test_far_asperities_do_not_touch():
+    smooth, far = moes_contact(50.0, 8.0), rough(50.0, 8.0, 40.0)
+    options = Options(points=129, accuracy="tight", tolerance=1e-7)
+    first, second = (solve(one, options) for one in (smooth, far))
+    assert second.film_scaled.central == pytest.approx(first.film_scaled.central, rel=1e-6)
+
+
+def shares(problem: ContactProblem, points: int) -> float:
+    """Return the part of the load on asperities."""
+    attempt, result = try_strategies(problem, Options(points=points), monitor=SILENT, rough=False)
+    assert result.status.converged
+    level = attempt.run.finest
+    return float(level.film.asperity.sum() / level.pressure.sum())
+
+
+def test_the_share_of_asperities_converges_with_second_order():
+    problem = rough(100.0, 8.0, 0.5)
+    found = [shares(problem, points) for points in (65, 129, 257)]
+    ratio = (found[1] - found[0]) / (found[2] - found[1])
+    assert 2.8 < ratio < 6.0
+
+
+def test_slow_contacts_are_dry_and_fast_ones_are_not():
+    found = [
+        shares(rough(100.0, 8.0, ratio, steep=0.02, dense=0.1), 129)
+        for ratio in (0.02, 0.1, 0.4, 1.0, 3.0)
+    ]
+    assert found == sorted(found, reverse=True)
+    assert found[0] > 0.995
+    assert found[-1] < 0.01
+
+
+def test_a_dry_contact_is_that_of_greenwood_and_tripp():
+    problem = rough(100.0, 8.0, 0.02, steep=0.02, dense=0.1)
+    level = dense_state(problem, 33)
+    grid, scales = level.grid, ScaledProblem.of(problem).scales
+    influence = dense_matrix(grid.shape, grid.mirror, level.equations.influence)
+    gap, sigma = level.equations.gap.ravel(), problem.asperity_rms
+    unit = sigma / scales.film_thickness
+
+    def carried(separation):
+        found = problem.asperities.pressure(separation / unit, sigma, problem.reduced_modulus)
+        return found / scales.hertz_pressure
+
+    pressure, approach = np.zeros(gap.size), level.rigid_approach
+    for _ in range(400):  # damped, with the approach that carries the load
+        separation = approach + gap + influence @ pressure
+        pressure += 0.3 * (carried(separation) - pressure)
+        missing = 2.0 * math.pi / 3.0 - pressure.sum() * grid.dx * grid.dy
+        approach -= 0.3 * unit * missing
+    total = level.film.p + level.film.asperity
+    assert total.max() == pytest.approx(pressure.max(), rel=0.01)
+    assert level.rigid_approach == pytest.approx(approach, rel=0.01)
+    assert total.ravel() == pytest.approx(pressure, abs=0.01 * pressure.max())
+
+
+def test_half_and_full_domain_share_the_load_alike():
+    problem = rough(100.0, 8.0, 0.4)
+    options = Options(points=65)
+    full = options.model_copy(update={"half_domain": "never"})
+    first, second = (solve(problem, one) for one in (options, full))
+    assert first.film_scaled.central == pytest.approx(second.film_scaled.central, rel=2e-3)
+
+
+# ---- bad input
+
+
+@pytest.mark.parametrize(
+    ("change", "text"),
+    [
+        ({"model": "other"}, "greenwood-tripp"),
+        ({"summit_radius": -1e-5}, "must be positive"),
+        ({"summit_density": "1e10 1/m"}, "number per area"),
+        ({"rms": 0.0}, "asperities.rms"),
+        ({"friction": -0.1}, "must not be negative"),
+    ],
+)
+def test_asperities_that_make_no_sense_are_one_sentence(change, text):
+    tables = rough(100.0, 8.0, 1.0).model_dump(exclude_none=True)
+    with pytest.raises(InputError, match=text) as caught:
+        case_from_tables(tables | {"asperities": tables["asperities"] | change})
+    assert "\n" not in str(caught.value)
