@@ -11,6 +11,7 @@ COMMANDS = {
     "thermal": ("thermal", ("--with-isothermal",)),
     "rough": ("rough", ("--with-smooth",)),
     "starved": ("starved", ()),
+    "mixed": ("mixed", ()),
     "bearing": ("bearing", ("--plot", "pictures")),
     "gear": ("gear-ellipse", ("--plot", "pictures")),
 }

@@ -127,6 +127,18 @@ class FilmHeat(_ReadOnly):
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class FilmAsperities(_ReadOnly):
+    """Asperities finer than the grid, read-only arrays of shape (ny, nx)."""
+
+    pressure: Array
+    """What they carry, averaged over many of them [Pa]."""
+    area: Array
+    """Part of the area in which they touch [-]."""
+    separation: Array
+    """Distance of the mean planes of both surfaces [m]; the film is the mean gap."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class FilmOil(_ReadOnly):
     """Where the oil is, in a film whose cavities conserve it; read-only arrays."""
 

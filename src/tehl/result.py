@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from tehl.errors import TehlError
 from tehl.post.heat import Temperature, temperature
+from tehl.post.load_sharing import LoadSharing, load_sharing
 from tehl.post.roughness import RoughFilm, rough_film
 from tehl.post.starvation import Starvation, starvation
 from tehl.post.traction import Traction, traction
@@ -29,6 +30,11 @@ class Result(Saved, Solution):
     def roughness(self) -> RoughFilm | None:
         """Film numbers of rough surfaces, None if no surface states heights or their Sq."""
         return rough_film(self)
+
+    @property
+    def load_sharing(self) -> LoadSharing | None:
+        """Load and friction of film and asperities, None without asperities finer than the grid."""
+        return load_sharing(self)
 
     @property
     def starvation(self) -> Starvation | None:

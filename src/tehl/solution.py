@@ -7,6 +7,7 @@ from typing import Literal
 
 from tehl.fields import (
     Fields,
+    FilmAsperities,
     FilmHeat,
     FilmOil,
     FilmShear,
@@ -154,6 +155,7 @@ class ErrorEstimate:
     mid_film_rise_central: float | None = None
     surface_1_rise_max: float | None = None
     surface_2_rise_max: float | None = None
+    load_share: float | None = None
     ripple_film: float | None = None
     ripple_pressure: float | None = None
     heat_shear: float | None = None
@@ -255,6 +257,8 @@ class Solution:
     """Temperatures; None in an isothermal run."""
     heights: SurfaceHeights | None = None
     """Heights of rough surfaces; None when both are smooth."""
+    asperities: FilmAsperities | None = None
+    """Asperities finer than the grid; None without."""
     oil: FilmOil | None = None
     """Where the oil is; None if cavities do not conserve it."""
     supplied: Supplied | None = None
@@ -285,7 +289,7 @@ class Solution:
 
     @property
     def pressure(self) -> Array:
-        """Film pressure [Pa], shape (ny, nx)."""
+        """Film pressure, without that of asperities [Pa], shape (ny, nx)."""
         return self.scaled.pressure * self.scales.hertz_pressure
 
     @property

@@ -163,3 +163,16 @@ def test_film_formulas_are_off_as_the_map_shows():
     # minimum films by formula hardly know the load
     assert middle["Hamrock, Dowson: minimum"] > 10.0
     assert light["Hamrock, Dowson: minimum"] < -20.0
+
+
+def test_a_stribeck_curve_goes_from_dry_to_full_film():
+    module = example("mixed")
+    table = module.main()
+    shares, frictions, films = zip(*table.values(), strict=True)
+    assert list(shares) == sorted(shares, reverse=True)
+    assert shares[0] > 0.9
+    assert frictions[0] == pytest.approx(module.BOUNDARY * shares[0], rel=0.01)
+    assert shares[-1] < 1e-3
+    assert frictions[-1] == pytest.approx(films[-1], rel=1e-3)
+    assert min(frictions) < 0.035  # between both
+    assert shares[3] == pytest.approx(0.103, abs=0.01)

@@ -10,9 +10,11 @@ from tehl.asperities import channel, gaussian_integral, mean_gap
 from tehl.errors import InputError
 from tehl.film_formulas import expected_film
 from tehl.io.case import case_from_tables
+from tehl.io.store import load, save
 from tehl.kernels import reynolds
 from tehl.operators.influence import dense_matrix
 from tehl.options import Options
+from tehl.plots import asperity_map
 from tehl.problem import ContactProblem
 from tehl.scaling import ScaledProblem
 from tehl.solver import solve
@@ -189,3 +191,53 @@ def test_asperities_that_make_no_sense_are_one_sentence(change, text):
     with pytest.raises(InputError, match=text) as caught:
         case_from_tables(tables | {"asperities": tables["asperities"] | change})
     assert "\n" not in str(caught.value)
+
+
+# ---- results
+
+
+@pytest.fixture(scope="module")
+def mixed():
+    """Return a sliding contact in which asperities carry some of the load."""
+    tables = rough(100.0, 8.0, 0.5).model_dump(exclude_none=True)
+    tables["contact"]["slide_roll_ratio"] = 0.1
+    tables["lubricant"]["shear"] = {"law": "eyring", "stress": 5e6}
+    return solve(case_from_tables(tables)[0], Options(points=129))
+
+
+def test_load_and_friction_are_shared(mixed):
+    shared, found = mixed.load_sharing, mixed.asperities
+    cell = (mixed.x[1] - mixed.x[0]) * (mixed.y[1] - mixed.y[0])
+    both = (found.pressure + mixed.pressure).sum() * cell
+    assert both == pytest.approx(mixed.scales.load, rel=0.01)
+    assert shared.share == pytest.approx(found.pressure.sum() * cell / mixed.scales.load, rel=1e-6)
+    assert shared.friction == pytest.approx(
+        0.1 * shared.share + abs(mixed.traction.mid_film), rel=1e-12
+    )
+    assert 0.0 < shared.share_error < 0.5 * shared.share
+    assert 0.0 < shared.area_part < 0.1
+    assert shared.pressure_max > shared.asperity_pressure_max
+    assert found.separation.min() < mixed.film.minimum
+
+
+def test_shared_loads_are_stored_summed_up_and_drawn(mixed, tmp_path):
+    save(mixed, tmp_path / "mixed.nc")
+    again = load(tmp_path / "mixed.nc")
+    assert again.load_sharing == mixed.load_sharing
+    np.testing.assert_array_equal(again.asperities.pressure, mixed.asperities.pressure)
+    assert again.summary()["load_sharing"]["share"] == mixed.load_sharing.share
+    assert asperity_map(again).axes
+    assert mixed.load_sharing.share == pytest.approx(0.1, abs=0.02)
+
+
+def test_explain_says_which_part_asperities_will_carry(mixed):
+    told = mixed.problem.explain()
+    assert "asperities" in repr(told)
+    assert told.shared.share == pytest.approx(mixed.load_sharing.share, rel=0.6)
+
+
+def test_scarce_oil_leaves_more_to_asperities(mixed):
+    tables = rough(100.0, 8.0, 0.5).model_dump(exclude_none=True) | {"supply": {"ratio": 0.4}}
+    starved = solve(case_from_tables(tables)[0], Options(points=129))
+    assert starved.starvation.balance < 1e-2
+    assert starved.load_sharing.share > 1.2 * mixed.load_sharing.share

@@ -10,7 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, create_model
 
-from tehl.fields import Fields, FilmHeat, FilmOil, FilmShear, PassHistory, SurfaceHeights
+from tehl.fields import (
+    Fields,
+    FilmAsperities,
+    FilmHeat,
+    FilmOil,
+    FilmShear,
+    PassHistory,
+    SurfaceHeights,
+)
 from tehl.io import tables
 from tehl.io.summary import summary
 from tehl.io.tables import Column
@@ -54,6 +62,7 @@ _NOT_SCALAR = {
         "shear",
         "heat",
         "heights",
+        "asperities",
         "oil",
         "passes",
     ),
@@ -101,6 +110,7 @@ def _parts(result: Result | TransientResult) -> Iterator[tuple[Table, Any]]:
             (tables.FIELDS, result),
             (tables.SCALED, result.scaled),
             (tables.HEIGHTS, result.heights),
+            (tables.ASPERITIES, result.asperities),
             (tables.OIL, result.oil),
             (tables.PASSES, result.passes),
             (tables.SHEAR, result.shear),
@@ -197,6 +207,7 @@ def _steady(arrays: Arrays, attrs: Attributes) -> Result:
         shear=reader.part(FilmShear, tables.SHEAR),
         heat=None if heat is None else FilmHeat(**heat | reader.columns(tables.HEAT)),
         heights=reader.part(SurfaceHeights, tables.HEIGHTS),
+        asperities=reader.part(FilmAsperities, tables.ASPERITIES),
         oil=reader.part(FilmOil, tables.OIL),
         passes=reader.part(PassHistory, tables.PASSES),
     )

@@ -11,6 +11,7 @@ from pydantic import TypeAdapter
 
 from tehl.fields import FilmHeat
 from tehl.post.heat import Temperature
+from tehl.post.load_sharing import LoadSharing
 from tehl.post.roughness import RoughFilm
 from tehl.post.starvation import Starvation
 from tehl.post.traction import Traction
@@ -22,7 +23,7 @@ from tehl.typing import Array
 
 Block = dict[str, Any]
 Part = TypeVar("Part")
-_UNIT = re.compile("_(m|pa|k|w|rad)$")
+_UNIT = re.compile("_(m2|m|pa|k|w|rad)$")
 
 
 def summary(result: Result | TransientResult) -> Block:
@@ -131,7 +132,7 @@ def _mirrored(result: Result | TransientResult, places: dict[str, tuple[Path, ..
 def _steady(result: Result) -> Block:
     lubricant, heat, rough = result.problem.lubricant, result.heat, result.roughness
     temperature, traction, scaled = result.temperature, result.traction, result.scaled
-    starved = result.starvation
+    starved, shared = result.starvation, result.load_sharing
     content = {
         "laws": {
             "viscosity": lubricant.viscosity.law,
@@ -148,6 +149,7 @@ def _steady(result: Result) -> Block:
         "traction": None if traction is None else _traction(traction),
         "heat": None if heat is None else _heat(heat),
         "roughness": None if rough is None else roughness_block(rough),
+        "load_sharing": None if shared is None else _load_sharing(shared),
         "starvation": None if starved is None else _starvation(starved),
         "convergence": _convergence(result),
         "errors": None if result.errors is None else _errors(result.errors),
@@ -227,6 +229,15 @@ def _traction(found: Traction) -> Block:
 def _heat(heat: FilmHeat) -> Block:
     powers = {f"{name}_w": power for name, power in asdict(heat.balance).items()}
     return powers | {"solid_peclet": heat.solid_peclet, "sources": heat.sources}
+
+
+def _load_sharing(found: LoadSharing) -> Block:
+    return _picked(
+        found,
+        *("share", "share_error", "friction", "friction_film", "friction_boundary"),
+        *("area_m2", "area_part", "asperity_pressure_max_pa", "pressure_max_pa"),
+        *("separation_central_m", "lambda_central"),
+    )
 
 
 def _starvation(found: Starvation) -> Block:

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from tehl.errors import InputError
 from tehl.io.atomic import check_folder, replacing
 from tehl.plots.animation import animate
+from tehl.plots.asperities import asperity_map
 from tehl.plots.convergence import residual_history
 from tehl.plots.interferogram import Optics, interferogram
 from tehl.plots.lines import centre_lines, film_distribution, pressure_surface, rough_centre_line
@@ -36,6 +37,7 @@ from tehl.transient_result import TransientResult
 __all__ = [
     "Optics",
     "animate",
+    "asperity_map",
     "centre_lines",
     "contour_map",
     "curves",
@@ -121,6 +123,8 @@ def pictures_of(result: Result | TransientResult, smooth: Result | None = None) 
 def _of_oil(result: Result) -> Pictures:
     """Return the functions that draw the oil of a starved contact, by name."""
     found: Pictures = {}
+    if result.asperities is not None:
+        found["asperities"] = asperity_map
     if result.starvation is not None:
         found["oil"] = oil_map
     if result.passes is not None:

@@ -19,6 +19,7 @@ from tehl.heat import FilmEnergy, source_form
 from tehl.inlet_heating import inlet_factors, inlet_heating_factor, thermal_loading
 from tehl.lubricant.pressure import UNCERTAINTY
 from tehl.memory import available_memory, needed_memory
+from tehl.mixed import SharedLoad, shared_load
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.report.asperities import CONVERGES, RESOLVES, Asperities, asperities
@@ -107,6 +108,11 @@ class Explanation:
         return self.starved_part * self.central_film
 
     @property
+    def shared(self) -> SharedLoad | None:
+        """How film and asperities share the load by formula; None without asperities."""
+        return shared_load(self.scaled) if self.scaled.problem.asperities else None
+
+    @property
     def lambda_central(self) -> float | None:
         """Central film over ``composite`` [-]; None without roughness."""
         return self.starved_film / self.composite if self.composite > 0 else None
@@ -144,7 +150,9 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
         follows=asked.points == "auto",
         central_film=film,
         films=film_estimates(scaled.groups, scaled.scales),
-        composite=problem.rms_roughness if heights is None else heights.composite,
+        composite=problem.asperity_rms or problem.rms_roughness
+        if heights is None
+        else heights.composite,
         roughness=heights,
         peclet=tuple(None if one is None else abs(one) for one in problem.solid_peclet),
         sources=_sources(problem),
@@ -186,6 +194,11 @@ def as_text(case: Explanation) -> str:
     ).rstrip()
 
 
+def _composite(problem: ContactProblem) -> float:
+    """Return the stated roughness of both surfaces together [m]."""
+    return problem.asperity_rms or problem.rms_roughness
+
+
 def as_summary(case: Explanation) -> dict[str, Any]:
     """Return an explanation as one JSON object."""
     problem, roughness = case.scaled.problem, case.roughness
@@ -204,6 +217,7 @@ def as_summary(case: Explanation) -> dict[str, Any]:
             "degree_error": case.starved_error,
             "film_m": case.starved_film,
         },
+        "load_sharing": asdict(case.shared) if case.shared else None,
         "films": [asdict(film) | {"valid": film.valid} for film in case.films],
         "lambda_central": case.lambda_central,
         "lambda_minimum": case.lambda_minimum,

@@ -179,6 +179,8 @@ def _ranges_of_oil(problem: ContactProblem) -> Iterator[Typical]:
 
 def _about_film(scaled: ScaledProblem) -> Iterator[str]:
     film, rough = expected_film(scaled), scaled.problem.rms_roughness
+    if scaled.problem.asperities is not None:
+        rough = 0.0  # they are computed
     if film < MOLECULAR:
         yield (
             f"the expected film of {film * 1e9:.2g} nm is a few molecules: the oil is not a "

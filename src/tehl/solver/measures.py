@@ -21,7 +21,8 @@ SPIKE_FROM = 0.5
 def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> dict[str, float]:
     """Return the values of a converged grid by name.
 
-    ``pressure_max``, ``spike`` and its ``excess`` over Hertz [-]; of a rough contact
+    ``pressure_max``, ``spike`` and its ``excess`` over Hertz [-]; with asperities below the mesh
+    ``load_share``, their part of the load [-]; of a rough contact
     ``ripple_film`` and ``ripple_pressure`` [-]; of a sliding one ``traction_mid_film`` [-]; of a
     heated film the rises that `tehl.post.heat.Temperature` has [K], and ``heat_`` with the names
     of the powers in `tehl.fields.HeatBalance` [W].
@@ -38,6 +39,8 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
         "pressure_max": float(pressure.max()),
         **_spike(level),
     }
+    if level.equations.asperities is not None:
+        found["load_share"] = float(level.film.asperity.sum() / level.pressure.sum())
     if level.heights is not None:
         ripple_film, ripple_pressure = ripples(level.grid.x, level.grid.y, level.film.h, pressure)
         found |= {"ripple_film": ripple_film, "ripple_pressure": ripple_pressure}

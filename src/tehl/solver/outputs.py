@@ -6,7 +6,7 @@ Poiseuille flow.
 
 import numpy as np
 
-from tehl.fields import FilmHeat, FilmOil, FilmShear, HeatBalance
+from tehl.fields import FilmAsperities, FilmHeat, FilmOil, FilmShear, HeatBalance
 from tehl.grid import Grid
 from tehl.operators.energy import FilmState, pressure_slopes
 from tehl.operators.heated_film import stress_unit
@@ -101,6 +101,20 @@ def heat_balance(state: FilmState) -> HeatBalance:
     shear, compression, first, second, out = (float((area * power).sum()) for power in powers)
     return HeatBalance(
         shear=shear, compression=compression, surface_1=first, surface_2=second, carried_out=out
+    )
+
+
+def film_asperities(level: Level, scaled: ScaledProblem) -> FilmAsperities | None:
+    """Return pressure, area and separation of asperities; None without."""
+    problem, scales, grid = scaled.problem, scaled.scales, level.grid
+    if problem.asperities is None:
+        return None
+    separation, sigma = level.separation * scales.film_thickness, problem.asperity_rms
+    area = problem.asperities.area(separation / sigma, sigma)
+    return FilmAsperities(
+        pressure=grid.unfold(level.film.asperity * scales.hertz_pressure),
+        area=grid.unfold(area),
+        separation=grid.unfold(separation),
     )
 
 

@@ -31,7 +31,14 @@ from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.ladder import ladder
 from tehl.solver.level import Level
 from tehl.solver.monitor import SILENT, Monitor, Recorder
-from tehl.solver.outputs import film_heat, film_oil, film_shear, newtonian_shear, oil_balance
+from tehl.solver.outputs import (
+    film_asperities,
+    film_heat,
+    film_oil,
+    film_shear,
+    newtonian_shear,
+    oil_balance,
+)
 from tehl.solver.remedy import working_hint
 from tehl.solver.verdict import TOO_COARSE, touching, verdict
 from tehl.starvation import Flooded, check_supply
@@ -271,7 +278,7 @@ def _result(
         scaled=Fields(
             x=full.x,
             y=full.y,
-            pressure=grid.unfold(level.film.p),
+            pressure=grid.unfold(np.maximum(level.film.p, 0.0)),
             film=grid.unfold(level.film.h),
         ),
         rigid_approach=level.rigid_approach,
@@ -284,6 +291,7 @@ def _result(
         shear=shear,
         heat=heat,
         heights=_surfaces(run),
+        asperities=film_asperities(level, scaled),
         oil=film_oil(level, scaled),
         resolution=resolution_of(
             scaled.problem,

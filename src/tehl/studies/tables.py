@@ -42,11 +42,13 @@ _BLOCKS = {
     "film_quantiles.0.h_m area_below_composite_sq area_below_half_median minimum_at.0 P_max "
     "ripple_film_m ripple_pressure_pa ripples_x.count ripples_x.depth_m ripples_y.count "
     "ripples_y.depth_m " + " ".join(f"waves.0.{key}" for key in _WAVE.split()),
+    "load_sharing": "share share_error friction friction_film friction_boundary area_m2 area_part "
+    "asperity_pressure_max_pa pressure_max_pa separation_central_m lambda_central",
     "starvation": "ratio degree degree_error degree_by_law flooded_film_m meniscus_m "
     "inlet_distance_m entering_m leaving_m leaving_each_m balance",
     "convergence": "cycles residual change load_error heat_balance_error",
     "errors": "central minimum discretisation_central discretisation_minimum iteration_central "
-    "iteration_minimum domain supply pressure_max traction_mid_film film_rise_max "
+    "iteration_minimum domain supply load_share pressure_max traction_mid_film film_rise_max "
     "mid_film_rise_central surface_1_rise_max surface_2_rise_max ripple_film ripple_pressure "
     "heat_shear heat_compression heat_surface_1 heat_surface_2 heat_carried_out spike_resolved",
     "cost": "points.0 cpu_seconds wall_seconds work",
