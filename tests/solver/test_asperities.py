@@ -13,6 +13,7 @@ from tehl.io.case import case_from_tables
 from tehl.io.store import load, save
 from tehl.kernels import reynolds
 from tehl.operators.influence import dense_matrix
+from tehl.operators.line_source import line_rise
 from tehl.options import Options
 from tehl.plots import asperity_map
 from tehl.problem import ContactProblem
@@ -20,7 +21,7 @@ from tehl.scaling import ScaledProblem
 from tehl.solver import solve
 from tehl.solver.monitor import SILENT
 from tehl.solver.steady import try_strategies
-from tests.reference import moes_contact
+from tests.reference import heated_contact, moes_contact
 
 
 def rough(
@@ -241,3 +242,54 @@ def test_scarce_oil_leaves_more_to_asperities(mixed):
     starved = solve(case_from_tables(tables)[0], Options(points=129))
     assert starved.starvation.balance < 1e-2
     assert starved.load_sharing.share > 1.2 * mixed.load_sharing.share
+
+
+# ---- heat
+
+
+def test_the_rise_under_a_given_line_source_is_exact():
+    x = np.linspace(0.0, 2.0, 81)
+    for flux, exact in (
+        (np.ones_like(x), 2.0 * np.sqrt(x)),
+        (x, 4.0 / 3.0 * x**1.5),
+    ):
+        # of the flux that begins at the first node: half an interval before it is another flux
+        found = line_rise(np.concatenate([[0.0], flux])[:, None], x[1])[1:, 0]
+        assert found[20:] == pytest.approx(exact[20:], abs=0.03 if flux[0] else 1e-3)
+
+
+def test_asperities_that_rub_heat_the_surfaces():
+    case = heated_contact(0.5)
+    sigma = expected_film(ScaledProblem.of(case)) / 0.3
+    found = []
+    for friction in (0.0, 0.1):
+        table = {
+            "model": "greenwood-tripp",
+            "rms": sigma,
+            "summit_radius": 100.0 * sigma,
+            "summit_density": 0.05 / (100.0 * sigma**2),
+            "friction": friction,
+        }
+        tables = case.model_dump(exclude_none=True) | {"asperities": table}
+        problem = case_from_tables(tables)[0]
+        attempt, result = try_strategies(problem, Options(points=97), monitor=SILENT, rough=False)
+        found.append(result)
+    cold, warm = found
+    assert warm.status.converged
+    power = warm.load_sharing.power_boundary
+    assert cold.load_sharing.power_boundary == 0.0
+    sliding = warm.problem.motion
+    rubbed = 0.1 * warm.load_sharing.share * warm.scales.load
+    assert power == pytest.approx(rubbed * abs(sliding.speed_1 - sliding.speed_2), rel=1e-9)
+    state = attempt.run.coupling.state
+    scales, grid = warm.scales, attempt.run.finest.grid
+    weights = np.where(np.arange(grid.shape[0]) > 0, 2.0, 1.0)  # half of the domain
+    flux = sum((flux * weights).sum() for flux in state.solids.rubbing) * state.film.flux_unit
+    cell = grid.dx * grid.dy * scales.half_width_x * scales.half_width_y
+    assert flux * cell == pytest.approx(power, rel=0.01)
+    first, second = (rise.max() for rise in state.solids.rises)
+    assert first == pytest.approx(second, rel=0.1)  # both become as warm
+    for rise, surface in ((first, "surface_1_rise_max"), (second, "surface_2_rise_max")):
+        more = getattr(warm.temperature, surface) - getattr(cold.temperature, surface)
+        assert more == pytest.approx(rise, rel=0.5)
+    assert warm.film.central < cold.film.central

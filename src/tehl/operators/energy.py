@@ -112,6 +112,16 @@ class FilmState:
         if self.transient is not None:
             self.transient.set_pressure()
 
+    def rub(self, asperities: Array) -> None:
+        """Heat the surfaces by asperities that rub under the pressures ``grid.shape`` [-]."""
+        scaled = self.film.scaled
+        law, motion = scaled.problem.asperities, scaled.problem.motion
+        if law is None or not self.model.terms.heat:
+            return
+        sliding = abs(motion.speed_1 - motion.speed_2)
+        heat = law.friction * sliding * scaled.scales.hertz_pressure / self.film.flux_unit
+        self.solids.rub(heat * asperities.T, self.walls)
+
     def refine_from(self, coarse: "FilmState") -> None:
         """Take temperature and stress of a coarser grid by linear interpolation."""
         self.is_first_grid = False
@@ -122,6 +132,8 @@ class FilmState:
             mine[:] = midpoints(theirs)
         for wall, coarser in zip(self.walls, coarse.walls, strict=True):
             wall[:] = midpoints(coarser)
+        first, second = (midpoints(rise) for rise in coarse.solids.rises)
+        self.solids.rises = first, second  # part of these walls
 
     def slide(self, part: float) -> None:
         """Set the sliding speed to a part of that of the contact, at the same mean speed."""

@@ -35,6 +35,27 @@ class History(NamedTuple):
     newer: Array
 
 
+def line_rise(flux: Array, spacing: float) -> Array:
+    """Return int q(s) / sqrt(x - s) ds of a given flux, linear between nodes, (nx, ny).
+
+    Exact weights, node by node: for fluxes that do not change in a sweep.
+
+    Parameters
+    ----------
+    flux : (nx, ny) array
+        Heat flux q at the nodes; zero upstream of them.
+    spacing : float
+        Mesh width.
+    """
+    nodes = flux.shape[0]
+    power = np.arange(nodes + 1.0) ** 1.5
+    weights = 4.0 / 3.0 * np.sqrt(spacing) * np.ones(nodes)
+    weights[1:] *= power[2:] - 2.0 * power[1:-1] + power[:-2]
+    distance = np.subtract.outer(np.arange(nodes), np.arange(nodes))
+    found: Array = np.where(distance >= 0, weights[np.abs(distance)], 0.0) @ flux
+    return found
+
+
 def history(nodes: int, spacing: float) -> History:
     """Return the weights for ``nodes`` nodes along x, ``spacing`` apart.
 

@@ -18,6 +18,7 @@ from tehl.grid import Grid
 from tehl.heat import FilmEnergy, source_form
 from tehl.materials import Solid
 from tehl.operators.full_source import FullSource
+from tehl.operators.line_source import line_rise
 from tehl.operators.transfer import midpoints
 from tehl.scaling import ScaledProblem, Scales
 from tehl.typing import Array
@@ -148,6 +149,38 @@ class Solids:
             for side in both
         )
 
+        self.spacing, self.factors = (
+            grid.dx,
+            [side.line_factor(scales, flux_unit) if side.marches else 0.0 for side in both],
+        )
+        still = np.zeros(grid.shape[::-1])
+        self.rubbing, self.rises = (still, still), (still, still)
+
+    def rub(self, heat: Array, walls: tuple[Array, Array]) -> None:
+        """Heat both surfaces by asperities that rub, in place of what they did before.
+
+        Each takes the part by which both would become as warm, by conductivity and solid Peclet
+        number. The line source of a sweep does not carry this heat: its rise is added to the wall.
+
+        Parameters
+        ----------
+        heat : (nx, ny) array
+            Dimensionless flux into both together.
+        walls : pair of (nx, ny) array
+            Temperature of each surface less what its line source does [K].
+        """
+        weights = [side.conductivity * (1.0 + np.sqrt(abs(side.peclet))) for side in self.both]
+        parts = [weight / sum(weights) for weight in weights]
+        before = self.rises
+        self.rubbing = (parts[0] * heat, parts[1] * heat)
+        first, second = (
+            factor * line_rise(flux, self.spacing) if factor else np.zeros_like(flux)
+            for factor, flux in zip(self.factors, self.rubbing, strict=True)
+        )
+        self.rises = first, second
+        for wall, now, old in zip(walls, self.rises, before, strict=True):
+            np.add(wall, now - old, out=wall)
+
     @property
     def forms(self) -> tuple[str, str]:
         """Return which source each surface takes."""
@@ -168,14 +201,15 @@ class Solids:
         fluxes : pair of (nx, ny) array
             Dimensionless heat flux into each surface.
         """
-        coarse = [self._coarse(flux) for flux in fluxes]
+        whole = zip(fluxes, self.rubbing, strict=True)
+        coarse = [self._coarse(flux + rubbed) for flux, rubbed in whole]
         misfits: list[Array | None] = [None, None]
         for number, (side, source) in enumerate(zip(self.both, self.sources, strict=True)):
             if source is None:
                 continue
             wanted = side.bulk + source.rise(coarse[number])
             if side.marches:
-                walls[number][:] = self._fine(wanted)
+                walls[number][:] = self._fine(wanted) + self.rises[number]
             else:
                 misfits[number] = wanted - self._coarse(walls[number])
         if any(misfit is not None for misfit in misfits):

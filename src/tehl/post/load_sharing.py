@@ -34,6 +34,9 @@ class LoadSharing:
     friction_film: float
     """Friction of the film at mid-film over the load, positive [-]."""
 
+    power_boundary: float
+    """Heat of the asperities that rub [W]."""
+
     @property
     def friction(self) -> float:
         """Friction coefficient of film and asperities together [-]."""
@@ -55,6 +58,7 @@ def load_sharing(result: Solution) -> LoadSharing | None:
     area, error = float((cells * found.area).sum()), None
     if result.errors is not None and result.errors.load_share is not None:
         error = share * result.errors.load_share
+    motion = result.problem.motion
     forces, middle = traction(result), result.scaled.at_origin(found.separation)
     return LoadSharing(
         share=share,
@@ -66,5 +70,6 @@ def load_sharing(result: Solution) -> LoadSharing | None:
         separation_central=middle,
         lambda_central=middle / result.problem.asperity_rms,
         friction_boundary=law.friction * share,
+        power_boundary=law.friction * share * scales.load * abs(motion.speed_1 - motion.speed_2),
         friction_film=0.0 if forces is None else abs(forces.mid_film),
     )

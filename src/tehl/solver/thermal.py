@@ -115,7 +115,7 @@ class Coupling:
         self.state = state
         if coarser is not None:
             state.refine_from(coarser)
-            state.set_film(fine.film.p, fine.film.h, fine.equations.floor)
+            _set_film(state, fine)
             # line sources march with the sweep
             if not all(side.marches for side in self.film.sides):
                 state.update_surfaces()
@@ -235,7 +235,7 @@ class Coupling:
         fine = levels[-1]
         self.sweeps_left = max(self.sweeps_left - 1, 0)
         state.slide(1.0 - self.sweeps_left / RAMP)
-        state.set_film(fine.film.p, fine.film.h, fine.equations.floor)
+        _set_film(state, fine)
         change = state.sweep(steps)
         if self.sweeps_left:
             change = max(change, UNFINISHED)
@@ -294,3 +294,12 @@ def damped(
     part = step(before, after) / after
     others = (step(a, b) for a, b in zip(old[2:], new[2:], strict=True))
     return properties.Factors(part * new.rest, part * new.mobility, *others)
+
+
+def _set_film(state: FilmState, level: Level) -> None:
+    """Set pressure and film of a level, and the heat of its asperities."""
+    touches = level.equations.asperities is not None
+    pressure = np.maximum(level.film.p, 0.0) if touches else level.film.p
+    state.set_film(pressure, level.film.h, level.equations.floor)
+    if touches:
+        state.rub(level.film.asperity)
