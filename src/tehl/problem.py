@@ -221,9 +221,10 @@ def check_asperities(problem: PointContact) -> None:
             "asperities.rms is missing: give the rms roughness of both surfaces together, such as "
             '"0.3 um", here or as rms_roughness of the surfaces'
         )
-    if problem.transient is not None:
+    if problem.transient is not None and problem.thermal is not None:
         raise ValueError(
-            "asperities and [transient] exclude each other so far: leave out one of the tables"
+            "asperities rub in a heated transient run, which is not computed: leave out [thermal], "
+            "[transient] or [asperities]"
         )
 
 

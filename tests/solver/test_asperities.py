@@ -18,7 +18,7 @@ from tehl.options import Options
 from tehl.plots import asperity_map
 from tehl.problem import ContactProblem
 from tehl.scaling import ScaledProblem
-from tehl.solver import solve
+from tehl.solver import solve, solve_transient
 from tehl.solver.monitor import SILENT
 from tehl.solver.steady import try_strategies
 from tests.reference import heated_contact, moes_contact
@@ -293,3 +293,23 @@ def test_asperities_that_rub_heat_the_surfaces():
         more = getattr(warm.temperature, surface) - getattr(cold.temperature, surface)
         assert more == pytest.approx(rise, rel=0.5)
     assert warm.film.central < cold.film.central
+
+
+# ---- time
+
+
+def test_a_mixed_film_stays_as_it_is_and_follows_the_load():
+    tables = rough(50.0, 8.0, 0.5).model_dump(exclude_none=True)
+    found = []
+    for course in ([[0.0, 1.0], [2e-4, 1.0]], [[0.0, 1.0], [1e-4, 1.3], [2e-4, 1.3]]):
+        transient = {"duration": 2e-4, "frames": 0, "load": course}
+        problem = case_from_tables(tables | {"transient": transient})[0]
+        run = solve_transient(problem, Options(points=97))
+        assert run.status.converged
+        found.append(run.history.film_minimum)
+    assert np.ptp(found[0]) < 1e-6 * found[0][0]
+    assert found[1].min() < 0.99 * found[0][0]
+    heated = heated_contact(0.5).model_dump(exclude_none=True)
+    heated |= {"asperities": tables["asperities"], "transient": {"duration": 1e-4}}
+    with pytest.raises(InputError, match="heated transient run"):
+        case_from_tables(heated)

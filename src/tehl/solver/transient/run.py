@@ -182,7 +182,7 @@ class Run:
             setting=self.stepper.setting,
             rigid_approach=self.level.rigid_approach,
             fields={
-                "pressure": self.level.film.p,
+                "pressure": self.level.pressure,
                 "mass": self.stepper.now,
                 "mass_before": self.stepper.before,
                 "pressure_changes": self.stepper.predictor.past,

@@ -77,12 +77,13 @@ class Record:
         }
         self.rows.append(tuple(float(row[name]) for name in COLUMNS))
         line = 0 if level.grid.mirror else level.grid.shape[0] // 2
-        lines = (level.film.p, level.film.h, *heights)
+        pressure = np.maximum(level.film.p, 0.0)  # between asperities it may be an error below
+        lines = (pressure, level.film.h, *heights)
         self.profiles.append(np.stack([one[line] for one in lines]))
         if keep:
             self.frame_steps.append(len(self.rows) - 1)
             together = heights[0] + heights[1]
-            whole = [level.grid.unfold(one) for one in (level.film.p, level.film.h, together)]
+            whole = [level.grid.unfold(one) for one in (pressure, level.film.h, together)]
             self.frames.append(np.stack(whole).astype(np.float32))
 
     def copy(self) -> "Record":

@@ -70,7 +70,7 @@ class Stepper:
         self.time_step = transient.stride * level.grid.dx
         self.steady, self.wedge = _steady_oil(level, solver.options.wedge_order)
         self.now, self.before = self.steady.copy(), self.steady.copy()
-        self.predictor = Predictor(level.film.p, transient.stride)
+        self.predictor = Predictor(level.pressure, transient.stride)
         # all levels take the same time step, and so the same weight of rho H
         for one in solver.levels:
             stencil = step_stencil(one.stencil, self.time_step)
@@ -90,7 +90,7 @@ class Stepper:
         attempt.
         """
         level, history = self.solver.finest, self._history()
-        start = level.film.p.copy(), level.rigid_approach
+        start = level.pressure.copy(), level.rigid_approach
         first = self.setting
         for number in range(first, len(self.settings)):
             self.choose(number)
@@ -110,7 +110,7 @@ class Stepper:
                     raise
                 raise StepError("diverged", np.nan) from error
             self.before, self.now = self.now, self._held()
-            self.predictor.note(level.film.p)
+            self.predictor.note(level.pressure)
             self.squeeze.advance()
             self.solver.coupling.advance(self.solver.levels)
             return end
@@ -152,12 +152,12 @@ class Stepper:
         level, change = self.solver.finest, np.inf
         # slower relaxations get more cycles
         for number in range(1, (1 + self.setting) * self.transient.max_cycles + 1):
-            before = level.film.p.copy()
+            before = level.pressure.copy()
             cycle(self.solver.levels, self.solver.hierarchy.coarsest.step, SHAPE)
             level.update()
             warmer, rise = self.solver.coupling.update(self.solver.levels)
             self._follow_density()
-            np.subtract(level.film.p, before, out=before)
+            np.subtract(level.pressure, before, out=before)
             change = float(max(before.max(), -before.min()))
             error = level.load_error()
             finite = np.isfinite(change) and np.isfinite(level.film.h).all()
