@@ -12,7 +12,6 @@ from tehl.io.case import case_from_tables
 from tehl.operators.influence import dense_matrix
 from tehl.options import Options
 from tehl.problem import ContactProblem
-from tehl.result import Result
 from tehl.scaling import ScaledProblem
 from tehl.solver import solve
 from tehl.solver.level import Level
@@ -99,7 +98,7 @@ def shares() -> Iterator[str]:
     yield from head("λ", *names, "extrapolated", "film over smooth film", "by the formula")
     for ratio in LAMBDAS:
         options = (Options(points=points, accuracy="tight", tolerance=1e-5) for points in GRIDS)
-        runs: list[Result] = [solve(contact(ratio, 0.01, 0.05), one) for one in options]
+        runs = [solve(contact(ratio, 0.01, 0.05), one) for one in options]
         found = [run.load_sharing.share for run in runs if run.load_sharing]
         limit = found[-1] + (found[-1] - found[-2]) / 3.0
         yield row(
