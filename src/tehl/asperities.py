@@ -1,5 +1,7 @@
 """Asperities that are finer than the grid: the ``[asperities]`` table of a case.
 
+Those of a measured patch follow from its dry contact (`tehl.patch`), or by a law:
+
 Greenwood and Tripp [1]_: summits of radius beta with Gaussian heights of standard deviation sigma,
 eta of them per area. At a separation h of the mean planes they carry
 
@@ -23,14 +25,17 @@ References
 """
 
 import math
+from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field
 
+from tehl.roughness.map import Map
 from tehl.typing import np
 from tehl.units import Height, Length, Quantity, Table
 
 if TYPE_CHECKING:
+    from tehl.patch.curves import PatchCurves
     from tehl.typing import Array
 
 SummitDensity = Annotated[float, Quantity("a number per area", "1/m^2", '"1e10 1/m^2"')]
@@ -40,8 +45,15 @@ LEAST_GAP = 0.5
 """Least h/sigma of the flow factor; below it the channel narrows with the mean gap."""
 
 
-class Asperities(Table):
-    """Asperities finer than the grid, which carry part of the load where the film is thin."""
+class _Touching(Table):
+    """Base of the models of asperities."""
+
+    friction: Annotated[Friction, Field(le=2.0)] = 0.1
+    """Friction coefficient of asperities that touch [-]."""
+
+
+class GreenwoodTripp(_Touching):
+    """Spherical summits with Gaussian heights, which carry load where the film is thin."""
 
     model: Literal["greenwood-tripp"]
     """How their pressure follows from the separation of the mean planes."""
@@ -52,8 +64,6 @@ class Asperities(Table):
     """Radius beta of a summit [m]."""
     summit_density: SummitDensity
     """Summits per area, eta [1/m^2]."""
-    friction: Annotated[Friction, Field(le=2.0)] = 0.1
-    """Friction coefficient of asperities that touch [-]."""
 
     def load_factor(self, sigma: float) -> float:
         """Return eta beta sigma [-]."""
@@ -69,7 +79,19 @@ class Asperities(Table):
         sigma, modulus : float
             Standard deviation of the heights [m], and E' [Pa].
         """
-        return self.unit(sigma, modulus) * gaussian_integral(2.5, gap)
+        return self.unit(sigma, modulus) * self.load(gap)
+
+    def load(self, gap: "Array") -> "Array":
+        """Return the pressure over `unit` at gaps over sigma [-]."""
+        return gaussian_integral(2.5, gap)
+
+    def mean_gap(self, gap: "Array") -> "Array":
+        """Return the mean gap over sigma [-]."""
+        return mean_gap(gap)
+
+    def channel(self, gap: "Array") -> "Array":
+        """Return the thickness of a smooth gap that conducts as much, over sigma [-]."""
+        return channel(gap)
 
     def unit(self, sigma: float, modulus: float) -> float:
         """Return the pressure over F_(5/2) for sigma [m] and E' [Pa]: in Pa."""
@@ -81,6 +103,67 @@ class Asperities(Table):
         """Return the part of the area in which asperities touch, at most one [-]."""
         part = math.pi**2 * self.load_factor(sigma) ** 2 * gaussian_integral(2.0, gap)
         return np.minimum(part, 1.0)
+
+
+class SurfacePatch(_Touching):
+    """Asperities of a measured patch: it is pressed flat, and oil flows through what is left."""
+
+    model: Literal["surface"]
+    """How their pressure follows from the separation of the mean planes."""
+    map: Map
+    """The measured patch, heights of both surfaces together: the other one is smooth."""
+
+    @property
+    def rms(self) -> float:
+        """Return Sq of the patch [m]."""
+        return self.map.rms
+
+    @property
+    def curves(self) -> "PatchCurves":
+        """Return pressure, area and flow of the patch, computed once: it takes some seconds."""
+        return _curves(self.map)
+
+    def unit(self, sigma: float, modulus: float) -> float:
+        """Return E*, the unit of `load`, for E' [Pa]."""
+        del sigma
+        return 0.5 * modulus
+
+    def load(self, gap: "Array") -> "Array":
+        """Return the pressure over E* at gaps over Sq [-]."""
+        return self.curves.load(gap)
+
+    def pressure(self, gap: "Array", sigma: float, modulus: float) -> "Array":
+        """Return the pressure that the asperities carry at gaps over Sq, for E' [Pa]."""
+        return self.unit(sigma, modulus) * self.load(gap)
+
+    def area(self, gap: "Array", sigma: float) -> "Array":
+        """Return the part of the area in which asperities touch [-]."""
+        del sigma
+        return self.curves.touching(gap)
+
+    def mean_gap(self, gap: "Array") -> "Array":
+        """Return the mean gap over Sq: the distance of the deformed mean planes [-]."""
+        return self.curves.mean_gap(gap)
+
+    def channel(self, gap: "Array") -> "Array":
+        """Return the thickness of a smooth gap that conducts as much along x, over Sq [-]."""
+        return self.curves.conducts(gap)
+
+    def across(self, gap: "Array") -> "Array":
+        """Return the conductance along y over that along x [-]."""
+        return self.curves.conducts_across(gap)
+
+
+Asperities = Annotated[GreenwoodTripp | SurfacePatch, Field(discriminator="model")]
+"""Asperities finer than the grid, which carry part of the load where the film is thin."""
+
+
+@lru_cache(maxsize=4)
+def _curves(surface: Map) -> "PatchCurves":
+    from tehl.patch.curves import patch_curves  # noqa: PLC0415 (for measured patches only)
+
+    heights = surface.load()
+    return patch_curves(heights.values, heights.pixel, periodic=surface.outside == "periodic")
 
 
 def gaussian_integral(n: float, gap: "Array") -> "Array":

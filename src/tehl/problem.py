@@ -221,6 +221,12 @@ def check_asperities(problem: PointContact) -> None:
             "asperities.rms is missing: give the rms roughness of both surfaces together, such as "
             '"0.3 um", here or as rms_roughness of the surfaces'
         )
+    if problem.conserves_oil:
+        raise ValueError(
+            "asperities and scarce oil together are not computed: where a film begins between "
+            "asperities the cycles do not converge; leave out [asperities], or [supply] and "
+            "[cavitation]"
+        )
     if problem.transient is not None and problem.thermal is not None:
         raise ValueError(
             "asperities rub in a heated transient run, which is not computed: leave out [thermal], "

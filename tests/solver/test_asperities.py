@@ -237,11 +237,10 @@ def test_explain_says_which_part_asperities_will_carry(mixed):
     assert told.shared.share == pytest.approx(mixed.load_sharing.share, rel=0.6)
 
 
-def test_scarce_oil_leaves_more_to_asperities(mixed):
+def test_asperities_and_scarce_oil_together_are_refused():
     tables = rough(100.0, 8.0, 0.5).model_dump(exclude_none=True) | {"supply": {"ratio": 0.4}}
-    starved = solve(case_from_tables(tables)[0], Options(points=129))
-    assert starved.starvation.balance < 1e-2
-    assert starved.load_sharing.share > 1.2 * mixed.load_sharing.share
+    with pytest.raises(InputError, match="scarce oil together"):
+        case_from_tables(tables)
 
 
 # ---- heat

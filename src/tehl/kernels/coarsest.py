@@ -46,7 +46,8 @@ class CoarseSystem(NamedTuple):
     """The equations to solve.
 
     ``residual`` (ny, nx) of the Reynolds equation, ``influence`` (n, n), ``frozen`` (ny, nx) of 0
-    and 1, ``area`` of a cell and the load that is missing.
+    and 1, ``area`` of a cell, the load that is missing, and the
+    largest change of the rigid approach with asperities.
     """
 
     residual: Array
@@ -54,6 +55,7 @@ class CoarseSystem(NamedTuple):
     frozen: FlagArray
     area: float
     missing_load: float
+    nearest: float
 
 
 class Work(NamedTuple):
@@ -285,6 +287,8 @@ def solve_step(
     for row in range(count):
         most = max(most, abs(work.rhs[row]))
     scale = min(1.0, longest / max(most, 1e-300))
+    if touches:  # a film that comes nearer than the asperities are high changes everything
+        scale = min(scale, system.nearest / max(abs(work.rhs[count]), 1e-300))
     for row in range(count):
         here = work.free[row]
         if touches and work.dry[here]:

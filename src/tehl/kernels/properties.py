@@ -26,8 +26,9 @@ class Film(NamedTuple):
 
     With asperities finer than the grid ``p`` is the pressure of the oil, ``asperity`` theirs and
     ``stiffness`` its slope -dp_a/dH by the separation H of the mean planes; ``h`` is the mean gap
-    and ``opening`` dh/dH; ``channel`` is the thickness that conducts, ``widening`` its relative
-    slope by H. Without they have no elements, and h is H.
+    and ``opening`` dh/dH; ``channel`` is the thickness that conducts along x, ``widening`` its
+    relative slope by H, and ``across`` the conductance along y over that along x. Without they have
+    no elements, and h is H.
     """
 
     p: Array
@@ -45,6 +46,7 @@ class Film(NamedTuple):
     opening: Array = np.zeros((0, 0))
     channel: Array = np.zeros((0, 0))
     widening: Array = np.zeros((0, 0))
+    across: Array = np.zeros((0, 0))
 
 
 class Factors(NamedTuple):
@@ -130,8 +132,9 @@ def touch(
         cavitated, p = 0, or frozen, p stays.
     separation : array (ny, nx)
         H [-].
-    table : array (n, 6)
-        Pressure, mean gap and channel over H, each with its slope times the step, row by row.
+    table : array (n, 8)
+        Pressure, mean gap, channel and conductance along y over that along x, over H, each with its
+        slope times the step, row by row.
     grid : array (2,)
         H of the first row, and step [-].
     frozen : array (ny, nx)
@@ -147,12 +150,13 @@ def touch(
             x = (separation[j, i] - first) * per_step
             if not x < last:  # apart, or not a number
                 pressure, fall, gap, opening = 0.0, 0.0, separation[j, i], 1.0
-                channel, widening = gap, 1.0
+                channel, widening, across = gap, 1.0, 1.0
             else:
                 k = int(max(x, 0.0))
                 pressure, fall = _hermite(table, k, x - k, 0)
                 gap, opening = _hermite(table, k, x - k, 2)
                 channel, widening = _hermite(table, k, x - k, 4)
+                across, _ = _hermite(table, k, x - k, 6)
                 fall, opening, widening = fall * per_step, opening * per_step, widening * per_step
             more = pressure - film.asperity[j, i]
             if reach >= 0.0 and film.p[j, i] != 0.0 and frozen[j, i] == 0:
@@ -165,6 +169,7 @@ def touch(
             film.opening[j, i] = opening
             film.channel[j, i] = channel
             film.widening[j, i] = widening / channel
+            film.across[j, i] = across
 
 
 @helper

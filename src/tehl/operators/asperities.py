@@ -1,11 +1,12 @@
 """Pressure and flow of asperities finer than the grid, tabulated over the separation."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 
 import numpy as np
 
-from tehl.asperities import channel, gaussian_integral, mean_gap
+from tehl.asperities import SurfacePatch, channel, gaussian_integral, mean_gap
 from tehl.scaling import ScaledProblem
 from tehl.typing import Array
 
@@ -19,8 +20,9 @@ class AsperityTable:
 
     Attributes
     ----------
-    table : (n, 6) array
-        Pressure of the asperities, mean gap and channel, each with its slope times the step [-].
+    table : (n, 8) array
+        Pressure of the asperities, mean gap, channel along x, and conductance along y over that
+        along x, each with its slope times the step [-].
     grid : (2,) array
         Least separation, and difference of two rows [-].
     """
@@ -28,35 +30,42 @@ class AsperityTable:
     table: Array
     grid: Array
 
+    @property
+    def sigma(self) -> float:
+        """Standard deviation of the heights [-]."""
+        return float(self.grid[1]) / STEP
+
 
 def asperity_table(scaled: ScaledProblem) -> AsperityTable | None:
     """Tabulate the laws of the asperities; None for a contact without."""
     problem, scales = scaled.problem, scaled.scales
-    asperities = problem.asperities
-    if asperities is None:
+    law, sigma = problem.asperities, problem.asperity_rms
+    if law is None:
         return None
-    sigma = problem.asperity_rms
     unit = sigma / scales.film_thickness
-    pressure = asperities.unit(sigma, problem.reduced_modulus) / scales.hertz_pressure
-    factors = np.repeat([pressure, unit, unit], 2)
-    return AsperityTable(table=_laws() * factors, grid=np.array([LEAST, STEP]) * unit)
+    pressure = law.unit(sigma, problem.reduced_modulus) / scales.hertz_pressure
+    laws = _of_patch(law) if isinstance(law, SurfacePatch) else _of_summits()
+    factors = np.repeat([pressure, unit, unit, 1.0], 2)
+    return AsperityTable(table=laws * factors, grid=np.array([LEAST, STEP]) * unit)
 
 
 @cache
-def _laws() -> Array:
-    """Return F_(5/2), mean gap and channel over gaps, all over sigma, each with slope and step."""
-    gap = np.arange(LEAST, MOST + STEP, STEP)
-    d = 0.1 * STEP
-    widening = 8.0 * (channel(gap + d) - channel(gap - d))
-    widening -= channel(gap + 2.0 * d) - channel(gap - 2.0 * d)
-    opening = (mean_gap(gap + d) - mean_gap(gap - d)) * 8.0
-    opening -= mean_gap(gap + 2.0 * d) - mean_gap(gap - 2.0 * d)
-    columns = [
-        gaussian_integral(2.5, gap),
-        -2.5 * gaussian_integral(1.5, gap) * STEP,
-        mean_gap(gap),
-        opening / (12.0 * d) * STEP,
-        channel(gap),
-        widening / (12.0 * d) * STEP,
-    ]
+def _of_summits() -> Array:
+    """Return the laws of Greenwood and Tripp, the same for all summits, as `_tabulated`."""
+    return _tabulated(lambda gap: gaussian_integral(2.5, gap), mean_gap, channel, np.ones_like)
+
+
+@lru_cache(maxsize=4)
+def _of_patch(law: SurfacePatch) -> Array:
+    """Return the laws of a measured patch, as `_tabulated`."""
+    return _tabulated(law.load, law.mean_gap, law.channel, law.across)
+
+
+def _tabulated(*curves: Callable[[Array], Array]) -> Array:
+    """Return load, mean gap, channel and anisotropy over gaps, each with its slope times step."""
+    gap, d = np.arange(LEAST, MOST + STEP, STEP), 0.1 * STEP
+    columns = []
+    for curve in curves:
+        rise = 8.0 * (curve(gap + d) - curve(gap - d)) - (curve(gap + 2 * d) - curve(gap - 2 * d))
+        columns += [curve(gap), rise / (12.0 * d) * STEP]
     return np.ascontiguousarray(np.stack(columns, axis=1))

@@ -27,10 +27,10 @@ class LoadSharing:
     """Largest pressure of film and asperities together [Pa]."""
     separation_central: float
     """Distance of the mean planes in the middle [m]; below zero they cross."""
-    lambda_central: float
-    """The same over sigma [-]."""
+    separation_ratio: float
+    """The same over sigma of the asperities [-]."""
     friction_boundary: float
-    """Friction of the asperities over the load [-], without sliding what it would be."""
+    """Friction of the asperities over the load, positive; zero in pure rolling [-]."""
     friction_film: float
     """Friction of the film at mid-film over the load, positive [-]."""
 
@@ -68,8 +68,8 @@ def load_sharing(result: Solution) -> LoadSharing | None:
         asperity_pressure_max=float(found.pressure.max()),
         pressure_max=float((found.pressure + result.pressure).max()),
         separation_central=middle,
-        lambda_central=middle / result.problem.asperity_rms,
-        friction_boundary=law.friction * share,
+        separation_ratio=middle / result.problem.asperity_rms,
+        friction_boundary=law.friction * share if result.problem.slide_roll_ratio else 0.0,
         power_boundary=law.friction * share * scales.load * abs(motion.speed_1 - motion.speed_2),
         friction_film=0.0 if forces is None else abs(forces.mid_film),
     )

@@ -51,7 +51,7 @@ def _environment() -> "Environment":
         "g": lambda value, digits=4: f"{value:.{digits}g}",
         "metres": lambda value: _in_unit("nm" if value < 1e-6 else "um", value),
         "off": lambda formula, value: f"{100 * (formula / value - 1):+.1f} %",
-        "percent": lambda part, digits=2: f"{100 * part:.{digits}g} %",
+        "percent": lambda part, digits=2: f"{float(f'{100 * part:.{digits}g}'):g} %",
         "seconds": lambda time: seconds(time).replace("us", "µs"),
         "size": length,
         "time": seconds,

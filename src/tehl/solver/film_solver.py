@@ -26,8 +26,9 @@ from tehl.solver.ladder import Strategy
 from tehl.solver.level import Level
 from tehl.solver.monitor import SILENT, Monitor
 
-FIRST_STEPS = 6
-"""Newton steps on the coarsest grid at the start; that they may not converge does no harm."""
+FIRST_STEPS, TOUCHING_STEPS, STIFFENED = 6, 20, 15
+"""Newton steps on the coarsest grid at the start; that they may not converge does no harm. With
+asperities: how many, and over how many they become as stiff as they are."""
 TOO_COARSE = 0.5
 """Error bar of the film beyond which the grid may be why the cycles do not converge."""
 LEAST_GRIDS = 2
@@ -190,8 +191,11 @@ class FilmSolver(GridIteration):
         """Solve on the coarsest grid by Newton's method, from the Hertz pressure."""
         coarsest = self.levels[0]
         coarsest.start_from_hertz(self.hierarchy.expected_film)
-        for _ in range(FIRST_STEPS):
+        touches = coarsest.equations.asperities is not None
+        for number in range(TOUCHING_STEPS if touches else FIRST_STEPS):
+            coarsest.softness = 1e-3 ** max(1.0 - number / STIFFENED, 0.0) if touches else 1.0
             self.hierarchy.coarsest.step()
+        coarsest.softness = 1.0
         coarsest.update()
         self.traces.append(GridTrace())
         self.traces[0].note(*coarsest.nodal_film())

@@ -19,6 +19,7 @@ from tehl.solver.equations import Equations
 from tehl.solver.fas import Cycle, cycle
 from tehl.solver.level import Level
 from tehl.solver.relaxation import Relaxation
+from tehl.typing import Array
 
 UNRESOLVED = 0.5
 """Mesh width of the coarsest grid, in Hertz half-widths, beyond which it does not resolve the
@@ -31,6 +32,8 @@ approach in another way, and the cycles diverge."""
 THICK = 0.25
 """Expected central film above which two visits help: for a thinner film such a grid has no valid
 discrete solution, and more visits do harm (M = 200 and more on wide domains)."""
+MOST_CARRIED, MOST_HALVINGS = 1.5, 8
+"""Pressure of the asperities beyond which a Newton step is halved [-], and most times."""
 STEPS = 3
 """Newton steps where asperities carry part of the load, so that little is left to the oil."""
 LONGEST_STEP = 0.3
@@ -63,15 +66,35 @@ class CoarsestSolver:
         residual = np.empty_like(level.residual)
         reynolds.operator(level.film, level.stencil, residual)
         np.subtract(level.sources.reynolds, residual, out=residual)
+        laws = level.equations.asperities
         system = CoarseSystem(
             residual=residual,
             influence=self.influence,
             frozen=level.smoother.frozen,
             area=level.equations.load.area,
             missing_load=level.missing_load(),
+            nearest=np.inf if laws is None else laws.sigma,
         )
+        before = level.film.p.copy(), level.film.asperity.copy()
         change = newton_step(self._linearised(), level.stencil, system, LONGEST_STEP)
         level.move(change)
+        if laws is not None:
+            self._shorten(before, change)
+
+    def _shorten(self, before: tuple[Array, Array], change: float) -> None:
+        """Halve a step until the asperities, steep as they are, carry no more than is likely."""
+        level, film = self.level, self.level.film
+        after = film.p.copy(), film.asperity.copy()
+        largest = max(MOST_CARRIED, 2.0 * before[1].max())
+        for _ in range(MOST_HALVINGS):
+            level.update()
+            if film.asperity.max() <= largest:
+                return
+            change *= 0.5
+            level.move(-change)
+            for field, old, new in zip((film.p, film.asperity), before, after, strict=True):
+                new[:] = 0.5 * (old + new)
+                field[:] = new
 
     def _linearised(self) -> Coarse:
         """Return film and conductance with the derivatives of the conductance."""
@@ -81,6 +104,8 @@ class CoarsestSolver:
         stretch_x, stretch_y = (
             (ones, ones) if factors is None else (factors.stretch_x, factors.stretch_y)
         )
+        if self.level.equations.asperities is not None:
+            stretch_y = stretch_y * film.across
         rho = film.rho if self.level.equations.asperities is None else film.rho * film.opening
         return Coarse(
             *film[:3],

@@ -65,6 +65,8 @@ class Level:
             self.film = self.film._replace(
                 asperity=q, stiffness=s, opening=opening, channel=channel, widening=widening
             )
+            self.film = self.film._replace(across=np.ones(shape), eps_y=np.zeros(shape))
+        self.softness = 1.0  # factor on the pressure of the asperities, at the start of a solve
         self.keeps_orders = False  # the nodes of second order stay as they are
         self.rigid_approach = 0.0
         self.sources = Sources(f, g, equations.target)
@@ -143,7 +145,10 @@ class Level:
         """Evaluate the asperities at the present separation; see `properties.touch`."""
         laws, frozen = self.equations.asperities, self.smoother.frozen
         if laws is not None:
-            properties.touch(self.film, self.separation, laws.table, laws.grid, frozen, reach)
+            table = laws.table
+            if self.softness < 1.0:
+                table = table * np.array([self.softness, self.softness, *np.ones(6)])
+            properties.touch(self.film, self.separation, table, laws.grid, frozen, reach)
 
     def _mark_cavities(self) -> None:
         """Mark partly filled nodes, and those that pass on oil with second order."""
@@ -181,12 +186,16 @@ class Level:
 
     def _evaluate(self, film: properties.Film) -> None:
         flow, floor = self.equations.flow, self.equations.floor
-        if self.equations.asperities is not None:
+        touches = self.equations.asperities is not None
+        if touches:
             film = film._replace(h=film.channel)  # asperities narrow it
         if self.factors is None:
             properties.properties(film, flow.table, flow.step, floor)
         else:
             properties.heated_properties(film, self.factors, flow.table, flow.step, floor)
+        if touches:
+            isotropic = film.eps if self.factors is None else film.eps_y
+            np.multiply(isotropic, film.across, out=film.eps_y)
 
     def nodal_film(self) -> tuple[float, float]:
         """Return central and smallest nodal film [-]."""
@@ -197,8 +206,8 @@ class Level:
         film, floor = self.film, self.equations.floor
         eps, rho, drho, eps_x, eps_y = (np.empty_like(film.p) for _ in range(5))
         shifted = properties.Film(
-            film.p + PRESSURE_STEP, film.h, eps, rho, drho, eps_x, eps_y, channel=film.channel
-        )
+            film.p + PRESSURE_STEP, film.h, eps, rho, drho, eps_x, eps_y
+        )._replace(channel=film.channel, across=film.across)
         self._evaluate(shifted)
         by_pressure = (shifted.eps - film.eps) / PRESSURE_STEP
         if self.equations.asperities is not None:
@@ -217,7 +226,8 @@ class Level:
     def uncouple(self) -> None:
         """Reset to an isothermal Newtonian film."""
         self.factors = None
-        self.film = self.film._replace(eps_x=self.film.eps, eps_y=self.film.eps)
+        eps_y = self.film.eps if self.equations.asperities is None else self.film.eps_y
+        self.film = self.film._replace(eps_x=self.film.eps, eps_y=eps_y)
         self._is_stale = True
 
     # the problem of the finest level
@@ -425,7 +435,7 @@ class Level:
         least = 0.0 if self.equations.asperities is None else -np.inf
         transfer.correct(self.film.p, now, before, mirror, (part, limit, least))
         if self.stencil.conserves:
-            transfer.correct_fronts(self.film.p, now, before, mirror, part, limit)
+            transfer.correct_fronts(self.film.p, coarse.film.p, before, mirror, part, limit)
         self.rigid_approach += part * (coarse.rigid_approach - approach)
         self._is_stale = True
 

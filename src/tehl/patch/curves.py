@@ -1,0 +1,114 @@
+"""Pressure, area and flow of a rough patch over the distance of its mean planes.
+
+The patch is pressed by rising loads (`tehl.patch.contact`), and oil flows through each gap
+(`tehl.patch.flow`). A patch whose edges do not fit together is continued by its mirror image.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from tehl.patch.contact import pressed
+from tehl.patch.flow import conducted
+from tehl.typing import Array
+
+LARGEST = 192
+"""Most points of a patch along x and y: of a larger one the middle is taken."""
+FLOW = 128
+"""Most points along x and y for the flow: of a finer gap every second point, and so on."""
+FIRST, MORE, CLOSED = 3e-5, 1.6, 0.05
+"""Mean pressure over E* and slope of the first load, factor of the next one, and mean gap over Sq
+of the last."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class PatchCurves:
+    """Curves over the mean gap over Sq, which is the distance of the mean planes."""
+
+    gaps: Array
+    """Increasing [-]."""
+    pressure: Array
+    """Over E* [-]."""
+    area: Array
+    """Part of the area in which the surfaces touch [-]."""
+    channel: Array
+    across: Array
+    """Thickness of a smooth gap that conducts as much along x, over Sq, and conductance along y
+    over that along x [-]."""
+
+    def load(self, gap: Array) -> Array:
+        """Return the pressure over E* at gaps, linear below and exponential above the loads."""
+        ends = self.gaps[[0, -1]]
+        logs = PchipInterpolator(self.gaps, np.log(self.pressure), extrapolate=False)
+        inside = logs(np.clip(gap, *ends))
+        low, high = (float(logs.derivative()(end)) for end in ends)
+        steep = min(high, -2.0 * self.gaps[-1])  # a last contact: a Gaussian tail
+        inside = np.exp(np.maximum(inside + steep * np.maximum(gap - ends[1], 0.0), -300.0))
+        return inside * (1.0 + low * np.minimum(gap - ends[0], 0.0))
+
+    def mean_gap(self, gap: Array) -> Array:
+        """Return the gap itself, below the last load exponential: it stays positive."""
+        least = self.gaps[0]
+        return np.where(gap >= least, gap, least * np.exp(np.minimum(gap - least, 0.0) / least))
+
+    def conducts(self, gap: Array) -> Array:
+        """Return the channel over Sq, in proportion to the mean gap below the last load."""
+        ends = self.gaps[[0, -1]]
+        part = PchipInterpolator(self.gaps, self.channel / self.gaps)(np.clip(gap, *ends))
+        missing = (1.0 - part) * np.exp(-0.56 * np.maximum(gap - ends[1], 0.0))
+        return self.mean_gap(gap) * (1.0 - missing)
+
+    def conducts_across(self, gap: Array) -> Array:
+        """Return the conductance along y over that along x."""
+        ends = self.gaps[[0, -1]]
+        part = PchipInterpolator(self.gaps, self.across)(np.clip(gap, *ends))
+        return 1.0 + (part - 1.0) * np.exp(-0.56 * np.maximum(gap - ends[1], 0.0))
+
+    def touching(self, gap: Array) -> Array:
+        """Return the part of the area in which the surfaces touch."""
+        found: Array = np.interp(gap, self.gaps, self.area)
+        return np.where(gap > self.gaps[-1], 0.0, found)
+
+
+def patch_curves(heights: Array, pixel: tuple[float, float], *, periodic: bool) -> PatchCurves:
+    """Return the curves of a patch.
+
+    Parameters
+    ----------
+    heights : (ny, nx) array
+        Of both surfaces together [m].
+    pixel : (float, float)
+        Distances dx, dy [m].
+    periodic : bool
+        Whether the edges fit together.
+    """
+    z = _middle(heights)
+    z -= z.mean()
+    if not periodic:
+        z = np.block([[z, z[:, ::-1]], [z[::-1], z[::-1, ::-1]]])
+    sigma = float(z.std())
+    slopes = (float(np.std(np.diff(z, axis=axis))) / pixel[1 - axis] for axis in (0, 1))
+    slope = math.hypot(*slopes)
+    stride = max(1, -(-max(z.shape) // FLOW))
+    rows, pressure, start = [], FIRST * slope, None
+    while True:
+        found = pressed(z, pixel, pressure, start)
+        gap = found.mean_gap / sigma
+        if gap < CLOSED:
+            break
+        flow = found.gap[::stride, ::stride]
+        along, across = conducted(flow, (stride * pixel[0], stride * pixel[1]))
+        channel = (along * (found.mean_gap / flow.mean()) ** 3) ** (1.0 / 3.0) / sigma
+        rows.append((gap, found.mean_pressure, found.area, channel, across / along))
+        start, pressure = found.pressure, MORE * pressure
+    gaps, loads, area, channel, ratio = np.array(rows[::-1]).T
+    return PatchCurves(gaps=gaps, pressure=loads, area=area, channel=channel, across=ratio)
+
+
+def _middle(heights: Array) -> Array:
+    """Return the middle of a patch, as large as is computed."""
+    (ny, nx), most = heights.shape, LARGEST
+    low_y, low_x = max(ny - most, 0) // 2, max(nx - most, 0) // 2
+    return heights[low_y : low_y + most, low_x : low_x + most].copy()

@@ -1,0 +1,131 @@
+"""A rough patch: dry contact, flow through its gap, and the curves of both."""
+
+import numpy as np
+import pytest
+
+from tehl.errors import InputError
+from tehl.io.case import case_from_tables
+from tehl.options import Options
+from tehl.patch.contact import pressed
+from tehl.patch.curves import patch_curves
+from tehl.patch.flow import conducted
+from tehl.solver import solve
+from tests.reference import moes_contact
+
+CONTACT_MECHANICS = {
+    1e-4: (0.001220703125, 2.865915852570332),
+    2e-3: (0.011474609375, 2.0818860697318216),
+    3e-2: (0.13232421875, 0.9394202647413039),
+    1e-1: (0.359130859375, 0.38588530785946057),
+}
+"""Mean pressure over E*: contact area and mean gap over Sq of the heights of `random_patch`, by the
+package ContactMechanics 1.8.3, periodic, penetration tolerance 1e-7."""
+
+
+def wave(nodes: int, *, both: bool) -> np.ndarray:
+    """Return a cosine of amplitude 0.01 and length one, along x or along both."""
+    x = np.cos(2.0 * np.pi * np.arange(nodes) / nodes)
+    return 0.01 * (np.outer(x, x) if both else np.tile(x, (8, 1)))
+
+
+def random_patch(nodes: int = 128) -> np.ndarray:
+    """Return self-affine heights, Hurst exponent 0.8, Sq = 0.01, on the unit square."""
+    q = nodes * np.hypot(np.fft.fftfreq(nodes)[:, None], np.fft.rfftfreq(nodes))
+    q[0, 0] = 1.0
+    amplitude = np.where((q > 4.0) & (q < 32.0), q**-1.8, 0.0)
+    phase = np.exp(2j * np.pi * np.random.default_rng(3).random(amplitude.shape))
+    z = np.fft.irfft2(amplitude * phase, s=(nodes, nodes))
+    return 0.01 * z / z.std()
+
+
+# ---- dry contact
+
+
+@pytest.mark.parametrize("part", [0.05, 0.2, 0.5, 0.8])
+def test_a_wave_touches_on_the_area_of_westergaard(part):
+    found = pressed(wave(256, both=False), (1 / 256, 1 / 256), part * np.pi * 0.01)
+    assert found.area == pytest.approx(2.0 / np.pi * np.arcsin(np.sqrt(part)), rel=0.01)
+    assert found.mean_pressure == pytest.approx(part * np.pi * 0.01, rel=1e-9)
+
+
+@pytest.mark.parametrize(("both", "factor"), [(False, 1.0), (True, np.sqrt(2.0))])
+def test_a_wave_is_pressed_flat_by_its_full_contact_pressure(both, factor):
+    full = factor * np.pi * 0.01  # Westergaard; Johnson, Greenwood and Higginson
+    z, pixel = wave(32, both=both), (1 / 32, 1 / 32)
+    flat = pressed(z, pixel, 1.01 * full)
+    assert flat.area == 1.0
+    assert np.ptp(flat.pressure) == pytest.approx(2.0 * full, rel=1e-6)
+    assert flat.gap.max() == 0.0
+    assert pressed(z, pixel, 0.97 * full).area < 1.0
+
+
+def test_a_random_patch_agrees_with_contact_mechanics():
+    start = None
+    for pressure, (area, gap) in CONTACT_MECHANICS.items():
+        found = pressed(random_patch(), (1 / 128, 1 / 128), pressure, start)
+        start = found.pressure
+        assert found.area == pytest.approx(area, rel=0.01)
+        assert found.mean_gap / 0.01 == pytest.approx(gap, rel=1e-4)
+        assert (found.gap >= 0.0).all()
+        assert (found.gap[found.pressure > 0.0] == 0.0).all()
+
+
+# ---- flow
+
+
+def test_the_flow_along_and_across_a_wave_is_exact():
+    gap = 1.0 + 50.0 * wave(128, both=False)
+    along, across = conducted(gap, (1 / 128, 1 / 128))
+    assert along == pytest.approx(1.0 / np.mean(gap**-3.0), rel=1e-9)
+    assert across == pytest.approx(np.mean(gap**3), rel=1e-9)
+
+
+def test_flow_factors_are_those_of_patir_and_cheng_but_for_their_scatter():
+    nodes, found = 96, []
+    q = np.hypot(nodes * np.fft.fftfreq(nodes)[:, None], nodes * np.fft.rfftfreq(nodes))
+    for seed in range(4):  # Gaussian heights, rigid, cut off where they touch
+        phase = np.exp(2j * np.pi * np.random.default_rng(seed).random(q.shape))
+        z = np.fft.irfft2(np.exp(-((q / 8.0) ** 2)) * phase, s=(nodes, nodes))
+        z = (z - z.mean()) / z.std()
+        gaps = (2.0, 3.0, 6.0)
+        found.append([np.mean(conducted(np.maximum(h + z, 0.0), (1, 1))) / h**3 for h in gaps])
+    published = 1.0 - 0.9 * np.exp(-0.56 * np.array(gaps))
+    assert np.mean(found, axis=0) == pytest.approx(published, abs=0.08)
+
+
+# ---- curves
+
+
+@pytest.fixture(scope="module")
+def curves():
+    """Return the curves of the random patch."""
+    return patch_curves(1e-4 * random_patch(), (1e-6, 1e-6), periodic=True)
+
+
+def test_the_curves_are_monotone_and_go_on_beyond_their_ends(curves):
+    gaps = np.linspace(-3.0, 12.0, 300)
+    assert (np.diff(curves.load(gaps)) <= 0.0).all()
+    assert curves.load(gaps).min() >= 0.0
+    assert (np.diff(curves.mean_gap(gaps)) > 0.0).all()
+    assert curves.mean_gap(gaps).min() > 0.0
+    assert (np.diff(curves.conducts(gaps)) > 0.0).all()
+    assert curves.conducts(np.array([12.0])) == pytest.approx(12.0, rel=1e-2)
+    assert curves.conducts_across(np.array([12.0])) == pytest.approx(1.0, abs=1e-2)
+    assert curves.load(curves.gaps) == pytest.approx(curves.pressure, rel=1e-9)
+    assert (np.diff(curves.area) <= 0.0).all()
+
+
+def test_a_measured_patch_shares_the_load(tmp_path):
+    np.savetxt(tmp_path / "ground.csv", 2e-5 * random_patch(64), delimiter=",")
+    tables = moes_contact(100.0, 8.0).model_dump(exclude_none=True)
+    patch = {"file": str(tmp_path / "ground.csv"), "pixel": 4e-6, "unit": "m"}
+    patch |= {"outside": "periodic"}
+    tables["asperities"] = {"model": "surface", "map": patch}
+    problem = case_from_tables(tables)[0]
+    assert problem.asperity_rms == pytest.approx(0.2e-6, rel=1e-3)
+    shares = [solve(problem, Options(points=n)).load_sharing.share for n in (129, 257)]
+    assert 0.05 < shares[1] < 0.7
+    assert shares[0] == pytest.approx(shares[1], rel=0.15)
+    gone = {"model": "surface", "map": patch | {"file": "nowhere.csv"}}
+    with pytest.raises(InputError, match="nowhere"):
+        solve(case_from_tables(tables | {"asperities": gone})[0])
