@@ -31,6 +31,7 @@ NAMES = (
     "scaled problem",
     "problem",
     "contact",
+    "asperities",
     "physics",
     "kernels",
     "units and errors",

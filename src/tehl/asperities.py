@@ -41,6 +41,10 @@ if TYPE_CHECKING:
 SummitDensity = Annotated[float, Quantity("a number per area", "1/m^2", '"1e10 1/m^2"')]
 Friction = Annotated[float, Quantity("a plain number", "-", "0.1", "non-negative")]
 
+FARTHEST = 35.0
+"""Gap over sigma from which no asperity touches."""
+DENSE, STEEP = (1e-5, 1.0), (1e-6, 0.5)
+"""Limits of eta beta sigma and of sigma over beta: surfaces have 0.03 to 0.06, and 1e-4 to 1e-2."""
 LEAST_GAP = 0.5
 """Least h/sigma of the flow factor; below it the channel narrows with the mean gap."""
 
@@ -64,6 +68,19 @@ class GreenwoodTripp(_Touching):
     """Radius beta of a summit [m]."""
     summit_density: SummitDensity
     """Summits per area, eta [1/m^2]."""
+
+    def fault(self, sigma: float) -> str:
+        """Return what is wrong with summits on heights of ``sigma`` [m]; nothing if all is well."""
+        numbers = (
+            ("summit_density x summit_radius x rms", self.load_factor(sigma), DENSE, "0.05"),
+            ("rms / summit_radius", sigma / self.summit_radius, STEEP, "0.001"),
+        )
+        for name, value, (least, most), usual in numbers:
+            if not least <= value <= most:
+                return (
+                    f"{name} = {value:.3g} must be between {least:g} and {most:g}, usual is {usual}"
+                )
+        return ""
 
     def load_factor(self, sigma: float) -> float:
         """Return eta beta sigma [-]."""
@@ -174,8 +191,10 @@ def gaussian_integral(n: float, gap: "Array") -> "Array":
     """
     from scipy.special import pbdv  # noqa: PLC0415 (0.1 s, for cases with asperities only)
 
-    values, _ = pbdv(-n - 1.0, gap)
-    return math.gamma(n + 1.0) / math.sqrt(2.0 * math.pi) * np.exp(-0.25 * gap**2) * values
+    near = np.minimum(gap, FARTHEST)
+    values, _ = pbdv(-n - 1.0, near)
+    found = math.gamma(n + 1.0) / math.sqrt(2.0 * math.pi) * np.exp(-0.25 * near**2) * values
+    return np.where(gap < FARTHEST, found, 0.0)
 
 
 def mean_gap(gap: "Array") -> "Array":

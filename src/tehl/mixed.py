@@ -18,6 +18,8 @@ from tehl.scaling import Groups, ScaledProblem
 from tehl.starvation import supplied_film
 
 HALVINGS = 60
+APART = 1e-9
+"""Pressure of the asperities, over that of Hertz, below which they are apart."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -48,7 +50,9 @@ def shared_load(scaled: ScaledProblem) -> SharedLoad:
         """Return the separation of the film that carries the rest."""
         return film / flooded * expected_central_film(_softer(scaled.entering, 1.0 - share))
 
-    low, high = 0.0, 1.0
+    if carried(film / unit) < APART:
+        return SharedLoad(separation=film, share=0.0)
+    low, high = 0.0, 1.0 - APART
     for _ in range(HALVINGS):
         share = 0.5 * (low + high)
         # of a film this thick the asperities would carry more, or less, than their share

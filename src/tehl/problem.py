@@ -10,6 +10,7 @@ from typing import Any, Self
 
 from pydantic import model_validator
 
+from tehl.asperities import GreenwoodTripp
 from tehl.contact import Contact, PointContact, Surface
 from tehl.geometry import reduced_radius
 from tehl.units import (
@@ -216,11 +217,14 @@ def check_asperities(problem: PointContact) -> None:
     """Check that the asperities have a height, and that the run can have them."""
     if problem.asperities is None:
         return
-    if not problem.asperity_rms > 0.0:
+    law = problem.asperities
+    if isinstance(law, GreenwoodTripp) and not problem.asperity_rms > 0.0:
         raise ValueError(
-            "asperities.rms is missing: give the rms roughness of both surfaces together, such as "
+            "asperities.rms is missing or zero: give the rms roughness of both surfaces together, such as "
             '"0.3 um", here or as rms_roughness of the surfaces'
         )
+    if isinstance(law, GreenwoodTripp) and (fault := law.fault(problem.asperity_rms)):
+        raise ValueError(f"asperities: {fault}; check the units")
     if problem.conserves_oil:
         raise ValueError(
             "asperities and scarce oil together are not computed: where a film begins between "

@@ -32,7 +32,7 @@ def solve(  # noqa: PLR0913 (the options of the command)
     ] = False,
     quiet: Quiet = False,
     resume: Annotated[
-        bool, Option("--resume", help="Continue an interrupted transient run.")
+        bool, Option("--resume", help="Continue an interrupted transient run or repeated passes.")
     ] = False,
 ) -> None:
     """Solve a case and store the result.

@@ -50,7 +50,7 @@ def load_sharing(result: Solution) -> LoadSharing | None:
     stated coefficient times it.
     """
     found, law, scales = result.asperities, result.problem.asperities, result.scales
-    if found is None or law is None:
+    if found is None or law is None or result.status.kind == "diverged":
         return None
     cells = np.outer(cell_widths(result.y), cell_widths(result.x))
     share = float((cells * found.pressure).sum()) / scales.load

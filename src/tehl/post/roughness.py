@@ -100,6 +100,11 @@ def rough_film(result: Solution, smooth: Solution | None = None) -> RoughFilm | 
     """
     first, second = sq_of(result)
     composite = math.hypot(first, second)
+    finer = result.problem.asperity_rms
+    if result.heights is not None:  # the grid carries these, and not those of the asperities
+        composite = math.hypot(composite, finer)
+    elif finer:
+        composite = finer
     if no_film(result) or not composite > _SMOOTH:
         return None
     film = film_in_contact(result)
