@@ -77,9 +77,8 @@ class GreenwoodTripp(_Touching):
         )
         for name, value, (least, most), usual in numbers:
             if not least <= value <= most:
-                return (
-                    f"{name} = {value:.3g} must be between {least:g} and {most:g}, usual is {usual}"
-                )
+                limits = f"between {least:g} and {most:g}, usual is {usual}"
+                return f"{name} = {value:.3g} must be {limits}"
         return ""
 
     def load_factor(self, sigma: float) -> float:

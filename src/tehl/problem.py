@@ -220,8 +220,8 @@ def check_asperities(problem: PointContact) -> None:
     law = problem.asperities
     if isinstance(law, GreenwoodTripp) and not problem.asperity_rms > 0.0:
         raise ValueError(
-            "asperities.rms is missing or zero: give the rms roughness of both surfaces together, such as "
-            '"0.3 um", here or as rms_roughness of the surfaces'
+            "asperities.rms is missing or zero: give the rms roughness of both surfaces together, "
+            'such as "0.3 um", here or as rms_roughness of the surfaces'
         )
     if isinstance(law, GreenwoodTripp) and (fault := law.fault(problem.asperity_rms)):
         raise ValueError(f"asperities: {fault}; check the units")

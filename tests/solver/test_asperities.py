@@ -117,6 +117,21 @@ def test_far_asperities_do_not_touch():
     assert second.film_scaled.central == pytest.approx(first.film_scaled.central, rel=1e-6)
 
 
+def test_low_asperities_leave_a_smooth_film_and_valid_numbers():
+    tables = rough(50.0, 8.0, 1.0).model_dump(exclude_none=True)
+    tables["asperities"] |= {"rms": 5e-10, "summit_density": 1e13}
+    found = solve(case_from_tables(tables)[0], Options(points=129))
+    assert found.load_sharing.share == 0.0
+    assert np.isfinite(found.asperities.area).all()
+    assert found.load_sharing.friction == 0.0  # pure rolling
+
+
+def test_stiff_and_high_asperities_carry_nearly_all():
+    problem = rough(100.0, 8.0, 0.15, steep=0.08, dense=0.18)
+    found = solve(problem, Options(points=129))
+    assert found.load_sharing.share > 0.95
+
+
 def shares(problem: ContactProblem, points: int) -> float:
     """Return the part of the load on asperities."""
     attempt, result = try_strategies(problem, Options(points=points), monitor=SILENT, rough=False)
@@ -185,6 +200,9 @@ def test_half_and_full_domain_share_the_load_alike():
         ({"summit_density": "1e10 1/m"}, "number per area"),
         ({"rms": 0.0}, "asperities.rms"),
         ({"friction": -0.1}, "must not be negative"),
+        ({"summit_density": 1.0}, "check the units"),
+        ({"summit_radius": 1.0}, "check the units"),
+        ({"rms": 1e-20}, "check the units"),
     ],
 )
 def test_asperities_that_make_no_sense_are_one_sentence(change, text):
