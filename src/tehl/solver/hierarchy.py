@@ -73,7 +73,7 @@ class CoarsestSolver:
             frozen=level.smoother.frozen,
             area=level.equations.load.area,
             missing_load=level.missing_load(),
-            nearest=np.inf if laws is None else laws.sigma,
+            nearest=np.inf if laws is None else laws.sigma + 0.5 * float(level.film.h.min()),
         )
         before = level.film.p.copy(), level.film.asperity.copy()
         change = newton_step(self._linearised(), level.stencil, system, LONGEST_STEP)
