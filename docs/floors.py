@@ -26,6 +26,7 @@ NAMES = (
     "solution",
     "one grid",
     "proposed domain",
+    "shared load",
     "entering oil",
     "grids and formulas",
     "scaled problem",

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from tehl.entering import entry_error
 from tehl.film_formulas import expected_central_film, moes_film_unit
+from tehl.mixed import shared_load
 from tehl.options import USUAL_ERROR, Domain, Options
 from tehl.scaling import Groups, ScaledProblem
 from tehl.starvation import is_starved, starved_domain, supplied_film
@@ -188,14 +189,18 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
     """
     if options.points != "auto":
         return options
-    domain = domain_of(scaled, options)
+    domain, film = domain_of(scaled, options), None
+    if scaled.problem.asperities is not None:
+        film = max(shared_load(scaled).gap, expected_central_film(scaled.entering))
+    elif is_starved(scaled):
+        film = supplied_film(scaled)
     nodes = expected_points(
         scaled.entering,
         domain,
         options.target,
         is_coupled=scaled.problem.is_coupled,
         least=_nodes_of_waves(scaled, domain),
-        film=supplied_film(scaled) if is_starved(scaled) else None,
+        film=film,
     )
     return options.on_points(nodes, nodes)
 

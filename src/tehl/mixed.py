@@ -28,6 +28,8 @@ class SharedLoad:
 
     separation: float
     """H [-]; below zero the mean planes cross."""
+    gap: float
+    """Mean gap there, the film [-]."""
     share: float
     """Load of the asperities over the load [-]."""
 
@@ -37,7 +39,7 @@ def shared_load(scaled: ScaledProblem) -> SharedLoad:
     film, problem, scales = supplied_film(scaled), scaled.problem, scaled.scales
     asperities = problem.asperities
     if asperities is None:
-        return SharedLoad(separation=film, share=0.0)
+        return SharedLoad(separation=film, gap=film, share=0.0)
     sigma, modulus = problem.asperity_rms, problem.reduced_modulus
     unit = sigma / scales.film_thickness
     flooded = expected_central_film(scaled.entering)
@@ -51,14 +53,16 @@ def shared_load(scaled: ScaledProblem) -> SharedLoad:
         return film / flooded * expected_central_film(_softer(scaled.entering, 1.0 - share))
 
     if carried(film / unit) < APART:
-        return SharedLoad(separation=film, share=0.0)
+        return SharedLoad(separation=film, gap=film, share=0.0)
     low, high = 0.0, 1.0 - APART
     for _ in range(HALVINGS):
         share = 0.5 * (low + high)
         # of a film this thick the asperities would carry more, or less, than their share
         low, high = (share, high) if carried(rest(share) / unit) > share else (low, share)
     share = 0.5 * (low + high)
-    return SharedLoad(separation=_gap(carried, share) * unit, share=share)
+    gap = _gap(carried, share)
+    film = float(asperities.mean_gap(np.array([gap]))[0]) * unit
+    return SharedLoad(separation=gap * unit, gap=film, share=share)
 
 
 def _gap(carried: object, share: float) -> float:
