@@ -179,8 +179,15 @@ def _load_flux(
 ) -> None:
     """Copy the weights of the oil flux at a span of nodes to a lane."""
     (j, lane), cells, partial, second = place, relaxation.cells, film.partial, film.second
+    rate, half = stencil.w0 - stencil.w2, 0.5 * stencil.cx
     for i in range(max(span[0], 1), span[1]):
         at, far = i + MARGIN, max(i - 2, 0)
+        if i > 1 and second[j, i] and second[j, i - 1]:  # most nodes: a film far around
+            cells[at, OWN, lane] = 1.5 * rate
+            cells[at, UPSTREAM, lane] = -2.0 * rate
+            cells[at, FARTHER, lane] = 0.5 * rate
+            cells[at, BACK, lane] = half * (film.eps_x[j, i] + film.eps_x[j, i - 1])
+            continue
         here, west, farther = partial[j, i] > 0, partial[j, i - 1] > 0, partial[j, far] > 0
         orders = second[j, i] > 0, second[j, i - 1] > 0
         w0, w1, w2 = flux_weights(stencil, (here, west, farther), orders, i)
