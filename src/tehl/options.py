@@ -25,6 +25,8 @@ USUAL_ERROR = 0.02
 """Relative error of central and minimum film that is reached by default."""
 LARGEST_COARSEST = 64
 """Most intervals along one direction of the coarsest grid, whose Newton matrix is dense."""
+LARGEST_ERROR = 0.5
+"""Largest error that can be asked for."""
 FARTHEST = 1e3
 """Hertz half-widths within which a domain must stay."""
 
@@ -60,7 +62,7 @@ def _fault_of_edges(low: float, high: float) -> str:
 class Options(Table):
     """Numerical options of a run; the defaults suit a smooth isothermal contact."""
 
-    error: Annotated[Share, Field(ge=1e-4, le=0.5)] | None = None
+    error: Annotated[Share, Field(ge=1e-4, le=LARGEST_ERROR)] | None = None
     """Relative error of the central and of the minimum film to reach, such as ``"1 %"``; 2 % if
     neither it nor ``points`` is stated. Full multigrid goes on to finer grids until its estimate is
     below. Between rough surfaces the error of the minimum is relative to the central film of the

@@ -132,6 +132,12 @@ def test_stiff_and_high_asperities_carry_nearly_all():
     assert found.load_sharing.share > 0.95
 
 
+def test_asperities_far_higher_than_the_film_start_on_a_wide_coarsest_grid():
+    problem = rough(13.3, 10.3, 0.056, steep=6.7e-4, dense=0.0132)
+    found = solve(problem, Options(points=129))
+    assert min(report.points[0] for report in found.history) == 33  # its matrix is dense
+
+
 def shares(problem: ContactProblem, points: int) -> float:
     """Return the part of the load on asperities."""
     attempt, result = try_strategies(problem, Options(points=points), monitor=SILENT, rough=False)

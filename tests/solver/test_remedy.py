@@ -11,6 +11,7 @@ from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import ConvergenceError
 from tehl.solver import solve, steady
+from tehl.solver.diagnosis import error_setting
 from tehl.solver.monitor import SILENT
 from tehl.solver.remedy import working_hint
 from tests.solver.test_status import failure, moes
@@ -68,3 +69,10 @@ def test_a_contact_that_lacks_time_gets_an_error_that_was_reached():
     assert status.cause in ("error_not_reached", "grid_too_coarse")
     assert "nodes then converge" in str(status.hint)
     assert solve(moes(100.0), Options(error=status.hint.settings["numerics.error"]))
+
+
+@pytest.mark.parametrize(("reached", "named"), [(0.03, "4 %"), (0.44, "49 %"), (0.47, None)])
+def test_an_error_is_named_only_where_it_can_be_asked_for(reached, named):
+    found = error_setting(reached)
+    assert found == ({} if named is None else {"numerics.error": named})
+    Options.model_validate({"error": named})

@@ -8,9 +8,10 @@ from tehl.domain import expected_points, recommended_domain
 from tehl.film_formulas import expected_central_film, expected_film
 from tehl.grid import Grid
 from tehl.heat import FAR_BODY, FilmEnergy
+from tehl.options import LARGEST_ERROR
 from tehl.problem import ContactProblem
 from tehl.scaling import Groups, ScaledProblem
-from tehl.solution import Hint, Status
+from tehl.solution import Hint, Settings, Status
 from tehl.solver.film_solver import FilmSolver
 from tehl.solver.film_summary import film_summary
 from tehl.solver.level import Level
@@ -121,7 +122,13 @@ def _error_hint(run: FilmSolver) -> Hint | None:
         return None
     (nx, ny), error = reached
     advice = f"{nx} x {ny} nodes converged to an error of {percentage(error)}."
-    return Hint(advice, {"numerics.error": f"{math.ceil(110.0 * error)} %"})
+    return Hint(advice, error_setting(error))
+
+
+def error_setting(reached: float) -> Settings:
+    """Return the setting of an error just above one that was reached; none above the largest."""
+    error = math.ceil(110.0 * reached)
+    return {"numerics.error": f"{error} %"} if error <= 100.0 * LARGEST_ERROR else {}
 
 
 def _smoother_hint(run: FilmSolver) -> Hint | None:

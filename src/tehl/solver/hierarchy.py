@@ -157,9 +157,11 @@ class Hierarchy:
         load : float
             Load that the film carries, over that of the contact [-].
         """
-        flow, film = flow_table(scaled), shared_load(scaled).separation
+        flow, film = flow_table(scaled), shared_load(scaled).gap
         grids = halved_grids(finest)
-        widest = max(1.0, (2.0 * film) ** 0.5)  # of the parabolic gap, where the film is thick
+        high = scaled.problem.asperity_rms / scaled.scales.film_thickness
+        # of the parabolic gap, where film or asperities are thick
+        widest = max(1.0, (2.0 * max(film, high)) ** 0.5)
         while grids[0].dx > widest and len(grids) > LEAST_GRIDS and grids[1].nx <= LARGEST_DENSE:
             del grids[0]
         levels = [Level(Equations.on(g, scaled, flow, options, load), relaxation) for g in grids]

@@ -284,7 +284,7 @@ class Level:
         self.pose_problem()
         self.set_state(hertz_pressure(self.grid), 0.0)
         self.update()
-        approach = expected_film - central_value(self.grid, self.film.h)
+        approach = expected_film - central_value(self.grid, self.separation)
         self.set_state(self.film.p, approach)
 
     def interpolate_from(self, coarse: "Level") -> None:

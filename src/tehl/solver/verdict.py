@@ -14,7 +14,14 @@ from tehl.operators.energy import FilmState
 from tehl.scaling import Groups
 from tehl.solution import ErrorEstimate, Hint, Status
 from tehl.solver.convergence import LARGEST_LOAD_ERROR
-from tehl.solver.diagnosis import LESS_ROUGH, diverged, grid_hint, not_reached, thinnest
+from tehl.solver.diagnosis import (
+    LESS_ROUGH,
+    diverged,
+    error_setting,
+    grid_hint,
+    not_reached,
+    thinnest,
+)
 from tehl.solver.film_solver import FilmSolver
 from tehl.solver.film_summary import film_summary
 from tehl.solver.level import Level
@@ -281,7 +288,7 @@ def _error_status(run: FilmSolver) -> Status:
         f"The error bars on {nx} x {ny} nodes are {percentage(errors.central)} of the central and "
         f"{percentage(errors.minimum)} of the minimum film, above numerics.error = "
         f"{percentage(run.options.target)}: {goal.obstacle or 'the next grid does not converge'}.",
-        Hint(settings={"numerics.error": f"{math.ceil(110 * reached)} %"}),
+        Hint(settings=error_setting(reached)),
     )
 
 
