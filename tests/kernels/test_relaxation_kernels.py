@@ -38,6 +38,7 @@ def relaxation_of(shape, xi=0.0, omega=(1.0, 1.0), influence=0.0):
         delta=np.zeros(shape),
         frozen=np.zeros(shape, np.uint8),
         stiffness=np.zeros(shape),
+        ends=np.full(shape[0], nx - 1),
         **dict(zip(("rest", "nodes", "cells"), relaxation.workspace(nx), strict=True)),
     )
 
@@ -183,8 +184,24 @@ def test_lines_relaxed_side_by_side_equal_lines_relaxed_one_by_one(shape, mirror
     for colour in range(2):
         for j in range(first + colour, shape[0] - 1, 2):
             relax_batch(one, stencil, rhs, setting, (j, 1))
-    add_dipoles(one, setting.delta, mirror)
+    add_dipoles(one, setting, mirror)
     np.testing.assert_allclose(film.p, one.p, rtol=1e-10, atol=1e-12)
+
+
+@MIRROR
+def test_a_sweep_that_ends_where_all_is_frozen_equals_a_sweep_over_whole_lines(mirror):
+    shape = (25, 33)
+    film, stencil = random_film(shape, 8), stencil_of(mirror)
+    film.eps[:, 4:9] = 1e-4
+    setting = relaxation_of(shape, xi=0.1, omega=(0.8, 0.6), influence=0.1)
+    ends = np.random.default_rng(9).integers(3, shape[1] - 1, shape[0])
+    ends[4:9] = 0
+    setting.frozen[:] = np.arange(shape[1]) >= ends[:, np.newaxis]
+    whole, part = (film._replace(p=film.p.copy()) for _ in range(2))
+    relaxation.relax_lines(whole, stencil, np.ones(shape), setting)
+    relaxation.relax_lines(part, stencil, np.ones(shape), setting._replace(ends=ends))
+    assert np.abs(part.p - film.p).max() > 1e-3
+    np.testing.assert_array_equal(part.p, whole.p)
 
 
 @MIRROR

@@ -78,10 +78,11 @@ def cylinder(centre: float, oil: float, nodes: int, upstream: float) -> tuple[fl
         rest=rest,
         nodes=nodes_,
         cells=cells,
+        ends=np.full(h.shape[0], nodes - 1),
     )
     zero, scratch = np.zeros_like(h), np.zeros((1, nodes))
     for number in range(500):  # the film grows upstream by some nodes per sweep
-        reynolds.mark_partial(film, stencil, zero, scratch)
+        reynolds.mark_partial(film, stencil, zero, scratch, lines.ends)
         if number < 450:
             reynolds.mark_second_order(film, 2)
         relaxation.relax_lines(film, stencil, zero, lines)

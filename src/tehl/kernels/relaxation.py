@@ -31,7 +31,7 @@ from tehl.kernels.reynolds import (
     line_operator,
     row_below,
 )
-from tehl.typing import Array, FlagArray, Records
+from tehl.typing import Array, FlagArray, IntArray, Records
 
 Span = tuple[int, int]
 
@@ -63,8 +63,8 @@ class LineRelaxation(NamedTuple):
     colours are done; ``frozen`` (ny, nx) marks nodes of fixed pressure; ``stiffness`` (ny, nx) is
     the contribution of the change of conductance to the diagonal (`stiffen`). ``rest`` (LANES, nx)
     holds the residuals of eight lines, ``nodes`` (nx + 6,) their systems as records `NODE`;
-    ``cells`` (nx + 6, FIELDS, LANES) is a view of ``nodes`` as numbers. ``touches`` is 1 with
-    asperities finer than the grid.
+    ``cells`` (nx + 6, FIELDS, LANES) is a view of ``nodes`` as numbers. From node ``ends[j]`` (ny,)
+    on, all of line j is frozen. ``touches`` is 1 with asperities finer than the grid.
     """
 
     xi: float
@@ -79,6 +79,7 @@ class LineRelaxation(NamedTuple):
     rest: Array
     nodes: Records
     cells: Array
+    ends: IntArray
     touches: int = 0
 
 
@@ -91,13 +92,13 @@ def workspace(nx: int) -> tuple[Array, Records, Array]:
 @helper
 def mark_dipoles(film: Film, stencil: Stencil, relaxation: LineRelaxation) -> None:
     """Mark the nodes that relax as dipoles: small conductance all round, nothing cavitated."""
-    ny, nx = film.p.shape
+    ny = film.p.shape[0]
     p, eps_x, eps_y, kind = film.p, film.eps_x, film.eps_y, relaxation.kind
     limit = relaxation.xi / max(stencil.cx, stencil.cy)
     clear(kind)
     for j in range(0 if stencil.mirror else 1, ny - 1):
         south = row_below(j)
-        for i in range(1, nx - 1):
+        for i in range(1, relaxation.ends[j]):
             along = max(eps_x[j, i], eps_x[j, i - 1], eps_x[j, i + 1])
             across = max(eps_y[j, i], eps_y[south, i], eps_y[j + 1, i])
             smallest = min(
@@ -134,13 +135,13 @@ def stiffen(film: Film, stencil: Stencil, table: Array, step: float, out: Array)
 @helper
 def wet_range(film: Film, relaxation: LineRelaxation, j: int, slot: int) -> Span:
     """Return the first and last node of a line not cavitated or frozen; (nx, 0) if none."""
-    p, frozen, rest, nx = film.p, relaxation.frozen, relaxation.rest, film.p.shape[1]
+    p, frozen, rest, end = film.p, relaxation.frozen, relaxation.rest, relaxation.ends[j]
     low = 1
-    while low < nx - 1 and (frozen[j, low] or (p[j, low] == 0.0 and rest[slot, low] >= 0.0)):
+    while low < end and (frozen[j, low] or (p[j, low] == 0.0 and rest[slot, low] >= 0.0)):
         low += 1
-    if low == nx - 1:
-        return nx, 0
-    high = nx - 2
+    if low >= end:
+        return p.shape[1], 0
+    high = end - 1
     while high > low and (frozen[j, high] or (p[j, high] == 0.0 and rest[slot, high] >= 0.0)):
         high -= 1
     return low, high
@@ -387,12 +388,12 @@ def _store_line(film: Film, relaxation: LineRelaxation, place: Span, span: Span)
 
 @helper
 def _residual_of_line(
-    film: Film, stencil: Stencil, rhs: Array, rest: Array, place: tuple[int, int]
+    film: Film, stencil: Stencil, rhs: Array, relaxation: LineRelaxation, place: tuple[int, int]
 ) -> None:
     """Write ``rhs - L(p)`` of a line to a row of ``rest``; ``place``: the numbers of both."""
-    j, slot = place
-    line_operator(film, stencil, j, rest, slot)
-    for i in range(1, film.p.shape[1] - 1):
+    (j, slot), rest = place, relaxation.rest
+    line_operator(film, stencil, j, rest, (slot, relaxation.ends[j]))
+    for i in range(1, relaxation.ends[j]):
         rest[slot, i] = rhs[j, i] - rest[slot, i]
 
 
@@ -422,7 +423,7 @@ def relax_batch(
     (first, count), nx = batch, film.p.shape[1]
     low, high = nx, 0
     for lane in range(count):
-        _residual_of_line(film, stencil, rhs, relaxation.rest, (first + 2 * lane, lane))
+        _residual_of_line(film, stencil, rhs, relaxation, (first + 2 * lane, lane))
         line_low, line_high = wet_range(film, relaxation, first + 2 * lane, lane)
         low, high = min(low, line_low), max(high, line_high)
     if low > high:
@@ -458,16 +459,18 @@ def relax_lines(film: Film, stencil: Stencil, rhs: Array, relaxation: LineRelaxa
         for j in range(first + colour, film.p.shape[0] - 1, 2 * LANES):
             count = min(LANES, (film.p.shape[0] - j) // 2)
             relax_batch(film, stencil, rhs, relaxation, (j, count))
-    add_dipoles(film, relaxation.delta, stencil.mirror)
+    add_dipoles(film, relaxation, stencil.mirror)
 
 
 @helper
-def add_dipoles(film: Film, delta: Array, mirror: int) -> None:
+def add_dipoles(film: Film, relaxation: LineRelaxation, mirror: int) -> None:
     """Add the stored dipoles to ``p`` and clip at zero unless asperities carry."""
-    p, touches, (ny, nx) = film.p, film.stiffness.shape[0] > 0, film.p.shape
+    p, delta, ends, (ny, nx) = film.p, relaxation.delta, relaxation.ends, film.p.shape
+    touches = film.stiffness.shape[0] > 0
     for j in range(0 if mirror else 1, ny - 1):
         south = row_below(j)
-        for i in range(1, nx - 1):
+        end = max(ends[j], ends[south], ends[j + 1])
+        for i in range(1, min(end + 1, nx - 1)):
             around = delta[j, i - 1] + delta[j, i + 1] + delta[south, i] + delta[j + 1, i]
             changed = p[j, i] + delta[j, i] - 0.25 * around
             p[j, i] = changed if touches else max(changed, 0.0)

@@ -15,7 +15,7 @@ from typing import NamedTuple
 from tehl.kernels.compiled import helper, kernel, summing_helper
 from tehl.kernels.properties import Film
 from tehl.kernels.raw import raw
-from tehl.typing import Array, FlagArray
+from tehl.typing import Array, FlagArray, IntArray
 
 STEADILY, IN_TIME = 1, 2
 
@@ -54,22 +54,25 @@ def clear(field: Array | FlagArray) -> None:
 
 
 @helper
-def line_operator(film: Film, stencil: Stencil, j: int, out: Array, row: int) -> None:
-    """Write L(p) on line ``j`` to ``row`` of ``out``; the ends are not touched."""
-    _line_flow(film, stencil, j, out, row)
+def line_operator(film: Film, stencil: Stencil, j: int, out: Array, place: tuple[int, int]) -> None:
+    """Write L(p) on line ``j`` to ``out``; ``place``: row there, and the node before which to end.
+
+    The ends of the line are not touched.
+    """
+    _line_flow(film, stencil, j, out, place)
     if stencil.conserves == STEADILY:
-        _subtract_flux(film, stencil, j, out, row)
+        _subtract_flux(film, stencil, j, out, place)
     else:
-        _subtract_wedge(film, stencil, j, out, row)
+        _subtract_wedge(film, stencil, j, out, place)
 
 
 @helper
-def _line_flow(film: Film, stencil: Stencil, j: int, out: Array, row: int) -> None:
-    """Write the pressure flow into each cell of line ``j`` to ``row`` of ``out``."""
-    p, eps_x, eps_y, nx = film.p, film.eps_x, film.eps_y, film.p.shape[1]
+def _line_flow(film: Film, stencil: Stencil, j: int, out: Array, place: tuple[int, int]) -> None:
+    """Write the pressure flow into each cell of line ``j`` to ``out``."""
+    p, eps_x, eps_y, (row, end) = film.p, film.eps_x, film.eps_y, place
     south, north = row_below(j), j + 1
     half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
-    for i in range(1, nx - 1):
+    for i in range(1, end):
         east, west = eps_x[j, i] + eps_x[j, i + 1], eps_x[j, i] + eps_x[j, i - 1]
         upper, lower = eps_y[j, i] + eps_y[north, i], eps_y[j, i] + eps_y[south, i]
         flow_x = east * (p[j, i + 1] - p[j, i]) - west * (p[j, i] - p[j, i - 1])
@@ -78,19 +81,23 @@ def _line_flow(film: Film, stencil: Stencil, j: int, out: Array, row: int) -> No
 
 
 @helper
-def _subtract_wedge(film: Film, stencil: Stencil, j: int, out: Array, row: int) -> None:
+def _subtract_wedge(
+    film: Film, stencil: Stencil, j: int, out: Array, place: tuple[int, int]
+) -> None:
     """Subtract the upstream difference of rho h along a line; node 1 continues rho h linearly."""
-    rho, h, nx = film.rho, film.h, film.p.shape[1]
+    rho, h, (row, end) = film.rho, film.h, place
     w0, w1, w2 = stencil.w0, stencil.w1, stencil.w2
     out[row, 1] -= (w0 - w2) * rho[j, 1] * h[j, 1] + (w1 + 2.0 * w2) * rho[j, 0] * h[j, 0]
-    for i in range(2, nx - 1):
+    for i in range(2, end):
         upstream = w1 * rho[j, i - 1] * h[j, i - 1]
         farther = w2 * rho[j, i - 2] * h[j, i - 2]
         out[row, i] -= w0 * rho[j, i] * h[j, i] + upstream + farther
 
 
 @helper
-def _subtract_flux(film: Film, stencil: Stencil, j: int, out: Array, row: int) -> None:
+def _subtract_flux(
+    film: Film, stencil: Stencil, j: int, out: Array, place: tuple[int, int]
+) -> None:
     """Subtract the difference of the oil fluxes through both faces of each cell of a line.
 
     A film node passes on 3/2 m(i) - 1/2 m(i-1) of its mass m = rho h, or m(i) next to a partly
@@ -98,10 +105,10 @@ def _subtract_flux(film: Film, stencil: Stencil, j: int, out: Array, row: int) -
     node if it were full: above zero, the cell fills. No pressure flow leaves a film upstream into a
     partly filled cell: it would come back at once. (docs/theory/starvation.md)
     """
-    p, rho, h, eps_x, nx = film.p, film.rho, film.h, film.eps_x, film.p.shape[1]
+    p, rho, h, eps_x, (row, end) = film.p, film.rho, film.h, film.eps_x, place
     partial, rate, half_x = film.partial, stencil.w0 - stencil.w2, 0.5 * stencil.cx
     before, flux = inflow(film, stencil, j)
-    for i in range(1, nx - 1):
+    for i in range(1, end):
         mass = rho[j, i] * h[j, i]
         full = mass + 0.5 * (mass - before) if film.second[j, i] else mass
         if partial[j, i]:
@@ -165,39 +172,46 @@ def flux_weights(
 
 
 @kernel
-def mark_partial(film: Film, stencil: Stencil, rhs: Array, scratch: Array) -> None:
+def mark_partial(film: Film, stencil: Stencil, rhs: Array, scratch: Array, ends: IntArray) -> None:
     """Mark cavitated nodes that stay partly filled: less oil comes than a full one would pass on.
 
-    ``scratch`` is (1, nx).
+    ``scratch`` is (1, nx); nodes from ``ends[j]`` of line j on keep their mark.
     """
-    film, rhs, scratch = raw((film, rhs, scratch))
+    film, rhs, scratch, ends = raw((film, rhs, scratch, ends))
     partial, p, nx = film.partial, film.p, film.p.shape[1]
     for j in range(0 if stencil.mirror else 1, p.shape[0] - 1):
+        if ends[j] == 0:
+            continue
+        end, to = ends[j], nx if ends[j] == nx - 1 else ends[j]
         partial[j, 0] = film.layer[j] < film.rho[j, 0] * film.h[j, 0]
-        for i in range(1, nx):
+        for i in range(1, to):
             partial[j, i] = p[j, i] == 0.0
-        line_operator(film, stencil, j, scratch, 0)
-        for i in range(1, nx - 1):
+        line_operator(film, stencil, j, scratch, (0, end))
+        for i in range(1, end):
             partial[j, i] = p[j, i] == 0.0 and rhs[j, i] - scratch[0, i] >= 0.0
 
 
 @kernel
-def freeze_inside(film: Film, mirror: int, width: int, out: FlagArray) -> None:
-    """Mark the nodes farther than ``width`` nodes from where a film begins or ends."""
-    film, out, _ = raw((film, out, film.p))
+def keep_to_fronts(film: Film, mirror: int, width: int, frozen: FlagArray, ends: IntArray) -> None:
+    """Freeze the nodes farther than ``width`` nodes from where a film begins.
+
+    ``ends`` (ny,) are the nodes from which on all of a line are frozen.
+    """
+    film, frozen, ends = raw((film, frozen, ends))
     partial, (ny, nx) = film.partial, film.p.shape
     for j in range(ny):
+        ends[j] = 0
         for i in range(nx):
-            out[j, i] = 1
+            frozen[j, i] = 1
     for j in range(0 if mirror else 1, ny - 1):
-        south = row_below(j)
         for i in range(1, nx - 1):
-            around = partial[j, i - 1] + partial[south, i] + partial[j + 1, i]
-            if partial[j, i] > 0 or around == 0:
+            if partial[j, i] > 0 or partial[j, i - 1] == 0:
                 continue
+            end = min(i + width + 1, nx - 1)
             for row in range(max(j - width, 0), min(j + width + 1, ny)):
-                for column in range(max(i - width, 0), min(i + width + 1, nx)):
-                    out[row, column] = 0
+                ends[row] = max(ends[row], end)
+                for column in range(max(i - width, 0), end):
+                    frozen[row, column] = 0
 
 
 @kernel
@@ -280,7 +294,7 @@ def operator(film: Film, stencil: Stencil, out: Array) -> None:
     film, out = raw((film, out))
     clear(out)
     for j in range(0 if stencil.mirror else 1, film.p.shape[0] - 1):
-        line_operator(film, stencil, j, out, j)
+        line_operator(film, stencil, j, out, (j, film.p.shape[1] - 1))
 
 
 @helper
@@ -341,7 +355,7 @@ def residual(film: Film, stencil: Stencil, rhs: Array, self_film: float, out: Ar
     clear(out)
     ny, nx = film.p.shape
     for j in range(0 if stencil.mirror else 1, ny - 1):
-        line_operator(film, stencil, j, out, j)
+        line_operator(film, stencil, j, out, (j, film.p.shape[1] - 1))
         for i in range(1, nx - 1):
             out[j, i] = rhs[j, i] - out[j, i]
         line_total, line_count = _line_norm(film, stencil, self_film, j, out)

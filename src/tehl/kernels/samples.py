@@ -68,7 +68,7 @@ def _axes(count: int, *names: str) -> dict[str, int]:
 
 
 def _sample(kernel: Callable[..., Any], seconds: float, **arrays: Any) -> Sample:
-    return Sample(kernel, seconds, {"layer": 1} | arrays)
+    return Sample(kernel, seconds, {"layer": 1, "ends": 1} | arrays)
 
 
 _SURFACE = _axes(1, "decay", "older", "newer")
@@ -121,6 +121,7 @@ RARE = (
     _sample(reynolds.diagonal, 0.3),
     _sample(reynolds.mark_partial, 0.5),
     _sample(reynolds.mark_second_order, 0.2),
+    _sample(reynolds.keep_to_fronts, 0.2),
     _sample(reynolds.oil_flow, 0.3),
     _sample(transfer.keep_residual, 0.2),
     _sample(transfer.correct_fronts, 0.2),

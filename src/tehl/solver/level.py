@@ -154,7 +154,7 @@ class Level:
         """Mark partly filled nodes, and those that pass on oil with second order."""
         film, stencil = self.film, self.stencil
         scratch = np.empty((1, film.p.shape[1]))
-        reynolds.mark_partial(film, stencil, self.sources.reynolds, scratch)
+        reynolds.mark_partial(film, stencil, self.sources.reynolds, scratch, self.smoother.ends)
         if not self.keeps_orders:
             reynolds.mark_second_order(film, 2 if stencil.w2 > 0.0 else 1)
 
@@ -322,23 +322,24 @@ class Level:
             self._is_stale = True
 
     def relax_fronts(self) -> bool:
-        """Relax where films begin and end until these places rest; return whether they do.
+        """Relax where films begin until these places rest; return whether they do.
 
         A cycle moves them by some nodes only: coarse grids keep them. The pressure there hardly
         changes the film, which is not evaluated between the sweeps.
         """
-        (least, most), frozen = FRONT_SWEEPS, self.smoother.frozen
+        (least, most), smoother, mirror = FRONT_SWEEPS, self.smoother, self.stencil.mirror
         self.update()
         for number in range(most):
             before = self.film.partial.copy()
-            reynolds.freeze_inside(self.film, self.stencil.mirror, FRONT_WIDTH, frozen)
-            self.smoother.sweep(self.film, self.stencil, self.sources.reynolds, self.equations.flow)
+            front = FRONT_WIDTH, smoother.frozen, smoother.ends
+            reynolds.keep_to_fronts(self.film, mirror, *front)
+            smoother.sweep(self.film, self.stencil, self.sources.reynolds, self.equations.flow)
             self._mark_cavities()
             moved = np.count_nonzero(self.film.partial != before)
             rests = bool(moved <= FRONT_RESTS * self.grid.shape[0])
             if rests and number >= least:
                 break
-        frozen[:] = 0
+        smoother.frozen[:], smoother.ends[:] = 0, self.grid.nx - 1
         self._is_stale = True
         return rests
 

@@ -19,7 +19,7 @@ from tehl.operators.flow import FlowTable
 from tehl.operators.influence import Influence
 from tehl.operators.reynolds import line_influence
 from tehl.solver.equations import Equations
-from tehl.typing import Array, FlagArray
+from tehl.typing import Array, FlagArray, IntArray
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -56,6 +56,8 @@ class Smoother(Protocol):
 
     frozen: FlagArray
     """Nodes that keep their pressure on this level, (ny, nx) of 0 and 1."""
+    ends: IntArray
+    """Nodes from which on all of a line keeps its pressure, (ny,)."""
 
     def sweep(self, film: Film, stencil: Stencil, rhs: Array, flow: FlowTable) -> None:
         """Relax ``film.p`` in place by one sweep; the rest of ``film`` stays as evaluated last.
@@ -83,6 +85,7 @@ class LineSmoother:
         others = (influence(line + 1, slice(0, point.size)) for line in range(relaxation.lines))
         point += 2.0 * sum(others, np.zeros(point.size))  # lines on both sides move along
         self.frozen = np.zeros(grid.shape, np.uint8)
+        self.ends = np.full(grid.shape[0], grid.nx - 1)
         self.stiffness = np.zeros(grid.shape)
         rest, nodes, cells = kernels.workspace(grid.nx)
         self.workspace = kernels.LineRelaxation(
@@ -98,6 +101,7 @@ class LineSmoother:
             rest=rest,
             nodes=nodes,
             cells=cells,
+            ends=self.ends,
             touches=int(touches),
         )
         self.is_stiff = relaxation.stiff
@@ -114,6 +118,7 @@ class PointSmoother:
 
     def __init__(self, grid: Grid, influence: Influence, relaxation: Relaxation) -> None:
         self.frozen = np.zeros(grid.shape, np.uint8)
+        self.ends = np.full(grid.shape[0], grid.nx - 1)
         self.point, _ = line_influence(influence)
         self.omega = relaxation.point
 
