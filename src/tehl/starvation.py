@@ -29,7 +29,8 @@ GAMMA = 3.0
 """Exponent of the film law for a circular contact."""
 FLOODED, THIN, LEFT = 50.0, 0.5, 0.002
 """Supply over that of the flooded contact from which a thin film, H up to `THIN`, is flooded, and
-its error. A thick one is 4 % from flooded at r = 60 and M = 5, and 22 % at M = 2."""
+its error: half of the 0.4 % that it lacks at r = 20 (M = 20 and 50). A thick one is 4 % from
+flooded at r = 60 and M = 5, and 22 % at M = 2."""
 MARGIN, MORE, PLENTY = 1.2, 0.4, 3.0
 """Margin on the gap at the meniscus, more of it per r up to r = 3: near the contact the pressure
 returns more oil than far upstream."""

@@ -5,9 +5,11 @@ import pytest
 
 from tehl.errors import InputError
 from tehl.io.case import case_from_tables
+from tehl.io.store import load, save
 from tehl.options import Options
+from tehl.patch import contact
 from tehl.patch.contact import pressed
-from tehl.patch.curves import patch_curves
+from tehl.patch.curves import patch_curves, periodic_patch
 from tehl.patch.flow import conducted
 from tehl.solver import solve
 from tests.reference import moes_contact
@@ -99,7 +101,18 @@ def test_flow_factors_are_those_of_patir_and_cheng_but_for_their_scatter():
 @pytest.fixture(scope="module")
 def curves():
     """Return the curves of the random patch."""
-    return patch_curves(1e-4 * random_patch(), (1e-6, 1e-6), periodic=True)
+    return patch_curves(1e-4 * random_patch(), (1e-6, 1e-6))
+
+
+def test_the_middle_of_a_large_patch_is_taken_and_continued_by_its_mirror_image():
+    z = np.random.default_rng(3).standard_normal((250, 300))
+    middle = z[29:221, 54:246]
+    found = periodic_patch(z, fits=True)
+    assert found.shape == (384, 384)
+    assert found[:192, :192] == pytest.approx(middle - middle.mean())
+    np.testing.assert_array_equal(found, found[::-1, ::-1])
+    small = periodic_patch(z[:40, :50], fits=True)
+    assert small == pytest.approx(z[:40, :50] - z[:40, :50].mean())
 
 
 def test_the_curves_are_monotone_and_go_on_beyond_their_ends(curves):
@@ -126,6 +139,40 @@ def test_a_measured_patch_shares_the_load(tmp_path):
     shares = [solve(problem, Options(points=n)).load_sharing.share for n in (129, 257)]
     assert 0.05 < shares[1] < 0.7
     assert shares[0] == pytest.approx(shares[1], rel=0.15)
-    gone = {"model": "surface", "map": patch | {"file": "nowhere.csv"}}
-    with pytest.raises(InputError, match="nowhere"):
-        solve(case_from_tables(tables | {"asperities": gone})[0])
+
+
+def patch_case(file, **settings) -> dict:
+    """Return a case whose asperities are those of a patch in a file."""
+    tables = moes_contact(100.0, 8.0).model_dump(exclude_none=True)
+    patch = {"file": str(file), "pixel": 4e-6, "unit": "m"} | settings
+    return tables | {"asperities": {"model": "surface", "map": patch}}
+
+
+def test_a_changed_file_is_another_patch_and_a_result_needs_none(tmp_path):
+    file = tmp_path / "ground.csv"
+    np.savetxt(file, 2e-5 * random_patch(64), delimiter=",")
+    problem = case_from_tables(patch_case(file))[0]
+    first = solve(problem, Options(points=129))
+    np.savetxt(file, 1e-5 * random_patch(64), delimiter=",")
+    second = solve(problem, Options(points=129))
+    assert second.load_sharing.share < 0.7 * first.load_sharing.share
+    save(first, tmp_path / "first.nc")
+    file.unlink()
+    kept = load(tmp_path / "first.nc")
+    assert kept.load_sharing == first.load_sharing
+    assert kept.roughness.lambda_central == first.roughness.lambda_central
+    with pytest.raises(InputError, match="ground"):
+        solve(problem)
+
+
+@pytest.mark.parametrize("name", ["x", "y", "rotate"])
+def test_a_patch_has_no_place(tmp_path, name):
+    np.savetxt(tmp_path / "ground.csv", 2e-5 * random_patch(64), delimiter=",")
+    with pytest.raises(InputError, match=rf"map\.{name} does not apply to a patch"):
+        case_from_tables(patch_case(tmp_path / "ground.csv", **{name: 1e-5}))
+
+
+def test_a_patch_whose_contact_does_not_converge_is_refused(monkeypatch):
+    monkeypatch.setattr(contact, "MOST", 1)
+    with pytest.raises(InputError, match="does not converge; a lambda_s removes spikes"):
+        patch_curves(1e-4 * random_patch(32), (1e-6, 1e-6))

@@ -4,8 +4,10 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+from tehl.film_formulas import expected_film
 from tehl.options import Domain
 from tehl.problem import ContactProblem
+from tehl.scaling import ScaledProblem
 
 DOMAIN = Domain(x=(-4.5, 1.5), y=(-3.0, 3.0))
 """The domain of most published films, in Hertz half-widths."""
@@ -87,6 +89,39 @@ def wavy_contact(
     surface = {"material": "steel", "roughness": wave}
     title = f"M = {load:g}, L = {speed:g}, wave of {wavelength:g} a at {angle:g} degrees"
     tables = smooth.model_dump(mode="json") | {"surface_2": surface, "title": title}
+    return ContactProblem.model_validate(tables)
+
+
+def touching_contact(
+    load: float,
+    speed: float,
+    ratio: float,
+    *,
+    steep: float = 1e-2,
+    dense: float = 0.05,
+    radius_ratio: float = 1.0,
+) -> ContactProblem:
+    """Return a `moes_contact` with the asperities of Greenwood and Tripp.
+
+    Parameters
+    ----------
+    load, speed, radius_ratio : float
+        Those of the smooth contact.
+    ratio : float
+        Its film by formula over sigma.
+    steep, dense : float
+        sigma/beta and eta beta sigma.
+    """
+    case = moes_contact(load, speed, radius_ratio=radius_ratio)
+    sigma = expected_film(ScaledProblem.of(case)) / ratio
+    beta = sigma / steep
+    asperities = {
+        "model": "greenwood-tripp",
+        "rms": sigma,
+        "summit_radius": beta,
+        "summit_density": dense / beta / sigma,
+    }
+    tables = case.model_dump(exclude_none=True) | {"asperities": asperities}
     return ContactProblem.model_validate(tables)
 
 

@@ -22,23 +22,7 @@ from tehl.solver import solve, solve_transient
 from tehl.solver.monitor import SILENT
 from tehl.solver.steady import try_strategies
 from tests.reference import heated_contact, moes_contact
-
-
-def rough(
-    load: float, speed: float, ratio: float, *, steep: float = 1e-2, dense: float = 0.05, **other
-) -> ContactProblem:
-    """Return a contact with asperities: film by formula over sigma, sigma/beta, eta beta sigma."""
-    case = moes_contact(load, speed, **other)
-    sigma = expected_film(ScaledProblem.of(case)) / ratio
-    beta = sigma / steep
-    table = {
-        "model": "greenwood-tripp",
-        "rms": sigma,
-        "summit_radius": beta,
-        "summit_density": dense / beta / sigma,
-    }
-    return case_from_tables(case.model_dump(exclude_none=True) | {"asperities": table})[0]
-
+from tests.reference import touching_contact as rough
 
 # ---- laws
 
@@ -256,9 +240,9 @@ def test_shared_loads_are_stored_summed_up_and_drawn(mixed, tmp_path):
 
 
 def test_explain_says_which_part_asperities_will_carry(mixed):
-    told = mixed.problem.explain()
-    assert "asperities" in repr(told)
-    assert told.shared.share == pytest.approx(mixed.load_sharing.share, rel=0.6)
+    expected = mixed.problem.explain()
+    assert "asperities" in repr(expected)
+    assert expected.shared.share == pytest.approx(mixed.load_sharing.share, rel=0.5)
 
 
 def test_asperities_and_scarce_oil_together_are_refused():

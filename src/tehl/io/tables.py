@@ -57,11 +57,14 @@ HEIGHTS = _table(
     ("surface_1", "height_1", "m", "height of surface 1, positive outwards"),
     ("surface_2", "height_2", "m", "height of surface 2, positive outwards"),
 )
-ASPERITIES = _table(
-    "y x",
-    ("pressure", "asperity_pressure", "Pa", "pressure of asperities finer than the grid"),
-    ("area", "asperity_area", "1", "part of the area in which they touch"),
-    ("separation", "separation", "m", "distance of the mean planes of both surfaces"),
+ASPERITIES = (
+    *_table(
+        "y x",
+        ("pressure", "asperity_pressure", "Pa", "pressure of asperities finer than the grid"),
+        ("area", "asperity_area", "1", "part of the area in which they touch"),
+        ("separation", "separation", "m", "distance of the mean planes of both surfaces"),
+    ),
+    *_table("", ("rms", "asperity_rms", "m", "standard deviation of their heights")),
 )
 OIL = (
     *_table("y x", ("fill", "fill", "1", "part of the gap that is oil")),

@@ -44,7 +44,7 @@ def asperity_table(scaled: ScaledProblem) -> AsperityTable | None:
         return None
     unit = sigma / scales.film_thickness
     pressure = law.unit(sigma, problem.reduced_modulus) / scales.hertz_pressure
-    laws = _of_patch(law) if isinstance(law, SurfacePatch) else _of_summits()
+    laws = _of_patch(law, law.map.stamp) if isinstance(law, SurfacePatch) else _of_summits()
     factors = np.repeat([pressure, unit, unit, 1.0], 2)
     return AsperityTable(table=laws * factors, grid=np.array([LEAST, STEP]) * unit)
 
@@ -56,8 +56,9 @@ def _of_summits() -> Array:
 
 
 @lru_cache(maxsize=4)
-def _of_patch(law: SurfacePatch) -> Array:
+def _of_patch(law: SurfacePatch, stamp: object) -> Array:
     """Return the laws of a measured patch, as `_tabulated`."""
+    del stamp
     return _tabulated(law.load, law.mean_gap, law.channel, law.across)
 
 

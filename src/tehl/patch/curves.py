@@ -1,7 +1,7 @@
 """Pressure, area and flow of a rough patch over the distance of its mean planes.
 
 The patch is pressed by rising loads (`tehl.patch.contact`), and oil flows through each gap
-(`tehl.patch.flow`). A patch whose edges do not fit together is continued by its mirror image.
+(`tehl.patch.flow`).
 """
 
 import math
@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
+from tehl.errors import InputError
 from tehl.patch.contact import pressed
 from tehl.patch.flow import conducted
 from tehl.typing import Array
@@ -72,29 +73,45 @@ class PatchCurves:
         return np.where(gap > self.gaps[-1], 0.0, found)
 
 
-def patch_curves(heights: Array, pixel: tuple[float, float], *, periodic: bool) -> PatchCurves:
-    """Return the curves of a patch.
+def periodic_patch(heights: Array, *, fits: bool) -> Array:
+    """Return the middle of a patch about its mean, at most `LARGEST` points along x and y.
+
+    It is continued by its mirror image unless its own edges fit together.
+    """
+    (ny, nx), most = heights.shape, LARGEST
+    low_y, low_x = max(ny - most, 0) // 2, max(nx - most, 0) // 2
+    z = heights[low_y : low_y + most, low_x : low_x + most]
+    z = z - z.mean()
+    if fits and max(ny, nx) <= most:
+        return z
+    return np.block([[z, z[:, ::-1]], [z[::-1], z[::-1, ::-1]]])
+
+
+def patch_curves(z: Array, pixel: tuple[float, float]) -> PatchCurves:
+    """Return the curves of a periodic patch.
 
     Parameters
     ----------
-    heights : (ny, nx) array
-        Of both surfaces together [m].
+    z : (ny, nx) array
+        Heights of both surfaces together about their mean [m].
     pixel : (float, float)
         Distances dx, dy [m].
-    periodic : bool
-        Whether the edges fit together.
+
+    Raises
+    ------
+    InputError
+        If the contact of the patch does not converge.
     """
-    z = _middle(heights)
-    z -= z.mean()
-    if not periodic:
-        z = np.block([[z, z[:, ::-1]], [z[::-1], z[::-1, ::-1]]])
     sigma = float(z.std())
     slopes = (float(np.std(np.diff(z, axis=axis))) / pixel[1 - axis] for axis in (0, 1))
     slope = math.hypot(*slopes)
     stride = max(1, -(-max(z.shape) // FLOW))
     rows, pressure, start = [], FIRST * slope, None
     while True:
-        found = pressed(z, pixel, pressure, start)
+        try:
+            found = pressed(z, pixel, pressure, start)
+        except ArithmeticError as error:
+            raise InputError(f"asperities.map: {error}; a lambda_s removes spikes") from None
         gap = found.mean_gap / sigma
         if gap < CLOSED:
             break
@@ -105,10 +122,3 @@ def patch_curves(heights: Array, pixel: tuple[float, float], *, periodic: bool) 
         start, pressure = found.pressure, MORE * pressure
     gaps, loads, area, channel, ratio = np.array(rows[::-1]).T
     return PatchCurves(gaps=gaps, pressure=loads, area=area, channel=channel, across=ratio)
-
-
-def _middle(heights: Array) -> Array:
-    """Return the middle of a patch, as large as is computed."""
-    (ny, nx), most = heights.shape, LARGEST
-    low_y, low_x = max(ny - most, 0) // 2, max(nx - most, 0) // 2
-    return heights[low_y : low_y + most, low_x : low_x + most].copy()

@@ -68,7 +68,7 @@ def load_sharing(result: Solution) -> LoadSharing | None:
         asperity_pressure_max=float(found.pressure.max()),
         pressure_max=float((found.pressure + result.pressure).max()),
         separation_central=middle,
-        separation_ratio=middle / result.problem.asperity_rms,
+        separation_ratio=middle / float(found.rms),
         friction_boundary=law.friction * share if result.problem.slide_roll_ratio else 0.0,
         power_boundary=law.friction * share * scales.load * abs(motion.speed_1 - motion.speed_2),
         friction_film=0.0 if forces is None else abs(forces.mid_film),

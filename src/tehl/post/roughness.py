@@ -100,7 +100,7 @@ def rough_film(result: Solution, smooth: Solution | None = None) -> RoughFilm | 
     """
     first, second = sq_of(result)
     composite = math.hypot(first, second)
-    finer = result.problem.asperity_rms
+    finer = 0.0 if result.asperities is None else float(result.asperities.rms)
     if result.heights is not None:  # the grid carries these, and not those of the asperities
         composite = math.hypot(composite, finer)
     elif finer:

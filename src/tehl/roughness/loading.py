@@ -58,15 +58,15 @@ def raw_map(surface: MapSettings) -> RawMap:
 
 def heights_of(surface: MapSettings) -> Heights:
     """Return the prepared heights of a map, read once as long as its file does not change."""
-    return _loaded(surface, _stamp(surface))
+    return _loaded(surface, stamp_of(surface))
 
 
 def tile_of(surface: MapSettings) -> Tile:
     """Return the heights of a map with what lies beyond their edges, as :func:`heights_of`."""
-    return _tile(surface, _stamp(surface))
+    return _tile(surface, stamp_of(surface))
 
 
-def _stamp(surface: MapSettings) -> tuple[int, int]:
+def stamp_of(surface: MapSettings) -> tuple[int, int]:
     """Return what changes when a file does: its size and when it was written."""
     state = found_file(surface).stat()
     return state.st_size, state.st_mtime_ns

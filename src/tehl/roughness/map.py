@@ -55,6 +55,13 @@ class Map(MapSettings):
         with found_file(self).open("rb") as file:
             return hashlib.file_digest(file, "sha256").hexdigest()
 
+    @property
+    def stamp(self) -> tuple[int, int]:
+        """Return what changes when the file does: its size, and when it was written."""
+        from tehl.roughness.loading import stamp_of  # noqa: PLC0415
+
+        return stamp_of(self)
+
     def load(self) -> "Heights":
         """Return the prepared heights in metres, read once.
 

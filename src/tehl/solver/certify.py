@@ -172,7 +172,7 @@ def not_certified(result: Result, why: str) -> Status:
 
 def too_coarse_to_certify(result: Result, error: float) -> Status:
     """Return ``grid_too_coarse`` for a certified result with a relative error bar ``error``."""
-    return too_coarse((result.scaled.x.size, result.scaled.y.size), result.groups, error)
+    return too_coarse((result.scaled.x.size, result.scaled.y.size), result.scaled_problem, error)
 
 
 def widest(uncertainty: dict[str, Estimate], names: Iterable[str]) -> float:

@@ -4,13 +4,13 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from tehl.domain import expected_points, recommended_domain
+from tehl.domain import chosen_domain, expected_points, film_to_resolve
 from tehl.film_formulas import expected_central_film, expected_film
 from tehl.grid import Grid
 from tehl.heat import FAR_BODY, FilmEnergy
-from tehl.options import LARGEST_ERROR
+from tehl.options import LARGEST_ERROR, USUAL_ERROR
 from tehl.problem import ContactProblem
-from tehl.scaling import Groups, ScaledProblem
+from tehl.scaling import ScaledProblem
 from tehl.solution import Hint, Settings, Status
 from tehl.solver.film_solver import FilmSolver
 from tehl.solver.film_summary import film_summary
@@ -45,7 +45,7 @@ def diverged(run: FilmSolver) -> Status:
     what = f"The iteration diverged on {nx} x {ny} nodes at M = {groups.M:.4g}, L = {groups.L:.4g}."
     found, other = _likely_cause(run), _smoother_hint(run) or _error_hint(run)
     if found is None:
-        hint = LESS_ROUGH if run.roughness.is_rough else grid_hint((nx, ny), groups)
+        hint = LESS_ROUGH if run.roughness.is_rough else grid_hint((nx, ny), run.hierarchy.scaled)
         return Status(kind="diverged", cause="diverged", message=what, hint=other or hint)
     message = f"{what} Likely cause: {found.message}"
     return Status(kind="diverged", cause=found.cause, message=message, hint=other or found.hint)
@@ -78,7 +78,7 @@ def not_reached(run: FilmSolver) -> Status:
         hint = Hint(advice, {"numerics.accuracy": False})
     if options.accuracy == "change" or len(reports) >= options.max_cycles * run.strategy.patience:
         return Status(kind="not_converged", cause="too_few_cycles", message=message, hint=hint)
-    found, hint = _likely_cause(run), grid_hint(run.finest.grid.points, run.groups)
+    found, hint = _likely_cause(run), grid_hint(run.finest.grid.points, run.hierarchy.scaled)
     if found is not None:
         message, hint = f"{message} Likely cause: {found.message}", found.hint
     return Status(
@@ -146,7 +146,7 @@ def likely_cause(grid: Grid, scaled: ScaledProblem) -> LikelyCause | None:
 
     Temperatures and sliding do not affect an isothermal Newtonian film.
     """
-    found = [*_film_below_grid(grid, scaled.groups)]
+    found = [*_film_below_grid(grid, scaled)]
     if scaled.problem.is_coupled:
         found = [*_body_temperature(scaled.problem), *_shear_stress(scaled), *found]
     if not found:
@@ -209,19 +209,21 @@ def _shear_stress(scaled: ScaledProblem) -> Iterator[LikelyCause]:
     )
 
 
-def _film_below_grid(grid: Grid, groups: Groups) -> Iterator[LikelyCause]:
+def _film_below_grid(grid: Grid, scaled: ScaledProblem) -> Iterator[LikelyCause]:
     """Yield the grid if it cannot resolve the expected film."""
-    needed, here = expected_points(groups, grid.domain, RESOLVED), min(grid.nx, grid.ny)
+    groups, film, here = scaled.groups, film_to_resolve(scaled), min(grid.nx, grid.ny)
+    needed = expected_points(groups, grid.domain, RESOLVED, film=film)
+    film = film or expected_central_film(groups)
     if not needed > here:
         return
     yield LikelyCause(
         cause="film_below_grid",
         message=(
-            f"The expected film is H = {expected_central_film(groups):.2g}, which takes about "
+            f"The expected film is H = {film:.2g}, which takes about "
             f"{needed} nodes per direction for an error of {percentage(RESOLVED)}; the grid has "
             f"{here}."
         ),
-        hint=grid_hint(grid.points, groups),
+        hint=grid_hint(grid.points, scaled),
     )
 
 
@@ -230,7 +232,8 @@ def _round(value: float) -> str:
     return f"{float(f'{value:.2g}'):g}"
 
 
-def grid_hint(points: tuple[int, int], groups: Groups) -> Hint:
+def grid_hint(points: tuple[int, int], scaled: ScaledProblem) -> Hint:
     """Return the hint to the recommended grid, at least twice as fine as ``points``."""
-    needed = expected_points(groups, recommended_domain(groups), RESOLVED)
+    domain, film = chosen_domain(scaled, USUAL_ERROR), film_to_resolve(scaled)
+    needed = expected_points(scaled.groups, domain, RESOLVED, film=film)
     return Hint(settings={"numerics.points": max(needed, 2 * max(points) - 1)})

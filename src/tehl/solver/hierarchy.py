@@ -33,7 +33,8 @@ THICK = 0.25
 """Expected central film above which two visits help: for a thinner film such a grid has no valid
 discrete solution, and more visits do harm (M = 200 and more on wide domains)."""
 MOST_CARRIED, MOST_HALVINGS = 1.5, 8
-"""Pressure of the asperities beyond which a Newton step is halved [-], and most times."""
+"""Pressure of the asperities beyond which a Newton step is halved, over that of Hertz, which they
+exceed by little even when dry; and most times."""
 STEPS = 3
 """Newton steps where asperities carry part of the load, so that little is left to the oil."""
 LONGEST_STEP = 0.3

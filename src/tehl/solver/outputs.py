@@ -115,6 +115,7 @@ def film_asperities(level: Level, scaled: ScaledProblem) -> FilmAsperities | Non
         pressure=grid.unfold(level.film.asperity * scales.hertz_pressure),
         area=grid.unfold(area),
         separation=grid.unfold(separation),
+        rms=np.array(sigma),
     )
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from tehl.domain import domain_error
 from tehl.operators.energy import FilmState
-from tehl.scaling import Groups
+from tehl.scaling import ScaledProblem
 from tehl.solution import ErrorEstimate, Hint, Status
 from tehl.solver.convergence import LARGEST_LOAD_ERROR
 from tehl.solver.diagnosis import (
@@ -83,13 +83,13 @@ def _failed(cause: str, message: str, hint: Hint) -> Status:
     return Status(kind="not_converged", cause=cause, message=message, hint=hint)
 
 
-def too_coarse(points: tuple[int, int], groups: Groups, error: float) -> Status:
+def too_coarse(points: tuple[int, int], scaled: ScaledProblem, error: float) -> Status:
     """Return ``grid_too_coarse``: the error of the film is too large.
 
     Parameters
     ----------
-    points, groups : (int, int), Groups
-        Nodes (nx, ny) of the finest grid, and the dimensionless groups.
+    points, scaled : (int, int), ScaledProblem
+        Nodes (nx, ny) of the finest grid, and the contact.
     error : float
         Relative error of the film [-].
     """
@@ -98,7 +98,7 @@ def too_coarse(points: tuple[int, int], groups: Groups, error: float) -> Status:
         "grid_too_coarse",
         f"The grid of {points[0]} x {points[1]} nodes is too coarse for the film: its estimated "
         f"relative error is {size}.",
-        grid_hint(points, groups),
+        grid_hint(points, scaled),
     )
 
 
@@ -111,12 +111,12 @@ def _smooth_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
             "film_not_positive",
             f"The discrete film is not positive on {points[0]} x {points[1]} nodes (smallest H = "
             f"{smallest:.3g}): the grid is too coarse for the film.",
-            grid_hint(points, run.groups),
+            grid_hint(points, run.hierarchy.scaled),
         )
     if errors is None:
         return CONVERGED
     error = max(errors.discretisation_minimum, errors.discretisation_central)
-    return CONVERGED if error <= LARGEST_BAR else too_coarse(points, run.groups, error)
+    return CONVERGED if error <= LARGEST_BAR else too_coarse(points, run.hierarchy.scaled, error)
 
 
 def _rough_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
@@ -134,7 +134,7 @@ def _rough_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     error, part = errors.discretisation_minimum, level.film.h.min() / run.hierarchy.expected_film
     if not max(part * error, errors.discretisation_central) <= LARGEST_BAR:
         largest = max(error, errors.discretisation_central)
-        return too_coarse(level.grid.points, run.groups, largest)
+        return too_coarse(level.grid.points, run.hierarchy.scaled, largest)
     return _minimum_open(level, error) if error > OPEN else CONVERGED
 
 
@@ -174,7 +174,7 @@ def _no_film_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     """Return asperity contact, or a grid too coarse if the error leaves doubt."""
     (nx, ny), floor = run.finest.grid.points, run.finest.equations.floor
     if errors is not None and errors.discretisation_minimum > OPEN:
-        status = too_coarse((nx, ny), run.groups, errors.discretisation_minimum)
+        status = too_coarse((nx, ny), run.hierarchy.scaled, errors.discretisation_minimum)
         return replace(status, message=f"{status.message} {no_film(run.finest)}.")
     thin = int(np.count_nonzero(run.finest.film.h <= floor))
     return _failed(
