@@ -43,6 +43,8 @@ Friction = Annotated[float, Quantity("a plain number", "-", "0.1", "non-negative
 
 FARTHEST = 35.0
 """Gap over sigma from which no asperity touches."""
+DEEPEST = 30.0
+"""Depth over sigma from which F_n is its power of the depth."""
 DENSE, STEEP = (1e-5, 1.0), (1e-6, 0.5)
 """Limits of eta beta sigma and of sigma over beta: surfaces have 0.03 to 0.06, and 1e-4 to 1e-2."""
 LEAST_GAP = 0.5
@@ -206,9 +208,10 @@ def gaussian_integral(n: float, gap: "Array") -> "Array":
     """
     from scipy.special import pbdv  # noqa: PLC0415 (0.1 s, for cases with asperities only)
 
-    near = np.minimum(gap, FARTHEST)
+    near = np.clip(gap, -DEEPEST, FARTHEST)
     values, _ = pbdv(-n - 1.0, near)
     found = math.gamma(n + 1.0) / math.sqrt(2.0 * math.pi) * np.exp(-0.25 * near**2) * values
+    found *= (np.maximum(-gap, DEEPEST) / DEEPEST) ** n  # beyond, as the power that it tends to
     return np.where(gap < FARTHEST, found, 0.0)
 
 

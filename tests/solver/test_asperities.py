@@ -5,13 +5,15 @@ import math
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from scipy.optimize import brentq
 
 from tehl.asperities import channel, gaussian_integral, mean_gap
 from tehl.errors import InputError
 from tehl.film_formulas import expected_film
 from tehl.io.case import case_from_tables
 from tehl.io.store import load, save
-from tehl.kernels import reynolds
+from tehl.kernels import properties, reynolds
+from tehl.operators.asperities import asperity_table
 from tehl.operators.influence import dense_matrix
 from tehl.operators.line_source import line_rise
 from tehl.options import Options
@@ -38,6 +40,12 @@ def test_the_integrals_of_greenwood_and_tripp_are_exact(gap):
         assert gaussian_integral(n, at)[0] == pytest.approx(exact, rel=1e-9)
     exact = quad(lambda s: (gap - s) * density(s), gap - 20.0, gap, epsrel=1e-11)[0]
     assert mean_gap(at)[0] == pytest.approx(exact, rel=1e-9)
+
+
+def test_the_integrals_go_on_as_powers_of_the_depth():
+    for n in (2.0, 2.5):
+        found = gaussian_integral(n, np.array([-40.0, -1e4]))
+        assert found == pytest.approx([40.0**n, 1e4**n], rel=4e-3)
 
 
 def test_the_pressure_of_asperities_has_its_published_form():
@@ -320,3 +328,33 @@ def test_a_mixed_film_stays_as_it_is_and_follows_the_load():
     heated |= {"asperities": tables["asperities"], "transient": {"duration": 1e-4}}
     with pytest.raises(InputError, match="heated transient run"):
         case_from_tables(heated)
+
+
+def test_dry_asperities_follow_the_film_that_they_move():
+    problem = rough(100.0, 8.0, 0.5, steep=0.03, dense=0.15)
+    laws, reach = asperity_table(ScaledProblem.of(problem)), 1.5
+    rng = np.random.default_rng(4)
+    separation = laws.sigma * rng.uniform(-4.0, 6.0, (20, 30))
+    before = rng.uniform(0.0, 1.5, separation.shape)
+    film = properties.Film(*(np.zeros(separation.shape) for _ in range(7)))._replace(
+        asperity=before.copy(),
+        **{
+            name: np.zeros(separation.shape)
+            for name in ("stiffness", "opening", "channel", "widening", "across")
+        },
+    )
+    frozen = np.zeros(separation.shape, np.uint8)
+    properties.touch(film, separation, laws.table, laws.grid, frozen, reach)
+    scales, sigma = ScaledProblem.of(problem).scales, problem.asperity_rms
+
+    def left(more: float, height: float, q: float) -> float:
+        gap = np.array([(height + reach * more) * scales.film_thickness / sigma])
+        law = problem.asperities.pressure(gap, sigma, problem.reduced_modulus)
+        return law[0] / scales.hertz_pressure - q - more
+
+    exact = [
+        brentq(left, -q - 1.0, 1e3, args=(height, q))
+        for height, q in zip(separation.ravel(), before.ravel(), strict=True)
+    ]
+    assert film.asperity.ravel() - before.ravel() == pytest.approx(exact, rel=0.02, abs=1e-3)
+    assert film.p.max() == 0.0

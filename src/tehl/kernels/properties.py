@@ -14,6 +14,9 @@ from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.raw import raw
 from tehl.typing import Array, FlagArray
 
+FOLLOWING, FOLLOWED = 20, 0.01
+"""Most steps of Newton's method for the pressure of asperities, and the last over their sum."""
+
 
 class Film(NamedTuple):
     """Pressure, film and the frozen flow properties on one grid, each (ny, nx).
@@ -161,8 +164,9 @@ def touch(
             more = pressure - film.asperity[j, i]
             if reach >= 0.0 and film.p[j, i] != 0.0 and frozen[j, i] == 0:
                 film.p[j, i] -= more
-            elif reach > 0.0:  # a smooth change moves the film too
-                more /= 1.0 - reach * fall
+            elif reach > 0.0:
+                q = film.asperity[j, i]
+                more = _followed(table, (x, reach * per_step), q, (more, reach * fall))
             film.asperity[j, i] += more
             film.stiffness[j, i] = -fall
             film.h[j, i] = gap
@@ -170,6 +174,42 @@ def touch(
             film.channel[j, i] = channel
             film.widening[j, i] = widening / channel
             film.across[j, i] = across
+
+
+@helper
+def _followed(
+    table: Array, place: tuple[float, float], q: float, law: tuple[float, float]
+) -> float:
+    """Return the change m of an asperity pressure q with  q + m = P_a(H + reach m).
+
+    A smooth change moves the film too, by ``reach`` times that change. As P_a falls with H, there
+    is one m; linearised, it may be many times too large.
+
+    Parameters
+    ----------
+    table : array (n, 8)
+        As for `touch`.
+    place : (float, float)
+        H and reach, in rows of the table.
+    q : float
+        Present pressure.
+    law : (float, float)
+        P_a(H) - q, and reach times the slope of P_a at H.
+    """
+    (x, reach), (left, slope), last = place, law, table.shape[0] - 2
+    more = 0.0
+    for _ in range(FOLLOWING):
+        step = left / (1.0 - slope)
+        if abs(step) <= FOLLOWED * abs(more):
+            break
+        more += step
+        at = x + reach * more
+        pressure, rise = 0.0, 0.0
+        if at < last:
+            k = int(max(at, 0.0))
+            pressure, rise = _hermite(table, k, at - k, 0)
+        slope, left = reach * rise, pressure - q - more
+    return more
 
 
 @helper
