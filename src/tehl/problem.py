@@ -225,12 +225,6 @@ def check_asperities(problem: PointContact) -> None:
         )
     if isinstance(law, GreenwoodTripp) and (fault := law.fault(problem.asperity_rms)):
         raise ValueError(f"asperities: {fault}; check the units")
-    if problem.conserves_oil:
-        raise ValueError(
-            "asperities and scarce oil together are not computed: where a film begins between "
-            "asperities the cycles do not converge; leave out [asperities], or [supply] and "
-            "[cavitation]"
-        )
     if problem.transient is not None and problem.thermal is not None:
         raise ValueError(
             "asperities rub in a heated transient run, which is not computed: leave out [thermal], "

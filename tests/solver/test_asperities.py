@@ -23,7 +23,7 @@ from tehl.scaling import ScaledProblem
 from tehl.solver import solve, solve_transient
 from tehl.solver.monitor import SILENT
 from tehl.solver.steady import try_strategies
-from tests.reference import heated_contact, moes_contact
+from tests.reference import CLOSE, heated_contact, moes_contact
 from tests.reference import touching_contact as rough
 
 # ---- laws
@@ -253,10 +253,48 @@ def test_explain_says_which_part_asperities_will_carry(mixed):
     assert expected.shared.share == pytest.approx(mixed.load_sharing.share, rel=0.5)
 
 
-def test_asperities_and_scarce_oil_together_are_refused():
-    tables = rough(100.0, 8.0, 0.5).model_dump(exclude_none=True) | {"supply": {"ratio": 0.4}}
-    with pytest.raises(InputError, match="scarce oil together"):
-        case_from_tables(tables)
+# ---- scarce oil
+
+
+def starved(problem: ContactProblem, ratio: float) -> ContactProblem:
+    """Return the contact with less oil than it needs."""
+    tables = problem.model_dump(exclude_none=True) | {"supply": {"ratio": ratio}}
+    return case_from_tables(tables)[0]
+
+
+def test_less_oil_leaves_more_load_to_the_asperities():
+    problem = rough(50.0, 8.0, 0.7)
+    runs = [solve(starved(problem, ratio), Options(points=129)) for ratio in (0.2, 0.6, 1.5, 5.0)]
+    found = [run.load_sharing.share for run in runs]
+    assert found == sorted(found, reverse=True)
+    assert found[0] > 3.0 * found[-1]
+    flooded = solve(problem, Options(points=129)).load_sharing
+    assert flooded.share == pytest.approx(found[-1], rel=0.05)
+    assert flooded.share < found[-1]
+
+
+def test_a_starved_film_between_asperities_conserves_oil():
+    problem = starved(rough(50.0, 8.0, 0.7), 0.5)
+    options = Options(points=65, accuracy="tight", tolerance=1e-10, max_cycles=60)
+    attempt, result = try_strategies(problem, options, monitor=SILENT, rough=False)
+    assert result.status.converged
+    _, passed = attempt.run.finest.oil_flow()
+    passed[0] *= 0.5  # the symmetry line
+    through = passed[:, :-1].sum(axis=0)
+    assert through == pytest.approx(np.full_like(through, through[0]), rel=1e-9)
+    film, asperity = attempt.run.finest.film.p, attempt.run.finest.film.asperity
+    assert asperity[film == 0.0].max() > 1e-3  # some of them touch in the cavities
+
+
+def test_far_asperities_leave_a_starved_film_as_it_is():
+    smooth, far = moes_contact(50.0, 8.0), rough(50.0, 8.0, 100.0)
+    options = Options(points=65, domain=CLOSE, accuracy="tight", tolerance=1e-7)
+    layer = {"supply": {"layer": 0.4 * solve(smooth, options).film.central}}
+    films = []
+    for case in (smooth, far):
+        tables = case.model_dump(exclude_none=True) | layer
+        films.append(solve(case_from_tables(tables)[0], options).film.central)
+    assert films[1] == pytest.approx(films[0], rel=1e-6)
 
 
 # ---- heat

@@ -163,7 +163,7 @@ def touch(
                 fall, opening, widening = fall * per_step, opening * per_step, widening * per_step
             more = pressure - film.asperity[j, i]
             if reach >= 0.0 and film.p[j, i] != 0.0 and frozen[j, i] == 0:
-                film.p[j, i] -= more
+                film.p[j, i] = max(film.p[j, i] - more, 0.0)
             elif reach > 0.0:
                 q = film.asperity[j, i]
                 more = _followed(table, (x, reach * per_step), q, (more, reach * fall))

@@ -35,6 +35,11 @@ class AsperityTable:
         """Standard deviation of the heights [-]."""
         return float(self.grid[1]) / STEP
 
+    def separation(self, gap: float) -> float:
+        """Return the separation of the mean planes at a mean gap [-]."""
+        separations = self.grid[0] + self.grid[1] * np.arange(len(self.table))
+        return float(np.interp(gap, self.table[:, 2], separations, right=gap))
+
 
 def asperity_table(scaled: ScaledProblem) -> AsperityTable | None:
     """Tabulate the laws of the asperities; None for a contact without."""

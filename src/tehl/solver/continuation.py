@@ -68,7 +68,7 @@ class Roughness:
         self.levels, self.settings, self.heights = levels, settings, heights
         self.first = self.first_comparable = len(levels)
         # level, pressure and rigid approach of the smooth film before the heights were raised
-        self.smooth: tuple[int, Array, float] | None = None
+        self.smooth: tuple[int, Array, float, Array] | None = None
         self.points, self.amplitude = np.inf, 0.0
         if heights is not None:
             fields = heights.on([level.grid for level in levels])
@@ -128,10 +128,11 @@ class Roughness:
         if self.smooth is None:
             self.levels[number].start_from_hertz(expected_film)
             return False
-        known, pressure, approach = self.smooth
+        known, pressure, approach, asperity = self.smooth
         for level in self.levels[known + 1 : number + 1]:
             pressure = refine(pressure, level.grid)
-        self.levels[number].set_state(pressure, approach)
+            asperity = refine(asperity, level.grid) if asperity.size else asperity
+        self.levels[number].set_state(pressure, approach, asperity)
         return True
 
 

@@ -26,10 +26,8 @@ from tehl.solver.ladder import Strategy
 from tehl.solver.level import Level
 from tehl.solver.monitor import SILENT, Monitor
 
-FIRST_STEPS, TOUCHING_STEPS, STIFFENED, SOFT = 6, 20, 15, 1e-3
-"""Newton steps on the coarsest grid at the start; that they may not converge does no harm. With
-asperities: how many, and over how many they become as stiff as they are, from `SOFT` times as
-stiff: they then carry little where the first separation puts them."""
+FIRST_STEPS = 6
+"""Newton steps on the coarsest grid at the start; that they may not converge does no harm."""
 TOO_COARSE = 0.5
 """Error bar of the film beyond which the grid may be why the cycles do not converge."""
 LEAST_GRIDS = 2
@@ -192,11 +190,8 @@ class FilmSolver(GridIteration):
         """Solve on the coarsest grid by Newton's method, from the Hertz pressure."""
         coarsest = self.levels[0]
         coarsest.start_from_hertz(self.hierarchy.expected_film)
-        touches = coarsest.equations.asperities is not None
-        for number in range(TOUCHING_STEPS if touches else FIRST_STEPS):
-            coarsest.softness = SOFT ** max(1.0 - number / STIFFENED, 0.0) if touches else 1.0
+        for _ in range(FIRST_STEPS):
             self.hierarchy.coarsest.step()
-        coarsest.softness = 1.0
         coarsest.update()
         self.traces.append(GridTrace())
         self.traces[0].note(*coarsest.nodal_film())

@@ -35,8 +35,6 @@ discrete solution, and more visits do harm (M = 200 and more on wide domains).""
 MOST_CARRIED, MOST_HALVINGS = 1.5, 8
 """Pressure of the asperities beyond which a Newton step is halved, over that of Hertz, which they
 exceed by little even when dry; and most times."""
-STEPS = 3
-"""Newton steps where asperities carry part of the load, so that little is left to the oil."""
 LONGEST_STEP = 0.3
 """Largest change of pressure in a Newton step on the coarsest grid, in Hertz pressures."""
 
@@ -56,11 +54,7 @@ class CoarsestSolver:
         self.influence = dense_matrix(grid.shape, grid.mirror, equations.influence)
 
     def step(self) -> None:
-        """Perform a Newton step of limited length in place, `STEPS` with asperities."""
-        for _ in range(1 if self.level.equations.asperities is None else STEPS):
-            self._step()
-
-    def _step(self) -> None:
+        """Perform a Newton step of limited length in place."""
         level = self.level
         level.update()
         # unlike evaluate_residual, not zero at cavitated nodes: the Newton step may wet them

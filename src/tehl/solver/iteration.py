@@ -134,9 +134,10 @@ class GridIteration:
                 return
             if anderson is not None and before is not None:
                 combined = anderson.combine(before, fine.unknowns())
-                # a combination of states must not wet the nodes that the last cycle cavitated
-                wet = np.append(fine.film.p.ravel() > 0.0, True)
-                fine.set_unknowns(np.where(wet, combined, 0.0))
+                if fine.equations.asperities is None:
+                    # a combination must not wet the nodes that the last cycle cavitated
+                    combined[:-1][fine.film.p.ravel() <= 0.0] = 0.0
+                fine.set_unknowns(combined)
 
     def _measure(self, levels: Sequence[Level]) -> None:
         """Record further values of the last of ``levels``."""
@@ -216,7 +217,7 @@ class GridIteration:
         fine.apply_heights(0.0)
         for _ in range(SMOOTH_CYCLES):
             iterate(cycle)
-        self.roughness.smooth = (len(levels) - 1, fine.pressure.copy(), fine.rigid_approach)
+        self.roughness.smooth = (len(levels) - 1, *fine.state())
         if newton is None:
             ramp = self.strategy.continuation.ramp
             for part in range(1, ramp):

@@ -39,6 +39,8 @@ empty over the number of lines from which the meniscus rests. Least CPU time of 
 REACH = 1.5
 """Film of a smooth change of the pressure in the contact, over that change [-]: 4/pi in the middle
 of a uniform one over the Hertz circle, and somewhat more, as too little only takes longer."""
+DRY_STEPS, DRY_PART = 20, 0.5
+"""Steps to a dry contact, and change of the rigid approach over the missing part of the load."""
 APPROACH_WEIGHT = 10.0
 """Weight of the rigid approach among the pressures in the vector of unknowns."""
 
@@ -68,7 +70,6 @@ class Level:
                 asperity=q, stiffness=s, opening=opening, channel=channel, widening=widening
             )
             self.film = self.film._replace(across=np.ones(shape), eps_y=np.zeros(shape))
-        self.softness = 1.0  # factor on the pressure of the asperities, at the start of a solve
         self.keeps_orders = False  # the nodes of second order stay as they are
         self.rigid_approach = 0.0
         self.sources = Sources(f, g, equations.target)
@@ -98,12 +99,39 @@ class Level:
 
     # state
 
-    def set_state(self, pressure: Array, rigid_approach: float) -> None:
-        """Set pressure, ``grid.shape``, and rigid approach; the film is stale."""
+    def set_state(
+        self, pressure: Array, rigid_approach: float, asperity: Array | float = 0.0
+    ) -> None:
+        """Set the pressures of oil and asperities, and the rigid approach; the film is stale.
+
+        Parameters
+        ----------
+        pressure : array of ``grid.shape``
+            Of the oil; it is cavitated where this is zero.
+        rigid_approach : float
+            H00 [-].
+        asperity : array of ``grid.shape``
+            Of the asperities: where oil and they share a pressure, its parts follow with the film.
+        """
         self.film.p[:] = pressure
-        self.film.asperity[:] = 0.0  # their part follows with the film
+        self.film.asperity[:] = asperity
         self.rigid_approach = rigid_approach
         self._is_stale = True
+
+    def set_pressure(self, pressure: Array) -> None:
+        """Set the pressure of oil and asperities together; the film is stale.
+
+        With asperities the oil stays cavitated where it is.
+        """
+        if self.equations.asperities is None:
+            self.set_state(pressure, self.rigid_approach)
+        else:
+            oil = np.where(self.film.p == 0.0, 0.0, pressure - self.film.asperity)
+            self.set_state(oil, self.rigid_approach, pressure - oil)
+
+    def state(self) -> tuple[Array, float, Array]:
+        """Return a copy of what `set_state` sets."""
+        return self.film.p.copy(), self.rigid_approach, self.film.asperity.copy()
 
     def move(self, change: float) -> None:
         """Change the rigid approach."""
@@ -122,8 +150,8 @@ class Level:
 
     def set_unknowns(self, vector: Array) -> None:
         """Set pressure and rigid approach from a vector; negative pressures are clipped."""
-        pressure = np.maximum(vector[:-1].reshape(self.grid.shape), 0.0)
-        self.set_state(pressure, float(vector[-1]) / APPROACH_WEIGHT)
+        self.set_pressure(np.maximum(vector[:-1].reshape(self.grid.shape), 0.0))
+        self.rigid_approach = float(vector[-1]) / APPROACH_WEIGHT
 
     def update(self) -> None:
         """Evaluate film H = H00 + K P + g, conductance and density if they are stale."""
@@ -147,10 +175,7 @@ class Level:
         """Evaluate the asperities at the present separation; see `properties.touch`."""
         laws, frozen = self.equations.asperities, self.smoother.frozen
         if laws is not None:
-            table = laws.table
-            if self.softness < 1.0:
-                table = table * np.array([self.softness, self.softness, *np.ones(6)])
-            properties.touch(self.film, self.separation, table, laws.grid, frozen, reach)
+            properties.touch(self.film, self.separation, laws.table, laws.grid, frozen, reach)
 
     def _mark_cavities(self) -> None:
         """Mark partly filled nodes, and those that pass on oil with second order."""
@@ -282,26 +307,53 @@ class Level:
             self.sources.reynolds -= self.sources.history
 
     def start_from_hertz(self, expected_film: float) -> None:
-        """Start from the Hertz pressure, with the rigid approach of the expected central film."""
+        """Start from the Hertz pressure, with the rigid approach of the expected central film.
+
+        With asperities, from the pressure of the dry contact, at the separation of that film.
+        """
         self.pose_problem()
         self.set_state(hertz_pressure(self.grid), 0.0)
-        self.update()
-        approach = expected_film - central_value(self.grid, self.separation)
-        self.set_state(self.film.p, approach)
+        laws, middle = self.equations.asperities, expected_film
+        if laws is None:
+            self.update()
+        else:
+            self._press_dry()
+            self.set_state(self.film.asperity, self.rigid_approach)  # of oil, shared in the update
+            middle = laws.separation(expected_film)
+        self.move(middle - central_value(self.grid, self.separation))
+
+    def _press_dry(self) -> None:
+        """Let dry asperities carry the load, from the present pressure on.
+
+        Where oil is cavitated they follow their law; the rigid approach follows the load, which
+        grows as its power 3/2 (Hertz).
+        """
+        pressure, h = self.film.p.copy(), self.separation
+        self.equations.deformation.deflect(pressure, h)
+        self.set_state(np.zeros_like(pressure), -central_value(self.grid, h), pressure)
+        for _ in range(DRY_STEPS):
+            missing = min(max(self.missing_load() / self.sources.load, -1.0), 1.0)
+            self.move(-DRY_PART * missing)
+            self.update()
 
     def interpolate_from(self, coarse: "Level") -> None:
         """Start from the solution of the next coarser grid, by cubic interpolation."""
-        self.set_state(refine(coarse.pressure, self.grid), coarse.rigid_approach)
+        oil, asperity = refine(coarse.film.p, self.grid), coarse.film.asperity
+        asperity = refine(asperity, self.grid) if asperity.size else asperity
+        self.set_state(oil, coarse.rigid_approach, asperity)
 
     def warm_start(self, guess: Result | None) -> None:
         """Start from the film of a similar contact if its residual is much smaller."""
         if guess is None:
             return
         self.pose_problem()
-        pressure, approach, before = self.pressure.copy(), self.rigid_approach, self._distance()
-        self.set_state(pressure_on(self.grid, guess), guess.rigid_approach)
+        here, before = self.state(), self._distance()
+        self.set_state(values_on(self.grid, guess, guess.scaled.pressure), guess.rigid_approach)
+        if guess.asperities is not None:
+            pressure = guess.asperities.pressure / guess.scales.hertz_pressure
+            self.film.asperity[:] = values_on(self.grid, guess, pressure)
         if not self._distance() < NEARER * before:
-            self.set_state(pressure, approach)
+            self.set_state(*here)
 
     def _distance(self) -> float:
         """Return residual plus load error of the present state [-]."""
@@ -443,9 +495,9 @@ class Level:
         self._is_stale = True
 
 
-def pressure_on(grid: Grid, guess: Result) -> Array:
-    """Return the pressure of a result on ``grid``, bilinear between its nodes [-]."""
-    x, y, pressure = guess.scaled.x, guess.scaled.y, guess.scaled.pressure
+def values_on(grid: Grid, guess: Result, pressure: Array) -> Array:
+    """Return a pressure of a result on ``grid``, bilinear between its nodes [-]."""
+    x, y = guess.scaled.x, guess.scaled.y
     if not np.array_equal(grid.x, x):
         pressure = np.array([np.interp(grid.x, x, row, left=0.0, right=0.0) for row in pressure])
     if not np.array_equal(grid.y, y):

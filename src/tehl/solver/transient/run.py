@@ -182,7 +182,8 @@ class Run:
             setting=self.stepper.setting,
             rigid_approach=self.level.rigid_approach,
             fields={
-                "pressure": self.level.pressure,
+                "pressure": self.level.film.p,
+                "asperity": self.level.film.asperity,
                 "mass": self.stepper.now,
                 "mass_before": self.stepper.before,
                 "pressure_changes": self.stepper.predictor.past,
@@ -203,7 +204,8 @@ class Run:
         self.stepper.now, self.stepper.before = fields.pop("mass"), fields.pop("mass_before")
         self.stepper.predictor.past = fields.pop("pressure_changes")
         self.stepper.squeeze.past = fields.pop("excess")
-        level.set_state(fields.pop("pressure"), snapshot.rigid_approach)
+        oil, asperity = fields.pop("pressure"), fields.pop("asperity")
+        level.set_state(oil, snapshot.rigid_approach, asperity)
         self.stepper.choose(snapshot.setting)
         self.stepper.solver.coupling.unpack(self.stepper.solver.levels, fields)
         self.record, self.clock.before = snapshot.record, snapshot.cost

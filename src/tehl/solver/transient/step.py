@@ -90,7 +90,7 @@ class Stepper:
         attempt.
         """
         level, history = self.solver.finest, self._history()
-        start = level.pressure.copy(), level.rigid_approach
+        start = level.state()
         first = self.setting
         for number in range(first, len(self.settings)):
             self.choose(number)
@@ -99,7 +99,7 @@ class Stepper:
                 level.update()
                 self.solver.coupling.revert(self.solver.levels)
             else:
-                level.set_state(self.predictor.onward(), level.rigid_approach)
+                level.set_pressure(self.predictor.onward())
             level.pose_step(history + self.squeeze.onward(), heights, load)
             try:
                 end = self._solve(self.settings[number].name)
