@@ -46,6 +46,8 @@ class History:
     """Largest pressure [Pa]."""
     traction: Array
     """Mid-film traction coefficient, over the load at that time [-]."""
+    asperity_load: Array
+    """Load on asperities finer than the grid, over the load at that time [-]; zero without."""
     rigid_approach: Array
     """H00 [-]."""
     temperature_rise: Array

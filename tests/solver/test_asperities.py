@@ -8,6 +8,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from tehl.asperities import channel, gaussian_integral, mean_gap
+from tehl.cli.text import as_text
 from tehl.errors import InputError
 from tehl.film_formulas import expected_film
 from tehl.io.case import case_from_tables
@@ -21,6 +22,7 @@ from tehl.plots import asperity_map
 from tehl.problem import ContactProblem
 from tehl.scaling import ScaledProblem
 from tehl.solver import solve, solve_transient
+from tehl.solver.certify import certify
 from tehl.solver.monitor import SILENT
 from tehl.solver.steady import try_strategies
 from tests.reference import CLOSE, heated_contact, moes_contact
@@ -247,6 +249,14 @@ def test_shared_loads_are_stored_summed_up_and_drawn(mixed, tmp_path):
     assert mixed.load_sharing.share == pytest.approx(0.1, abs=0.02)
 
 
+def test_a_certified_share_has_a_bar_that_holds():
+    problem = rough(50.0, 8.0, 0.5)
+    found = certify(problem, Options(points=129)).uncertainty["load_share"]
+    finer = solve(problem, Options(points=513)).load_sharing.share
+    assert found.value == pytest.approx(finer, abs=found.uncertainty)
+    assert 0.0 < found.uncertainty < 0.1 * found.value
+
+
 def test_explain_says_which_part_asperities_will_carry(mixed):
     expected = mixed.problem.explain()
     assert "asperities" in repr(expected)
@@ -359,9 +369,15 @@ def test_a_mixed_film_stays_as_it_is_and_follows_the_load():
         problem = case_from_tables(tables | {"transient": transient})[0]
         run = solve_transient(problem, Options(points=97))
         assert run.status.converged
-        found.append(run.history.film_minimum)
-    assert np.ptp(found[0]) < 1e-6 * found[0][0]
-    assert found[1].min() < 0.99 * found[0][0]
+        assert run.history.asperity_load[0] == pytest.approx(run.start.load_sharing.share, rel=0.01)
+        found.append(run.history)
+    steady, pressed = found
+    assert np.ptp(steady.film_minimum) < 1e-6 * steady.film_minimum[0]
+    assert np.ptp(steady.asperity_load) < 1e-4 * steady.asperity_load[0]
+    assert pressed.film_minimum.min() < 0.99 * steady.film_minimum[0]
+    assert 1.3 * pressed.asperity_load[-1] > 1.1 * steady.asperity_load[0]
+    assert run.summary()["asperity_load"]["value"] == pytest.approx(pressed.asperity_load.max())
+    assert "asperities       carry" in as_text(run)
     heated = heated_contact(0.5).model_dump(exclude_none=True)
     heated |= {"asperities": tables["asperities"], "transient": {"duration": 1e-4}}
     with pytest.raises(InputError, match="heated transient run"):

@@ -15,6 +15,7 @@ _UNITS = {
     "pressure_max": (1e-9, "GPa"),
     "film_rise_max": (1.0, "K"),
     "traction_mid_film": (1.0, "at mid-film"),
+    "load_share": (1.0, "of the load"),
     "traction_extreme": (1.0, "at the extreme"),
 }
 """Factor from SI and unit of certified values; the others are films."""

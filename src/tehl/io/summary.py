@@ -85,6 +85,7 @@ _STEADY: dict[str, tuple[Path, ...]] = {
     "film_rise_max": (("temperature", "film_rise_max_k"),),
     "mid_film_rise_central": (("temperature", "mid_film_rise_central_k"),),
     "traction_mid_film": (("traction", "mid_film"),),
+    "load_share": (("load_sharing", "share"),),
 }
 _TRANSIENT: dict[str, tuple[Path, ...]] = {
     "film_minimum": (("film", "h_min_m", "value"),),
@@ -323,6 +324,9 @@ def _transient(run: TransientResult) -> Block:
         "pressure": {"p_max_pa": _extreme(history.pressure_max, times, np.argmax)},
         "temperature": None if run.start.heat is None else {"film_rise_max_k": rise},
         "traction": _range(history.traction),
+        "asperity_load": None
+        if run.start.asperities is None
+        else _extreme(history.asperity_load, times, np.argmax),
         "load_factor": _range(history.load),
         "cycles": {"per_step": cycles.mean(), "most": cycles.max(), "total": cycles.sum()},
         "cost": asdict(run.cost),

@@ -52,6 +52,8 @@ def history(run: TransientResult, *, title: bool | None = True) -> Figure:
     ]
     if numbers.temperature_rise.max() > 0:
         curves.append(("largest rise [K]", numbers.temperature_rise, "#8a1c7c"))
+    if numbers.asperity_load.max() > 0:
+        curves.append(("asperities [of the load]", numbers.asperity_load, "#b8560f"))
     if np.ptp(numbers.load) > 0:
         curves.append(("load [N]", numbers.load * run.start.problem.load, "0.2"))
     picture = figure(run, (7.0, 1.8 + 1.6 * (1 + len(curves))), title=title)

@@ -231,7 +231,7 @@ def _with_bars(finest: Result, first: Result | None, middle: Result, wide: Resul
 
 
 def _quantities(result: Result) -> dict[str, float]:
-    """Return the values that get error bars: film, pressure, temperature, traction if it slides."""
+    """Return the values that get error bars: of film, pressure, heat, traction and load share."""
     found = {
         "film_central": result.film_scaled.central,
         "film_minimum": result.film_scaled.minimum,
@@ -242,6 +242,8 @@ def _quantities(result: Result) -> dict[str, float]:
     coupled = result.problem.is_coupled and result.problem.slide_roll_ratio != 0.0
     if coupled and (traction := result.traction) is not None:
         found["traction_mid_film"] = traction.mid_film
+    if (shared := result.load_sharing) is not None:
+        found["load_share"] = shared.share
     return found
 
 

@@ -144,6 +144,11 @@ class Level:
         film = self.film
         return film.p if self.equations.asperities is None else film.p + film.asperity
 
+    def asperity_load(self) -> float:
+        """Return the load on asperities over the load of the contact, zero without [-]."""
+        asperity = self.film.asperity
+        return self.equations.load.integral(asperity) / self.sources.load if asperity.size else 0.0
+
     def unknowns(self) -> Array:
         """Return pressure and weighted rigid approach as one vector, (n + 1,)."""
         return np.append(self.pressure.ravel(), APPROACH_WEIGHT * self.rigid_approach)

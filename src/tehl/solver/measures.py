@@ -40,7 +40,7 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
         **_spike(level),
     }
     if level.equations.asperities is not None:
-        found["load_share"] = float(level.film.asperity.sum() / level.pressure.sum())
+        found["load_share"] = level.asperity_load()
     if level.heights is not None:
         ripple_film, ripple_pressure = ripples(level.grid.x, level.grid.y, level.film.h, pressure)
         found |= {"ripple_film": ripple_film, "ripple_pressure": ripple_pressure}

@@ -73,6 +73,7 @@ class Record:
             "film_central": film.central,
             "film_minimum": film.minimum,
             "pressure_max": float(level.film.p.max()),
+            "asperity_load": level.asperity_load(),
             "rigid_approach": level.rigid_approach,
         }
         self.rows.append(tuple(float(row[name]) for name in COLUMNS))
