@@ -65,6 +65,7 @@ SMOOTH = (
     Strategy(relaxation=ROBUST),
     Strategy(relaxation=STEEP),
 )
+TOUCHING = (*SMOOTH, Strategy(relaxation=GENTLE, patience=3))
 COUPLED = (
     Strategy(relaxation=BROAD),
     Strategy(relaxation=ROBUST, patience=3),
@@ -113,5 +114,5 @@ def ladder(problem: ContactProblem, options: Options, *, rough: bool) -> tuple[S
         # and their Jacobian does not know partly filled cavities
         return cycles if problem.is_coupled or problem.conserves_oil else BETWEEN_ROUGH
     if not problem.is_coupled:
-        return SMOOTH
+        return SMOOTH if problem.asperities is None else TOUCHING
     return COUPLED if problem.slide_roll_ratio else COUPLED[:-1]
