@@ -122,6 +122,11 @@ class GreenwoodTripp(_Touching):
         part = math.pi**2 * self.load_factor(sigma) ** 2 * gaussian_integral(2.0, gap)
         return np.minimum(part, 1.0)
 
+    def spots(self, gap: "Array", sigma: float) -> "Array":
+        """Return the spots of contact per area [1/m^2], 4 pi eta^2 beta sigma F_1."""
+        pairs = self.summit_density * self.load_factor(sigma)
+        return 4.0 * math.pi * pairs * gaussian_integral(1.0, gap)
+
 
 class SurfacePatch(_Touching):
     """Asperities of a measured patch: it is pressed flat, and oil flows through what is left."""

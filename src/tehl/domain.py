@@ -32,6 +32,8 @@ OUTLET = 5.0 / 11.0
 APART, AROUND = 4.5, 1.3
 """Separation over sigma from which asperities carry less than 1e-4 of what they do in touch, and
 margin on the gap at the edges."""
+LEAST_RATIO = 0.3
+"""Film over sigma below which asperities make bars no smaller."""
 FAMILIES = tuple(2**k * n + 1 for k in range(2, 9) for n in (16, 20, 24, 28))
 """Nodes from which `expected_points` chooses; at least three grids."""
 BAR, BAR_COUPLED, MARGIN = 0.24, 1.16, 1.25
@@ -202,10 +204,18 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
 
 
 def film_to_resolve(scaled: ScaledProblem) -> float | None:
-    """Return the central film of a starved contact or between asperities; None of others [-]."""
-    if scaled.problem.asperities is not None:
-        return max(shared_load(scaled).gap, expected_central_film(scaled.entering))
-    return supplied_film(scaled) if is_starved(scaled) else None
+    """Return the film that `expected_bar` takes for another than a smooth flooded one [-].
+
+    None for smooth flooded contacts. Asperities hold the surfaces apart, leave less load to the
+    film and limit its slopes: a fit to 80 random contacts (lambda 0.05 to 3), with bars 0.7 to 3
+    times too large for eight of ten.
+    """
+    if scaled.problem.asperities is None:
+        return supplied_film(scaled) if is_starved(scaled) else None
+    film, shared = expected_central_film(scaled.entering), shared_load(scaled)
+    ratio = film * scaled.scales.film_thickness / scaled.problem.asperity_rms
+    left = (1.0 - shared.share) ** 1.23 * min(max(ratio, LEAST_RATIO), 1.0) ** 1.7
+    return film * max(shared.gap / film, 1.0) ** 2 / left
 
 
 def domain_of(scaled: ScaledProblem, options: Options) -> Domain:

@@ -4,7 +4,13 @@ import numpy as np
 import pytest
 
 from tehl.kernels.properties import Factors
-from tehl.solver.convergence import LEAST_CYCLES, LEAST_RATE, GridTrace, error_estimate
+from tehl.solver.convergence import (
+    LEAST_CYCLES,
+    LEAST_RATE,
+    GridTrace,
+    error_estimate,
+    further_errors,
+)
 from tehl.solver.thermal import LARGEST_STEP, damped
 
 
@@ -58,3 +64,14 @@ def test_a_sweep_changes_the_factors_by_a_limited_step() -> None:
     assert step.rest + step.mobility == pytest.approx(np.exp(LARGEST_STEP))
     assert step.stretch_x == pytest.approx(np.exp(LARGEST_STEP))
     assert step.stretch_y == pytest.approx(np.exp(-LARGEST_STEP))
+
+
+def test_the_heat_of_a_surface_has_half_the_error_of_the_heat_that_it_is_part_of() -> None:
+    """Its own change between two grids may be small by chance."""
+    traces = [GridTrace(), GridTrace(), GridTrace()]
+    values = zip((1.00, 1.04, 1.05), (0.500, 0.499, 0.4991), strict=True)
+    for trace, (shear, surface) in zip(traces, values, strict=True):
+        trace.measured = {"heat_shear": shear, "heat_surface_1": surface}
+    bars = further_errors(traces, 1.0, 0.0)
+    assert bars["heat_shear"] == pytest.approx(1.5 * 0.01 / 1.05)
+    assert bars["heat_surface_1"] == pytest.approx(0.5 * 1.5 * 0.01 / 0.4991)

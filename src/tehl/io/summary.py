@@ -233,12 +233,13 @@ def _heat(heat: FilmHeat) -> Block:
 
 
 def _load_sharing(found: LoadSharing) -> Block:
+    names = ("number", "radius_m", "pressure_pa", "flash_rise_k")
     return _picked(
         found,
         *("share", "share_error", "friction", "friction_film", "friction_boundary"),
         *("area_m2", "area_part", "asperity_pressure_max_pa", "pressure_max_pa"),
         *("separation_central_m", "separation_ratio", "power_boundary_w"),
-    )
+    ) | {"spots": None if found.spots is None else _picked(found.spots, *names)}
 
 
 def _starvation(found: Starvation) -> Block:

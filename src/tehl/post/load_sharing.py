@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tehl.post.spots import Spots, spots
 from tehl.post.traction import cell_widths, traction
 from tehl.solution import Solution
 
@@ -33,9 +34,10 @@ class LoadSharing:
     """Friction of the asperities over the load, positive; zero in pure rolling [-]."""
     friction_film: float
     """Friction of the film at mid-film over the load, positive [-]."""
-
     power_boundary: float
     """Heat of the asperities that rub [W]."""
+    spots: Spots | None
+    """Spots on which summits touch; None of a measured patch, or where none touches."""
 
     @property
     def friction(self) -> float:
@@ -71,5 +73,6 @@ def load_sharing(result: Solution) -> LoadSharing | None:
         separation_ratio=middle / float(found.rms),
         friction_boundary=law.friction * share if result.problem.slide_roll_ratio else 0.0,
         power_boundary=law.friction * share * scales.load * abs(motion.speed_1 - motion.speed_2),
+        spots=spots(result, found),
         friction_film=0.0 if forces is None else abs(forces.mid_film),
     )

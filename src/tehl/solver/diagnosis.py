@@ -5,9 +5,10 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from tehl.domain import chosen_domain, expected_points, film_to_resolve
-from tehl.film_formulas import expected_central_film, expected_film
+from tehl.film_formulas import expected_film
 from tehl.grid import Grid
 from tehl.heat import FAR_BODY, FilmEnergy
+from tehl.mixed import shared_load
 from tehl.options import LARGEST_ERROR, USUAL_ERROR
 from tehl.problem import ContactProblem
 from tehl.scaling import ScaledProblem
@@ -213,13 +214,12 @@ def _film_below_grid(grid: Grid, scaled: ScaledProblem) -> Iterator[LikelyCause]
     """Yield the grid if it cannot resolve the expected film."""
     groups, film, here = scaled.groups, film_to_resolve(scaled), min(grid.nx, grid.ny)
     needed = expected_points(groups, grid.domain, RESOLVED, film=film)
-    film = film or expected_central_film(groups)
     if not needed > here:
         return
     yield LikelyCause(
         cause="film_below_grid",
         message=(
-            f"The expected film is H = {film:.2g}, which takes about "
+            f"The expected film is H = {shared_load(scaled).gap:.2g}, which takes about "
             f"{needed} nodes per direction for an error of {percentage(RESOLVED)}; the grid has "
             f"{here}."
         ),

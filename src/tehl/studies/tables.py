@@ -44,7 +44,7 @@ _BLOCKS = {
     "ripples_y.depth_m " + " ".join(f"waves.0.{key}" for key in _WAVE.split()),
     "load_sharing": "share share_error friction friction_film friction_boundary area_m2 area_part "
     "asperity_pressure_max_pa pressure_max_pa separation_central_m separation_ratio "
-    "power_boundary_w",
+    "power_boundary_w spots.number spots.radius_m spots.pressure_pa spots.flash_rise_k",
     "starvation": "ratio degree degree_error degree_by_law flooded_film_m meniscus_m "
     "inlet_distance_m entering_m leaving_m leaving_each_m balance",
     "convergence": "cycles residual change load_error heat_balance_error",

@@ -1,0 +1,82 @@
+"""Spots on which summits touch, and how warm they become for the moment of their contact.
+
+Where asperities of Greenwood and Tripp touch on a part A of the area, in N spots per area,
+
+    A = pi^2 (eta beta sigma)^2 F_2(h/sigma),    N = 4 pi eta^2 beta sigma F_1(h/sigma),
+
+so that a spot has a mean area A/N, and a mean pressure of p_a/A. It is taken for a circle of radius
+a with uniform heat q = mu_b p_a/A |u_1 - u_2|. On one surface that moves with u its largest rise is
+[1]_
+
+    2 q a / (k sqrt(pi (1.273 + Pe))),    Pe = u a / (2 kappa),
+
+and on both together, of which each takes the part that makes them equally warm (Blok),
+1/dT = 1/dT_1 + 1/dT_2.
+
+References
+----------
+.. [1] X. Tian and F. E. Kennedy, J. Tribology 116 (1994), 167-174.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl.asperities import GreenwoodTripp
+from tehl.fields import FilmAsperities
+from tehl.post.traction import cell_widths
+from tehl.solution import Solution
+from tehl.typing import Array
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Spots:
+    """Spots on which summits touch."""
+
+    number: float
+    """In the whole contact."""
+    radius: float
+    """Mean radius where the asperities carry most [m]."""
+    pressure: float
+    """Mean pressure on them there [Pa]."""
+    flash_rise: float | None
+    """Rise of their temperature over that of the surfaces, the largest in the contact [K]; None if
+    thermal properties of a surface are not stated."""
+
+
+def spots(result: Solution, found: FilmAsperities) -> Spots | None:
+    """Return the spots of a result with asperities; None of a measured patch, or where none is."""
+    law, sigma = result.problem.asperities, float(found.rms)
+    if not isinstance(law, GreenwoodTripp) or not found.area.max() > 0.0:
+        return None
+    density = law.spots(found.separation / sigma, sigma)
+    touching = density > 0.0
+    area = np.where(touching, found.area, 0.0) / np.where(touching, density, 1.0)
+    radius = np.sqrt(area / math.pi)
+    pressure = found.pressure / np.where(found.area > 0.0, found.area, 1.0)
+    cells = np.outer(cell_widths(result.y), cell_widths(result.x))
+    most = np.unravel_index(found.pressure.argmax(), found.pressure.shape)
+    rises = _flash_rises(result, law.friction * pressure, radius)
+    return Spots(
+        number=float((cells * density).sum()),
+        radius=float(radius[most]),
+        pressure=float(pressure[most]),
+        flash_rise=None if rises is None else float(rises.max()),
+    )
+
+
+def _flash_rises(result: Solution, stress: Array, radius: Array) -> Array | None:
+    """Return the rise at each node [K] by shear stress [Pa] and radius [m] of its spots."""
+    problem, motion = result.problem, result.problem.motion
+    sliding, cooling = abs(motion.speed_1 - motion.speed_2), np.zeros_like(radius)
+    for surface, speed in (
+        (problem.surface_1, motion.speed_1),
+        (problem.surface_2, motion.speed_2),
+    ):
+        conductivity, diffusivity = surface.material.conductivity, surface.material.diffusivity
+        if conductivity is None or diffusivity is None:
+            return None
+        peclet = abs(speed) * radius / (2.0 * diffusivity)
+        cooling += conductivity * np.sqrt(math.pi * (1.273 + peclet))
+    return 2.0 * stress * sliding * radius / cooling
