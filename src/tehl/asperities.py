@@ -80,7 +80,7 @@ class GreenwoodTripp(_Touching):
         for name, value, (least, most), usual in numbers:
             if not least <= value <= most:
                 limits = f"between {least:g} and {most:g}, usual is {usual}"
-                return f"{name} = {value:.3g} must be {limits}"
+                return f"{name} = {value:.4g} must be {limits}"
         return ""
 
     def load_factor(self, sigma: float) -> float:

@@ -1,6 +1,7 @@
 """Asperities below the mesh: laws, exact and dry limits, equations, convergence, bad input."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -18,9 +19,10 @@ from tehl.operators.asperities import asperity_table
 from tehl.operators.influence import dense_matrix
 from tehl.operators.line_source import line_rise
 from tehl.options import Options
-from tehl.plots import asperity_map
+from tehl.plots import asperity_map, pictures_of
 from tehl.problem import ContactProblem
 from tehl.scaling import ScaledProblem
+from tehl.solution import Status
 from tehl.solver import solve, solve_transient
 from tehl.solver.certify import certify
 from tehl.solver.monitor import SILENT
@@ -412,3 +414,23 @@ def test_dry_asperities_follow_the_film_that_they_move():
     ]
     assert film.asperity.ravel() - before.ravel() == pytest.approx(exact, rel=0.02, abs=1e-3)
     assert film.p.max() == 0.0
+
+
+def test_a_contact_that_runs_dry_rests_on_its_asperities():
+    tables = rough(50.0, 8.0, 0.7).model_dump(exclude_none=True)
+    problem = case_from_tables(tables | {"supply": {"layer": 1e-9}})[0]
+    found = solve(problem, Options(points=65))
+    assert found.load_sharing.share == pytest.approx(1.0, abs=2e-3)
+    assert found.pressure.max() == 0.0
+    assert "the oil fills the gap nowhere" in as_text(found)
+
+
+def test_summits_that_do_not_touch_have_no_spots():
+    found = solve(rough(50.0, 8.0, 15.0), Options(points=129)).load_sharing
+    assert (found.share, found.spots) == (0.0, None)
+
+
+def test_a_diverged_result_offers_no_map_of_asperities(mixed):
+    lost = replace(mixed, status=Status(kind="diverged", cause="diverged"))
+    assert "asperities" in pictures_of(mixed)
+    assert "asperities" not in pictures_of(lost)

@@ -123,7 +123,7 @@ def pictures_of(result: Result | TransientResult, smooth: Result | None = None) 
 def _of_oil(result: Result) -> Pictures:
     """Return the functions that draw the oil of a starved contact, by name."""
     found: Pictures = {}
-    if result.asperities is not None:
+    if result.load_sharing is not None:  # none if the run diverged
         found["asperities"] = asperity_map
     if result.starvation is not None:
         found["oil"] = oil_map

@@ -16,7 +16,7 @@ def asperity_map(result: Result, *, ax: Axes | None = None, title: bool | None =
     """
     found, shared = result.asperities, result.load_sharing
     if found is None or shared is None:
-        raise InputError("the result has no asperities to draw: the case states none")
+        raise InputError("the result has no asperities to draw: the case states none, or diverged")
     note = (
         f"asperities carry {100 * shared.share:.3g} % of the load on "
         f"{100 * shared.area_part:.2g} % of the Hertz area"

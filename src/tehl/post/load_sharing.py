@@ -9,6 +9,9 @@ from tehl.post.spots import Spots, spots
 from tehl.post.traction import cell_widths, traction
 from tehl.solution import Solution
 
+NOTHING = 1e-9
+"""Share of the load below which asperities carry nothing."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class LoadSharing:
@@ -56,6 +59,7 @@ def load_sharing(result: Solution) -> LoadSharing | None:
         return None
     cells = np.outer(cell_widths(result.y), cell_widths(result.x))
     share = float((cells * found.pressure).sum()) / scales.load
+    share = share if share > NOTHING else 0.0
     hertz = math.pi * scales.half_width_x * scales.half_width_y
     area, error = float((cells * found.area).sum()), None
     if result.errors is not None and result.errors.load_share is not None:

@@ -29,6 +29,9 @@ from tehl.post.traction import cell_widths
 from tehl.solution import Solution
 from tehl.typing import Array
 
+FEWEST = 0.5
+"""Spots in the contact below which none touches."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Spots:
@@ -56,10 +59,13 @@ def spots(result: Solution, found: FilmAsperities) -> Spots | None:
     radius = np.sqrt(area / math.pi)
     pressure = found.pressure / np.where(found.area > 0.0, found.area, 1.0)
     cells = np.outer(cell_widths(result.y), cell_widths(result.x))
+    number = float((cells * density).sum())
+    if number < FEWEST:
+        return None
     most = np.unravel_index(found.pressure.argmax(), found.pressure.shape)
     rises = _flash_rises(result, law.friction * pressure, radius)
     return Spots(
-        number=float((cells * density).sum()),
+        number=number,
         radius=float(radius[most]),
         pressure=float(pressure[most]),
         flash_rise=None if rises is None else float(rises.max()),

@@ -337,7 +337,7 @@ def _resolves_spike(traces: list[GridTrace], errors: Mapping[str, float]) -> boo
         return False
     growth = max(excess[-1] - excess[-2], 0.0)
     further = (SPIKE_GROWTH if _slows(excess) else UNRESOLVED_GROWTH) * growth
-    return known[-1]["spike"] + further <= (1.0 + errors["pressure_max"]) * largest[-1]
+    return known[-1]["spike"] + further <= (1.0 + errors.get("pressure_max", 0.0)) * largest[-1]
 
 
 def _is_hottest_inside(trace: GridTrace) -> bool:

@@ -65,7 +65,7 @@ SMOOTH = (
     Strategy(relaxation=ROBUST),
     Strategy(relaxation=STEEP),
 )
-TOUCHING = (*SMOOTH, Strategy(relaxation=GENTLE, patience=3))
+BETWEEN_ASPERITIES = Strategy(relaxation=GENTLE, patience=3)
 COUPLED = (
     Strategy(relaxation=BROAD),
     Strategy(relaxation=ROBUST, patience=3),
@@ -113,6 +113,7 @@ def ladder(problem: ContactProblem, options: Options, *, rough: bool) -> tuple[S
         cycles = tuple(one for one in BETWEEN_ROUGH if not one.newton)
         # and their Jacobian does not know partly filled cavities
         return cycles if problem.is_coupled or problem.conserves_oil else BETWEEN_ROUGH
+    last = () if problem.asperities is None else (BETWEEN_ASPERITIES,)
     if not problem.is_coupled:
-        return SMOOTH if problem.asperities is None else TOUCHING
-    return COUPLED if problem.slide_roll_ratio else COUPLED[:-1]
+        return (*SMOOTH, *last)
+    return (*(COUPLED if problem.slide_roll_ratio else COUPLED[:-1]), *last)
