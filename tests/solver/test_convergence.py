@@ -4,11 +4,13 @@ import numpy as np
 import pytest
 
 from tehl.kernels.properties import Factors
+from tehl.solution import CycleReport
 from tehl.solver.convergence import (
     LEAST_CYCLES,
     LEAST_RATE,
     GridTrace,
     error_estimate,
+    film_converged,
     further_errors,
 )
 from tehl.solver.thermal import LARGEST_STEP, damped
@@ -75,3 +77,26 @@ def test_the_heat_of_a_surface_has_half_the_error_of_the_heat_that_it_is_part_of
     bars = further_errors(traces, 1.0, 0.0)
     assert bars["heat_shear"] == pytest.approx(1.5 * 0.01 / 1.05)
     assert bars["heat_surface_1"] == pytest.approx(0.5 * 1.5 * 0.01 / 0.4991)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "cycles", "ends"), [(0.9, 2, False), (0.9, 8, True), (0.3, 2, True)]
+)
+def test_cycles_whose_residual_hardly_falls_go_on(ratio: float, cycles: int, ends: bool) -> None:
+    coarse, fine = GridTrace(), GridTrace()
+    coarse.note(0.100, 0.050)
+    fine.note(0.101, 0.051)
+    for number in range(1, cycles + 1):
+        fine.add(
+            CycleReport(
+                points=(65, 65),
+                cycle=number,
+                residual=1e-4 * ratio**number,
+                change=1e-3,
+                load_error=0.0,
+                film_central=0.101,
+                film_minimum=0.051,
+                smoother="robust",
+            )
+        )
+    assert film_converged(fine, coarse) is ends

@@ -20,6 +20,9 @@ LEAST_CYCLES = 2
 LEAST_RATE, GUESSED_RATE, LARGEST_RATE, LARGEST_ALTERNATING = 0.2, 0.3, 0.95, 0.8
 """Least convergence rate per cycle in iteration errors, its value from one change, and its largest
 value where changes have the same sign, and where they alternate."""
+SLOW, SLOW_CYCLES = 0.8, 8
+"""Ratio of residuals above which cycles are slow, and how many these are at least: the film hardly
+changes in one of them, and two grids that are as far from their solutions agree by chance."""
 SAFETY = 2.0
 """Factor on a discretisation error from three grids: the coarser ones are not fully converged."""
 ROUGH_PART = 0.7
@@ -208,7 +211,8 @@ def film_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
     if len(now.reports) < now.least_cycles:
         return False
     last = now.reports[-1]
-    if last.residual > now.reports[-2].residual:  # its changes are not errors yet
+    least = SLOW if len(now.reports) < SLOW_CYCLES else 1.0
+    if last.residual > least * now.reports[-2].residual:  # its changes are not errors yet
         return False
     if abs(last.load_error) > LARGEST_LOAD_ERROR or last.change > now.largest_change:
         return False
