@@ -34,8 +34,8 @@ def expected_seconds(scaled: ScaledProblem, options: Options) -> float:
     """Return the CPU time of a solve to expect on one core of a usual machine [s].
 
     The constants are a fit to 200 random contacts with M = 2 to 2000 and L = 0.5 to 20
-    (``python -m benchmarks.coverage``). Of others nine of ten take half to twice as long, of heated
-    ones three of four: fallbacks to other strategies and further grids take longer.
+    (``python -m benchmarks.coverage``). Of others eight to nine of ten take half to twice as
+    long, of heated ones half to three of four: fallbacks, further grids and busy cores take longer.
     """
     (coarsest, _), *finer = expected_cycles(scaled, options)
     newton, each = COARSEST * _nodes(coarsest) ** 3, _seconds_per_node(scaled.problem)
