@@ -165,20 +165,23 @@ def _find_carrying(state: Coarse, system: CoarseSystem, shape: tuple[int, int], 
 
 
 @helper
-def _touch(state: Coarse, system: CoarseSystem, work: Work) -> None:
-    """Add that the oil loses the pressure which asperities take.
+def _soften(state: Coarse, work: Work) -> None:
+    """Add that the oil loses the pressure which asperities take."""
+    for n in range(6):
+        work.by_h[n] += work.by_p[n] * state.stiffness[work.near[n]]
 
-    Where they alone change, the row is that of no change of the oil.
-    """
-    near, by_p, by_h, here = work.near, work.by_p, work.by_h, work.near[HERE]
+
+@helper
+def _touch(state: Coarse, system: CoarseSystem, work: Work) -> None:
+    """Add that asperities carry; where they alone change, the row is that of no change of oil."""
+    by_p, by_h, here = work.by_p, work.by_h, work.near[HERE]
     if work.dry[here]:
         for n in range(6):
             by_p[n] = 0.0
             by_h[n] = 0.0
         by_p[HERE] = 1.0
         system.residual[here] = 0.0
-    for n in range(6):
-        by_h[n] += by_p[n] * state.stiffness[near[n]]
+    _soften(state, work)
 
 
 @helper
@@ -190,16 +193,37 @@ def _find_neighbours(here: int, nx: int, near: IntArray) -> None:
 
 
 @helper
+def _clear_slopes(work: Work) -> None:
+    """Set the derivatives by pressure and film to zero."""
+    for n in range(6):
+        work.by_p[n] = 0.0
+        work.by_h[n] = 0.0
+
+
+@helper
+def _add_face(state: Coarse, stencil: Stencil, work: Work, n: int) -> None:
+    """Add the derivatives of the pressure flow from neighbour ``n``."""
+    near, by_p, by_h = work.near, work.by_p, work.by_h
+    here, there, along = near[HERE], near[n], n <= WEST
+    c = 0.5 * (stencil.cx if along else stencil.cy)
+    mine = c * (state.stretch_x[here] if along else state.stretch_y[here])
+    theirs = c * (state.stretch_x[there] if along else state.stretch_y[there])
+    face = mine * state.eps[here] + theirs * state.eps[there]
+    drop = state.p[there] - state.p[here]
+    by_p[HERE] += drop * mine * state.eps_p[here] - face
+    by_h[HERE] += drop * mine * state.eps_h[here]
+    by_p[n] += face + drop * theirs * state.eps_p[there]
+    by_h[n] += drop * theirs * state.eps_h[there]
+
+
+@helper
 def _slopes(state: Coarse, stencil: Stencil, work: Work) -> None:
     """Fill the derivatives of L at node ``near[0]`` by pressure and film of its neighbours."""
     near, by_p, by_h = work.near, work.by_p, work.by_h
-    p, eps, eps_p, eps_h = state.p, state.eps, state.eps_p, state.eps_h
-    for n in range(6):
-        by_p[n] = 0.0
-        by_h[n] = 0.0
+    _clear_slopes(work)
     here = near[HERE]
     for n in range(EAST, FAR):
-        there, along = near[n], n <= WEST
+        there = near[n]
         if (
             stencil.conserves == STEADILY
             and n == WEST
@@ -207,14 +231,7 @@ def _slopes(state: Coarse, stencil: Stencil, work: Work) -> None:
             and not state.partial[here]
         ):
             continue
-        c = 0.5 * (stencil.cx if along else stencil.cy)
-        mine = c * (state.stretch_x[here] if along else state.stretch_y[here])
-        theirs = c * (state.stretch_x[there] if along else state.stretch_y[there])
-        face, drop = mine * eps[here] + theirs * eps[there], p[there] - p[here]
-        by_p[HERE] += drop * mine * eps_p[here] - face
-        by_h[HERE] += drop * mine * eps_h[here]
-        by_p[n] += face + drop * theirs * eps_p[there]
-        by_h[n] += drop * theirs * eps_h[there]
+        _add_face(state, stencil, work, n)
     first, far, west = near[FAR] == near[WEST], near[FAR], near[WEST]
     w0 = stencil.w0 - stencil.w2 if first else stencil.w0
     w1 = stencil.w1 + 2.0 * stencil.w2 if first else stencil.w1
@@ -230,22 +247,37 @@ def _slopes(state: Coarse, stencil: Stencil, work: Work) -> None:
 
 
 @helper
-def _assemble_row(system: CoarseSystem, work: Work, row: int, count: int) -> None:
-    """Fill one row of the matrix from the derivatives by pressure and film at its node."""
+def _add_slopes(system: CoarseSystem, work: Work, row: int, count: int) -> None:
+    """Add the derivatives at node ``near[0]`` to a row of the matrix, of all nodes in ``full``."""
     full, near, by_p, by_h = work.full, work.near, work.by_p, work.by_h
-    for m in range(full.shape[0]):
-        full[m] = 0.0
     for n in range(6):
         for m in range(full.shape[0]):
             full[m] += by_h[n] * system.influence[near[n], m]
-    approach = 0.0
     for n in range(6):
         full[near[n]] += by_p[n]
-        approach += by_h[n]
-    for column in range(count):
-        work.matrix[row, column] = full[work.free[column]]
-    work.matrix[row, count] = approach
-    work.rhs[row] = system.residual[near[HERE]]
+        work.matrix[row, count] += by_h[n]
+
+
+@helper
+def _add_upstream(
+    state: Coarse, stencil: Stencil, system: CoarseSystem, work: Work, place: tuple[int, int, int]
+) -> None:
+    """Add the pressure flow into the partly filled cells upstream of a node to its row.
+
+    They pass on what flows in from the films beside them. Without it a step would lose that oil.
+    ``place``: row, number of free nodes, nodes per row of the grid.
+    """
+    row, count, nx = place
+    here = work.free[row] - 1
+    while here % nx > 0 and state.partial[here]:
+        _find_neighbours(here, nx, work.near)
+        _clear_slopes(work)
+        _add_face(state, stencil, work, NORTH)
+        _add_face(state, stencil, work, SOUTH)
+        if state.stiffness.shape[0] > 0:
+            _soften(state, work)
+        _add_slopes(system, work, row, count)
+        here -= 1
 
 
 @helper
@@ -258,11 +290,20 @@ def _assemble(
     """
     count, nx = sizes
     for row in range(count):
-        _find_neighbours(work.free[row], nx, work.near)
+        here = work.free[row]
+        for m in range(work.full.shape[0]):
+            work.full[m] = 0.0
+        work.matrix[row, count] = 0.0
+        _find_neighbours(here, nx, work.near)
         _slopes(state, stencil, work)
         if state.stiffness.shape[0] > 0:
             _touch(state, system, work)
-        _assemble_row(system, work, row, count)
+        _add_slopes(system, work, row, count)
+        if stencil.conserves == STEADILY and not work.dry[here]:
+            _add_upstream(state, stencil, system, work, (row, count, nx))
+        for column in range(count):
+            work.matrix[row, column] = work.full[work.free[column]]
+        work.rhs[row] = system.residual[here]
     for column in range(count):
         twice = stencil.mirror and work.free[column] >= nx
         work.matrix[count, column] = system.area * (2.0 if twice else 1.0)

@@ -176,13 +176,17 @@ class Hierarchy:
     def cycle(self, levels: Sequence[Level]) -> None:
         """Perform one multigrid cycle on ``levels``."""
         options, mesh_width = self.options, levels[0].grid.dx
+        conserves = bool(levels[0].stencil.conserves)
         shape = Cycle(
             kind=options.cycle,
             pre_sweeps=options.pre_sweeps,
             post_sweeps=options.post_sweeps,
-            twice=mesh_width > UNRESOLVED and self.expected_film > THICK,
+            # where oil is conserved the second visit would undo the first
+            twice=mesh_width > UNRESOLVED and self.expected_film > THICK and not conserves,
         )
-        cycle(levels, self.coarsest.step, shape)
+        # cheap on coarser grids; with 2 + 2 sweeps the film of M = 200, r = 0.2 goes to and fro
+        extra = int(conserves and levels[-1] is not self.finest)
+        cycle(levels, self.coarsest.step, shape, extra)
 
     def salvage(self) -> None:
         """Interpolate the finest valid state of a coarser grid to the finest grid."""
