@@ -4,11 +4,15 @@ import json
 import logging
 import os
 import shlex
+import signal
+import sys
 from collections import Counter
 from collections.abc import Mapping
-from contextlib import closing
+from contextlib import closing, suppress
 from dataclasses import asdict, dataclass
+from importlib import import_module
 from pathlib import Path
+from threading import Thread
 from typing import TYPE_CHECKING
 
 import typer
@@ -157,6 +161,8 @@ def _solved(study: Study, folder: Path, workers: int, job: StudyJob) -> Outcome:
         else:
             check_same(plan, folder)  # again, now that the folder is locked
         is_new = save_plan(plan, folder)
+        if plan.pictures:
+            Thread(target=_load_plots, daemon=True).start()
         try:
             with study_progress(quiet=job.quiet) as monitor:
                 return solve(
@@ -177,6 +183,17 @@ def _solved(study: Study, folder: Path, workers: int, job: StudyJob) -> Outcome:
             elif is_new:
                 (folder / PLAN).unlink()
             raise
+
+
+def _load_plots() -> None:
+    """Load what draws the pictures while the workers start; an error there is one of the picture.
+
+    Signals are those of the main thread.
+    """
+    if sys.platform != "win32":
+        signal.pthread_sigmask(signal.SIG_BLOCK, signal.valid_signals())
+    with suppress(ImportError):
+        import_module("tehl.plots.table_curves")
 
 
 def _check_resources(
