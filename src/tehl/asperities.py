@@ -25,7 +25,7 @@ References
 """
 
 import math
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field, model_validator
@@ -35,12 +35,16 @@ from tehl.typing import np
 from tehl.units import Height, Length, Quantity, Table
 
 if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
+
     from tehl.patch.curves import PatchCurves
     from tehl.typing import Array
 
 SummitDensity = Annotated[float, Quantity("a number per area", "1/m^2", '"1e10 1/m^2"')]
 Friction = Annotated[float, Quantity("a plain number", "-", "0.1", "non-negative")]
 
+APART, LOG_STEP = 10.0, 0.02
+"""Separation over sigma beyond which no area is in contact, and step of a spline up to there."""
 FARTHEST = 35.0
 """Gap over sigma from which no asperity touches."""
 DEEPEST = 30.0
@@ -119,7 +123,10 @@ class GreenwoodTripp(_Touching):
 
     def area(self, gap: "Array", sigma: float) -> "Array":
         """Return the part of the area in which asperities touch, at most one [-]."""
-        part = math.pi**2 * self.load_factor(sigma) ** 2 * gaussian_integral(2.0, gap)
+        part = np.zeros_like(gap)
+        near = gap < APART  # where it is above 1e-25
+        pairs = (math.pi * self.load_factor(sigma)) ** 2
+        part[near] = pairs * np.exp(_logarithm(2.0)(np.maximum(gap[near], -DEEPEST)))
         return np.minimum(part, 1.0)
 
     def spots(self, gap: "Array", sigma: float) -> "Array":
@@ -218,6 +225,15 @@ def gaussian_integral(n: float, gap: "Array") -> "Array":
     found = math.gamma(n + 1.0) / math.sqrt(2.0 * math.pi) * np.exp(-0.25 * near**2) * values
     found *= (np.maximum(-gap, DEEPEST) / DEEPEST) ** n  # beyond, as the power that it tends to
     return np.where(gap < FARTHEST, found, 0.0)
+
+
+@cache
+def _logarithm(n: float) -> "CubicSpline":
+    """Return ln F_n as a spline of the separation, to 1e-8: for maps, F_n takes too long."""
+    from scipy.interpolate import CubicSpline  # noqa: PLC0415
+
+    at = np.arange(-DEEPEST, APART + LOG_STEP, LOG_STEP)
+    return CubicSpline(at, np.log(gaussian_integral(n, at)))
 
 
 def mean_gap(gap: "Array") -> "Array":

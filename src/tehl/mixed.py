@@ -11,12 +11,15 @@ References
 """
 
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 
+from tehl.asperities import Asperities, GreenwoodTripp, gaussian_integral, mean_gap
 from tehl.film_formulas import expected_central_film
 from tehl.scaling import Groups, ScaledProblem
 from tehl.starvation import supplied_film
+from tehl.typing import Array
 
 HALVINGS = 60
 APART = 1e-9
@@ -47,8 +50,8 @@ def shared_load(scaled: ScaledProblem) -> SharedLoad:
     unit = sigma / scales.film_thickness
     flooded = expected_central_film(scaled.entering)
     separations = np.arange(LEAST, MOST, STEP)
-    gaps = asperities.mean_gap(separations)
-    carried = asperities.pressure(separations, sigma, modulus) / scales.hertz_pressure
+    gaps, loads = _summits() if isinstance(asperities, GreenwoodTripp) else _laws(asperities)
+    carried = asperities.unit(sigma, modulus) * loads / scales.hertz_pressure
 
     def rest(share: float) -> float:
         """Return the film that carries the rest: the mean gap over sigma."""
@@ -67,6 +70,19 @@ def shared_load(scaled: ScaledProblem) -> SharedLoad:
     separation = float(np.interp(-share, -carried, separations))
     gap = float(np.interp(separation, separations, gaps))
     return SharedLoad(separation=separation * unit, gap=gap * unit, share=share)
+
+
+@cache
+def _summits() -> tuple[Array, Array]:
+    """Return `_laws` of Greenwood and Tripp, the same for all summits."""
+    separations = np.arange(LEAST, MOST, STEP)
+    return mean_gap(separations), gaussian_integral(2.5, separations)
+
+
+def _laws(asperities: Asperities) -> tuple[Array, Array]:
+    """Return mean gap over sigma, and load over its unit, at all separations."""
+    separations = np.arange(LEAST, MOST, STEP)
+    return asperities.mean_gap(separations), asperities.load(separations)
 
 
 def _softer(groups: Groups, part: float) -> Groups:

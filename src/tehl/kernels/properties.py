@@ -135,9 +135,9 @@ def touch(
         cavitated, p = 0, or frozen, p stays.
     separation : array (ny, nx)
         H [-].
-    table : array (n, 8)
-        Pressure, mean gap, channel and conductance along y over that along x, over H, each with its
-        slope times the step, row by row.
+    table : array (n, 6) or (n, 8)
+        Pressure, mean gap, channel and, if that differs, conductance along y over that along x,
+        over H, each with its slope times the step, row by row.
     grid : array (2,)
         H of the first row, and step [-].
     frozen : array (ny, nx)
@@ -148,6 +148,7 @@ def touch(
     """
     film, separation, table, grid, frozen = raw((film, separation, table, grid, frozen))
     first, per_step, last = grid[0], 1.0 / grid[1], table.shape[0] - 2
+    columns = table.shape[1]
     for j in range(film.p.shape[0]):
         for i in range(film.p.shape[1]):
             x = (separation[j, i] - first) * per_step
@@ -159,7 +160,7 @@ def touch(
                 pressure, fall = _hermite(table, k, x - k, 0)
                 gap, opening = _hermite(table, k, x - k, 2)
                 channel, widening = _hermite(table, k, x - k, 4)
-                across, _ = _hermite(table, k, x - k, 6)
+                across = _hermite(table, k, x - k, 6)[0] if columns > 6 else 1.0
                 fall, opening, widening = fall * per_step, opening * per_step, widening * per_step
             more = pressure - film.asperity[j, i]
             if reach >= 0.0 and film.p[j, i] != 0.0 and frozen[j, i] == 0:
@@ -187,7 +188,7 @@ def _followed(
 
     Parameters
     ----------
-    table : array (n, 8)
+    table : array
         As for `touch`.
     place : (float, float)
         H and reach, in rows of the table.
@@ -214,15 +215,16 @@ def _followed(
 
 @helper
 def _hermite(table: Array, k: int, t: float, column: int) -> tuple[float, float]:
-    """Return value and slope times step between rows ``k`` and k + 1; linear below the first."""
+    """Return value, cubic between rows ``k`` and k + 1, and slope times step, linear there.
+
+    Below the first row the value continues linearly.
+    """
     start, rise = table[k, column], table[k, column + 1]
     if t < 0.0:
         return start + t * rise, rise
     end, fall, s = table[k + 1, column], table[k + 1, column + 1], 1.0 - t
     low, high = start + t * (rise + 2.0 * start), end + s * (2.0 * end - fall)
-    value = s * s * low + t * t * high
-    slope = 6.0 * s * t * (end - start) + s * (s - 2.0 * t) * rise + t * (t - 2.0 * s) * fall
-    return value, slope
+    return s * s * low + t * t * high, s * rise + t * fall
 
 
 @kernel

@@ -7,11 +7,12 @@ from functools import cache, lru_cache
 import numpy as np
 
 from tehl.asperities import SurfacePatch, channel, gaussian_integral, mean_gap
+from tehl.mixed import LEAST, MOST
 from tehl.scaling import ScaledProblem
 from tehl.typing import Array
 
-LEAST, MOST, STEP = -6.0, 30.0, 0.02
-"""Separations of the mean planes over sigma between which the laws are tabulated, and the step."""
+STEP = 0.02
+"""Difference of the separations at which the laws are tabulated, over sigma."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -20,9 +21,9 @@ class AsperityTable:
 
     Attributes
     ----------
-    table : (n, 8) array
-        Pressure of the asperities, mean gap, channel along x, and conductance along y over that
-        along x, each with its slope times the step [-].
+    table : (n, 6) or (n, 8) array
+        Pressure of the asperities, mean gap, channel along x and, if that differs, conductance
+        along y over that along x, each with its slope times the step [-].
     grid : (2,) array
         Least separation, and difference of two rows [-].
     """
@@ -50,14 +51,14 @@ def asperity_table(scaled: ScaledProblem) -> AsperityTable | None:
     unit = sigma / scales.film_thickness
     pressure = law.unit(sigma, problem.reduced_modulus) / scales.hertz_pressure
     laws = _of_patch(law, law.map.stamp) if isinstance(law, SurfacePatch) else _of_summits()
-    factors = np.repeat([pressure, unit, unit, 1.0], 2)
+    factors = np.repeat([pressure, unit, unit, 1.0], 2)[: laws.shape[1]]
     return AsperityTable(table=laws * factors, grid=np.array([LEAST, STEP]) * unit)
 
 
 @cache
 def _of_summits() -> Array:
     """Return the laws of Greenwood and Tripp, the same for all summits, as `_tabulated`."""
-    return _tabulated(lambda gap: gaussian_integral(2.5, gap), mean_gap, channel, np.ones_like)
+    return _tabulated(lambda gap: gaussian_integral(2.5, gap), mean_gap, channel)
 
 
 @lru_cache(maxsize=4)
@@ -68,7 +69,7 @@ def _of_patch(law: SurfacePatch, stamp: object) -> Array:
 
 
 def _tabulated(*curves: Callable[[Array], Array]) -> Array:
-    """Return load, mean gap, channel and anisotropy over gaps, each with its slope times step."""
+    """Return curves over the gap, each with its slope times the step."""
     gap, d = np.arange(LEAST, MOST + STEP, STEP), 0.1 * STEP
     columns = []
     for curve in curves:
