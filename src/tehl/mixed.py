@@ -21,7 +21,7 @@ from tehl.scaling import Groups, ScaledProblem
 from tehl.starvation import supplied_film
 from tehl.typing import Array
 
-HALVINGS = 60
+HALVINGS = 30
 APART = 1e-9
 """Pressure of the asperities, over that of Hertz, below which they are apart."""
 LEAST, MOST, STEP = -6.0, 30.0, 0.01
