@@ -225,11 +225,6 @@ def check_asperities(problem: PointContact) -> None:
         )
     if isinstance(law, GreenwoodTripp) and (fault := law.fault(problem.asperity_rms)):
         raise ValueError(f"asperities: {fault}; check the units")
-    if problem.transient is not None and problem.thermal is not None:
-        raise ValueError(
-            "asperities rub in a heated transient run, which is not computed: leave out [thermal], "
-            "[transient] or [asperities]"
-        )
 
 
 def check_radii(problem: PointContact) -> None:

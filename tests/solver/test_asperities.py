@@ -18,10 +18,11 @@ from tehl.kernels import properties, reynolds
 from tehl.operators.asperities import asperity_table
 from tehl.operators.influence import dense_matrix
 from tehl.operators.line_source import line_rise
+from tehl.operators.transient_film import Rubbing
 from tehl.options import Options
 from tehl.plots import asperity_map, pictures_of
 from tehl.problem import ContactProblem
-from tehl.scaling import ScaledProblem
+from tehl.scaling import ScaledProblem, scales
 from tehl.solution import Status
 from tehl.solver import solve, solve_transient
 from tehl.solver.certify import certify
@@ -380,10 +381,43 @@ def test_a_mixed_film_stays_as_it_is_and_follows_the_load():
     assert 1.3 * pressed.asperity_load[-1] > 1.1 * steady.asperity_load[0]
     assert run.summary()["asperity_load"]["value"] == pytest.approx(pressed.asperity_load.max())
     assert "asperities       carry" in as_text(run)
-    heated = heated_contact(0.5).model_dump(exclude_none=True)
-    heated |= {"asperities": tables["asperities"], "transient": {"duration": 1e-4}}
-    with pytest.raises(InputError, match="heated transient run"):
-        case_from_tables(heated)
+
+
+def test_asperities_that_rub_heat_a_transient_film():
+    """At constant load nothing changes; a steady flux warms as by the moving source at rest."""
+    case = heated_contact(0.5)
+    sigma, units = expected_film(ScaledProblem.of(case)) / 0.5, scales(case)
+    table = {
+        "model": "greenwood-tripp",
+        "rms": sigma,
+        "summit_radius": 100.0 * sigma,
+        "summit_density": 0.05 / (100.0 * sigma**2),
+    }
+    duration = 0.5 * units.half_width_x / units.speed
+    rises = []
+    for friction in (0.0, 0.1):
+        tables = case.model_dump(exclude_none=True) | {
+            "asperities": table | {"friction": friction},
+            "transient": {"duration": duration, "frames": 0},
+        }
+        history = solve_transient(case_from_tables(tables)[0], Options(points=65)).history
+        rise = history.temperature_rise
+        np.testing.assert_allclose(rise, rise[0], rtol=0, atol=1e-3)
+        assert np.ptp(history.asperity_load) < 1e-4 * history.asperity_load[0]
+        rises.append(rise[-1])
+    assert rises[1] > rises[0] + 0.5
+
+    x = np.linspace(-2.0, 1.0, 97)
+    flux = np.maximum(1.0 - x**2, 0.0)[:, None] * np.ones(8)
+    rubbing = Rubbing(flux, x[1] - x[0], 1.0)
+    steady = line_rise(flux, x[1] - x[0])
+    np.testing.assert_allclose(rubbing.rise(), steady, atol=2e-4 * steady.max())
+    rubbing.flux[:] = 0.0  # the surface carries what it took up away, half a width in 16 steps
+    for _ in range(16):
+        left = rubbing.rise()
+        rubbing.trail.advance()
+    assert left[x < -0.55].max() < 1e-3 * steady.max()
+    assert left[x > 0.9].min() > 0.3 * steady.max()
 
 
 def test_dry_asperities_follow_the_film_that_they_move():

@@ -120,7 +120,11 @@ class FilmState:
             return
         sliding = abs(motion.speed_1 - motion.speed_2)
         heat = law.friction * sliding * scaled.scales.hertz_pressure / self.film.flux_unit
-        self.solids.rub(heat * asperities.T, self.walls)
+        self.solids.rub(heat * asperities.T)
+        if self.transient is None:
+            self.solids.warm(self.walls)
+        else:
+            self.transient.rub(self.solids.rubbing)
 
     def refine_from(self, coarse: "FilmState") -> None:
         """Take temperature and stress of a coarser grid by linear interpolation."""
@@ -178,6 +182,8 @@ class FilmState:
             for side, surface in zip(self.film.sides, self.surfaces, strict=True)
         ]
         self.transient = TransientFilm(self.fields, self.surfaces, self.grid.dx, time_step, paths)
+        if self.film.scaled.problem.asperities is not None:
+            self.transient.begin_rubbing(self.solids.rubbing)
         self.surfaces = Surfaces(*(without_history(surface) for surface in self.surfaces))
         self._set_terms(self.model.terms._replace(over_t=1.5 / time_step))
 

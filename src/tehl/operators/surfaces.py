@@ -156,23 +156,30 @@ class Solids:
         still = np.zeros(grid.shape[::-1])
         self.rubbing, self.rises = (still, still), (still, still)
 
-    def rub(self, heat: Array, walls: tuple[Array, Array]) -> None:
+    def rub(self, heat: Array) -> None:
         """Heat both surfaces by asperities that rub, in place of what they did before.
 
         Each takes the part by which both would become as warm, by conductivity and solid Peclet
-        number. The line source of a sweep does not carry this heat: its rise is added to the wall.
+        number.
 
         Parameters
         ----------
         heat : (nx, ny) array
             Dimensionless flux into both together.
+        """
+        weights = [side.conductivity * (1.0 + np.sqrt(abs(side.peclet))) for side in self.both]
+        first, second = (weight / sum(weights) * heat for weight in weights)
+        self.rubbing = first, second
+
+    def warm(self, walls: tuple[Array, Array]) -> None:
+        """Add the present rise by rubbing to the walls: the line source of a sweep has it not.
+
+        Parameters
+        ----------
         walls : pair of (nx, ny) array
             Temperature of each surface less what its line source does [K].
         """
-        weights = [side.conductivity * (1.0 + np.sqrt(abs(side.peclet))) for side in self.both]
-        parts = [weight / sum(weights) for weight in weights]
         before = self.rises
-        self.rubbing = (parts[0] * heat, parts[1] * heat)
         first, second = (
             factor * line_rise(flux, self.spacing) if factor else np.zeros_like(flux)
             for factor, flux in zip(self.factors, self.rubbing, strict=True)

@@ -8,8 +8,25 @@ from collections.abc import Sequence
 import numpy as np
 
 from tehl.kernels.energy.records import GHOSTS, Fields, Surface, Surfaces
+from tehl.operators.line_source import history
 from tehl.operators.trail import Trail
 from tehl.typing import Array
+
+
+class Rubbing:
+    """Heat of asperities into one surface, and its trail; parameters as of `Trail`.
+
+    The march of the energy equation does not carry it, so its whole rise is that of the wall.
+    """
+
+    def __init__(self, flux: Array, spacing: float, lag: float) -> None:
+        self.flux, self.trail = np.ascontiguousarray(flux), Trail(flux, spacing, lag)
+        self.near = history(flux.shape[0], spacing).near
+
+    def rise(self) -> Array:
+        """Return the rise by the present flux and that upstream, (nx, ny)."""
+        rise: Array = self.trail.update(self.flux) + self.near * self.flux
+        return rise
 
 
 class TransientFilm:
@@ -48,7 +65,20 @@ class TransientFilm:
             Trail(surface.flux[GHOSTS:-GHOSTS], spacing, lag)
             for surface, (_, _, lag) in zip(surfaces, paths, strict=True)
         ]
+        self.spacing, self.rubbing = spacing, list[Rubbing]()
         self._set_past()
+
+    def begin_rubbing(self, fluxes: tuple[Array, Array]) -> None:
+        """Take the heat of asperities into each surface, (nx, ny), as steady history."""
+        self.rubbing = [
+            Rubbing(flux, self.spacing, lag)
+            for flux, (_, _, lag) in zip(fluxes, self.paths, strict=True)
+        ]
+
+    def rub(self, fluxes: tuple[Array, Array]) -> None:
+        """Set the heat of asperities into each surface, (nx, ny), dimensionless."""
+        for rubbing, flux in zip(self.rubbing, fluxes, strict=True):
+            rubbing.flux[:] = flux
 
     def set_pressure(self) -> None:
         """Fill the time derivative of the pressure."""
@@ -61,6 +91,9 @@ class TransientFilm:
             surfaces, self.trails, self.paths, strict=True
         ):
             surface.bulk[:] = bulk + factor * trail.update(surface.flux[GHOSTS:-GHOSTS])
+        for k, rubbing in enumerate(self.rubbing):
+            _, factor, _ = self.paths[k]
+            surfaces[k].bulk[:, : rubbing.flux.shape[1]] += factor * rubbing.rise()
 
     def advance(self) -> None:
         """Accept the present as the last time level of the next step."""
@@ -69,7 +102,7 @@ class TransientFilm:
         self.pressures[1] = self.pressures[0]
         self.pressures[0] = self.fields.p
         self.stresses[:] = self.fields.tau_x, self.fields.tau_y
-        for trail in self.trails:
+        for trail in (*self.trails, *(one.trail for one in self.rubbing)):
             trail.advance()
         self._set_past()
 
@@ -84,6 +117,9 @@ class TransientFilm:
         for k, (flux, trail) in enumerate(zip(self.fluxes, self.trails, strict=True)):
             arrays[f"flux_{k}"] = flux
             arrays[f"trail_{k}_modes"], arrays[f"trail_{k}_fluxes"] = trail.modes, trail.fluxes
+        for k, rubbing in enumerate(self.rubbing):
+            arrays[f"rubbing_{k}"], trail = rubbing.flux, rubbing.trail
+            arrays[f"rubbing_{k}_modes"], arrays[f"rubbing_{k}_fluxes"] = trail.modes, trail.fluxes
         return arrays
 
     def unpack(self, known: dict[str, Array]) -> None:
