@@ -123,16 +123,13 @@ class GreenwoodTripp(_Touching):
 
     def area(self, gap: "Array", sigma: float) -> "Array":
         """Return the part of the area in which asperities touch, at most one [-]."""
-        part = np.zeros_like(gap)
-        near = gap < APART  # where it is above 1e-25
-        pairs = (math.pi * self.load_factor(sigma)) ** 2
-        part[near] = pairs * np.exp(_logarithm(2.0)(np.maximum(gap[near], -DEEPEST)))
+        part = (math.pi * self.load_factor(sigma)) ** 2 * _on_map(2.0, gap)
         return np.minimum(part, 1.0)
 
     def spots(self, gap: "Array", sigma: float) -> "Array":
         """Return the spots of contact per area [1/m^2], 4 pi eta^2 beta sigma F_1."""
         pairs = self.summit_density * self.load_factor(sigma)
-        return 4.0 * math.pi * pairs * gaussian_integral(1.0, gap)
+        return 4.0 * math.pi * pairs * _on_map(1.0, gap)
 
 
 class SurfacePatch(_Touching):
@@ -179,6 +176,11 @@ class SurfacePatch(_Touching):
         """Return the part of the area in which asperities touch [-]."""
         del sigma
         return self.curves.touching(gap)
+
+    def spots(self, gap: "Array", sigma: float) -> "Array":
+        """Return the spots of contact per area [1/m^2]: connected pixels of the patch."""
+        del sigma
+        return self.curves.spots(gap)
 
     def mean_gap(self, gap: "Array") -> "Array":
         """Return the mean gap over Sq: the distance of the deformed mean planes [-]."""
@@ -227,9 +229,16 @@ def gaussian_integral(n: float, gap: "Array") -> "Array":
     return np.where(gap < FARTHEST, found, 0.0)
 
 
+def _on_map(n: float, gap: "Array") -> "Array":
+    """Return F_n to 1e-9, zero from `APART` on: on all nodes of a grid F_n itself takes long."""
+    found, near = np.zeros_like(gap), gap < APART
+    found[near] = np.exp(_logarithm(n)(np.maximum(gap[near], -DEEPEST)))
+    return found
+
+
 @cache
 def _logarithm(n: float) -> "CubicSpline":
-    """Return ln F_n as a spline of the separation, to 1e-8: for maps, F_n takes too long."""
+    """Return ln F_n as a spline of the separation."""
     from scipy.interpolate import CubicSpline  # noqa: PLC0415
 
     at = np.arange(-DEEPEST, APART + LOG_STEP, LOG_STEP)

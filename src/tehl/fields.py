@@ -134,6 +134,8 @@ class FilmAsperities(_ReadOnly):
     """(ny, nx): What they carry, averaged over many of them [Pa]."""
     area: Array
     """(ny, nx): Part of the area in which they touch [-]."""
+    spots: Array
+    """(ny, nx): Spots in which they touch, per area [1/m^2]."""
     separation: Array
     """(ny, nx): Distance of the mean planes of both surfaces [m]; the film is the mean gap."""
     rms: Array

@@ -48,6 +48,8 @@ def test_a_wave_touches_on_the_area_of_westergaard(part):
     found = pressed(wave(256, both=False), (1 / 256, 1 / 256), part * np.pi * 0.01)
     assert found.area == pytest.approx(2.0 / np.pi * np.arcsin(np.sqrt(part)), rel=0.01)
     assert found.mean_pressure == pytest.approx(part * np.pi * 0.01, rel=1e-9)
+    assert found.spots == 1  # a stripe over the edges
+    assert pressed(wave(64, both=True), (1 / 64, 1 / 64), 0.003).spots == 2
 
 
 @pytest.mark.parametrize(("both", "factor"), [(False, 1.0), (True, np.sqrt(2.0))])
@@ -136,7 +138,11 @@ def test_a_measured_patch_shares_the_load(tmp_path):
     tables["asperities"] = {"model": "surface", "map": patch}
     problem = case_from_tables(tables)[0]
     assert problem.asperity_rms == pytest.approx(0.2e-6, rel=1e-3)
-    shares = [solve(problem, Options(points=n)).load_sharing.share for n in (129, 257)]
+    found = [solve(problem, Options(points=n)).load_sharing for n in (129, 257)]
+    shares = [one.share for one in found]
+    assert 10 < found[1].spots.number < 10_000
+    assert found[0].spots.number == pytest.approx(found[1].spots.number, rel=0.15)
+    assert 2e-6 < found[1].spots.radius < 4e-5  # half a pixel to ten
     assert 0.05 < shares[1] < 0.7
     assert shares[0] == pytest.approx(shares[1], rel=0.15)
 

@@ -62,6 +62,7 @@ ASPERITIES = (
         "y x",
         ("pressure", "asperity_pressure", "Pa", "pressure of asperities finer than the grid"),
         ("area", "asperity_area", "1", "part of the area in which they touch"),
+        ("spots", "asperity_spots", "1/m^2", "spots in which they touch, per area"),
         ("separation", "separation", "m", "distance of the mean planes of both surfaces"),
     ),
     *_table("", ("rms", "asperity_rms", "m", "standard deviation of their heights")),

@@ -16,6 +16,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.fft import fftfreq, irfft2, rfft2, rfftfreq
+from scipy.ndimage import label
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from tehl.typing import Array
 
@@ -46,6 +49,19 @@ class DryContact:
     def area(self) -> float:
         """Part of the area in which the surfaces touch [-]."""
         return float(np.count_nonzero(self.pressure > 0.0) / self.pressure.size)
+
+    @property
+    def spots(self) -> int:
+        """Number of connected places where the surfaces touch, across the edges of the period."""
+        places, found = label(self.pressure > 0.0)
+        edges = [
+            np.stack(pair, axis=1)
+            for pair in ((places[0], places[-1]), (places[:, 0], places[:, -1]))
+        ]
+        pairs = np.concatenate(edges)
+        pairs = pairs[np.all(pairs > 0, axis=1)] - 1
+        links = coo_array((np.ones(len(pairs)), pairs.T), shape=(found, found))
+        return int(connected_components(links, directed=False)[0])
 
 
 def pressed(

@@ -34,6 +34,8 @@ class PatchCurves:
     """Over E* [-]."""
     area: Array
     """Part of the area in which the surfaces touch [-]."""
+    number: Array
+    """Spots in which they touch, per area [1/m^2]."""
     channel: Array
     across: Array
     """Thickness of a smooth gap that conducts as much along x, over Sq, and conductance along y
@@ -70,6 +72,11 @@ class PatchCurves:
     def touching(self, gap: Array) -> Array:
         """Return the part of the area in which the surfaces touch."""
         found: Array = np.interp(gap, self.gaps, self.area)
+        return np.where(gap > self.gaps[-1], 0.0, found)
+
+    def spots(self, gap: Array) -> Array:
+        """Return the spots per area [1/m^2]."""
+        found: Array = np.interp(gap, self.gaps, self.number)
         return np.where(gap > self.gaps[-1], 0.0, found)
 
 
@@ -118,7 +125,10 @@ def patch_curves(z: Array, pixel: tuple[float, float]) -> PatchCurves:
         flow = found.gap[::stride, ::stride]
         along, across = conducted(flow, (stride * pixel[0], stride * pixel[1]))
         channel = (along * (found.mean_gap / flow.mean()) ** 3) ** (1.0 / 3.0) / sigma
-        rows.append((gap, found.mean_pressure, found.area, channel, across / along))
+        number = found.spots / (z.size * pixel[0] * pixel[1])
+        rows.append((gap, found.mean_pressure, found.area, number, channel, across / along))
         start, pressure = found.pressure, MORE * pressure
-    gaps, loads, area, channel, ratio = np.array(rows[::-1]).T
-    return PatchCurves(gaps=gaps, pressure=loads, area=area, channel=channel, across=ratio)
+    gaps, loads, area, number, channel, ratio = np.array(rows[::-1]).T
+    return PatchCurves(
+        gaps=gaps, pressure=loads, area=area, number=number, channel=channel, across=ratio
+    )

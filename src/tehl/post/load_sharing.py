@@ -40,7 +40,7 @@ class LoadSharing:
     power_boundary: float
     """Heat of the asperities that rub [W]."""
     spots: Spots | None
-    """Spots on which summits touch; None of a measured patch, or where none touches."""
+    """Spots on which summits touch; None where none touches."""
 
     @property
     def friction(self) -> float:

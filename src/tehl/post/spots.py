@@ -4,7 +4,8 @@ Where asperities of Greenwood and Tripp touch on a part A of the area, in N spot
 
     A = pi^2 (eta beta sigma)^2 F_2(h/sigma),    N = 4 pi eta^2 beta sigma F_1(h/sigma),
 
-so that a spot has a mean area A/N, and a mean pressure of p_a/A. It is taken for a circle of radius
+or, of a measured patch, from its dry contact, whose connected pixels are counted. A spot has a mean
+area A/N, and a mean pressure of p_a/A. It is taken for a circle of radius
 a with uniform heat q = mu_b p_a/A |u_1 - u_2|. On one surface that moves with u its largest rise is
 [1]_
 
@@ -23,7 +24,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl.asperities import GreenwoodTripp
 from tehl.fields import FilmAsperities
 from tehl.post.traction import cell_widths
 from tehl.solution import Solution
@@ -49,12 +49,11 @@ class Spots:
 
 
 def spots(result: Solution, found: FilmAsperities) -> Spots | None:
-    """Return the spots of a result with asperities; None of a measured patch, or where none is."""
-    law, sigma = result.problem.asperities, float(found.rms)
-    if not isinstance(law, GreenwoodTripp) or not found.area.max() > 0.0:
+    """Return the spots of a result with asperities; None where none touches."""
+    law = result.problem.asperities
+    if law is None or not found.area.max() > 0.0:
         return None
-    density = law.spots(found.separation / sigma, sigma)
-    touching = density > 0.0
+    density, touching = found.spots, found.spots > 0.0
     area = np.where(touching, found.area, 0.0) / np.where(touching, density, 1.0)
     radius = np.sqrt(area / math.pi)
     pressure = found.pressure / np.where(found.area > 0.0, found.area, 1.0)

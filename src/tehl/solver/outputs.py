@@ -110,10 +110,11 @@ def film_asperities(level: Level, scaled: ScaledProblem) -> FilmAsperities | Non
     if problem.asperities is None:
         return None
     separation, sigma = level.separation * scales.film_thickness, problem.asperity_rms
-    area = problem.asperities.area(separation / sigma, sigma)
+    law, apart = problem.asperities, separation / sigma
     return FilmAsperities(
         pressure=grid.unfold(level.film.asperity * scales.hertz_pressure),
-        area=grid.unfold(area),
+        area=grid.unfold(law.area(apart, sigma)),
+        spots=grid.unfold(law.spots(apart, sigma)),
         separation=grid.unfold(separation),
         rms=np.array(sigma),
     )
