@@ -48,6 +48,7 @@ def _environment() -> "Environment":
         "celsius": lambda kelvin: f"{kelvin - 273.15:.4g} °C",
         "degc": lambda kelvin: f"{kelvin - 273.15:.4g} degC",
         "degrees": math.degrees,
+        "about": lambda number: f"{float(f'{number:.2g}'):,.0f}",
         "g": lambda value, digits=4: f"{value:.{digits}g}",
         "metres": lambda value: _in_unit("nm" if value < 1e-6 else "um", value),
         "off": lambda formula, value: f"{100 * (formula / value - 1):+.1f} %",
