@@ -267,3 +267,14 @@ def channel(gap: "Array") -> "Array":
     inside = np.maximum(gap, LEAST_GAP)
     smooth = inside * (1.0 - 0.9 * np.exp(-0.56 * inside)) ** (1.0 / 3.0)
     return smooth * np.where(gap < LEAST_GAP, mean_gap(gap) / mean_gap(inside), 1.0)
+
+
+def shear_flow(gap: "Array") -> "Array":
+    """Return Phi_s of isotropic surfaces: what the rougher one carries beside the gap, over sigma.
+
+    Patir and Cheng, J. Lubrication Technology 101 (1979), 220-230, table 1; ``gap`` is the
+    separation of the mean planes over sigma. Zero where these cross.
+    """
+    inside = np.maximum(gap, 0.0)
+    near = 1.899 * inside**0.98 * np.exp(-0.92 * inside + 0.05 * np.minimum(inside, 5.0) ** 2)
+    return np.where(inside > 5.0, 1.126 * np.exp(-0.25 * inside), near)

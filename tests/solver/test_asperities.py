@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from tehl.asperities import channel, gaussian_integral, mean_gap
+from tehl.asperities import channel, gaussian_integral, mean_gap, shear_flow
 from tehl.cli.text import as_text
 from tehl.errors import InputError
 from tehl.film_formulas import expected_film
@@ -359,6 +359,37 @@ def test_asperities_that_rub_heat_the_surfaces():
         more = getattr(warm.temperature, surface) - getattr(cold.temperature, surface)
         assert more == pytest.approx(rise, rel=0.5)
     assert warm.film.central < cold.film.central
+
+
+def test_the_rougher_surface_carries_more_if_it_is_faster():
+    """On the line y = 0 in the contact, where no oil flows by pressure, the oil is constant."""
+    case = moes_contact(200.0, 10.0)
+    sigma = expected_film(ScaledProblem.of(case))
+    table = {
+        "model": "greenwood-tripp",
+        "summit_radius": 100.0 * sigma,
+        "summit_density": 0.05 / (100.0 * sigma**2),
+    }
+    films = []
+    for parts, sliding in (((1.0, 0.0), 1.0), ((0.0, 1.0), -1.0), ((0.0, 1.0), 1.0)):
+        tables = case.model_dump(exclude_none=True) | {"asperities": table}
+        tables["contact"] |= {"slide_roll_ratio": sliding}
+        for key, part in zip(("surface_1", "surface_2"), parts, strict=True):
+            tables[key] = tables[key] | {"rms_roughness": part * sigma}
+        result = solve(case_from_tables(tables)[0], Options(points=129))
+        assert result.status.converged
+        films.append(result.film.central)
+        middle = result.y.size // 2
+        inside = np.abs(result.x) < 0.6 * result.scales.half_width_x
+        gap = (result.asperities.separation / sigma)[middle, inside]
+        law, inlet = result.problem.lubricant.density, result.problem.inlet_temperature
+        density = law.density(result.pressure[middle, inside], inlet)
+        part = 0.5 * sliding * (parts[0] - parts[1])
+        carried = density * (mean_gap(gap) + part * shear_flow(gap))
+        assert np.ptp(carried) < 0.02 * carried.mean()
+        assert np.ptp(density * mean_gap(gap)) > 2.0 * np.ptp(carried)
+    assert films[0] == pytest.approx(films[1], rel=1e-9)  # surfaces and directions swapped
+    assert films[2] > 1.05 * films[0]
 
 
 # ---- time

@@ -30,8 +30,9 @@ class Film(NamedTuple):
     With asperities finer than the grid ``p`` is the pressure of the oil, ``asperity`` theirs and
     ``stiffness`` its slope -dp_a/dH by the separation H of the mean planes; ``h`` is the mean gap
     and ``opening`` dh/dH; ``channel`` is the thickness that conducts along x, ``widening`` its
-    relative slope by H, and ``across`` the conductance along y over that along x. Without they have
-    no elements, and h is H.
+    relative slope by H, and ``across`` the conductance along y over that along x. Where one surface
+    is rougher and both slide, ``carried`` is what they carry over h: ``rho`` is that times the
+    density, and ``opening`` its slope by H over it. Without they have no elements, and h is H.
     """
 
     p: Array
@@ -50,6 +51,7 @@ class Film(NamedTuple):
     channel: Array = np.zeros((0, 0))
     widening: Array = np.zeros((0, 0))
     across: Array = np.zeros((0, 0))
+    carried: Array = np.zeros((0, 0))
 
 
 class Factors(NamedTuple):
@@ -135,9 +137,9 @@ def touch(
         cavitated, p = 0, or frozen, p stays.
     separation : array (ny, nx)
         H [-].
-    table : array (n, 6) or (n, 8)
-        Pressure, mean gap, channel and, if that differs, conductance along y over that along x,
-        over H, each with its slope times the step, row by row.
+    table : array (n, 6) or (n, 8) or (n, 10)
+        Pressure, mean gap, channel and, if they matter, conductance along y over that along x, and
+        what the surfaces carry over the gap, over H, each with its slope times the step.
     grid : array (2,)
         H of the first row, and step [-].
     frozen : array (ny, nx)
@@ -154,27 +156,31 @@ def touch(
             x = (separation[j, i] - first) * per_step
             if not x < last:  # apart, or not a number
                 pressure, fall, gap, opening = 0.0, 0.0, separation[j, i], 1.0
-                channel, widening, across = gap, 1.0, 1.0
+                channel, widening, across, carried = gap, 1.0, 1.0, 1.0
             else:
                 k = int(max(x, 0.0))
                 pressure, fall = _hermite(table, k, x - k, 0)
                 gap, opening = _hermite(table, k, x - k, 2)
                 channel, widening = _hermite(table, k, x - k, 4)
                 across = _hermite(table, k, x - k, 6)[0] if columns > 6 else 1.0
+                carried, more = _hermite(table, k, x - k, 8) if columns > 8 else (1.0, 0.0)
+                opening += gap * more / carried
                 fall, opening, widening = fall * per_step, opening * per_step, widening * per_step
-            more = pressure - film.asperity[j, i]
+            missing = pressure - film.asperity[j, i]
             if reach >= 0.0 and film.p[j, i] != 0.0 and frozen[j, i] == 0:
-                film.p[j, i] = max(film.p[j, i] - more, 0.0)
+                film.p[j, i] = max(film.p[j, i] - missing, 0.0)
             elif reach > 0.0:
                 q = film.asperity[j, i]
-                more = _followed(table, (x, reach * per_step), q, (more, reach * fall))
-            film.asperity[j, i] += more
+                missing = _followed(table, (x, reach * per_step), q, (missing, reach * fall))
+            film.asperity[j, i] += missing
             film.stiffness[j, i] = -fall
             film.h[j, i] = gap
             film.opening[j, i] = opening
             film.channel[j, i] = channel
             film.widening[j, i] = widening / channel
             film.across[j, i] = across
+            if columns > 8:
+                film.carried[j, i] = carried
 
 
 @helper

@@ -6,8 +6,16 @@ from functools import cache, lru_cache
 
 import numpy as np
 
-from tehl.asperities import SurfacePatch, channel, gaussian_integral, mean_gap
+from tehl.asperities import (
+    GreenwoodTripp,
+    SurfacePatch,
+    channel,
+    gaussian_integral,
+    mean_gap,
+    shear_flow,
+)
 from tehl.mixed import LEAST, MOST
+from tehl.problem import ContactProblem
 from tehl.scaling import ScaledProblem
 from tehl.typing import Array
 
@@ -22,8 +30,9 @@ class AsperityTable:
     Attributes
     ----------
     table : (n, 6) or (n, 8) array
-        Pressure of the asperities, mean gap, channel along x and, if that differs, conductance
-        along y over that along x, each with its slope times the step [-].
+        Pressure of the asperities, mean gap, channel along x and, if they matter, conductance
+        along y over that along x, and what the surfaces carry over the gap, each with its slope
+        times the step [-].
     grid : (2,) array
         Least separation, and difference of two rows [-].
     """
@@ -35,6 +44,11 @@ class AsperityTable:
     def sigma(self) -> float:
         """Standard deviation of the heights [-]."""
         return float(self.grid[1]) / STEP
+
+    @property
+    def slides(self) -> bool:
+        """Whether the surfaces carry more or less than the gap holds."""
+        return self.table.shape[1] > 8
 
     def separation(self, gap: float) -> float:
         """Return the separation of the mean planes at a mean gap [-]."""
@@ -51,7 +65,9 @@ def asperity_table(scaled: ScaledProblem) -> AsperityTable | None:
     unit = sigma / scales.film_thickness
     pressure = law.unit(sigma, problem.reduced_modulus) / scales.hertz_pressure
     laws = _of_patch(law, law.map.stamp) if isinstance(law, SurfacePatch) else _of_summits()
-    factors = np.repeat([pressure, unit, unit, 1.0], 2)[: laws.shape[1]]
+    if part := sliding_part(problem):
+        laws = np.concatenate([laws, _of_sliding(part)], axis=1)
+    factors = np.repeat([pressure, unit, unit, 1.0, 1.0], 2)[: laws.shape[1]]
     return AsperityTable(table=laws * factors, grid=np.array([LEAST, STEP]) * unit)
 
 
@@ -59,6 +75,29 @@ def asperity_table(scaled: ScaledProblem) -> AsperityTable | None:
 def _of_summits() -> Array:
     """Return the laws of Greenwood and Tripp, the same for all summits, as `_tabulated`."""
     return _tabulated(lambda gap: gaussian_integral(2.5, gap), mean_gap, channel)
+
+
+def sliding_part(problem: ContactProblem) -> float:
+    """Return the factor of the shear flow of Patir and Cheng (1979): zero if both are as rough.
+
+    (u_1 - u_2) / (2 u_m) times (sigma_1^2 - sigma_2^2) / sigma^2. Zero also where sigma is not that
+    of two surfaces, and in transient runs.
+    """
+    law, rms = problem.asperities, problem.rms_roughness
+    if not isinstance(law, GreenwoodTripp) or law.rms is not None or problem.transient is not None:
+        return 0.0
+    first, second = problem.surface_1.rms_roughness, problem.surface_2.rms_roughness
+    return 0.5 * problem.slide_roll_ratio * (first**2 - second**2) / rms**2
+
+
+@lru_cache(maxsize=4)
+def _of_sliding(part: float) -> Array:
+    """Return no anisotropy, and what the surfaces carry over the mean gap, as `_tabulated`."""
+
+    def carried(gap: Array) -> Array:
+        return 1.0 + part * shear_flow(gap) / mean_gap(gap)
+
+    return _tabulated(np.ones_like, carried)
 
 
 @lru_cache(maxsize=4)

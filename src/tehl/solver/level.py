@@ -70,6 +70,8 @@ class Level:
                 asperity=q, stiffness=s, opening=opening, channel=channel, widening=widening
             )
             self.film = self.film._replace(across=np.ones(shape), eps_y=np.zeros(shape))
+            if equations.asperities.slides:
+                self.film = self.film._replace(carried=np.ones(shape))
         self.keeps_orders = False  # the nodes of second order stay as they are
         self.rigid_approach = 0.0
         self.sources = Sources(f, g, equations.target)
@@ -228,6 +230,9 @@ class Level:
         if touches:
             isotropic = film.eps if self.factors is None else film.eps_y
             np.multiply(isotropic, film.across, out=film.eps_y)
+        if film.carried.size:
+            np.multiply(film.rho, film.carried, out=film.rho)
+            np.multiply(film.drho, film.carried, out=film.drho)
 
     def nodal_film(self) -> tuple[float, float]:
         """Return central and smallest nodal film [-]."""
@@ -239,7 +244,7 @@ class Level:
         eps, rho, drho, eps_x, eps_y = (np.empty_like(film.p) for _ in range(5))
         shifted = properties.Film(
             film.p + PRESSURE_STEP, film.h, eps, rho, drho, eps_x, eps_y
-        )._replace(channel=film.channel, across=film.across)
+        )._replace(channel=film.channel, across=film.across, carried=film.carried)
         self._evaluate(shifted)
         by_pressure = (shifted.eps - film.eps) / PRESSURE_STEP
         if self.equations.asperities is not None:
