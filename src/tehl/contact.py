@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 from pydantic import AfterValidator, model_validator
 
 from tehl.asperities import Asperities
+from tehl.contact_film import ContactFilm
 from tehl.geometry import Motion, Radii, reduced_radii
 from tehl.heat import FilmEnergy, Thermal
 from tehl.hertz import HertzContact, hertz_contact, load_of_pressure
@@ -158,6 +159,8 @@ class PointContact(Table):
     """The oil that reaches the inlet; None is fully flooded."""
     asperities: Asperities | None = None
     """Asperities finer than the grid; None has none."""
+    contact_film: ContactFilm | None = None
+    """Boundary film through which the surfaces may touch; None has no contact."""
     cavitation: Cavitation | None = None
     """What happens to the oil in cavities; None conserves it in starved contacts only."""
 

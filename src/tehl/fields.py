@@ -143,6 +143,16 @@ class FilmAsperities(_ReadOnly):
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
+class FilmContact(_ReadOnly):
+    """Contact through a boundary film, read-only arrays."""
+
+    pressure: Array
+    """(ny, nx): What the contact carries beside the oil [Pa]."""
+    balance: Array
+    """(): Oil made or lost in film and contact, over the oil that enters [-]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
 class FilmOil(_ReadOnly):
     """Where the oil is, in a film whose cavities conserve it; read-only arrays."""
 

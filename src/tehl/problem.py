@@ -12,6 +12,7 @@ from pydantic import model_validator
 
 from tehl.asperities import GreenwoodTripp
 from tehl.contact import Contact, PointContact, Surface
+from tehl.contact_film import THICKEST, THINNEST
 from tehl.geometry import reduced_radius
 from tehl.units import (
     Conductivity,
@@ -69,6 +70,7 @@ def check(problem: PointContact) -> None:
     check_transient(problem)
     check_supply(problem)
     check_asperities(problem)
+    check_contact_film(problem)
     if problem.contact.moes_speed is not None and not problem.pressure_coefficient > 0:
         raise ValueError(
             "contact.moes_speed does not determine a speed: lubricant.viscosity has no pressure "
@@ -225,6 +227,33 @@ def check_asperities(problem: PointContact) -> None:
         )
     if isinstance(law, GreenwoodTripp) and (fault := law.fault(problem.asperity_rms)):
         raise ValueError(f"asperities: {fault}; check the units")
+
+
+def check_contact_film(problem: PointContact) -> None:
+    """Check that the boundary film is one, and that the run can have contact through it."""
+    film = problem.contact_film
+    if film is None:
+        return
+    if not THINNEST <= film.thickness <= THICKEST:
+        raise ValueError(
+            f"contact_film.thickness = {film.thickness:g} m is not a boundary film: it must be "
+            f'between {THINNEST:g} and {THICKEST:g} m, such as "5 nm"'
+        )
+    excluded = {
+        "asperities": problem.asperities is not None,
+        "supply": problem.supply is not None,
+        "cavitation": problem.conserves_oil,
+        "transient": problem.transient is not None,
+        "thermal": problem.thermal is not None,
+        "lubricant.shear": not problem.lubricant.shear.is_newtonian,
+    }
+    for name, is_stated in excluded.items():
+        if is_stated:
+            raise ValueError(
+                f"contact_film and {name} exclude each other: contact through a boundary film is "
+                "computed in steady, isothermal, Newtonian, fully flooded films with the heights "
+                f"of the surfaces; leave out contact_film or {name}"
+            )
 
 
 def check_radii(problem: PointContact) -> None:

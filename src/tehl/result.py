@@ -7,6 +7,7 @@ from tehl.post.heat import Temperature, temperature
 from tehl.post.load_sharing import LoadSharing, load_sharing
 from tehl.post.roughness import RoughFilm, rough_film
 from tehl.post.starvation import Starvation, starvation
+from tehl.post.touching import Touching, touching
 from tehl.post.traction import Traction, traction
 from tehl.saved import Saved
 from tehl.solution import Solution
@@ -35,6 +36,11 @@ class Result(Saved, Solution):
     def load_sharing(self) -> LoadSharing | None:
         """Load and friction of film and asperities, None without asperities finer than the grid."""
         return load_sharing(self)
+
+    @property
+    def touching(self) -> Touching | None:
+        """Load and friction of film and contact, None without a boundary film."""
+        return touching(self)
 
     @property
     def starvation(self) -> Starvation | None:

@@ -8,6 +8,7 @@ from typing import Literal
 from tehl.fields import (
     Fields,
     FilmAsperities,
+    FilmContact,
     FilmHeat,
     FilmOil,
     FilmShear,
@@ -259,6 +260,8 @@ class Solution:
     """Heights of rough surfaces; None when both are smooth."""
     asperities: FilmAsperities | None = None
     """Asperities finer than the grid; None without."""
+    contact: FilmContact | None = None
+    """Contact through a boundary film; None without."""
     oil: FilmOil | None = None
     """Where the oil is; None if cavities do not conserve it."""
     supplied: Supplied | None = None

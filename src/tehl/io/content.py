@@ -13,6 +13,7 @@ from pydantic import BaseModel, ConfigDict, create_model
 from tehl.fields import (
     Fields,
     FilmAsperities,
+    FilmContact,
     FilmHeat,
     FilmOil,
     FilmShear,
@@ -63,6 +64,7 @@ _NOT_SCALAR = {
         "heat",
         "heights",
         "asperities",
+        "contact",
         "oil",
         "passes",
     ),
@@ -111,6 +113,7 @@ def _parts(result: Result | TransientResult) -> Iterator[tuple[Table, Any]]:
             (tables.SCALED, result.scaled),
             (tables.HEIGHTS, result.heights),
             (tables.ASPERITIES, result.asperities),
+            (tables.CONTACT, result.contact),
             (tables.OIL, result.oil),
             (tables.PASSES, result.passes),
             (tables.SHEAR, result.shear),
@@ -208,6 +211,7 @@ def _steady(arrays: Arrays, attrs: Attributes) -> Result:
         heat=None if heat is None else FilmHeat(**heat | reader.columns(tables.HEAT)),
         heights=reader.part(SurfaceHeights, tables.HEIGHTS),
         asperities=reader.part(FilmAsperities, tables.ASPERITIES),
+        contact=reader.part(FilmContact, tables.CONTACT),
         oil=reader.part(FilmOil, tables.OIL),
         passes=reader.part(PassHistory, tables.PASSES),
     )

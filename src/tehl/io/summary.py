@@ -14,6 +14,7 @@ from tehl.post.heat import Temperature
 from tehl.post.load_sharing import LoadSharing
 from tehl.post.roughness import RoughFilm
 from tehl.post.starvation import Starvation
+from tehl.post.touching import Touching
 from tehl.post.traction import Traction
 from tehl.post.waves.response import WaveResponse
 from tehl.result import Result
@@ -151,6 +152,7 @@ def _steady(result: Result) -> Block:
         "heat": None if heat is None else _heat(heat),
         "roughness": None if rough is None else roughness_block(rough),
         "load_sharing": None if shared is None else _load_sharing(shared),
+        "touching": None if result.touching is None else _touching(result.touching),
         "starvation": None if starved is None else _starvation(starved),
         "convergence": _convergence(result),
         "errors": None if result.errors is None else _errors(result.errors),
@@ -240,6 +242,22 @@ def _load_sharing(found: LoadSharing) -> Block:
         *("area_m2", "area_part", "asperity_pressure_max_pa", "pressure_max_pa"),
         *("separation_central_m", "separation_ratio", "power_boundary_w"),
     ) | {"spots": None if found.spots is None else _picked(found.spots, *names)}
+
+
+def _touching(found: Touching) -> Block:
+    names = ("number", "area_mean_m2", "area_largest_m2", "pressure_mean_pa", "pressure_max_pa")
+    return (
+        {
+            "share": found.share if found.is_share_known else None,
+            "share_error": found.share_error if found.is_share_known else None,
+        }
+        | _picked(
+            found,
+            *("margin_m", "friction", "friction_film", "friction_boundary", "area_m2", "area_part"),
+            *("contact_pressure_max_pa", "pressure_max_pa", "power_boundary_w", "balance"),
+        )
+        | {"patches": None if found.patches is None else _picked(found.patches, *names, "cells")}
+    )
 
 
 def _starvation(found: Starvation) -> Block:

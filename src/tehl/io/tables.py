@@ -67,6 +67,10 @@ ASPERITIES = (
     ),
     *_table("", ("rms", "asperity_rms", "m", "standard deviation of their heights")),
 )
+CONTACT = (
+    *_table("y x", ("pressure", "contact_pressure", "Pa", "pressure of contact beside the oil")),
+    *_table("", ("balance", "contact_oil_balance", "1", "oil made or lost, of that through it")),
+)
 OIL = (
     *_table("y x", ("fill", "fill", "1", "part of the gap that is oil")),
     *_table(

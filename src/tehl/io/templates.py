@@ -8,7 +8,7 @@ from tehl.errors import InputError
 _NAMES = {
     "cases": (
         *("ball-on-disc", "moes", "bearing", "gear-ellipse", "rough", "thermal", "dimple"),
-        *("data-sheet", "passing-dent", "starved", "grease-decay", "mixed"),
+        *("data-sheet", "passing-dent", "starved", "grease-decay", "mixed", "boundary-film"),
     ),
     "studies": (
         "traction-curve",

@@ -72,6 +72,21 @@ class FftDeformation:
         out[:] = self.convolved[:ny, :nx]
 
 
+class FftFlattening(FftDeformation):
+    """Pressure that makes a deflection, by division of the transforms.
+
+    The inverse of K on the periodic plane, an approximate one on a part of it: it preconditions the
+    equations of a contact.
+    """
+
+    LEAST = 1e-6
+    """Least part of the spectrum over its largest value."""
+
+    def __init__(self, grid: Grid, groups: Groups) -> None:
+        super().__init__(grid, groups)
+        self.spectrum = 1.0 / np.maximum(self.spectrum, self.LEAST * self.spectrum.max())
+
+
 class LineDeformation:
     """Exact convolution by FFT along x and direct sum across lines: the fastest with few lines."""
 

@@ -15,6 +15,7 @@ from tehl.errors import InputError
 from tehl.io.atomic import check_folder, replacing
 from tehl.plots.animation import animate
 from tehl.plots.asperities import asperity_map
+from tehl.plots.contact import contact_map
 from tehl.plots.convergence import residual_history
 from tehl.plots.interferogram import Optics, interferogram
 from tehl.plots.lines import centre_lines, film_distribution, pressure_surface, rough_centre_line
@@ -39,6 +40,7 @@ __all__ = [
     "animate",
     "asperity_map",
     "centre_lines",
+    "contact_map",
     "contour_map",
     "curves",
     "film_deviations",
@@ -125,6 +127,8 @@ def _of_oil(result: Result) -> Pictures:
     found: Pictures = {}
     if result.load_sharing is not None:  # none if the run diverged
         found["asperities"] = asperity_map
+    if result.touching is not None:
+        found["contact"] = contact_map
     if result.starvation is not None:
         found["oil"] = oil_map
     if result.passes is not None:

@@ -35,6 +35,7 @@ CAPTIONS = {
     "pressure_surface": "Pressure along x, one profile behind another.",
     "centre_lines": "Pressure and film on the centre lines, with the dry contact.",
     "asperities": "Pressure that asperities finer than the grid carry, averaged over many.",
+    "contact": "Pressure where the surfaces touch through the boundary film.",
     "oil": "Part of the gap that is oil, the meniscus where the film begins, stream lines.",
     "passes": "Film and oil pass after pass.",
     "residuals": "Convergence, grid after grid.",

@@ -244,6 +244,8 @@ def _quantities(result: Result) -> dict[str, float]:
         found["traction_mid_film"] = traction.mid_film
     if (shared := result.load_sharing) is not None:
         found["load_share"] = shared.share
+    if (touches := result.touching) is not None:
+        found["load_share"] = touches.share
     return found
 
 

@@ -57,6 +57,8 @@ class Equations:
     conserved in cavities."""
     asperities: AsperityTable | None
     """Laws of asperities finer than the grid; None without."""
+    contact_film: float | None
+    """Boundary film through which the surfaces may touch [-]; None has no contact."""
     floor: float
     """Least film in the conductance [-]: the discrete film of coarse grids may not be positive."""
 
@@ -83,7 +85,6 @@ class Equations:
             Load that the film carries, over that of the contact [-].
         """
         groups, oil = scaled.groups, entering_oil(scaled)
-        asperities = asperity_table(scaled)
         starved, conserves = oil is not None, scaled.problem.conserves_oil
         return cls(
             grid=grid,
@@ -99,9 +100,24 @@ class Equations:
                 FarField(grid, scaled.entering) if options.has_far_field and not starved else None
             ),
             layer=_layer(scaled, oil, grid),
-            asperities=asperities,
-            floor=FLOOR * supplied_film(scaled) if asperities is None else 0.0,
+            asperities=asperity_table(scaled),
+            contact_film=boundary_film(scaled),
+            floor=_floor(scaled),
         )
+
+
+def boundary_film(scaled: ScaledProblem) -> float | None:
+    """Return the boundary film through which the surfaces may touch [-]; None has no contact."""
+    film = scaled.problem.contact_film
+    return None if film is None else film.thickness / scaled.scales.film_thickness
+
+
+def _floor(scaled: ScaledProblem) -> float:
+    """Return the least film in the conductance [-]."""
+    contact = boundary_film(scaled)
+    if contact is not None:
+        return contact
+    return FLOOR * supplied_film(scaled) if scaled.problem.asperities is None else 0.0
 
 
 def _layer(scaled: ScaledProblem, oil: EnteringOil | None, grid: Grid) -> Array | None:

@@ -25,9 +25,11 @@ from tehl.solver.iteration import MOST_CYCLES, GridIteration
 from tehl.solver.ladder import Strategy
 from tehl.solver.level import Level
 from tehl.solver.monitor import SILENT, Monitor
+from tehl.solver.touching import TouchingNewton
 
-FIRST_STEPS = 6
-"""Newton steps on the coarsest grid at the start; that they may not converge does no harm."""
+FIRST_STEPS, TOUCHING_STEPS = 6, 20
+"""Newton steps on the coarsest grid at the start, and where surfaces may touch; that they may not
+converge does no harm."""
 TOO_COARSE = 0.5
 """Error bar of the film beyond which the grid may be why the cycles do not converge."""
 LEAST_GRIDS = 2
@@ -147,7 +149,9 @@ class FilmSolver(GridIteration):
         """
         if not self.roughness.is_rough:
             return 1.0
-        return max(float(self.finest.film.h.min()), 0.0) / self.hierarchy.expected_film
+        part = max(float(self.finest.film.h.min()), 0.0) / self.hierarchy.expected_film
+        # a boundary film may be thicker than any that the oil would form
+        return part if self.finest.equations.contact_film is None else min(part, 1.0)
 
     def _needs_finer_grid(self, *, force: bool) -> bool:
         """Return whether a finer grid follows: the film is not accurate, or does not converge.
@@ -157,7 +161,7 @@ class FilmSolver(GridIteration):
         if not self.goal.is_open:
             return False
         errors, part = self.errors(), self.minimum_part()
-        resolved = float(self.finest.film.h.min()) > self.finest.equations.floor
+        resolved = self.finest.is_resolved
         if not self._has_converged():
             resolved = resolved and self.goal.is_met(errors, part, TOO_COARSE)
             return (force or not resolved) and self.goal.may_try(self.finest)
@@ -172,7 +176,7 @@ class FilmSolver(GridIteration):
         # roughness, also such that moves in later, needs the planned grid
         if self.hierarchy.scaled.problem.is_rough or self.coupling.is_pending:
             return False
-        if not float(levels[-1].film.h.min()) > levels[-1].equations.floor:
+        if not levels[-1].is_resolved:
             return False
         return self.goal.is_met(self.errors()) or not self.goal.may_refine(levels[-1])
 
@@ -190,8 +194,13 @@ class FilmSolver(GridIteration):
         """Solve on the coarsest grid by Newton's method, from the Hertz pressure."""
         coarsest = self.levels[0]
         coarsest.start_from_hertz(self.hierarchy.expected_film)
-        for _ in range(FIRST_STEPS):
-            self.hierarchy.coarsest.step()
+        if coarsest.equations.contact_film is None:
+            for _ in range(FIRST_STEPS):
+                self.hierarchy.coarsest.step()
+        else:
+            newton = TouchingNewton(coarsest, coarsest.grid, order=1)
+            for _ in range(TOUCHING_STEPS):
+                newton.step()
         coarsest.update()
         self.traces.append(GridTrace())
         self.traces[0].note(*coarsest.nodal_film())

@@ -34,14 +34,17 @@ from tehl.solver.level import Level
 from tehl.solver.measures import measured
 from tehl.solver.monitor import Monitor
 from tehl.solver.newton import Newton
-from tehl.solver.outputs import oil_balance
+from tehl.solver.outputs import contact_balance, oil_balance
 from tehl.solver.thermal import Coupling
+from tehl.solver.touching import TouchingNewton, raise_heights
 from tehl.typing import Array
 
 MOST_CYCLES = 4
 """Most cycles on a grid that only provides the start for the next finer one."""
 MOST_DOUBLINGS = 4
 """Most doublings of `MOST_CYCLES`, one per coarser grid, where temperatures converge slowly."""
+MOST_TOUCHING = 30
+"""The same in Newton steps where surfaces may touch: the nodes that do change for some of them."""
 HERTZ_CYCLES = 2
 """Cycles after which a grid that started from the Hertz pressure has a film."""
 MOST_FRONT_CYCLES = 24
@@ -49,6 +52,9 @@ MOST_FRONT_CYCLES = 24
 LARGEST_OIL_ERROR, COARSE_OIL_ERROR = 0.005, 0.003
 """Relative change of the oil flux through the contact that is accepted on the finest grid, and on
 coarser ones, where it costs less."""
+LARGEST_MADE, ROUNDING = 1e-10, 1e-13
+"""Oil made or lost between surfaces that may touch, over what passes, which takes a few more Newton
+steps; and residual from which these end if they gain no more."""
 FREE_ORDERS = 4
 """Cycles after which nodes keep the order with which they pass on oil: else it may change with the
 meniscus, and the meniscus with it."""
@@ -94,6 +100,7 @@ class GridIteration:
         self.traces: list[GridTrace] = []  # of each grid, coarsest first
         self.from_hertz = False  # the present grid started from the Hertz pressure
         self.is_settled = True  # the meniscus rests, and the oil flux is constant
+        self.made = np.inf  # oil made or lost between surfaces that may touch
 
     @property
     def finest(self) -> Level:
@@ -117,7 +124,7 @@ class GridIteration:
         begins = len(levels) - 1 == self.roughness.first  # the first level with the heights
         done += self._raise_heights(levels, newton) if begins else 0
         trace.note(*fine.nodal_film())
-        most = MOST_STEPS if newton else MOST_CYCLES
+        most = _most_steps(newton)
         if self.coupling.state is not None and not newton:
             # smooth parts of the temperature may converge slowly: on coarse grids that costs little
             damped = self.coupling.damping < 1.0
@@ -193,11 +200,16 @@ class GridIteration:
         return self.traces[-2]
 
     def _newton(self, levels: Sequence[Level]) -> Newton | None:
-        """Return Newton's method if the strategy has it and the last of ``levels`` has heights."""
-        if not (self.strategy.newton and self.roughness.is_on(levels)):
+        """Return Newton's method if the strategy has it and the last of ``levels`` has heights.
+
+        Surfaces that may touch need it on smooth grids too.
+        """
+        touches = levels[-1].equations.contact_film is not None
+        if not (touches or (self.strategy.newton and self.roughness.is_on(levels))):
             return None
-        coarse = next(level.grid for level in levels if level.grid.nx >= COARSE_NODES)
-        return Newton(levels[-1], coarse)
+        grids = (level.grid for level in levels if level.grid.nx >= COARSE_NODES)
+        coarse = next(grids, levels[-1].grid)
+        return TouchingNewton(levels[-1], coarse) if touches else Newton(levels[-1], coarse)
 
     def _anderson(self, levels: Sequence[Level]) -> Anderson | None:
         """Return the acceleration of the cycles if the last of ``levels`` has heights."""
@@ -215,6 +227,9 @@ class GridIteration:
 
         # the smooth film is the start of the continuation, and of a restart on a finer grid
         fine.apply_heights(0.0)
+        if isinstance(newton, TouchingNewton):
+            raise_heights(fine, newton, lambda: iterate(newton.step))
+            return next(numbers) - 1
         for _ in range(SMOOTH_CYCLES):
             iterate(cycle)
         self.roughness.smooth = (len(levels) - 1, *fine.state())
@@ -252,6 +267,10 @@ class GridIteration:
         fine.update()
         heating = self.coupling.update(levels)
         report = self._report(fine, before, number, heating)
+        if fine.equations.contact_film is not None and fine is self.finest:
+            before_it, self.made = self.made, contact_balance(fine)
+            rounded = report.residual <= ROUNDING and self.made > 0.5 * before_it
+            self.is_settled = self.made <= LARGEST_MADE or rounded
         self.monitor.cycle(report)
         return report
 
@@ -276,3 +295,10 @@ class GridIteration:
         )
         check_divergence(report, self.hierarchy.expected_film, rough=self.roughness.is_rough)
         return report
+
+
+def _most_steps(newton: Newton | None) -> int:
+    """Return the most cycles, or steps of a method, on a grid that is not the finest."""
+    if isinstance(newton, TouchingNewton):
+        return MOST_TOUCHING
+    return MOST_STEPS if newton else MOST_CYCLES

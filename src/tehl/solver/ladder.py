@@ -91,6 +91,14 @@ BETWEEN_ROUGH = (
     ),
     Strategy(relaxation=BESIDE_NEWTON, continuation=Continuation(points=5.0), newton=True),
 )
+TOUCHING = (
+    Strategy(
+        relaxation=BESIDE_NEWTON,
+        continuation=Continuation(points=5.0),
+        newton=True,
+        patience=2,
+    ),
+)
 STATED = {one.name: Strategy(relaxation=one) for one in (FAST, BROAD, ROBUST, GAUSS_SEIDEL)}
 
 
@@ -106,6 +114,8 @@ def ladder(problem: ContactProblem, options: Options, *, rough: bool) -> tuple[S
     rough : bool
         Whether the surfaces have heights.
     """
+    if problem.contact_film is not None:
+        return TOUCHING
     if options.smoother != "auto":
         return (STATED[options.smoother],)
     if rough:

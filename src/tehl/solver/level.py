@@ -72,6 +72,11 @@ class Level:
             self.film = self.film._replace(across=np.ones(shape), eps_y=np.zeros(shape))
             if equations.asperities.slides:
                 self.film = self.film._replace(carried=np.ones(shape))
+        self.touching = np.zeros((0, 0), bool)  # nodes in contact through a boundary film
+        if equations.contact_film is not None:
+            self.separation, self.touching = np.zeros(shape), np.zeros(shape, bool)
+            partial, second = np.zeros(shape, np.uint8), np.zeros(shape, np.uint8)
+            self.film = self.film._replace(partial=partial, second=second, asperity=np.zeros(shape))
         self.keeps_orders = False  # the nodes of second order stay as they are
         self.rigid_approach = 0.0
         self.sources = Sources(f, g, equations.target)
@@ -98,6 +103,22 @@ class Level:
     def stencil(self) -> reynolds.Stencil:
         """Weights of the Reynolds operator."""
         return self.equations.stencil
+
+    @property
+    def balance(self) -> reynolds.Stencil:
+        """The same by fluxes through the faces of cells where surfaces may touch.
+
+        The order of each flux is then chosen by `Film.second`, and oil is conserved all the same.
+        """
+        if self.equations.contact_film is None:
+            return self.stencil
+        return self.stencil._replace(conserves=reynolds.STEADILY)
+
+    @property
+    def is_resolved(self) -> bool:
+        """Whether the film exceeds the floor of the conductance, or is the boundary film."""
+        touches = self.equations.contact_film is not None
+        return touches or float(self.film.h.min()) > self.equations.floor
 
     # state
 
@@ -144,7 +165,7 @@ class Level:
     def pressure(self) -> Array:
         """Pressure of oil and asperities together [-]."""
         film = self.film
-        return film.p if self.equations.asperities is None else film.p + film.asperity
+        return film.p + film.asperity if film.asperity.size else film.p
 
     def asperity_load(self) -> float:
         """Return the load on asperities over the load of the contact, zero without [-]."""
@@ -173,6 +194,7 @@ class Level:
             self.far_field.set_edges(self.film.p, h)
             self.sources.outside = self.far_field.load(h, self.equations.gap)
         self._touch(REACH)
+        self._meet()
         self.update_properties()
         self._is_stale = False
         if self.stencil.conserves == reynolds.STEADILY and self.is_finest:
@@ -183,6 +205,30 @@ class Level:
         laws, frozen = self.equations.asperities, self.smoother.frozen
         if laws is not None:
             properties.touch(self.film, self.separation, laws.table, laws.grid, frozen, reach)
+
+    def _meet(self) -> None:
+        """Find where the surfaces touch: the film is the boundary film there.
+
+        Complementarity of contact pressure and gap by the sign of P_c - (H - H_c)/K_00 (primal-dual
+        active set: Hintermüller, Ito and Kunisch 2002).
+        """
+        least, film, inner = self.equations.contact_film, self.film, (slice(None, -1), slice(1, -1))
+        if least is None:
+            return
+        gap = (self.separation - least) / self.equations.influence.self_film
+        self.touching[inner] = (film.asperity > gap)[inner]
+        if not self.grid.mirror:
+            self.touching[0] = False
+        np.maximum(self.separation, least, out=film.h)
+        film.h[self.touching] = least
+
+    def missing_gap(self) -> float:
+        """Return the mean error of H = H_c where surfaces touch, as a pressure [-]."""
+        least = self.equations.contact_film
+        if least is None:
+            return 0.0
+        errors = np.where(self.touching, np.abs(self.separation - least), 0.0)
+        return float(errors.mean()) / self.equations.influence.self_film
 
     def _mark_cavities(self) -> None:
         """Mark partly filled nodes, and those that pass on oil with second order."""
@@ -354,7 +400,7 @@ class Level:
 
     def warm_start(self, guess: Result | None) -> None:
         """Start from the film of a similar contact if its residual is much smaller."""
-        if guess is None:
+        if guess is None or self.equations.contact_film is not None:
             return
         self.pose_problem()
         here, before = self.state(), self._distance()
@@ -408,11 +454,15 @@ class Level:
         return rests
 
     def evaluate_residual(self) -> float:
-        """Evaluate f - L(P), zero where cavitated; return its mean over the local diagonal."""
+        """Evaluate f - L(P), zero where cavitated; return its mean over the local diagonal.
+
+        Where surfaces touch the error of their gap is added.
+        """
         self_film = self.equations.influence.self_film
-        return reynolds.residual(
-            self.film, self.stencil, self.sources.reynolds, self_film, self.residual
+        flow = reynolds.residual(
+            self.film, self.balance, self.sources.reynolds, self_film, self.residual
         )
+        return flow + self.missing_gap()
 
     def missing_load(self) -> float:
         """Return w less the integral of P, inside and outside the domain [-]."""

@@ -9,6 +9,7 @@ from tehl.operators.film import hertz_pressure
 from tehl.operators.heated_film import stress_unit
 from tehl.post.heat import lagrange_weights
 from tehl.post.roughness import ripples
+from tehl.post.touching import MARGIN
 from tehl.scaling import ScaledProblem
 from tehl.solver.film_summary import central_value
 from tehl.solver.level import Level
@@ -22,7 +23,7 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
     """Return the values of a converged grid by name.
 
     ``pressure_max``, ``spike`` and its ``excess`` over Hertz [-]; with asperities below the mesh
-    ``load_share``, their part of the load [-]; of a rough contact
+    ``load_share``, their part of the load, or that where surfaces touch [-]; of a rough contact
     ``ripple_film`` and ``ripple_pressure`` [-]; of a sliding one ``traction_mid_film`` [-]; of a
     heated film the rises that `tehl.post.heat.Temperature` has [K], and ``heat_`` with the names
     of the powers in `tehl.fields.HeatBalance` [W].
@@ -34,13 +35,15 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
     state : FilmState or None
         Temperature and stress on that grid; None for an isothermal Newtonian film.
     """
-    pressure = level.film.p
+    pressure, least = level.film.p, level.equations.contact_film
     found = {
         "pressure_max": float(pressure.max()),
         **_spike(level),
     }
     if level.equations.asperities is not None:
         found["load_share"] = level.asperity_load()
+    if least is not None:
+        found["load_share"] = touching_load(level, least)
     if level.heights is not None:
         ripple_film, ripple_pressure = ripples(level.grid.x, level.grid.y, level.film.h, pressure)
         found |= {"ripple_film": ripple_film, "ripple_pressure": ripple_pressure}
@@ -52,6 +55,12 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
         powers = asdict(heat_balance(state))
         found |= _rises(state) | {f"heat_{name}": power for name, power in powers.items()}
     return found
+
+
+def touching_load(level: Level, least: float) -> float:
+    """Return the load where the film exceeds the boundary film by at most `MARGIN`, over all."""
+    meets = level.film.h <= (1.0 + MARGIN) * least
+    return level.equations.load.integral(np.where(meets, level.pressure, 0.0)) / level.sources.load
 
 
 def _spike(level: Level) -> dict[str, float]:

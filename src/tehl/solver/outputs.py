@@ -6,7 +6,14 @@ Poiseuille flow.
 
 import numpy as np
 
-from tehl.fields import FilmAsperities, FilmHeat, FilmOil, FilmShear, HeatBalance
+from tehl.fields import (
+    FilmAsperities,
+    FilmContact,
+    FilmHeat,
+    FilmOil,
+    FilmShear,
+    HeatBalance,
+)
 from tehl.grid import Grid
 from tehl.operators.energy import FilmState, pressure_slopes
 from tehl.operators.heated_film import stress_unit
@@ -118,6 +125,30 @@ def film_asperities(level: Level, scaled: ScaledProblem) -> FilmAsperities | Non
         separation=grid.unfold(separation),
         rms=np.array(sigma),
     )
+
+
+def film_contact(level: Level, scaled: ScaledProblem) -> FilmContact | None:
+    """Return the pressure of contact through a boundary film; None without."""
+    if level.equations.contact_film is None:
+        return None
+    pressure = level.grid.unfold(level.film.asperity * scaled.scales.hertz_pressure)
+    return FilmContact(pressure=pressure, balance=np.array(contact_balance(level)))
+
+
+def contact_balance(level: Level) -> float:
+    """Return the largest oil made or lost upstream of any section, in film and contact [-].
+
+    Relative to the oil that passes through |Y| < 1 at X = 0. Cavities do not count.
+    """
+    level.evaluate_residual()
+    grid, film = level.grid, level.film
+    weights = np.ones(grid.shape[0])
+    if grid.mirror:
+        weights[1:] = 2.0
+    made = np.cumsum(weights @ level.residual) * grid.dx
+    middle, inside = int(np.argmin(np.abs(grid.x))), np.abs(grid.y) < 1.0
+    through = float(weights[inside] @ (film.rho * film.h)[inside, middle])
+    return float(np.abs(made).max()) / through
 
 
 def film_oil(level: Level, scaled: ScaledProblem) -> FilmOil | None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from tehl.domain import domain_of, planned
 from tehl.errors import InputError
-from tehl.fields import Fields, FilmHeat, FilmShear, SurfaceHeights
+from tehl.fields import Fields, FilmHeat, FilmShear, FilmSummary, SurfaceHeights
 from tehl.grid import Grid, can_mirror
 from tehl.kernels.warmup import warm_up
 from tehl.memory import check_memory
@@ -33,6 +33,7 @@ from tehl.solver.level import Level
 from tehl.solver.monitor import SILENT, Monitor, Recorder
 from tehl.solver.outputs import (
     film_asperities,
+    film_contact,
     film_heat,
     film_oil,
     film_shear,
@@ -282,7 +283,7 @@ def _result(
             film=grid.unfold(level.film.h),
         ),
         rigid_approach=level.rigid_approach,
-        film_scaled=film_summary(grid, level.film.h),
+        film_scaled=_film_summary(level),
         status=attempt.status,
         history=history,
         errors=run.errors(),
@@ -292,12 +293,21 @@ def _result(
         heat=heat,
         heights=_surfaces(run),
         asperities=film_asperities(level, scaled),
+        contact=film_contact(level, scaled),
         oil=film_oil(level, scaled),
         resolution=resolution_of(
             scaled.problem,
             (grid.dx * scaled.scales.half_width_x, grid.dy * scaled.scales.half_width_y),
         ),
     )
+
+
+def _film_summary(level: Level) -> FilmSummary:
+    """Return the film numbers; between nodes that touch the film is the boundary film, not less."""
+    found, least = film_summary(level.grid, level.film.h), level.equations.contact_film
+    if least is None:
+        return found
+    return replace(found, minimum=max(found.minimum, least))
 
 
 def _stress_and_heat(attempt: Attempt) -> tuple[FilmShear | None, FilmHeat | None]:

@@ -106,7 +106,7 @@ def _smooth_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     """Judge whether the film between smooth surfaces is positive and resolved by the grid."""
     level, points = run.finest, run.finest.grid.points
     smallest = level.film.h.min()
-    if not smallest > level.equations.floor:
+    if not level.is_resolved:
         return _failed(
             "film_not_positive",
             f"The discrete film is not positive on {points[0]} x {points[1]} nodes (smallest H = "
@@ -125,13 +125,13 @@ def _rough_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     The error of its minimum counts relative to the smooth film.
     """
     level = run.finest
-    if not is_film(level, errors):
+    if level.equations.contact_film is None and not is_film(level, errors):
         return _no_film_status(run, errors)
     if errors is None:
         return CONVERGED
     if errors.iteration_minimum >= 1.0:
         return not_reached(run)  # further cycles might make the minimum negative
-    error, part = errors.discretisation_minimum, level.film.h.min() / run.hierarchy.expected_film
+    error, part = errors.discretisation_minimum, run.minimum_part()
     if not max(part * error, errors.discretisation_central) <= LARGEST_BAR:
         largest = max(error, errors.discretisation_central)
         return too_coarse(level.grid.points, run.hierarchy.scaled, largest)

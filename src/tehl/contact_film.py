@@ -1,0 +1,25 @@
+"""Boundary film between surfaces that touch: the ``[contact_film]`` table of a case.
+
+Where the oil would leave less than this thickness, solid contact carries what the film does not
+(docs/theory/contact.md).
+"""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from tehl.units import Length, Quantity, Table
+
+Friction = Annotated[float, Quantity("a plain number", "-", "0.1", "non-negative")]
+
+THINNEST, THICKEST = 1e-12, 1e-6
+"""Limits of the boundary film [m]: beyond both the unit is wrong."""
+
+
+class ContactFilm(Table):
+    """A film that no pressure removes; the surfaces touch where it is all that is left."""
+
+    thickness: Length
+    """Least film thickness [m]."""
+    friction: Annotated[Friction, Field(le=2.0)] = 0.1
+    """Friction coefficient where they touch [-]."""

@@ -1,0 +1,159 @@
+"""Load, friction and area of surfaces that touch through a boundary film.
+
+Which part of the pressure at a node is that of the contact follows from the oil that is trapped
+there, and hardly from anything that one can measure. The load is therefore shared by the film:
+what is carried where the film exceeds the boundary film by at most `MARGIN` counts as carried by
+the contact.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl.post.traction import LARGEST_CREDIBLE, cell_widths
+from tehl.solution import Solution
+from tehl.typing import Array, BoolArray
+
+MARGIN = 0.05
+"""Film above the boundary film, over it, up to which surfaces count as touching."""
+LEAST_CELLS = 8.0
+"""Mesh widths across the patches of contact below which a share of the load is not known: of
+standing roughness that four cells per summit press into contact, eight may leave none."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Patches:
+    """Patches on which the surfaces touch: nodes that are neighbours along x or y."""
+
+    number: int
+    area_mean: float
+    area_largest: float
+    """Area of a patch [m^2]."""
+    pressure_mean: float
+    pressure_max: float
+    """Pressure of film and contact together on them [Pa]."""
+    cells: float
+    """Mean diameter in mesh widths, weighted by the load of each patch [-]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Touching:
+    """How film and contact share load and friction."""
+
+    margin: float
+    """Film above the boundary film up to which surfaces count as touching [m]."""
+    share: float
+    """Load where they touch over the load, as this grid has it [-]."""
+    share_error: float | None
+    """Its error bar [-]; None if too few grids have it."""
+    is_certified: bool
+    """Whether error bars from three grids belong to the share."""
+    solid_share: float
+    """Load of the contact pressure alone over the load [-]."""
+    area: float
+    """Area on which they touch [m^2]."""
+    area_part: float
+    """The same over the area of the Hertz contact [-]."""
+    contact_pressure_max: float
+    """Largest contact pressure [Pa]."""
+    pressure_max: float
+    """Largest pressure of film and contact together [Pa]."""
+    friction_boundary: float
+    """Friction where they touch over the load, positive; zero in pure rolling [-]."""
+    friction_film: float | None
+    """Friction of the film elsewhere, at mid-film, over the load, positive [-]; None where a
+    Newtonian film would transmit more than an oil can."""
+    power_boundary: float
+    """Heat of the contact that rubs [W]."""
+    patches: Patches | None
+    """None where nothing touches."""
+    balance: float
+    """Oil made or lost in film and contact, over the oil that enters [-]."""
+
+    @property
+    def friction(self) -> float | None:
+        """Friction coefficient of film and contact together [-]."""
+        film = self.friction_film
+        return None if film is None else film + self.friction_boundary
+
+    @property
+    def is_resolved(self) -> bool:
+        """Whether the grid resolves the patches, or nothing touches."""
+        return self.patches is None or self.patches.cells >= LEAST_CELLS
+
+    @property
+    def is_share_known(self) -> bool:
+        """Whether the share means anything: patches are resolved, or its error is certified."""
+        return self.is_resolved or self.is_certified
+
+
+def touching(result: Solution) -> Touching | None:
+    """Return how film and contact share load and friction; None without a boundary film.
+
+    Sums over the nodes; the friction of the contact is the stated coefficient times the load where
+    the surfaces touch.
+    """
+    found, film, scales = result.contact, result.problem.contact_film, result.scales
+    if found is None or film is None or result.status.kind == "diverged":
+        return None
+    cells = np.outer(cell_widths(result.y), cell_widths(result.x))
+    both = result.pressure + found.pressure
+    meet = touching_nodes(result)
+    share = float((cells * both)[meet].sum()) / scales.load
+    area, motion = float(cells[meet].sum()), result.problem.motion
+    bar = None if result.errors is None else result.errors.load_share
+    slides = result.problem.slide_roll_ratio != 0.0
+    return Touching(
+        margin=MARGIN * film.thickness,
+        share=share,
+        share_error=None if bar is None else share * bar,
+        is_certified="load_share" in result.uncertainty,
+        solid_share=float((cells * found.pressure).sum()) / scales.load,
+        area=area,
+        area_part=area / (math.pi * scales.half_width_x * scales.half_width_y),
+        contact_pressure_max=float(found.pressure.max()),
+        pressure_max=float(both.max()),
+        friction_boundary=film.friction * share if slides else 0.0,
+        friction_film=_film_friction(result, cells, meet),
+        power_boundary=film.friction * share * scales.load * abs(motion.speed_1 - motion.speed_2),
+        patches=_patches(result, meet, cells * both, both),
+        balance=float(found.balance),
+    )
+
+
+def touching_nodes(result: Solution) -> BoolArray:
+    """Return the nodes whose film exceeds the boundary film by at most `MARGIN`, (ny, nx)."""
+    film = result.problem.contact_film
+    if film is None:
+        return np.zeros(result.scaled.film.shape, bool)
+    return np.asarray(result.film_thickness <= (1.0 + MARGIN) * film.thickness)
+
+
+def _film_friction(result: Solution, cells: Array, meet: BoolArray) -> float | None:
+    if result.shear is None:
+        return None
+    apart = (result.pressure > 0.0) & ~meet
+    found = abs(float((cells * result.shear.mid_film)[apart].sum())) / result.scales.load
+    return found if found <= LARGEST_CREDIBLE else None
+
+
+def _patches(result: Solution, meet: BoolArray, loads: Array, both: Array) -> Patches | None:
+    from scipy.ndimage import label  # noqa: PLC0415 (0.1 s, for contacts that touch only)
+
+    if not meet.any():
+        return None
+    labels, number = label(meet)
+    nodes = np.bincount(labels.ravel())[1:]
+    carried = np.bincount(labels.ravel(), weights=loads.ravel())[1:]
+    across = 2.0 * np.sqrt(nodes / math.pi)
+    cell = float(result.x[1] - result.x[0]) * float(result.y[1] - result.y[0])
+    weights = carried if carried.sum() > 0.0 else np.ones(number)
+    return Patches(
+        number=int(number),
+        area_mean=float(nodes.mean()) * cell,
+        area_largest=float(nodes.max()) * cell,
+        pressure_mean=float(both[meet].mean()),
+        pressure_max=float(both[meet].max()),
+        cells=float((weights * across).sum() / weights.sum()),
+    )

@@ -1,0 +1,193 @@
+"""Newton's method for films between surfaces that touch through a boundary film.
+
+Two pressures (docs/theory/contact.md): that of the oil obeys the Reynolds equation everywhere, with
+the film H >= H_c, and that of the contact takes what the oil does not carry,
+
+    L(P, H) = f,  P >= 0;   P_c >= 0,  H >= H_c,  P_c (H - H_c) = 0;   H = H00 + K (P + P_c) + g.
+
+Which nodes touch follows from the sign of P_c - (H - H_c)/K_00 after each step (primal-dual active
+set; `Level.update`). The linear equations are those of `tehl.solver.touching_system`.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from tehl.grid import Grid
+from tehl.solver.convergence import DivergedError
+from tehl.solver.level import Level
+from tehl.solver.newton import ACCURACY, EXACT
+from tehl.solver.touching_system import (
+    TouchingOperators,
+    TouchingPreconditioner,
+    TouchingSystem,
+)
+from tehl.typing import Array, BoolArray
+
+SUFFICIENT, SHORTEST = 0.05, 0.12
+"""Least relative decrease of the residual for the whole step, and shortest part of a step, which is
+taken in any case: sets of nodes that change raise the residual for some steps."""
+MEMORY = 5
+"""Steps of which the largest residual must decrease."""
+SLOW = 40
+"""Products of a step beyond which the next one factorises again."""
+NEAR = 1e-2
+"""Residual below which the orders of the fluxes are chosen after `FREE` more steps. From then on
+they are lowered only: else they may change with the contact, and the contact with them."""
+FREE = 2
+NEARLY = 1e-5
+"""Residual below which the linear equations are solved accurately: Newton's method then converges
+with second order."""
+MOST_STEPS, QUICK, SLUGGISH, FAILED = 14, 6, 10, 0.35
+"""Most steps per increment of the heights, steps up to which the next one is larger and beyond
+which it is smaller, and the factor on one that failed."""
+FIRST_PART, LEAST_PART, RAISED = 0.25, 0.01, 1e-4
+"""First and smallest increment of the heights, and residual at which the next one follows."""
+
+
+class TouchingNewton(TouchingOperators):
+    """Newton's method for both pressures and the rigid approach of a level.
+
+    Parameters
+    ----------
+    level : Level
+        Its unknowns change in place.
+    coarse : Grid
+        Of the coarse correction.
+    order : {1, 2}
+        Largest order of the fluxes of the wedge. At touching nodes and next to them it is one: the
+        film has a kink there.
+    """
+
+    def __init__(self, level: Level, coarse: Grid, order: int = 2) -> None:
+        super().__init__(level, coarse)
+        self.factors: TouchingPreconditioner | None = None
+        self.past: list[float] = []
+        self.free_steps = FREE
+        self.touched = level.touching.copy()  # in the step before
+        self.set_order(order)
+
+    def set_order(self, order: int) -> None:
+        """Set the largest order of the fluxes; their orders are chosen again."""
+        self.order, self.free_steps, self.past = order, FREE, []
+        self._choose_orders()
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Discard the preconditioner and the residuals of earlier steps."""
+        self.factors, self.past = None, []
+
+    def step(self) -> float:
+        """Perform one step; return the part of it that was taken.
+
+        Raises DivergedError when the linear equations have no finite solution.
+        """
+        level = self.level
+        level.update()
+        if self.free_steps > 0:
+            self._choose_orders()
+        else:
+            self._lower_orders()
+        system = TouchingSystem(self)
+        old = self.factors
+        try:
+            accuracy = EXACT if self.residual() < NEARLY else ACCURACY
+            change, is_solved = self._solve(system, accuracy)
+            if not is_solved and old is not None:
+                self.factors = None
+                change, _ = self._solve(system, accuracy)
+        except (RuntimeError, ValueError) as error:  # singular or not finite
+            raise DivergedError from error
+        part = self._search(system, change)
+        if system.products > SLOW or part < 1.0:
+            self.factors = None
+        return part
+
+    def residual(self) -> float:
+        """Return the mean residual of both pressures plus the error of the load [-]."""
+        return self.level.evaluate_residual() + abs(self.level.missing_load())
+
+    def _choose_orders(self) -> None:
+        second, touching = self.level.film.second, self.level.touching
+        if self.order == 1 or self.level.stencil.w2 == 0.0:
+            second[:] = 0
+            return
+        second[:] = ~with_neighbours(touching)
+        second[:, 0] = 0
+        self.touched = touching.copy()
+
+    def _lower_orders(self) -> None:
+        """Lower the order where nodes still begin or cease to touch: with it they may cycle."""
+        touching = self.level.touching
+        self.level.film.second[with_neighbours(touching ^ self.touched)] = 0
+        self.touched = touching.copy()
+
+    def _solve(self, system: TouchingSystem, accuracy: float) -> tuple[Array, bool]:
+        if self.factors is None:
+            self.factors = TouchingPreconditioner(system)
+        return system.solve(self.factors, accuracy)
+
+    def _search(self, system: TouchingSystem, change: Array) -> float:
+        """Take the step, or a part of it if the residual would rise above the last ones."""
+        level, before = self.level, self.level.state()
+        if not np.isfinite(change).all():
+            raise DivergedError
+        self.past = [*self.past, self.residual()][-MEMORY:]
+        part, largest = 1.0, max(self.past)
+        while True:
+            level.set_state(*system.stepped(before, change, part))
+            level.update()
+            found = self.residual()
+            if found < (1.0 - SUFFICIENT * part) * largest or part < SHORTEST:
+                break
+            part *= 0.5
+        if found < NEAR and part == 1.0:
+            self.free_steps -= 1
+        return part
+
+
+def with_neighbours(marked: BoolArray) -> BoolArray:
+    """Return marked nodes and their neighbours along x."""
+    near = marked.copy()
+    near[:, 1:] |= marked[:, :-1]
+    near[:, :-1] |= marked[:, 1:]
+    return near
+
+
+def raise_heights(level: Level, newton: TouchingNewton, iterate: Callable[[], float]) -> None:
+    """Raise the heights of ``level`` from the smooth film, by increments solved by ``iterate``.
+
+    Fluxes are of first order until all heights are there. Each increment starts from the solution
+    of the last one: to extrapolate both would mix the nodes that touch.
+
+    Raises DivergedError when the smallest increment does not converge.
+    """
+    newton.set_order(1)
+    _solve_increment(newton, iterate)
+    part, size, known = 0.0, FIRST_PART, level.state()
+    while part < 1.0:
+        wanted = min(part + size, 1.0)
+        level.apply_heights(wanted)
+        newton.refresh()
+        steps = _solve_increment(newton, iterate)
+        if steps is None:
+            level.set_state(*known)
+            size *= FAILED
+        else:
+            known, part = level.state(), wanted
+            size *= 1.6 if steps <= QUICK else 0.8 if steps > SLUGGISH else 1.0
+        if size < LEAST_PART:
+            raise DivergedError
+    newton.set_order(2)
+
+
+def _solve_increment(newton: TouchingNewton, iterate: Callable[[], float]) -> int | None:
+    """Iterate until the residual is `RAISED`; return the number of steps, None on failure."""
+    for number in range(1, MOST_STEPS + 1):
+        try:
+            iterate()
+        except ArithmeticError:
+            return None
+        if newton.residual() < RAISED:
+            return number
+    return None
