@@ -16,6 +16,7 @@ HEADING = "\n## Files\n"
 
 NAMES = (
     "commands",
+    "live page",
     "studies",
     "pages",
     "pictures",

@@ -11,6 +11,7 @@ COMMANDS = {
     "new": "case",
     "explain": "case",
     "solve": "solve",
+    "explore": "explore",
     "layer": "layer",
     "study": "study",
     "plot": "results",

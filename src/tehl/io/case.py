@@ -103,7 +103,11 @@ def case_schema() -> dict[str, Any]:
 
 def toml_tables(path: Path) -> dict[str, Any]:
     """Return the tables of a TOML file, unchecked; messages of errors do not name the file."""
-    text = _text(path)
+    return tables_of_text(_text(path))
+
+
+def tables_of_text(text: str) -> dict[str, Any]:
+    """Return the tables of a TOML text as :func:`toml_tables`."""
     # tomllib takes time and memory that grow with the square of the parts of a key
     if _LONG_KEY.search(text):
         raise InputError("nested too deeply")
@@ -128,6 +132,11 @@ def _text(path: Path) -> str:
         raise InputError("case file does not exist") from None
     except OSError as error:
         raise InputError(f"cannot be read ({error.strerror})") from None
+    return text_of(content)
+
+
+def text_of(content: bytes) -> str:
+    """Return the text of the content of a case file; an InputError if it is not one."""
     if len(content) > _LARGEST:
         raise InputError(f"larger than {_LARGEST // 10**6} MB, so not a case file")
     try:

@@ -110,8 +110,8 @@ class _Pool(Engine):
     task_seconds = 0.2
 
     def __init__(self, jobs: int, *, forked: bool = False) -> None:
-        self._jobs, self._idle = jobs, list[_Worker]()
-        self._busy: dict[Connection, tuple[_Worker, Ticket]] = {}
+        self._jobs, self._idle = jobs, list[WorkerProcess]()
+        self._busy: dict[Connection, tuple[WorkerProcess, Ticket]] = {}
         forked = forked and sys.platform == "linux"  # elsewhere libraries do not survive a fork
         self._context: Any = multiprocessing.get_context("forkserver" if forked else "spawn")
         if forked:
@@ -138,41 +138,42 @@ class _Pool(Engine):
                 finished.append((ticket, connection.recv()))
                 self._idle.append(worker)
             except (EOFError, OSError):
-                _end([worker])
+                end([worker])
                 finished.append((ticket, WorkerDied()))
         return finished
 
     def close(self) -> None:
-        _end([*self._idle, *(worker for worker, _ in self._busy.values())])
+        end([*self._idle, *(worker for worker, _ in self._busy.values())])
 
-    def _started(self, count: int) -> list["_Worker"]:
+    def _started(self, count: int) -> list["WorkerProcess"]:
         """Start workers side by side; return them when each has reported that it is ready."""
         for _ in range(_STARTS):
-            workers = list[_Worker]()
+            workers = list[WorkerProcess]()
             try:
-                with _undisturbed():
-                    workers += (_Worker(self._context) for _ in range(count))
+                with undisturbed():
+                    workers += (WorkerProcess(self._context, serve) for _ in range(count))
                 for worker in workers:
                     worker.connection.recv()
             except (EOFError, ConnectionError):
-                _end(workers)
+                end(workers)
                 time.sleep(_PAUSE)
             else:
                 return workers
         raise OSError(_NO_WORKER)
 
 
-class _Worker:
+class WorkerProcess:
     """A process that ends with the program, and the connection to it."""
 
-    def __init__(self, context: Any) -> None:
+    def __init__(self, context: Any, serve: Callable[[Connection], None]) -> None:
         self.connection, theirs = context.Pipe()
         with theirs:
             self.process = context.Process(target=serve, args=(theirs,), daemon=True)
             self.process.start()
 
 
-def _end(workers: list[_Worker]) -> None:
+def end(workers: list[WorkerProcess]) -> None:
+    """Terminate workers, busy or idle, and wait until they have ended."""
     for worker in workers:
         worker.connection.close()
         worker.process.terminate()
@@ -181,7 +182,7 @@ def _end(workers: list[_Worker]) -> None:
 
 
 @contextmanager
-def _undisturbed() -> Iterator[None]:
+def undisturbed() -> Iterator[None]:
     """Give the environment of workers to what is started, and keep Ctrl-C from it."""
     before = {name: os.environ[name] for name in _ENVIRONMENT if name in os.environ}
     os.environ.update(_ENVIRONMENT)

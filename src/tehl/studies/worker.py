@@ -26,7 +26,7 @@ Solve = Callable[[Case, Path | None, Path | None], Row]
 def serve(connection: Connection) -> None:
     """Report that the process is ready; then call each function received and return its outcome."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the parent, which ends this one
-    Thread(target=_end_with_parent, daemon=True).start()
+    Thread(target=end_with_parent, daemon=True).start()
     with suppress(EOFError, ConnectionError):  # the parent is gone or has closed
         connection.send("ready")
         while True:
@@ -41,7 +41,7 @@ def attempt(function: Callable[..., Any], *arguments: Any) -> Any:
         return error
 
 
-def _end_with_parent() -> None:
+def end_with_parent() -> None:
     """End this process when its parent has ended, even during a solve."""
     parent = parent_process()
     if parent is not None:

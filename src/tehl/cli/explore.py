@@ -1,0 +1,51 @@
+"""``tehl explore``: the live page."""
+
+from contextlib import suppress
+from pathlib import Path
+from typing import Annotated
+
+from typer import Argument, Option, echo
+
+TEMPLATE = "ball-on-disc"
+"""What the page opens without a case."""
+
+
+def explore(
+    case: Annotated[Path | None, Argument(help="Case file.", show_default=False)] = None,
+    port: Annotated[
+        int | None, Option(min=1024, max=65535, help="Port; one that is free if left out.")
+    ] = None,
+    browser: Annotated[bool, Option(help="Open the page in the browser.")] = True,
+) -> None:
+    """Turn the knobs of a contact on a live page: film, pressure and heat follow.
+
+    The page is served to this machine only, to whoever has the address. Ctrl-C ends it.
+    """
+    from tehl.io.case import read_case_and_options
+    from tehl.io.templates import template_text
+
+    text = template_text(TEMPLATE)
+    if case is not None:
+        read_case_and_options(case)  # for its errors, before a page opens
+        text = case.read_text(encoding="utf-8-sig")
+    _check_extra()
+    from tehl.explore.server import serve
+
+    with suppress(KeyboardInterrupt):  # the usual end
+        serve(case, text, port, browser=browser, report=_report)
+
+
+def _check_extra() -> None:
+    from importlib.util import find_spec
+
+    from tehl.errors import InputError
+
+    missing = [name for name in ("nicegui", "tomlkit") if find_spec(name) is None]
+    if missing:
+        raise InputError(
+            f"the page needs {' and '.join(missing)}: install them with pip install 'tehl[explore]'"
+        )
+
+
+def _report(address: str) -> None:
+    echo(f"{address}   (Ctrl-C ends)")

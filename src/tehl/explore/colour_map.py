@@ -1,0 +1,343 @@
+"""Colour maps of the page: a field as a PNG with held colours, contour lines, a colour bar."""
+
+import base64
+import io
+import math
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from contourpy import LineType, contour_generator
+from matplotlib import colormaps
+from PIL import Image
+
+from tehl.explore.axes import Frame, Scale, number_text, svg, text, ticks, turned
+from tehl.explore.shown import Maps, Section, Shown
+from tehl.typing import Array
+
+_LEFT, _RIGHT, _TOP, _BOTTOM = 58.0, 84.0, 26.0, 46.0
+"""Margins in pixels."""
+_WIDEST = 400.0
+"""Pixels of an image; the browser draws it wider, smoothly."""
+_CONTOURED = 128
+"""Points along an axis on which contour lines are traced."""
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """Range of a colour scale."""
+
+    low: float
+    high: float
+    is_log: bool = False
+
+    def joined(self, other: "Limits") -> "Limits":
+        """Return the range that has both."""
+        return replace(self, low=min(self.low, other.low), high=max(self.high, other.high))
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """How a field is drawn."""
+
+    limits: Limits
+    levels: list[float]
+    """Of the contour lines."""
+    colours: str
+    """Name of the colour map."""
+    label: str
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A map: the PNG of its colours, where it lies, and the SVG over it."""
+
+    image: str
+    place: tuple[float, float, float, float]
+    """Left, top, width and height of the image in pixels."""
+    overlay: str
+    frame: Frame
+
+
+def film_limits(maps: Maps) -> Limits:
+    """Return the colours of a film: from just below its minimum to 1.6 times the centre."""
+    positive = maps.film[maps.film > 0]
+    central = maps.central if maps.central > 0 else float(np.median(positive or [1.0]))
+    low = float(positive.min()) if positive.size else 0.1 * central
+    return Limits(0.95 * min(max(low, 0.02 * central), 0.95 * central), 1.6 * central, True)
+
+
+def pressure_limits(maps: Maps) -> Limits:
+    """Return the colours of a pressure."""
+    return Limits(0.0, max(float(maps.pressure.max()), 1e-6))
+
+
+def section_limits(section: Section) -> Limits:
+    """Return the colours of a temperature rise."""
+    return Limits(min(float(section.rise.min()), 0.0), max(float(section.rise.max()), 1e-3))
+
+
+def film_picture(maps: Maps, limits: Limits, size: tuple[float, float]) -> Picture:
+    """Draw the film with contour lines, Hertz contact and minimum."""
+    levels = [level for level in ticks(limits.low, limits.high, 9) if level > limits.low]
+    look = Look(limits, levels, "viridis", "film thickness [nm]")
+    return _map(maps, maps.film, look, size)
+
+
+def pressure_picture(maps: Maps, limits: Limits, size: tuple[float, float]) -> Picture:
+    """Draw the pressure with contour lines and the Hertz contact."""
+    look = Look(limits, ticks(limits.low, limits.high, 8)[1:], "cividis", "pressure [GPa]")
+    return _map(replace(maps, minimum=()), maps.pressure, look, size)
+
+
+def fringes_picture(shown: Shown, size: tuple[float, float]) -> Picture:
+    """Draw the interferogram, which has no colour bar."""
+    maps, fringes = shown.maps, shown.fringes
+    assert fringes is not None
+    frame = _frame(maps, size)
+    place = _place(frame)
+    buffer = io.BytesIO()
+    Image.fromarray(fringes).save(buffer, "PNG", compress_level=1)
+    parts = frame.svg("x along entrainment [µm]", "y [µm]") + _contact(frame, maps)
+    overlay = svg(frame.width, frame.height, parts, "interferogram in white light")
+    return Picture(_uri(buffer), place, overlay, frame)
+
+
+def section_picture(
+    section: Section, maps: Maps, limits: Limits, size: tuple[float, float]
+) -> Picture:
+    """Draw the temperature rise in the plane y = 0, across the film."""
+    width, height = size[0], min(size[1], 0.55 * size[0] + 60.0)
+    (left, right), _ = maps.window
+    frame = Frame(
+        Scale(left, right, _LEFT, width - _RIGHT),
+        Scale(0.0, 1.0, height - _BOTTOM, _TOP),
+        width,
+        height,
+    )
+    place = _place(frame)
+    across = np.linspace(0.0, 1.0, len(section.rise))
+    axes = (section.x, across)
+    pixels = _resampled(section.rise, axes, frame, place)
+    look = Look(limits, ticks(limits.low, limits.high, 9), "inferno", "rise over the inlet [K]")
+    parts = _contours(section.rise, axes, frame, look.levels)
+    for edge in (-maps.half_widths[0], maps.half_widths[0]):
+        at = frame.x(edge)
+        parts += f'<path d="M{at:.1f} {frame.y.start}V{frame.y.end}" class="hertz"/>'
+    parts += frame.svg("x along entrainment [µm]", "z / h")
+    parts += _colour_bar(frame, look)
+    overlay = svg(width, height, parts, "temperature rise across the film")
+    return Picture(_png(pixels, look), place, overlay, frame)
+
+
+def value_at(x_axis: Array, y_axis: Array, field: Array, x: float, y: float) -> float | None:
+    """Return a field at a place between its nodes, None outside."""
+    if not (x_axis[0] <= x <= x_axis[-1] and y_axis[0] <= y <= y_axis[-1]):
+        return None
+    row = [float(np.interp(x, x_axis, line)) for line in _around(field, y_axis, y)]
+    k = int(np.clip(np.searchsorted(y_axis, y), 1, len(y_axis) - 1))
+    part = (y - y_axis[k - 1]) / (y_axis[k] - y_axis[k - 1])
+    return float((1.0 - part) * row[0] + part * row[1])
+
+
+def _around(field: Array, axis: Array, at: float) -> Array:
+    k = int(np.clip(np.searchsorted(axis, at), 1, len(axis) - 1))
+    return field[k - 1 : k + 1]
+
+
+def _map(maps: Maps, field: Array, look: Look, size: tuple[float, float]) -> Picture:
+    frame = _frame(maps, size)
+    place = _place(frame)
+    pixels = _resampled(field, (maps.x, maps.y), frame, place)
+    parts = _contours(field, (maps.x, maps.y), frame, look.levels)
+    parts += _contact(frame, maps) + frame.svg("x along entrainment [µm]", _y_label(maps))
+    parts += _colour_bar(frame, look) + _legend(frame, maps)
+    overlay = svg(frame.width, frame.height, parts, f"map of the {look.label}")
+    return Picture(_png(pixels, look), place, overlay, frame)
+
+
+def _y_label(maps: Maps) -> str:
+    if maps.stretch == 1.0:
+        return "y [µm]"
+    stretched = maps.stretch > 1.0
+    return (
+        f"y [µm], stretched {maps.stretch:.2g}:1"
+        if stretched
+        else (f"y [µm], compressed 1:{1.0 / maps.stretch:.2g}")
+    )
+
+
+def _frame(maps: Maps, size: tuple[float, float]) -> Frame:
+    """Return the scales of a map as large as fits."""
+    (left, right), (bottom, top) = maps.window
+    shape = (top - bottom) / (right - left) * maps.stretch
+    width = min(size[0] - _LEFT - _RIGHT, (size[1] - _TOP - _BOTTOM) / shape)
+    height = width * shape
+    full = _TOP + height + _BOTTOM
+    return Frame(
+        Scale(left, right, _LEFT, _LEFT + width),
+        Scale(bottom, top, full - _BOTTOM, _TOP),
+        _LEFT + width + _RIGHT,
+        full,
+    )
+
+
+def _place(frame: Frame) -> tuple[float, float, float, float]:
+    return (
+        frame.x.start,
+        frame.y.end,
+        frame.x.end - frame.x.start,
+        frame.y.start - frame.y.end,
+    )
+
+
+def _resampled(
+    field: Array, axes: tuple[Array, Array], frame: Frame, place: tuple[float, float, float, float]
+) -> Array:
+    """Return a field at the pixels of its image, from the top down."""
+    fewer = max(1.0, place[2] / _WIDEST)
+    columns, rows = max(2, round(place[2] / fewer)), max(2, round(place[3] / fewer))
+    along = np.linspace(frame.x.low, frame.x.high, columns)
+    down = np.linspace(frame.y.high, frame.y.low, rows)
+    return np.asarray(_weights(axes[1], down) @ field @ _weights(axes[0], along).T)
+
+
+def _weights(nodes: Array, places: Array) -> Array:
+    """Return the matrix of cubic convolution from nodes to places (Keys 1981, a = -1/2)."""
+    return _cached_weights(nodes.tobytes(), places.tobytes(), nodes.dtype.str)
+
+
+@lru_cache(maxsize=16)
+def _cached_weights(nodes: bytes, places: bytes, kind: str) -> Array:
+    axis = np.frombuffer(nodes, dtype=kind).astype(float)
+    at = np.interp(np.frombuffer(places), axis, np.arange(len(axis)))
+    first = np.clip(np.floor(at), 0, len(axis) - 2).astype(int)
+    found = np.zeros((len(at), len(axis)), dtype=np.float32)
+    for shift in (-1, 0, 1, 2):
+        distance = np.abs(at - (first + shift))
+        near = 1.5 * distance**3 - 2.5 * distance**2 + 1.0
+        far = -0.5 * distance**3 + 2.5 * distance**2 - 4.0 * distance + 2.0
+        weight = np.where(distance <= 1.0, near, np.where(distance < 2.0, far, 0.0))
+        np.add.at(found, (np.arange(len(at)), np.clip(first + shift, 0, len(axis) - 1)), weight)
+    return found.astype(float)
+
+
+def _png(pixels: Array, look: Look) -> str:
+    """Return an image of 256 colours as the address of its data."""
+    limits = look.limits
+    if limits.is_log:
+        part = np.log(np.maximum(pixels, 1e-9) / limits.low) / math.log(limits.high / limits.low)
+    else:
+        part = (pixels - limits.low) / (limits.high - limits.low)
+    image = Image.fromarray((255.0 * np.clip(part, 0.0, 1.0)).astype(np.uint8), "P")
+    image.putpalette(_palette(look.colours))
+    buffer = io.BytesIO()
+    image.save(buffer, "PNG", compress_level=1)
+    return _uri(buffer)
+
+
+@lru_cache(maxsize=4)
+def _palette(colours: str) -> bytes:
+    table = colormaps[colours](np.linspace(0.0, 1.0, 256))[:, :3]
+    return (255.0 * table).round().astype(np.uint8).tobytes()
+
+
+def _uri(buffer: io.BytesIO) -> str:
+    return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode("ascii")
+
+
+def _contours(field: Array, axes: tuple[Array, Array], frame: Frame, levels: list[float]) -> str:
+    """Return contour lines as one path."""
+    x = np.linspace(max(axes[0][0], frame.x.low), min(axes[0][-1], frame.x.high), _CONTOURED)
+    y = np.linspace(max(axes[1][0], frame.y.low), min(axes[1][-1], frame.y.high), _CONTOURED)
+    fine = _weights(axes[1], y) @ field @ _weights(axes[0], x).T
+    tracer = contour_generator(x, y, fine, line_type=LineType.Separate)
+    parts = []
+    for level in levels:
+        lines: Any = tracer.lines(level)
+        for line in lines:
+            if len(line) < 6:
+                continue
+            points = np.stack([frame.x.pixels(line[:, 0]), frame.y.pixels(line[:, 1])], axis=1)
+            words = " ".join(f"{a:.1f} {b:.1f}" for a, b in points.tolist())
+            parts.append(f"M{words}")
+    return f'<path d="{"".join(parts)}" class="contour"/>'
+
+
+def _contact(frame: Frame, maps: Maps) -> str:
+    """Return the Hertz contact, the minimum film, and the arrow of entrainment."""
+    rx = frame.x(maps.half_widths[0]) - frame.x(0.0)
+    ry = frame.y(0.0) - frame.y(maps.half_widths[1])
+    cx, cy = frame.x(0.0), frame.y(0.0)
+    ring = f'<ellipse cx="{cx:.1f}" cy="{cy:.1f}" rx="{rx:.1f}" ry="{ry:.1f}"'
+    parts = [f'{ring} class="rim"/>{ring} class="hertz"/>']
+    for x, y in maps.minimum:
+        parts.append(_cross(frame.x(x), frame.y(y)))
+    left, low = frame.x.start + 10, frame.y.start - 12
+    arrow = f"M{left} {low}h34m-8 -5l8 5l-8 5"
+    parts.append(f'<path d="{arrow}" class="halo"/><path d="{arrow}" class="arrow"/>')
+    parts.append(text(left, low - 10, "oil enters", "on-map", "start"))
+    return "".join(parts)
+
+
+def _cross(x: float, y: float) -> str:
+    cross = f"M{x - 5:.1f} {y:.1f}h10M{x:.1f} {y - 5:.1f}v10"
+    return f'<path d="{cross}" class="halo"/><path d="{cross}" class="minimum"/>'
+
+
+def _legend(frame: Frame, maps: Maps) -> str:
+    """Return what dashed line and cross are, above the map."""
+    y, left = frame.y.end - 12, frame.x.start
+    parts = [f'<path d="M{left} {y - 4}h22" class="hertz-key"/>']
+    parts.append(text(left + 28, y, "Hertz contact", "small", "start"))
+    if maps.minimum:
+        x = left + 130
+        parts.append(f'<path d="M{x - 5} {y - 4}h10M{x} {y - 9}v10" class="minimum"/>')
+        parts.append(text(x + 12, y, "minimum film", "small", "start"))
+    return "".join(parts)
+
+
+def _colour_bar(frame: Frame, look: Look) -> str:
+    """Return the colour bar at the right."""
+    limits = look.limits
+    left, top, height = frame.x.end + 14, frame.y.end, frame.y.start - frame.y.end
+    scale = Scale(limits.low, limits.high, top + height, top, limits.is_log)
+    table = np.frombuffer(_palette(look.colours), dtype=np.uint8).reshape(-1, 3)[:: 255 // 15]
+    stops = "".join(
+        f'<stop offset="{k / (len(table) - 1):.3f}" stop-color="rgb({r},{g},{b})"/>'
+        for k, (r, g, b) in enumerate(table.tolist())
+    )
+    name = f"bar-{look.colours}"
+    parts = [
+        f'<defs><linearGradient id="{name}" x1="0" y1="1" x2="0" y2="0">{stops}'
+        f'</linearGradient></defs><rect x="{left}" y="{top}" width="13" height="{height:.1f}" '
+        f'fill="url(#{name})" class="bar"/>'
+    ]
+    for value in ticks(limits.low, limits.high, max(3, int(height / 40))):
+        y = scale(value)
+        parts.append(f'<path d="M{left + 13} {y:.1f}h4" class="tick"/>')
+        parts.append(text(left + 20, y + 4, number_text(value), "", "start"))
+    parts.append(turned(left + 62, top + 0.5 * height, look.label, "label"))
+    return "".join(parts)
+
+
+def heights_picture(
+    axes: tuple[Array, Array], heights: Array, size: tuple[float, float]
+) -> Picture:
+    """Draw the heights of a measured surface [nm] over x and y [um]."""
+    low, high = (float(value) for value in np.percentile(heights, (0.5, 99.5)))
+    limits = Limits(low, high if high > low else low + 1.0)
+    shape = float(np.ptp(axes[1]) / np.ptp(axes[0]))
+    width = min(size[0] - _LEFT - _RIGHT, (size[1] - _TOP - _BOTTOM) / shape)
+    full = _TOP + width * shape + _BOTTOM
+    frame = Frame(
+        Scale(float(axes[0][0]), float(axes[0][-1]), _LEFT, _LEFT + width),
+        Scale(float(axes[1][0]), float(axes[1][-1]), full - _BOTTOM, _TOP),
+        _LEFT + width + _RIGHT,
+        full,
+    )
+    place, look = _place(frame), Look(limits, [], "viridis", "height outwards [nm]")
+    parts = frame.svg("x along entrainment [µm]", "y [µm]") + _colour_bar(frame, look)
+    overlay = svg(frame.width, frame.height, parts, "map of the heights")
+    return Picture(_png(_resampled(heights, axes, frame, place), look), place, overlay, frame)

@@ -1,0 +1,195 @@
+"""The left side of the page: a row for each control, made again when others are needed."""
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from nicegui import ui
+
+from tehl.explore.controls import Choice, Group, Knob
+from tehl.explore.tab import Tab
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+_STEPS = 1000
+_THROTTLE = 0.03
+"""Seconds between two places of a moving slider."""
+
+
+class ControlPanel:
+    """The controls of a tab; ``measured`` asks for a measured surface."""
+
+    def __init__(self, tab: Tab, measured: "Callable[[], None]") -> None:
+        self.tab, self.measured = tab, measured
+        self.rows: dict[str, KnobRow | ChoiceRow] = {}
+        self.opened = dict[str, bool]()
+        self.place = ui.column().classes("controls")
+        tab.listeners.append(self._hear)
+
+    def _hear(self, topic: str) -> None:
+        if topic == "controls":
+            self.build()
+        elif topic == "fault":
+            self._show_fault()
+
+    def build(self) -> None:
+        """Make the rows of the present controls."""
+        self.place.clear()
+        self.rows = {}
+        with self.place:
+            for group in self.tab.groups:
+                self._build_group(group)
+        self._show_fault()
+
+    def _build_group(self, group: Group) -> None:
+        is_open = self.opened.get(group.name, group.is_open)
+        with ui.expansion(group.name, value=is_open).classes("group") as part:
+            part.props("dense header-class=group-head")
+            part.on_value_change(lambda event: self.opened.update({group.name: event.value}))
+            for item in group.items:
+                row = (
+                    KnobRow(self.tab, item) if isinstance(item, Knob) else ChoiceRow(self.tab, item)
+                )
+                self.rows[item.path] = row
+            if group.name == "Surfaces":
+                button = ui.button("Measured surface", icon="upload", on_click=self.measured)
+                button.props("flat dense no-caps")
+
+    def _show_fault(self) -> None:
+        """Show what is wrong beside its control."""
+        fault = self.tab.fault
+        for path, row in self.rows.items():
+            row.blame(fault.text if fault is not None and fault.path == path else "")
+
+    def owns(self, path: str) -> bool:
+        """Return whether a fault of a key is shown beside its control."""
+        return path in self.rows
+
+
+class KnobRow:
+    """Label, exact entry, unit and slider of a number."""
+
+    def __init__(self, tab: Tab, knob: Knob) -> None:
+        self.tab, self.knob, self.unit = tab, knob, knob.unit
+        self.value, self.reach = knob.value, knob.reach(knob.value)
+        with ui.element("div").classes("knob"):
+            with ui.element("div").classes("knob-head"):
+                ui.label(knob.label).classes("knob-label")
+                self.entry = ui.input(value=self._words()).props("dense outlined hide-bottom-space")
+                self.entry.props(f'input-class="entry" aria-label="{knob.label}"').classes("entry")
+                self.entry.on("keydown.enter", self._typed).on("blur", self._typed)
+                self._unit_selector()
+            self.slider = ui.slider(min=0, max=_STEPS, step=1, value=self._place())
+            self.slider.props(f'aria-label="{knob.label}" dense').classes("knob-slider")
+            self.slider.on(
+                "update:model-value", self._moved, [None], throttle=_THROTTLE, leading_events=True
+            )
+            self.slider.on("change", self._released, [None])
+            self.fault = ui.label("").classes("fault").props('role="alert"')
+            self.fault.set_visibility(False)
+
+    def _unit_selector(self) -> None:
+        if len(self.knob.units) > 1:
+            chosen = ui.select(list(self.knob.units), value=self.unit, on_change=self._other_unit)
+            chosen.props(f'dense borderless options-dense aria-label="unit of {self.knob.label}"')
+            chosen.classes("unit")
+        else:
+            ui.label(self.unit.replace("degC", "°C")).classes("unit fixed")
+
+    def _words(self) -> str:
+        return f"{self.knob.number(self.value, self.unit):.5g}"
+
+    # ---- the slider
+
+    def _place(self) -> int:
+        low, high = self.reach
+        value = min(max(self.value, low), high)
+        if self.knob.is_log and low > 0:
+            part = math.log(value / low) / math.log(high / low)
+        else:
+            part = (value - low) / (high - low)
+        return round(_STEPS * part)
+
+    def _at(self, place: float) -> float:
+        """Return the value at a place of the slider, to three digits."""
+        low, high = self.reach
+        part = place / _STEPS
+        value = (
+            low * (high / low) ** part
+            if self.knob.is_log and low > 0
+            else low + part * (high - low)
+        )
+        number = self.knob.number(value, self.unit)
+        step = 10.0 ** (math.floor(math.log10(max(abs(number), 1e-12))) - 2)
+        if not (self.knob.is_log and low > 0):
+            size = abs(self.knob.number(high, self.unit) - self.knob.number(low, self.unit))
+            step = 10.0 ** (math.floor(math.log10(size)) - 2)
+        return round(number / step) * step
+
+    def _moved(self, event: Any) -> None:
+        self._set(float(_plain(event.args)), moving=True)
+
+    def _released(self, event: Any) -> None:
+        self._set(float(_plain(event.args)), moving=False)
+        low, high = self.reach
+        if self.knob.is_log and not 1.05 * low < self.value < high / 1.05:
+            self._centre()
+
+    def _set(self, place: float, *, moving: bool) -> None:
+        number = self._at(place)
+        self.value = self.knob.si(number, self.unit)
+        self.entry.set_value(f"{number:.5g}")
+        self.tab.turn(self.knob, number, self.unit, moving=moving)
+
+    def _centre(self) -> None:
+        self.reach = self.knob.reach(self.value)
+        self.slider.set_value(self._place())
+
+    # ---- the entry
+
+    def _typed(self) -> None:
+        words = str(self.entry.value)
+        if words == self._words():
+            return
+        if self.tab.type(self.knob, words, self.unit):
+            stated = self.tab.case.get(self.knob.path)
+            self.value = self.knob.kind.parse(stated)
+            self.entry.set_value(self._words())
+            self._centre()
+
+    def _other_unit(self, event: Any) -> None:
+        self.unit = event.value
+        self.entry.set_value(self._words())
+
+    def blame(self, text: str) -> None:
+        """Show a sentence below the slider, none if it is empty."""
+        self.fault.set_text(text)
+        self.fault.set_visibility(bool(text))
+
+
+class ChoiceRow:
+    """Label and selector of one of several words."""
+
+    def __init__(self, tab: Tab, choice: Choice) -> None:
+        self.tab, self.choice = tab, choice
+        with ui.element("div").classes("choice"):
+            ui.label(choice.label).classes("knob-label")
+            self.selector = ui.select(
+                dict(choice.options),
+                value=choice.value,
+                on_change=lambda event: tab.choose(choice, event.value),
+            )
+            self.selector.props(f'dense outlined options-dense aria-label="{choice.label}"')
+            self.selector.classes("choice-selector")
+            self.fault = ui.label("").classes("fault").props('role="alert"')
+            self.fault.set_visibility(False)
+
+    def blame(self, text: str) -> None:
+        """Show a sentence below the selector, none if it is empty."""
+        self.fault.set_text(text)
+        self.fault.set_visibility(bool(text))
+
+
+def _plain(arguments: Any) -> Any:
+    """Return the first argument of an event."""
+    return arguments[0] if isinstance(arguments, list) else arguments

@@ -1,0 +1,253 @@
+"""The view of curves: a control is swept in the background, points appear as they are solved."""
+
+import math
+from typing import Any
+
+from nicegui import ui
+
+from tehl.errors import InputError
+from tehl.explore.controls import Knob, swept_knobs
+from tehl.explore.curves import Point, swept_chart
+from tehl.explore.jobs import End, Failure
+from tehl.explore.numbers import value_of
+from tehl.explore.tab import Tab
+from tehl.explore.tasks import Sweep, Swept
+from tehl.explore.worker import Solver
+
+_POINTS = 13
+_MOST = 101
+_ABOVE = {
+    "friction": "contact.slide_roll_ratio",
+    "power": "contact.slide_roll_ratio",
+    "t_max": "contact.slide_roll_ratio",
+    "p_max": "contact.load",
+}
+"""What a quantity is swept over at first; the others over speed."""
+_SPEED = "contact.entrainment_speed"
+_SLIDING = (0.003, 1.0)
+
+
+class CurvePanel:
+    """Curves of a tab, in a worker of their own."""
+
+    def __init__(self, tab: Tab, background: Solver) -> None:
+        self.tab, self.background = tab, background
+        self.points: list[Swept] = []
+        self.knob: Knob | None = None
+        self.span, self.wanted, self.size = (1.0, 10.0), 0, (720.0, 480.0)
+        self._number = 0
+        with ui.element("div").classes("curves") as self.place:
+            self._build_choices()
+            with ui.element("div").classes("sweep-state"):
+                self.state = ui.label("").classes("status-words")
+                self.bar = ui.linear_progress(0.0, show_value=False).props('aria-label="progress"')
+                self.bar.classes("sweep-bar")
+            self.drawing = ui.html("", sanitize=False).classes("drawing")
+        self.place.set_visibility(False)
+        tab.listeners.append(self._hear)
+
+    def _build_choices(self) -> None:
+        with ui.element("div").classes("sweep-choices"):
+            self.quantity = ui.select({}, label="quantity", on_change=self.draw)
+            self.over = ui.select({}, label="over", on_change=self._take_range)
+            self.low = ui.input("from").classes("sweep-end")
+            self.high = ui.input("to").classes("sweep-end")
+            self.count = ui.number("points", value=_POINTS, min=3, max=_MOST, precision=0)
+            self.count.classes("sweep-end")
+            for field in (self.quantity, self.over, self.low, self.high, self.count):
+                field.props("dense outlined options-dense")
+            self.go = ui.button("Solve", icon="play_arrow", on_click=self.start)
+            self.go.props("no-caps unelevated")
+            self.halt = ui.button("Cancel", on_click=self.cancel).props("flat no-caps")
+            self.halt.set_visibility(False)
+            save = ui.button(icon="download", on_click=self._save).props("flat round dense")
+            save.props('aria-label="save the table"').tooltip("save the table, CSV")
+
+    # ---- what is swept
+
+    def _hear(self, topic: str) -> None:
+        if topic == "controls":
+            self._offer()
+        elif topic in ("picture", "numbers") and self.tab.view == "curves":
+            self.show()
+
+    def _offer(self) -> None:
+        """Offer the controls of the case."""
+        names = {path: knob.label for path, knob in swept_knobs(self.tab.groups).items()}
+        kept = self.over.value if self.over.value in names else None
+        self.over.set_options(names, value=kept or next(iter(names), None))
+
+    def show(self, key: str | None = None) -> None:
+        """Show the panel, with the curve of a quantity."""
+        shown = self.tab.shown
+        self.place.set_visibility(self.tab.view == "curves")
+        if shown is None:
+            return
+        names = {one.key: one.name for one in shown.numbers}
+        chosen = key or self.quantity.value or "h_central"
+        if names != self.quantity.options or chosen != self.quantity.value:
+            self.quantity.set_options(names, value=chosen if chosen in names else "h_central")
+        if key is not None:
+            wanted = _ABOVE.get(key, _SPEED)
+            if wanted in self.over.options:
+                self.over.set_value(wanted)
+            self._take_range()
+        elif not self.low.value:
+            self._take_range()
+        self.draw()
+
+    def hide(self) -> None:
+        """Hide the panel."""
+        self.place.set_visibility(False)
+
+    def _take_range(self) -> None:
+        """Propose the range around the present value."""
+        knob = swept_knobs(self.tab.groups).get(str(self.over.value))
+        if knob is None:
+            return
+        low, high = knob.reach(knob.value)
+        if knob.path == _ABOVE["friction"]:
+            low, high = _SLIDING
+        self.low.set_value(f"{knob.number(low, knob.unit):.4g}")
+        self.high.set_value(f"{knob.number(high, knob.unit):.4g}")
+        unit = f" [{knob.unit.replace('degC', '°C')}]" if knob.unit else ""
+        self.low.props(f'label="from{unit}"')
+        self.high.props(f'label="to{unit}"')
+
+    # ---- the sweep
+
+    def start(self) -> None:
+        """Solve the curve in the background."""
+        knob = swept_knobs(self.tab.groups).get(str(self.over.value))
+        if knob is None:
+            return
+        try:
+            low, high = float(str(self.low.value)), float(str(self.high.value))
+            tables = self.tab.files.resolved(self.tab.case.tables)
+            if not low < high:
+                raise InputError(f"from = {low:g}: must be below to = {high:g}")
+        except ValueError as error:
+            text = str(error) if isinstance(error, InputError) else "from and to must be numbers"
+            self.state.set_text(self.tab.files.hidden(text))
+            return
+        count = int(min(max(self.count.value or _POINTS, 3), _MOST))
+        places = spread(low, high, count)
+        values = tuple((x, knob.stated(x, knob.unit)) for x in places)
+        self.points, self.knob, self.span, self.wanted = [], knob, (low, high), count
+        self._number += 1
+        number = self._number
+        job = Sweep(tables, knob.path, values)
+        self.background.submit(
+            f"{self.tab.owner} sweep", job, lambda message: self._receive(number, message)
+        )
+        self.halt.set_visibility(True)
+        self._progress()
+        self.draw()
+
+    def cancel(self) -> None:
+        """Leave the rest of the sweep."""
+        self.background.cancel(f"{self.tab.owner} sweep")
+
+    def _receive(self, number: int, message: Any) -> None:
+        if number != self._number:
+            return
+        if isinstance(message, Swept):
+            self.points.append(message)
+            self._progress()
+            self.draw()
+        elif isinstance(message, Failure):
+            self.state.set_text(self.tab.files.hidden(message.text))
+        elif isinstance(message, End):
+            self.halt.set_visibility(False)
+            if message.cancelled:
+                self.state.set_text(f"cancelled after {len(self.points)} of {self.wanted} points")
+
+    def _progress(self) -> None:
+        failed = [point for point in self.points if not point.numbers]
+        words = f"{len(self.points)} of {self.wanted} points"
+        if failed:
+            words += f", {len(failed)} not converged: {failed[-1].words}"
+        self.state.set_text(words)
+        self.bar.set_value(len(self.points) / max(self.wanted, 1))
+
+    # ---- the picture
+
+    def resize(self, width: float, height: float) -> None:
+        """Draw in another size."""
+        self.size = (width, max(260.0, min(height - 110.0, 0.7 * width)))
+        self.draw()
+
+    def draw(self) -> None:
+        """Draw the points that are there."""
+        key, knob, shown = str(self.quantity.value), self.knob, self.tab.shown
+        if knob is None or shown is None or self.tab.view != "curves":
+            if knob is None:
+                self.drawing.set_content(_INVITATION)
+            return
+        named = value_of(shown.numbers, key)
+        unit = f" [{named.unit}]" if named and named.unit else ""
+        x_unit = f" [{knob.unit.replace('degC', '°C')}]" if knob.unit else ""
+        labels = (f"{knob.label}{x_unit}", f"{named.name if named else key}{unit}")
+        points = [self._point(one, key) for one in self.points]
+        chart = swept_chart(points, labels, self.size, self.span, self._here(knob, key))
+        self.drawing.set_content(chart.drawing)
+
+    def _point(self, one: Swept, key: str) -> Point:
+        found = value_of(one.numbers, key)
+        value = found.value if found is not None else None
+        return Point(one.x, value, (found.error or 0.0) if found is not None else 0.0)
+
+    def _here(self, knob: Knob, key: str) -> Point | None:
+        """Return the place of the present state, which moves with the slider."""
+        stated, shown = self.tab.case.get(knob.path), self.tab.shown
+        found = value_of(shown.numbers, key) if shown is not None else None
+        if stated is None or found is None:
+            return None
+        return Point(knob.number(knob.kind.parse(stated), knob.unit), found.value)
+
+    def _save(self) -> None:
+        if self.points and self.knob is not None:
+            ui.download.content(table_of(self.knob, self.points), "curve.csv", "text/csv")
+
+
+_INVITATION = (
+    '<p class="empty">Choose a quantity and what to sweep, then solve. '
+    "Each point is a solve of its own, with its error bar.</p>"
+)
+
+
+def spread(low: float, high: float, count: int) -> tuple[float, ...]:
+    """Return places from ``low`` to ``high``, the ends first and then ever closer ones.
+
+    Equal steps of the logarithm over more than a factor of eight.
+    """
+    parts = [k / (count - 1) for k in range(count)]
+    if low > 0 and high / low > 8.0:
+        places = [low * (high / low) ** part for part in parts]
+    else:
+        places = [low + part * (high - low) for part in parts]
+    order, step = [0, count - 1], count - 1
+    while step > 1:
+        step = math.ceil(step / 2)
+        order += [k for k in range(0, count, step) if k not in order]
+    return tuple(float(f"{places[k]:.5g}") for k in order)
+
+
+def table_of(knob: Knob, points: list[Swept]) -> str:
+    """Return a sweep as CSV: the control, then each quantity with its relative error."""
+    known = [point for point in points if point.numbers]
+    keys = [one.key for one in known[0].numbers] if known else []
+    head = [f"{knob.path} [{knob.unit or '1'}]"]
+    for key in keys:
+        one = value_of(known[0].numbers, key)
+        unit = one.unit if one is not None else ""
+        head += [f"{key} [{unit or '1'}]", f"{key}_error"]
+    lines = [",".join(head)]
+    for point in sorted(known, key=lambda point: point.x):
+        cells = [f"{point.x:.6g}"]
+        for key in keys:
+            one = value_of(point.numbers, key)
+            value, error = (one.value, one.error) if one is not None else (None, None)
+            cells += ["" if cell is None else f"{cell:.6g}" for cell in (value, error)]
+        lines.append(",".join(cells))
+    return "\n".join(lines) + "\n"

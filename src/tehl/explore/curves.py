@@ -1,0 +1,131 @@
+"""Line charts of the page: film and pressure on the centre lines, and swept quantities."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl.explore.axes import Frame, Scale, svg, text, turned
+from tehl.explore.shown import Lines
+from tehl.typing import Array
+
+_LEFT, _RIGHT, _TOP, _BOTTOM = 62.0, 62.0, 28.0, 46.0
+
+Line = tuple[Array, Array, Array, Array]
+
+
+@dataclass(frozen=True, slots=True)
+class Chart:
+    """A drawing and its scales."""
+
+    drawing: str
+    frame: Frame
+
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """A swept value; ``y`` is None where the solve did not converge."""
+
+    x: float
+    y: float | None
+    error: float = 0.0
+    """Relative error bar [-]."""
+
+
+def line_charts(lines: Lines, size: tuple[float, float], top: tuple[float, float]) -> list[Chart]:
+    """Draw film and pressure along x and along y; ``top`` are the ends of their scales."""
+    height = max(190.0, 0.5 * size[1])
+    return [
+        _centre_line(lines.x, "x along entrainment [µm], y = 0", (size[0], height), top),
+        _centre_line(lines.y, "y [µm], x = 0", (size[0], height), top),
+    ]
+
+
+def line_tops(lines: Lines) -> tuple[float, float]:
+    """Return the ends of the scales of film and pressure."""
+    _, film, pressure, hertz = lines.x
+    middle = float(np.median(film[hertz > 0])) if (hertz > 0).any() else float(film.max())
+    return 3.0 * max(middle, 1e-3), 1.12 * max(float(pressure.max()), float(hertz.max()), 1e-6)
+
+
+def _centre_line(
+    line: Line, label: str, size: tuple[float, float], top: tuple[float, float]
+) -> Chart:
+    place, film, pressure, hertz = line
+    x = Scale(float(place[0]), float(place[-1]), _LEFT, size[0] - _RIGHT)
+    low = size[1] - _BOTTOM
+    of_film = Frame(x, Scale(0.0, top[0], low, _TOP), *size)
+    of_pressure = Frame(x, Scale(0.0, top[1], low, _TOP), *size)
+    parts = of_film.svg(label, "film [nm]", grid=True, colour="film")
+    parts += "".join(of_pressure.y_ticks(x.end, 1, grid=False, colour="pressure"))
+    parts += turned(x.end + 48, 0.5 * (low + _TOP), "pressure [GPa]", "label pressure")
+    clipped = np.where(film <= top[0], film, np.nan)
+    parts += of_pressure.path(place, hertz, "line dashed pressure")
+    parts += of_pressure.path(place, pressure, "line pressure")
+    parts += of_film.path(place, clipped, "line film")
+    parts += _keys(x.start, (("film", "film"), ("pressure", "pressure")))
+    parts += f'<path d="M{x.start + 158} 12h22" class="line dashed pressure"/>'
+    parts += text(x.start + 186, 16, "Hertz", "small", "start")
+    return Chart(svg(*size, parts, f"film and pressure over {label}"), of_film)
+
+
+def _keys(left: float, names: Sequence[tuple[str, str]]) -> str:
+    parts = []
+    for number, (name, style) in enumerate(names):
+        at = left + 70 * number
+        parts.append(f'<path d="M{at} 12h22" class="line {style}"/>')
+        parts.append(text(at + 28, 16, name, "small", "start"))
+    return "".join(parts)
+
+
+def swept_chart(
+    points: Sequence[Point],
+    labels: tuple[str, str],
+    size: tuple[float, float],
+    span: tuple[float, float],
+    here: Point | None = None,
+) -> Chart:
+    """Draw a swept quantity with error bars, and the present state; ``span`` is the x axis."""
+    known = [point for point in points if point.y is not None]
+    wide = span[0] > 0 and span[1] / span[0] > 8.0
+    values = [at * (1 + side * one.error) for one in known if (at := one.y) for side in (-1, 1)]
+    values += [here.y] if here is not None and here.y is not None else []
+    y = _y_scale(values, size)
+    frame = Frame(Scale(*span, _LEFT, size[0] - 24, wide), y, *size)
+    parts = frame.svg(*labels, grid=True)
+    xs, ys = np.array([p.x for p in known]), np.array([p.y for p in known], dtype=float)
+    order = np.argsort(xs)
+    parts += frame.path(xs[order], ys[order], "line film")
+    parts += "".join(_mark(frame, point) for point in known)
+    for point in points:
+        if point.y is None:
+            at = frame.x(point.x)
+            parts += f'<path d="M{at - 4:.1f} {y.start - 10:.1f}l8 8m0 -8l-8 8" class="minimum"/>'
+    if here is not None and here.y is not None and span[0] <= here.x <= span[1]:
+        parts += (
+            f'<circle cx="{frame.x(here.x):.1f}" cy="{frame.y(here.y):.1f}" r="7" class="here"/>'
+        )
+    return Chart(svg(*size, parts, f"{labels[1]} over {labels[0]}"), frame)
+
+
+def _y_scale(values: list[float], size: tuple[float, float]) -> Scale:
+    low, high = (min(values), max(values)) if values else (0.0, 1.0)
+    is_log = low > 0 and high / low > 30.0
+    if is_log:
+        low, high = low / 1.2, high * 1.2
+    else:
+        room = 0.08 * (high - low) or 0.1 * abs(high) or 1.0
+        low = 0.0 if 0 <= low < 0.45 * high else low - room
+        high += room
+    return Scale(low, high, size[1] - _BOTTOM, _TOP, is_log)
+
+
+def _mark(frame: Frame, point: Point) -> str:
+    assert point.y is not None
+    x, y = frame.x(point.x), frame.y(point.y)
+    parts = f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.2" class="point"/>'
+    low, high = (frame.y(point.y * (1 + side * point.error)) for side in (-1, 1))
+    if math.isfinite(low) and abs(low - high) > 7:
+        parts += f'<path d="M{x:.1f} {low:.1f}V{high:.1f}" class="whisker"/>'
+    return parts

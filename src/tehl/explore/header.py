@@ -1,0 +1,191 @@
+"""The top of the page: title, templates, open, save, undo, dark or light."""
+
+from typing import Any
+
+from nicegui import ui
+
+from tehl.errors import InputError
+from tehl.explore.case_text import LARGEST, CaseText
+from tehl.explore.jobs import End, Failure, Note
+from tehl.explore.tab import Tab
+from tehl.explore.tasks import Export, Saved
+from tehl.explore.worker import Solver
+from tehl.io.templates import template_text, templates
+
+FILES = {
+    "nc": "Result, NetCDF",
+    "html": "Report, HTML",
+    "film.png": "Picture, PNG",
+    "film.svg": "Picture, SVG",
+}
+"""Files made from a result, by kind."""
+PICTURES = {
+    "film": "film",
+    "pressure": "pressure",
+    "lines": "centre_lines",
+    "temperature": "temperature_section",
+    "fringes": "interferogram_white",
+    "relief": "film",
+}
+"""Pictures of the package that show a view."""
+
+
+class Header:
+    """Title and actions of a tab."""
+
+    def __init__(self, tab: Tab, background: Solver) -> None:
+        self.tab, self.background = tab, background
+        tab.listeners.append(self._hear)
+
+    def build(self) -> None:
+        """Make the header."""
+        with ui.element("header").classes("top"):
+            ui.html('<b>tehl</b> <span class="thin">explore</span>', sanitize=False).classes(
+                "brand"
+            )
+            self.title = ui.label("").classes("case-title")
+            self.title.props('role="heading" aria-level="1"')
+            ui.element("span").classes("grow")
+            self._templates()
+            with ui.button("Open", icon="folder_open", on_click=self._open_dialog) as button:
+                button.props("flat dense no-caps")
+            self._save_menu()
+            undo = ui.button(icon="undo", on_click=self.tab.undo).props("flat round dense")
+            undo.props('aria-label="undo"').tooltip("undo (Ctrl+Z)")
+            self.dark = ui.dark_mode(value=None)
+            shade = ui.button(icon="contrast", on_click=self._shade).props("flat round dense")
+            shade.props('aria-label="dark or light"').tooltip("dark or light")
+        self.progress = ui.label("").classes("progress-note")
+        self.progress.set_visibility(False)
+        ui.keyboard(on_key=self._key, ignore=["input", "textarea", "select"])
+
+    def _templates(self) -> None:
+        with ui.button("Templates", icon="auto_awesome").props("flat dense no-caps"), ui.menu():
+            for name, words in templates().items():
+                item = ui.menu_item(on_click=lambda name=name: self._take_template(name))
+                with item, ui.column().classes("gap-0"):
+                    ui.label(name).classes("menu-name")
+                    ui.label(words).classes("menu-words")
+
+    def _save_menu(self) -> None:
+        with ui.button("Save", icon="download").props("flat dense no-caps"), ui.menu():
+            ui.menu_item("Case, TOML", on_click=self._save_case)
+            ui.menu_item("Copy as Python", on_click=self._copy_python)
+            ui.menu_item("Copy the link", on_click=self._copy_link)
+            ui.separator()
+            for kind, words in FILES.items():
+                ui.menu_item(words, on_click=lambda kind=kind: self._export(kind))
+
+    def _hear(self, topic: str) -> None:
+        if topic == "controls" and self.tab.problem is not None:
+            self.title.set_text(self.tab.problem.title or "untitled contact")
+
+    def _shade(self) -> None:
+        self.dark.value = not self.dark.value
+
+    def _key(self, event: Any) -> None:
+        if event.action.keydown and event.modifiers.ctrl and event.key == "z":
+            self.tab.undo()
+
+    # ---- cases
+
+    def _take_template(self, name: str) -> None:
+        self.tab.open(CaseText(template_text(name)))
+
+    def _open_dialog(self) -> None:
+        with ui.dialog() as dialog, ui.card().classes("open-card"):
+            ui.label("Open a case").classes("dialog-title")
+            upload = ui.upload(
+                label="choose or drop a case file (.toml)",
+                max_file_size=LARGEST,
+                auto_upload=True,
+                on_rejected=lambda: ui.notify(
+                    "larger than 200 kB, so not a case file", type="negative"
+                ),
+            ).props('accept=".toml,.txt" flat bordered')
+
+            async def uploaded(event: Any) -> None:
+                self._open(await event.file.read(), dialog)
+
+            upload.on_upload(uploaded).classes("w-full")
+            text = ui.codemirror(self.tab.case.text).classes("case-editor")
+            with ui.row().classes("w-full justify-end"):
+                ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
+                take = ui.button("Take this text").props("no-caps unelevated")
+                take.on_click(lambda: self._open(str(text.value).encode(), dialog))
+        dialog.on_value_change(lambda event: None if event.value else dialog.delete())
+        dialog.open()
+
+    def _open(self, content: bytes, dialog: ui.dialog) -> None:
+        try:
+            case = CaseText.of_bytes(content)
+        except InputError as error:
+            ui.notify(str(error), type="negative", timeout=0, close_button="close")
+            return
+        dialog.close()
+        self.tab.open(case)
+
+    def _stem(self) -> str:
+        title = self.tab.problem.title if self.tab.problem is not None else ""
+        words = "".join(c if c.isalnum() else "-" for c in title.lower())
+        return "-".join(filter(None, words.split("-")))[:40] or "case"
+
+    def _save_case(self) -> None:
+        ui.download.content(self.tab.case.text, f"{self._stem()}.toml", "application/toml")
+
+    def _copy_python(self) -> None:
+        ui.clipboard.write(python_of(self.tab.case.text, self._stem()))
+        ui.notify("Python code copied")
+
+    def _copy_link(self) -> None:
+        packed = self.tab.case.packed
+        ui.run_javascript(f'navigator.clipboard.writeText(location.origin + "/?case={packed}")')
+        ui.notify("link copied")
+
+    # ---- files of a result
+
+    def _export(self, kind: str) -> None:
+        tab = self.tab
+        if kind.startswith("film."):
+            kind = kind.replace("film", PICTURES.get(tab.view, "film"))
+        try:
+            tables = tab.files.resolved(tab.case.tables)
+        except InputError as error:
+            ui.notify(tab.files.hidden(str(error)), type="negative")
+            return
+        self._note("solving for the file")
+        job = Export(tables, kind, self._stem())
+        client = ui.context.client
+        self.background.submit(
+            f"{tab.owner} file", job, lambda message: self._receive(client, message)
+        )
+
+    def _receive(self, client: Any, message: Any) -> None:
+        with client:
+            if isinstance(message, Saved):
+                ui.download.content(message.content, message.name)
+            elif isinstance(message, Failure):
+                text = self.tab.files.hidden(message.text)
+                ui.notify(text, type="negative", timeout=0, close_button="close")
+            elif isinstance(message, Note):
+                self._note(message.text)
+            elif isinstance(message, End):
+                self._note("")
+
+    def _note(self, text: str) -> None:
+        self.progress.set_text(text)
+        self.progress.set_visibility(bool(text))
+
+
+def python_of(text: str, stem: str) -> str:
+    """Return a script that solves a case."""
+    quoted = text.replace("\\", "\\\\").replace('"""', '\\"\\"\\"')
+    return (
+        "from pathlib import Path\n\nimport tehl\n\n"
+        f'case = Path("{stem}.toml")\n'
+        f'case.write_text("""\\\n{quoted}""", encoding="utf-8")\n'
+        "problem, options = tehl.read_case_and_options(case)\n"
+        "result = tehl.solve(problem, options)\n"
+        "print(result.film.central, result.film.minimum)  # metres\n"
+        f'tehl.plots.film_map(result).savefig("{stem}.png")\n'
+    )

@@ -1,0 +1,239 @@
+"""What runs in the worker of the page: solve a case on finer and finer grids, and report."""
+
+import signal
+import time
+from collections import OrderedDict
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass, field
+from multiprocessing.connection import Connection
+from threading import Thread
+from typing import Any
+
+from tehl.errors import TehlError
+from tehl.explore.shown import Shown, shown
+from tehl.io.case import case_from_tables
+from tehl.options import Options
+from tehl.problem import ContactProblem
+from tehl.report.explain import Explanation, explain
+from tehl.result import ConvergenceError, Result
+from tehl.solution import CycleReport
+from tehl.studies.worker import end_with_parent
+
+QUICK, MIDDLE = 65, 129
+"""Nodes per direction while a slider moves, and on the way to the accuracy of the case."""
+_KEPT = 6
+"""Results kept for pictures and files."""
+
+Send = Callable[[Any], None]
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Ask:
+    """A case to solve."""
+
+    tables: dict[str, Any]
+    """Tables of the case, with paths of its files."""
+    quick: bool = False
+    """Whether the coarse grid suffices."""
+    fringes: bool = False
+    """Whether the interferogram is shown."""
+
+
+@dataclass(frozen=True, slots=True)
+class Explained:
+    """What formulas say about a case, before it is solved."""
+
+    groups: tuple[tuple[str, str], ...]
+    questions: tuple[str, ...]
+    seconds: float
+    """Expected time of the solve."""
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """A message on a solve that goes on."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A result, of the last grid or on the way."""
+
+    shown: Shown
+    final: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """A sentence on why there is no result."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """The job is done; the worker waits for the next one."""
+
+    cancelled: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Warm:
+    """Load the solver and its kernels before the first case."""
+
+    def __call__(self, desk: "Desk") -> Iterator[Note]:
+        """Yield a note where kernels are compiled first."""
+        yield from desk.compiled(coupled=False)
+        yield from desk.compiled(coupled=True)
+
+
+class CancelledError(Exception):
+    """The page does not want the result any more."""
+
+
+@dataclass
+class Cycles:
+    """Monitor of a solve that passes messages on and ends it when the page cancels it."""
+
+    connection: Connection
+    send: Send
+    _last: float = field(default=0.0)
+
+    def message(self, text: str) -> None:
+        """Pass a message on."""
+        self.check()
+        self.send(Note(text))
+
+    def cycle(self, report: CycleReport) -> None:
+        """Note the cycle of a slow solve; end a cancelled one."""
+        self.check()
+        now = time.monotonic()
+        if now - self._last > 0.5 and self._last:
+            nodes = "{} × {} nodes".format(*report.points)
+            self.send(Note(f"{nodes}, cycle {report.cycle}, residual {report.residual:.1e}"))
+        self._last = self._last if self._last and now - self._last <= 0.5 else now
+
+    def check(self) -> None:
+        """Raise CancelledError if the page has sent anything: a running job is then cancelled."""
+        if self.connection.poll():
+            self.connection.recv()
+            raise CancelledError
+
+
+def serve(connection: Connection) -> None:
+    """Solve what the page asks for until it closes the connection; Ctrl-C is for the page."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    Thread(target=end_with_parent, daemon=True).start()
+    desk = Desk(connection)
+    with suppress(EOFError, ConnectionError, BrokenPipeError):
+        connection.send("ready")
+        while True:
+            job = connection.recv()
+            if job is not None:  # a cancellation that came too late
+                desk.perform(job)
+
+
+class Desk:
+    """Performs jobs one after the other, and keeps the last results."""
+
+    def __init__(self, connection: Connection) -> None:
+        self.connection, self.send = connection, connection.send
+        self.kept: OrderedDict[str, Result] = OrderedDict()
+
+    def perform(self, job: Any) -> None:
+        """Perform a job; whatever happens, the last message is `End`."""
+        try:
+            for message in job(self) if callable(job) else self.solve(job):
+                self.send(message)
+        except CancelledError:
+            self.send(End(cancelled=True))
+            return
+        except TehlError as error:
+            self.send(Failure(str(error)))
+        except MemoryError:
+            self.send(Failure("not enough memory: take fewer points"))
+        except (EOFError, ConnectionError):
+            raise
+        except Exception as error:  # the page shows it; the worker goes on
+            self.send(Failure(f"{type(error).__name__}: {error}"))
+        self.send(End())
+
+    def solve(self, ask: Ask) -> Iterator[Explained | Note | Part]:
+        """Yield what formulas say, and results on finer and finer grids."""
+        problem, options = case_from_tables(ask.tables)
+        found = explain(problem, options)
+        yield Explained(_groups(found), found.questions, found.seconds)
+        yield from self.compiled(coupled=problem.is_coupled)
+        for stage, final in _stages(options, found, quick=ask.quick):
+            result = self.result(steady(problem), stage)
+            yield Part(shown(result, found, fringes=ask.fringes), final)
+
+    def result(self, problem: ContactProblem, options: Options) -> Result:
+        """Return the result of a problem, converged or not; a recent one is not solved again."""
+        from tehl.solver import solve, solve_passes  # noqa: PLC0415 (a second, in the worker only)
+
+        key = f"{problem.model_dump_json()}{options.model_dump_json()}"
+        if key not in self.kept:
+            monitor = Cycles(self.connection, self.send)
+            monitor.check()
+            work = solve_passes if problem.has_passes else solve
+            try:
+                found = work(problem, options, monitor=monitor)
+            except ConvergenceError as error:
+                found = error.result
+            self.kept[key] = found
+        self.kept.move_to_end(key)
+        while len(self.kept) > _KEPT:
+            self.kept.popitem(last=False)
+        return self.kept[key]
+
+    def compiled(self, *, coupled: bool) -> Iterator[Note]:
+        """Load the kernels, and compile those that are not in the cache, which takes a while."""
+        import tehl.solver  # noqa: F401, PLC0415 (a second, in the worker only)
+        from tehl.kernels.cache import is_cold  # noqa: PLC0415
+        from tehl.kernels.warmup import warm_up  # noqa: PLC0415
+
+        if is_cold(coupled=coupled):
+            yield Note("compiling the inner loops once, which takes 10 to 60 s")
+        warm_up(coupled=coupled)
+
+
+def steady(problem: ContactProblem) -> ContactProblem:
+    """Return the steady problem at the start of a transient one: without what moves in later."""
+    if problem.transient is None:
+        return problem
+    smooth = {"roughness": type(problem.surface_1).model_fields["roughness"].default}
+    surfaces = {
+        key: getattr(problem, key).model_copy(update=smooth) for key in ("surface_1", "surface_2")
+    }
+    return problem.model_copy(update={"transient": None, **surfaces})
+
+
+def _stages(options: Options, found: Explanation, *, quick: bool) -> Iterator[tuple[Options, bool]]:
+    """Yield the options of the grids to show, and whether they are those of the case."""
+    stated = options.points != "auto"
+    finest = min(options.shape) if stated else found.expected_points
+    for nodes in (QUICK,) if quick else (MIDDLE,):
+        if nodes < finest:
+            yield options.model_copy(update={"points": nodes, "error": None}), False
+    if not quick or finest <= QUICK:
+        yield options, True
+
+
+def _groups(found: Explanation) -> tuple[tuple[str, str], ...]:
+    """Return load, Hertz contact, groups and regime in words."""
+    from tehl.film_formulas import regime  # noqa: PLC0415
+
+    problem, groups = found.scaled.problem, found.scaled.groups
+    hertz = problem.hertz
+    return (
+        ("load", f"{problem.load:.4g} N"),
+        ("Hertz pressure", f"{hertz.pressure * 1e-9:.4g} GPa"),
+        ("half-width a_x", f"{hertz.half_width_x * 1e6:.4g} µm"),
+        ("a_y / a_x", f"{groups.ellipticity:.4g}"),
+        ("Moes M", f"{groups.M:.4g}"),
+        ("Moes L", f"{groups.L:.4g}"),
+        ("regime", regime(groups)),
+    )

@@ -1,0 +1,191 @@
+"""The view of a transient run: a movie of the film with a slider for the time."""
+
+import math
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from nicegui import ui
+
+from tehl.errors import InputError
+from tehl.explore.axes import Frame, Scale, svg, text
+from tehl.explore.colour_map import film_limits, film_picture
+from tehl.explore.jobs import End, Failure, Note
+from tehl.explore.tab import Tab
+from tehl.explore.tasks import Movie, Transient
+from tehl.explore.worker import Solver
+
+_PERIOD = 0.12
+"""Seconds between two frames."""
+
+
+class MoviePanel:
+    """The movie of a tab, solved in the background."""
+
+    def __init__(self, tab: Tab, background: Solver) -> None:
+        self.tab, self.background = tab, background
+        self.movie: Movie | None = None
+        self.text, self._number, self.size = "", 0, (720.0, 560.0)
+        with ui.element("div").classes("movie") as self.place:
+            with ui.element("div").classes("movie-bar"):
+                self.run = ui.button("Solve the run", icon="play_arrow", on_click=self.start)
+                self.run.props("no-caps unelevated")
+                self.halt = ui.button("Cancel", on_click=self.cancel).props("flat no-caps")
+                self.halt.set_visibility(False)
+                self.state = ui.label("").classes("status-words")
+            with ui.element("div").classes("movie-time") as self.player:
+                self.play = ui.button(icon="play_arrow", on_click=self._toggle)
+                self.play.props('flat round dense aria-label="play or pause"')
+                self.slider = ui.slider(min=0, max=1, step=1, value=0)
+                self.slider.props('aria-label="time"').classes("grow")
+                self.slider.on_value_change(self.draw)
+                self.clock = ui.label("").classes("clock")
+            with ui.element("div").classes("picture"):
+                self.image = ui.element("img").props('alt="" draggable=false')
+                self.drawing = ui.html("", sanitize=False).classes("drawing")
+            self.history = ui.html("", sanitize=False).classes("drawing")
+        self.timer = ui.timer(_PERIOD, self._next, active=False)
+        self.place.set_visibility(False)
+        tab.listeners.append(self._hear)
+
+    def _hear(self, topic: str) -> None:
+        if topic in ("picture", "controls", "explained") and self.tab.view == "movie":
+            self.show()
+
+    def show(self) -> None:
+        """Show the panel."""
+        self.place.set_visibility(self.tab.view == "movie")
+        if self.tab.view != "movie":
+            self._pause()
+            return
+        problem = self.tab.problem
+        is_transient = problem is not None and problem.transient is not None
+        self.run.set_visibility(is_transient and not self.halt.visible)
+        self.player.set_visibility(self.movie is not None)
+        if not is_transient:
+            self.state.set_text(
+                "This contact is steady. Give a surface a dent or a wave under “Surfaces” and let "
+                "it move along, or take the template passing-dent."
+            )
+        elif self.movie is None and not self.halt.visible:
+            found = self.tab.explained
+            self.state.set_text("" if found is None else f"takes about {duration(found.seconds)}")
+        elif self.text != self.tab.case.text:
+            self.state.set_text("The case has changed since this run was solved.")
+        self.draw()
+
+    def start(self) -> None:
+        """Solve the run in the background."""
+        try:
+            tables = self.tab.files.resolved(self.tab.case.tables)
+        except InputError as error:
+            self.state.set_text(self.tab.files.hidden(str(error)))
+            return
+        self._number += 1
+        number, self.text = self._number, self.tab.case.text
+        self.background.submit(
+            f"{self.tab.owner} run",
+            Transient(tables),
+            lambda message: self._receive(number, message),
+        )
+        self.halt.set_visibility(True)
+        self.run.set_visibility(False)
+        self.state.set_text("starting")
+
+    def cancel(self) -> None:
+        """Leave the run."""
+        self.background.cancel(f"{self.tab.owner} run")
+
+    def _receive(self, number: int, message: Any) -> None:
+        if number != self._number:
+            return
+        if isinstance(message, Movie):
+            self.movie = message
+            self.slider.props(f"max={len(message.times) - 1}")
+            self.state.set_text(message.words)
+            self.slider.set_value(0)
+            self.player.set_visibility(True)
+            self.draw()
+        elif isinstance(message, Note | Failure):
+            self.state.set_text(self.tab.files.hidden(message.text))
+        elif isinstance(message, End):
+            self.halt.set_visibility(False)
+            self.run.set_visibility(True)
+            if message.cancelled:
+                self.state.set_text("cancelled")
+
+    # ---- playing
+
+    def _toggle(self) -> None:
+        if self.timer.active:
+            self._pause()
+        else:
+            self.timer.activate()
+            self.play.props("icon=pause")
+
+    def _pause(self) -> None:
+        self.timer.deactivate()
+        self.play.props("icon=play_arrow")
+
+    def _next(self) -> None:
+        if self.movie is not None:
+            self.slider.set_value((int(self.slider.value) + 1) % len(self.movie.times))
+
+    def resize(self, width: float, height: float) -> None:
+        """Draw in another size."""
+        self.size = (width, height)
+        self.draw()
+
+    def draw(self) -> None:
+        """Draw the film at the time of the slider; the colours are those of the whole run."""
+        movie = self.movie
+        if movie is None or self.tab.view != "movie":
+            return
+        frame = min(int(self.slider.value), len(movie.times) - 1)
+        maps = replace(movie.maps, film=movie.film[frame], pressure=movie.pressure[frame])
+        limits = replace(film_limits(movie.maps), low=0.95 * max(_least(movie), 1e-3))
+        size = (self.size[0], max(280.0, self.size[1] - 210.0))
+        picture = film_picture(maps, limits, size)
+        left, top, width, height = picture.place
+        self.image.props["src"] = picture.image
+        self.image.style(
+            f"display:block;left:{left:.1f}px;top:{top:.1f}px;"
+            f"width:{width:.1f}px;height:{height:.1f}px"
+        )
+        self.drawing.set_content(picture.overlay)
+        self.history.set_content(history_drawing(movie, frame, (self.size[0], 170.0)))
+        self.clock.set_text(f"{movie.times[frame]:.0f} µs")
+
+
+def _least(movie: Movie) -> float:
+    positive = movie.film[movie.film > 0]
+    return float(positive.min()) if positive.size else 1.0
+
+
+def duration(seconds: float) -> str:
+    """Return a time in words, to one digit."""
+    if seconds < 100:
+        return f"{max(1, math.ceil(seconds)):g} s"
+    return f"{seconds / 60:.0f} min"
+
+
+def history_drawing(movie: Movie, frame: int, size: tuple[float, float]) -> str:
+    """Draw central and minimum film over time, and where the movie is."""
+    time, central, minimum = movie.history
+    top = 1.1 * float(np.nanmax(central))
+    axes = Frame(
+        Scale(float(time[0]), float(time[-1]), 62.0, size[0] - 24.0),
+        Scale(0.0, top, size[1] - 46.0, 24.0),
+        *size,
+    )
+    parts = axes.svg("time [µs]", "film [nm]", grid=True)
+    parts += axes.path(time, central, "line film") + axes.path(time, minimum, "line pressure")
+    at = axes.x(float(movie.times[frame]))
+    parts += f'<path d="M{at:.1f} {axes.y.start}V{axes.y.end}" class="now"/>'
+    for number, (name, style) in enumerate(
+        (("central film", "film"), ("minimum film", "pressure"))
+    ):
+        left = 62 + 130 * number
+        parts += f'<path d="M{left} 12h22" class="line {style}"/>'
+        parts += text(left + 28, 16, name, "small", "start")
+    return svg(*size, parts, "central and minimum film over time")

@@ -1,0 +1,157 @@
+"""The right side of the page: numbers with error bars and formulas, status, questions."""
+
+import math
+from html import escape
+from typing import TYPE_CHECKING
+
+from nicegui import ui
+
+from tehl.explore.numbers import Number, value_of
+from tehl.explore.tab import Tab
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+_REACH = 0.3
+"""Relative deviation at the ends of the drawn error bar."""
+_MARKS = {"Nijenbanning-Venner-Moes": "NVM", "Hamrock-Dowson": "HD", "Chittenden": "Ch"}
+
+
+class NumberPanel:
+    """The numbers of a tab; ``sweep`` is called with a quantity whose curve is wanted."""
+
+    def __init__(self, tab: Tab, sweep: "Callable[[str], None]") -> None:
+        self.tab, self.sweep = tab, sweep
+        self.rows: dict[str, ui.html] = {}
+        self.place = ui.column().classes("numbers")
+        tab.listeners.append(self._hear)
+
+    def _hear(self, topic: str) -> None:
+        if topic == "numbers":
+            self.update()
+
+    def update(self) -> None:
+        """Show the numbers of the present result."""
+        shown = self.tab.shown
+        if shown is None:
+            return
+        keys = [one.key for one in shown.numbers]
+        if keys != list(self.rows):
+            self._build(shown.numbers)
+        pinned = self.tab.pinned
+        for one in shown.numbers:
+            other = value_of(pinned.shown.numbers, one.key) if pinned else None
+            self.rows[one.key].set_content(number_html(one, other))
+
+    def _build(self, found: tuple[Number, ...]) -> None:
+        self.place.clear()
+        self.rows = {}
+        with self.place:
+            for one in found:
+                with ui.element("div").classes("number"):
+                    row = ui.html("", sanitize=False).classes("number-text")
+                    row.props(f'data-key="{one.key}"')
+                    self.rows[one.key] = row
+                    button = ui.button(
+                        icon="show_chart", on_click=lambda key=one.key: self.sweep(key)
+                    )
+                    button.props(f'flat round dense aria-label="curve of the {one.name}"')
+                    button.classes("sweep").tooltip("curve")
+
+
+def number_html(one: Number, other: Number | None) -> str:
+    """Return a number with its error bar, its formulas and the pinned one."""
+    name = f'<span class="name">{escape(one.name)}</span> <i>{_symbol(one.symbol)}</i>'
+    if one.value is None:
+        return f'<div class="head">{name}</div><div class="remark">{escape(one.remark)}</div>'
+    parts = [f'<div class="head">{name}</div>']
+    parts.append(f'<div class="value">{value_text(one)}{_change(one, other)}</div>')
+    parts.append(_bar(one))
+    if one.formulas:
+        words = " · ".join(
+            f"<span>{escape(author)} {_rounded(value, 3)}</span>" for author, value in one.formulas
+        )
+        parts.append(f'<div class="formulas">{words}</div>')
+    if one.remark:
+        parts.append(f'<div class="remark">{escape(one.remark)}</div>')
+    return "".join(parts)
+
+
+def value_text(one: Number) -> str:
+    """Return a number with its error bar and unit."""
+    assert one.value is not None
+    unit = f" <small>{escape(one.unit)}</small>" if one.unit else ""
+    if one.error is None or not math.isfinite(one.error) or one.value == 0.0:
+        return f"<b>{_rounded(one.value, 4)}</b>{unit}"
+    half = abs(one.value * one.error)
+    digits = 4 if half <= 0 else max(2, math.ceil(math.log10(abs(one.value) / half)) + 2)
+    bar = _rounded(half, 2)
+    return f'<b>{_rounded(one.value, min(digits, 5))}</b> <span class="bar">± {bar}</span>{unit}'
+
+
+def _rounded(value: float, digits: int) -> str:
+    """Return a number with so many digits, without an exponent where it reads well."""
+    text = f"{value:.{digits}g}"
+    if "e" in text and 1e-5 < abs(value) < 1e7:
+        text = f"{float(text):.10f}".rstrip("0").rstrip(".")
+    return text.replace("-", "−")
+
+
+def _symbol(symbol: str) -> str:
+    base, _, below = symbol.partition("_")
+    if "/" in symbol:
+        return "w<sub>a</sub>/w"
+    return f"{escape(base)}<sub>{escape(below)}</sub>" if below else escape(base)
+
+
+def _change(one: Number, other: Number | None) -> str:
+    if other is None or other.value is None or one.value is None or other.value == 0:
+        return ""
+    change = 100.0 * (one.value / other.value - 1.0)
+    return f' <span class="change">{change:+.1f} % of pinned {_rounded(other.value, 4)}</span>'
+
+
+def _bar(one: Number) -> str:
+    """Return a drawing of the relative error bar, with the formulas as marks."""
+    if one.error is None or not one.value:
+        return ""
+    half = min(abs(one.error) / _REACH, 1.0) * 50.0
+    parts = [
+        '<path d="M0 7H100" class="track"/>',
+        f'<path d="M{50 - half:.2f} 7H{50 + half:.2f}" class="band"/>',
+        '<path d="M50 2V12" class="middle"/>',
+    ]
+    for author, value in one.formulas:
+        away = (value / one.value - 1.0) / _REACH
+        if abs(away) <= 1.0:
+            at = 50 + 50 * away
+            words = f"<title>{escape(author)}</title>"
+            parts.append(f'<path d="M{at:.2f} 3V11" class="formula">{words}</path>')
+    drawing = "".join(parts)
+    words = f"error bar {100 * abs(one.error):.2g} %"
+    return (
+        f'<svg class="error-bar" viewBox="0 0 100 14" preserveAspectRatio="none" role="img" '
+        f'aria-label="{words}">{drawing}</svg>'
+    )
+
+
+class Explanation:
+    """What formulas say about the case, and its odd values."""
+
+    def __init__(self, tab: Tab) -> None:
+        self.tab = tab
+        self.groups = ui.html("", sanitize=False).classes("groups")
+        self.questions = ui.html("", sanitize=False).classes("questions")
+        tab.listeners.append(self._hear)
+
+    def _hear(self, topic: str) -> None:
+        found = self.tab.explained
+        if topic != "explained" or found is None:
+            return
+        rows = "".join(f"<dt>{escape(a)}</dt><dd>{escape(b)}</dd>" for a, b in found.groups)
+        self.groups.set_content(f"<dl>{rows}</dl>")
+        if found.questions:
+            items = "".join(f"<li>{escape(one)}</li>" for one in found.questions)
+            self.questions.set_content(f"<h3>Worth a look</h3><ul>{items}</ul>")
+        else:
+            self.questions.set_content('<p class="fine">All values are plausible.</p>')

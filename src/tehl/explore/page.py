@@ -1,0 +1,162 @@
+"""The page of a tab: its parts side by side, and the files that come in and go out."""
+
+import asyncio
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from nicegui import Client, ui
+
+from tehl.errors import InputError
+from tehl.explore.case_text import CaseText
+from tehl.explore.control_panel import ControlPanel
+from tehl.explore.curve_panel import CurvePanel
+from tehl.explore.files import Files
+from tehl.explore.header import Header
+from tehl.explore.jobs import Warm
+from tehl.explore.movie_panel import MoviePanel
+from tehl.explore.number_panel import Explanation, NumberPanel
+from tehl.explore.picture_panel import PicturePanel
+from tehl.explore.status import StatusLine
+from tehl.explore.surface_dialog import SurfaceDialog
+from tehl.explore.tab import VIEWS, Tab
+from tehl.explore.worker import Solver
+
+STYLE = Path(__file__).with_name("style.css")
+_MEASURE = """(size) => emit([size.width, window.innerHeight])"""
+_ABOVE = 250.0
+"""Pixels of the window above and below a picture."""
+
+
+class Page:
+    """Makes the page of each tab; they share one worker that solves, and one for longer jobs."""
+
+    def __init__(self, opened: CaseText, files_of: Callable[[str], Files]) -> None:
+        self.opened, self.files_of = opened, files_of
+        self.live: Solver | None = None
+        self.background: Solver | None = None
+
+    def start(self) -> None:
+        """Start the worker before the first tab."""
+        loop = asyncio.get_running_loop()
+        self.live, self.background = Solver(loop), Solver(loop)
+        self.live.submit("warm", Warm(), _ignore)
+
+    def close(self) -> None:
+        """End the workers."""
+        for solver in (self.live, self.background):
+            if solver is not None:
+                solver.close()
+
+    def build(self, client: Client, case: str = "") -> None:
+        """Make the page of a tab, with the case of its address or the one opened."""
+        assert self.live is not None
+        assert self.background is not None
+        owner = client.id
+        files = self.files_of(owner)
+        opened, fault = self.opened, ""
+        if case:
+            try:
+                opened = CaseText.unpacked(case)
+            except InputError as error:
+                fault = str(error)
+        tab = Tab(owner, CaseText(opened.text), files, self.live)
+        TabPage(tab, client, self.background).build()
+        tab.open(tab.case)
+        if fault:
+            ui.notify(fault, type="negative", timeout=0, close_button="close")
+
+        def leave() -> None:
+            assert self.live is not None
+            assert self.background is not None
+            self.live.cancel(owner)
+            self.background.cancel(owner)
+            files.remove()
+
+        client.on_delete(leave)
+
+
+def _ignore(message: Any) -> None:
+    """Discard a message."""
+    del message
+
+
+class TabPage:
+    """The elements of a tab."""
+
+    def __init__(self, tab: Tab, client: Client, background: Solver) -> None:
+        self.tab, self.client, self.background = tab, client, background
+        self._address = ""
+
+    def build(self) -> None:
+        """Make all parts."""
+        ui.add_css(STYLE.read_text(encoding="utf-8"))
+        ui.query(".nicegui-content").classes("page")
+        Header(self.tab, self.background).build()
+        with ui.element("main").classes("columns"):
+            with ui.element("section").classes("left").props('aria-label="the contact"'):
+                dialog = SurfaceDialog(self.tab, self.background)
+                ControlPanel(self.tab, dialog.open)
+            with ui.element("section").classes("middle").props('aria-label="pictures"'):
+                self._build_middle()
+            with ui.element("section").classes("right").props('aria-label="numbers"'):
+                NumberPanel(self.tab, self._sweep)
+                Explanation(self.tab)
+        self.tab.listeners.append(self._hear)
+
+    def _build_middle(self) -> None:
+        tab = self.tab
+        StatusLine(tab).build(self._build_compare)
+        with ui.element("div").classes("view-bar"):
+            with ui.tabs(on_change=lambda event: self._show(event.value)) as tabs:
+                tabs.props("dense no-caps inline-label outside-arrows mobile-arrows").classes(
+                    "views"
+                )
+                for name, label in VIEWS.items():
+                    ui.tab(name, label=label)
+            self.tabs = tabs
+        with ui.element("div").classes("pictures"):
+            self.pictures = PicturePanel(tab)
+            self.curves = CurvePanel(tab, self.background)
+            self.movie = MoviePanel(tab, self.background)
+            watcher = ui.element("q-resize-observer")
+            watcher.on("resize", self._resized, js_handler=_MEASURE)
+        self.tabs.set_value(tab.view)
+
+    def _build_compare(self) -> None:
+        tab = self.tab
+        with ui.element("div").classes("compare"):
+            hold = ui.switch("hold scales", on_change=lambda event: tab.hold(held=event.value))
+            hold.props("dense")
+            hold.bind_value_from(tab, "held")
+            pin = ui.button("Pin", icon="push_pin", on_click=tab.pin).props("flat dense no-caps")
+            pin.tooltip("keep this state to compare")
+            unpin = ui.button("Unpin", on_click=tab.unpin).props("flat dense no-caps")
+            unpin.bind_visibility_from(tab, "pinned", backward=lambda pinned: pinned is not None)
+
+    def _resized(self, event: Any) -> None:
+        width, window = event.args[0] if isinstance(event.args[0], list) else event.args
+        height = max(320.0, min(float(window) - _ABOVE, 0.95 * float(width)))
+        for panel in (self.pictures, self.curves, self.movie):
+            panel.resize(float(width), height)
+
+    def _show(self, view: str) -> None:
+        """Show a view; those of curves and of the movie are panels of their own."""
+        self.pictures.place.set_visibility(view not in ("curves", "movie"))
+        self.tab.show(view)
+        self.curves.show()
+        self.movie.show()
+
+    def _sweep(self, key: str) -> None:
+        """Show the curve of a quantity, and solve it."""
+        self.tabs.set_value("curves")
+        self.curves.show(key)
+        self.curves.start()
+
+    def _hear(self, topic: str) -> None:
+        """Put the state into the address once nothing moves any more."""
+        if topic == "status" and not self.tab.is_busy and not self.tab.is_moving:
+            packed = self.tab.case.packed
+            if packed != self._address and self.client.has_socket_connection:
+                self._address = packed
+                self.client.run_javascript(f'history.replaceState(null, "", "/?case={packed}")')

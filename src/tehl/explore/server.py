@@ -1,0 +1,156 @@
+"""The server of the page: on the loopback address only, for whoever has the token."""
+
+import secrets
+import socket
+import tempfile
+from http.cookies import SimpleCookie
+from pathlib import Path
+from typing import Any
+from urllib.parse import parse_qs
+
+from nicegui import app, ui
+from starlette.responses import HTMLResponse
+
+from tehl.explore.case_text import CaseText
+from tehl.explore.files import Files, named_files
+
+ADDRESS = "127.0.0.1"
+USUAL_PORT = 8765
+"""Port that is taken if it is free, so that a stored address finds the page again."""
+REFUSED = (
+    "This address lacks the token of the running page. Open the address that `tehl explore` has "
+    "printed in its terminal."
+)
+_POLICY = (
+    "default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval'; "
+    "style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; "
+    "connect-src 'self'; worker-src 'self' blob:; frame-ancestors 'none'; base-uri 'self'"
+)
+_HEADERS = [
+    (b"content-security-policy", _POLICY.encode()),
+    (b"referrer-policy", b"no-referrer"),
+    (b"x-content-type-options", b"nosniff"),
+]
+
+
+class Guard:
+    """Lets requests with the token pass: in the address, once, then in a cookie.
+
+    A request from another page, by its origin, or to another name of this machine does not pass.
+    """
+
+    def __init__(self, inner: Any, token: str, port: int) -> None:
+        self.inner, self.token = inner, token
+        self.cookie = f"tehl-{port}"
+        self.hosts = {f"{ADDRESS}:{port}", f"localhost:{port}"}
+
+    async def __call__(self, scope: Any, receive: Any, send: Any) -> None:
+        """Pass a request on, or refuse it."""
+        if scope["type"] not in ("http", "websocket"):
+            await self.inner(scope, receive, send)
+            return
+        headers = {
+            key.decode("latin-1"): value.decode("latin-1") for key, value in scope["headers"]
+        }
+        given = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
+        if not self._may_pass(headers, given):
+            await self._refuse(scope, receive, send)
+            return
+
+        async def send_with_headers(message: Any) -> None:
+            if message["type"] == "http.response.start":
+                message["headers"] = [*message.get("headers", []), *_HEADERS, *self._stored(given)]
+            await send(message)
+
+        await self.inner(scope, receive, send_with_headers)
+
+    def _may_pass(self, headers: dict[str, str], given: str) -> bool:
+        origin = headers.get("origin", "")
+        if headers.get("host") not in self.hosts:
+            return False
+        if origin and origin.removeprefix("http://") not in self.hosts:
+            return False
+        morsel = SimpleCookie(headers.get("cookie", "")).get(self.cookie)
+        known = given or ("" if morsel is None else morsel.value)
+        return secrets.compare_digest(known.encode(), self.token.encode())
+
+    def _stored(self, given: str) -> list[tuple[bytes, bytes]]:
+        if not given:
+            return []
+        words = f"{self.cookie}={self.token}; Path=/; HttpOnly; SameSite=Lax"
+        return [(b"set-cookie", words.encode())]
+
+    async def _refuse(self, scope: Any, receive: Any, send: Any) -> None:
+        if scope["type"] == "websocket":
+            await send({"type": "websocket.close", "code": 1008})
+            return
+        page = f"<!doctype html><html lang=en><title>tehl explore</title><p>{REFUSED}</p></html>"
+        await HTMLResponse(page, status_code=403)(scope, receive, send)
+
+
+def serve(case: Path | None, text: str, port: int | None, *, browser: bool, report: Any) -> None:
+    """Serve the page until Ctrl-C.
+
+    Parameters
+    ----------
+    case, text : Path or None, str
+        The case file of the user, None for a template; and its text.
+    port : int or None
+        Port; None takes the usual one, or another that is free.
+    browser : bool
+        Whether to open the page in the browser.
+    report : callable
+        Receives the address.
+    """
+    from tehl.explore.page import Page  # noqa: PLC0415 (the elements of the page)
+
+    opened = CaseText(text)
+    taken = _port(port)
+    token = secrets.token_urlsafe(16)
+    with tempfile.TemporaryDirectory(prefix="tehl-explore-") as folder:
+        beside = None if case is None else case.resolve().parent
+        stated = frozenset(name for _, name in named_files(opened.tables))
+
+        def files_of(owner: str) -> Files:
+            return Files(Path(folder) / owner, beside, stated)
+
+        page = Page(opened, files_of)
+        app.add_middleware(Guard, token=token, port=taken)
+        app.on_startup(page.start)
+        app.on_shutdown(page.close)
+        ui.page("/", title="tehl explore", favicon=_ICON, response_timeout=20)(page.build)
+        address = f"http://{ADDRESS}:{taken}/?token={token}"
+        app.on_startup(lambda: report(address))
+        ui.run(
+            host=ADDRESS,
+            port=taken,
+            title="tehl explore",
+            reload=False,
+            show=f"/?token={token}" if browser else False,
+            show_welcome_message=False,
+            dark=None,
+            reconnect_timeout=30.0,
+            uvicorn_logging_level="error",
+            timeout_graceful_shutdown=1,
+        )
+
+
+def _port(wanted: int | None) -> int:
+    """Return a free port: the one wanted, the usual one, or any."""
+    if wanted is not None:
+        return wanted
+    for port in (USUAL_PORT, 0):
+        with socket.socket() as probe:
+            try:
+                probe.bind((ADDRESS, port))
+            except OSError:
+                continue
+            return int(probe.getsockname()[1])
+    return USUAL_PORT
+
+
+_ICON = (
+    '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 32 32"><rect width="32" height="32" '
+    'rx="7" fill="#1f4e9c"/><circle cx="16" cy="13" r="8" fill="none" stroke="#fff" '
+    'stroke-width="2.5"/><path d="M4 25h24" stroke="#7fd1ae" stroke-width="3"/></svg>'
+)

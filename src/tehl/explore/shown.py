@@ -1,0 +1,205 @@
+"""What the page shows of a steady result: its fields around the contact, numbers and status."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl.explore.numbers import Number, numbers
+from tehl.plots.frame import span_part, stretched, window, window_part
+from tehl.plots.interferogram import Optics, colours
+from tehl.post.film import profile_x, profile_y
+from tehl.report.explain import Explanation
+from tehl.result import Result
+from tehl.solution import Settings
+from tehl.typing import Array
+
+_ACROSS = 41
+"""Places across the film of a temperature section."""
+_FINE = 480
+"""Pixels along x of an interferogram."""
+
+Span = tuple[float, float]
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Maps:
+    """Fields in the window around the contact, rows along x."""
+
+    x: Array
+    y: Array
+    """Places of the nodes [um]."""
+    window: tuple[Span, Span]
+    """What is shown along x and y [um]."""
+    half_widths: tuple[float, float]
+    """Of the Hertz contact [um]."""
+    stretch: float
+    """Scale of y over that of x, one unless the contact is slender."""
+    film: Array
+    """[nm]."""
+    pressure: Array
+    """[GPa]."""
+    central: float
+    """Central film [nm]."""
+    minimum: tuple[tuple[float, float], ...] = ()
+    """Places of the minimum film [um]."""
+    hertz_pressure: float = 0.0
+    """[GPa]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Lines:
+    """Film and pressure on the centre lines."""
+
+    x: tuple[Array, Array, Array, Array]
+    y: tuple[Array, Array, Array, Array]
+    """Place [um], film [nm], pressure and dry Hertz pressure [GPa]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Section:
+    """Temperature rise in the plane y = 0."""
+
+    x: Array
+    """[um]."""
+    rise: Array
+    """(n, nx): From surface 1 to surface 2 [K]."""
+    inlet: float
+    """Temperature of the oil at the inlet [degC]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Outcome:
+    """How a solve ended, in words."""
+
+    converged: bool
+    words: str
+    message: str = ""
+    hint: str = ""
+    settings: Settings | None = None
+    """What the hint sets."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Shown:
+    """What the page shows of a steady result."""
+
+    points: tuple[int, int]
+    """Nodes along x and y."""
+    seconds: float
+    outcome: Outcome
+    numbers: tuple[Number, ...]
+    maps: Maps
+    lines: Lines
+    section: Section | None
+    fringes: Array | None
+    """Interferogram in white light, (rows, columns, 3) from the largest y down; None unless it was
+    asked for."""
+
+
+def shown(result: Result, explanation: Explanation, *, fringes: bool) -> Shown:
+    """Return what the page shows of a result; ``fringes`` includes the interferogram."""
+    scaled = result.scaled
+    return Shown(
+        points=(scaled.x.size, scaled.y.size),
+        seconds=result.cost.wall_seconds,
+        outcome=outcome_of(result),
+        numbers=numbers(result, explanation),
+        maps=maps_of(result),
+        lines=_lines(result),
+        section=_section(result),
+        fringes=_fringes(result) if fringes else None,
+    )
+
+
+def outcome_of(result: Result) -> Outcome:
+    """Return how a solve ended, in words."""
+    status = result.status
+    hint = status.hint
+    return Outcome(
+        converged=status.converged,
+        words=status.outcome,
+        message=status.message or "",
+        hint="" if hint is None else str(hint),
+        settings=None if hint is None or not hint.settings else dict(hint.settings),
+    )
+
+
+def maps_of(result: Result) -> Maps:
+    """Return film and pressure in the window around the contact."""
+    rows, columns = window_part(result)
+    half = (result.scales.half_width_x * 1e6, result.scales.half_width_y * 1e6)
+    x, y = ((low * a, high * a) for (low, high), a in zip(window(result), half, strict=True))
+    return Maps(
+        x=result.x[columns] * 1e6,
+        y=result.y[rows] * 1e6,
+        window=(x, y),
+        half_widths=half,
+        stretch=stretched(result),
+        film=_single(result.film_thickness[rows, columns] * 1e9),
+        pressure=_single(result.pressure[rows, columns] * 1e-9),
+        central=result.film.central * 1e9,
+        minimum=_minimum(result, half),
+        hertz_pressure=result.scales.hertz_pressure * 1e-9,
+    )
+
+
+def _single(field: Array) -> Array:
+    return np.nan_to_num(field, nan=0.0, posinf=0.0, neginf=0.0).astype(np.float32)
+
+
+def _minimum(result: Result, half: tuple[float, float]) -> tuple[tuple[float, float], ...]:
+    if not result.film.minimum > 0:
+        return ()
+    x, y = result.film_scaled.minimum_at
+    film = result.scaled.film
+    mirrored = y != 0.0 and np.allclose(film, film[::-1], equal_nan=True)
+    return tuple((x * half[0], side * half[1]) for side in ((y, -y) if mirrored else (y,)))
+
+
+def _lines(result: Result) -> Lines:
+    found = []
+    for profile, span in zip((profile_x(result), profile_y(result)), window(result), strict=True):
+        part = span_part(profile.scaled_coordinate, span)
+        found.append(
+            (
+                profile.coordinate[part] * 1e6,
+                _single(profile.film_thickness[part] * 1e9),
+                _single(profile.pressure[part] * 1e-9),
+                profile.hertz_pressure[part] * 1e-9,
+            )
+        )
+    return Lines(x=found[0], y=found[1])
+
+
+def _section(result: Result) -> Section | None:
+    heat = result.heat
+    if heat is None:
+        return None
+    from scipy.interpolate import CubicSpline  # noqa: PLC0415 (0.3 s, for heated films only)
+
+    row = int(np.argmin(np.abs(result.scaled.y)))
+    columns = span_part(result.scaled.x, window(result)[0])
+    inlet = result.scales.temperature
+    rise = np.nan_to_num(heat.temperature[:, row, columns] - inlet)
+    return Section(
+        x=result.x[columns] * 1e6,
+        rise=_single(CubicSpline(heat.zeta, rise, axis=0)(np.linspace(0.0, 1.0, _ACROSS))),
+        inlet=inlet - 273.15,
+    )
+
+
+def _fringes(result: Result) -> Array:
+    """Return the film as an optical rig shows it in white light, as RGB bytes."""
+    from scipy.interpolate import RectBivariateSpline  # noqa: PLC0415 (0.3 s)
+
+    maps, (rows, columns) = maps_of(result), window_part(result)
+    law, optics = result.problem.lubricant.density, Optics()
+    ratio = law.density(result.pressure[rows, columns], result.scales.temperature)
+    thickness = optics.thickness(maps.film * 1e-9, ratio / result.scales.density)
+    (left, right), (bottom, top) = maps.window
+    height = max(2, round(_FINE * (top - bottom) / (right - left) * maps.stretch))
+    fine = RectBivariateSpline(maps.y, maps.x, thickness)(
+        np.linspace(bottom, top, height), np.linspace(left, right, _FINE)
+    )
+    seen = colours(np.maximum(fine, 0.0), optics)
+    return (255.0 * seen[::-1]).round().astype(np.uint8)

@@ -1,0 +1,109 @@
+"""The line above the pictures: how the solve stands, what is wrong, what to try."""
+
+from collections.abc import Callable
+
+from nicegui import ui
+
+from tehl.explore.tab import Tab
+
+ACCURACIES = {
+    "numerics.error=5 %": "error 5 %",
+    "numerics.error=2 %": "error 2 %",
+    "numerics.error=1 %": "error 1 %",
+    "numerics.error=0.5 %": "error 0.5 %",
+    "numerics.points=129": "129² nodes",
+    "numerics.points=257": "257² nodes",
+    "numerics.points=513": "513² nodes",
+}
+"""Accuracies to choose from: key and value, by what is shown."""
+
+
+class StatusLine:
+    """State of the solve, accuracy, and a card with what is wrong."""
+
+    def __init__(self, tab: Tab) -> None:
+        self.tab = tab
+        tab.listeners.append(self._hear)
+
+    def build(self, at_the_end: Callable[[], None]) -> None:
+        """Make the line; ``at_the_end`` adds to it."""
+        with ui.element("div").classes("status").props('role="status" aria-live="polite"'):
+            self.light = ui.element("span").classes("light")
+            self.words = ui.label("starting").classes("status-words")
+            self.stop = ui.button("Stop", on_click=self.tab.stop).props("flat dense no-caps")
+            self.stop.set_visibility(False)
+            self.accuracy = ui.select(
+                dict(ACCURACIES), value=None, on_change=lambda event: self._choose(event.value)
+            )
+            self.accuracy.props('dense options-dense borderless aria-label="accuracy"')
+            self.accuracy.classes("accuracy")
+            at_the_end()
+        with ui.element("div").classes("card").props('role="alert"') as self.card:
+            self.what = ui.label("").classes("what")
+            self.hint = ui.label("").classes("hint")
+            self.apply = ui.button("Apply the hint", on_click=self._apply).props(
+                "flat dense no-caps"
+            )
+            self.again = ui.button("Solve again", on_click=self.tab.solve).props(
+                "flat dense no-caps"
+            )
+        self.card.set_visibility(False)
+
+    def _hear(self, topic: str) -> None:
+        if topic in ("status", "fault", "picture", "controls"):
+            self._show()
+        if topic == "controls":
+            self._show_accuracy()
+
+    def _show(self) -> None:
+        tab, shown = self.tab, self.tab.shown
+        self.stop.set_visibility(tab.is_busy and bool(tab.note))
+        outcome = shown.outcome if shown is not None else None
+        failed = outcome is not None and not outcome.converged and not tab.is_busy
+        state = "busy" if tab.is_busy else "bad" if failed or tab.fault else "good"
+        self.light.classes(replace=f"light {state}")
+        self.words.set_text(self._sentence())
+        fault = tab.fault
+        text = fault.text if fault is not None else ""
+        if not text and failed and outcome is not None:
+            text = f"{outcome.words}: {outcome.message}" if outcome.message else outcome.words
+        self.card.set_visibility(bool(text))
+        self.what.set_text(text)
+        has_hint = fault is None and failed and outcome is not None
+        self.hint.set_text(f"hint: {outcome.hint}" if has_hint and outcome and outcome.hint else "")
+        self.apply.set_visibility(bool(has_hint and outcome and outcome.settings))
+        self.again.set_visibility(fault is not None and not fault.path)
+
+    def _sentence(self) -> str:
+        tab, shown = self.tab, self.tab.shown
+        if shown is None:
+            return tab.note or ("solving" if tab.is_busy else "no result yet")
+        nodes = "{} × {} nodes".format(*shown.points)
+        if tab.is_busy and tab.note:
+            return tab.note
+        if tab.is_busy:
+            return f"{nodes}, refining"
+        return f"{shown.outcome.words} on {nodes} in {1e3 * shown.seconds:.0f} ms"
+
+    def _show_accuracy(self) -> None:
+        key, options = self._stated(), dict(ACCURACIES)
+        if key not in options:
+            options[key] = key.partition(".")[2]
+        self.accuracy.set_options(options, value=key)
+
+    def _choose(self, key: str | None) -> None:
+        path, _, value = (key or "").partition("=")
+        if key is None or key == self._stated():
+            return
+        self.tab.apply({path: int(value) if path.endswith("points") else value})
+
+    def _stated(self) -> str:
+        """Return the key and value of the accuracy that the case states."""
+        case = self.tab.case
+        points, error = case.get("numerics.points"), case.get("numerics.error")
+        return f"numerics.points={points}" if points else f"numerics.error={error or '2 %'}"
+
+    def _apply(self) -> None:
+        shown = self.tab.shown
+        if shown is not None and shown.outcome.settings:
+            self.tab.apply(dict(shown.outcome.settings))

@@ -1,0 +1,123 @@
+"""A measured surface comes in: upload, unit and levelling, preview, and use on a surface."""
+
+from typing import Any
+
+from nicegui import ui
+
+from tehl.errors import InputError
+from tehl.explore.colour_map import heights_picture
+from tehl.explore.files import LARGEST
+from tehl.explore.jobs import End, Failure
+from tehl.explore.tab import Tab
+from tehl.explore.tasks import Heights, Look
+from tehl.explore.worker import Solver
+
+LEVELS = {"plane": "plane", "quadratic": "quadratic form", "mean": "mean", "none": "nothing"}
+_SIZE = (420.0, 340.0)
+
+
+class SurfaceDialog:
+    """A dialog that adds a measured surface to the case of a tab."""
+
+    def __init__(self, tab: Tab, background: Solver) -> None:
+        self.tab, self.background = tab, background
+        self.name = ""
+
+    def open(self) -> None:
+        """Show the dialog."""
+        with ui.dialog() as self.dialog, ui.card().classes("open-card"):
+            ui.label("Measured surface").classes("dialog-title")
+            upload = ui.upload(
+                label="choose or drop a map of heights",
+                max_file_size=LARGEST,
+                auto_upload=True,
+                on_rejected=lambda: self._say("larger than 50 MB; crop the map before"),
+            )
+            upload.props("flat bordered").classes("w-full").on_upload(self._uploaded)
+            self._build_settings()
+            self.words = ui.label("").classes("preview-words")
+            with ui.element("div").classes("picture"):
+                self.image = ui.element("img").props('alt="" draggable=false')
+                self.drawing = ui.html("", sanitize=False).classes("drawing")
+            with ui.row().classes("w-full justify-end"):
+                ui.button("Cancel", on_click=self.dialog.close).props("flat no-caps")
+                self.uses = [
+                    ui.button(f"Use on surface {number}", on_click=lambda n=number: self._use(n))
+                    for number in (1, 2)
+                ]
+        for button in self.uses:
+            button.props("no-caps unelevated").disable()
+        self.dialog.on_value_change(lambda event: None if event.value else self.dialog.delete())
+        self.dialog.open()
+
+    def _build_settings(self) -> None:
+        with ui.element("div").classes("sweep-choices"):
+            self.unit = ui.input("unit of heights", placeholder="um")
+            self.pixel = ui.input("distance of points", placeholder="2 um")
+            self.level = ui.select(LEVELS, value="plane", label="take off")
+            for field in (self.unit, self.pixel, self.level):
+                field.props("dense outlined")
+            for entry in (self.unit, self.pixel):
+                entry.on("change", self.preview)
+            self.level.on_value_change(self.preview)
+
+    async def _uploaded(self, event: Any) -> None:
+        try:
+            self.name = self.tab.files.keep(event.file.name, await event.file.read())
+        except InputError as error:
+            self._say(str(error))
+            return
+        self.preview()
+
+    def settings(self) -> dict[str, Any]:
+        """Return the settings of the map as a case states them."""
+        stated = {"type": "map", "file": self.name, "level": self.level.value}
+        for key, entry in (("unit", self.unit), ("pixel", self.pixel)):
+            if entry.value:
+                stated[key] = entry.value
+        return stated
+
+    def preview(self) -> None:
+        """Read and level the map in the background."""
+        if not self.name:
+            return
+        settings = self.settings() | {"file": str(self.tab.files.uploads / self.name)}
+        self._say("reading")
+        self.background.submit(f"{self.tab.owner} surface", Look(settings), self._receive)
+
+    def _receive(self, message: Any) -> None:
+        if isinstance(message, Heights):
+            self._show(message)
+        elif isinstance(message, Failure):
+            self._say(self.tab.files.hidden(message.text))
+            for button in self.uses:
+                button.disable()
+        elif isinstance(message, End):
+            return
+
+    def _show(self, found: Heights) -> None:
+        picture = heights_picture((found.x, found.y), found.values, _SIZE)
+        left, top, width, height = picture.place
+        self.image.props["src"] = picture.image
+        self.image.style(
+            f"display:block;left:{left:.1f}px;top:{top:.1f}px;"
+            f"width:{width:.1f}px;height:{height:.1f}px"
+        )
+        self.drawing.set_content(picture.overlay)
+        self._say("\n".join(found.words))
+        for button in self.uses:
+            button.enable()
+
+    def _use(self, number: int) -> None:
+        settings, key = self.settings(), f"surface_{number}"
+        self.dialog.close()
+        self.tab.apply(
+            {
+                f"{key}.rms_roughness": False,
+                f"{key}.ra_roughness": False,
+                f"{key}.roughness": settings,
+            }
+        )
+
+    def _say(self, words: str) -> None:
+        self.words.set_text(words)

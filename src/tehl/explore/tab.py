@@ -1,0 +1,262 @@
+"""One tab of the page without its elements: the case, what is solved of it, what is compared."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from tehl.errors import InputError
+from tehl.explore.case_text import CaseText
+from tehl.explore.colour_map import Limits, film_limits, pressure_limits, section_limits
+from tehl.explore.controls import Choice, Group, Knob, groups
+from tehl.explore.curves import line_tops
+from tehl.explore.files import Files
+from tehl.explore.jobs import Ask, End, Explained, Failure, Note, Part
+from tehl.explore.shown import Shown
+from tehl.explore.worker import Solver
+from tehl.io.case import case_from_tables
+from tehl.options import Options
+
+if TYPE_CHECKING:
+    from tehl.problem import ContactProblem
+
+VIEWS = {
+    "film": "Film",
+    "pressure": "Pressure",
+    "lines": "Centre lines",
+    "temperature": "Temperature",
+    "fringes": "Interferogram",
+    "relief": "3-D film",
+    "movie": "Movie",
+    "curves": "Curves",
+}
+"""Views of a contact, by name."""
+_UNDONE = 50
+
+Listener = Callable[[str], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """A sentence on what is wrong with a case, and the control that it belongs to."""
+
+    text: str
+    path: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Pinned:
+    """A state that is compared."""
+
+    case: CaseText
+    shown: Shown
+
+
+class Tab:
+    """A case, its controls, and the result on screen.
+
+    ``tell`` is called with the topic of each change: "controls", "fault", "status", "picture",
+    "numbers", "explained".
+    """
+
+    def __init__(self, owner: str, case: CaseText, files: Files, solver: Solver) -> None:
+        self.owner, self.case, self.files, self.solver = owner, case, files, solver
+        self.listeners: list[Listener] = []
+        self.problem: ContactProblem | None = None
+        self.options = Options()
+        self.groups: tuple[Group, ...] = ()
+        self.fault: Fault | None = None
+        self.shown: Shown | None = None
+        self.explained: Explained | None = None
+        self.pinned: Pinned | None = None
+        self.note, self.is_busy, self.is_moving = "", False, False
+        self.view, self.held = "film", False
+        self.limits: dict[str, Any] = {}
+        self._undo: list[str] = []
+        self._request = 0
+
+    def tell(self, topic: str) -> None:
+        """Report a change."""
+        for listener in self.listeners:
+            listener(topic)
+
+    # ---- the case
+
+    def open(self, case: CaseText) -> None:
+        """Take another case."""
+        self._remember()
+        self.case = case
+        self.limits.clear()
+        self._check(rebuild=True)
+
+    def turn(self, knob: Knob, number: float, unit: str, *, moving: bool) -> None:
+        """Set a control to a number in a unit; ``moving`` solves on the coarse grid only."""
+        if not self.is_moving:
+            self._remember()
+        self.is_moving = moving
+        self._edit(knob.path, lambda case: case.set(knob.path, knob.stated(number, unit)))
+
+    def type(self, knob: Knob, words: str, unit: str) -> bool:
+        """Set a control to what was typed, a number or a number with its unit."""
+        try:
+            number = float(words.replace(",", "."))
+        except ValueError:
+            return self._edit(knob.path, lambda case: case.set(knob.path, words.strip()))
+        self._remember()
+        return self._edit(knob.path, lambda case: case.set(knob.path, knob.stated(number, unit)))
+
+    def choose(self, choice: Choice, option: str) -> None:
+        """Choose one of several words; the controls are made again."""
+        self._remember()
+        self._edit(choice.path, lambda case: choice.change(case, option), rebuild=True)
+
+    def apply(self, settings: dict[str, Any]) -> None:
+        """Set what a hint names."""
+        self._remember()
+
+        def change(case: CaseText) -> None:
+            for path, value in settings.items():
+                case.set(path, None if value is False else value)
+
+        self._edit("", change, rebuild=True)
+
+    def undo(self) -> None:
+        """Take the case before the last change."""
+        if self._undo:
+            self.case = CaseText(self._undo.pop())
+            self._check(rebuild=True)
+
+    def _remember(self) -> None:
+        if not self._undo or self._undo[-1] != self.case.text:
+            self._undo = [*self._undo[-_UNDONE:], self.case.text]
+
+    def _edit(
+        self, path: str, change: Callable[[CaseText], None], *, rebuild: bool = False
+    ) -> bool:
+        """Change the case and check it; a faulty change is shown, and not solved."""
+        case = CaseText(self.case.text)
+        try:
+            change(case)
+        except InputError as error:
+            self._blame(str(error), path)
+            return False
+        self.case = case
+        return self._check(path, rebuild=rebuild)
+
+    def _check(self, path: str = "", *, rebuild: bool = False) -> bool:
+        """Check the case; solve it if it is valid."""
+        try:
+            tables = self.files.resolved(self.case.tables)
+            self.problem, self.options = case_from_tables(tables)
+            made = groups(self.case, self.problem) if rebuild or not self.groups else self.groups
+        except InputError as error:
+            self._blame(self.files.hidden(str(error)), path)
+            return False
+        had_fault, self.fault = self.fault is not None, None
+        if made is not self.groups:
+            self.groups = made
+            self.tell("controls")
+        if had_fault:
+            self.tell("fault")
+        self.solve()
+        return True
+
+    def _blame(self, text: str, path: str) -> None:
+        self.fault = Fault(text, path)
+        self.tell("fault")
+
+    # ---- the result
+
+    def solve(self) -> None:
+        """Solve the case: on the coarse grid while a slider moves, then as the case asks."""
+        try:
+            tables = self.files.resolved(self.case.tables)
+        except InputError as error:
+            self._blame(self.files.hidden(str(error)), "")
+            return
+        self._request += 1
+        number = self._request
+        self.is_busy, self.note = True, ""
+        ask = Ask(tables=tables, quick=self.is_moving, fringes=self.view == "fringes")
+        self.solver.submit(self.owner, ask, lambda message: self._receive(number, message))
+        self.tell("status")
+
+    def stop(self) -> None:
+        """Cancel what is being solved."""
+        self.solver.cancel(self.owner)
+        self.is_busy, self.note = False, "stopped"
+        self.tell("status")
+
+    def _receive(self, number: int, message: Any) -> None:
+        """Take a message of the worker; results of an older place of the slider are shown too."""
+        newest = number == self._request
+        if isinstance(message, Part):
+            if newest or self.is_moving:
+                self.shown = message.shown
+                self._fit()
+                self.tell("picture")
+                self.tell("numbers")
+        elif not newest:
+            return
+        elif isinstance(message, Explained):
+            self.explained = message
+            self.tell("explained")
+        elif isinstance(message, Note):
+            self.note = message.text
+        elif isinstance(message, Failure):
+            self._blame(self.files.hidden(message.text), "")
+        elif isinstance(message, End):
+            self.is_busy, self.note = False, ""
+        self.tell("status")
+
+    # ---- comparing
+
+    def pin(self) -> None:
+        """Keep the state on screen to compare; the scales of colours then hold still."""
+        if self.shown is not None:
+            self.pinned = Pinned(CaseText(self.case.text), self.shown)
+            self.held = True
+            self.tell("picture")
+            self.tell("numbers")
+
+    def unpin(self) -> None:
+        """Stop comparing."""
+        self.pinned, self.held = None, False
+        self._fit()
+        self.tell("picture")
+        self.tell("numbers")
+
+    def hold(self, *, held: bool) -> None:
+        """Hold the scales of colours, or fit them to each result."""
+        self.held = held
+        self._fit()
+        self.tell("picture")
+
+    def show(self, view: str) -> None:
+        """Choose what is shown."""
+        self.view = view
+        if view == "fringes" and (self.shown is None or self.shown.fringes is None):
+            self.solve()
+        self.tell("picture")
+
+    def _fit(self) -> None:
+        """Fit the scales to the result, unless they are held or a slider moves."""
+        shown = self.shown
+        if shown is None:
+            return
+        wanted: dict[str, Any] = {
+            "film": film_limits(shown.maps),
+            "pressure": pressure_limits(shown.maps),
+            "lines": line_tops(shown.lines),
+        }
+        if shown.section is not None:
+            wanted["temperature"] = section_limits(shown.section)
+        if self.held or self.is_moving:
+            wanted |= {key: value for key, value in self.limits.items() if key in wanted}
+        self.limits = wanted
+
+
+def joined(first: Any, second: Any) -> Any:
+    """Return the range that has two scales."""
+    if isinstance(first, Limits):
+        return first.joined(second)
+    return tuple(map(max, first, second))

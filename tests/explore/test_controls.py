@@ -1,0 +1,82 @@
+"""Each control of each template states the value that it shows, and each choice gives a case."""
+
+import pytest
+
+pytest.importorskip("tomlkit", reason="needs pip install 'tehl[explore]'")
+
+from tehl.errors import InputError
+from tehl.explore.case_text import CaseText
+from tehl.explore.controls import Choice, Knob, groups
+from tehl.io.case import case_from_tables
+from tehl.io.templates import template_text, templates
+
+
+def controls_of(name):
+    case = CaseText(template_text(name))
+    problem = case_from_tables(case.tables)[0]
+    return case, problem, [item for group in groups(case, problem) for item in group.items]
+
+
+def fault_of(case):
+    try:
+        case_from_tables(case.tables)
+    except InputError as error:
+        return str(error)
+    return ""
+
+
+@pytest.mark.parametrize("name", templates())
+def test_a_knob_set_to_its_own_value_changes_nothing(name):
+    case, problem, items = controls_of(name)
+    for knob in (item for item in items if isinstance(item, Knob)):
+        again = CaseText(case.text)
+        again.set(knob.path, knob.stated(knob.number(knob.value, knob.unit), knob.unit))
+        after = case_from_tables(again.tables)[0]
+        assert after.load == pytest.approx(problem.load, rel=1e-5), knob.path
+        assert after.ambient_viscosity == pytest.approx(problem.ambient_viscosity, rel=1e-5)
+        low, high = knob.reach(knob.value)
+        assert low <= knob.value <= high, knob.path
+
+
+@pytest.mark.parametrize("name", templates())
+def test_a_choice_gives_a_valid_case_or_a_sentence(name):
+    case, _, items = controls_of(name)
+    for choice in (item for item in items if isinstance(item, Choice)):
+        assert choice.value in choice.options
+        for option in choice.options:
+            again = CaseText(case.text)
+            choice.change(again, option)
+            assert len(fault_of(again).splitlines()) <= 1
+
+
+def test_load_and_hertz_pressure_are_the_same_contact():
+    case, problem, items = controls_of("ball-on-disc")
+    choice = next(item for item in items if item.path.startswith("contact.load|"))
+    choice.change(case, "hertz_pressure")
+    assert case.get("contact.load") is None
+    assert case_from_tables(case.tables)[0].load == pytest.approx(problem.load, rel=1e-4)
+
+
+def test_radii_of_both_bodies_become_the_reduced_radius():
+    case, problem, items = controls_of("ball-on-disc")
+    choice = next(item for item in items if item.path == "contact.radius|")
+    choice.change(case, "circle")
+    assert case.get("surface_1.radius") is None
+    assert case_from_tables(case.tables)[0].radius_x == pytest.approx(problem.radius_x)
+
+
+def test_heat_can_be_switched_on_and_off():
+    case, _, items = controls_of("gear-ellipse")
+    choice = next(item for item in items if item.path == "thermal")
+    choice.change(case, "on")
+    assert case_from_tables(case.tables)[0].thermal is not None
+    choice.change(case, "off")
+    assert case_from_tables(case.tables)[0].thermal is None
+
+
+def test_temperatures_are_shown_in_degrees_and_stated_so():
+    _, _, items = controls_of("thermal")
+    knob = next(item for item in items if item.path == "thermal.temperature")
+    assert knob.number(knob.value, "degC") == pytest.approx(40.0)
+    assert knob.stated(45.0, "degC") == "45 degC"
+    assert knob.si(45.0, "degC") == pytest.approx(318.15)

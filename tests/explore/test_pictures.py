@@ -1,0 +1,98 @@
+"""Pictures of the page: scales, ticks, maps that reproduce the field, numbers with their bars."""
+
+import base64
+import io
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from tehl.explore.axes import Scale, log_ticks, ticks
+from tehl.explore.colour_map import (
+    film_limits,
+    film_picture,
+    pressure_limits,
+    pressure_picture,
+    value_at,
+)
+from tehl.explore.curves import Point, line_charts, line_tops, swept_chart
+from tehl.explore.numbers import numbers, value_of
+from tehl.explore.shown import shown
+from tehl.report.explain import explain
+
+SIZE = (640.0, 560.0)
+
+
+@pytest.fixture
+def seen(result):
+    return shown(result, explain(result.problem, result.options), fringes=True)
+
+
+def test_ticks_are_round_and_inside():
+    assert ticks(0.0, 1.0, 5) == pytest.approx([0, 0.2, 0.4, 0.6, 0.8, 1.0])
+    assert ticks(-433.0, 310.0, 4) == pytest.approx([-400, -200, 0, 200])
+    assert log_ticks(0.01, 30.0, 4) == pytest.approx([0.01, 0.1, 1, 10])
+    assert ticks(1.0, 1.0, 5) == []
+
+
+@pytest.mark.parametrize("is_log", [False, True])
+def test_a_scale_is_its_own_inverse(is_log):
+    scale = Scale(2.0, 50.0, 400.0, 20.0, is_log)
+    for value in (2.0, 7.5, 50.0):
+        assert scale.data(scale(value)) == pytest.approx(value)
+
+
+def test_the_image_has_the_film_in_its_colours(seen):
+    limits = film_limits(seen.maps)
+    picture = film_picture(seen.maps, limits, SIZE)
+    image = Image.open(io.BytesIO(base64.b64decode(picture.image.partition(",")[2])))
+    indices = np.asarray(image)
+    frame = picture.frame
+    row = round((frame.y(0.0) - frame.y.end) / picture.place[3] * (indices.shape[0] - 1))
+    column = round((frame.x(0.0) - frame.x.start) / picture.place[2] * (indices.shape[1] - 1))
+    film = limits.low * (limits.high / limits.low) ** (indices[row, column] / 255.0)
+    assert film == pytest.approx(seen.maps.central, rel=0.01)  # one of 256 colours
+
+
+def test_both_maps_have_contact_and_labels(seen):
+    film = film_picture(seen.maps, film_limits(seen.maps), SIZE).overlay
+    pressure = pressure_picture(seen.maps, pressure_limits(seen.maps), SIZE).overlay
+    assert film.count('class="hertz"') == pressure.count('class="hertz"') == 1
+    assert "minimum film" in film
+    assert "minimum film" not in pressure
+    assert "pressure [GPa]" in pressure
+
+
+def test_the_value_under_the_pointer_is_that_of_the_field(seen):
+    maps = seen.maps
+    row, column = len(maps.y) // 2, len(maps.x) // 3
+    found = value_at(maps.x, maps.y, maps.film, float(maps.x[column]), float(maps.y[row]))
+    assert found == pytest.approx(float(maps.film[row, column]), rel=1e-6)
+    assert value_at(maps.x, maps.y, maps.film, 1e9, 0.0) is None
+
+
+def test_the_interferogram_is_an_image_of_bytes(seen):
+    assert seen.fringes.dtype == np.uint8
+    assert seen.fringes.shape[2] == 3
+
+
+def test_centre_lines_and_sweeps_are_drawings(seen):
+    charts = line_charts(seen.lines, SIZE, line_tops(seen.lines))
+    assert [chart.drawing.count("<svg") for chart in charts] == [1, 1]
+    points = [Point(1.0, 2.0, 0.1), Point(10.0, None), Point(100.0, 3.0)]
+    drawing = swept_chart(points, ("speed", "film"), SIZE, (1.0, 100.0)).drawing
+    assert drawing.count('class="point"') == 2
+    assert drawing.count('class="whisker"') == 1
+    assert drawing.count('class="minimum"') == 1
+
+
+def test_numbers_are_those_of_the_result_with_bars_and_formulas(result):
+    explanation = explain(result.problem, result.options)
+    found = numbers(result, explanation)
+    film = value_of(found, "h_central")
+    assert film.value == result.film.central * 1e9
+    assert film.error == result.errors.central
+    assert film.formulas[0][1] == pytest.approx(explanation.films[0].central_m * 1e9)
+    assert value_of(found, "p_max").formulas[0][0] == "Hertz"
+    assert value_of(found, "t_max").value is None
+    assert value_of(found, "t_max").remark

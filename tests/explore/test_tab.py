@@ -1,0 +1,115 @@
+"""A tab takes changes of its case, shows faults beside their controls, and holds its scales."""
+
+import pytest
+
+pytest.importorskip("tomlkit", reason="needs pip install 'tehl[explore]'")
+
+from tehl.explore.case_text import CaseText
+from tehl.explore.files import Files
+from tehl.explore.jobs import Ask, End, Failure, Part
+from tehl.explore.shown import shown
+from tehl.explore.tab import Tab
+from tehl.io.templates import template_text
+from tehl.report.explain import explain
+
+
+class Recorder:
+    """A solver that only records what is submitted."""
+
+    def __init__(self):
+        self.jobs, self.receivers = [], []
+
+    def submit(self, owner, job, receive):
+        assert owner == "one"
+        self.jobs.append(job)
+        self.receivers.append(receive)
+
+    def cancel(self, owner):
+        self.jobs.append(owner)
+
+
+@pytest.fixture
+def tab(tmp_path):
+    made = Tab("one", CaseText(template_text("ball-on-disc")), Files(tmp_path), Recorder())
+    made.open(made.case)
+    return made
+
+
+@pytest.fixture
+def part(result):
+    return Part(shown(result, explain(result.problem, result.options), fringes=False), final=True)
+
+
+def knob(tab, path):
+    return next(item for group in tab.groups for item in group.items if item.path == path)
+
+
+def test_a_moving_slider_solves_on_the_coarse_grid_and_a_released_one_as_the_case_asks(tab):
+    load = knob(tab, "contact.load")
+    tab.turn(load, 90, "N", moving=True)
+    tab.turn(load, 95, "N", moving=False)
+    assert [job.quick for job in tab.solver.jobs] == [False, True, False]
+    assert tab.case.get("contact.load") == "95 N"
+    assert tab.problem.load == 95.0
+
+
+def test_one_undo_takes_back_a_whole_move(tab):
+    load = knob(tab, "contact.load")
+    for number in (90, 100, 110):
+        tab.turn(load, number, "N", moving=True)
+    tab.turn(load, 120, "N", moving=False)
+    tab.undo()
+    assert tab.case.get("contact.load") == "80 N"
+
+
+def test_a_faulty_entry_is_a_sentence_beside_its_control_and_is_not_solved(tab):
+    before = len(tab.solver.jobs)
+    assert not tab.type(knob(tab, "contact.load"), "-3", "N")
+    assert tab.fault.path == "contact.load"
+    assert "contact.load" in tab.fault.text
+    assert "must be positive" in tab.fault.text
+    assert len(tab.solver.jobs) == before
+    assert tab.type(knob(tab, "contact.load"), "0.1 kN", "N")
+    assert tab.fault is None
+    assert tab.problem.load == 100.0
+
+
+def test_a_file_of_the_machine_is_refused(tab):
+    text = tab.case.text + '\n[supply]\nprofile = "/etc/passwd"\n'
+    tab.open(CaseText(text))
+    assert "not a file of this page" in tab.fault.text
+
+
+def test_a_failure_of_the_worker_is_shown(tab):
+    tab.solver.receivers[-1](Failure("The process that solves has ended"))
+    tab.solver.receivers[-1](End())
+    assert tab.fault.text == "The process that solves has ended"
+    assert not tab.is_busy
+
+
+def test_results_of_an_older_request_are_dropped_unless_a_slider_moves(tab, part):
+    old = tab.solver.receivers[-1]
+    tab.turn(knob(tab, "contact.load"), 90, "N", moving=False)
+    old(part)
+    assert tab.shown is None
+    tab.turn(knob(tab, "contact.load"), 91, "N", moving=True)
+    old(part)
+    assert tab.shown is not None
+
+
+def test_scales_hold_still_while_comparing(tab, part):
+    tab.solver.receivers[-1](part)
+    limits = tab.limits["film"]
+    tab.pin()
+    tab.turn(knob(tab, "contact.load"), 90, "N", moving=False)
+    tab.limits["film"] = marked = limits.joined(limits.__class__(1.0, 1e4, True))
+    tab.solver.receivers[-1](part)
+    assert tab.limits["film"] == marked
+    tab.unpin()
+    assert tab.limits["film"] == limits
+
+
+def test_the_interferogram_is_computed_when_it_is_shown(tab):
+    tab.show("fringes")
+    assert isinstance(tab.solver.jobs[-1], Ask)
+    assert tab.solver.jobs[-1].fringes

@@ -1,0 +1,106 @@
+"""The worker of the page solves the newest request, can be cancelled, and is replaced."""
+
+import asyncio
+import os
+import signal
+
+import pytest
+
+pytest.importorskip("tomlkit", reason="needs pip install 'tehl[explore]'")
+
+from tehl.explore.case_text import CaseText
+from tehl.explore.jobs import Ask, End, Explained, Failure, Part
+from tehl.explore.worker import Solver
+from tehl.io.case import case_from_tables
+from tehl.io.templates import template_text
+from tehl.solver import solve
+
+CASE = CaseText(template_text("ball-on-disc"))
+
+
+class Inbox:
+    """Messages of a job, until its end."""
+
+    def __init__(self, loop):
+        self.messages, self.ended = [], loop.create_future()
+
+    def __call__(self, message):
+        self.messages.append(message)
+        if isinstance(message, End) and not self.ended.done():
+            self.ended.set_result(message)
+
+    def of(self, kind):
+        return [message for message in self.messages if isinstance(message, kind)]
+
+
+async def scenario():
+    loop = asyncio.get_running_loop()
+    solver = Solver(loop)
+    try:
+        await refines(solver, Inbox(loop))
+        await sentence(solver, Inbox(loop))
+        await newest(solver, [Inbox(loop) for _ in range(5)])
+        await cancelled(solver, Inbox(loop), Inbox(loop))
+        await killed(solver, Inbox(loop), Inbox(loop))
+        pid = solver.pid
+    finally:
+        solver.close()
+    with pytest.raises(ProcessLookupError):
+        os.kill(pid, 0)
+
+
+async def refines(solver, inbox):
+    solver.submit("tab", Ask(tables=CASE.tables), inbox)
+    await asyncio.wait_for(inbox.ended, 240)
+    parts = inbox.of(Part)
+    assert [part.final for part in parts] == [False, True]
+    assert len(inbox.of(Explained)) == 1
+    coarse, fine = (part.shown.numbers[0] for part in parts)
+    assert fine.error < 0.5 * coarse.error
+    expected = solve(*case_from_tables(CASE.tables))
+    assert fine.value == expected.film.central * 1e9
+    assert parts[-1].shown.maps.film.shape == parts[-1].shown.maps.pressure.shape
+
+
+async def sentence(solver, inbox):
+    faulty = CASE.tables | {"numerics": {"points": 16385}}
+    solver.submit("tab", Ask(tables=faulty), inbox)
+    await asyncio.wait_for(inbox.ended, 60)
+    assert "memory" in inbox.of(Failure)[0].text
+
+
+async def newest(solver, inboxes):
+    for inbox in inboxes:
+        solver.submit("tab", Ask(tables=CASE.tables, quick=True), inbox)
+    await asyncio.wait_for(inboxes[-1].ended, 60)
+    assert inboxes[-1].of(Part)
+    assert sum(bool(inbox.messages) for inbox in inboxes) <= 2
+
+
+async def cancelled(solver, inbox, after):
+    slow = CASE.tables | {"numerics": {"points": 1025}}
+    solver.submit("tab", Ask(tables=slow), inbox)
+    while not inbox.of(Part):
+        await asyncio.sleep(0.01)
+    solver.submit("tab", Ask(tables=CASE.tables, quick=True), after)
+    await asyncio.wait_for(after.ended, 30)
+    assert inbox.ended.result().cancelled
+    assert after.of(Part)
+
+
+async def killed(solver, inbox, after):
+    slow = CASE.tables | {"numerics": {"points": 1025}}
+    solver.submit("tab", Ask(tables=slow), inbox)
+    while not inbox.of(Part):
+        await asyncio.sleep(0.01)
+    os.kill(solver.pid, signal.SIGKILL)
+    await asyncio.wait_for(inbox.ended, 30)
+    assert "has ended" in inbox.of(Failure)[0].text
+    solver.submit("tab", Ask(tables=CASE.tables, quick=True), after)
+    await asyncio.wait_for(after.ended, 60)
+    assert after.of(Part)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="kills a process by a signal")
+def test_requests_are_refined_replaced_cancelled_and_survive_a_killed_worker():
+    asyncio.run(scenario())
