@@ -10,10 +10,10 @@ DOCS := $(VENV)/.stamp-docs
 DEMO := out/demo
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test check format bench coverage paper docs validate clean
+.PHONY: help demo test test-browser check format bench coverage paper docs validate clean
 
 help:  ## list the targets
-	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-10s %s\n", $$1, $$2}'
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-12s %s\n", $$1, $$2}'
 
 $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)
@@ -38,7 +38,10 @@ demo: $(RUN)  ## a ball on a disc: case, explanation, solution and pictures in o
 	@echo "The pictures are in $(DEMO)."
 
 test: $(DEV)  ## the tests that run each time
-	$(BIN)/python -m pytest -m "not slow"
+	$(BIN)/python -m pytest -m "not slow" --ignore tests/browser
+
+test-browser: $(DEV)  ## the live page in chromium, which must be installed
+	$(BIN)/python -m pytest tests/browser
 
 check: $(DEV)  ## style, formatting, types and floors
 	$(BIN)/ruff check .

@@ -77,7 +77,7 @@ def test_the_interferogram_is_an_image_of_bytes(seen):
 
 
 def test_centre_lines_and_sweeps_are_drawings(seen):
-    charts = line_charts(seen.lines, SIZE, line_tops(seen.lines))
+    charts = line_charts(seen, SIZE, line_tops(seen.lines))
     assert [chart.drawing.count("<svg") for chart in charts] == [1, 1]
     points = [Point(1.0, 2.0, 0.1), Point(10.0, None), Point(100.0, 3.0)]
     drawing = swept_chart(points, ("speed", "film"), SIZE, (1.0, 100.0)).drawing

@@ -1,11 +1,14 @@
 """``tehl explore``: the live page."""
 
+import os
 from contextlib import suppress
 from pathlib import Path
 from typing import Annotated
 
 from typer import Argument, Option, echo
 
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+"""Variables that limit the threads of linear algebra, read when numpy is loaded."""
 TEMPLATE = "ball-on-disc"
 """What the page opens without a case."""
 
@@ -21,6 +24,8 @@ def explore(
 
     The page is served to this machine only, to whoever has the address. Ctrl-C ends it.
     """
+    for name in THREADS:  # small products of matrices are ten times as slow on two threads
+        os.environ.setdefault(name, "1")
     from tehl.io.case import read_case_and_options
     from tehl.io.templates import template_text
 

@@ -55,7 +55,7 @@ def ticks(low: float, high: float, count: int) -> list[float]:
         return []
     rough = (high - low) / max(count, 1)
     power = 10.0 ** math.floor(math.log10(rough))
-    step = next(s * power for s in _STEPS if s * power >= rough * (1.0 - _ROUNDING))
+    step = min((s * power for s in _STEPS), key=lambda s: abs(math.log(s / rough)))
     first = math.ceil(low / step - _ROUNDING)
     last = math.floor(high / step + _ROUNDING)
     return [number * step for number in range(first, last + 1)]
@@ -94,7 +94,7 @@ class Frame:
             f'<rect x="{left:.1f}" y="{top:.1f}" width="{right - left:.1f}" '
             f'height="{bottom - top:.1f}" class="frame"/>'
         ]
-        for value in self.x.ticks(max(2, int((right - left) / 75))):
+        for value in self.x.ticks(max(3, int((right - left) / 75))):
             at = self.x(value)
             if grid:
                 parts.append(_line(at, bottom, at, top, "grid"))
@@ -108,7 +108,7 @@ class Frame:
     def y_ticks(self, at: float, side: int, *, grid: bool, colour: str) -> list[str]:
         """Return the ticks of the y axis at one side, -1 the left."""
         parts, anchor = [], "end" if side < 0 else "start"
-        for value in self.y.ticks(max(2, int((self.y.start - self.y.end) / 45))):
+        for value in self.y.ticks(max(3, int((self.y.start - self.y.end) / 45))):
             y = self.y(value)
             if grid:
                 parts.append(_line(self.x.start, y, self.x.end, y, "grid"))

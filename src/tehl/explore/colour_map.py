@@ -16,8 +16,8 @@ from tehl.explore.axes import Frame, Scale, number_text, svg, text, ticks, turne
 from tehl.explore.shown import Maps, Section, Shown
 from tehl.typing import Array
 
-_LEFT, _RIGHT, _TOP, _BOTTOM = 58.0, 84.0, 26.0, 46.0
-"""Margins in pixels."""
+_LEFT, _RIGHT, _TOP, _BOTTOM, _BARE = 58.0, 84.0, 26.0, 46.0, 14.0
+"""Margins in pixels; the last one at the right without a colour bar."""
 _WIDEST = 400.0
 """Pixels of an image; the browser draws it wider, smoothly."""
 _CONTOURED = 128
@@ -47,6 +47,8 @@ class Look:
     colours: str
     """Name of the colour map."""
     label: str
+    bar: bool = True
+    """Whether a colour bar stands at its right."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +65,9 @@ class Picture:
 def film_limits(maps: Maps) -> Limits:
     """Return the colours of a film: from just below its minimum to 1.6 times the centre."""
     positive = maps.film[maps.film > 0]
-    central = maps.central if maps.central > 0 else float(np.median(positive or [1.0]))
+    central = maps.central
+    if not central > 0:
+        central = float(np.median(positive)) if positive.size else 1.0
     low = float(positive.min()) if positive.size else 0.1 * central
     return Limits(0.95 * min(max(low, 0.02 * central), 0.95 * central), 1.6 * central, True)
 
@@ -78,16 +82,20 @@ def section_limits(section: Section) -> Limits:
     return Limits(min(float(section.rise.min()), 0.0), max(float(section.rise.max()), 1e-3))
 
 
-def film_picture(maps: Maps, limits: Limits, size: tuple[float, float]) -> Picture:
-    """Draw the film with contour lines, Hertz contact and minimum."""
+def film_picture(
+    maps: Maps, limits: Limits, size: tuple[float, float], *, bar: bool = True
+) -> Picture:
+    """Draw the film with contour lines, Hertz contact and minimum; ``bar`` adds its colours."""
     levels = [level for level in ticks(limits.low, limits.high, 9) if level > limits.low]
-    look = Look(limits, levels, "viridis", "film thickness [nm]")
+    look = Look(limits, levels, "viridis", "film thickness [nm]", bar)
     return _map(maps, maps.film, look, size)
 
 
-def pressure_picture(maps: Maps, limits: Limits, size: tuple[float, float]) -> Picture:
-    """Draw the pressure with contour lines and the Hertz contact."""
-    look = Look(limits, ticks(limits.low, limits.high, 8)[1:], "cividis", "pressure [GPa]")
+def pressure_picture(
+    maps: Maps, limits: Limits, size: tuple[float, float], *, bar: bool = True
+) -> Picture:
+    """Draw the pressure with contour lines and the Hertz contact; ``bar`` adds its colours."""
+    look = Look(limits, ticks(limits.low, limits.high, 8)[1:], "cividis", "pressure [GPa]", bar)
     return _map(replace(maps, minimum=()), maps.pressure, look, size)
 
 
@@ -95,7 +103,7 @@ def fringes_picture(shown: Shown, size: tuple[float, float]) -> Picture:
     """Draw the interferogram, which has no colour bar."""
     maps, fringes = shown.maps, shown.fringes
     assert fringes is not None
-    frame = _frame(maps, size)
+    frame = _frame(maps, size, _BARE)
     place = _place(frame)
     buffer = io.BytesIO()
     Image.fromarray(fringes).save(buffer, "PNG", compress_level=1)
@@ -147,12 +155,12 @@ def _around(field: Array, axis: Array, at: float) -> Array:
 
 
 def _map(maps: Maps, field: Array, look: Look, size: tuple[float, float]) -> Picture:
-    frame = _frame(maps, size)
+    frame = _frame(maps, size, _RIGHT if look.bar else _BARE)
     place = _place(frame)
     pixels = _resampled(field, (maps.x, maps.y), frame, place)
     parts = _contours(field, (maps.x, maps.y), frame, look.levels)
     parts += _contact(frame, maps) + frame.svg("x along entrainment [µm]", _y_label(maps))
-    parts += _colour_bar(frame, look) + _legend(frame, maps)
+    parts += (_colour_bar(frame, look) if look.bar else "") + _legend(frame, maps)
     overlay = svg(frame.width, frame.height, parts, f"map of the {look.label}")
     return Picture(_png(pixels, look), place, overlay, frame)
 
@@ -168,17 +176,17 @@ def _y_label(maps: Maps) -> str:
     )
 
 
-def _frame(maps: Maps, size: tuple[float, float]) -> Frame:
+def _frame(maps: Maps, size: tuple[float, float], right_margin: float) -> Frame:
     """Return the scales of a map as large as fits."""
     (left, right), (bottom, top) = maps.window
     shape = (top - bottom) / (right - left) * maps.stretch
-    width = min(size[0] - _LEFT - _RIGHT, (size[1] - _TOP - _BOTTOM) / shape)
+    width = min(size[0] - _LEFT - right_margin, (size[1] - _TOP - _BOTTOM) / shape)
     height = width * shape
     full = _TOP + height + _BOTTOM
     return Frame(
         Scale(left, right, _LEFT, _LEFT + width),
         Scale(bottom, top, full - _BOTTOM, _TOP),
-        _LEFT + width + _RIGHT,
+        _LEFT + width + right_margin,
         full,
     )
 

@@ -6,12 +6,13 @@ from typing import TYPE_CHECKING, Any
 from nicegui import ui
 
 from tehl.explore.controls import Choice, Group, Knob
+from tehl.explore.elements import button
 from tehl.explore.tab import Tab
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-_STEPS = 1000
+_STEPS = 200
 _THROTTLE = 0.03
 """Seconds between two places of a moving slider."""
 
@@ -52,8 +53,7 @@ class ControlPanel:
                 )
                 self.rows[item.path] = row
             if group.name == "Surfaces":
-                button = ui.button("Measured surface", icon="upload", on_click=self.measured)
-                button.props("flat dense no-caps")
+                button("Measured surface", self.measured, icon="upload")
 
     def _show_fault(self) -> None:
         """Show what is wrong beside its control."""
@@ -72,6 +72,7 @@ class KnobRow:
     def __init__(self, tab: Tab, knob: Knob) -> None:
         self.tab, self.knob, self.unit = tab, knob, knob.unit
         self.value, self.reach = knob.value, knob.reach(knob.value)
+        self.left_at: float | None = None
         with ui.element("div").classes("knob"):
             with ui.element("div").classes("knob-head"):
                 ui.label(knob.label).classes("knob-label")
@@ -94,7 +95,7 @@ class KnobRow:
             chosen.props(f'dense borderless options-dense aria-label="unit of {self.knob.label}"')
             chosen.classes("unit")
         else:
-            ui.label(self.unit.replace("degC", "°C")).classes("unit fixed")
+            ui.label(self.unit.replace("degC", "°C")).classes("unit lone")
 
     def _words(self) -> str:
         return f"{self.knob.number(self.value, self.unit):.5g}"
@@ -127,15 +128,20 @@ class KnobRow:
         return round(number / step) * step
 
     def _moved(self, event: Any) -> None:
-        self._set(float(_plain(event.args)), moving=True)
+        place = float(_plain(event.args))
+        if place != self.left_at:  # the last place comes once more after the release
+            self._set(place, moving=True)
 
     def _released(self, event: Any) -> None:
-        self._set(float(_plain(event.args)), moving=False)
+        self.left_at = float(_plain(event.args))
+        self._set(self.left_at, moving=False)
         low, high = self.reach
         if self.knob.is_log and not 1.05 * low < self.value < high / 1.05:
             self._centre()
 
     def _set(self, place: float, *, moving: bool) -> None:
+        if moving:
+            self.left_at = None
         number = self._at(place)
         self.value = self.knob.si(number, self.unit)
         self.entry.set_value(f"{number:.5g}")

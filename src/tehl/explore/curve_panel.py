@@ -8,6 +8,7 @@ from nicegui import ui
 from tehl.errors import InputError
 from tehl.explore.controls import Knob, swept_knobs
 from tehl.explore.curves import Point, swept_chart
+from tehl.explore.elements import button
 from tehl.explore.jobs import End, Failure
 from tehl.explore.numbers import value_of
 from tehl.explore.tab import Tab
@@ -58,10 +59,9 @@ class CurvePanel:
                 field.props("dense outlined options-dense")
             self.go = ui.button("Solve", icon="play_arrow", on_click=self.start)
             self.go.props("no-caps unelevated")
-            self.halt = ui.button("Cancel", on_click=self.cancel).props("flat no-caps")
+            self.halt = button("Cancel", self.cancel)
             self.halt.set_visibility(False)
-            save = ui.button(icon="download", on_click=self._save).props("flat round dense")
-            save.props('aria-label="save the table"').tooltip("save the table, CSV")
+            button("", self._save, icon="download", name="save the table, CSV")
 
     # ---- what is swept
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl.explore.axes import Frame, Scale, svg, text, turned
-from tehl.explore.shown import Lines
+from tehl.explore.shown import Lines, Shown
 from tehl.typing import Array
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 62.0, 62.0, 28.0, 46.0
@@ -33,12 +33,14 @@ class Point:
     """Relative error bar [-]."""
 
 
-def line_charts(lines: Lines, size: tuple[float, float], top: tuple[float, float]) -> list[Chart]:
+def line_charts(shown: Shown, size: tuple[float, float], top: tuple[float, float]) -> list[Chart]:
     """Draw film and pressure along x and along y; ``top`` are the ends of their scales."""
     height = max(190.0, 0.5 * size[1])
+    lines, window = (shown.lines.x, shown.lines.y), shown.maps.window
+    labels = ("x along entrainment [µm], y = 0", "y [µm], x = 0")
     return [
-        _centre_line(lines.x, "x along entrainment [µm], y = 0", (size[0], height), top),
-        _centre_line(lines.y, "y [µm], x = 0", (size[0], height), top),
+        _centre_line(line, label, Scale(*span, _LEFT, size[0] - _RIGHT), height, top)
+        for line, label, span in zip(lines, labels, window, strict=True)
     ]
 
 
@@ -50,11 +52,10 @@ def line_tops(lines: Lines) -> tuple[float, float]:
 
 
 def _centre_line(
-    line: Line, label: str, size: tuple[float, float], top: tuple[float, float]
+    line: Line, label: str, x: Scale, height: float, top: tuple[float, float]
 ) -> Chart:
     place, film, pressure, hertz = line
-    x = Scale(float(place[0]), float(place[-1]), _LEFT, size[0] - _RIGHT)
-    low = size[1] - _BOTTOM
+    size, low = (x.end + _RIGHT, height), height - _BOTTOM
     of_film = Frame(x, Scale(0.0, top[0], low, _TOP), *size)
     of_pressure = Frame(x, Scale(0.0, top[1], low, _TOP), *size)
     parts = of_film.svg(label, "film [nm]", grid=True, colour="film")

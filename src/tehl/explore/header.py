@@ -6,6 +6,7 @@ from nicegui import ui
 
 from tehl.errors import InputError
 from tehl.explore.case_text import LARGEST, CaseText
+from tehl.explore.elements import button
 from tehl.explore.jobs import End, Failure, Note
 from tehl.explore.tab import Tab
 from tehl.explore.tasks import Export, Saved
@@ -47,20 +48,17 @@ class Header:
             self.title.props('role="heading" aria-level="1"')
             ui.element("span").classes("grow")
             self._templates()
-            with ui.button("Open", icon="folder_open", on_click=self._open_dialog) as button:
-                button.props("flat dense no-caps")
+            button("Open", self._open_dialog, icon="folder_open")
             self._save_menu()
-            undo = ui.button(icon="undo", on_click=self.tab.undo).props("flat round dense")
-            undo.props('aria-label="undo"').tooltip("undo (Ctrl+Z)")
+            button("", self.tab.undo, icon="undo", name="undo, Ctrl+Z")
             self.dark = ui.dark_mode(value=None)
-            shade = ui.button(icon="contrast", on_click=self._shade).props("flat round dense")
-            shade.props('aria-label="dark or light"').tooltip("dark or light")
+            button("", self._shade, icon="contrast", name="dark or light")
         self.progress = ui.label("").classes("progress-note")
         self.progress.set_visibility(False)
         ui.keyboard(on_key=self._key, ignore=["input", "textarea", "select"])
 
     def _templates(self) -> None:
-        with ui.button("Templates", icon="auto_awesome").props("flat dense no-caps"), ui.menu():
+        with button("Templates", icon="auto_awesome"), ui.menu():
             for name, words in templates().items():
                 item = ui.menu_item(on_click=lambda name=name: self._take_template(name))
                 with item, ui.column().classes("gap-0"):
@@ -68,7 +66,7 @@ class Header:
                     ui.label(words).classes("menu-words")
 
     def _save_menu(self) -> None:
-        with ui.button("Save", icon="download").props("flat dense no-caps"), ui.menu():
+        with button("Save", icon="download"), ui.menu():
             ui.menu_item("Case, TOML", on_click=self._save_case)
             ui.menu_item("Copy as Python", on_click=self._copy_python)
             ui.menu_item("Copy the link", on_click=self._copy_link)
@@ -110,7 +108,7 @@ class Header:
             upload.on_upload(uploaded).classes("w-full")
             text = ui.codemirror(self.tab.case.text).classes("case-editor")
             with ui.row().classes("w-full justify-end"):
-                ui.button("Cancel", on_click=dialog.close).props("flat no-caps")
+                button("Cancel", dialog.close)
                 take = ui.button("Take this text").props("no-caps unelevated")
                 take.on_click(lambda: self._open(str(text.value).encode(), dialog))
         dialog.on_value_change(lambda event: None if event.value else dialog.delete())

@@ -166,7 +166,7 @@ class Desk:
         found = explain(problem, options)
         yield Explained(_groups(found), found.questions, found.seconds)
         yield from self.compiled(coupled=problem.is_coupled)
-        for stage, final in _stages(options, found, quick=ask.quick):
+        for stage, final in self.stages(steady(problem), options, found, quick=ask.quick):
             result = self.result(steady(problem), stage)
             yield Part(shown(result, found, fringes=ask.fringes), final)
 
@@ -174,7 +174,7 @@ class Desk:
         """Return the result of a problem, converged or not; a recent one is not solved again."""
         from tehl.solver import solve, solve_passes  # noqa: PLC0415 (a second, in the worker only)
 
-        key = f"{problem.model_dump_json()}{options.model_dump_json()}"
+        key = _key(problem, options)
         if key not in self.kept:
             monitor = Cycles(self.connection, self.send)
             monitor.check()
@@ -189,6 +189,13 @@ class Desk:
             self.kept.popitem(last=False)
         return self.kept[key]
 
+    def stages(
+        self, problem: ContactProblem, options: Options, found: Explanation, *, quick: bool
+    ) -> list[tuple[Options, bool]]:
+        """Return the options of the grids to show; only the last if it is solved already."""
+        grids = list(_stages(options, found, quick=quick))
+        return grids[-1:] if _key(problem, grids[-1][0]) in self.kept else grids
+
     def compiled(self, *, coupled: bool) -> Iterator[Note]:
         """Load the kernels, and compile those that are not in the cache, which takes a while."""
         import tehl.solver  # noqa: F401, PLC0415 (a second, in the worker only)
@@ -198,6 +205,10 @@ class Desk:
         if is_cold(coupled=coupled):
             yield Note("compiling the inner loops once, which takes 10 to 60 s")
         warm_up(coupled=coupled)
+
+
+def _key(problem: ContactProblem, options: Options) -> str:
+    return f"{problem.model_dump_json()}{options.model_dump_json()}"
 
 
 def steady(problem: ContactProblem) -> ContactProblem:

@@ -10,6 +10,7 @@ from nicegui import ui
 from tehl.errors import InputError
 from tehl.explore.axes import Frame, Scale, svg, text
 from tehl.explore.colour_map import film_limits, film_picture
+from tehl.explore.elements import Drawing, button
 from tehl.explore.jobs import End, Failure, Note
 from tehl.explore.tab import Tab
 from tehl.explore.tasks import Movie, Transient
@@ -30,19 +31,16 @@ class MoviePanel:
             with ui.element("div").classes("movie-bar"):
                 self.run = ui.button("Solve the run", icon="play_arrow", on_click=self.start)
                 self.run.props("no-caps unelevated")
-                self.halt = ui.button("Cancel", on_click=self.cancel).props("flat no-caps")
+                self.halt = button("Cancel", self.cancel)
                 self.halt.set_visibility(False)
                 self.state = ui.label("").classes("status-words")
             with ui.element("div").classes("movie-time") as self.player:
-                self.play = ui.button(icon="play_arrow", on_click=self._toggle)
-                self.play.props('flat round dense aria-label="play or pause"')
+                self.play = button("", self._toggle, icon="play_arrow", name="play or pause")
                 self.slider = ui.slider(min=0, max=1, step=1, value=0)
                 self.slider.props('aria-label="time"').classes("grow")
                 self.slider.on_value_change(self.draw)
                 self.clock = ui.label("").classes("clock")
-            with ui.element("div").classes("picture"):
-                self.image = ui.element("img").props('alt="" draggable=false')
-                self.drawing = ui.html("", sanitize=False).classes("drawing")
+            self.drawing = Drawing()
             self.history = ui.html("", sanitize=False).classes("drawing")
         self.timer = ui.timer(_PERIOD, self._next, active=False)
         self.place.set_visibility(False)
@@ -145,14 +143,7 @@ class MoviePanel:
         maps = replace(movie.maps, film=movie.film[frame], pressure=movie.pressure[frame])
         limits = replace(film_limits(movie.maps), low=0.95 * max(_least(movie), 1e-3))
         size = (self.size[0], max(280.0, self.size[1] - 210.0))
-        picture = film_picture(maps, limits, size)
-        left, top, width, height = picture.place
-        self.image.props["src"] = picture.image
-        self.image.style(
-            f"display:block;left:{left:.1f}px;top:{top:.1f}px;"
-            f"width:{width:.1f}px;height:{height:.1f}px"
-        )
-        self.drawing.set_content(picture.overlay)
+        self.drawing.show(film_picture(maps, limits, size))
         self.history.set_content(history_drawing(movie, frame, (self.size[0], 170.0)))
         self.clock.set_text(f"{movie.times[frame]:.0f} µs")
 

@@ -1,11 +1,13 @@
 """The right side of the page: numbers with error bars and formulas, status, questions."""
 
 import math
+from functools import partial
 from html import escape
 from typing import TYPE_CHECKING
 
 from nicegui import ui
 
+from tehl.explore.elements import button
 from tehl.explore.numbers import Number, value_of
 from tehl.explore.tab import Tab
 
@@ -52,11 +54,9 @@ class NumberPanel:
                     row = ui.html("", sanitize=False).classes("number-text")
                     row.props(f'data-key="{one.key}"')
                     self.rows[one.key] = row
-                    button = ui.button(
-                        icon="show_chart", on_click=lambda key=one.key: self.sweep(key)
-                    )
-                    button.props(f'flat round dense aria-label="curve of the {one.name}"')
-                    button.classes("sweep").tooltip("curve")
+                    name = f"curve of the {one.name}"
+                    sweep = partial(self.sweep, one.key)
+                    button("", sweep, icon="show_chart", name=name).classes("sweep")
 
 
 def number_html(one: Number, other: Number | None) -> str:
@@ -84,9 +84,9 @@ def value_text(one: Number) -> str:
     if one.error is None or not math.isfinite(one.error) or one.value == 0.0:
         return f"<b>{_rounded(one.value, 4)}</b>{unit}"
     half = abs(one.value * one.error)
-    digits = 4 if half <= 0 else max(2, math.ceil(math.log10(abs(one.value) / half)) + 2)
-    bar = _rounded(half, 2)
-    return f'<b>{_rounded(one.value, min(digits, 5))}</b> <span class="bar">± {bar}</span>{unit}'
+    places = max(0, 1 - math.floor(math.log10(half))) if half > 0 else 4
+    value, bar = (f"{number:.{places}f}".replace("-", "−") for number in (one.value, half))
+    return f'<b>{value}</b> <span class="bar">± {bar}</span>{unit}'
 
 
 def _rounded(value: float, digits: int) -> str:

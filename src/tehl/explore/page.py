@@ -11,9 +11,10 @@ from tehl.errors import InputError
 from tehl.explore.case_text import CaseText
 from tehl.explore.control_panel import ControlPanel
 from tehl.explore.curve_panel import CurvePanel
+from tehl.explore.elements import button
 from tehl.explore.files import Files
 from tehl.explore.header import Header
-from tehl.explore.jobs import Warm
+from tehl.explore.jobs import End, Warm
 from tehl.explore.movie_panel import MoviePanel
 from tehl.explore.number_panel import Explanation, NumberPanel
 from tehl.explore.picture_panel import PicturePanel
@@ -24,6 +25,8 @@ from tehl.explore.worker import Solver
 
 STYLE = Path(__file__).with_name("style.css")
 _MEASURE = """(size) => emit([size.width, window.innerHeight])"""
+_LATER = 10.0
+"""Seconds after which the second worker starts."""
 _ABOVE = 250.0
 """Pixels of the window above and below a picture."""
 
@@ -40,7 +43,13 @@ class Page:
         """Start the worker before the first tab."""
         loop = asyncio.get_running_loop()
         self.live, self.background = Solver(loop), Solver(loop)
-        self.live.submit("warm", Warm(), _ignore)
+        self.live.submit("warm", Warm(), self._warmed)
+
+    def _warmed(self, message: Any) -> None:
+        """Start the second worker once the first one is warm."""
+        if isinstance(message, End) and self.background is not None:
+            loop = asyncio.get_running_loop()
+            loop.call_later(_LATER, self.background.submit, "warm", Warm(), _ignore)
 
     def close(self) -> None:
         """End the workers."""
@@ -90,6 +99,7 @@ class TabPage:
 
     def build(self) -> None:
         """Make all parts."""
+        ui.colors(primary="#1f4e9c", negative="#b3001b")
         ui.add_css(STYLE.read_text(encoding="utf-8"))
         ui.query(".nicegui-content").classes("page")
         Header(self.tab, self.background).build()
@@ -97,7 +107,8 @@ class TabPage:
             with ui.element("section").classes("left").props('aria-label="the contact"'):
                 dialog = SurfaceDialog(self.tab, self.background)
                 ControlPanel(self.tab, dialog.open)
-            with ui.element("section").classes("middle").props('aria-label="pictures"'):
+            self.middle = ui.element("section").classes("middle").props('aria-label="pictures"')
+            with self.middle:
                 self._build_middle()
             with ui.element("section").classes("right").props('aria-label="numbers"'):
                 NumberPanel(self.tab, self._sweep)
@@ -126,13 +137,11 @@ class TabPage:
     def _build_compare(self) -> None:
         tab = self.tab
         with ui.element("div").classes("compare"):
-            hold = ui.switch("hold scales", on_change=lambda event: tab.hold(held=event.value))
-            hold.props("dense")
-            hold.bind_value_from(tab, "held")
-            pin = ui.button("Pin", icon="push_pin", on_click=tab.pin).props("flat dense no-caps")
-            pin.tooltip("keep this state to compare")
-            unpin = ui.button("Unpin", on_click=tab.unpin).props("flat dense no-caps")
-            unpin.bind_visibility_from(tab, "pinned", backward=lambda pinned: pinned is not None)
+            self.hold = ui.switch("hold scales", on_change=lambda event: tab.hold(held=event.value))
+            self.hold.props("dense")
+            button("Pin", tab.pin, icon="push_pin").tooltip("keep this state to compare")
+            self.unpin = button("Unpin", tab.unpin)
+            self.unpin.set_visibility(False)
 
     def _resized(self, event: Any) -> None:
         width, window = event.args[0] if isinstance(event.args[0], list) else event.args
@@ -155,6 +164,12 @@ class TabPage:
 
     def _hear(self, topic: str) -> None:
         """Put the state into the address once nothing moves any more."""
+        if topic == "picture":
+            self.hold.set_value(self.tab.held)
+            compares = self.tab.pinned is not None
+            self.unpin.set_visibility(compares)
+            style = {"add": "comparing"} if compares else {"remove": "comparing"}
+            self.middle.classes(**style)
         if topic == "status" and not self.tab.is_busy and not self.tab.is_moving:
             packed = self.tab.case.packed
             if packed != self._address and self.client.has_socket_connection:

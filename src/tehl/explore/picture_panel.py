@@ -1,5 +1,6 @@
 """The middle of the page: the chosen view of the present state, beside that of the pinned one."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,32 +15,33 @@ from tehl.explore.colour_map import (
     value_at,
 )
 from tehl.explore.curves import line_charts
+from tehl.explore.elements import Drawing
 from tehl.explore.relief import relief_figure
 from tehl.explore.shown import Shown
-from tehl.explore.tab import Tab, joined
+from tehl.explore.tab import Tab
 
 _POINTER = """(event) => {
     const box = event.currentTarget.getBoundingClientRect();
     emit([event.clientX - box.left, event.clientY - box.top]);
 }"""
-_GAP = 16.0
+_GAP, _BAR, _SMALL = 16.0, 70.0, 560.0
+"""Pixels between two maps, of the colour bar of one of them, and from which on both fit."""
 
 
 class Slot:
     """A place for the view of one state."""
 
-    def __init__(self, name: str) -> None:
+    def __init__(self, name: str, *, bar: bool) -> None:
+        self.bar = bar
         self.shown: Shown | None = None
         self.picture: Picture | None = None
         with ui.element("div").classes("slot") as self.place:
             self.title = ui.label(name).classes("slot-title")
-            with ui.element("div").classes("picture"):
-                self.image = ui.element("img").props('alt="" draggable=false')
-                self.drawing = ui.html("", sanitize=False).classes("drawing")
+            self.drawing = Drawing()
             self.readout = ui.label(" ").classes("readout")
             self.relief: ui.plotly | None = None
-            self.drawing.on("mousemove", self._point, js_handler=_POINTER, throttle=0.04)
-            self.drawing.on("mouseleave", lambda: self.readout.set_text(" "))
+            self.drawing.overlay.on("mousemove", self._point, js_handler=_POINTER, throttle=0.04)
+            self.drawing.overlay.on("mouseleave", lambda: self.readout.set_text(" "))
 
     def draw(
         self, view: str, shown: Shown, limits: dict[str, Any], size: tuple[float, float]
@@ -53,36 +55,24 @@ class Slot:
             self.relief.delete()
             self.relief = None
         if view == "lines":
-            charts = line_charts(shown.lines, size, limits["lines"])
-            self._put(None, "".join(chart.drawing for chart in charts))
+            charts = line_charts(shown, size, limits["lines"])
+            self.drawing.show_lines("".join(chart.drawing for chart in charts))
             return
-        picture = _picture(view, shown, limits, size)
+        picture = _picture(view, shown, limits, size, bar=self.bar)
         if picture is None:
-            self._put(None, f'<p class="empty">{_REASONS.get(view, "")}</p>')
+            self.drawing.show_lines(f'<p class="empty">{_REASONS.get(view, "")}</p>')
             return
         self.picture = picture
-        self._put(picture, picture.overlay)
+        self.drawing.show(picture)
 
     def _turn(self, figure: dict[str, Any]) -> None:
         """Draw the relief, which keeps its angle of view."""
-        self._put(None, "")
+        self.drawing.show_lines("")
         if self.relief is None:
             with self.place:
                 self.relief = ui.plotly(figure)
         else:
             self.relief.update_figure(figure)
-
-    def _put(self, picture: Picture | None, drawing: str) -> None:
-        if picture is None:
-            self.image.style("display:none")
-        else:
-            left, top, width, height = picture.place
-            self.image.props["src"] = picture.image
-            self.image.style(
-                f"display:block;left:{left:.1f}px;top:{top:.1f}px;"
-                f"width:{width:.1f}px;height:{height:.1f}px"
-            )
-        self.drawing.set_content(drawing)
 
     def _point(self, event: Any) -> None:
         """Show the values under the pointer."""
@@ -108,7 +98,7 @@ _REASONS = {
 
 
 def _picture(
-    view: str, shown: Shown, limits: dict[str, Any], size: tuple[float, float]
+    view: str, shown: Shown, limits: dict[str, Any], size: tuple[float, float], *, bar: bool
 ) -> Picture | None:
     if view == "temperature":
         section = shown.section
@@ -118,8 +108,8 @@ def _picture(
     if view == "fringes":
         return None if shown.fringes is None else fringes_picture(shown, size)
     if view == "pressure":
-        return pressure_picture(shown.maps, limits["pressure"], size)
-    return film_picture(shown.maps, limits["film"], size)
+        return pressure_picture(shown.maps, limits["pressure"], size, bar=bar)
+    return film_picture(shown.maps, limits["film"], size, bar=bar)
 
 
 def _values(shown: Shown, x: float, y: float) -> str:
@@ -138,7 +128,7 @@ class PicturePanel:
         self.tab = tab
         self.size = (720.0, 620.0)
         with ui.element("div").classes("slots") as self.place:
-            self.pinned, self.present = Slot("pinned"), Slot("present")
+            self.pinned, self.present = Slot("pinned", bar=False), Slot("present", bar=True)
         self.pinned.place.set_visibility(False)
         self.present.title.set_visibility(False)
         tab.listeners.append(self._hear)
@@ -156,19 +146,26 @@ class PicturePanel:
     def draw(self) -> None:
         """Draw the chosen view."""
         tab, view = self.tab, self.tab.view
-        if tab.shown is None or view in ("movie", "curves"):
+        shown = tab.shown
+        if shown is None or view in ("movie", "curves"):
             return
         pinned = tab.pinned
         self.pinned.place.set_visibility(pinned is not None)
         self.present.title.set_visibility(pinned is not None)
         limits, size = tab.limits, self.size
         if pinned is not None:
-            if self.size[0] > 700:
-                size = (0.5 * (size[0] - _GAP), size[1])
-            self.pinned.draw(view, pinned.shown, limits, size)
-        self.present.draw(view, tab.shown, limits, size)
+            beside = self.size[0] > _SMALL
+            maps = beside and view in ("film", "pressure")
+            size = (0.5 * (size[0] - _GAP), size[1]) if beside else size
+            less = (size[0] - (0.5 * _BAR if maps else 0.0), size[1])
+            self.pinned.draw(view, _seen_in(pinned.shown, shown), limits, less)
+            size = (size[0] + (0.5 * _BAR if maps else 0.0), size[1])
+            shown = _seen_in(shown, pinned.shown)
+        self.present.draw(view, shown, limits, size)
 
 
-def common(first: dict[str, Any], second: dict[str, Any]) -> dict[str, Any]:
-    """Return scales that have two states."""
-    return {key: joined(first[key], second[key]) for key in first if key in second}
+def _seen_in(shown: Shown, other: Shown) -> Shown:
+    """Return what is shown in the window that has those of two states."""
+    spans = zip(shown.maps.window, other.maps.window, strict=True)
+    x, y = ((min(a[0], b[0]), max(a[1], b[1])) for a, b in spans)
+    return replace(shown, maps=replace(shown.maps, window=(x, y)))

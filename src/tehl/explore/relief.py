@@ -10,15 +10,16 @@ from tehl.explore.colour_map import Limits
 from tehl.explore.shown import Maps
 from tehl.typing import Array
 
-_POINTS = 90
-"""Points along an axis that are sent."""
+_RAYS, _RINGS = 121, 48
+"""Rays around the centre on which the film is sampled, and places on each."""
+_SEARCHED = 200
+"""Places along a ray among which the rim is found."""
 _SHADES = 12
 
 
 def relief_figure(maps: Maps, limits: Limits, size: tuple[float, float]) -> dict[str, Any]:
-    """Return the film as a surface, cut off above the colours of its map."""
-    rows, columns = (max(1, round(count / _POINTS)) for count in maps.film.shape)
-    x, y, film = maps.x[::columns], maps.y[::rows], maps.film[::rows, ::columns]
+    """Return the film as a surface, without what lies above the colours of its map."""
+    x, y, film = _bowl(maps, limits.high)
     axis = {
         "color": "#7a818c",
         "gridcolor": "rgba(128,128,128,.25)",
@@ -28,7 +29,8 @@ def relief_figure(maps: Maps, limits: Limits, size: tuple[float, float]) -> dict
         "type": "surface",
         "x": _packed(x),
         "y": _packed(y),
-        "z": _packed(np.minimum(film, limits.high)),
+        "z": _packed(film),
+        "lighting": {"ambient": 0.75, "diffuse": 0.35, "specular": 0.05, "roughness": 0.9},
         "cmin": limits.low,
         "cmax": limits.high,
         "colorscale": _log_colours(limits),
@@ -53,6 +55,30 @@ def relief_figure(maps: Maps, limits: Limits, size: tuple[float, float]) -> dict
         "uirevision": "held",
     }
     return {"data": [surface], "layout": layout, "config": {"displayModeBar": False}}
+
+
+def _bowl(maps: Maps, top: float) -> tuple[Array, Array, Array]:
+    """Return places [um] and film [nm] on rays that end where the film exceeds ``top``."""
+    from scipy.ndimage import map_coordinates  # noqa: PLC0415 (with the first relief)
+
+    angle = np.linspace(0.0, 2.0 * np.pi, _RAYS)[:, None]
+    ax, ay = maps.half_widths
+    reach = np.full((_RAYS, 1), np.inf)
+    for edges, way in zip(maps.window, (ax * np.cos(angle), ay * np.sin(angle)), strict=True):
+        edge = np.where(way > 0, edges[1], edges[0])
+        reach = np.minimum(reach, np.abs(edge) / np.maximum(np.abs(way), 1e-9))
+
+    def sampled(radius: Array) -> tuple[Array, Array, Array]:
+        x, y = ax * radius * np.cos(angle), ay * radius * np.sin(angle)
+        rows = np.interp(y, maps.y, np.arange(len(maps.y)))
+        columns = np.interp(x, maps.x, np.arange(len(maps.x)))
+        return x, y, map_coordinates(maps.film, (rows, columns), order=1)
+
+    part = np.linspace(0.0, 1.0, _SEARCHED)
+    inside = sampled(reach * part)[2] <= top
+    last = part[inside.shape[1] - 1 - np.argmax(inside[:, ::-1], axis=1)]
+    x, y, film = sampled(reach * last[:, None] * np.linspace(0.0, 1.0, _RINGS))
+    return x, y, np.minimum(film, top)
 
 
 def _packed(values: Array) -> dict[str, Any]:

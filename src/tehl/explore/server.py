@@ -1,5 +1,6 @@
 """The server of the page: on the loopback address only, for whoever has the token."""
 
+import asyncio
 import secrets
 import socket
 import tempfile
@@ -8,7 +9,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import parse_qs
 
-from nicegui import app, ui
+from nicegui import app, background_tasks, ui
 from starlette.responses import HTMLResponse
 
 from tehl.explore.case_text import CaseText
@@ -120,7 +121,7 @@ def serve(case: Path | None, text: str, port: int | None, *, browser: bool, repo
         app.on_shutdown(page.close)
         ui.page("/", title="tehl explore", favicon=_ICON, response_timeout=20)(page.build)
         address = f"http://{ADDRESS}:{taken}/?token={token}"
-        app.on_startup(lambda: report(address))
+        app.on_startup(lambda: background_tasks.create(_announce(taken, address, report)))
         ui.run(
             host=ADDRESS,
             port=taken,
@@ -133,6 +134,19 @@ def serve(case: Path | None, text: str, port: int | None, *, browser: bool, repo
             uvicorn_logging_level="error",
             timeout_graceful_shutdown=1,
         )
+
+
+async def _announce(port: int, address: str, report: Any) -> None:
+    """Report the address as soon as it replies."""
+    while True:
+        try:
+            _, writer = await asyncio.open_connection(ADDRESS, port)
+        except OSError:
+            await asyncio.sleep(0.02)
+        else:
+            writer.close()
+            report(address)
+            return
 
 
 def _port(wanted: int | None) -> int:

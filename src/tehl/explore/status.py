@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from nicegui import ui
 
+from tehl.explore.elements import button
 from tehl.explore.tab import Tab
 
 ACCURACIES = {
@@ -30,7 +31,7 @@ class StatusLine:
         with ui.element("div").classes("status").props('role="status" aria-live="polite"'):
             self.light = ui.element("span").classes("light")
             self.words = ui.label("starting").classes("status-words")
-            self.stop = ui.button("Stop", on_click=self.tab.stop).props("flat dense no-caps")
+            self.stop = button("Stop", self.tab.stop)
             self.stop.set_visibility(False)
             self.accuracy = ui.select(
                 dict(ACCURACIES), value=None, on_change=lambda event: self._choose(event.value)
@@ -41,12 +42,8 @@ class StatusLine:
         with ui.element("div").classes("card").props('role="alert"') as self.card:
             self.what = ui.label("").classes("what")
             self.hint = ui.label("").classes("hint")
-            self.apply = ui.button("Apply the hint", on_click=self._apply).props(
-                "flat dense no-caps"
-            )
-            self.again = ui.button("Solve again", on_click=self.tab.solve).props(
-                "flat dense no-caps"
-            )
+            self.apply = button("Apply the hint", self._apply)
+            self.again = button("Solve again", self.tab.solve)
         self.card.set_visibility(False)
 
     def _hear(self, topic: str) -> None:

@@ -6,6 +6,7 @@ from nicegui import ui
 
 from tehl.errors import InputError
 from tehl.explore.colour_map import heights_picture
+from tehl.explore.elements import Drawing, button
 from tehl.explore.files import LARGEST
 from tehl.explore.jobs import End, Failure
 from tehl.explore.tab import Tab
@@ -36,17 +37,15 @@ class SurfaceDialog:
             upload.props("flat bordered").classes("w-full").on_upload(self._uploaded)
             self._build_settings()
             self.words = ui.label("").classes("preview-words")
-            with ui.element("div").classes("picture"):
-                self.image = ui.element("img").props('alt="" draggable=false')
-                self.drawing = ui.html("", sanitize=False).classes("drawing")
+            self.drawing = Drawing()
             with ui.row().classes("w-full justify-end"):
-                ui.button("Cancel", on_click=self.dialog.close).props("flat no-caps")
+                button("Cancel", self.dialog.close)
                 self.uses = [
                     ui.button(f"Use on surface {number}", on_click=lambda n=number: self._use(n))
                     for number in (1, 2)
                 ]
-        for button in self.uses:
-            button.props("no-caps unelevated").disable()
+        for use in self.uses:
+            use.props("no-caps unelevated").disable()
         self.dialog.on_value_change(lambda event: None if event.value else self.dialog.delete())
         self.dialog.open()
 
@@ -90,23 +89,16 @@ class SurfaceDialog:
             self._show(message)
         elif isinstance(message, Failure):
             self._say(self.tab.files.hidden(message.text))
-            for button in self.uses:
-                button.disable()
+            for use in self.uses:
+                use.disable()
         elif isinstance(message, End):
             return
 
     def _show(self, found: Heights) -> None:
-        picture = heights_picture((found.x, found.y), found.values, _SIZE)
-        left, top, width, height = picture.place
-        self.image.props["src"] = picture.image
-        self.image.style(
-            f"display:block;left:{left:.1f}px;top:{top:.1f}px;"
-            f"width:{width:.1f}px;height:{height:.1f}px"
-        )
-        self.drawing.set_content(picture.overlay)
+        self.drawing.show(heights_picture((found.x, found.y), found.values, _SIZE))
         self._say("\n".join(found.words))
-        for button in self.uses:
-            button.enable()
+        for use in self.uses:
+            use.enable()
 
     def _use(self, number: int) -> None:
         settings, key = self.settings(), f"surface_{number}"

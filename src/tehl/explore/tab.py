@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from tehl.errors import InputError
 from tehl.explore.case_text import CaseText
-from tehl.explore.colour_map import Limits, film_limits, pressure_limits, section_limits
+from tehl.explore.colour_map import film_limits, pressure_limits, section_limits
 from tehl.explore.controls import Choice, Group, Knob, groups
 from tehl.explore.curves import line_tops
 from tehl.explore.files import Files
@@ -227,9 +227,10 @@ class Tab:
 
     def hold(self, *, held: bool) -> None:
         """Hold the scales of colours, or fit them to each result."""
-        self.held = held
-        self._fit()
-        self.tell("picture")
+        if held != self.held:
+            self.held = held
+            self._fit()
+            self.tell("picture")
 
     def show(self, view: str) -> None:
         """Choose what is shown."""
@@ -253,10 +254,3 @@ class Tab:
         if self.held or self.is_moving:
             wanted |= {key: value for key, value in self.limits.items() if key in wanted}
         self.limits = wanted
-
-
-def joined(first: Any, second: Any) -> Any:
-    """Return the range that has two scales."""
-    if isinstance(first, Limits):
-        return first.joined(second)
-    return tuple(map(max, first, second))

@@ -1,0 +1,23 @@
+"""The chromium of the system, which the browser tests and the benchmark of the page drive."""
+
+import os
+import shutil
+
+NAMES = ("chromium", "chromium-browser", "google-chrome")
+ARGUMENTS = (
+    "--no-sandbox",  # in containers, where tests run as root
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+)
+"""A browser that draws in three dimensions without a graphics card, and calls nobody."""
+
+
+def executable() -> str | None:
+    """Return the path of the browser, that of the variable CHROMIUM first; None without one."""
+    stated = os.environ.get("CHROMIUM")
+    return stated or next(filter(None, map(shutil.which, NAMES)), None)

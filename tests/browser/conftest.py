@@ -1,0 +1,133 @@
+"""A running page and a browser for the tests in this folder; skipped where there is no browser."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from tests.browser.chromium import ARGUMENTS, executable
+
+pytest.importorskip("nicegui", reason="needs pip install 'tehl[explore]'")
+api = pytest.importorskip("playwright.sync_api", reason="needs pip install playwright")
+
+PATIENCE = 30_000
+"""Milliseconds for what is expected; a busy machine is slow."""
+
+
+class Served:
+    """A process of `tehl explore`."""
+
+    def __init__(self, *arguments, folder):
+        self.log = (folder / "explore.log").open("w+")
+        command = [sys.executable, "-u", "-m", "tehl", "explore", "--no-browser", *arguments]
+        environment = os.environ | {"TMPDIR": str(folder)}
+        environment.pop("PYTEST_CURRENT_TEST", None)  # NiceGUI would not serve
+        self.process = subprocess.Popen(
+            command, stdout=subprocess.PIPE, stderr=self.log, text=True, env=environment
+        )
+        line = self.process.stdout.readline()
+        assert line, self.errors()
+        self.address = line.split()[0]
+
+    def errors(self):
+        self.log.seek(0)
+        return self.log.read()
+
+    def children(self):
+        """Return the numbers of the processes that it has started."""
+        tasks = Path(f"/proc/{self.process.pid}/task")
+        return [int(n) for one in tasks.glob("*/children") for n in one.read_text().split()]
+
+    def workers(self):
+        """Return its processes that solve."""
+        return [
+            pid
+            for pid in self.children()
+            if b"spawn_main" in Path(f"/proc/{pid}/cmdline").read_bytes()
+        ]
+
+    def end(self):
+        """End it as Ctrl-C does; return its exit code."""
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGINT)
+        try:
+            return self.process.wait(20)
+        finally:
+            self.process.kill()
+            self.process.stdout.close()
+            self.messages = self.errors()
+            self.log.close()
+
+
+@pytest.fixture(scope="session")
+def browser():
+    path = executable()
+    if path is None:
+        pytest.skip("chromium is not installed")
+    with api.sync_playwright() as playwright:
+        yield playwright.chromium.launch(executable_path=path, args=ARGUMENTS)
+
+
+@pytest.fixture(scope="module")
+def served(tmp_path_factory):
+    server = Served(folder=tmp_path_factory.mktemp("served"))
+    yield server
+    code, errors = server.end(), server.messages
+    assert code == 0
+    assert "Traceback" not in errors, errors
+
+
+@pytest.fixture
+def context(browser):
+    made = browser.new_context(viewport={"width": 1440, "height": 900}, accept_downloads=True)
+    made.set_default_timeout(PATIENCE)
+    made.failures = []
+    made.requests = []
+    made.on("request", lambda request: made.requests.append(request.url))
+    made.on("weberror", lambda error: made.failures.append(str(error.error)))
+    yield made
+    made.close()
+    assert made.failures == []
+
+
+@pytest.fixture
+def page(context, served):
+    return opened(context, served.address)
+
+
+def opened(context, address):
+    """Return a page with its first film solved."""
+    page = context.new_page()
+    page.goto(address)
+    solved(page)
+    return page
+
+
+def solved(page, words="converged on"):
+    """Wait until nothing is being solved, and the status has words."""
+    page.locator(".light.good, .light.bad").wait_for()
+    page.locator(".status-words", has_text=words).first.wait_for()
+
+
+def number(page, key):
+    """Return the value of a number as the page shows it."""
+    return page.locator(f'[data-key="{key}"] b').inner_text()
+
+
+def type_into(page, name, words):
+    """Type a value into a control, and wait for its film."""
+    entry = page.get_by_role("textbox", name=name, exact=True)
+    entry.fill(words)
+    entry.press("Enter")
+
+
+def until(condition, seconds=30.0):
+    """Wait until a condition holds."""
+    deadline = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < deadline, "timed out"
+        time.sleep(0.05)

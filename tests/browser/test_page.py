@@ -1,0 +1,220 @@
+"""The live page in a browser: what an engineer does with it."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from tehl.explore.case_text import CaseText
+from tehl.io.templates import template_text
+from tests.browser.conftest import number, opened, solved, type_into, until
+
+BALL = template_text("ball-on-disc")
+
+
+def printed_by_solve(case, folder):
+    """Return the summary that `tehl solve --json` prints."""
+    path = folder / "case.toml"
+    path.write_text(case)
+    command = [sys.executable, "-m", "tehl", "solve", str(path), "--json", "-q"]
+    out = subprocess.run(command, capture_output=True, check=True, text=True, cwd=folder).stdout
+    return json.loads(out)
+
+
+def test_another_load_gives_the_film_that_tehl_solve_prints(page, tmp_path):
+    before = number(page, "h_central")
+    type_into(page, "load", "120")
+    until(lambda: number(page, "h_central") != before and page.locator(".light.good").count())
+    solved(page)
+    expected = printed_by_solve(BALL.replace('"80 N"', '"120 N"'), tmp_path)
+    film = expected["film"]["h_central_m"] * 1e9
+    until(lambda: number(page, "h_central") == f"{film:.1f}")
+    assert number(page, "h_min") == f"{expected['film']['h_min_m'] * 1e9:.1f}"
+
+
+def test_the_slider_moves_the_film_and_the_exact_entry_with_it(page):
+    before = number(page, "h_central")
+    box = page.get_by_role("slider", name="entrainment speed").bounding_box()
+    middle = box["y"] + 0.5 * box["height"]
+    page.mouse.move(box["x"] + 0.5 * box["width"], middle)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 0.6 * box["width"], middle, steps=5)
+    page.locator(".status-words", has_text="65 × 65").wait_for()
+    until(lambda: number(page, "h_central") != before)
+    page.mouse.up()
+    solved(page, "converged on 2")
+    entry = page.get_by_role("textbox", name="entrainment speed", exact=True)
+    assert float(entry.input_value()) > 1.5
+
+
+def test_the_keyboard_moves_a_slider(page):
+    slider = page.get_by_role("slider", name="slide-to-roll ratio")
+    slider.focus()
+    page.keyboard.press("ArrowRight")
+    entry = page.get_by_role("textbox", name="slide-to-roll ratio", exact=True)
+    until(lambda: entry.input_value() != "0")
+
+
+def test_pinned_and_present_state_stand_side_by_side_with_one_scale(page):
+    page.get_by_role("button", name="Pin", exact=True).click()
+    type_into(page, "load", "200")
+    page.locator(".change", has_text="of pinned").first.wait_for()
+    until(lambda: page.locator(".change").first.inner_text()[:4] != "+0.0")
+    titles = page.locator(".slot-title")
+    assert titles.all_inner_texts() == ["pinned", "present"]
+    assert page.get_by_role("switch", name="hold scales").get_attribute("aria-checked") == "true"
+    page.get_by_role("button", name="Unpin").click()
+    until(lambda: page.locator(".slot-title:visible").count() == 0)
+
+
+def test_each_view_draws(page):
+    for view, found in (
+        ("Pressure", "map of the pressure"),
+        ("Centre lines", "film and pressure over x"),
+        ("Interferogram", "interferogram in white light"),
+        ("Film", "map of the film thickness"),
+    ):
+        page.get_by_role("tab", name=view, exact=True).click()
+        page.locator(f'.slot:visible svg[aria-label^="{found}"]').wait_for()
+    page.get_by_role("tab", name="Temperature").click()
+    page.get_by_text("This contact is isothermal").wait_for()
+    page.get_by_role("tab", name="3-D film").click()
+    page.locator(".js-plotly-plot .gl-container").wait_for(state="attached")
+
+
+def test_the_value_under_the_pointer_is_shown(page):
+    page.locator(".slot:visible .drawing svg").hover(position={"x": 300, "y": 250})
+    page.locator(".readout", has_text="nm").wait_for()
+
+
+def test_a_sweep_shows_points_as_they_are_solved(page):
+    page.get_by_role("button", name="curve of the central film").click()
+    page.locator(".sweep-end input").nth(2).fill("5")
+    page.get_by_role("button", name="Solve", exact=True).click()
+    page.locator(".curves svg circle.point").first.wait_for()
+    page.get_by_text("5 of 5 points").wait_for()
+    until(lambda: page.locator(".curves svg circle.point").count() == 5)
+    with page.expect_download() as download:
+        page.get_by_role("button", name="save the table").click()
+    lines = download.value.path().read_text().splitlines()
+    assert lines[0].startswith("contact.entrainment_speed [m/s],h_central [nm],")
+    assert len(lines) == 6
+
+
+def test_a_sweep_can_be_cancelled(page):
+    page.get_by_role("tab", name="Curves").click()
+    page.locator(".sweep-end input").nth(2).fill("101")
+    page.get_by_role("button", name="Solve", exact=True).click()
+    page.locator(".curves svg circle.point").first.wait_for()
+    page.get_by_role("button", name="Cancel", exact=True).click()
+    page.get_by_text("cancelled after").wait_for()
+
+
+def test_a_saved_case_opens_again_and_the_address_reproduces_it(page, context, tmp_path):
+    type_into(page, "load", "95")
+    until(lambda: "case=" in page.url)
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Save").click()
+        page.get_by_text("Case, TOML").click()
+    saved = tmp_path / download.value.suggested_filename
+    download.value.save_as(saved)
+    assert saved.read_text() == BALL.replace('"80 N"', '"95 N"')
+    until(lambda: CaseText.unpacked(page.url.partition("case=")[2]).text == saved.read_text())
+    link = page.url
+    saved.write_text(saved.read_text().replace('"95 N"', '"110 N"'))
+    page.get_by_role("button", name="Open").click()
+    page.locator("input[type=file]").set_input_files(saved)
+    entry = page.get_by_role("textbox", name="load", exact=True)
+    until(lambda: entry.input_value() == "110")
+    other = opened(context, link)
+    assert other.get_by_role("textbox", name="load", exact=True).input_value() == "95"
+
+
+def test_a_faulty_entry_is_a_sentence_beside_its_control(page):
+    type_into(page, "load", "-3")
+    page.locator(".knob .fault", has_text="must be positive").wait_for()
+    type_into(page, "load", "0.1 kN")
+    until(lambda: page.locator(".knob .fault:visible").count() == 0)
+
+
+def test_text_that_is_not_a_case_is_a_sentence(page):
+    page.get_by_role("button", name="Open").click()
+    file = {"name": "bad.toml", "mimeType": "text/plain", "buffer": b"load = = 80"}
+    page.locator("input[type=file]").set_input_files(file)
+    page.get_by_text("is not valid TOML").wait_for()
+
+
+@pytest.mark.parametrize("name", ["/etc/hostname", "../secret.csv"])
+def test_a_case_cannot_read_files_of_the_machine(page, name):
+    rough = f'roughness = {{ type = "map", file = "{name}", unit = "um", pixel = "1 um" }}\n'
+    text = BALL.replace("[surface_2]", f"[surface_2]\n{rough}").replace(
+        'rms_roughness = "0.01 um"', ""
+    )
+    page.get_by_role("button", name="Open").click()
+    file = {"name": "bad.toml", "mimeType": "text/plain", "buffer": text.encode()}
+    page.locator("input[type=file]").set_input_files(file)
+    page.locator(".card .what", has_text="not a file of this page").wait_for()
+
+
+def test_a_result_that_does_not_converge_says_why_and_what_to_try(page):
+    page.get_by_role("button", name="Open").click()
+    text = BALL.replace('"80 N"', '"8000 N"').replace('error = "2 %"', "points = 33")
+    file = {"name": "coarse.toml", "mimeType": "text/plain", "buffer": text.encode()}
+    page.locator("input[type=file]").set_input_files(file)
+    page.locator(".card .what", has_text="grid").wait_for()
+    page.locator(".card .hint", has_text="hint:").wait_for()
+    page.locator(".light.bad").wait_for()
+
+
+def test_an_uploaded_surface_is_shown_levelled_and_used(page):
+    rows = [
+        ",".join(f"{0.02 * ((i * 7 + j * 3) % 5) + 0.01 * i:.3f}" for j in range(40))
+        for i in range(40)
+    ]
+    file = {"name": "honed.csv", "mimeType": "text/csv", "buffer": "\n".join(rows).encode()}
+    page.get_by_role("button", name="Surfaces").click()
+    page.get_by_role("button", name="Measured surface").click()
+    page.get_by_label("unit of heights").fill("um")
+    page.get_by_label("distance of points").fill("8 um")
+    page.locator("input[type=file]").set_input_files(file)
+    page.locator(".preview-words", has_text="Sq =").wait_for()
+    page.get_by_role("button", name="Use on surface 2").click()
+    until(
+        lambda: (
+            "map" in CaseText.unpacked(page.url.partition("case=")[2] or "x").text
+            if "case=" in page.url
+            else False
+        )
+    )
+    text = CaseText.unpacked(page.url.partition("case=")[2])
+    assert text.get("surface_2.roughness.file") == "honed.csv"
+    assert text.get("surface_2.roughness.level") == "plane"
+
+
+def test_files_of_a_result_are_downloaded(page):
+    for words, start in (("Result, NetCDF", b"\x89HDF"), ("Picture, PNG", b"\x89PNG")):
+        with page.expect_download() as download:
+            page.get_by_role("button", name="Save").click()
+            page.get_by_text(words).click()
+        assert download.value.path().read_bytes().startswith(start)
+
+
+def test_undo_takes_back_a_change(page):
+    type_into(page, "load", "90")
+    page.get_by_role("button", name="undo").click()
+    entry = page.get_by_role("textbox", name="load", exact=True)
+    until(lambda: entry.input_value() == "80")
+
+
+def test_a_transient_run_plays_as_a_movie(context, served):
+    text = template_text("passing-dent").replace("points = 257", "points = 65")
+    page = opened(context, f"{served.address}&case={CaseText(text).packed}")
+    page.get_by_role("tab", name="Movie").click()
+    page.get_by_role("button", name="Solve the run").click()
+    page.get_by_role("slider", name="time").wait_for(timeout=60_000)
+    clock = page.locator(".clock")
+    assert clock.inner_text() == "0 µs"
+    page.get_by_role("button", name="play or pause").click()
+    until(lambda: clock.inner_text() != "0 µs")
+    assert page.locator(".movie .drawing svg").count() == 2

@@ -1,0 +1,102 @@
+"""The live page is for one person on one machine, and outlives what goes wrong."""
+
+import os
+import signal
+import urllib.error
+import urllib.request
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+
+from tests.browser.conftest import Served, number, opened, solved, type_into, until
+
+
+def status_of(address, **headers):
+    try:
+        with urllib.request.urlopen(urllib.request.Request(address, headers=headers)) as reply:
+            return reply.status, reply.read().decode()
+    except urllib.error.HTTPError as error:
+        return error.code, error.read().decode()
+
+
+def test_a_wrong_token_is_refused_with_a_sentence(served):
+    root = served.address.partition("?")[0]
+    for address in (root, f"{root}?token=guess", f"{root}_nicegui/x", f"{root}?case=abc"):
+        code, text = status_of(address)
+        assert code == 403
+        assert "lacks the token" in text
+
+
+def test_another_name_or_origin_is_refused(served):
+    assert status_of(served.address)[0] == 200
+    assert status_of(served.address, Host="evil.example")[0] == 403
+    assert status_of(served.address, Origin="http://evil.example")[0] == 403
+
+
+def test_the_page_is_on_the_loopback_address_only(served):
+    port = urlsplit(served.address).port
+    listening = [
+        line.split()[1]
+        for name in ("/proc/net/tcp", "/proc/net/tcp6")
+        for line in Path(name).read_text().splitlines()[1:]
+        if line.split()[3] == "0A" and line.split()[1].endswith(f":{port:04X}")
+    ]
+    assert listening == [f"0100007F:{port:04X}"]
+
+
+def test_no_request_leaves_the_machine(page, context):
+    for view in ("Pressure", "Centre lines", "Curves", "3-D film"):
+        page.get_by_role("tab", name=view).click()
+        page.wait_for_timeout(200)
+    hosts = {urlsplit(url).hostname for url in context.requests if url.startswith(("http", "ws"))}
+    assert hosts == {"127.0.0.1"}
+
+
+def test_two_tabs_are_independent(page, context, served):
+    other = opened(context, served.address)
+    first = number(page, "h_central")
+    type_into(other, "load", "300")
+    until(lambda: number(other, "h_central") != first)
+    solved(other)
+    assert number(page, "h_central") == first
+    assert page.get_by_role("textbox", name="load", exact=True).input_value() == "80"
+
+
+def test_a_killed_worker_is_a_sentence_and_a_new_one_solves(page, served):
+    page.get_by_role("textbox", name="load", exact=True).fill("81")
+    for pid in served.workers():
+        os.kill(pid, signal.SIGKILL)
+    page.get_by_role("textbox", name="load", exact=True).press("Enter")
+    until(lambda: page.locator(".card:visible").count() or "converged" in words(page))
+    type_into(page, "load", "82")
+    solved(page)
+    assert page.locator(".card:visible").count() == 0
+
+
+def words(page):
+    return page.locator(".status-words").first.inner_text()
+
+
+def test_a_damaged_address_is_a_sentence(context, served):
+    page = opened(context, f"{served.address}&case=damaged")
+    page.get_by_text("the case in the address is damaged").wait_for()
+
+
+def test_a_slow_solve_can_be_stopped(page):
+    page.get_by_role("combobox", name="accuracy").click()
+    page.get_by_role("option", name="513² nodes").click()
+    page.get_by_role("combobox", name="accuracy").click()
+    page.get_by_role("option", name="error 0.5 %").click()
+    solved(page)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs /proc")
+def test_ctrl_c_leaves_nothing_behind(tmp_path):
+    server = Served(folder=tmp_path)
+    until(server.workers)
+    workers = server.workers()
+    assert server.end() == 0
+    until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in workers), 10)
+    assert [path.name for path in tmp_path.iterdir()] == ["explore.log"]
+    assert "Traceback" not in server.messages
