@@ -29,6 +29,14 @@ def test_a_transient_result_shows_its_extremes():
     assert f"in {run.history.time.size - 1} steps" in run._repr_html_()
 
 
+def test_a_notebook_shows_numbers_with_error_bars_and_a_picture(result, thermal):
+    page = result._repr_html_()
+    assert f"{result.film.central * 1e9:.4g} nm" in page
+    assert f"central {100 * result.errors.central:.2g} %" in page
+    assert page.count('src="data:image/png;base64,') == 1
+    assert f"{thermal.temperature.film_rise_max:.3g} K" in thermal._repr_html_()
+
+
 @pytest.mark.parametrize("kind", ["result", "explanation"])
 def test_notebooks_show_escaped_html(result, kind):
     title = "<script>alert(1)</script>"

@@ -1,7 +1,6 @@
-"""A summary in a line and in a small table: what Python and notebooks show of a result."""
+"""A summary in a line, and its main numbers by name: what Python shows of a result."""
 
 from collections.abc import Mapping
-from html import escape
 from typing import Any
 
 Summary = Mapping[str, Any]
@@ -9,21 +8,12 @@ Summary = Mapping[str, Any]
 
 def as_line(kind: str, summary: Summary) -> str:
     """Return a summary in one line, for ``repr`` of a class ``kind``."""
-    status, *others = _headline(summary).items()
+    status, *others = headline(summary).items()
     numbers = ", ".join(f"{name} {value}" for name, value in others)
     return f"<{kind} {summary['title']!r}: {status[1]}, {numbers}>"
 
 
-def as_html(summary: Summary) -> str:
-    """Return a summary as a small HTML table, for notebooks; each text is escaped."""
-    rows = "".join(
-        f"<tr><th style='text-align: left'>{escape(name)}</th><td>{escape(value)}</td></tr>"
-        for name, value in _headline(summary).items()
-    )
-    return f"<table><caption>{escape(summary['title'])}</caption>{rows}</table>"
-
-
-def _headline(summary: Summary) -> dict[str, str]:
+def headline(summary: Summary) -> dict[str, str]:
     """Return the main numbers of a summary with their units, by name."""
     transient = summary.get("kind") == "transient"
     outcome = dict.fromkeys(filter(None, (summary["status"], summary["cause"])))

@@ -5,10 +5,11 @@ Users expect these methods on the object itself, and reading a file makes such a
 that close a circle; nothing else below `tehl.io` may import it.
 """
 
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tehl.headline import as_html, as_line
+from tehl.headline import as_line
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -42,5 +43,7 @@ class Saved:
         return as_line(type(self).__name__, self.summary())
 
     def _repr_html_(self: Any) -> str:
-        """Return the main numbers as a table, for notebooks."""
-        return as_html(self.summary())
+        """Return the main numbers beside a picture, for notebooks."""
+        # By name, when called: the picture stands on many floors above the result.
+        html: str = import_module("tehl.report.notebook").result_html(self)
+        return html

@@ -81,8 +81,8 @@ def served(tmp_path_factory):
     assert "Traceback" not in errors, errors
 
 
-@pytest.fixture
-def context(browser):
+@pytest.fixture(scope="module")
+def shared_context(browser):
     made = browser.new_context(viewport={"width": 1440, "height": 900}, accept_downloads=True)
     made.set_default_timeout(PATIENCE)
     made.failures = []
@@ -91,7 +91,16 @@ def context(browser):
     made.on("weberror", lambda error: made.failures.append(str(error.error)))
     yield made
     made.close()
-    assert made.failures == []
+
+
+@pytest.fixture
+def context(shared_context):
+    """The context of all pages of a module, so that they share the cache of the browser."""
+    shared_context.failures.clear()
+    yield shared_context
+    for page in shared_context.pages:
+        page.close()
+    assert shared_context.failures == []
 
 
 @pytest.fixture

@@ -78,8 +78,10 @@ class Page:
         def leave() -> None:
             assert self.live is not None
             assert self.background is not None
+            tab.listeners.clear()
             self.live.cancel(owner)
-            self.background.cancel(owner)
+            for job in ("sweep", "run", "file", "surface"):
+                self.background.cancel(f"{owner} {job}")
             files.remove()
 
         client.on_delete(leave)
@@ -163,14 +165,14 @@ class TabPage:
         self.curves.start()
 
     def _hear(self, topic: str) -> None:
-        """Put the state into the address once nothing moves any more."""
+        """Put the state into the address once no slider moves any more."""
         if topic == "picture":
             self.hold.set_value(self.tab.held)
             compares = self.tab.pinned is not None
             self.unpin.set_visibility(compares)
             style = {"add": "comparing"} if compares else {"remove": "comparing"}
             self.middle.classes(**style)
-        if topic == "status" and not self.tab.is_busy and not self.tab.is_moving:
+        if topic == "status" and not self.tab.is_moving:
             packed = self.tab.case.packed
             if packed != self._address and self.client.has_socket_connection:
                 self._address = packed

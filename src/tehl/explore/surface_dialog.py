@@ -8,7 +8,7 @@ from tehl.errors import InputError
 from tehl.explore.colour_map import heights_picture
 from tehl.explore.elements import Drawing, button
 from tehl.explore.files import LARGEST
-from tehl.explore.jobs import End, Failure
+from tehl.explore.jobs import Failure
 from tehl.explore.tab import Tab
 from tehl.explore.tasks import Heights, Look
 from tehl.explore.worker import Solver
@@ -85,14 +85,14 @@ class SurfaceDialog:
         self.background.submit(f"{self.tab.owner} surface", Look(settings), self._receive)
 
     def _receive(self, message: Any) -> None:
+        if self.dialog.is_deleted:
+            return
         if isinstance(message, Heights):
             self._show(message)
         elif isinstance(message, Failure):
             self._say(self.tab.files.hidden(message.text))
             for use in self.uses:
                 use.disable()
-        elif isinstance(message, End):
-            return
 
     def _show(self, found: Heights) -> None:
         self.drawing.show(heights_picture((found.x, found.y), found.values, _SIZE))

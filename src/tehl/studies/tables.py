@@ -82,11 +82,12 @@ def table(
     Returns
     -------
     pandas.DataFrame
+        A notebook shows its main columns and a curve.
         Columns ``name``, the labels, ``status``, ``cause``, ``message``, every scalar of the
         summary by its dotted name: ``film.h_min_m``, and ``key``, under which fields are kept.
         ``attrs["units"]`` has the unit of each column of numbers.
     """
-    import pandas as pd  # noqa: PLC0415 (0.5 s)
+    from tehl.studies.frame import StudyTable  # noqa: PLC0415 (pandas takes 0.5 s)
 
     cases = list(cases)
     rows = store.rows(cases)
@@ -103,7 +104,7 @@ def table(
         lines.append(line | {"key": case.key})
     labels = [label for case in cases for label in case.labels]
     names = dict.fromkeys(["name", *labels, *_OUTCOME, *(name for line in lines for name in line)])
-    frame = pd.DataFrame(lines, columns=[*(name for name in names if name != "key"), "key"])
+    frame = StudyTable(lines, columns=[*(name for name in names if name != "key"), "key"])
     numbers = frame.select_dtypes("number").columns
     known = units or {}
     frame.attrs["units"] = {name: known.get(name) or unit_of(name) for name in numbers}

@@ -1,0 +1,51 @@
+"""What a notebook shows of a result: its main numbers with error bars beside a picture."""
+
+import base64
+import io
+from html import escape
+from typing import Any
+
+from tehl.headline import headline
+from tehl.plots import film_map, history
+from tehl.result import Result
+from tehl.transient_result import TransientResult
+
+_DPI = 72
+
+
+def result_html(result: Result | TransientResult) -> str:
+    """Return title, numbers and a picture of a result as HTML; each text is escaped."""
+    summary = result.summary()
+    rows = headline(summary) | _others(summary)
+    cells = "".join(
+        f"<tr><th style='text-align: left'>{escape(name)}</th><td>{escape(value)}</td></tr>"
+        for name, value in rows.items()
+    )
+    table = f"<table><caption>{escape(summary['title'])}</caption>{cells}</table>"
+    draw: Any = history if isinstance(result, TransientResult) else film_map
+    picture = image_html(draw(result, title=False), "film of the contact")
+    style = "display: flex; flex-wrap: wrap; gap: 1.5em; align-items: center"
+    return f'<div style="{style}">{table}{picture}</div>'
+
+
+def image_html(figure: Any, words: str) -> str:
+    """Return a matplotlib figure as an image in HTML."""
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="png", dpi=_DPI, bbox_inches="tight")
+    data = base64.b64encode(buffer.getvalue()).decode("ascii")
+    return f'<img alt="{escape(words)}" src="data:image/png;base64,{data}">'
+
+
+def _others(summary: dict[str, Any]) -> dict[str, str]:
+    """Return error bars of a steady film, its friction and its temperature."""
+    errors, found = summary.get("errors"), {}
+    if errors:
+        parts = (f"{100.0 * errors[name]:.2g} %" for name in ("central", "minimum"))
+        found["error bars"] = "central {}, minimum {}".format(*parts)
+    friction = (summary.get("traction") or {}).get("mid_film")
+    if friction:
+        found["friction coefficient"] = f"{abs(friction):.3g}"
+    rise = (summary.get("temperature") or {}).get("film_rise_max_k")
+    if rise is not None and summary.get("kind") != "transient":
+        found["largest temperature rise"] = f"{rise:.3g} K"
+    return found

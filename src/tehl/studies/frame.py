@@ -1,0 +1,77 @@
+"""The table of a study as a notebook shows it: the main columns with units, and a picture."""
+
+from html import escape
+from typing import Any
+
+import pandas as pd
+
+_COLUMNS = {
+    "film.h_central_m": ("central film [nm]", 1e9),
+    "errors.central": ("± [%]", 100.0),
+    "film.h_min_m": ("minimum film [nm]", 1e9),
+    "errors.minimum": ("± [%]", 100.0),
+    "pressure.max_pa": ("largest pressure [GPa]", 1e-9),
+    "traction.mid_film": ("traction", 1.0),
+    "temperature.film_rise_max_k": ("temperature rise [K]", 1.0),
+    "load_sharing.share": ("load on asperities", 1.0),
+}
+"""Columns that are shown, their headings, and factors from SI."""
+_ROWS = 30
+_LEAST = 3
+"""Rows that are shown, and converged cases from which on a curve is drawn."""
+
+
+class StudyTable(pd.DataFrame):
+    """A table of cases; a notebook shows its main columns and a curve, and all of it is there."""
+
+    @property
+    def _constructor(self) -> Any:
+        return StudyTable
+
+    def _repr_html_(self) -> str:
+        """Return status, labels and main numbers as HTML, with a curve of the film."""
+        if not {"status", "name", "film.h_central_m"} <= set(self.columns):
+            return str(super()._repr_html_())
+        labels = list(self.columns[1 : list(self.columns).index("status")])
+        shown = [key for key in _COLUMNS if key in self.columns and self[key].notna().any()]
+        units = self.attrs.get("units", {})
+        heads = [_head(label, units.get(label, "1")) for label in labels]
+        heads += ["status", *(_COLUMNS[key][0] for key in shown)]
+        rows = "".join(self._row(number, labels, shown) for number in range(min(len(self), _ROWS)))
+        rest = f"<p>{len(self) - _ROWS} more cases</p>" if len(self) > _ROWS else ""
+        head = "".join(f"<th>{escape(word)}</th>" for word in heads)
+        page = f"<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>{rest}"
+        return page + self._curve(labels)
+
+    def _row(self, number: int, labels: list[str], shown: list[str]) -> str:
+        line = self.iloc[number]
+        cells = [_cell(line[label]) for label in labels]
+        status = str(line["status"]).replace("_", " ")
+        cause = line.get("cause")
+        cells.append(status if not isinstance(cause, str) else f"{status}: {cause}")
+        cells += [_cell(_COLUMNS[key][1] * line[key]) for key in shown]
+        return "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>"
+
+    def _curve(self, labels: list[str]) -> str:
+        """Return the central film over the first label of numbers, nothing with too few cases."""
+        numbers = [label for label in labels if pd.api.types.is_numeric_dtype(self[label])]
+        converged = self[self["status"] == "converged"]
+        if not numbers or converged[numbers[0]].nunique() < _LEAST:
+            return ""
+        from tehl.plots import curves  # noqa: PLC0415 (with the first table that is shown)
+        from tehl.report.notebook import image_html  # noqa: PLC0415
+
+        values = converged[numbers[0]]
+        log = "x" if values.min() > 0 and values.max() > 8 * values.min() else ""
+        figure = curves(self, numbers[0], "film.h_central_m", log=log)
+        return image_html(figure, f"central film over {numbers[0]}")
+
+
+def _head(label: str, unit: str) -> str:
+    return label if unit == "1" else f"{label} [{unit}]"
+
+
+def _cell(value: Any) -> str:
+    if isinstance(value, str):
+        return value
+    return "–" if pd.isna(value) else f"{value:.4g}"
