@@ -5,6 +5,7 @@ import io
 import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import count
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,8 @@ _LEFT, _RIGHT, _TOP, _BOTTOM, _BARE = 58.0, 84.0, 26.0, 46.0, 14.0
 """Margins in pixels; the last one at the right without a colour bar."""
 _WIDEST = 400.0
 """Pixels of an image; the browser draws it wider, smoothly."""
+_NUMBERS = count()
+"""For names of gradients: one in a hidden drawing has no effect on another."""
 _CONTOURED = 128
 """Points along an axis on which contour lines are traced."""
 
@@ -316,7 +319,7 @@ def _colour_bar(frame: Frame, look: Look) -> str:
         f'<stop offset="{k / (len(table) - 1):.3f}" stop-color="rgb({r},{g},{b})"/>'
         for k, (r, g, b) in enumerate(table.tolist())
     )
-    name = f"bar-{look.colours}"
+    name = f"bar-{look.colours}-{next(_NUMBERS)}"
     parts = [
         f'<defs><linearGradient id="{name}" x1="0" y1="1" x2="0" y2="0">{stops}'
         f'</linearGradient></defs><rect x="{left}" y="{top}" width="13" height="{height:.1f}" '

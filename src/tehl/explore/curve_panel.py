@@ -8,7 +8,7 @@ from nicegui import ui
 from tehl.errors import InputError
 from tehl.explore.controls import Knob, swept_knobs
 from tehl.explore.curves import Point, swept_chart
-from tehl.explore.elements import button
+from tehl.explore.elements import button, main_button
 from tehl.explore.jobs import End, Failure
 from tehl.explore.numbers import value_of
 from tehl.explore.tab import Tab
@@ -43,6 +43,7 @@ class CurvePanel:
                 self.state = ui.label("").classes("status-words")
                 self.bar = ui.linear_progress(0.0, show_value=False).props('aria-label="progress"')
                 self.bar.classes("sweep-bar")
+                button("", self._save, icon="download", name="save the table, CSV")
             self.drawing = ui.html("", sanitize=False).classes("drawing")
         self.place.set_visibility(False)
         tab.listeners.append(self._hear)
@@ -57,11 +58,9 @@ class CurvePanel:
             self.count.classes("sweep-end")
             for field in (self.quantity, self.over, self.low, self.high, self.count):
                 field.props("dense outlined options-dense")
-            self.go = ui.button("Solve", icon="play_arrow", on_click=self.start)
-            self.go.props("no-caps unelevated")
+            main_button("Solve", self.start, icon="play_arrow")
             self.halt = button("Cancel", self.cancel)
             self.halt.set_visibility(False)
-            button("", self._save, icon="download", name="save the table, CSV")
 
     # ---- what is swept
 

@@ -33,15 +33,21 @@ class Point:
     """Relative error bar [-]."""
 
 
-def line_charts(shown: Shown, size: tuple[float, float], top: tuple[float, float]) -> list[Chart]:
-    """Draw film and pressure along x and along y; ``top`` are the ends of their scales."""
+def line_charts(
+    shown: Shown, size: tuple[float, float], top: tuple[float, float], other: Shown | None = None
+) -> list[Chart]:
+    """Draw film and pressure along x and along y, those of another state fainter.
+
+    ``top`` are the ends of the scales of film and pressure.
+    """
     height = max(190.0, 0.5 * size[1])
-    lines, window = (shown.lines.x, shown.lines.y), shown.maps.window
     labels = ("x along entrainment [µm], y = 0", "y [µm], x = 0")
-    return [
-        _centre_line(line, label, Scale(*span, _LEFT, size[0] - _RIGHT), height, top)
-        for line, label, span in zip(lines, labels, window, strict=True)
-    ]
+    faint = (None, None) if other is None else (other.lines.x, other.lines.y)
+    charts = []
+    for number, line in enumerate((shown.lines.x, shown.lines.y)):
+        x = Scale(*shown.maps.window[number], _LEFT, size[0] - _RIGHT)
+        charts.append(_centre_line((line, faint[number]), labels[number], x, height, top))
+    return charts
 
 
 def line_tops(lines: Lines) -> tuple[float, float]:
@@ -52,29 +58,34 @@ def line_tops(lines: Lines) -> tuple[float, float]:
 
 
 def _centre_line(
-    line: Line, label: str, x: Scale, height: float, top: tuple[float, float]
+    lines: tuple[Line, Line | None], label: str, x: Scale, height: float, top: tuple[float, float]
 ) -> Chart:
-    place, film, pressure, hertz = line
     size, low = (x.end + _RIGHT, height), height - _BOTTOM
     of_film = Frame(x, Scale(0.0, top[0], low, _TOP), *size)
     of_pressure = Frame(x, Scale(0.0, top[1], low, _TOP), *size)
     parts = of_film.svg(label, "film [nm]", grid=True, colour="film")
     parts += "".join(of_pressure.y_ticks(x.end, 1, grid=False, colour="pressure"))
     parts += turned(x.end + 48, 0.5 * (low + _TOP), "pressure [GPa]", "label pressure")
-    clipped = np.where(film <= top[0], film, np.nan)
-    parts += of_pressure.path(place, hertz, "line dashed pressure")
-    parts += of_pressure.path(place, pressure, "line pressure")
-    parts += of_film.path(place, clipped, "line film")
-    parts += _keys(x.start, (("film", "film"), ("pressure", "pressure")))
-    parts += f'<path d="M{x.start + 158} 12h22" class="line dashed pressure"/>'
-    parts += text(x.start + 186, 16, "Hertz", "small", "start")
+    keys = [("film", "film"), ("pressure", "pressure"), ("Hertz", "dashed pressure")]
+    for line, style in ((lines[1], "faint "), (lines[0], "")):
+        if line is None:
+            continue
+        place, film, pressure, hertz = line
+        if not style:
+            parts += of_pressure.path(place, hertz, "line dashed pressure")
+        parts += of_pressure.path(place, pressure, f"line {style}pressure")
+        clipped = np.where(film <= top[0], film, np.nan)
+        parts += of_film.path(place, clipped, f"line {style}film")
+    if lines[1] is not None:
+        keys.append(("pinned, fainter", "faint film"))
+    parts += _keys(x.start, keys)
     return Chart(svg(*size, parts, f"film and pressure over {label}"), of_film)
 
 
 def _keys(left: float, names: Sequence[tuple[str, str]]) -> str:
     parts = []
     for number, (name, style) in enumerate(names):
-        at = left + 70 * number
+        at = left + 82 * number
         parts.append(f'<path d="M{at} 12h22" class="line {style}"/>')
         parts.append(text(at + 28, 16, name, "small", "start"))
     return "".join(parts)

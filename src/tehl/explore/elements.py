@@ -19,6 +19,12 @@ def button(
     return made.props(f'aria-label="{name or words}"')
 
 
+def main_button(words: str, action: Callable[[], Any], *, icon: str | None = None) -> ui.button:
+    """Return the button of the main action of a panel."""
+    made = ui.button(words, on_click=action, icon=icon, color=None)
+    return made.props("no-caps unelevated").classes("main-button")
+
+
 class Drawing:
     """An image in colours with a drawing over it; either may be left out."""
 

@@ -6,7 +6,7 @@ from nicegui import ui
 
 from tehl.errors import InputError
 from tehl.explore.case_text import LARGEST, CaseText
-from tehl.explore.elements import button
+from tehl.explore.elements import button, main_button
 from tehl.explore.jobs import End, Failure, Note
 from tehl.explore.tab import Tab
 from tehl.explore.tasks import Export, Saved
@@ -106,11 +106,11 @@ class Header:
                 self._open(await event.file.read(), dialog)
 
             upload.on_upload(uploaded).classes("w-full")
-            text = ui.codemirror(self.tab.case.text).classes("case-editor")
+            text = ui.textarea("text of the case", value=self.tab.case.text)
+            text.props('outlined input-class="case-text" spellcheck=false').classes("w-full")
             with ui.row().classes("w-full justify-end"):
                 button("Cancel", dialog.close)
-                take = ui.button("Take this text").props("no-caps unelevated")
-                take.on_click(lambda: self._open(str(text.value).encode(), dialog))
+                main_button("Take this text", lambda: self._open(str(text.value).encode(), dialog))
         dialog.on_value_change(lambda event: None if event.value else dialog.delete())
         dialog.open()
 

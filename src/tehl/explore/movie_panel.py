@@ -10,7 +10,7 @@ from nicegui import ui
 from tehl.errors import InputError
 from tehl.explore.axes import Frame, Scale, svg, text
 from tehl.explore.colour_map import film_limits, film_picture
-from tehl.explore.elements import Drawing, button
+from tehl.explore.elements import Drawing, button, main_button
 from tehl.explore.jobs import End, Failure, Note
 from tehl.explore.tab import Tab
 from tehl.explore.tasks import Movie, Transient
@@ -29,8 +29,7 @@ class MoviePanel:
         self.text, self._number, self.size = "", 0, (720.0, 560.0)
         with ui.element("div").classes("movie") as self.place:
             with ui.element("div").classes("movie-bar"):
-                self.run = ui.button("Solve the run", icon="play_arrow", on_click=self.start)
-                self.run.props("no-caps unelevated")
+                self.run = main_button("Solve the run", self.start, icon="play_arrow")
                 self.halt = button("Cancel", self.cancel)
                 self.halt.set_visibility(False)
                 self.state = ui.label("").classes("status-words")

@@ -122,9 +122,9 @@ class TabPage:
         StatusLine(tab).build(self._build_compare)
         with ui.element("div").classes("view-bar"):
             with ui.tabs(on_change=lambda event: self._show(event.value)) as tabs:
-                tabs.props("dense no-caps inline-label outside-arrows mobile-arrows").classes(
-                    "views"
-                )
+                tabs.props(
+                    "dense no-caps align=left inline-label outside-arrows mobile-arrows"
+                ).classes("views")
                 for name, label in VIEWS.items():
                     ui.tab(name, label=label)
             self.tabs = tabs
@@ -153,7 +153,7 @@ class TabPage:
 
     def _show(self, view: str) -> None:
         """Show a view; those of curves and of the movie are panels of their own."""
-        self.pictures.place.set_visibility(view not in ("curves", "movie"))
+        self.pictures.set_visibility(view not in ("curves", "movie"))
         self.tab.show(view)
         self.curves.show()
         self.movie.show()

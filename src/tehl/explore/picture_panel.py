@@ -3,7 +3,6 @@
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
 from nicegui import ui
 
 from tehl.explore.colour_map import (
@@ -24,8 +23,9 @@ _POINTER = """(event) => {
     const box = event.currentTarget.getBoundingClientRect();
     emit([event.clientX - box.left, event.clientY - box.top]);
 }"""
-_GAP, _BAR, _SMALL = 16.0, 70.0, 560.0
-"""Pixels between two maps, of the colour bar of one of them, and from which on both fit."""
+_GAP, _BAR, _SMALL, _LINES = 16.0, 70.0, 560.0, 440.0
+"""Pixels between two maps, of the colour bar of one of them, from which on both fit, and twice the
+height of the centre lines below."""
 
 
 class Slot:
@@ -44,9 +44,14 @@ class Slot:
             self.drawing.overlay.on("mouseleave", lambda: self.readout.set_text(" "))
 
     def draw(
-        self, view: str, shown: Shown, limits: dict[str, Any], size: tuple[float, float]
+        self,
+        view: str,
+        shown: Shown,
+        limits: dict[str, Any],
+        size: tuple[float, float],
+        other: Shown | None = None,
     ) -> None:
-        """Draw a view of a state."""
+        """Draw a view of a state; centre lines of another state are fainter."""
         self.shown, self.picture = shown, None
         if view == "relief":
             self._turn(relief_figure(shown.maps, limits["film"], size))
@@ -55,7 +60,7 @@ class Slot:
             self.relief.delete()
             self.relief = None
         if view == "lines":
-            charts = line_charts(shown, size, limits["lines"])
+            charts = line_charts(shown, size, limits["lines"], other)
             self.drawing.show_lines("".join(chart.drawing for chart in charts))
             return
         picture = _picture(view, shown, limits, size, bar=self.bar)
@@ -82,13 +87,6 @@ class Slot:
         place = event.args[0] if isinstance(event.args[0], list) else event.args
         x, y = picture.frame.x.data(place[0]), picture.frame.y.data(place[1])
         self.readout.set_text(_values(shown, x, y) or " ")
-
-    def rise(self, x: float, zeta: float) -> float | None:
-        """Return the temperature rise at a place of the section."""
-        section = self.shown.section if self.shown else None
-        if section is None:
-            return None
-        return value_at(section.x, np.linspace(0.0, 1.0, len(section.rise)), section.rise, x, zeta)
 
 
 _REASONS = {
@@ -129,9 +127,15 @@ class PicturePanel:
         self.size = (720.0, 620.0)
         with ui.element("div").classes("slots") as self.place:
             self.pinned, self.present = Slot("pinned", bar=False), Slot("present", bar=True)
+        self.below = ui.html("", sanitize=False).classes("drawing")
         self.pinned.place.set_visibility(False)
         self.present.title.set_visibility(False)
         tab.listeners.append(self._hear)
+
+    def set_visibility(self, visible: bool) -> None:
+        """Show or hide all of it."""
+        self.place.set_visibility(visible)
+        self.below.set_visibility(visible)
 
     def resize(self, width: float, height: float) -> None:
         """Draw in another size."""
@@ -145,23 +149,34 @@ class PicturePanel:
 
     def draw(self) -> None:
         """Draw the chosen view."""
-        tab, view = self.tab, self.tab.view
-        shown = tab.shown
+        tab, view, shown, pinned = self.tab, self.tab.view, self.tab.shown, self.tab.pinned
         if shown is None or view in ("movie", "curves"):
             return
-        pinned = tab.pinned
-        self.pinned.place.set_visibility(pinned is not None)
-        self.present.title.set_visibility(pinned is not None)
-        limits, size = tab.limits, self.size
-        if pinned is not None:
-            beside = self.size[0] > _SMALL
-            maps = beside and view in ("film", "pressure")
-            size = (0.5 * (size[0] - _GAP), size[1]) if beside else size
-            less = (size[0] - (0.5 * _BAR if maps else 0.0), size[1])
-            self.pinned.draw(view, _seen_in(pinned.shown, shown), limits, less)
-            size = (size[0] + (0.5 * _BAR if maps else 0.0), size[1])
-            shown = _seen_in(shown, pinned.shown)
-        self.present.draw(view, shown, limits, size)
+        beside = pinned is not None and view != "lines"
+        self.pinned.place.set_visibility(beside)
+        self.present.title.set_visibility(beside)
+        self.below.set_content("")
+        if pinned is None:
+            self.present.draw(view, shown, tab.limits, self.size)
+            return
+        present, other = _seen_in(shown, pinned.shown), _seen_in(pinned.shown, shown)
+        if view == "lines":
+            self.present.draw(view, present, tab.limits, self.size, other)
+            return
+        self._draw_beside(view, present, other)
+
+    def _draw_beside(self, view: str, present: Shown, other: Shown) -> None:
+        """Draw two states side by side, above their centre lines along x."""
+        (width, height), limits = self.size, self.tab.limits
+        wide, room = width > _SMALL, 0.0
+        if wide:
+            width = 0.5 * (width - _GAP)
+            room = 0.5 * _BAR if view in ("film", "pressure") else 0.0
+        self.pinned.draw(view, other, limits, (width - room, height))
+        self.present.draw(view, present, limits, (width + room, height))
+        if wide:
+            chart = line_charts(present, (self.size[0], _LINES), limits["lines"], other)[0]
+            self.below.set_content(chart.drawing)
 
 
 def _seen_in(shown: Shown, other: Shown) -> Shown:

@@ -75,9 +75,12 @@ def _bowl(maps: Maps, top: float) -> tuple[Array, Array, Array]:
         return x, y, map_coordinates(maps.film, (rows, columns), order=1)
 
     part = np.linspace(0.0, 1.0, _SEARCHED)
-    inside = sampled(reach * part)[2] <= top
-    last = part[inside.shape[1] - 1 - np.argmax(inside[:, ::-1], axis=1)]
-    x, y, film = sampled(reach * last[:, None] * np.linspace(0.0, 1.0, _RINGS))
+    along = sampled(reach * part)[2]
+    last = _SEARCHED - 1 - np.argmax((along <= top)[:, ::-1], axis=1)[:, None]
+    after = np.minimum(last + 1, _SEARCHED - 1)
+    low, high = (np.take_along_axis(along, place, axis=1) for place in (last, after))
+    rim = part[last] + np.clip((top - low) / np.maximum(high - low, 1e-9), 0.0, 1.0) * part[1]
+    x, y, film = sampled(reach * np.minimum(rim, 1.0) * np.linspace(0.0, 1.0, _RINGS))
     return x, y, np.minimum(film, top)
 
 

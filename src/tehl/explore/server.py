@@ -119,7 +119,9 @@ def serve(case: Path | None, text: str, port: int | None, *, browser: bool, repo
         app.add_middleware(Guard, token=token, port=taken)
         app.on_startup(page.start)
         app.on_shutdown(page.close)
-        ui.page("/", title="tehl explore", favicon=_ICON, response_timeout=20)(page.build)
+        ui.page("/", title="tehl explore", favicon=_ICON, language="en-US", response_timeout=20)(
+            page.build
+        )
         address = f"http://{ADDRESS}:{taken}/?token={token}"
         app.on_startup(lambda: background_tasks.create(_announce(taken, address, report)))
         ui.run(

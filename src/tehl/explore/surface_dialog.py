@@ -1,12 +1,13 @@
 """A measured surface comes in: upload, unit and levelling, preview, and use on a surface."""
 
+from functools import partial
 from typing import Any
 
 from nicegui import ui
 
 from tehl.errors import InputError
 from tehl.explore.colour_map import heights_picture
-from tehl.explore.elements import Drawing, button
+from tehl.explore.elements import Drawing, button, main_button
 from tehl.explore.files import LARGEST
 from tehl.explore.jobs import Failure
 from tehl.explore.tab import Tab
@@ -41,11 +42,11 @@ class SurfaceDialog:
             with ui.row().classes("w-full justify-end"):
                 button("Cancel", self.dialog.close)
                 self.uses = [
-                    ui.button(f"Use on surface {number}", on_click=lambda n=number: self._use(n))
+                    main_button(f"Use on surface {number}", partial(self._use, number))
                     for number in (1, 2)
                 ]
         for use in self.uses:
-            use.props("no-caps unelevated").disable()
+            use.disable()
         self.dialog.on_value_change(lambda event: None if event.value else self.dialog.delete())
         self.dialog.open()
 

@@ -1,0 +1,22 @@
+"""The command that opens the live page, until it serves."""
+
+import importlib.util
+
+import pytest
+
+from tehl.cli import explore
+from tehl.errors import InputError
+from tehl.io.templates import template_text
+
+
+def test_a_case_that_is_not_valid_is_a_sentence_before_a_page_opens(tmp_path):
+    case = tmp_path / "case.toml"
+    case.write_text(template_text("ball-on-disc").replace('"80 N"', '"-80 N"'))
+    with pytest.raises(InputError, match="must be positive"):
+        explore.explore(case, browser=False)
+
+
+def test_a_missing_extra_says_how_to_install_it(monkeypatch):
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "nicegui" else 1)
+    with pytest.raises(InputError, match=r"needs nicegui: install .* 'tehl\[explore\]'"):
+        explore.explore(browser=False)
