@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from playwright.sync_api import Page, sync_playwright
-from tests.browser.chromium import ARGUMENTS, executable
+from tests.browser.chromium import ARGUMENTS, FLAT, executable
 
 from tehl.io.templates import template_text
 
@@ -153,7 +153,7 @@ def main() -> None:
     parser.add_argument("--many", type=int, default=2000)
     chosen = parser.parse_args()
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=executable(), args=ARGUMENTS)
+        browser = playwright.chromium.launch(executable_path=executable(), args=[*ARGUMENTS, *FLAT])
         for kind, (template, label) in CASES.items():
             with server(template) as (process, address):
                 page = opened(browser, address)

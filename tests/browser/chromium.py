@@ -11,10 +11,12 @@ ARGUMENTS = (
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
 )
-"""A browser that draws in three dimensions without a graphics card, and calls nobody."""
+"""A browser that calls nobody."""
+SOLID = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+"""It draws in three dimensions without a graphics card, on the processor."""
+FLAT = ("--disable-gpu",)
+"""It does not, and leaves the processor to others."""
 
 
 def executable() -> str | None:

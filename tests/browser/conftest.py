@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.browser.chromium import ARGUMENTS, executable
+from tests.browser.chromium import ARGUMENTS, SOLID, executable
 
 pytest.importorskip("nicegui", reason="needs pip install 'tehl[explore]'")
 api = pytest.importorskip("playwright.sync_api", reason="needs pip install playwright")
@@ -69,7 +69,7 @@ def browser():
     if path is None:
         pytest.skip("chromium is not installed")
     with api.sync_playwright() as playwright:
-        yield playwright.chromium.launch(executable_path=path, args=ARGUMENTS)
+        yield playwright.chromium.launch(executable_path=path, args=[*ARGUMENTS, *SOLID])
 
 
 @pytest.fixture(scope="module")

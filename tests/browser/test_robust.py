@@ -34,6 +34,16 @@ def test_another_name_or_origin_is_refused(served):
     assert status_of(served.address, Origin="http://evil.example")[0] == 403
 
 
+def test_a_request_larger_than_an_upload_is_refused(served):
+    root, _, query = served.address.partition("?")
+    address = f"{root}_nicegui/client/x/upload/1?{query}"
+    request = urllib.request.Request(address, data=b"x", headers={"Content-Length": "99000000"})
+    with pytest.raises(urllib.error.HTTPError) as error:
+        urllib.request.urlopen(request)
+    assert error.value.code == 413
+    error.value.close()
+
+
 def test_the_page_is_on_the_loopback_address_only(served):
     port = urlsplit(served.address).port
     listening = [

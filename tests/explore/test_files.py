@@ -21,6 +21,8 @@ def files(tmp_path):
 
 def test_an_upload_is_found_by_its_plain_name(files):
     assert files.keep("C:\\data\\../my map.csv", b"1,2") == "my_map.csv"
+    assert files.keep("my map.csv", b"1,2") == "my_map.csv"
+    assert files.keep("my map.csv", b"3,4") == "2-my_map.csv"
     found = files.resolved(case_with("my_map.csv"))
     assert found == case_with(str(files.uploads / "my_map.csv"))
 

@@ -7,12 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl.explore.axes import Frame, Scale, svg, text, turned
-from tehl.explore.shown import Lines, Shown
-from tehl.typing import Array
+from tehl.explore.shown import Line, Lines, Shown
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 62.0, 62.0, 28.0, 46.0
-
-Line = tuple[Array, Array, Array, Array]
 
 
 @dataclass(frozen=True, slots=True)

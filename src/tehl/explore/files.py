@@ -1,7 +1,6 @@
 """Files that a case on the page may name: those uploaded to it, and those of the case opened."""
 
 import re
-import shutil
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -16,12 +15,12 @@ Place = tuple[str | int, ...]
 
 
 class Files:
-    """The folder of uploads of a tab, and what else its case may name.
+    """The folder of uploads, and what else a case on the page may name.
 
     Parameters
     ----------
     uploads : Path
-        Folder of the files that were uploaded in this tab.
+        Folder of the files that were uploaded since the page was started.
     beside : Path or None
         Folder of the case given on the command line; files in it may be named without a path.
     stated : set of str
@@ -34,7 +33,7 @@ class Files:
         self.uploads, self.beside, self.stated = uploads, beside, stated
 
     def keep(self, name: str, content: bytes) -> str:
-        """Store an upload under a safe name; return the name."""
+        """Store an upload under a safe name, a new one if another file has it; return the name."""
         plain = _UNSAFE.sub("_", Path(name.replace("\\", "/")).name).lstrip(".")
         ending = plain.rpartition(".")[2].lower()
         if ending not in ENDINGS:
@@ -45,8 +44,12 @@ class Files:
         if len(content) > LARGEST:
             raise InputError(f"{plain}: larger than {LARGEST // 10**6} MB; crop the map before")
         self.uploads.mkdir(parents=True, exist_ok=True)
-        (self.uploads / plain).write_bytes(content)
-        return plain
+        name, number = plain, 1
+        while (path := self.uploads / name).exists() and path.read_bytes() != content:
+            number += 1
+            name = f"{number}-{plain}"
+        path.write_bytes(content)
+        return name
 
     def resolved(self, tables: Mapping[str, Any]) -> dict[str, Any]:
         """Return the tables of a case with the paths of its files; the tables are not changed.
@@ -74,10 +77,6 @@ class Files:
         raise InputError(
             f'{key} = "{name[:60]}": not a file of this page; expected an uploaded one'
         )
-
-    def remove(self) -> None:
-        """Remove the uploads."""
-        shutil.rmtree(self.uploads, ignore_errors=True)
 
     def hidden(self, message: str) -> str:
         """Return a message without the folders of this machine."""

@@ -141,6 +141,7 @@ class Desk:
     def __init__(self, connection: Connection) -> None:
         self.connection, self.send = connection, connection.send
         self.kept: OrderedDict[str, Result] = OrderedDict()
+        self.warm = set[bool]()
 
     def perform(self, job: Any) -> None:
         """Perform a job; whatever happens, the last message is `End`."""
@@ -198,6 +199,8 @@ class Desk:
 
     def compiled(self, *, coupled: bool) -> Iterator[Note]:
         """Load the kernels, and compile those that are not in the cache, which takes a while."""
+        if coupled in self.warm:
+            return
         import tehl.solver  # noqa: F401, PLC0415 (a second, in the worker only)
         from tehl.kernels.cache import is_cold  # noqa: PLC0415
         from tehl.kernels.warmup import warm_up  # noqa: PLC0415
@@ -205,6 +208,7 @@ class Desk:
         if is_cold(coupled=coupled):
             yield Note("compiling the inner loops once, which takes 10 to 60 s")
         warm_up(coupled=coupled)
+        self.warm.add(coupled)
 
 
 def _key(problem: ContactProblem, options: Options) -> str:

@@ -1,7 +1,6 @@
 """The page of a tab: its parts side by side, and the files that come in and go out."""
 
 import asyncio
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -34,8 +33,8 @@ _ABOVE = 250.0
 class Page:
     """Makes the page of each tab; they share one worker that solves, and one for longer jobs."""
 
-    def __init__(self, opened: CaseText, files_of: Callable[[str], Files]) -> None:
-        self.opened, self.files_of = opened, files_of
+    def __init__(self, opened: CaseText, files: Files) -> None:
+        self.opened, self.files = opened, files
         self.live: Solver | None = None
         self.background: Solver | None = None
 
@@ -62,14 +61,13 @@ class Page:
         assert self.live is not None
         assert self.background is not None
         owner = client.id
-        files = self.files_of(owner)
         opened, fault = self.opened, ""
         if case:
             try:
                 opened = CaseText.unpacked(case)
             except InputError as error:
                 fault = str(error)
-        tab = Tab(owner, CaseText(opened.text), files, self.live)
+        tab = Tab(owner, CaseText(opened.text), self.files, self.live)
         TabPage(tab, client, self.background).build()
         tab.open(tab.case)
         if fault:
@@ -82,7 +80,6 @@ class Page:
             self.live.cancel(owner)
             for job in ("sweep", "run", "file", "surface"):
                 self.background.cancel(f"{owner} {job}")
-            files.remove()
 
         client.on_delete(leave)
 

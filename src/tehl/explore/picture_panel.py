@@ -3,6 +3,7 @@
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 from nicegui import ui
 
 from tehl.explore.colour_map import (
@@ -32,7 +33,7 @@ class Slot:
     """A place for the view of one state."""
 
     def __init__(self, name: str, *, bar: bool) -> None:
-        self.bar = bar
+        self.bar, self.view = bar, ""
         self.shown: Shown | None = None
         self.picture: Picture | None = None
         with ui.element("div").classes("slot") as self.place:
@@ -52,6 +53,7 @@ class Slot:
         other: Shown | None = None,
     ) -> None:
         """Draw a view of a state; centre lines of another state are fainter."""
+        self.view = view
         self.shown, self.picture = shown, None
         if view == "relief":
             self._turn(relief_figure(shown.maps, limits["film"], size))
@@ -86,7 +88,8 @@ class Slot:
             return
         place = event.args[0] if isinstance(event.args[0], list) else event.args
         x, y = picture.frame.x.data(place[0]), picture.frame.y.data(place[1])
-        self.readout.set_text(_values(shown, x, y) or " ")
+        values = _rise if self.view == "temperature" else _values
+        self.readout.set_text(values(shown, x, y) or " ")
 
 
 _REASONS = {
@@ -117,6 +120,17 @@ def _values(shown: Shown, x: float, y: float) -> str:
     if film is None or pressure is None:
         return ""
     return f"x = {x:.0f} µm, y = {y:.0f} µm:  h = {film:.4g} nm,  p = {pressure:.3g} GPa"
+
+
+def _rise(shown: Shown, x: float, zeta: float) -> str:
+    section = shown.section
+    if section is None:
+        return ""
+    across = np.linspace(0.0, 1.0, len(section.rise))
+    rise = value_at(section.x, across, section.rise, x, zeta)
+    if rise is None:
+        return ""
+    return f"x = {x:.0f} µm, z/h = {zeta:.2f}:  {section.inlet + rise:.4g} °C, {rise:+.3g} K"
 
 
 class PicturePanel:

@@ -13,7 +13,7 @@ from nicegui import app, background_tasks, ui
 from starlette.responses import HTMLResponse
 
 from tehl.explore.case_text import CaseText
-from tehl.explore.files import Files, named_files
+from tehl.explore.files import LARGEST, Files, named_files
 
 ADDRESS = "127.0.0.1"
 USUAL_PORT = 8765
@@ -22,6 +22,9 @@ REFUSED = (
     "This address lacks the token of the running page. Open the address that `tehl explore` has "
     "printed in its terminal."
 )
+TOO_LARGE = f"An upload has at most {LARGEST // 10**6} MB: crop the map before."
+_AROUND = 100_000
+"""Bytes around the file in the request of an upload."""
 _POLICY = (
     "default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval'; "
     "style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; "
@@ -55,7 +58,10 @@ class Guard:
         }
         given = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
         if not self._may_pass(headers, given):
-            await self._refuse(scope, receive, send)
+            await _refuse(scope, receive, send, REFUSED, 403)
+            return
+        if scope["type"] == "http" and not _is_small(scope["method"], headers):
+            await _refuse(scope, receive, send, TOO_LARGE, 413)
             return
 
         async def send_with_headers(message: Any) -> None:
@@ -81,12 +87,22 @@ class Guard:
         words = f"{self.cookie}={self.token}; Path=/; HttpOnly; SameSite=Lax"
         return [(b"set-cookie", words.encode())]
 
-    async def _refuse(self, scope: Any, receive: Any, send: Any) -> None:
-        if scope["type"] == "websocket":
-            await send({"type": "websocket.close", "code": 1008})
-            return
-        page = f"<!doctype html><html lang=en><title>tehl explore</title><p>{REFUSED}</p></html>"
-        await HTMLResponse(page, status_code=403)(scope, receive, send)
+
+def _is_small(method: str, headers: dict[str, str]) -> bool:
+    """Return whether a request states a size, and one that an upload may have."""
+    if method in ("GET", "HEAD", "OPTIONS"):
+        return True
+    length = headers.get("content-length", "")
+    return length.isdecimal() and int(length) <= LARGEST + _AROUND
+
+
+async def _refuse(scope: Any, receive: Any, send: Any, words: str, code: int) -> None:
+    """Reply with a sentence."""
+    if scope["type"] == "websocket":
+        await send({"type": "websocket.close", "code": 1008})
+        return
+    page = f"<!doctype html><html lang=en><title>tehl explore</title><p>{words}</p></html>"
+    await HTMLResponse(page, status_code=code)(scope, receive, send)
 
 
 def serve(case: Path | None, text: str, port: int | None, *, browser: bool, report: Any) -> None:
@@ -112,10 +128,7 @@ def serve(case: Path | None, text: str, port: int | None, *, browser: bool, repo
         beside = None if case is None else case.resolve().parent
         stated = frozenset(name for _, name in named_files(opened.tables))
 
-        def files_of(owner: str) -> Files:
-            return Files(Path(folder) / owner, beside, stated)
-
-        page = Page(opened, files_of)
+        page = Page(opened, Files(Path(folder) / "uploads", beside, stated))
         app.add_middleware(Guard, token=token, port=taken)
         app.on_startup(page.start)
         app.on_shutdown(page.close)

@@ -7,7 +7,7 @@ import numpy as np
 from tehl.explore.numbers import Number, numbers
 from tehl.plots.frame import span_part, stretched, window, window_part
 from tehl.plots.interferogram import Optics, colours
-from tehl.post.film import profile_x, profile_y
+from tehl.post.film import hertz_pressure
 from tehl.report.explain import Explanation
 from tehl.result import Result
 from tehl.solution import Settings
@@ -19,6 +19,7 @@ _FINE = 480
 """Pixels along x of an interferogram."""
 
 Span = tuple[float, float]
+Line = tuple[Array, Array, Array, Array]
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -50,8 +51,8 @@ class Maps:
 class Lines:
     """Film and pressure on the centre lines."""
 
-    x: tuple[Array, Array, Array, Array]
-    y: tuple[Array, Array, Array, Array]
+    x: Line
+    y: Line
     """Place [um], film [nm], pressure and dry Hertz pressure [GPa]."""
 
 
@@ -157,18 +158,20 @@ def _minimum(result: Result, half: tuple[float, float]) -> tuple[tuple[float, fl
 
 
 def _lines(result: Result) -> Lines:
-    found = []
-    for profile, span in zip((profile_x(result), profile_y(result)), window(result), strict=True):
-        part = span_part(profile.scaled_coordinate, span)
-        found.append(
-            (
-                profile.coordinate[part] * 1e6,
-                _single(profile.film_thickness[part] * 1e9),
-                _single(profile.pressure[part] * 1e-9),
-                profile.hertz_pressure[part] * 1e-9,
-            )
-        )
-    return Lines(x=found[0], y=found[1])
+    """Return film and pressure on the grid lines nearest to y = 0 and x = 0."""
+    scaled, hertz = result.scaled, result.scales.hertz_pressure * 1e-9
+    row, column = (int(np.argmin(np.abs(axis))) for axis in (scaled.y, scaled.x))
+    film, pressure = result.film_thickness * 1e9, result.pressure * 1e-9
+    x, y = (span_part(*one) for one in zip((scaled.x, scaled.y), window(result), strict=True))
+
+    def line(place: Array, along: Array, fields: tuple[Array, Array]) -> Line:
+        dry = hertz * hertz_pressure(along, np.zeros(1))
+        return place * 1e6, _single(fields[0]), _single(fields[1]), dry
+
+    return Lines(
+        x=line(result.x[x], scaled.x[x], (film[row, x], pressure[row, x])),
+        y=line(result.y[y], scaled.y[y], (film[y, column], pressure[y, column])),
+    )
 
 
 def _section(result: Result) -> Section | None:

@@ -56,7 +56,8 @@ class StatusLine:
         tab, shown = self.tab, self.tab.shown
         self.stop.set_visibility(tab.is_busy and bool(tab.note))
         outcome = shown.outcome if shown is not None else None
-        failed = outcome is not None and not outcome.converged and not tab.is_busy
+        waits = tab.is_busy or tab.is_moving  # a coarse grid may fail where the fine one converges
+        failed = outcome is not None and not outcome.converged and not waits
         state = "busy" if tab.is_busy else "bad" if failed or tab.fault else "good"
         self.light.classes(replace=f"light {state}")
         self.words.set_text(self._sentence())

@@ -164,10 +164,12 @@ def _content(result: Result | TransientResult, kind: str) -> bytes:
         from tehl.report.page import report_text  # noqa: PLC0415 (loads matplotlib's 3-D axes)
 
         return report_text(result).encode("utf-8")
-    from tehl.plots import pictures_of  # noqa: PLC0415
+    from tehl.plots import INTERFEROGRAMS, pictures_of  # noqa: PLC0415
 
     name, _, ending = kind.partition(".")
     pictures = pictures_of(result)
+    if isinstance(result, Result):
+        pictures = pictures | INTERFEROGRAMS
     draw = pictures.get(name) or next(iter(pictures.values()))
     buffer = io.BytesIO()
     draw(result).savefig(buffer, format=ending, dpi=200)
