@@ -60,6 +60,9 @@ FREE_ORDERS = 4
 meniscus, and the meniscus with it."""
 ISOTHERMAL_CYCLES = 4
 """Cycles before damped heat begins."""
+FIRST_ORDER = 64
+"""Nodes along x below which grids of surfaces that may touch have a wedge of first order: they only
+provide the start, and thin films have no solution of second order there."""
 COARSE_NODES = 33
 """Least nodes along x of the coarse grid in the preconditioner of Newton's method."""
 DAMPED_MEMORY = 3
@@ -209,7 +212,11 @@ class GridIteration:
             return None
         grids = (level.grid for level in levels if level.grid.nx >= COARSE_NODES)
         coarse = next(grids, levels[-1].grid)
-        return TouchingNewton(levels[-1], coarse) if touches else Newton(levels[-1], coarse)
+        if not touches:
+            return Newton(levels[-1], coarse)
+        is_last = len(levels) == len(self.levels)
+        is_start = levels[-1].grid.nx < FIRST_ORDER and not is_last
+        return TouchingNewton(levels[-1], coarse, order=1 if is_start else 2, is_last=is_last)
 
     def _anderson(self, levels: Sequence[Level]) -> Anderson | None:
         """Return the acceleration of the cycles if the last of ``levels`` has heights."""

@@ -9,11 +9,15 @@ Which nodes touch follows from the sign of P_c - (H - H_c)/K_00 after each step 
 set; `Level.update`). The linear equations are those of `tehl.solver.touching_system`.
 """
 
+import warnings
 from collections.abc import Callable
 
 import numpy as np
+from scipy.sparse import csc_matrix
+from scipy.sparse.linalg import MatrixRankWarning, spsolve
 
 from tehl.grid import Grid
+from tehl.operators.jacobian import Neighbours, jacobian
 from tehl.solver.convergence import DivergedError
 from tehl.solver.level import Level
 from tehl.solver.newton import ACCURACY, EXACT
@@ -21,6 +25,7 @@ from tehl.solver.touching_system import (
     TouchingOperators,
     TouchingPreconditioner,
     TouchingSystem,
+    flux_difference,
 )
 from tehl.typing import Array, BoolArray
 
@@ -31,13 +36,14 @@ MEMORY = 5
 """Steps of which the largest residual must decrease."""
 SLOW = 40
 """Products of a step beyond which the next one factorises again."""
+CLOSE, LARGEST_CLOSING = 1e-6, 1e-4
+"""Residual below which the oil is balanced, and largest change of its pressure by that."""
 NEAR = 1e-2
 """Residual below which the orders of the fluxes are chosen after `FREE` more steps. From then on
 they are lowered only: else they may change with the contact, and the contact with them."""
 FREE = 2
 NEARLY = 1e-5
-"""Residual below which the linear equations are solved accurately: Newton's method then converges
-with second order."""
+"""Residual below which the linear equations are solved accurately."""
 MOST_STEPS, QUICK, SLUGGISH, FAILED = 14, 6, 10, 0.35
 """Most steps per increment of the heights, steps up to which the next one is larger and beyond
 which it is smaller, and the factor on one that failed."""
@@ -57,13 +63,18 @@ class TouchingNewton(TouchingOperators):
     order : {1, 2}
         Largest order of the fluxes of the wedge. At touching nodes and next to them it is one: the
         film has a kink there.
+    is_last : bool
+        Whether the level is that of the result: its oil is balanced.
     """
 
-    def __init__(self, level: Level, coarse: Grid, order: int = 2) -> None:
+    def __init__(
+        self, level: Level, coarse: Grid, *, order: int = 2, is_last: bool = False
+    ) -> None:
         super().__init__(level, coarse)
         self.factors: TouchingPreconditioner | None = None
         self.past: list[float] = []
         self.free_steps = FREE
+        self.is_last = is_last
         self.touched = level.touching.copy()  # in the step before
         self.set_order(order)
 
@@ -101,6 +112,8 @@ class TouchingNewton(TouchingOperators):
         part = self._search(system, change)
         if system.products > SLOW or part < 1.0:
             self.factors = None
+        if self.is_last and level.evaluate_residual() < CLOSE:
+            close_balance(level, self.neighbours)
         return part
 
     def residual(self) -> float:
@@ -146,6 +159,41 @@ class TouchingNewton(TouchingOperators):
         return part
 
 
+def close_balance(level: Level, neighbours: Neighbours) -> None:
+    """Solve the Reynolds equation of a level for the oil pressure, at the present film.
+
+    The last digits of the balance would take several more Newton steps, as these are inexact. The
+    change of the pressure is so small that the film keeps its value; where surfaces touch, the sum
+    of both pressures stays. Too large a change, in oil that is nearly incompressible, is not made.
+    """
+    film, before = level.film, level.state()
+    for _ in range(2):
+        level.evaluate_residual()
+        free = (film.p > 0.0) & (neighbours.here.diagonal() > 0.0).reshape(film.p.shape)
+        by_pressure, _ = jacobian(
+            film,
+            level.stencil,
+            neighbours._replace(upstream=flux_difference(level)),
+            *level.conductance_slopes(),
+        )
+        nodes = np.nonzero(free.ravel())[0]
+        matrix = csc_matrix(by_pressure[nodes][:, nodes])
+        change: Array = np.zeros(film.p.size)
+        with warnings.catch_warnings(action="ignore", category=MatrixRankWarning):
+            change[nodes] = spsolve(matrix, level.residual.ravel()[nodes])
+        moved = film.p + change.reshape(film.p.shape)
+        if not np.abs(change).max() < LARGEST_CLOSING:
+            film.p[:], film.asperity[:] = before[0], before[2]
+            level.update_properties()
+            return
+        moved = np.maximum(moved, 0.0)
+        film.asperity[:] = np.where(
+            level.touching, np.maximum(film.asperity - (moved - film.p), 0.0), film.asperity
+        )
+        film.p[:] = moved
+        level.update_properties()
+
+
 def with_neighbours(marked: BoolArray) -> BoolArray:
     """Return marked nodes and their neighbours along x."""
     near = marked.copy()
@@ -162,6 +210,7 @@ def raise_heights(level: Level, newton: TouchingNewton, iterate: Callable[[], fl
 
     Raises DivergedError when the smallest increment does not converge.
     """
+    order = newton.order
     newton.set_order(1)
     _solve_increment(newton, iterate)
     part, size, known = 0.0, FIRST_PART, level.state()
@@ -178,7 +227,7 @@ def raise_heights(level: Level, newton: TouchingNewton, iterate: Callable[[], fl
             size *= 1.6 if steps <= QUICK else 0.8 if steps > SLUGGISH else 1.0
         if size < LEAST_PART:
             raise DivergedError
-    newton.set_order(2)
+    newton.set_order(order)
 
 
 def _solve_increment(newton: TouchingNewton, iterate: Callable[[], float]) -> int | None:
