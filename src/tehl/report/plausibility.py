@@ -318,10 +318,10 @@ def _about_heights(scaled: ScaledProblem, options: Options, found: Asperities) -
             "ones, check the units of height and length"
         )
     if film < found.composite:
-        yield (
-            f"the film is {film / found.composite:.2g} times Sq: asperities may touch, and the "
-            "result shows where there is no film"
-        )
+        what = "the result shows where there is no film"
+        if scaled.problem.contact_film is not None:
+            what = "a share of the load needs patches of 8 cells"
+        yield f"the film is {film / found.composite:.2g} times Sq: asperities may touch, and {what}"
     pressures = (t.elastic_pressure if t.pressure is None else t.pressure for _, t in found.waves)
     largest = max(pressures, default=0.0)
     if largest > pressure:
