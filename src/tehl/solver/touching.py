@@ -36,7 +36,7 @@ MEMORY = 5
 """Steps of which the largest residual must decrease."""
 SLOW = 40
 """Products of a step beyond which the next one factorises again."""
-CLOSE, LARGEST_CLOSING = 1e-6, 1e-4
+CLOSE, LARGEST_CLOSING = 1e-7, 1e-4
 """Residual below which the oil is balanced, and largest change of its pressure by that."""
 NEAR = 1e-2
 """Residual below which the orders of the fluxes are chosen after `FREE` more steps. From then on
@@ -75,6 +75,7 @@ class TouchingNewton(TouchingOperators):
         self.past: list[float] = []
         self.free_steps = FREE
         self.is_last = is_last
+        self.is_balanced = False  # solved: a further step would only perturb the balance
         self.touched = level.touching.copy()  # in the step before
         self.set_order(order)
 
@@ -94,6 +95,8 @@ class TouchingNewton(TouchingOperators):
         Raises DivergedError when the linear equations have no finite solution.
         """
         level = self.level
+        if self.is_balanced:
+            return 1.0
         level.update()
         if self.free_steps > 0:
             self._choose_orders()
@@ -113,7 +116,7 @@ class TouchingNewton(TouchingOperators):
         if system.products > SLOW or part < 1.0:
             self.factors = None
         if self.is_last and level.evaluate_residual() < CLOSE:
-            close_balance(level, self.neighbours)
+            self.is_balanced = close_balance(level, self.neighbours)
         return part
 
     def residual(self) -> float:
@@ -159,8 +162,10 @@ class TouchingNewton(TouchingOperators):
         return part
 
 
-def close_balance(level: Level, neighbours: Neighbours) -> None:
+def close_balance(level: Level, neighbours: Neighbours) -> bool:
     """Solve the Reynolds equation of a level for the oil pressure, at the present film.
+
+    Return whether it did.
 
     The last digits of the balance would take several more Newton steps, as these are inexact. The
     change of the pressure is so small that the film keeps its value; where surfaces touch, the sum
@@ -185,13 +190,14 @@ def close_balance(level: Level, neighbours: Neighbours) -> None:
         if not np.abs(change).max() < LARGEST_CLOSING:
             film.p[:], film.asperity[:] = before[0], before[2]
             level.update_properties()
-            return
+            return False
         moved = np.maximum(moved, 0.0)
         film.asperity[:] = np.where(
             level.touching, np.maximum(film.asperity - (moved - film.p), 0.0), film.asperity
         )
         film.p[:] = moved
         level.update_properties()
+    return True
 
 
 def with_neighbours(marked: BoolArray) -> BoolArray:
