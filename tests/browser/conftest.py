@@ -14,7 +14,7 @@ from tests.browser.chromium import ARGUMENTS, SOLID, executable
 pytest.importorskip("nicegui", reason="needs pip install 'tehl[explore]'")
 api = pytest.importorskip("playwright.sync_api", reason="needs pip install playwright")
 
-PATIENCE = 30_000
+PATIENCE = 60_000
 """Milliseconds for what is expected; a busy machine is slow."""
 
 
@@ -134,7 +134,7 @@ def type_into(page, name, words):
     entry.press("Enter")
 
 
-def until(condition, seconds=30.0):
+def until(condition, seconds=60.0):
     """Wait until a condition holds."""
     deadline = time.monotonic() + seconds
     while not condition():

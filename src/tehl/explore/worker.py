@@ -117,17 +117,19 @@ class Solver:
     # ---- in the thread
 
     def _work(self) -> None:
+        with suppress(OSError):  # so that the first job finds it compiled; it is tried again then
+            self._alive()
         while not self._closed:
-            try:
-                worker = self._alive()
-            except OSError as error:
-                self._fail_all(str(error))
-                return
             request = self._next()
-            if request is not None:
-                self._perform(request, worker)
-                with self._changed:
-                    self._running = None
+            if request is None:
+                return
+            try:
+                self._perform(request, self._alive())
+            except OSError as error:  # no process can be started
+                self._pass_on(request, Failure(str(error)))
+                self._pass_on(request, End())
+            with self._changed:
+                self._running = None
 
     def _alive(self) -> WorkerProcess:
         """Return the process, started again if it has ended."""
@@ -169,10 +171,3 @@ class Solver:
     def _pass_on(self, request: Request, message: Any) -> None:
         with suppress(RuntimeError):  # the loop has ended
             self._loop.call_soon_threadsafe(request.receive, message)
-
-    def _fail_all(self, reason: str) -> None:
-        with self._changed:
-            waiting, self._waiting = list(self._waiting.values()), OrderedDict()
-        for request in waiting:
-            self._pass_on(request, Failure(reason))
-            self._pass_on(request, End())
