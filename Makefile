@@ -37,8 +37,8 @@ demo: $(RUN)  ## a ball on a disc: case, explanation, solution and pictures in o
 	$(BIN)/tehl solve $(DEMO)/case.toml -o $(DEMO)/result.nc --plot $(DEMO)
 	@echo "The pictures are in $(DEMO)."
 
-test: $(DEV)  ## the tests that run each time
-	$(BIN)/python -m pytest -m "not slow" --ignore tests/browser
+test: $(DEV)  ## the tests that run each time, on all cores
+	$(BIN)/python -m pytest -m "not slow" --ignore tests/browser --numprocesses auto --maxprocesses 8 --dist loadfile
 
 test-browser: $(DEV)  ## the live page in chromium, which must be installed
 	$(BIN)/python -m pytest tests/browser
