@@ -161,8 +161,7 @@ def _solved(study: Study, folder: Path, workers: int, job: StudyJob) -> Outcome:
         else:
             check_same(plan, folder)  # again, now that the folder is locked
         is_new = save_plan(plan, folder)
-        if plan.pictures:
-            Thread(target=_load_plots, daemon=True).start()
+        Thread(target=_load_late, args=(bool(plan.pictures),), daemon=True).start()
         try:
             with study_progress(quiet=job.quiet) as monitor:
                 return solve(
@@ -185,15 +184,17 @@ def _solved(study: Study, folder: Path, workers: int, job: StudyJob) -> Outcome:
             raise
 
 
-def _load_plots() -> None:
-    """Load what draws the pictures while the workers start; an error there is one of the picture.
+def _load_late(pictures: bool) -> None:
+    """Load what writes the table and the pictures while the workers start.
 
-    Signals are those of the main thread.
+    An error there is one of the table or the picture. Signals are those of the main thread.
     """
     if sys.platform != "win32":
         signal.pthread_sigmask(signal.SIG_BLOCK, signal.valid_signals())
-    with suppress(ImportError):
-        import_module("tehl.plots.table_curves")
+    names = ["tehl.studies.frame", *(["tehl.plots.table_curves"] if pictures else [])]
+    for name in names:
+        with suppress(ImportError):
+            import_module(name)
 
 
 def _check_resources(
