@@ -15,12 +15,14 @@ no products.
 """
 
 import warnings
-from functools import partial
+from contextlib import AbstractContextManager
+from functools import cache, partial
 
 import numpy as np
 from scipy.linalg import LinAlgWarning, lu_factor, lu_solve
 from scipy.sparse import csc_matrix, csr_matrix
 from scipy.sparse.linalg import LinearOperator, gcrotmk, splu
+from threadpoolctl import ThreadpoolController
 
 from tehl.grid import Grid
 from tehl.kernels import reynolds
@@ -43,6 +45,20 @@ DESCENT, SHORTEST = 0.1, 0.02
 """Sufficient over predicted decrease of the residual, and shortest step of the line search."""
 ROUNDING = 1e-8
 """Residual that no step can reduce further."""
+
+
+@cache
+def _libraries() -> ThreadpoolController:
+    return ThreadpoolController()
+
+
+def one_thread() -> AbstractContextManager[object]:
+    """Return a context in which BLAS has one thread.
+
+    Sums over vectors of a Krylov method are too short for more: on a machine that is busy the
+    threads wait for each other, and a solve takes up to eight times as long.
+    """
+    return _libraries().limit(limits=1, user_api="blas")
 
 
 class Newton:
@@ -76,12 +92,13 @@ class Newton:
         """
         self.level.update()
         system, old = System(self), self.preconditioner
-        try:
-            part = self._damped_step(system, ACCURACY)
-        except DivergedError:  # an inaccurate solution need not reduce the residual
-            if self.preconditioner is old:
-                self.preconditioner = None
-            part = self._damped_step(system, EXACT)
+        with one_thread():
+            try:
+                part = self._damped_step(system, ACCURACY)
+            except DivergedError:  # an inaccurate solution need not reduce the residual
+                if self.preconditioner is old:
+                    self.preconditioner = None
+                part = self._damped_step(system, EXACT)
         if system.products > SLOW or part < 1.0:
             self.preconditioner = None
         return part

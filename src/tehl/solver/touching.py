@@ -20,7 +20,7 @@ from tehl.grid import Grid
 from tehl.operators.jacobian import Neighbours, jacobian
 from tehl.solver.convergence import DivergedError
 from tehl.solver.level import Level
-from tehl.solver.newton import ACCURACY, EXACT
+from tehl.solver.newton import ACCURACY, EXACT, one_thread
 from tehl.solver.touching_system import (
     TouchingOperators,
     TouchingPreconditioner,
@@ -106,10 +106,11 @@ class TouchingNewton(TouchingOperators):
         old = self.factors
         try:
             accuracy = EXACT if self.residual() < NEARLY else ACCURACY
-            change, is_solved = self._solve(system, accuracy)
-            if not is_solved and old is not None:
-                self.factors = None
-                change, _ = self._solve(system, accuracy)
+            with one_thread():
+                change, is_solved = self._solve(system, accuracy)
+                if not is_solved and old is not None:
+                    self.factors = None
+                    change, _ = self._solve(system, accuracy)
         except (RuntimeError, ValueError) as error:  # singular or not finite
             raise DivergedError from error
         part = self._search(system, change)
