@@ -243,7 +243,6 @@ def check_contact_film(problem: PointContact) -> None:
         "asperities": problem.asperities is not None,
         "supply": problem.supply is not None,
         "cavitation": problem.conserves_oil,
-        "transient": problem.transient is not None,
         "thermal": problem.thermal is not None,
         "lubricant.shear": not problem.lubricant.shear.is_newtonian,
     }
@@ -251,7 +250,7 @@ def check_contact_film(problem: PointContact) -> None:
         if is_stated:
             raise ValueError(
                 f"contact_film and {name} exclude each other: contact through a boundary film is "
-                "computed in steady, isothermal, Newtonian, fully flooded films with the heights "
+                "computed in isothermal, Newtonian, fully flooded films with the heights "
                 f"of the surfaces; leave out contact_film or {name}"
             )
 

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 
+from tehl.post.touching import largest_patches
 from tehl.result import Result
 from tehl.saved import Saved
 from tehl.solution import Cost, Estimate, Provenance, Status
@@ -43,11 +44,12 @@ class History:
     film_minimum: Array
     """Film at the centre, and the least between the nodes, as of a steady film [m]."""
     pressure_max: Array
-    """Largest pressure [Pa]."""
+    """Largest pressure of the oil; of oil and contact together if there is a boundary film [Pa]."""
     traction: Array
-    """Mid-film traction coefficient, over the load at that time [-]."""
+    """Mid-film traction coefficient of the film, over the load at that time [-]."""
     asperity_load: Array
-    """Load on asperities finer than the grid, over the load at that time [-]; zero without."""
+    """Load on asperities finer than the grid, or where surfaces touch through a boundary film, over
+    the load at that time [-]; zero without."""
     rigid_approach: Array
     """H00 [-]."""
     temperature_rise: Array
@@ -79,7 +81,8 @@ class Frames:
     pressure: SingleArray
     film: SingleArray
     height: SingleArray
-    """[Pa], [m] and the heights of both surfaces together [m]."""
+    """[Pa], with that of the contact if there is a boundary film; [m]; and the heights of both
+    surfaces together [m]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -121,6 +124,17 @@ class TransientResult(Saved):
     heated or thins and slides."""
     bars: HistoryBars | None = None
     """Error bars along the history of a certified run."""
+
+    @property
+    def patch_cells(self) -> float:
+        """Largest mean diameter of patches of contact in the frames [mesh widths].
+
+        Zero where surfaces do not touch through a boundary film in any of them.
+        """
+        film, frames = self.start.problem.contact_film, self.frames
+        return (
+            0.0 if film is None else largest_patches(film.thickness, frames.film, frames.pressure)
+        )
 
     @property
     def x(self) -> Array:

@@ -7,9 +7,11 @@ import pytest
 
 from tehl.cli.text import as_text
 from tehl.errors import InputError
+from tehl.film_formulas import expected_central_film
 from tehl.io.case import case_from_tables
 from tehl.io.store import load, save
 from tehl.io.summary import summary
+from tehl.kernels import reynolds
 from tehl.operators.deformation import FftDeformation, FftFlattening
 from tehl.options import Domain, Options
 from tehl.plots import contact_map, pictures_of
@@ -17,11 +19,14 @@ from tehl.problem import ContactProblem
 from tehl.report.page import report_text
 from tehl.result import Result
 from tehl.scaling import ScaledProblem, scales
-from tehl.solver import solve
+from tehl.solver import solve, solve_transient
 from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.relaxation import BESIDE_NEWTON
 from tehl.solver.steady import finest_grid
 from tehl.solver.touching import TouchingNewton
+from tehl.solver.transient.snapshot import Snapshot, pack, unpack
+from tehl.solver.transient.step import Stepper
+from tehl.transient_result import TransientResult
 from tests.cases import ball_tables
 from tests.reference import moes_contact
 from tests.solver.rough import bumpy, with_roughness
@@ -195,7 +200,6 @@ def test_a_contact_without_boundary_film_has_no_map_of_contact():
         ({"contact_film": {"thickness": "5 mm"}}, "contact_film.thickness = 0.005 m"),
         ({"contact_film": {"thickness": "-5 nm"}}, "contact_film.thickness"),
         ({"contact_film": {"thickness": "5 nm"}, "supply": {"ratio": 1.0}}, "supply"),
-        ({"contact_film": {"thickness": "5 nm"}, "transient": {"duration": "1 s"}}, "transient"),
     ],
 )
 def test_mistakes_are_one_sentence(tables: dict, message: str):
@@ -213,3 +217,98 @@ def test_flattening_inverts_the_deflection_of_a_patch():
     FftFlattening(grid, scaled.groups).deflect(film, back)
     inside = np.broadcast_to(x**2 + y**2 < 0.5, grid.shape)
     assert back[inside] == pytest.approx(pressure[inside], abs=0.1)
+
+
+def moving(height: float, film: float, *, slides: float, **transient: object) -> ContactProblem:
+    """Return a bump that moves, M = 20, L = 5, in film thicknesses of the smooth contact.
+
+    From upstream of the contact if it starts from the smooth film.
+    """
+    smooth = moes_contact(20.0, 5.0)
+    found, units = expected_central_film(ScaledProblem.of(smooth).groups), scales(smooth)
+    tables = bumpy((20.0, 5.0), height * found, 0.3).model_dump(exclude_none=True)
+    tables["contact"]["slide_roll_ratio"] = slides
+    tables["contact_film"] = {"thickness": film * found * units.film_thickness}
+    if "start" not in transient:
+        tables["surface_1"]["roughness"]["x"] = -2.4 * units.half_width_x
+    moved = transient.pop("moved") * units.half_width_x / units.speed
+    tables["transient"] = {"duration": moved, **transient}
+    return ContactProblem.model_validate(tables)
+
+
+def test_a_steady_contact_stays_as_it_is_in_time():
+    problem = moving(1.5, 0.8, slides=-2.0, moved=0.5, start="standing", tolerance=1e-6)
+    run = solve_transient(problem, Options(points=49))
+    assert run.status.converged
+    assert run.history.asperity_load[0] > 0.05
+    for numbers in (run.history.asperity_load, run.history.film_central, run.history.pressure_max):
+        assert np.ptp(numbers) < 1e-5 * numbers[0]
+
+
+@pytest.fixture(scope="module")
+def passing() -> tuple[TransientResult, list[Snapshot]]:
+    """Return a bump that touches as it passes a rolling contact, and its snapshots."""
+    kept: list[Snapshot] = []
+    problem = moving(2.5, 0.4, slides=0.0, moved=3.6, frames=5)
+    return solve_transient(
+        problem, Options(points=49), keep=lambda one: kept.append(one.copy())
+    ), kept
+
+
+def test_a_bump_that_passes_touches_in_the_contact_and_not_before(passing):
+    run, kept = passing
+    least, share = run.start.problem.contact_film.thickness, run.history.asperity_load
+    assert run.status.converged
+    assert share[0] == 0.0
+    assert 0.05 < share.max() < 0.5
+    assert share[-1] < 0.5 * share.max()
+    # in the middle of the contact, where the bump is after 2.4 half-widths
+    middle = 2.4 / 3.6 * run.history.time[-1]
+    assert run.history.time[share.argmax()] == pytest.approx(middle, rel=0.2)
+    assert run.frames.film.min() >= least * (1.0 - 1e-6)
+    assert all((one.fields["asperity"] >= 0.0).all() for one in kept)
+    assert run.history.pressure_max.max() > 1.5 * run.history.pressure_max[0]
+    text = as_text(run)
+    assert "surfaces touch in" in text
+    assert "8 are needed" in text  # of a bump on 49 nodes no share is stated
+    assert summary(run)["asperity_load"]["value"] == pytest.approx(share.max())
+
+
+def test_a_run_with_contact_continues_bit_by_bit(passing):
+    run, kept = passing
+    middle = next(one for one in kept if one.record.rows[-1][0] > 0.5 * run.history.time[-1])
+    again = solve_transient(run.start.problem, Options(points=49), resume=unpack(pack(middle)))
+    assert (again.history.film_minimum == run.history.film_minimum).all()
+    assert (again.frames.pressure == run.frames.pressure).all()
+
+
+def test_each_section_conserves_oil_while_surfaces_touch(monkeypatch):
+    errors, touching, advance = [], [], Stepper.step
+
+    def step(self, heights, load):
+        end = advance(self, heights, load)
+        level, flow = self.solver.finest, np.empty(self.now.shape)
+        film, weight = level.film, level.stencil.w0
+        reynolds.operator(film, level.stencil, flow)  # pressure flow less weight * rho H
+        held = weight * (film.rho * film.h - self.now)
+        missing = np.where(film.p > 0.0, flow + held + level.sources.history, 0.0)[:-1, 1:-1]
+        missing[0] *= 0.5  # on the symmetry line
+        errors.append(np.abs(missing.sum(axis=0) / (weight * self.now.sum(axis=0)[1:-1])).max())
+        touching.append(int(level.touching.sum()))
+        return end
+
+    monkeypatch.setattr(Stepper, "step", step)
+    problem = moving(2.5, 0.4, slides=0.5, moved=2.4, frames=0, tolerance=1e-9, max_cycles=40)
+    assert solve_transient(problem, Options(points=49)).status.converged
+    assert max(touching) > 3
+    assert max(errors) < 1e-8
+
+
+def test_where_nothing_touches_steps_are_those_of_the_cycles():
+    problem = moving(0.5, 0.02, slides=0.5, moved=2.6, tolerance=1e-6)
+    plain = problem.model_copy(update={"contact_film": None})
+    one, other = (solve_transient(each, Options(points=49)) for each in (problem, plain))
+    assert not one.history.asperity_load.any()
+    assert one.history.film_minimum == pytest.approx(other.history.film_minimum, rel=2e-4)
+    assert one.history.pressure_max == pytest.approx(other.history.pressure_max, rel=2e-4)
+    assert "needs no contact" in as_text(one)

@@ -344,7 +344,7 @@ def _transient(run: TransientResult) -> Block:
         "temperature": None if run.start.heat is None else {"film_rise_max_k": rise},
         "traction": _range(history.traction),
         "asperity_load": None
-        if run.start.asperities is None
+        if run.start.asperities is None and run.start.problem.contact_film is None
         else _extreme(history.asperity_load, times, np.argmax),
         "load_factor": _range(history.load),
         "cycles": {"per_step": cycles.mean(), "most": cycles.max(), "total": cycles.sum()},

@@ -13,7 +13,7 @@ import numpy as np
 
 from tehl.post.traction import LARGEST_CREDIBLE, cell_widths
 from tehl.solution import Solution
-from tehl.typing import Array, BoolArray
+from tehl.typing import Array, BoolArray, IntArray, SingleArray
 
 MARGIN = 0.05
 """Film above the boundary film, over it, up to which surfaces count as touching."""
@@ -130,6 +130,29 @@ def touching_nodes(result: Solution) -> BoolArray:
     return np.asarray(result.film_thickness <= (1.0 + MARGIN) * film.thickness)
 
 
+def largest_patches(least: float, films: SingleArray, pressures: SingleArray) -> float:
+    """Return the largest mean diameter of patches of contact in some fields [mesh widths].
+
+    Parameters
+    ----------
+    least : float
+        Thickness of the boundary film [m].
+    films, pressures : array, (n, ny, nx)
+        Thickness [m] and pressure [Pa].
+
+    Returns
+    -------
+    float
+        Zero where nothing touches.
+    """
+    cells = 0.0
+    for film, pressure in zip(films, pressures, strict=True):
+        meet = film <= (1.0 + MARGIN) * least
+        if meet.any():
+            cells = max(cells, _diameters(meet, pressure)[-1])
+    return cells
+
+
 def _film_friction(result: Solution, cells: Array, meet: BoolArray) -> float | None:
     if result.shear is None:
         return None
@@ -139,21 +162,27 @@ def _film_friction(result: Solution, cells: Array, meet: BoolArray) -> float | N
 
 
 def _patches(result: Solution, meet: BoolArray, loads: Array, both: Array) -> Patches | None:
-    from scipy.ndimage import label  # noqa: PLC0415 (0.1 s, for contacts that touch only)
-
     if not meet.any():
         return None
-    labels, number = label(meet)
-    nodes = np.bincount(labels.ravel())[1:]
-    carried = np.bincount(labels.ravel(), weights=loads.ravel())[1:]
-    across = 2.0 * np.sqrt(nodes / math.pi)
+    nodes, cells = _diameters(meet, loads)
     cell = float(result.x[1] - result.x[0]) * float(result.y[1] - result.y[0])
-    weights = carried if carried.sum() > 0.0 else np.ones(number)
     return Patches(
-        number=int(number),
+        number=nodes.size,
         area_mean=float(nodes.mean()) * cell,
         area_largest=float(nodes.max()) * cell,
         pressure_mean=float(both[meet].mean()),
         pressure_max=float(both[meet].max()),
-        cells=float((weights * across).sum() / weights.sum()),
+        cells=cells,
     )
+
+
+def _diameters(meet: BoolArray, loads: Array) -> tuple[IntArray, float]:
+    """Return the nodes of each patch, and the mean diameter weighted by load [mesh widths]."""
+    from scipy.ndimage import label  # noqa: PLC0415 (0.1 s, for contacts that touch only)
+
+    labels, number = label(meet)
+    nodes = np.bincount(labels.ravel())[1:]
+    carried = np.bincount(labels.ravel(), weights=loads.ravel())[1:]
+    across = 2.0 * np.sqrt(nodes / math.pi)
+    weights = carried if carried.sum() > 0.0 else np.ones(number)
+    return nodes, float((weights * across).sum() / weights.sum())

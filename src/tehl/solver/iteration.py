@@ -6,6 +6,7 @@ from itertools import count
 
 import numpy as np
 
+from tehl.grid import Grid
 from tehl.kernels.reynolds import STEADILY
 from tehl.operators.heights import Heights
 from tehl.solution import CycleReport
@@ -36,7 +37,7 @@ from tehl.solver.monitor import Monitor
 from tehl.solver.newton import Newton
 from tehl.solver.outputs import contact_balance, oil_balance
 from tehl.solver.thermal import Coupling
-from tehl.solver.touching import TouchingNewton, raise_heights
+from tehl.solver.touching import CLOSE, TIGHTLY, TouchingNewton, raise_heights
 from tehl.typing import Array
 
 MOST_CYCLES = 4
@@ -210,13 +211,16 @@ class GridIteration:
         touches = levels[-1].equations.contact_film is not None
         if not (touches or (self.strategy.newton and self.roughness.is_on(levels))):
             return None
-        grids = (level.grid for level in levels if level.grid.nx >= COARSE_NODES)
-        coarse = next(grids, levels[-1].grid)
+        coarse = coarse_grid(levels)
         if not touches:
             return Newton(levels[-1], coarse)
         is_last = len(levels) == len(self.levels)
         is_start = levels[-1].grid.nx < FIRST_ORDER and not is_last
-        return TouchingNewton(levels[-1], coarse, order=1 if is_start else 2, is_last=is_last)
+        tight = self.options.accuracy == "tight"
+        closing = TIGHTLY * self.options.tolerance if tight else CLOSE
+        return TouchingNewton(
+            levels[-1], coarse, order=1 if is_start else 2, closing=closing if is_last else 0.0
+        )
 
     def _anderson(self, levels: Sequence[Level]) -> Anderson | None:
         """Return the acceleration of the cycles if the last of ``levels`` has heights."""
@@ -302,6 +306,11 @@ class GridIteration:
         )
         check_divergence(report, self.hierarchy.expected_film, rough=self.roughness.is_rough)
         return report
+
+
+def coarse_grid(levels: Sequence[Level]) -> Grid:
+    """Return the grid of the coarse correction of Newton's method on the last of ``levels``."""
+    return next((one.grid for one in levels if one.grid.nx >= COARSE_NODES), levels[-1].grid)
 
 
 def _most_steps(newton: Newton | None) -> int:

@@ -109,8 +109,9 @@ class Level:
         """The same by fluxes through the faces of cells where surfaces may touch.
 
         The order of each flux is then chosen by `Film.second`, and oil is conserved all the same.
+        In a time step there are none: what moves with the film stays in it.
         """
-        if self.equations.contact_film is None:
+        if self.equations.contact_film is None or self.stencil.w1 == 0.0:
             return self.stencil
         return self.stencil._replace(conserves=reynolds.STEADILY)
 

@@ -40,10 +40,8 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
         "pressure_max": float(pressure.max()),
         **_spike(level),
     }
-    if level.equations.asperities is not None:
-        found["load_share"] = level.asperity_load()
-    if least is not None:
-        found["load_share"] = touching_load(level, least)
+    if least is not None or level.equations.asperities is not None:
+        found["load_share"] = shared_load(level)
     if level.heights is not None:
         ripple_film, ripple_pressure = ripples(level.grid.x, level.grid.y, level.film.h, pressure)
         found |= {"ripple_film": ripple_film, "ripple_pressure": ripple_pressure}
@@ -57,8 +55,14 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
     return found
 
 
-def touching_load(level: Level, least: float) -> float:
-    """Return the load where the film exceeds the boundary film by at most `MARGIN`, over all."""
+def shared_load(level: Level) -> float:
+    """Return the load on asperities below the mesh, or where surfaces touch, over all [-].
+
+    They touch where the film exceeds the boundary film by at most `MARGIN`.
+    """
+    least = level.equations.contact_film
+    if least is None:
+        return level.asperity_load()
     meets = level.film.h <= (1.0 + MARGIN) * least
     return level.equations.load.integral(np.where(meets, level.pressure, 0.0)) / level.sources.load
 
@@ -76,6 +80,8 @@ def mid_film_traction(
 ) -> float:
     """Return the mid-film traction coefficient, the integral of the stress over the load [-].
 
+    That of the film: nodes where surfaces touch through a boundary film are left out.
+
     Parameters
     ----------
     level, scaled : Level, ScaledProblem
@@ -87,6 +93,7 @@ def mid_film_traction(
     """
     stress = newtonian_sliding(level, scaled) if state is None else state.view("tau_x").T
     wet, scales = np.where(level.film.p > 0.0, stress, 0.0), scaled.scales
+    wet[level.film.h <= (1.0 + MARGIN) * (level.equations.contact_film or 0.0)] = 0.0
     area = scales.half_width_x * scales.half_width_y
     unit = stress_unit(scales) * area / (scales.load * load)
     return level.equations.load.integral(wet) * unit

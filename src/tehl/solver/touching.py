@@ -36,12 +36,15 @@ MEMORY = 5
 """Steps of which the largest residual must decrease."""
 SLOW = 40
 """Products of a step beyond which the next one factorises again."""
-CLOSE, LARGEST_CLOSING = 1e-7, 1e-4
-"""Residual below which the oil is balanced, and largest change of its pressure by that."""
+CLOSE, TIGHTLY, LARGEST_CLOSING = 1e-7, 1e-5, 1e-4
+"""Residual below which the oil is balanced; the same over the tolerance of a tight solve, as the
+pressure, and with it the load, moves by a thousand residuals; and its largest change by that."""
 NEAR = 1e-2
 """Residual below which the orders of the fluxes are chosen after `FREE` more steps. From then on
 they are lowered only: else they may change with the contact, and the contact with them."""
 FREE = 2
+OPENING = 1e-4
+"""Residual below which oil may exceed the sum of both pressures at a node, which then opens."""
 NEARLY = 1e-5
 """Residual below which the linear equations are solved accurately."""
 MOST_STEPS, QUICK, SLUGGISH, FAILED = 14, 6, 10, 0.35
@@ -63,18 +66,16 @@ class TouchingNewton(TouchingOperators):
     order : {1, 2}
         Largest order of the fluxes of the wedge. At touching nodes and next to them it is one: the
         film has a kink there.
-    is_last : bool
-        Whether the level is that of the result: its oil is balanced.
+    closing : float
+        Residual below which the oil is balanced; zero on a level that is not that of the result.
     """
 
-    def __init__(
-        self, level: Level, coarse: Grid, *, order: int = 2, is_last: bool = False
-    ) -> None:
+    def __init__(self, level: Level, coarse: Grid, *, order: int = 2, closing: float = 0.0) -> None:
         super().__init__(level, coarse)
         self.factors: TouchingPreconditioner | None = None
         self.past: list[float] = []
         self.free_steps = FREE
-        self.is_last = is_last
+        self.closing = closing
         self.is_balanced = False  # solved: a further step would only perturb the balance
         self.touched = level.touching.copy()  # in the step before
         self.set_order(order)
@@ -116,7 +117,7 @@ class TouchingNewton(TouchingOperators):
         part = self._search(system, change)
         if system.products > SLOW or part < 1.0:
             self.factors = None
-        if self.is_last and level.evaluate_residual() < CLOSE:
+        if self.residual() < self.closing:
             self.is_balanced = close_balance(level, self.neighbours)
         return part
 
@@ -150,9 +151,9 @@ class TouchingNewton(TouchingOperators):
         if not np.isfinite(change).all():
             raise DivergedError
         self.past = [*self.past, self.residual()][-MEMORY:]
-        part, largest = 1.0, max(self.past)
+        part, largest, opens = 1.0, max(self.past), self.past[-1] < OPENING
         while True:
-            level.set_state(*system.stepped(before, change, part))
+            level.set_state(*system.stepped(before, change, part, opens=opens))
             level.update()
             found = self.residual()
             if found < (1.0 - SUFFICIENT * part) * largest or part < SHORTEST:

@@ -21,7 +21,7 @@ from scipy.sparse.linalg import LinearOperator, gcrotmk, splu
 from tehl.grid import Grid
 from tehl.kernels import reynolds
 from tehl.operators.deformation import FftFlattening
-from tehl.operators.jacobian import jacobian, neighbour, rows
+from tehl.operators.jacobian import Neighbours, jacobian, neighbour, rows
 from tehl.solver.level import Level
 from tehl.solver.newton import ROUNDS, VECTORS, Newton
 from tehl.typing import Array, BoolArray
@@ -41,6 +41,12 @@ class TouchingOperators(Newton):
         self.flattening = FftFlattening(level.grid, level.equations.groups)
         self.close_influence = close_influence(level)
 
+    def transport(self, level: Level) -> Neighbours:
+        """Return the neighbours with the wedge of a level: by fluxes, or that of a time step."""
+        if not level.balance.conserves:
+            return self.neighbours
+        return self.neighbours._replace(upstream=flux_difference(level))
+
 
 class TouchingSystem:
     """The linear equations of one step, each scaled by the sum of its coefficients.
@@ -59,11 +65,10 @@ class TouchingSystem:
         np.subtract(level.sources.reynolds, rest, out=rest)
         inner = operators.neighbours.here.diagonal() > 0.0
         self.free: BoolArray = inner & ((film.p > 0.0) | (rest < 0.0)).ravel()
-        upstream = flux_difference(level)
         by_pressure, by_film = jacobian(
             film,
             level.stencil,
-            operators.neighbours._replace(upstream=upstream),
+            operators.transport(level),
             *level.conductance_slopes(),
         )
         by_film = csr_matrix(by_film @ rows((~self.touching).astype(float)))
@@ -132,7 +137,7 @@ class TouchingSystem:
         return np.asarray(change), missed == 0
 
     def stepped(
-        self, before: tuple[Array, float, Array], change: Array, part: float
+        self, before: tuple[Array, float, Array], change: Array, part: float, *, opens: bool
     ) -> tuple[Array, float, Array]:
         """Return oil pressure, rigid approach and contact pressure after ``part`` of a change.
 
@@ -147,9 +152,10 @@ class TouchingSystem:
         step = part * np.clip(u, -LARGEST_STEP, LARGEST_STEP)
         total = np.maximum(oil + contact + part * np.clip(v, -LARGEST_STEP, LARGEST_STEP), 0.0)
         inside = np.where(u < 0.0, self._by_density(oil, part * u, step), oil + step)
-        inside = np.minimum(inside, total)
+        if not opens:
+            inside = np.minimum(inside, total)
         pressure = np.where(touching, inside, np.maximum(oil + step, 0.0))
-        opened = np.maximum((1.0 - part) * contact, 0.0)
+        opened = (1.0 - part) * contact
         carried = np.where(touching, total - inside, opened)
         return pressure, approach + part * float(change[-1]), carried
 

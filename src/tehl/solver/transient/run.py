@@ -1,6 +1,6 @@
 """Transient runs: the steady film at time zero, then step by step to the end."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, replace
 
 import numpy as np
@@ -20,10 +20,10 @@ from tehl.solver.cost import Clock
 from tehl.solver.level import Level
 from tehl.solver.measures import mid_film_traction
 from tehl.solver.monitor import SILENT, StepMonitor
-from tehl.solver.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH
+from tehl.solver.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH, Relaxation
 from tehl.solver.steady import Attempt, finest_grid, try_strategies
 from tehl.solver.transient.checks import check_load, check_stride, check_waves
-from tehl.solver.transient.snapshot import ANEW, Record, Snapshot, kept_steps
+from tehl.solver.transient.snapshot import ANEW, Record, Snapshot, carried, kept_steps
 from tehl.solver.transient.step import StepEnd, StepError, Stepper
 from tehl.transient import Transient
 from tehl.transient_result import StepReport, TransientResult
@@ -102,7 +102,9 @@ class Run:
         attempt, self.start = _steady_start(problem, options, rough=not smooth, monitor=monitor)
         self.scaled = attempt.run.hierarchy.scaled  # it knows the flooded film
         self._pose(attempt.run.finest.grid, smooth=smooth)
-        settings = COUPLED_SETTINGS if problem.is_coupled else SETTINGS
+        settings: Sequence[Relaxation] = COUPLED_SETTINGS if problem.is_coupled else SETTINGS
+        if problem.contact_film is not None:
+            settings = (FAST,)  # one attempt, by Newton's method
         self.stepper = Stepper(attempt.run, transient, settings)
         self.record = Record()
         self._note(0, self.heights.at(0.0), None)
@@ -141,7 +143,7 @@ class Run:
             except StepError as error:
                 return self.step_not_settled(error, time_now)
             self._note(step, heights, end)
-            if not self.level.film.h.min() > self.level.equations.floor:
+            if not self.level.is_resolved:
                 return self._touching(time_now)
             monitor.step(self._report(step, end))
             if keep is not None:
@@ -172,7 +174,7 @@ class Run:
             time=step * self.seconds,
             film_central=central,
             film_minimum=minimum,
-            pressure_max=float(self.level.film.p.max()),
+            pressure_max=float(carried(self.level).max()),
             **asdict(end),
         )
 

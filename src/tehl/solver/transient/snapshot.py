@@ -15,6 +15,7 @@ from tehl.scaling import Scales
 from tehl.solution import Cost
 from tehl.solver.film_summary import film_summary
 from tehl.solver.level import Level
+from tehl.solver.measures import shared_load
 from tehl.transient import Transient
 from tehl.transient_result import Frames, History, Profiles
 from tehl.typing import Array
@@ -37,6 +38,11 @@ _LAYOUT: dict[str, tuple[type, tuple[str | int, ...]]] = {
 }
 """Number type and shape of all arrays but the fields. A profile has pressure, film and both
 heights, a frame pressure, film and height."""
+
+
+def carried(level: Level) -> Array:
+    """Return the pressure of the oil; with that of the contact through a boundary film, if any."""
+    return level.film.p if level.equations.contact_film is None else level.pressure
 
 
 @dataclass(slots=True)
@@ -72,13 +78,13 @@ class Record:
         row = numbers | {
             "film_central": film.central,
             "film_minimum": film.minimum,
-            "pressure_max": float(level.film.p.max()),
-            "asperity_load": level.asperity_load(),
+            "pressure_max": float(carried(level).max()),
+            "asperity_load": shared_load(level),
             "rigid_approach": level.rigid_approach,
         }
         self.rows.append(tuple(float(row[name]) for name in COLUMNS))
         line = 0 if level.grid.mirror else level.grid.shape[0] // 2
-        pressure = np.maximum(level.film.p, 0.0)  # between asperities it may be an error below
+        pressure = np.maximum(carried(level), 0.0)  # between asperities it may be an error below
         lines = (pressure, level.film.h, *heights)
         self.profiles.append(np.stack([one[line] for one in lines]))
         if keep:
@@ -203,8 +209,12 @@ def _faults(arrays: Arrays) -> Iterator[str]:
     if (arrays["cost"] < 0.0).any():
         yield "'cost' is negative"
     last = dict(zip(COLUMNS, arrays["rows"][-1], strict=True))
-    pressure = arrays.get(f"{_FIELD}pressure", np.zeros(1)).max()
-    if (last["rigid_approach"], last["pressure_max"]) != (arrays["rigid_approach"], pressure):
+    oil, asperity = (
+        arrays.get(f"{_FIELD}{name}", np.zeros(0)) for name in ("pressure", "asperity")
+    )
+    both = oil + asperity if oil.shape == asperity.shape else oil
+    largest = [field.max(initial=0.0) for field in (oil, both)]
+    if last["rigid_approach"] != arrays["rigid_approach"] or last["pressure_max"] not in largest:
         yield "its pressure is not that of its last step"
 
 

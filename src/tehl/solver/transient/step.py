@@ -1,5 +1,7 @@
 """One time step: wedge and squeeze along the mean motion, solved by multigrid cycles.
 
+Films between surfaces that may touch through a boundary film are solved by Newton's method instead.
+
 With x in a_x and t in a_x / u_m a step advances by dt = s dx, s the stride, and wedge plus squeeze
 are one derivative of m = rho H along the mean motion, second-order backward:
 
@@ -18,17 +20,22 @@ from tehl.operators.reynolds import steady_flux, steady_wedge, step_stencil, ups
 from tehl.solver.convergence import LEAST_KELVIN, RUNAWAY
 from tehl.solver.fas import Cycle, cycle
 from tehl.solver.film_solver import FilmSolver
+from tehl.solver.iteration import coarse_grid
 from tehl.solver.level import Level
 from tehl.solver.relaxation import Relaxation
+from tehl.solver.touching import TouchingNewton
 from tehl.solver.transient.predictor import Predictor
 from tehl.transient import Transient
 from tehl.typing import Array
 
 LARGEST_LOAD_ERROR = 1e-4
 """Load error accepted in a step."""
+LARGEST_REST = 0.01
+"""Residual of Newton's method accepted in a step, over the tolerance."""
 LARGEST_KELVIN_CHANGE = 0.01
 """Change of temperature in the last cycle of a step, over the largest rise."""
-LEAST_CYCLES = 2
+LEAST_CYCLES, MORE_STEPS = 2, 2
+"""Least cycles of a step; and most Newton steps over the most cycles."""
 WEIGHT_OF_POINTS = 12.0
 """Weight of rho H in a step over the conductance from which nodes relax as points. A smooth error
 moves the film more than a point does, and grows where the conductance does not outweigh it: at
@@ -77,6 +84,9 @@ class Stepper:
             one.equations = replace(one.equations, stencil=stencil)
         solver.coupling.damping = 1.0  # steps are small: heat and thinning need no damping
         solver.coupling.begin_transient(solver.levels, self.time_step)
+        self.newton: TouchingNewton | None = None
+        if level.equations.contact_film is not None:
+            self.newton = TouchingNewton(level, coarse_grid(solver.levels))
         step = (self.time_step, level.grid.dx, transient.stride)
         excess = solver.coupling.excess()
         self.squeeze = Squeeze(self.steady, excess, step, solver.options.wedge_order)
@@ -98,8 +108,10 @@ class Stepper:
                 level.set_state(*start)
                 level.update()
                 self.solver.coupling.revert(self.solver.levels)
-            else:
+            elif self.newton is None:
                 level.set_pressure(self.predictor.onward())
+            else:
+                self.newton.refresh()  # a resumed run has no factors of earlier steps
             level.pose_step(history + self.squeeze.onward(), heights, load)
             try:
                 end = self._solve(self.settings[number].name)
@@ -150,10 +162,14 @@ class Stepper:
     def _solve(self, name: str) -> StepEnd:
         """Perform cycles until the step has converged."""
         level, change = self.solver.finest, np.inf
-        # slower relaxations get more cycles
-        for number in range(1, (1 + self.setting) * self.transient.max_cycles + 1):
+        # slower relaxations get more cycles, and nodes that begin and cease to touch more steps
+        times = 1 + self.setting if self.newton is None else MORE_STEPS
+        for number in range(1, times * self.transient.max_cycles + 1):
             before = level.pressure.copy()
-            cycle(self.solver.levels, self.solver.hierarchy.coarsest.step, SHAPE)
+            if self.newton is None:
+                cycle(self.solver.levels, self.solver.hierarchy.coarsest.step, SHAPE)
+            else:
+                self.newton.step()
             level.update()
             warmer, rise = self.solver.coupling.update(self.solver.levels)
             self._follow_density()
@@ -165,6 +181,8 @@ class Stepper:
                 raise StepError("diverged", change)
             done = change <= self.transient.tolerance and abs(error) <= LARGEST_LOAD_ERROR
             done = done and warmer <= max(LARGEST_KELVIN_CHANGE * rise, LEAST_KELVIN)
+            if self.newton is not None:  # a step that is cut short changes little
+                done = done and self.newton.residual() <= LARGEST_REST * self.transient.tolerance
             if number >= LEAST_CYCLES and done:
                 return StepEnd(cycles=number, change=change, load_error=error, smoother=name)
         raise StepError("stalled", change)
@@ -184,6 +202,8 @@ def _steady_oil(level: Level, order: int) -> tuple[Array, Array]:
     """Return oil and upstream difference of its flux in a steady film, (ny, nx) each [-]."""
     if not level.stencil.conserves:
         mass = level.film.rho * level.film.h
+        if level.equations.contact_film is not None:
+            return mass, steady_flux(level.film, mass, level.grid.dx, order)
         return mass, steady_wedge(mass, level.grid.dx, order)
     held, _ = level.oil_flow()
     for edge in (-1,) if level.grid.mirror else (0, -1):  # nothing is solved there
