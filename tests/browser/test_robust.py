@@ -2,6 +2,8 @@
 
 import os
 import signal
+import subprocess
+import sys
 import time
 import urllib.error
 import urllib.request
@@ -106,6 +108,17 @@ def test_a_slow_solve_can_be_stopped(page):
     page.get_by_role("combobox", name="accuracy").click()
     page.get_by_role("option", name="error 0.5 %").click()
     solved(page)
+
+
+def test_a_port_that_is_taken_is_a_sentence(served):
+    command = [sys.executable, "-m", "tehl", "explore", "--no-browser", "--port"]
+    port = str(urlsplit(served.address).port)
+    found = subprocess.run(
+        [*command, port], check=False, capture_output=True, text=True, timeout=60
+    )
+    assert found.returncode == 2
+    assert found.stdout == ""
+    assert found.stderr.startswith(f"tehl: port {port} is taken")
 
 
 @pytest.mark.skipif(os.name == "nt", reason="needs /proc")

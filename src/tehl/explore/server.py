@@ -1,6 +1,7 @@
 """The server of the page: on the loopback address only, for whoever has the token."""
 
 import asyncio
+import os
 import secrets
 import socket
 import tempfile
@@ -12,6 +13,7 @@ from urllib.parse import parse_qs
 from nicegui import app, background_tasks, ui
 from starlette.responses import HTMLResponse
 
+from tehl.errors import InputError
 from tehl.explore.case_text import CaseText
 from tehl.explore.files import LARGEST, Files, named_files
 
@@ -165,17 +167,23 @@ async def _announce(port: int, address: str, report: Any) -> None:
 
 
 def _port(wanted: int | None) -> int:
-    """Return a free port: the one wanted, the usual one, or any."""
-    if wanted is not None:
-        return wanted
-    for port in (USUAL_PORT, 0):
+    """Return a free port: the one wanted, the usual one, or any.
+
+    Raises
+    ------
+    InputError
+        If the one wanted is taken.
+    """
+    for port in (USUAL_PORT, 0) if wanted is None else (wanted,):
         with socket.socket() as probe:
+            if os.name == "posix":  # a port whose last page has just ended is free
+                probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             try:
                 probe.bind((ADDRESS, port))
             except OSError:
                 continue
             return int(probe.getsockname()[1])
-    return USUAL_PORT
+    raise InputError(f"port {wanted} is taken by another program: choose another, or leave it out")
 
 
 _ICON = (
