@@ -121,13 +121,10 @@ class CurvePanel:
         if knob is None:
             return
         try:
-            low, high = float(str(self.low.value)), float(str(self.high.value))
+            low, high = ends(str(self.low.value), str(self.high.value))
             tables = self.tab.files.resolved(self.tab.case.tables)
-            if not low < high:
-                raise InputError(f"from = {low:g}: must be below to = {high:g}")
-        except ValueError as error:
-            text = str(error) if isinstance(error, InputError) else "from and to must be numbers"
-            self.state.set_text(self.tab.files.hidden(text))
+        except InputError as error:
+            self.state.set_text(self.tab.files.hidden(str(error)))
             return
         count = int(min(max(self.count.value or _POINTS, 3), _MOST))
         places = spread(low, high, count)
@@ -200,7 +197,7 @@ class CurvePanel:
         """Return the place of the present state, which moves with the slider."""
         stated, shown = self.tab.case.get(knob.path), self.tab.shown
         found = value_of(shown.numbers, key) if shown is not None else None
-        if stated is None or found is None:
+        if stated is None or found is None or self.tab.fault is not None:
             return None
         return Point(knob.number(knob.kind.parse(stated), knob.unit), found.value)
 
@@ -213,6 +210,19 @@ _INVITATION = (
     '<p class="empty">Choose a quantity and what to sweep, then solve. '
     "Each point is a solve of its own, with its error bar.</p>"
 )
+
+
+def ends(low: str, high: str) -> tuple[float, float]:
+    """Return the ends of a sweep as they were typed."""
+    try:
+        found = float(low.replace(",", ".")), float(high.replace(",", "."))
+    except ValueError:
+        raise InputError("from and to must be numbers") from None
+    if not all(map(math.isfinite, found)):
+        raise InputError("from and to must be finite numbers")
+    if not found[0] < found[1]:
+        raise InputError(f"from = {found[0]:g}: must be below to = {found[1]:g}")
+    return found
 
 
 def spread(low: float, high: float, count: int) -> tuple[float, ...]:
