@@ -139,6 +139,23 @@ def test_a_faulty_entry_is_a_sentence_beside_its_control(page):
     until(lambda: page.locator(".knob .fault:visible").count() == 0)
 
 
+def test_the_former_value_typed_again_ends_a_fault(page):
+    type_into(page, "load", "-3")
+    page.locator(".knob .fault", has_text="must be positive").wait_for()
+    page.get_by_text("shown is the last valid case").wait_for()
+    type_into(page, "load", "80")
+    until(lambda: page.locator(".knob .fault:visible").count() == 0)
+
+
+def test_a_faulty_sweep_is_a_sentence(page):
+    page.get_by_role("tab", name="Curves").click()
+    low, high = (page.locator(".sweep-end input").nth(k) for k in (0, 1))
+    low.fill("5")
+    high.fill("1")
+    page.get_by_role("button", name="Solve", exact=True).click()
+    page.get_by_text("must be below to").wait_for()
+
+
 def test_text_that_is_not_a_case_is_a_sentence(page):
     page.get_by_role("button", name="Open").click()
     file = {"name": "bad.toml", "mimeType": "text/plain", "buffer": b"load = = 80"}

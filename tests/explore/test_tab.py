@@ -74,6 +74,26 @@ def test_a_faulty_entry_is_a_sentence_beside_its_control_and_is_not_solved(tab):
     assert tab.problem.load == 100.0
 
 
+def test_a_faulty_value_is_shown_at_its_own_control_whichever_is_turned_next(tab):
+    tab.type(knob(tab, "contact.load"), "-3", "N")
+    assert not tab.type(knob(tab, "contact.entrainment_speed"), "2", "m/s")
+    assert tab.fault.path == "contact.load"
+    assert tab.type(knob(tab, "contact.load"), "80", "N")
+    assert tab.problem.entrainment_speed == 2.0
+
+
+def test_undo_takes_back_a_typed_quantity_and_skips_faulty_cases(tab):
+    load = knob(tab, "contact.load")
+    tab.type(load, "0.1 kN", "N")
+    tab.type(load, "-3", "N")
+    tab.type(load, "-4", "N")
+    tab.undo()
+    assert tab.fault is None
+    assert tab.case.get("contact.load") == "0.1 kN"
+    tab.undo()
+    assert tab.case.get("contact.load") == "80 N"
+
+
 def test_a_file_of_the_machine_is_refused(tab):
     text = tab.case.text + '\n[supply]\nprofile = "/etc/passwd"\n'
     tab.open(CaseText(text))
@@ -113,3 +133,13 @@ def test_the_interferogram_is_computed_when_it_is_shown(tab):
     tab.show("fringes")
     assert isinstance(tab.solver.jobs[-1], Ask)
     assert tab.solver.jobs[-1].fringes
+
+
+def test_a_radius_becomes_that_of_a_flat(tab):
+    tab.choose(knob(tab, "contact.radius|"), "bodies")
+    assert not tab.type(knob(tab, "surface_1.radius"), "0", "mm")
+    assert '"inf"' in tab.fault.text
+    tab.type(knob(tab, "surface_1.radius"), "20", "mm")
+    tab.apply({"surface_2.radius": "30 mm"})
+    assert tab.type(knob(tab, "surface_1.radius"), "inf", "mm")
+    assert tab.problem.radii.x == pytest.approx(0.03)

@@ -73,6 +73,7 @@ class KnobRow:
         self.tab, self.knob, self.unit = tab, knob, knob.unit
         self.value, self.reach = knob.value, knob.reach(knob.value)
         self.left_at: float | None = None
+        self.is_refused = False
         with ui.element("div").classes("knob"):
             with ui.element("div").classes("knob-head"):
                 ui.label(knob.label).classes("knob-label")
@@ -143,7 +144,7 @@ class KnobRow:
         if moving:
             self.left_at = None
         number = self._at(place)
-        self.value = self.knob.si(number, self.unit)
+        self.value, self.is_refused = self.knob.si(number, self.unit), False
         self.entry.set_value(f"{number:.5g}")
         self.tab.turn(self.knob, number, self.unit, moving=moving)
 
@@ -155,13 +156,20 @@ class KnobRow:
 
     def _typed(self) -> None:
         words = str(self.entry.value)
-        if words == self._words():
+        if words == self._words() and not self.is_refused:
             return
-        if self.tab.type(self.knob, words, self.unit):
-            stated = self.tab.case.get(self.knob.path)
+        self.tab.type(self.knob, words, self.unit)
+        stated = self.tab.case.get(self.knob.path)
+        try:
             self.value = self.knob.kind.parse(stated)
-            self.entry.set_value(self._words())
-            self._centre()
+            if not math.isfinite(self.value):  # a flat has no such control
+                return
+        except ValueError:  # it stays in the entry, beside the sentence on it
+            self.is_refused = True
+            return
+        self.is_refused = False
+        self.entry.set_value(self._words())
+        self._centre()
 
     def _other_unit(self, event: Any) -> None:
         self.unit = event.value

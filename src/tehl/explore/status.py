@@ -81,7 +81,12 @@ class StatusLine:
             return tab.note
         if tab.is_busy:
             return f"{nodes}, refining"
-        return f"{shown.outcome.words} on {nodes} in {1e3 * shown.seconds:.0f} ms"
+        words = f"{shown.outcome.words} on {nodes} in {1e3 * shown.seconds:.0f} ms"
+        if tab.fault is not None:
+            return f"shown is the last valid case, {words}"
+        if tab.problem is not None and tab.problem.transient is not None:
+            return f"{words}; the steady film at the start, see Movie for the run"
+        return words
 
     def _show_accuracy(self) -> None:
         key, options = self._stated(), dict(ACCURACIES)

@@ -1,7 +1,9 @@
 """One tab of the page without its elements: the case, what is solved of it, what is compared."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from tehl.errors import InputError
@@ -72,6 +74,7 @@ class Tab:
         self.view, self.held = "film", False
         self.limits: dict[str, Any] = {}
         self._undo: list[str] = []
+        self._is_valid = False
         self._request = 0
 
     def tell(self, topic: str) -> None:
@@ -97,11 +100,14 @@ class Tab:
 
     def type(self, knob: Knob, words: str, unit: str) -> bool:
         """Set a control to what was typed, a number or a number with its unit."""
+        self._remember()
         try:
             number = float(words.replace(",", "."))
         except ValueError:
-            return self._edit(knob.path, lambda case: case.set(knob.path, words.strip()))
-        self._remember()
+            number = math.nan
+        if not math.isfinite(number):  # a quantity, or "inf" for the radius of a flat
+            change = partial(CaseText.set, path=knob.path, value=words.strip())
+            return self._edit(knob.path, change, rebuild=math.isinf(number))
         return self._edit(knob.path, lambda case: case.set(knob.path, knob.stated(number, unit)))
 
     def choose(self, choice: Choice, option: str) -> None:
@@ -126,7 +132,8 @@ class Tab:
             self._check(rebuild=True)
 
     def _remember(self) -> None:
-        if not self._undo or self._undo[-1] != self.case.text:
+        """Keep the present case for undo; a faulty one is not worth it."""
+        if self._is_valid and self._undo[-1:] != [self.case.text]:
             self._undo = [*self._undo[-_UNDONE:], self.case.text]
 
     def _edit(
@@ -149,8 +156,10 @@ class Tab:
             self.problem, self.options = case_from_tables(tables)
             made = groups(self.case, self.problem) if rebuild or not self.groups else self.groups
         except InputError as error:
+            self._is_valid = False
             self._blame(self.files.hidden(str(error)), path)
             return False
+        self._is_valid = True
         had_fault, self.fault = self.fault is not None, None
         if made is not self.groups:
             self.groups = made
@@ -161,7 +170,10 @@ class Tab:
         return True
 
     def _blame(self, text: str, path: str) -> None:
-        self.fault = Fault(text, path)
+        """Show what is wrong beside the control that the sentence names, else that of ``path``."""
+        paths = (item.path for group in self.groups for item in group.items)
+        named = (one for one in paths if text.startswith(f"{one} = "))
+        self.fault = Fault(text, next(named, path))
         self.tell("fault")
 
     # ---- the result
