@@ -76,3 +76,8 @@ def test_an_address_cannot_unpack_to_a_huge_text():
 def test_text_that_is_not_toml_names_the_line():
     with pytest.raises(InputError, match="line 1"):
         CaseText("load = = 3")
+
+
+def test_tables_nested_too_deeply_are_refused():
+    with pytest.raises(InputError, match="nested too deeply"):
+        CaseText("a = " + "[" * 5000)

@@ -117,6 +117,8 @@ def tables_of_text(text: str) -> dict[str, Any]:
         raise InputError(_syntax(str(error), text)) from None
     except ValueError:  # an integer of thousands of digits
         raise InputError("a number has too many digits") from None
+    except RecursionError:
+        raise InputError("nested too deeply") from None
 
 
 def _text(path: Path) -> str:
