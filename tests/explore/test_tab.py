@@ -94,6 +94,11 @@ def test_undo_takes_back_a_typed_quantity_and_skips_faulty_cases(tab):
     assert tab.case.get("contact.load") == "80 N"
 
 
+def test_a_study_is_named_as_such(tab):
+    tab.open(CaseText(template_text("traction-curve")))
+    assert "this is a study" in tab.fault.text
+
+
 def test_a_file_of_the_machine_is_refused(tab):
     text = tab.case.text + '\n[supply]\nprofile = "/etc/passwd"\n'
     tab.open(CaseText(text))

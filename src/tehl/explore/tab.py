@@ -152,6 +152,8 @@ class Tab:
     def _check(self, path: str = "", *, rebuild: bool = False) -> bool:
         """Check the case; solve it if it is valid."""
         try:
+            if "axes" in self.case.tables:
+                raise InputError("this is a study, not a case: solve it with tehl study")
             tables = self.files.resolved(self.case.tables)
             self.problem, self.options = case_from_tables(tables)
             made = groups(self.case, self.problem) if rebuild or not self.groups else self.groups
