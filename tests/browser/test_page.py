@@ -60,7 +60,7 @@ def test_the_keyboard_moves_a_slider(page):
 def test_pinned_and_present_state_stand_side_by_side_with_one_scale(page):
     page.get_by_role("button", name="Pin", exact=True).click()
     type_into(page, "load", "200")
-    page.locator(".change", has_text="of pinned").first.wait_for()
+    page.locator(".change", has_text="from pinned").first.wait_for()
     until(lambda: page.locator(".change").first.inner_text()[:4] != "+0.0")
     titles = page.locator(".slot-title")
     assert titles.all_inner_texts() == ["pinned", "present"]

@@ -92,7 +92,8 @@ class KnobRow:
 
     def _unit_selector(self) -> None:
         if len(self.knob.units) > 1:
-            chosen = ui.select(list(self.knob.units), value=self.unit, on_change=self._other_unit)
+            names = {unit: unit.replace("degC", "°C") for unit in self.knob.units}
+            chosen = ui.select(names, value=self.unit, on_change=self._other_unit)
             chosen.props(f'dense borderless options-dense aria-label="unit of {self.knob.label}"')
             chosen.classes("unit")
         else:

@@ -39,6 +39,8 @@ from tehl.units import (
 _DECADE = 10.0
 """A logarithmic slider reaches from a tenth of its value to ten times it."""
 OWN = "own values"
+_LOW = "₀₁₂"
+"""Digits set low."""
 Change = Callable[[CaseText, str], None]
 Span = tuple[float, float]
 
@@ -265,9 +267,9 @@ class _Maker:
 
         yield Choice(path, f"body {number}", names, chosen, change)
         if isinstance(stated, Mapping):
-            label = f"modulus E_{number}"
+            label = f"modulus E{_LOW[number]}"
             yield self.knob(f"{path}.young_modulus", label, Pressure, "GPa;MPa", (1e9, 1.2e12))
-            label = f"Poisson ratio ν_{number}"
+            label = f"Poisson ratio ν{_LOW[number]}"
             yield self.knob(f"{path}.poisson_ratio", label, Number, "", (0.0, 0.5), is_log=False)
 
     def solid_name(self, key: str) -> str:
@@ -287,7 +289,7 @@ class _Maker:
         elif hasattr(law, "eta_0"):
             span = _range_of(self.typical["viscosity eta_0"])
             yield self.knob(
-                f"{path}.eta_0", "viscosity η_0", Viscosity, "Pa s;mPa s", span, law.eta_0
+                f"{path}.eta_0", "viscosity η₀", Viscosity, "Pa s;mPa s", span, law.eta_0
             )
         if law.law in ("roelands", "roelands-exponential", "barus", "walther"):
             alpha = self.problem.pressure_coefficient
@@ -369,7 +371,7 @@ class _Maker:
         yield Choice(path, "shear law", names, law.law, change)
         if law.law == "eyring":
             yield self.knob(
-                f"{path}.stress", "Eyring stress τ_0", Stress, "MPa", (1e5, 5e7), law.stress
+                f"{path}.stress", "Eyring stress τ₀", Stress, "MPa", (1e5, 5e7), law.stress
             )
         elif law.law == "carreau":
             yield self.knob(

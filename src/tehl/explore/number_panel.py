@@ -1,6 +1,7 @@
 """The right side of the page: numbers with error bars and formulas, status, questions."""
 
 import math
+import re
 from functools import partial
 from html import escape
 from typing import TYPE_CHECKING
@@ -97,6 +98,11 @@ def _rounded(value: float, digits: int) -> str:
     return text.replace("-", "−")
 
 
+def _marked(words: str) -> str:
+    """Return words with their indices set low."""
+    return re.sub(r"_(\w+)", r"<sub>\1</sub>", escape(words))
+
+
 def _symbol(symbol: str) -> str:
     base, _, below = symbol.partition("_")
     if "/" in symbol:
@@ -105,10 +111,16 @@ def _symbol(symbol: str) -> str:
 
 
 def _change(one: Number, other: Number | None) -> str:
-    if other is None or other.value is None or one.value is None or other.value == 0:
+    if other is None or other.value is None or one.value is None:
         return ""
-    change = 100.0 * (one.value / other.value - 1.0)
-    return f' <span class="change">{change:+.1f} % of pinned {_rounded(other.value, 4)}</span>'
+    if one.unit == "°C":  # a ratio of temperatures on this scale has no meaning
+        change = f"{one.value - other.value:+.1f} K"
+    elif other.value:
+        change = f"{100.0 * (one.value / other.value - 1.0):+.1f} %"
+    else:
+        return ""
+    words = f"{change} from pinned {_rounded(other.value, 4)}".replace("-", "−")
+    return f' <span class="change">{words}</span>'
 
 
 def _bar(one: Number) -> str:
@@ -148,7 +160,7 @@ class Explanation:
         found = self.tab.explained
         if topic != "explained" or found is None:
             return
-        rows = "".join(f"<dt>{escape(a)}</dt><dd>{escape(b)}</dd>" for a, b in found.groups)
+        rows = "".join(f"<dt>{_marked(a)}</dt><dd>{escape(b)}</dd>" for a, b in found.groups)
         self.groups.set_content(f"<dl>{rows}</dl>")
         if found.questions:
             items = "".join(f"<li>{escape(one)}</li>" for one in found.questions)

@@ -8,6 +8,7 @@ from tehl.result import Result
 
 KAPPA = 1.3
 """Exponent of the viscosity ratio kappa of ISO 281 over lambda."""
+NO_FILM = "no film (h ≤ 0)"
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -67,7 +68,7 @@ def _film(result: Result, explanation: Explanation) -> Iterator[Number]:
             unit="nm",
             error=None if errors is None else errors.central if central else errors.minimum,
             formulas=by_formula,
-            remark="" if value > 0 else "no film (h ≤ 0)",
+            remark="" if value > 0 else NO_FILM,
         )
 
 
@@ -79,9 +80,11 @@ def _film_over_roughness(result: Result, explanation: Explanation) -> Iterator[N
         ratio = rough.lambda_central if rough else result.film.central / composite
     formula = explanation.lambda_central
     missing = "" if ratio is not None else "state the roughness of the surfaces"
+    if composite > 0 and not result.film.central > 0:
+        missing = NO_FILM
     for key, name, symbol, power in (
         ("lambda", "film over roughness", "λ", 1.0),
-        ("kappa", "viscosity ratio, λ^1.3 (ISO 281)", "κ", KAPPA),
+        ("kappa", "viscosity ratio, λ¹·³ (ISO 281)", "κ", KAPPA),
     ):
         yield Number(
             key=key,

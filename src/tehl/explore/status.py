@@ -85,13 +85,14 @@ class StatusLine:
         if tab.fault is not None:
             return f"shown is the last valid case, {words}"
         if tab.problem is not None and tab.problem.transient is not None:
-            return f"{words}; the steady film at the start, see Movie for the run"
+            return f"{words}, at the start of the run"
         return words
 
     def _show_accuracy(self) -> None:
         key, options = self._stated(), dict(ACCURACIES)
         if key not in options:
-            options[key] = key.partition(".")[2]
+            path, _, value = key.partition("=")
+            options[key] = f"{value}² nodes" if path.endswith("points") else f"error {value}"
         self.accuracy.set_options(options, value=key)
 
     def _choose(self, key: str | None) -> None:
