@@ -55,6 +55,7 @@ class SurfaceDialog:
             self.unit = ui.input("unit of heights", placeholder="um")
             self.pixel = ui.input("distance of points", placeholder="2 um")
             self.level = ui.select(LEVELS, value="plane", label="take off")
+            self.level.classes("take-off")
             for field in (self.unit, self.pixel, self.level):
                 field.props("dense outlined")
             for entry in (self.unit, self.pixel):
@@ -62,6 +63,7 @@ class SurfaceDialog:
             self.level.on_value_change(self.preview)
 
     async def _uploaded(self, event: Any) -> None:
+        event.sender.reset()  # the sentence below says what became of the file
         try:
             self.name = self.tab.files.keep(event.file.name, await event.file.read())
         except InputError as error:
