@@ -75,6 +75,8 @@ def log_ticks(low: float, high: float, count: int) -> list[float]:
 def number_text(value: float) -> str:
     """Return the label of a tick: 0.01, 250, 2e-05."""
     text = f"{value:.4g}" if abs(value) >= _ROUNDING else "0"
+    if 1e4 <= abs(value) < 1e6:
+        text = f"{value:.0f}"
     return text.replace("e-0", "e-").replace("e+0", "e").replace("-", "−")
 
 

@@ -52,6 +52,8 @@ class Look:
     label: str
     bar: bool = True
     """Whether a colour bar stands at its right."""
+    opens: bool = False
+    """Whether the last colour stands for all larger values too."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +92,8 @@ def film_picture(
 ) -> Picture:
     """Draw the film with contour lines, Hertz contact and minimum; ``bar`` adds its colours."""
     levels = [level for level in ticks(limits.low, limits.high, 9) if level > limits.low]
-    look = Look(limits, levels, "viridis", "film thickness [nm]", bar)
+    opens = bool(maps.film.max() > limits.high)
+    look = Look(limits, levels, "viridis", "film thickness [nm]", bar, opens)
     return _map(maps, maps.film, look, size)
 
 
@@ -136,7 +139,7 @@ def section_picture(
     for edge in (-maps.half_widths[0], maps.half_widths[0]):
         at = frame.x(edge)
         parts += f'<path d="M{at:.1f} {frame.y.start}V{frame.y.end}" class="hertz"/>'
-    parts += frame.svg("x along entrainment [µm]", "z / h")
+    parts += frame.svg("x along entrainment [µm]", "z / h, from surface 1 to 2")
     parts += _colour_bar(frame, look)
     overlay = svg(width, height, parts, "temperature rise across the film")
     return Picture(_png(pixels, look), place, overlay, frame)
@@ -330,6 +333,12 @@ def _colour_bar(frame: Frame, look: Look) -> str:
         parts.append(f'<path d="M{left + 13} {y:.1f}h4" class="tick"/>')
         parts.append(text(left + 20, y + 4, number_text(value), "", "start"))
     parts.append(turned(left + 62, top + 0.5 * height, look.label, "label"))
+    if look.opens:
+        red, green, blue = table[-1].tolist()
+        parts.append(
+            f'<path d="M{left} {top}l6.5 -11l6.5 11z" fill="rgb({red},{green},{blue})">'
+            "<title>and more</title></path>"
+        )
     return "".join(parts)
 
 

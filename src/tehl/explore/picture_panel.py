@@ -182,12 +182,14 @@ class PicturePanel:
     def _draw_beside(self, view: str, present: Shown, other: Shown) -> None:
         """Draw two states side by side, above their centre lines along x."""
         (width, height), limits = self.size, self.tab.limits
-        wide, room = width > _SMALL, 0.0
+        wide = width > _SMALL
+        bar = _BAR if view in ("film", "pressure") else 0.0
+        less, more = bar, 0.0  # both maps are of one size, and one has a colour bar
         if wide:
             width = 0.5 * (width - _GAP)
-            room = 0.5 * _BAR if view in ("film", "pressure") else 0.0
-        self.pinned.draw(view, other, limits, (width - room, height))
-        self.present.draw(view, present, limits, (width + room, height))
+            less = more = 0.5 * bar
+        self.pinned.draw(view, other, limits, (width - less, height))
+        self.present.draw(view, present, limits, (width + more, height))
         if wide:
             chart = line_charts(present, (self.size[0], _LINES), limits["lines"], other)[0]
             self.below.set_content(chart.drawing)

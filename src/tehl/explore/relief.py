@@ -15,6 +15,8 @@ _RAYS, _RINGS = 121, 48
 _SEARCHED = 200
 """Places along a ray among which the rim is found."""
 _SHADES = 12
+_NARROW = 560.0
+"""Pixels of a picture in which the axes need more room."""
 
 
 def relief_figure(maps: Maps, limits: Limits, size: tuple[float, float]) -> dict[str, Any]:
@@ -37,13 +39,14 @@ def relief_figure(maps: Maps, limits: Limits, size: tuple[float, float]) -> dict
         "colorbar": {"title": {"text": "film [nm]"}, "thickness": 13, "len": 0.7},
         "hovertemplate": "x %{x:.0f} µm, y %{y:.0f} µm, h %{z:.4g} nm<extra></extra>",
     }
+    away = 1.15 if size[0] > _NARROW else 1.6
     scene = {
         "xaxis": {"title": {"text": "x [µm]"}, **axis},
         "yaxis": {"title": {"text": "y [µm]"}, **axis},
         "zaxis": {"title": {"text": "h [nm]"}, "range": [0, limits.high], **axis},
         "aspectmode": "manual",
         "aspectratio": {"x": 1.2, "y": 1.1, "z": 0.55},
-        "camera": {"eye": {"x": -1.25, "y": -1.35, "z": 0.95}},
+        "camera": {"eye": {"x": -1.25 * away, "y": -1.35 * away, "z": 0.95 * away}},
     }
     layout = {
         "width": size[0],
