@@ -6,8 +6,12 @@ import pytest
 
 pytest.importorskip("nicegui", reason="needs pip install 'tehl[explore]'")
 
+import tehl
 from tehl.explore.number_panel import number_html
-from tehl.explore.numbers import Number
+from tehl.explore.numbers import Number, numbers, value_of
+from tehl.io.case import case_from_tables, tables_of_text
+from tehl.io.templates import template_text
+from tehl.report.explain import explain
 
 
 @pytest.mark.parametrize(
@@ -16,3 +20,20 @@ from tehl.explore.numbers import Number
 def test_a_temperature_changes_by_kelvins_and_another_quantity_by_a_share(unit, words):
     one = Number(key="a", name="a", symbol="a", value=40.0, unit=unit)
     assert words in number_html(one, replace(one, value=50.0))
+
+
+def test_surfaces_that_touch_add_to_friction_and_power():
+    tables = tables_of_text(template_text("boundary-film"))
+    tables["contact"]["slide_roll_ratio"] = 0.05
+    tables["numerics"] = {"points": 65}
+    problem, options = case_from_tables(tables)
+    with pytest.raises(tehl.ConvergenceError) as coarse:  # its numbers are shown all the same
+        tehl.solve(problem, options)
+    result = coarse.value.result
+    found = numbers(result, explain(problem, options))
+    share = value_of(found, "load_share").value
+    assert share == pytest.approx(100.0 * result.touching.share)
+    assert share > 0.0
+    assert value_of(found, "friction").value == result.touching.friction
+    power = result.traction.friction_power + result.touching.power_boundary
+    assert value_of(found, "power").value == pytest.approx(power)

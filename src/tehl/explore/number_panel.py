@@ -106,7 +106,7 @@ def _marked(words: str) -> str:
 def _symbol(symbol: str) -> str:
     base, _, below = symbol.partition("_")
     if "/" in symbol:
-        return "w<sub>a</sub>/w"
+        return f"{escape(base)}<sub>{escape(below[0])}</sub>{escape(below[1:])}"
     return f"{escape(base)}<sub>{escape(below)}</sub>" if below else escape(base)
 
 

@@ -84,7 +84,7 @@ def _film_over_roughness(result: Result, explanation: Explanation) -> Iterator[N
         missing = NO_FILM
     for key, name, symbol, power in (
         ("lambda", "film over roughness", "λ", 1.0),
-        ("kappa", "viscosity ratio, λ¹·³ (ISO 281)", "κ", KAPPA),
+        ("kappa", "viscosity ratio (ISO 281), from λ", "κ", KAPPA),
     ):
         yield Number(
             key=key,
@@ -139,6 +139,12 @@ def _friction(result: Result, explanation: Explanation) -> Iterator[Number]:
     if forces is not None:
         friction, power = abs(forces.mid_film), forces.friction_power
         remark = "" if forces.credible else "more than an oil can transmit: state a shear law"
+    touched = result.touching
+    if touched is not None:
+        friction, error = touched.friction, None
+        power = (power or 0.0) + touched.power_boundary
+        if friction is None:
+            remark = "more than an oil can transmit: state a shear law"
     if shared is not None:
         friction = shared.friction
         power = (power or 0.0) + shared.power_boundary
@@ -167,7 +173,19 @@ def _friction(result: Result, explanation: Explanation) -> Iterator[Number]:
 
 
 def _load_share(result: Result, explanation: Explanation) -> Iterator[Number]:
-    shared, formula = result.load_sharing, explanation.shared
+    shared, formula, touched = result.load_sharing, explanation.shared, result.touching
+    if touched is not None:
+        share, bar = touched.share, touched.share_error
+        words = "the grid has too few nodes on the patches that touch"
+        yield Number(
+            key="load_share",
+            name="load where surfaces touch",
+            symbol="w_c/w",
+            value=100.0 * share,
+            unit="%",
+            error=bar / share if bar is not None and share > 0 else None,
+            remark="" if touched.is_share_known else words,
+        )
     if shared is None:
         return
     error = shared.share_error
