@@ -24,7 +24,7 @@ def test_a_temperature_changes_by_kelvins_and_another_quantity_by_a_share(unit, 
 
 def test_surfaces_that_touch_add_to_friction_and_power():
     tables = tables_of_text(template_text("boundary-film"))
-    tables["contact"]["slide_roll_ratio"] = 0.05
+    tables["contact"]["slide_roll_ratio"] = 1e-5
     tables["numerics"] = {"points": 65}
     problem, options = case_from_tables(tables)
     with pytest.raises(tehl.ConvergenceError) as coarse:  # its numbers are shown all the same
@@ -34,6 +34,6 @@ def test_surfaces_that_touch_add_to_friction_and_power():
     share = value_of(found, "load_share").value
     assert share == pytest.approx(100.0 * result.touching.share)
     assert share > 0.0
-    assert value_of(found, "friction").value == result.touching.friction
+    assert value_of(found, "friction").value == result.touching.friction is not None
     power = result.traction.friction_power + result.touching.power_boundary
     assert value_of(found, "power").value == pytest.approx(power)

@@ -144,7 +144,7 @@ def _friction(result: Result, explanation: Explanation) -> Iterator[Number]:
         friction, error = touched.friction, None
         power = (power or 0.0) + touched.power_boundary
         if friction is None:
-            remark = "more than an oil can transmit: state a shear law"
+            power, remark = None, "more than an oil can transmit: take less sliding"
     if shared is not None:
         friction = shared.friction
         power = (power or 0.0) + shared.power_boundary
@@ -168,7 +168,7 @@ def _friction(result: Result, explanation: Explanation) -> Iterator[Number]:
         unit="W",
         error=error if sliding else None,
         formulas=(("by formula", heat.power),) if heat is not None and compared else (),
-        remark=remark if forces is None else "",
+        remark=remark if forces is None or not forces.credible else "",
     )
 
 
