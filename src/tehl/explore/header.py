@@ -103,7 +103,6 @@ class Header:
             ).props('accept=".toml,.txt" flat bordered')
 
             async def uploaded(event: Any) -> None:
-                event.sender.reset()
                 self._open(await event.file.read(), dialog)
 
             upload.on_upload(uploaded).classes("w-full")

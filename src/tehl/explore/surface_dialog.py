@@ -63,7 +63,6 @@ class SurfaceDialog:
             self.level.on_value_change(self.preview)
 
     async def _uploaded(self, event: Any) -> None:
-        event.sender.reset()  # the sentence below says what became of the file
         try:
             self.name = self.tab.files.keep(event.file.name, await event.file.read())
         except InputError as error:
