@@ -195,7 +195,7 @@ def test_an_uploaded_surface_is_shown_levelled_and_used(page):
     lines = [[0.02 * math.cos(0.1 * i) + 0.01 * i for _ in range(40)] for i in range(40)]
     rows = [",".join(f"{height:.4f}" for height in line) for line in lines]
     file = {"name": "honed.csv", "mimeType": "text/csv", "buffer": "\n".join(rows).encode()}
-    page.get_by_role("button", name="Surfaces", exact=True).click()
+    page.get_by_role("button", name="Surfaces").click()
     page.get_by_role("button", name="Measured surface").click()
     page.get_by_label("unit of heights").fill("um")
     page.get_by_label("distance of points").fill("8 um")
