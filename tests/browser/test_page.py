@@ -101,6 +101,8 @@ def test_a_sweep_shows_points_as_they_are_solved(page):
     lines = download.value.path().read_text().splitlines()
     assert lines[0].startswith("contact.entrainment_speed [m/s],h_central [nm],")
     assert len(lines) == 6
+    type_into(page, "load", "90")
+    page.get_by_text("The contact has changed since").wait_for()
 
 
 def test_a_sweep_can_be_cancelled(page):

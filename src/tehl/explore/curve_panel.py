@@ -6,6 +6,7 @@ from typing import Any
 from nicegui import ui
 
 from tehl.errors import InputError
+from tehl.explore.case_text import CaseText
 from tehl.explore.controls import Knob, swept_knobs
 from tehl.explore.curves import Point, swept_chart
 from tehl.explore.elements import button, main_button
@@ -37,6 +38,7 @@ class CurvePanel:
         self.knob: Knob | None = None
         self.span, self.wanted, self.size = (1.0, 10.0), 0, (720.0, 480.0)
         self._number = 0
+        self._around: Any = None  # the case of the curve, without what is swept
         with ui.element("div").classes("curves") as self.place:
             self._build_choices()
             with ui.element("div").classes("sweep-state"):
@@ -67,7 +69,9 @@ class CurvePanel:
     def _hear(self, topic: str) -> None:
         if topic == "controls":
             self._offer()
-        elif topic in ("picture", "numbers") and self.tab.view == "curves":
+        elif topic == "picture" and self.points and self._around != self._others():
+            self._progress()
+        if topic in ("picture", "numbers") and self.tab.view == "curves":
             self.show()
 
     def _offer(self) -> None:
@@ -130,6 +134,7 @@ class CurvePanel:
         places = spread(low, high, count)
         values = tuple((x, knob.stated(x, knob.unit)) for x in places)
         self.points, self.knob, self.span, self.wanted = [], knob, (low, high), count
+        self._around = self._others()
         self._number += 1
         number = self._number
         job = Sweep(tables, knob.path, values)
@@ -139,6 +144,14 @@ class CurvePanel:
         self.halt.set_visibility(True)
         self._progress()
         self.draw()
+
+    def _others(self) -> dict[str, Any] | None:
+        """Return the tables of the contact without the key that is swept."""
+        if self.knob is None:
+            return None
+        case = CaseText(self.tab.case.text)
+        case.set(self.knob.path, None)
+        return {name: table for name, table in case.tables.items() if name != "numerics"}
 
     def cancel(self) -> None:
         """Leave the rest of the sweep."""
@@ -163,6 +176,8 @@ class CurvePanel:
         words = f"{len(self.points)} of {self.wanted} points"
         if failed:
             words += f", {len(failed)} not converged: {failed[-1].words}"
+        if self._around != self._others():
+            words += ". The contact has changed since: solve again"
         self.state.set_text(words)
         self.bar.set_value(len(self.points) / max(self.wanted, 1))
 

@@ -23,11 +23,11 @@ class SurfaceDialog:
 
     def __init__(self, tab: Tab, background: Solver) -> None:
         self.tab, self.background = tab, background
-        self.name = ""
+        self.name, self.place = "", ui.element()  # not in the controls, which are made again
 
     def open(self) -> None:
         """Show the dialog."""
-        with ui.dialog() as self.dialog, ui.card().classes("open-card"):
+        with self.place, ui.dialog() as self.dialog, ui.card().classes("open-card"):
             ui.label("Measured surface").classes("dialog-title")
             upload = ui.upload(
                 label="choose or drop a map of heights",
