@@ -15,6 +15,7 @@ from tehl.kernels import reynolds
 from tehl.operators.deformation import FftDeformation, FftFlattening
 from tehl.options import Domain, Options
 from tehl.plots import contact_map, pictures_of
+from tehl.post.touching import largest_patches
 from tehl.problem import ContactProblem
 from tehl.report.page import report_text
 from tehl.result import Result
@@ -159,6 +160,15 @@ def test_shares_of_few_cells_are_not_printed(bump: Result):
     assert replace(coarse, is_certified=True).is_share_known
 
 
+def test_a_long_patch_is_resolved_if_its_width_is():
+    film, round_one = np.full((3, 60, 60), 2.0), np.hypot.outer(*2 * [np.arange(60) - 30.0]) < 6.0
+    film[0, 20:24, 10:50] = 1.0
+    film[1, 20:30, 10:50] = 1.0
+    film[2, round_one] = 1.0
+    widths = [largest_patches(1.0, one[None], np.ones((1, 60, 60))) for one in film]
+    assert widths == pytest.approx([4.0, 10.0, 2.0 * np.sqrt(round_one.sum() / np.pi)])
+
+
 def test_friction_where_surfaces_touch_is_the_stated_coefficient():
     tables = ball_tables(contact_film={"thickness": "5 nm", "friction": 0.12})
     tables["contact"] = tables["contact"] | {
@@ -184,6 +194,7 @@ def test_a_result_with_contact_is_stored_shown_and_drawn(bump: Result, tmp_path)
     assert "Contact through the boundary film" in report_text(bump, dpi=30)
     text = as_text(bump)
     assert "patches" in text
+    assert f"mean, {bump.touching.patches.pressure_max * 1e-9:.4g} GPa at most" in text
     assert "made or lost in film and contact" in text
 
 
@@ -266,6 +277,7 @@ def test_a_bump_that_passes_touches_in_the_contact_and_not_before(passing):
     middle = 2.4 / 3.6 * run.history.time[-1]
     assert run.history.time[share.argmax()] == pytest.approx(middle, rel=0.2)
     assert run.frames.film.min() >= least * (1.0 - 1e-6)
+    assert run.history.film_minimum.min() >= least * (1.0 - 1e-9)  # between nodes too
     assert all((one.fields["asperity"] >= 0.0).all() for one in kept)
     assert run.history.pressure_max.max() > 1.5 * run.history.pressure_max[0]
     text = as_text(run)

@@ -40,12 +40,13 @@ def _lagrange(nodes: Array, spacing: float) -> tuple[IntArray, Array]:
     return first + np.arange(4), weights
 
 
-def film_summary(grid: Grid, film: Array) -> FilmSummary:
+def film_summary(grid: Grid, film: Array, least: float | None = None) -> FilmSummary:
     """Return central and minimum film H, the minimum from a bicubic spline around its node.
 
     The valley of a side lobe is narrow and oblique to the grid: its minimum may be more than a mesh
     width from the smallest node, beyond the reach of a quadratic through the neighbours. ``film``
-    has the shape of ``grid`` [-].
+    has the shape of ``grid`` [-]. Between nodes that touch the film is the boundary film ``least``,
+    not less.
     """
     full = grid.unfold(film)
     row = grid.domain.y[0] + grid.dy * np.arange(grid.ny)
@@ -54,10 +55,10 @@ def film_summary(grid: Grid, film: Array) -> FilmSummary:
     across, along = min(REACH, j, grid.ny - 1 - j), min(REACH, i, grid.nx - 1 - i)
     patch = full[j - across : j + across + 1, i - along : i + along + 1]
     minimum, (shift_y, shift_x) = subgrid_minimum(patch)
-    at_y = float(row[j] + shift_y * grid.dy)
+    at_y, floor = float(row[j] + shift_y * grid.dy), -np.inf if least is None else least
     return FilmSummary(
-        central=central_value(grid, film),
-        minimum=minimum,
+        central=max(central_value(grid, film), floor),
+        minimum=max(minimum, floor),
         minimum_node=float(full[j, i]),
         minimum_at=(float(grid.x[i] + shift_x * grid.dx), abs(at_y) if grid.mirror else at_y),
     )

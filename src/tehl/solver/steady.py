@@ -10,7 +10,7 @@ import numpy as np
 
 from tehl.domain import domain_of, planned
 from tehl.errors import InputError
-from tehl.fields import Fields, FilmHeat, FilmShear, FilmSummary, SurfaceHeights
+from tehl.fields import Fields, FilmHeat, FilmShear, SurfaceHeights
 from tehl.grid import Grid, can_mirror
 from tehl.kernels.warmup import warm_up
 from tehl.memory import check_memory
@@ -283,7 +283,7 @@ def _result(
             film=grid.unfold(level.film.h),
         ),
         rigid_approach=level.rigid_approach,
-        film_scaled=_film_summary(level),
+        film_scaled=film_summary(level.grid, level.film.h, level.equations.contact_film),
         status=attempt.status,
         history=history,
         errors=run.errors(),
@@ -300,14 +300,6 @@ def _result(
             (grid.dx * scaled.scales.half_width_x, grid.dy * scaled.scales.half_width_y),
         ),
     )
-
-
-def _film_summary(level: Level) -> FilmSummary:
-    """Return the film numbers; between nodes that touch the film is the boundary film, not less."""
-    found, least = film_summary(level.grid, level.film.h), level.equations.contact_film
-    if least is None:
-        return found
-    return replace(found, minimum=max(found.minimum, least))
 
 
 def _stress_and_heat(attempt: Attempt) -> tuple[FilmShear | None, FilmHeat | None]:

@@ -74,7 +74,7 @@ class Record:
         keep : bool
             Store the fields too.
         """
-        film = film_summary(level.grid, level.film.h)
+        film = film_summary(level.grid, level.film.h, level.equations.contact_film)
         row = numbers | {
             "film_central": film.central,
             "film_minimum": film.minimum,
