@@ -127,7 +127,7 @@ class TransientResult(Saved):
 
     @property
     def patch_cells(self) -> float:
-        """Largest mean diameter of patches of contact in the frames [mesh widths].
+        """Largest mean diameter, or width, of patches of contact in the frames [mesh widths].
 
         Zero where surfaces do not touch through a boundary film in any of them.
         """
