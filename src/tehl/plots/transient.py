@@ -21,6 +21,7 @@ from tehl.plots.frame import (
     outline,
     span_part,
 )
+from tehl.post.touching import LEAST_CELLS
 from tehl.post.transient import envelope, passing_features
 from tehl.transient_result import HistoryBars, TransientResult
 from tehl.typing import Array
@@ -53,7 +54,7 @@ def history(run: TransientResult, *, title: bool | None = True) -> Figure:
     if numbers.temperature_rise.max() > 0:
         curves.append(("largest rise [K]", numbers.temperature_rise, "#8a1c7c"))
     if numbers.asperity_load.max() > 0:
-        curves.append(("asperities [of the load]", numbers.asperity_load, "#b8560f"))
+        curves.append((_carried_by(run), numbers.asperity_load, "#b8560f"))
     if np.ptp(numbers.load) > 0:
         curves.append(("load [N]", numbers.load * run.start.problem.load, "0.2"))
     picture = figure(run, (7.0, 1.8 + 1.6 * (1 + len(curves))), title=title)
@@ -74,6 +75,14 @@ def history(run: TransientResult, *, title: bool | None = True) -> Figure:
     _add_distance_axis(panels[0], run, factor)
     picture.align_ylabels(panels)
     return picture
+
+
+def _carried_by(run: TransientResult) -> str:
+    """Return what carries the load beside the film, and whether the grid resolves it."""
+    if run.start.problem.contact_film is None:
+        return "asperities [of the load]"
+    known = "" if run.patch_cells >= LEAST_CELLS else "\n(not resolved)"
+    return f"where surfaces touch\n[of the load]{known}"
 
 
 def _add_distance_axis(axes: Axes, run: TransientResult, factor: float) -> None:
