@@ -316,6 +316,16 @@ def test_each_section_conserves_oil_while_surfaces_touch(monkeypatch):
     assert max(errors) < 1e-8
 
 
+def test_no_step_leaves_contact_pressure_where_surfaces_have_parted():
+    least: list[float] = []
+    problem = moving(4.0, 1.6, slides=0.5, moved=2.4, frames=0)
+    run = solve_transient(
+        problem, Options(points=49), keep=lambda one: least.append(one.fields["asperity"].min())
+    )
+    assert run.status.converged
+    assert min(least) > -problem.transient.tolerance
+
+
 def test_where_nothing_touches_steps_are_those_of_the_cycles():
     problem = moving(0.5, 0.02, slides=0.5, moved=2.6, tolerance=1e-6)
     plain = problem.model_copy(update={"contact_film": None})

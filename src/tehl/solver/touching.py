@@ -125,6 +125,13 @@ class TouchingNewton(TouchingOperators):
         """Return the mean residual of both pressures plus the error of the load [-]."""
         return self.level.evaluate_residual() + abs(self.level.missing_load())
 
+    def lost_contact(self) -> float:
+        """Return the largest contact pressure where the surfaces are apart [-].
+
+        Nodes that open in the last step keep theirs, of either sign, until the next one.
+        """
+        return float(np.abs(np.where(self.level.touching, 0.0, self.level.film.asperity)).max())
+
     def _choose_orders(self) -> None:
         second, touching = self.level.film.second, self.level.touching
         if self.order == 1 or self.level.stencil.w2 == 0.0:

@@ -183,6 +183,7 @@ class Stepper:
             done = done and warmer <= max(LARGEST_KELVIN_CHANGE * rise, LEAST_KELVIN)
             if self.newton is not None:  # a step that is cut short changes little
                 done = done and self.newton.residual() <= LARGEST_REST * self.transient.tolerance
+                done = done and self.newton.lost_contact() <= self.transient.tolerance
             if number >= LEAST_CYCLES and done:
                 return StepEnd(cycles=number, change=change, load_error=error, smoother=name)
         raise StepError("stalled", change)
