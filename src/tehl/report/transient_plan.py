@@ -13,6 +13,9 @@ SECONDS_PER_NODE = 1.7e-6
 SECONDS_COUPLED = 1.0e-5
 """CPU time of a step, and more per node of the finest full grid, on one core of a usual machine;
 the last one where heat or shear thinning is coupled."""
+TOUCHING_PER_STEP, TOUCHING_PER_NODE = 0.08, 1.5e-5
+"""The same of Newton's method where surfaces may touch, of a symmetric contact; of another one each
+node takes twice as long."""
 FEWEST_POINTS = 16.0
 """Points per wave below which the amplitude of a passing wave is off by some per cent."""
 LARGEST_PART = 0.25
@@ -65,7 +68,10 @@ def transient_plan(
     (ny, nx), (dx, dy) = options.shape, mesh
     step, duration = transient.stride * dx / units.speed, duration_of(scaled)
     steps = number_of_steps(scaled, step)
-    cost = SECONDS_COUPLED if problem.is_coupled else SECONDS_PER_NODE
+    start, cost = SECONDS_PER_STEP, SECONDS_COUPLED if problem.is_coupled else SECONDS_PER_NODE
+    if problem.contact_film is not None:
+        halves = options.half_domain == "auto" and problem.is_even_in_y
+        start, cost = TOUCHING_PER_STEP, TOUCHING_PER_NODE * (1 if halves else 2)
     waves = (one.roughness.shortest_wavelengths for one in (problem.surface_1, problem.surface_2))
     first, second = (min(wave[0] / dx, wave[1] / dy) for wave in waves)
     speeds = (problem.motion.speed_1, problem.motion.speed_2)
@@ -74,7 +80,7 @@ def transient_plan(
         duration_s=duration,
         step_s=step,
         steps=steps,
-        seconds=(SECONDS_PER_STEP + cost * nx * ny) * steps,
+        seconds=(start + cost * nx * ny) * steps,
         distance=duration * units.speed / units.half_width_x,
         speeds_m_s=speeds,
         points_per_wave=tuple(one if math.isfinite(one) else None for one in (first, second)),
