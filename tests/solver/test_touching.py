@@ -1,6 +1,6 @@
 """Contact through a boundary film: dry limits, oil balance, complementarity, uniqueness."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -27,7 +27,7 @@ from tehl.solver.steady import finest_grid
 from tehl.solver.touching import TouchingNewton
 from tehl.solver.transient.snapshot import Snapshot, pack, unpack
 from tehl.solver.transient.step import Stepper
-from tehl.transient_result import TransientResult
+from tehl.transient_result import Frames, TransientResult
 from tests.cases import ball_tables
 from tests.reference import moes_contact
 from tests.solver.rough import bumpy, with_roughness
@@ -283,6 +283,9 @@ def test_a_bump_that_passes_touches_in_the_contact_and_not_before(passing):
     text = as_text(run)
     assert "surfaces touch in" in text
     assert "8 are needed" in text  # of a bump on 49 nodes no share is stated
+    assert "8 are needed" in report_text(run, dpi=30)
+    first = Frames(**{one.name: getattr(run.frames, one.name)[:1] for one in fields(Frames)})
+    assert "touch in no stored field" in as_text(replace(run, frames=first))
     assert summary(run)["asperity_load"]["value"] == pytest.approx(share.max())
 
 
