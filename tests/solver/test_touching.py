@@ -176,8 +176,10 @@ def test_friction_where_surfaces_touch_is_the_stated_coefficient():
         "slide_roll_ratio": 0.1,
     }
     problem = ContactProblem.model_validate(tables)
-    shared = solve(problem, Options(points=65)).touching
+    found = solve(problem, Options(points=65))
+    shared = found.touching
     assert shared.share > 0.9
+    assert abs(found.traction.mid_film) == pytest.approx(shared.friction_film)  # of the film alone
     assert shared.friction_boundary == pytest.approx(0.12 * shared.share)
     assert shared.friction == pytest.approx(0.12, rel=0.05)
 

@@ -64,14 +64,17 @@ class Traction:
 def traction(result: Solution) -> Traction | None:
     """Return the traction of ``result``, None where it has no shear stresses.
 
-    Integrals are sums over the nodes under pressure; the gradient is a central difference. The
-    steady film at the start of a transient run carries the load at time zero.
+    Integrals are sums over the nodes under pressure; the gradient is a central difference. Where
+    surfaces touch through a boundary film, its friction replaces the sliding part. The steady film
+    at the start of a transient run carries the load at time zero.
 
     Parameters
     ----------
     result : Result
         Steady, computed or loaded.
     """
+    from tehl.post.touching import touching_nodes  # noqa: PLC0415 (it imports this module)
+
     shear = result.shear
     if shear is None:
         return None
@@ -85,7 +88,10 @@ def traction(result: Solution) -> Traction | None:
     def integral(stress: Array) -> float:  # a dot product would start all threads of the BLAS
         return float(np.sum(weights * stress[inside]))
 
-    first, middle, second = map(integral, (shear.surface_1, shear.mid_film, shear.surface_2))
+    rubbed = np.where(touching_nodes(result), shear.mid_film, 0.0)
+    first, middle, second = (
+        integral(stress - rubbed) for stress in (shear.surface_1, shear.mid_film, shear.surface_2)
+    )
     push = integral(film * _slope(pressure, result.x))
     lift = -integral(pressure * _slope(film, result.x))
     return Traction(
