@@ -8,12 +8,15 @@ from typing import Annotated
 
 from pydantic import Field
 
+from tehl.typing import Array, BoolArray
 from tehl.units import Length, Quantity, Table
 
 Friction = Annotated[float, Quantity("a plain number", "-", "0.1", "non-negative")]
 
 THINNEST, THICKEST = 1e-12, 1e-6
 """Limits of the boundary film [m]: beyond both the unit is wrong."""
+MARGIN = 0.05
+"""Film above the boundary film, over it, up to which surfaces count as touching."""
 
 
 class ContactFilm(Table):
@@ -23,3 +26,7 @@ class ContactFilm(Table):
     """Least film thickness [m]."""
     friction: Annotated[Friction, Field(le=2.0)] = 0.1
     """Friction coefficient where they touch [-]."""
+
+    def meets(self, film: Array) -> BoolArray:
+        """Return where a film [m] exceeds the boundary film by at most `MARGIN`."""
+        return film <= (1.0 + MARGIN) * self.thickness

@@ -11,12 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tehl.contact_film import MARGIN
 from tehl.post.traction import LARGEST_CREDIBLE, cell_widths
 from tehl.solution import Solution
 from tehl.typing import Array, BoolArray, IntArray, SingleArray
 
-MARGIN = 0.05
-"""Film above the boundary film, over it, up to which surfaces count as touching."""
 LEAST_CELLS = 8.0
 """Mesh widths across the patches of contact below which a share of the load is not known: of
 standing roughness that four cells per summit press into contact, eight may leave none."""
@@ -127,7 +126,7 @@ def touching_nodes(result: Solution) -> BoolArray:
     film = result.problem.contact_film
     if film is None:
         return np.zeros(result.scaled.film.shape, bool)
-    return np.asarray(result.film_thickness <= (1.0 + MARGIN) * film.thickness)
+    return film.meets(result.film_thickness)
 
 
 def largest_patches(least: float, films: SingleArray, pressures: SingleArray) -> float:

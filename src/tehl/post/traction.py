@@ -73,8 +73,6 @@ def traction(result: Solution) -> Traction | None:
     result : Result
         Steady, computed or loaded.
     """
-    from tehl.post.touching import touching_nodes  # noqa: PLC0415 (it imports this module)
-
     shear = result.shear
     if shear is None:
         return None
@@ -88,7 +86,9 @@ def traction(result: Solution) -> Traction | None:
     def integral(stress: Array) -> float:  # a dot product would start all threads of the BLAS
         return float(np.sum(weights * stress[inside]))
 
-    rubbed = np.where(touching_nodes(result), shear.mid_film, 0.0)
+    boundary = result.problem.contact_film
+    meet = boundary is not None and boundary.meets(result.film_thickness)
+    rubbed = np.where(meet, shear.mid_film, 0.0)
     first, middle, second = (
         integral(stress - rubbed) for stress in (shear.surface_1, shear.mid_film, shear.surface_2)
     )

@@ -4,12 +4,12 @@ from dataclasses import asdict
 
 import numpy as np
 
+from tehl.contact_film import MARGIN
 from tehl.operators.energy import FilmState
 from tehl.operators.film import hertz_pressure
 from tehl.operators.heated_film import stress_unit
 from tehl.post.heat import lagrange_weights
 from tehl.post.roughness import ripples
-from tehl.post.touching import MARGIN
 from tehl.scaling import ScaledProblem
 from tehl.solver.film_summary import central_value
 from tehl.solver.level import Level
