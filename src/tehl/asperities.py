@@ -115,6 +115,10 @@ class GreenwoodTripp(_Touching):
         """Return the thickness of a smooth gap that conducts as much, over sigma [-]."""
         return channel(gap)
 
+    def carried(self, gap: "Array") -> "Array":
+        """Return what a rough surface carries beside the gap, Phi_s over the mean gap [-]."""
+        return shear_flow(gap) / mean_gap(gap)
+
     def unit(self, sigma: float, modulus: float) -> float:
         """Return the pressure over F_(5/2) for sigma [m] and E' [Pa]: in Pa."""
         steep = math.sqrt(sigma / self.summit_radius)
@@ -140,7 +144,8 @@ class SurfacePatch(_Touching):
     map: Map
     """The measured patch, heights of both surfaces together: the other one is smooth. Of more than
     192 points along x or y the middle is taken; unless ``outside = "periodic"`` the patch is
-    continued by its mirror image."""
+    continued by its mirror image. The surface that states ``rms_roughness`` has it; both, in
+    proportion to the squares, if both do. If none does, it carries no oil in sliding."""
 
     @model_validator(mode="after")
     def _check_place(self) -> "SurfacePatch":
@@ -193,6 +198,10 @@ class SurfacePatch(_Touching):
     def across(self, gap: "Array") -> "Array":
         """Return the conductance along y over that along x [-]."""
         return self.curves.conducts_across(gap)
+
+    def carried(self, gap: "Array") -> "Array":
+        """Return what a rough surface carries beside the gap, Phi_s over the mean gap [-]."""
+        return self.curves.carries(gap)
 
 
 Asperities = Annotated[GreenwoodTripp | SurfacePatch, Field(discriminator="model")]

@@ -3,14 +3,15 @@
 import numpy as np
 import pytest
 
+from tehl.asperities import shear_flow
 from tehl.errors import InputError
 from tehl.io.case import case_from_tables
 from tehl.io.store import load, save
 from tehl.options import Options
 from tehl.patch import contact
 from tehl.patch.contact import pressed
-from tehl.patch.curves import patch_curves, periodic_patch
-from tehl.patch.flow import conducted
+from tehl.patch.curves import VANISHES, patch_curves, periodic_patch
+from tehl.patch.flow import flow_through
 from tehl.solver import solve
 from tests.reference import moes_contact
 
@@ -79,9 +80,37 @@ def test_a_random_patch_agrees_with_contact_mechanics():
 
 def test_the_flow_along_and_across_a_wave_is_exact():
     gap = 1.0 + 50.0 * wave(128, both=False)
-    along, across = conducted(gap, (1 / 128, 1 / 128))
-    assert along == pytest.approx(1.0 / np.mean(gap**-3.0), rel=1e-9)
-    assert across == pytest.approx(np.mean(gap**3), rel=1e-9)
+    found = flow_through(gap, (1 / 128, 1 / 128))
+    assert found.along == pytest.approx(1.0 / np.mean(gap**-3.0), rel=1e-9)
+    assert found.across == pytest.approx(np.mean(gap**3), rel=1e-9)
+
+
+@pytest.mark.parametrize("part", [0.1, 0.5, 0.9])
+def test_a_sliding_wave_carries_what_the_closed_form_says(part):
+    """Across the flow <g> - <g^-2>/<g^-3>, of a cosine with integrals known; along it nothing."""
+    gap = 1.0 + 100.0 * part * wave(128, both=False)
+    exact = 1.0 - (1.0 - part**2) / (1.0 + 0.5 * part**2)
+    assert flow_through(gap, (1 / 128, 1 / 8)).carried == pytest.approx(exact, rel=1e-9)
+    lines = np.ascontiguousarray(gap.T)
+    assert flow_through(lines, (1 / 8, 1 / 128)).carried == pytest.approx(0.0, abs=1e-12)
+
+
+def test_low_waves_carry_by_their_direction():
+    """3/h times the mean of z^2 cos^2, of the angle between wave and sliding."""
+    z = random_patch(64) / 0.01
+    rough = [flow_through(h + z, (1 / 64, 1 / 64)).carried * h for h in (50.0, 100.0)]
+    q = np.stack(np.meshgrid(np.fft.fftfreq(64), np.fft.fftfreq(64)))
+    power, size = np.abs(np.fft.fft2(z)) ** 2, (q**2).sum(axis=0)
+    size[0, 0] = 1.0
+    exact = 3.0 * (power * q[0] ** 2 / size).sum() / power.sum()
+    assert rough == pytest.approx([exact, exact], rel=0.05)  # 4 nodes per shortest wave
+    assert rough[1] == pytest.approx(rough[0], rel=2e-3)
+
+
+def test_closed_pools_move_with_the_rough_surface():
+    x = np.linspace(-1.0, 1.0, 32, endpoint=False)
+    pools = np.maximum(0.3 - np.hypot(x[:, None], x), 0.0)
+    assert flow_through(pools, (1.0, 1.0)).carried == pytest.approx(pools.mean(), rel=0.01)
 
 
 def test_flow_factors_are_those_of_patir_and_cheng_but_for_their_scatter():
@@ -92,9 +121,12 @@ def test_flow_factors_are_those_of_patir_and_cheng_but_for_their_scatter():
         z = np.fft.irfft2(np.exp(-((q / 8.0) ** 2)) * phase, s=(nodes, nodes))
         z = (z - z.mean()) / z.std()
         gaps = (2.0, 3.0, 6.0)
-        found.append([np.mean(conducted(np.maximum(h + z, 0.0), (1, 1))) / h**3 for h in gaps])
-    published = 1.0 - 0.9 * np.exp(-0.56 * np.array(gaps))
-    assert np.mean(found, axis=0) == pytest.approx(published, abs=0.08)
+        flows = [flow_through(np.maximum(h + z, 0.0), (1, 1)) for h in gaps]
+        factors = [0.5 * (f.along + f.across) / h**3 for f, h in zip(flows, gaps, strict=True)]
+        found.append(factors + [flow.carried for flow in flows])
+    factors, carried = np.mean(found, axis=0).reshape(2, 3)
+    assert factors == pytest.approx(1.0 - 0.9 * np.exp(-0.56 * np.array(gaps)), abs=0.08)
+    assert carried == pytest.approx(shear_flow(np.array(gaps)), rel=0.15)
 
 
 # ---- curves
@@ -126,6 +158,11 @@ def test_the_curves_are_monotone_and_go_on_beyond_their_ends(curves):
     assert (np.diff(curves.conducts(gaps)) > 0.0).all()
     assert curves.conducts(np.array([12.0])) == pytest.approx(12.0, rel=1e-2)
     assert curves.conducts_across(np.array([12.0])) == pytest.approx(1.0, abs=1e-2)
+    carries = curves.carries(gaps)
+    assert (carries > 0.0).all()
+    assert (carries < 1.0).all()
+    assert (np.diff(carries) <= 0.0).all()
+    assert curves.carries(np.array([VANISHES, 40.0])) == pytest.approx(0.0, abs=1e-15)
     assert curves.load(curves.gaps) == pytest.approx(curves.pressure, rel=1e-9)
     assert (np.diff(curves.area) <= 0.0).all()
 
@@ -145,6 +182,30 @@ def test_a_measured_patch_shares_the_load(tmp_path):
     assert 2e-6 < found[1].spots.radius < 4e-5  # half a pixel to ten
     assert 0.05 < shares[1] < 0.7
     assert shares[0] == pytest.approx(shares[1], rel=0.15)
+
+
+def test_a_patch_carries_more_oil_on_the_faster_surface(tmp_path):
+    """On the line y = 0 in the contact, where no oil flows by pressure, the oil is constant."""
+    file, rq = tmp_path / "ground.csv", {"rms_roughness": 0.2e-6}
+    np.savetxt(file, 2e-5 * random_patch(64), delimiter=",")
+    tables = patch_case(file, outside="periodic")
+    films = []
+    for rough, sliding, sign in (("1", 1, 1), ("2", -1, 1), ("2", 1, -1), ("12", 1, 0), ("", 1, 0)):
+        case = tables | {f"surface_{n}": tables[f"surface_{n}"] | rq for n in rough}
+        case["contact"] = tables["contact"] | {"slide_roll_ratio": sliding}
+        found = solve(case_from_tables(case)[0], Options(points=129))
+        films.append(found.film.central)
+        law, middle = found.problem.asperities, found.y.size // 2
+        inside = np.abs(found.x) < 0.6 * found.scales.half_width_x
+        gap = (found.asperities.separation / law.rms)[middle, inside]
+        pressure, inlet = found.pressure[middle, inside], found.problem.inlet_temperature
+        density = found.problem.lubricant.density.density(pressure, inlet)
+        carried = density * law.mean_gap(gap) * (1.0 + 0.5 * sign * law.carried(gap))
+        assert np.ptp(carried) < 0.03 * carried.mean()
+    rolling = solve(case_from_tables(tables)[0], Options(points=129)).film.central
+    assert films[0] == pytest.approx(films[1], rel=1e-9)  # surfaces and directions swapped
+    assert films[2] > 1.05 * films[0]
+    assert films[3] == films[4] == rolling  # as rough as each other, or not stated
 
 
 def patch_case(file, **settings) -> dict:

@@ -7,12 +7,12 @@ from functools import cache, lru_cache
 import numpy as np
 
 from tehl.asperities import (
+    Asperities,
     GreenwoodTripp,
     SurfacePatch,
     channel,
     gaussian_integral,
     mean_gap,
-    shear_flow,
 )
 from tehl.mixed import LEAST, MOST
 from tehl.problem import ContactProblem
@@ -21,6 +21,8 @@ from tehl.typing import Array
 
 STEP = 0.02
 """Difference of the separations at which the laws are tabulated, over sigma."""
+LEAST_CARRIED = 0.01
+"""Least oil that is carried over that of the gap: pools of a rough surface at rest carry none."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -64,9 +66,10 @@ def asperity_table(scaled: ScaledProblem) -> AsperityTable | None:
         return None
     unit = sigma / scales.film_thickness
     pressure = law.unit(sigma, problem.reduced_modulus) / scales.hertz_pressure
-    laws = _of_patch(law, law.map.stamp) if isinstance(law, SurfacePatch) else _of_summits()
+    stamp = law.map.stamp if isinstance(law, SurfacePatch) else None
+    laws = _of_patch(law, stamp) if isinstance(law, SurfacePatch) else _of_summits()
     if part := sliding_part(problem):
-        laws = np.concatenate([laws, _of_sliding(part)], axis=1)
+        laws = np.concatenate([laws, _of_sliding(law, stamp, part)], axis=1)
     factors = np.repeat([pressure, unit, unit, 1.0, 1.0], 2)[: laws.shape[1]]
     return AsperityTable(table=laws * factors, grid=np.array([LEAST, STEP]) * unit)
 
@@ -80,24 +83,27 @@ def _of_summits() -> Array:
 def sliding_part(problem: ContactProblem) -> float:
     """Return the factor of the shear flow of Patir and Cheng (1979): zero if both are as rough.
 
-    (u_1 - u_2) / (2 u_m) times (sigma_1^2 - sigma_2^2) / sigma^2. Zero also where sigma is not that
-    of two surfaces, and in transient runs.
+    (u_1 - u_2) / (2 u_m) times (sigma_1^2 - sigma_2^2) / sigma^2. Zero also where no surface states
+    its roughness, or sigma is not theirs, and in transient runs.
     """
     law, rms = problem.asperities, problem.rms_roughness
-    if not isinstance(law, GreenwoodTripp) or law.rms is not None or problem.transient is not None:
+    is_stated = isinstance(law, GreenwoodTripp) and law.rms is not None
+    if is_stated or rms == 0.0 or problem.transient is not None:
         return 0.0
     first, second = problem.surface_1.rms_roughness, problem.surface_2.rms_roughness
     return 0.5 * problem.slide_roll_ratio * (first**2 - second**2) / rms**2
 
 
 @lru_cache(maxsize=4)
-def _of_sliding(part: float) -> Array:
-    """Return no anisotropy, and what the surfaces carry over the mean gap, as `_tabulated`."""
+def _of_sliding(law: Asperities, stamp: object, part: float) -> Array:
+    """Return what the surfaces carry over the mean gap, after no anisotropy of summits."""
+    del stamp
 
     def carried(gap: Array) -> Array:
-        return 1.0 + part * shear_flow(gap) / mean_gap(gap)
+        return np.maximum(1.0 + part * law.carried(gap), LEAST_CARRIED)
 
-    return _tabulated(np.ones_like, carried)
+    is_patch = isinstance(law, SurfacePatch)
+    return _tabulated(carried) if is_patch else _tabulated(np.ones_like, carried)
 
 
 @lru_cache(maxsize=4)

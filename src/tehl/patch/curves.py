@@ -12,7 +12,7 @@ from scipy.interpolate import PchipInterpolator
 
 from tehl.errors import InputError
 from tehl.patch.contact import pressed
-from tehl.patch.flow import conducted
+from tehl.patch.flow import flow_through
 from tehl.typing import Array
 
 LARGEST = 192
@@ -22,6 +22,8 @@ FLOW = 128
 FIRST, MORE, CLOSED = 3e-5, 1.6, 0.05
 """Mean pressure over E* and slope of the first load, factor of the next one, and mean gap over Sq
 of the last."""
+VANISHES = 30.0
+"""Gap over Sq from which a sliding patch carries what the gap holds."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -40,6 +42,8 @@ class PatchCurves:
     across: Array
     """Thickness of a smooth gap that conducts as much along x, over Sq, and conductance along y
     over that along x [-]."""
+    carried: Array
+    """What a sliding patch carries beside the gap, Phi_s over the mean gap [-]."""
 
     def load(self, gap: Array) -> Array:
         """Return the pressure over E* at gaps, linear below and exponential above the loads."""
@@ -68,6 +72,14 @@ class PatchCurves:
         ends = self.gaps[[0, -1]]
         part = PchipInterpolator(self.gaps, self.across)(np.clip(gap, *ends))
         return 1.0 + (part - 1.0) * np.exp(-0.56 * np.maximum(gap - ends[1], 0.0))
+
+    def carries(self, gap: Array) -> Array:
+        """Return Phi_s over the mean gap, beyond the first load as of low waves: 1 / gap^2."""
+        last, end = self.gaps[-1], max(VANISHES, 2.0 * self.gaps[-1])
+        inside = PchipInterpolator(self.gaps, self.carried)(np.clip(gap, self.gaps[0], last))
+        beyond = (np.clip(gap, last, end) ** -2.0 - end**-2.0) / (last**-2.0 - end**-2.0)
+        found: Array = inside * beyond
+        return found
 
     def touching(self, gap: Array) -> Array:
         """Return the part of the area in which the surfaces touch."""
@@ -123,12 +135,12 @@ def patch_curves(z: Array, pixel: tuple[float, float]) -> PatchCurves:
         if gap < CLOSED:
             break
         flow = found.gap[::stride, ::stride]
-        along, across = conducted(flow, (stride * pixel[0], stride * pixel[1]))
-        channel = (along * (found.mean_gap / flow.mean()) ** 3) ** (1.0 / 3.0) / sigma
+        mean = flow.mean()
+        through = flow_through(flow, (stride * pixel[0], stride * pixel[1]))
+        channel = through.along ** (1.0 / 3.0) / mean * gap
         number = found.spots / (z.size * pixel[0] * pixel[1])
-        rows.append((gap, found.mean_pressure, found.area, number, channel, across / along))
+        ratios = (channel, through.across / through.along, through.carried / mean)
+        rows.append((gap, found.mean_pressure, found.area, number, *ratios))
         start, pressure = found.pressure, MORE * pressure
-    gaps, loads, area, number, channel, ratio = np.array(rows[::-1]).T
-    return PatchCurves(
-        gaps=gaps, pressure=loads, area=area, number=number, channel=channel, across=ratio
-    )
+    names = ("gaps", "pressure", "area", "number", "channel", "across", "carried")
+    return PatchCurves(**dict(zip(names, np.array(rows[::-1]).T, strict=True)))

@@ -1,9 +1,16 @@
-"""Flow through the gap of a periodic patch: what it conducts over a smooth gap of the same mean.
+"""Flow through the gap of a periodic patch, by pressure and by sliding.
 
     div(g^3 grad p) = 0,   p - x periodic,   phi_x = mean(g^3 p_x) / mean(g)^3
 
 and the same along y, with the harmonic mean of g^3 on each face: nothing flows through contacts.
+Where the rough surface slides over a smooth one, without a mean pressure gradient,
+
+    div(g^3 grad p) = -g_x,   p periodic,   phi_s = -mean(g^3 p_x),
+
+and the flux g + g^3 p_x through a face is that through both half cells one after the other.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 from scipy.sparse import csr_matrix
@@ -15,8 +22,18 @@ LEAST = 1e-9
 """Least g^3 over its mean, so that closed pools have a pressure."""
 
 
-def conducted(gap: Array, pixel: tuple[float, float]) -> tuple[float, float]:
-    """Return the mean flux along x and along y per unit gradient of the pressure.
+class Flow(NamedTuple):
+    """Mean flow through a gap."""
+
+    along: float
+    across: float
+    """Flux along x and along y per unit gradient of the pressure [gap^3]."""
+    carried: float
+    """Flux along x beside that of the mean gap, over (u_1 - u_2)/2 of a rough surface 1 [gap]."""
+
+
+def flow_through(gap: Array, pixel: tuple[float, float]) -> Flow:
+    """Return the mean flow through one period of a gap.
 
     Parameters
     ----------
@@ -27,6 +44,7 @@ def conducted(gap: Array, pixel: tuple[float, float]) -> tuple[float, float]:
     """
     cubed = gap**3
     cubed = np.maximum(cubed, LEAST * cubed.mean())
+    gap = np.cbrt(cubed)
     (dx, dy), size = pixel, gap.size
     nodes = np.arange(size).reshape(gap.shape)
     rows, columns, values = [], [], []
@@ -44,10 +62,17 @@ def conducted(gap: Array, pixel: tuple[float, float]) -> tuple[float, float]:
         (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), (size, size)
     )
     solver = splu(matrix[1:, 1:].tocsc())  # the pressure of one node is zero
-    found = []
-    for axis, width, face in ((1, dx, faces[0]), (0, dy, faces[1])):
-        source = (face - np.roll(face, 1, axis)) / width
+
+    def flux(axis: int, width: float, face: Array, driven: Array) -> float:
+        """Return the mean of a driven flux and the pressure flow that makes it free of sources."""
+        source = (driven - np.roll(driven, 1, axis)) / width
         free = np.append(0.0, solver.solve(-source.ravel()[1:])).reshape(gap.shape)
-        slope = 1.0 + (np.roll(free, -1, axis) - free) / width
-        found.append(float((face * slope).mean()))
-    return found[0], found[1]
+        return float((driven + face * (np.roll(free, -1, axis) - free) / width).mean())
+
+    along, across = faces
+    dragged = 0.5 * along * (gap**-2.0 + np.roll(gap, -1, 1) ** -2.0)
+    return Flow(
+        along=flux(1, dx, along, along),
+        across=flux(0, dy, across, across),
+        carried=float(gap.mean()) - flux(1, dx, along, dragged),
+    )
