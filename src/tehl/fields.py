@@ -140,6 +140,8 @@ class FilmAsperities(_ReadOnly):
     """(ny, nx): Distance of the mean planes of both surfaces [m]; the film is the mean gap."""
     rms: Array
     """(): Standard deviation of their heights [m]."""
+    balance: Array
+    """(): Oil made or lost in the film, over the oil that enters [-]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -22,11 +22,13 @@ from tehl.operators.transient_film import Rubbing
 from tehl.options import Options
 from tehl.plots import asperity_map, pictures_of
 from tehl.problem import ContactProblem
+from tehl.report.page import report_text
 from tehl.scaling import ScaledProblem, scales
 from tehl.solution import Status
 from tehl.solver import solve, solve_transient
 from tehl.solver.certify import certify
 from tehl.solver.monitor import SILENT
+from tehl.solver.outputs import asperity_balance
 from tehl.solver.steady import try_strategies
 from tests.reference import CLOSE, heated_contact, moes_contact
 from tests.reference import touching_contact as rough
@@ -190,6 +192,53 @@ def test_half_and_full_domain_share_the_load_alike():
     full = options.model_copy(update={"half_domain": "never"})
     first, second = (solve(problem, one) for one in (options, full))
     assert first.film_scaled.central == pytest.approx(second.film_scaled.central, rel=2e-3)
+
+
+# ---- the oil
+
+
+def test_the_oil_through_all_sections_of_a_tight_film_is_constant():
+    """The wedge m' = (3 m_i - 4 m_(i-1) + m_(i-2)) / 2 dx is a difference of fluxes at faces."""
+    problem = rough(50.0, 8.0, 0.7)
+    options = Options(points=65, accuracy="tight", half_domain="never")
+    attempt, result = try_strategies(problem, options, monitor=SILENT, rough=False)
+    level = attempt.run.finest
+    film, grid, stencil = level.film, level.grid, level.stencil
+    mass = film.rho * film.h
+    along = 1.5 * mass[1:-1, 1:-1] - 0.5 * mass[1:-1, :-2]
+    eps = 0.5 * (film.eps_x[:, 1:] + film.eps_x[:, :-1])
+    along -= (stencil.cx * grid.dx * eps * np.diff(film.p, axis=1))[1:-1, 1:]
+    eps = 0.5 * (film.eps_y[1:] + film.eps_y[:-1])
+    sideways = stencil.cy * eps * np.diff(film.p, axis=0)
+    out = np.cumsum((sideways[0] - sideways[-1])[2:-1]) * grid.dx
+    through = along.sum(axis=0)
+    through[1:] += out
+    full = np.logical_and.accumulate((film.p[1:-1, 1:-1] > 0.0).all(axis=0))
+    assert full.sum() > 0.6 * full.size  # cavities begin at the outlet
+    assert np.abs(through - through[0])[full].max() < 2e-10 * mass[1:-1, 0].sum()
+    assert result.load_sharing.balance < 1e-10
+    assert asperity_balance(level) == result.load_sharing.balance
+
+
+@pytest.mark.parametrize("kind", ["half", "thinning", "scarce"])
+def test_tight_films_with_asperities_lose_no_oil(kind):
+    problem = rough(50.0, 8.0, 0.7)
+    tables = problem.model_dump(exclude_none=True)
+    tables["contact"]["slide_roll_ratio"] = 0.1
+    if kind == "thinning":
+        tables["lubricant"]["shear"] = {"law": "eyring", "stress": 5e6}
+    elif kind == "scarce":
+        tables["supply"] = {"ratio": 0.5}
+    found = solve(case_from_tables(tables)[0], Options(points=65, accuracy="tight"))
+    assert found.load_sharing.balance < 1e-10
+
+
+def test_the_balance_of_the_oil_is_printed_and_small(mixed):
+    balance = mixed.load_sharing.balance
+    assert 0.0 < balance < 0.02  # of the same size as the error in the inlet
+    assert mixed.summary()["load_sharing"]["balance"] == balance
+    assert f"{balance:.1e} of what enters" in as_text(mixed)
+    assert f"{balance:.1e}" in report_text(mixed, dpi=30)
 
 
 # ---- bad input

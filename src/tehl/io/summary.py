@@ -240,7 +240,7 @@ def _load_sharing(found: LoadSharing) -> Block:
         found,
         *("share", "share_error", "friction", "friction_film", "friction_boundary"),
         *("area_m2", "area_part", "asperity_pressure_max_pa", "pressure_max_pa"),
-        *("separation_central_m", "separation_ratio", "power_boundary_w"),
+        *("separation_central_m", "separation_ratio", "power_boundary_w", "balance"),
     ) | {"spots": None if found.spots is None else _picked(found.spots, *names)}
 
 

@@ -65,7 +65,11 @@ ASPERITIES = (
         ("spots", "asperity_spots", "1/m^2", "spots in which they touch, per area"),
         ("separation", "separation", "m", "distance of the mean planes of both surfaces"),
     ),
-    *_table("", ("rms", "asperity_rms", "m", "standard deviation of their heights")),
+    *_table(
+        "",
+        ("rms", "asperity_rms", "m", "standard deviation of their heights"),
+        ("balance", "asperity_oil_balance", "1", "oil made or lost, of that which enters"),
+    ),
 )
 CONTACT = (
     *_table("y x", ("pressure", "contact_pressure", "Pa", "pressure of contact beside the oil")),

@@ -41,6 +41,8 @@ class LoadSharing:
     """Heat of the asperities that rub [W]."""
     spots: Spots | None
     """Spots on which summits touch; None where none touches."""
+    balance: float
+    """Oil made or lost in the film, over the oil that enters [-]."""
 
     @property
     def friction(self) -> float:
@@ -78,5 +80,6 @@ def load_sharing(result: Solution) -> LoadSharing | None:
         friction_boundary=law.friction * share if result.problem.slide_roll_ratio else 0.0,
         power_boundary=law.friction * share * scales.load * abs(motion.speed_1 - motion.speed_2),
         spots=spots(result, found),
+        balance=float(found.balance),
         friction_film=0.0 if forces is None else abs(forces.mid_film),
     )

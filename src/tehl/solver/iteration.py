@@ -35,7 +35,7 @@ from tehl.solver.level import Level
 from tehl.solver.measures import measured
 from tehl.solver.monitor import Monitor
 from tehl.solver.newton import Newton
-from tehl.solver.outputs import contact_balance, oil_balance
+from tehl.solver.outputs import asperity_balance, contact_balance, oil_balance
 from tehl.solver.thermal import Coupling
 from tehl.solver.touching import CLOSE, TIGHTLY, TouchingNewton, raise_heights
 from tehl.typing import Array
@@ -55,7 +55,8 @@ LARGEST_OIL_ERROR, COARSE_OIL_ERROR = 0.005, 0.003
 coarser ones, where it costs less."""
 LARGEST_MADE, ROUNDING = 1e-10, 1e-13
 """Oil made or lost between surfaces that may touch, over what passes, which takes a few more Newton
-steps; and residual from which these end if they gain no more."""
+steps, and in tight solves with asperities, over what enters, which takes ten more cycles; and
+residual from which Newton steps end if they gain no more."""
 FREE_ORDERS = 4
 """Cycles after which nodes keep the order with which they pass on oil: else it may change with the
 meniscus, and the meniscus with it."""
@@ -105,6 +106,7 @@ class GridIteration:
         self.from_hertz = False  # the present grid started from the Hertz pressure
         self.is_settled = True  # the meniscus rests, and the oil flux is constant
         self.made = np.inf  # oil made or lost between surfaces that may touch
+        self.is_balanced = True  # a tight solve with asperities neither makes nor loses oil
 
     @property
     def finest(self) -> Level:
@@ -175,7 +177,8 @@ class GridIteration:
             if self.coupling.state is None or len(trace.reports) < MOST_CYCLES:
                 return done and temperature_converged(trace, coarser)
             return (done and temperature_converged(trace, coarser)) or stalled(trace, 2)
-        return must_stop(trace, coarser, self.options) or stalled(trace, self.strategy.patience)
+        done = self.is_balanced and must_stop(trace, coarser, self.options)
+        return done or stalled(trace, self.strategy.patience)
 
     def _start_heat(self, levels: Sequence[Level]) -> int:
         """Start heat and shear thinning on the last of ``levels``, if it resolves them.
@@ -282,6 +285,8 @@ class GridIteration:
             before_it, self.made = self.made, contact_balance(fine)
             rounded = report.residual <= ROUNDING and self.made > 0.5 * before_it
             self.is_settled = self.made <= LARGEST_MADE or rounded
+        if fine.equations.asperities is not None and self.options.accuracy == "tight":
+            self.is_balanced = fine is not self.finest or asperity_balance(fine) <= LARGEST_MADE
         self.monitor.cycle(report)
         return report
 

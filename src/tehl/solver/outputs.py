@@ -124,6 +124,7 @@ def film_asperities(level: Level, scaled: ScaledProblem) -> FilmAsperities | Non
         spots=grid.unfold(law.spots(apart, sigma)),
         separation=grid.unfold(separation),
         rms=np.array(sigma),
+        balance=np.array(asperity_balance(level)),
     )
 
 
@@ -140,15 +141,37 @@ def contact_balance(level: Level) -> float:
 
     Relative to the oil that passes through |Y| < 1 at X = 0. Cavities do not count.
     """
-    level.evaluate_residual()
     grid, film = level.grid, level.film
+    middle, inside = int(np.argmin(np.abs(grid.x))), np.abs(grid.y) < 1.0
+    through = float(_line_weights(grid)[inside] @ (film.rho * film.h)[inside, middle])
+    return _largest_made(level) / through
+
+
+def asperity_balance(level: Level) -> float:
+    """Return the largest oil made or lost upstream of any section of a film with asperities [-].
+
+    Relative to the oil that the surfaces bring; what leaves through the side edges counts as
+    passed. Cavities do not count unless they conserve oil.
+    """
+    if level.stencil.conserves:
+        return oil_balance(level)
+    entering = _line_weights(level.grid) @ (level.film.rho * level.film.h)[:, 0]
+    return _largest_made(level) / float(entering)
+
+
+def _largest_made(level: Level) -> float:
+    """Return the largest oil made or lost in the film upstream of any section, as rho H [-]."""
+    level.evaluate_residual()
+    made = np.cumsum(_line_weights(level.grid) @ level.residual) * level.grid.dx
+    return float(np.abs(made).max())
+
+
+def _line_weights(grid: Grid) -> Array:
+    """Return of how many lines of the full domain each line is an image, (ny,)."""
     weights = np.ones(grid.shape[0])
     if grid.mirror:
         weights[1:] = 2.0
-    made = np.cumsum(weights @ level.residual) * grid.dx
-    middle, inside = int(np.argmin(np.abs(grid.x))), np.abs(grid.y) < 1.0
-    through = float(weights[inside] @ (film.rho * film.h)[inside, middle])
-    return float(np.abs(made).max()) / through
+    return weights
 
 
 def film_oil(level: Level, scaled: ScaledProblem) -> FilmOil | None:
