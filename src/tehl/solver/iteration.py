@@ -65,8 +65,9 @@ ISOTHERMAL_CYCLES = 4
 FIRST_ORDER = 64
 """Nodes along x below which grids of surfaces that may touch have a wedge of first order: they only
 provide the start, and thin films have no solution of second order there."""
-COARSE_NODES = 33
-"""Least nodes along x of the coarse grid in the preconditioner of Newton's method."""
+COARSE_NODES, COARSE_TOUCHING = 33, 17
+"""Least nodes along x of the coarse grid in the preconditioner of Newton's method, and where
+surfaces may touch: dense equations of more take longer than the iterations they save."""
 DAMPED_MEMORY = 3
 """Most earlier cycles combined if heat and thinning are damped: older ones had another flow."""
 
@@ -214,15 +215,17 @@ class GridIteration:
         touches = levels[-1].equations.contact_film is not None
         if not (touches or (self.strategy.newton and self.roughness.is_on(levels))):
             return None
-        coarse = coarse_grid(levels)
         if not touches:
-            return Newton(levels[-1], coarse)
+            return Newton(levels[-1], coarse_grid(levels, COARSE_NODES))
         is_last = len(levels) == len(self.levels)
         is_start = levels[-1].grid.nx < FIRST_ORDER and not is_last
         tight = self.options.accuracy == "tight"
         closing = TIGHTLY * self.options.tolerance if tight else CLOSE
         return TouchingNewton(
-            levels[-1], coarse, order=1 if is_start else 2, closing=closing if is_last else 0.0
+            levels[-1],
+            coarse_grid(levels, COARSE_TOUCHING),
+            order=1 if is_start else 2,
+            closing=closing if is_last else 0.0,
         )
 
     def _anderson(self, levels: Sequence[Level]) -> Anderson | None:
@@ -313,9 +316,9 @@ class GridIteration:
         return report
 
 
-def coarse_grid(levels: Sequence[Level]) -> Grid:
-    """Return the grid of the coarse correction of Newton's method on the last of ``levels``."""
-    return next((one.grid for one in levels if one.grid.nx >= COARSE_NODES), levels[-1].grid)
+def coarse_grid(levels: Sequence[Level], nodes: int) -> Grid:
+    """Return the coarsest grid of at least ``nodes`` along x."""
+    return next((one.grid for one in levels if one.grid.nx >= nodes), levels[-1].grid)
 
 
 def _most_steps(newton: Newton | None) -> int:

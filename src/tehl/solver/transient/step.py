@@ -20,7 +20,7 @@ from tehl.operators.reynolds import steady_flux, steady_wedge, step_stencil, ups
 from tehl.solver.convergence import LEAST_KELVIN, RUNAWAY
 from tehl.solver.fas import Cycle, cycle
 from tehl.solver.film_solver import FilmSolver
-from tehl.solver.iteration import coarse_grid
+from tehl.solver.iteration import COARSE_TOUCHING, coarse_grid
 from tehl.solver.level import Level
 from tehl.solver.relaxation import Relaxation
 from tehl.solver.touching import TouchingNewton
@@ -86,7 +86,7 @@ class Stepper:
         solver.coupling.begin_transient(solver.levels, self.time_step)
         self.newton: TouchingNewton | None = None
         if level.equations.contact_film is not None:
-            self.newton = TouchingNewton(level, coarse_grid(solver.levels))
+            self.newton = TouchingNewton(level, coarse_grid(solver.levels, COARSE_TOUCHING))
         step = (self.time_step, level.grid.dx, transient.stride)
         excess = solver.coupling.excess()
         self.squeeze = Squeeze(self.steady, excess, step, solver.options.wedge_order)
