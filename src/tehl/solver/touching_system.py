@@ -187,7 +187,7 @@ class TouchingPreconditioner:
         near = system.by_film @ operators.close_influence @ apart
         close = free @ (system.by_pressure @ free + near) + rows((~system.free).astype(float))
         self.close = splu(
-            csc_matrix(close, dtype=np.float32),
+            beside(close, system.shape[1]).astype(np.float32),
             permc_spec="MMD_AT_PLUS_A",
             diag_pivot_thresh=0.01,
             options={"SymmetricMode": True},
@@ -228,6 +228,17 @@ class TouchingPreconditioner:
             system.operators.flattening.deflect(gap.reshape(system.shape) / system.stiffness, flat)
             change[size:-1] += np.where(touching, flat.ravel(), 0.0)
         return change
+
+
+def beside(matrix: csr_matrix, nx: int) -> csc_matrix:
+    """Return the entries of a matrix between nodes of the same line, and of the next ones.
+
+    The few others save no iterations, and double the cost of a factorisation.
+    """
+    entries = matrix.tocoo()
+    near = np.abs(entries.row // nx - entries.col // nx) <= 1
+    places = (entries.row[near], entries.col[near])
+    return csc_matrix((entries.data[near], places), shape=matrix.shape)
 
 
 def flux_difference(level: Level) -> csr_matrix:
