@@ -193,7 +193,8 @@ def stated(page, path):
     return CaseText.unpacked(packed).get(path) if packed else None
 
 
-def test_an_uploaded_surface_is_shown_levelled_and_used(page):
+def measured(page):
+    """Open the dialog of a measured surface, and upload one; return the button that uses it."""
     lines = [[0.02 * math.cos(0.1 * i) + 0.01 * i for _ in range(40)] for i in range(40)]
     rows = [",".join(f"{height:.4f}" for height in line) for line in lines]
     file = {"name": "honed.csv", "mimeType": "text/csv", "buffer": "\n".join(rows).encode()}
@@ -203,10 +204,23 @@ def test_an_uploaded_surface_is_shown_levelled_and_used(page):
     page.get_by_label("distance of points").fill("8 um")
     page.locator("input[type=file]").set_input_files(file)
     page.locator(".preview-words", has_text="Sq =").wait_for()
-    page.get_by_role("button", name="Use on surface 2").click()
+    return page.get_by_role("button", name="Use on surface 2")
+
+
+def test_an_uploaded_surface_is_shown_levelled_and_used(page):
+    measured(page).click()
     until(lambda: stated(page, "surface_2.roughness.type") == "map")
     assert stated(page, "surface_2.roughness.file") == "honed.csv"
     assert stated(page, "surface_2.roughness.level") == "plane"
+
+
+def test_the_buttons_of_a_measured_surface_stay_where_they_are(page):
+    use = measured(page)
+    before = use.bounding_box()
+    type_into(page, "distance of points", "0 um")
+    until(use.is_disabled)
+    assert page.locator(".preview-words").inner_text().count("\n") == 0
+    assert use.bounding_box() == before
 
 
 def test_files_of_a_result_are_downloaded(page):

@@ -37,8 +37,9 @@ class SurfaceDialog:
             )
             upload.props("flat bordered").classes("w-full").on_upload(self._uploaded)
             self._build_settings()
-            self.words = ui.label("").classes("preview-words")
-            self.drawing = Drawing()
+            with ui.element("div").classes("preview"):
+                self.words = ui.label("").classes("preview-words")
+                self.drawing = Drawing()
             with ui.row().classes("w-full justify-end"):
                 button("Cancel", self.dialog.close)
                 self.uses = [
