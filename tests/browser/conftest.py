@@ -1,6 +1,7 @@
 """A running page and a browser for the tests in this folder; skipped where there is no browser."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -9,6 +10,9 @@ from pathlib import Path
 
 import pytest
 
+from tehl.explore.case_text import CaseText
+from tehl.io.templates import template_text
+from tehl.kernels.warmup import warm_up
 from tests.browser.chromium import ARGUMENTS, SOLID, executable
 
 pytest.importorskip("nicegui", reason="needs pip install 'tehl[explore]'")
@@ -72,8 +76,15 @@ def browser():
         yield playwright.chromium.launch(executable_path=path, args=[*ARGUMENTS, *SOLID])
 
 
+@pytest.fixture(scope="session")
+def compiled():
+    """The kernels in the cache: a page that compiles them first may need more than `PATIENCE`."""
+    warm_up(coupled=True)
+
+
 @pytest.fixture(scope="module")
-def served(tmp_path_factory):
+def served(tmp_path_factory, compiled):
+    del compiled
     server = Served(folder=tmp_path_factory.mktemp("served"))
     yield server
     code, errors = server.end(), server.messages
@@ -113,6 +124,16 @@ def opened(context, address):
     page = context.new_page()
     page.goto(address)
     solved(page)
+    return page
+
+
+def busy(context, address):
+    """Return a page that shows 129² nodes, and whose worker solves 1025², for seconds."""
+    case = template_text("ball-on-disc").replace('error = "2 %"', "points = 1025")
+    page = context.new_page()
+    page.goto(f"{address}&case={CaseText(case).packed}")
+    finer = re.compile("(257|513|1025) nodes, cycle")
+    page.locator(".status-words", has_text=finer).wait_for()
     return page
 
 

@@ -1,6 +1,7 @@
 """The worker of the page solves the newest request, can be cancelled, and is replaced."""
 
 import asyncio
+import multiprocessing
 import os
 import signal
 
@@ -10,7 +11,7 @@ pytest.importorskip("tomlkit", reason="needs pip install 'tehl[explore]'")
 
 from tehl.explore.case_text import CaseText
 from tehl.explore.jobs import Ask, End, Explained, Failure, Part
-from tehl.explore.worker import Solver
+from tehl.explore.worker import DIED, Solver
 from tehl.io.case import case_from_tables
 from tehl.io.templates import template_text
 from tehl.solver import solve
@@ -42,6 +43,7 @@ async def scenario():
         await newest(solver, [Inbox(loop) for _ in range(5)])
         await cancelled(solver, Inbox(loop), Inbox(loop))
         await killed(solver, Inbox(loop), Inbox(loop))
+        await killed_while_it_starts(solver, Inbox(loop), Inbox(loop))
         pid = solver.pid
     finally:
         solver.close()
@@ -99,6 +101,23 @@ async def killed(solver, inbox, after):
     solver.submit("tab", Ask(tables=CASE.tables, quick=True), after)
     await asyncio.wait_for(after.ended, 60)
     assert after.of(Part)
+
+
+async def killed_while_it_starts(solver, inbox, after):
+    before = solver.pid
+    os.kill(before, signal.SIGKILL)  # idle: replaced without a sentence
+    while before in [process.pid for process in multiprocessing.active_children()]:
+        await asyncio.sleep(0.01)
+    solver.submit("tab", Ask(tables=CASE.tables | {"numerics": {"points": 1025}}), inbox)
+    while solver.pid == before:
+        await asyncio.sleep(0.01)
+    os.kill(solver.pid, signal.SIGKILL)
+    await asyncio.wait_for(inbox.ended, 30)
+    assert [message.text for message in inbox.of(Failure)] == [DIED]
+    solver.submit("tab", Ask(tables=CASE.tables, quick=True), after)
+    await asyncio.wait_for(after.ended, 60)
+    assert after.of(Part)
+    assert not after.of(Failure)
 
 
 @pytest.mark.skipif(os.name == "nt", reason="kills a process by a signal")
