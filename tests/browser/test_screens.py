@@ -47,7 +47,7 @@ def test_no_view_is_wider_than_the_window(page, size, scheme):
         page.get_by_role("tab", name=view, exact=True).click()
         page.locator(f'.q-tab--active:has-text("{view}")').wait_for()
         page.wait_for_timeout(100)
-        assert page.evaluate("document.documentElement.scrollWidth") <= width, view
+        until(lambda: page.evaluate("document.documentElement.scrollWidth") <= width)
 
 
 def test_the_screenshots_of_the_guide(page):
