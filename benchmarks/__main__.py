@@ -11,6 +11,7 @@ from benchmarks import (
     asperities,
     deformation,
     domain,
+    mixed,
     rate,
     rough,
     speed,
@@ -28,6 +29,7 @@ TOPICS: dict[str, Callable[..., Table | Iterable[Table]]] = {
     "waves": waves.table,
     "rough": rough.tables,
     "asperities": asperities.tables,
+    "mixed": mixed.table,
 }
 BY_DEFAULT = ("speed", "rate", "deformation")
 
@@ -52,7 +54,7 @@ def main() -> None:
     tables = []
     for topic in given.topics or BY_DEFAULT:
         make = TOPICS[topic]
-        if topic in ("rough", "asperities"):
+        if topic in ("rough", "asperities", "mixed"):
             make = partial(make, given.points)
         made = make(quick=given.quick)
         for table in [made] if isinstance(made, Table) else made:
