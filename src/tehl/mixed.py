@@ -48,14 +48,15 @@ def shared_load(scaled: ScaledProblem) -> SharedLoad:
         return SharedLoad(separation=film, gap=film, share=0.0)
     sigma, modulus = problem.asperity_rms, problem.reduced_modulus
     unit = sigma / scales.film_thickness
-    flooded = expected_central_film(scaled.entering)
+    entering = scaled.entering
+    flooded = expected_central_film(entering)
     separations = np.arange(LEAST, MOST, STEP)
     gaps, loads = _summits() if isinstance(asperities, GreenwoodTripp) else _laws(asperities)
     carried = asperities.unit(sigma, modulus) * loads / scales.hertz_pressure
 
     def rest(share: float) -> float:
         """Return the film that carries the rest: the mean gap over sigma."""
-        softer = expected_central_film(_softer(scaled.entering, 1.0 - share))
+        softer = expected_central_film(_softer(entering, 1.0 - share))
         return film / flooded * softer / unit
 
     if float(np.interp(rest(0.0), gaps, carried)) < APART:

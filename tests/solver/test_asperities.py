@@ -508,10 +508,7 @@ def test_dry_asperities_follow_the_film_that_they_move():
     before = rng.uniform(0.0, 1.5, separation.shape)
     film = properties.Film(*(np.zeros(separation.shape) for _ in range(7)))._replace(
         asperity=before.copy(),
-        **{
-            name: np.zeros(separation.shape)
-            for name in ("stiffness", "opening", "channel", "widening", "across")
-        },
+        **{name: np.zeros(separation.shape) for name in ("stiffness", "opening", "channel")},
     )
     frozen = np.zeros(separation.shape, np.uint8)
     properties.touch(film, separation, laws.table, laws.grid, frozen, reach)

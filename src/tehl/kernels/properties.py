@@ -29,10 +29,11 @@ class Film(NamedTuple):
 
     With asperities finer than the grid ``p`` is the pressure of the oil, ``asperity`` theirs and
     ``stiffness`` its slope -dp_a/dH by the separation H of the mean planes; ``h`` is the mean gap
-    and ``opening`` dh/dH; ``channel`` is the thickness that conducts along x, ``widening`` its
-    relative slope by H, and ``across`` the conductance along y over that along x. Where one surface
-    is rougher and both slide, ``carried`` is what they carry over h: ``rho`` is that times the
-    density, and ``opening`` its slope by H over it. Without they have no elements, and h is H.
+    and ``opening`` dh/dH; ``channel`` is the thickness that conducts along x, and ``across`` the
+    conductance along y over that along x, without elements where that is one. Where one surface is
+    rougher and both slide, ``carried`` is what they carry over h: ``rho`` is that times the
+    density, and ``opening`` its slope by H over it. Without asperities they have no elements, and h
+    is H.
     """
 
     p: Array
@@ -49,7 +50,6 @@ class Film(NamedTuple):
     stiffness: Array = np.zeros((0, 0))
     opening: Array = np.zeros((0, 0))
     channel: Array = np.zeros((0, 0))
-    widening: Array = np.zeros((0, 0))
     across: Array = np.zeros((0, 0))
     carried: Array = np.zeros((0, 0))
 
@@ -88,6 +88,7 @@ class Heated(NamedTuple):
 def _line_properties(film: Film, table: Array, step: float, floor: float, j: int) -> None:
     """Fill ``eps, rho, drho`` of line ``j``; see `properties`."""
     last, per_step = table.shape[0] - 2, 1.0 / step
+    thickness = film.channel if film.channel.shape[0] > 0 else film.h
     for i in range(film.p.shape[1]):
         x = film.p[j, i] * per_step
         x = x if x > 0.0 else 0.0  # also of a pressure that is not a number
@@ -96,7 +97,7 @@ def _line_properties(film: Film, table: Array, step: float, floor: float, j: int
         s = 1.0 - t
         start, rise, end, fall = table[k, 0], table[k, 1], table[k + 1, 0], table[k + 1, 1]
         low, high = start + t * (rise + 2.0 * start), end + s * (2.0 * end - fall)
-        thick = max(film.h[j, i], floor)
+        thick = max(thickness[j, i], floor)
         film.eps[j, i] = (s * s * low + t * t * high) * (thick * thick * thick)
         start, rise, end, fall = table[k, 2], table[k, 3], table[k + 1, 2], table[k + 1, 3]
         low, high = start + t * (rise + 2.0 * start), end + s * (2.0 * end - fall)
@@ -140,8 +141,9 @@ def touch(
     table : array (n, 6) or (n, 8) or (n, 10)
         Pressure, mean gap, channel and, if they matter, conductance along y over that along x, and
         what the surfaces carry over the gap, over H, each with its slope times the step.
-    grid : array (2,)
-        H of the first row, and step [-].
+    grid : array (3,)
+        H of the first row, step, and H from which no asperities touch: there the pressure is zero
+        and the mean gap is H [-].
     frozen : array (ny, nx)
         1 where ``p`` stays.
     reach : float
@@ -149,38 +151,51 @@ def touch(
         less; below zero ``p`` stays everywhere.
     """
     film, separation, table, grid, frozen = raw((film, separation, table, grid, frozen))
-    first, per_step, last = grid[0], 1.0 / grid[1], table.shape[0] - 2
-    columns = table.shape[1]
+    first, per_step, apart = grid[0], 1.0 / grid[1], grid[2]
     for j in range(film.p.shape[0]):
         for i in range(film.p.shape[1]):
-            x = (separation[j, i] - first) * per_step
-            if not x < last:  # apart, or not a number
-                pressure, fall, gap, opening = 0.0, 0.0, separation[j, i], 1.0
-                channel, widening, across, carried = gap, 1.0, 1.0, 1.0
-            else:
+            gap = separation[j, i]
+            x, pressure, fall, opening = (gap - first) * per_step, 0.0, 0.0, 1.0
+            if gap < apart:  # not of NaN
                 k = int(max(x, 0.0))
                 pressure, fall = _hermite(table, k, x - k, 0)
                 gap, opening = _hermite(table, k, x - k, 2)
-                channel, widening = _hermite(table, k, x - k, 4)
-                across = _hermite(table, k, x - k, 6)[0] if columns > 6 else 1.0
-                carried, more = _hermite(table, k, x - k, 8) if columns > 8 else (1.0, 0.0)
-                opening += gap * more / carried
-                fall, opening, widening = fall * per_step, opening * per_step, widening * per_step
+                fall, opening = fall * per_step, opening * per_step
             missing = pressure - film.asperity[j, i]
             if reach >= 0.0 and film.p[j, i] != 0.0 and frozen[j, i] == 0:
                 film.p[j, i] = max(film.p[j, i] - missing, 0.0)
-            elif reach > 0.0:
+            elif reach > 0.0 and missing != 0.0:
                 q = film.asperity[j, i]
                 missing = _followed(table, (x, reach * per_step), q, (missing, reach * fall))
-            film.asperity[j, i] += missing
+            if missing != 0.0:  # else the field is not written: memory limits the speed
+                film.asperity[j, i] += missing
             film.stiffness[j, i] = -fall
             film.h[j, i] = gap
             film.opening[j, i] = opening
-            film.channel[j, i] = channel
-            film.widening[j, i] = widening / channel
-            film.across[j, i] = across
+        _line_channel(film, separation, table, grid, j)
+
+
+@helper
+def _line_channel(film: Film, separation: Array, table: Array, grid: Array, j: int) -> None:
+    """Fill what asperities change in the flow of line ``j``; ``h, opening`` are known."""
+    first, per_step, last = grid[0], 1.0 / grid[1], table.shape[0] - 2
+    columns = table.shape[1]
+    for i in range(film.p.shape[1]):
+        channel, across, carried, more = separation[j, i], 1.0, 1.0, 0.0
+        x = (channel - first) * per_step
+        if x < last:  # else far apart, or NaN
+            k = int(max(x, 0.0))
+            channel = _hermite(table, k, x - k, 4)[0]
+            if columns > 6:
+                across = _hermite(table, k, x - k, 6)[0]
             if columns > 8:
-                film.carried[j, i] = carried
+                carried, more = _hermite(table, k, x - k, 8)
+        film.channel[j, i] = channel
+        if columns > 6:
+            film.across[j, i] = across
+        if columns > 8:
+            film.opening[j, i] += film.h[j, i] * more * per_step / carried
+            film.carried[j, i] = carried
 
 
 @helper
@@ -263,8 +278,9 @@ def heated_properties(
 def _scale_line(film: Film, factors: Factors, floor: float, j: int) -> None:
     """Turn isothermal Newtonian properties of line ``j`` into those of the heated film."""
     nx = film.p.shape[1]
+    thickness = film.channel if film.channel.shape[0] > 0 else film.h
     for i in range(nx):
-        thick = max(film.h[j, i], floor)
+        thick = max(thickness[j, i], floor)
         rest = factors.rest[j, i] * (thick * thick * thick)
         film.eps[j, i] = factors.mobility[j, i] * film.eps[j, i] + rest
     for i in range(nx):

@@ -263,8 +263,10 @@ def _fill_row(
     change = b_ww * d4 + b_w * d3 + b_c * d2 - 0.25 * a_e
     here.east_2 = b_ww * p[4] + b_w * p[3] + b_c * p[2] + beyond.dipole * change
     if relaxation.touches:
-        hardness = a_ww * far.hardness, a_w * west.hardness
-        _add_asperities(relaxation, i, (*hardness, a_c * here.hardness, a_e * east.hardness))
+        around = far.hardness + west.hardness + here.hardness + east.hardness
+        if any_of(around > 0.0):
+            hardness = a_ww * far.hardness, a_w * west.hardness
+            _add_asperities(relaxation, i, (*hardness, a_c * here.hardness, a_e * east.hardness))
 
 
 @helper

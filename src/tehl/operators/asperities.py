@@ -24,6 +24,9 @@ STEP = 0.02
 LEAST_CARRIED = 0.01
 """Least oil that is carried over that of the gap: pools of a rough surface at rest carry none."""
 
+NO_PRESSURE, NO_OVERLAP = 1e-15, 1e-12
+"""Pressure over its unit, and mean gap less separation over sigma, of asperities that are apart."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class AsperityTable:
@@ -35,8 +38,9 @@ class AsperityTable:
         Pressure of the asperities, mean gap, channel along x and, if they matter, conductance
         along y over that along x, and what the surfaces carry over the gap, each with its slope
         times the step [-].
-    grid : (2,) array
-        Least separation, and difference of two rows [-].
+    grid : (3,) array
+        Least separation, difference of two rows, and the separation from which no asperities
+        touch [-].
     """
 
     table: Array
@@ -48,9 +52,21 @@ class AsperityTable:
         return float(self.grid[1]) / STEP
 
     @property
+    def is_anisotropic(self) -> bool:
+        """Whether the conductance along y may differ from that along x."""
+        return self.table.shape[1] > 6
+
+    @property
     def slides(self) -> bool:
         """Whether the surfaces carry more or less than the gap holds."""
         return self.table.shape[1] > 8
+
+    def widening(self, separation: Array) -> Array:
+        """Return the slope of the channel by the separation, of the shape of ``separation`` [-]."""
+        separations = self.grid[0] + self.grid[1] * np.arange(len(self.table))
+        slopes = self.table[:, 5] / self.grid[1]
+        found: Array = np.interp(separation, separations, slopes, right=1.0)
+        return found
 
     def separation(self, gap: float) -> float:
         """Return the separation of the mean planes at a mean gap [-]."""
@@ -71,7 +87,11 @@ def asperity_table(scaled: ScaledProblem) -> AsperityTable | None:
     if part := sliding_part(problem):
         laws = np.concatenate([laws, _of_sliding(law, stamp, part)], axis=1)
     factors = np.repeat([pressure, unit, unit, 1.0, 1.0], 2)[: laws.shape[1]]
-    return AsperityTable(table=laws * factors, grid=np.array([LEAST, STEP]) * unit)
+    separations = LEAST + STEP * np.arange(len(laws))
+    overlap = laws[:, 2] - separations
+    touching = np.nonzero((laws[:, 0] > NO_PRESSURE) | (overlap > NO_OVERLAP))[0]
+    apart = separations[touching[-1]] + STEP
+    return AsperityTable(table=laws * factors, grid=np.array([LEAST, STEP, apart]) * unit)
 
 
 @cache

@@ -99,7 +99,7 @@ class CoarsestSolver:
         stretch_x, stretch_y = (
             (ones, ones) if factors is None else (factors.stretch_x, factors.stretch_y)
         )
-        if self.level.equations.asperities is not None:
+        if film.across.size:
             stretch_y = stretch_y * film.across
         rho = film.rho if self.level.equations.asperities is None else film.rho * film.opening
         return Coarse(

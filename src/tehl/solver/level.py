@@ -39,8 +39,9 @@ empty over the number of lines from which the meniscus rests. Least CPU time of 
 REACH = 1.5
 """Film of a smooth change of the pressure in the contact, over that change [-]: 4/pi in the middle
 of a uniform one over the Hertz circle, and somewhat more, as too little only takes longer."""
-DRY_STEPS, DRY_PART = 20, 0.5
-"""Steps to a dry contact, and change of the rigid approach over the missing part of the load."""
+DRY_STEPS, DRY_PART, DRY_ERROR = 20, 0.5, 0.01
+"""Most steps to a dry contact, change of the rigid approach over the missing part of the load, and
+the part that ends them: it is only a start."""
 APPROACH_WEIGHT = 10.0
 """Weight of the rigid approach among the pressures in the vector of unknowns."""
 
@@ -65,11 +66,12 @@ class Level:
         self.separation = h  # of the mean planes: the film but for asperities finer than the grid
         if equations.asperities is not None:
             self.separation = np.zeros(shape)
-            q, s, opening, channel, widening = (np.zeros(shape) for _ in range(5))
+            q, s, opening, channel = (np.zeros(shape) for _ in range(4))
             self.film = self.film._replace(
-                asperity=q, stiffness=s, opening=opening, channel=channel, widening=widening
+                asperity=q, stiffness=s, opening=opening, channel=channel
             )
-            self.film = self.film._replace(across=np.ones(shape), eps_y=np.zeros(shape))
+            if equations.asperities.is_anisotropic:
+                self.film = self.film._replace(across=np.ones(shape), eps_y=np.zeros(shape))
             if equations.asperities.slides:
                 self.film = self.film._replace(carried=np.ones(shape))
         self.touching = np.zeros((0, 0), bool)  # nodes in contact through a boundary film
@@ -82,6 +84,7 @@ class Level:
         self.sources = Sources(f, g, equations.target)
         self.residual = np.zeros(shape)
         self.restricted = (np.zeros(shape), 0.0)
+        self.total = np.zeros(shape)  # pressure of oil and asperities
         self.kept = np.zeros(shape)  # asperity pressure of that state
         self.heights: Array | None = None
         # of the correction of the next finer grid: factor, and limit of its relative change of P
@@ -164,9 +167,9 @@ class Level:
 
     @property
     def pressure(self) -> Array:
-        """Pressure of oil and asperities together [-]."""
+        """Pressure of oil and asperities together, written anew at each access [-]."""
         film = self.film
-        return film.p + film.asperity if film.asperity.size else film.p
+        return np.add(film.p, film.asperity, out=self.total) if film.asperity.size else film.p
 
     def asperity_load(self) -> float:
         """Return the load on asperities over the load of the contact, zero without [-]."""
@@ -267,14 +270,11 @@ class Level:
 
     def _evaluate(self, film: properties.Film) -> None:
         flow, floor = self.equations.flow, self.equations.floor
-        touches = self.equations.asperities is not None
-        if touches:
-            film = film._replace(h=film.channel)  # asperities narrow it
         if self.factors is None:
             properties.properties(film, flow.table, flow.step, floor)
         else:
             properties.heated_properties(film, self.factors, flow.table, flow.step, floor)
-        if touches:
+        if film.across.size:
             isotropic = film.eps if self.factors is None else film.eps_y
             np.multiply(isotropic, film.across, out=film.eps_y)
         if film.carried.size:
@@ -294,8 +294,9 @@ class Level:
         )._replace(channel=film.channel, across=film.across, carried=film.carried)
         self._evaluate(shifted)
         by_pressure = (shifted.eps - film.eps) / PRESSURE_STEP
-        if self.equations.asperities is not None:
-            return by_pressure, 3.0 * film.eps * film.widening
+        laws = self.equations.asperities
+        if laws is not None:
+            return by_pressure, 3.0 * film.eps * laws.widening(self.separation) / film.channel
         # eps grows as H^3 above the floor and is constant below it
         by_film = np.where(film.h > floor, 3.0 * film.eps / np.maximum(film.h, floor), 0.0)
         return by_pressure, by_film
@@ -310,7 +311,7 @@ class Level:
     def uncouple(self) -> None:
         """Reset to an isothermal Newtonian film."""
         self.factors = None
-        eps_y = self.film.eps if self.equations.asperities is None else self.film.eps_y
+        eps_y = self.film.eps_y if self.film.across.size else self.film.eps
         self.film = self.film._replace(eps_x=self.film.eps, eps_y=eps_y)
         self._is_stale = True
 
@@ -388,10 +389,13 @@ class Level:
         pressure, h = self.film.p.copy(), self.separation
         self.equations.deformation.deflect(pressure, h)
         self.set_state(np.zeros_like(pressure), -central_value(self.grid, h), pressure)
+        missing = -self.load_error()
         for _ in range(DRY_STEPS):
-            missing = min(max(self.missing_load() / self.sources.load, -1.0), 1.0)
-            self.move(-DRY_PART * missing)
+            self.move(-DRY_PART * min(max(missing, -1.0), 1.0))
             self.update()
+            missing = -self.load_error()
+            if abs(missing) <= DRY_ERROR:
+                return
 
     def interpolate_from(self, coarse: "Level") -> None:
         """Start from the solution of the next coarser grid, by cubic interpolation."""
