@@ -154,10 +154,22 @@ def test_shares_of_few_cells_are_not_printed(bump: Result):
     shared = bump.touching
     assert 0.0 < shared.solid_share < shared.share < 1.0
     assert shared.margin == pytest.approx(0.05 * bump.problem.contact_film.thickness)
-    assert shared.is_share_known
-    coarse = replace(shared, patches=replace(shared.patches, cells=5.0))
+    assert not shared.is_share_known  # an error of the film of 40 % may change what touches
+    assert "too coarse for the film" in shared.why_unknown
+    fine = replace(shared, share_error=0.1)
+    assert fine.is_share_known
+    coarse = replace(fine, patches=replace(shared.patches, cells=5.0))
     assert not coarse.is_share_known
+    assert "5 cells across" in coarse.why_unknown
     assert replace(coarse, is_certified=True).is_share_known
+
+
+def test_the_bar_of_a_share_covers_that_of_a_finer_grid(bump: Result):
+    coarse = bump.touching
+    fine = solve(bump.problem, on(129, AROUND_BUMP)).touching
+    assert 0.02 < abs(fine.share - coarse.share) < coarse.share_error
+    assert fine.share == pytest.approx(0.456, abs=fine.share_error)  # 0.4561 on 257 nodes
+    assert fine.share_error < 0.4 * coarse.share_error
 
 
 def test_a_long_patch_is_resolved_if_its_width_is():

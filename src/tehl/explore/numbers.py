@@ -176,15 +176,14 @@ def _load_share(result: Result, explanation: Explanation) -> Iterator[Number]:
     shared, formula, touched = result.load_sharing, explanation.shared, result.touching
     if touched is not None:
         share, bar = touched.share, touched.share_error
-        words = "the grid has too few nodes on the patches that touch"
         yield Number(
             key="load_share",
             name="load where surfaces touch",
             symbol="w_c/w",
             value=100.0 * share,
             unit="%",
-            error=bar / share if bar is not None and share > 0 else None,
-            remark="" if touched.is_share_known else words,
+            error=bar / share if share > 0 else None,
+            remark="" if touched.is_share_known else f"not known: {touched.why_unknown}",
         )
     if shared is None:
         return
