@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from tehl.post.touching import largest_patches
+from tehl.post.touching import largest_patches, why_unknown
 from tehl.result import Result
 from tehl.saved import Saved
 from tehl.solution import Cost, Estimate, Provenance, Status
@@ -135,6 +135,12 @@ class TransientResult(Saved):
         return (
             0.0 if film is None else largest_patches(film.thickness, frames.film, frames.pressure)
         )
+
+    @property
+    def why_share_unknown(self) -> str:
+        """Why the share where surfaces touch means nothing, in words; empty if it is known."""
+        start = self.start.touching
+        return why_unknown(self.patch_cells, start.share_error if start else 0.0)
 
     @property
     def x(self) -> Array:

@@ -70,7 +70,7 @@ def test_without_speed_the_contact_is_that_of_hertz(dry: Result):
     assert dry.rigid_approach - 1e-3 == pytest.approx(-1.0, abs=2e-4)
     assert dry.touching.area_part == pytest.approx(1.00995, abs=2e-3)
     assert dry.touching.share > 0.999
-    assert dry.touching.is_resolved
+    assert dry.touching.is_share_known
     r = np.hypot.outer(dry.scaled.y, dry.scaled.x)
     inside = r < 0.9
     assert both_pressures(dry)[inside] == pytest.approx(np.sqrt(1.0 - r[inside] ** 2), abs=1e-3)
@@ -155,7 +155,7 @@ def test_shares_of_few_cells_are_not_printed(bump: Result):
     assert 0.0 < shared.solid_share < shared.share < 1.0
     assert shared.margin == pytest.approx(0.05 * bump.problem.contact_film.thickness)
     assert not shared.is_share_known  # an error of the film of 40 % may change what touches
-    assert "too coarse for the film" in shared.why_unknown
+    assert "too coarse for the oil" in shared.why_unknown
     fine = replace(shared, share_error=0.1)
     assert fine.is_share_known
     coarse = replace(fine, patches=replace(shared.patches, cells=5.0))

@@ -21,7 +21,6 @@ from tehl.plots.frame import (
     outline,
     span_part,
 )
-from tehl.post.touching import LEAST_CELLS
 from tehl.post.transient import envelope, passing_features
 from tehl.transient_result import HistoryBars, TransientResult
 from tehl.typing import Array
@@ -81,7 +80,7 @@ def _carried_by(run: TransientResult) -> str:
     """Return what carries the load beside the film, and whether the grid resolves it."""
     if run.start.problem.contact_film is None:
         return "asperities [of the load]"
-    known = "" if run.patch_cells >= LEAST_CELLS else "\n(not resolved)"
+    known = "\n(not resolved)" if run.why_share_unknown else ""
     return f"where surfaces touch\n[of the load]{known}"
 
 

@@ -85,23 +85,33 @@ class Touching:
         return None if film is None else film + self.friction_boundary
 
     @property
-    def is_resolved(self) -> bool:
-        """Whether the grid resolves the patches, or nothing touches."""
-        return self.patches is None or self.patches.cells >= LEAST_CELLS
-
-    @property
     def is_share_known(self) -> bool:
         """Whether the share means anything: patches and film are resolved, or it is certified."""
-        is_accurate = self.patches is None or self.share_error <= LARGEST_BAR
-        return (self.is_resolved and is_accurate) or self.is_certified
+        return not self.why_unknown
 
     @property
     def why_unknown(self) -> str:
-        """Why the share means nothing, in words."""
-        if self.patches is not None and not self.is_resolved:
-            cells = f"{self.patches.cells:.2g} cells across, {LEAST_CELLS:g} are needed"
-            return f"its patches are {cells}"
-        return f"the grid is too coarse for the film of the oil, +- {self.share_error:.0%}"
+        """Why the share means nothing, in words; empty if it is known."""
+        if self.patches is None or self.is_certified:
+            return ""
+        return why_unknown(self.patches.cells, self.share_error)
+
+
+def why_unknown(cells: float, error: float) -> str:
+    """Return why the grid does not know a share of the load, in words; nothing if it does.
+
+    Parameters
+    ----------
+    cells : float
+        Mesh widths across the patches; zero if no stored field has one.
+    error : float
+        Error bar of the share [-].
+    """
+    if not cells:
+        return "surfaces touch in no stored field, so its patches are not known (transient.frames)"
+    if cells < LEAST_CELLS:
+        return f"its patches are {cells:.2g} cells across, {LEAST_CELLS:g} are needed"
+    return f"the grid is too coarse for the oil, +- {error:.0%}" if error > LARGEST_BAR else ""
 
 
 def touching(result: Solution) -> Touching | None:
