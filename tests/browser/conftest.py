@@ -129,7 +129,7 @@ def opened(context, address):
 
 def busy(context, address):
     """Return a page that shows 129² nodes, and whose worker solves 1025², for seconds."""
-    case = template_text("ball-on-disc").replace('error = "2 %"', "points = 1025")
+    case = template_text("thermal").replace('error = "2 %"', "points = 1025")
     page = context.new_page()
     page.goto(f"{address}&case={CaseText(case).packed}")
     finer = re.compile("(257|513|1025) nodes, cycle")
@@ -153,6 +153,20 @@ def type_into(page, name, words):
     entry = page.get_by_role("textbox", name=name, exact=True)
     entry.fill(words)
     entry.press("Enter")
+
+
+def choose(page, name, words):
+    """Choose an option of a list; open it again if the line moves under the mouse and closes it."""
+
+    def chosen():
+        page.get_by_role("combobox", name=name).click()
+        try:
+            page.get_by_role("option", name=words).click(timeout=5_000)
+        except api.TimeoutError:
+            return False
+        return True
+
+    until(chosen)
 
 
 def until(condition, seconds=60.0):

@@ -11,7 +11,7 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from tests.browser.conftest import Served, busy, number, opened, solved, type_into, until
+from tests.browser.conftest import Served, busy, choose, number, opened, solved, type_into, until
 
 
 def status_of(address, **headers):
@@ -81,8 +81,7 @@ def test_a_killed_worker_is_a_sentence_and_a_new_one_solves(context, served):
         os.kill(pid, signal.SIGKILL)
     page.locator(".card .what", has_text="has ended").wait_for()
     solved(page, "shown is the last valid case")  # the line moves once more, and a click misses
-    page.get_by_role("combobox", name="accuracy").click()
-    page.get_by_role("option", name="129² nodes").click()
+    choose(page, "accuracy", "129² nodes")
     until(lambda: page.locator(".card:visible").count() == 0)
     solved(page, "converged on 129 × 129")
 

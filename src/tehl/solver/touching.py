@@ -43,8 +43,6 @@ NEAR = 1e-2
 """Residual below which the orders of the fluxes are chosen after `FREE` more steps. From then on
 they are lowered only: else they may change with the contact, and the contact with them."""
 FREE = 2
-OPENING = 1e-4
-"""Residual below which oil may exceed the sum of both pressures at a node, which then opens."""
 ACCURACY = 0.002
 """Relative residual of the linear equations. Those that are solved to 0.03 take a third more steps,
 as the nodes that touch follow the error."""
@@ -158,9 +156,9 @@ class TouchingNewton(TouchingOperators):
         if not np.isfinite(change).all():
             raise DivergedError
         self.past = [*self.past, self.residual()][-MEMORY:]
-        part, largest, opens = 1.0, max(self.past), self.residual() < OPENING
+        part, largest = 1.0, max(self.past)
         while True:
-            level.set_state(*system.stepped(before, change, part, opens=opens))
+            level.set_state(*system.stepped(before, change, part, self.past[-1]))
             level.update()
             found = self.residual()
             if found < (1.0 - SUFFICIENT * part) * largest or part < SHORTEST:

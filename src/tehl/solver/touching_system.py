@@ -26,9 +26,14 @@ from tehl.solver.level import Level
 from tehl.solver.newton import ROUNDS, VECTORS, Newton
 from tehl.typing import Array, BoolArray
 
-LARGEST_STEP, LARGEST_PRESS = 1.0, 20.0
-"""Largest change per step of the pressure of oil, and of the sum of both where surfaces touch, in
-Hertz pressures: the contact is linear, and small steps there only make many of them."""
+LARGEST_STEPS, FAR = (5.0, 1.0), 0.1
+"""Largest change of the pressure of oil per step, in Hertz pressures, and residual above which the
+second one holds. Near the solution that would leave the load out of balance."""
+OPENING = 1e-4
+"""Residual below which oil may exceed the sum of both pressures at a node, which then opens."""
+LARGEST_PRESS = 20.0
+"""Largest change per step of the sum of both pressures where surfaces touch, in Hertz pressures:
+the contact is linear, and small steps there only make many of them."""
 
 
 class TouchingOperators(Newton):
@@ -138,9 +143,12 @@ class TouchingSystem:
         return np.asarray(change), missed == 0
 
     def stepped(
-        self, before: tuple[Array, float, Array], change: Array, part: float, *, opens: bool
+        self, before: tuple[Array, float, Array], change: Array, part: float, residual: float
     ) -> tuple[Array, float, Array]:
         """Return oil pressure, rigid approach and contact pressure after ``part`` of a change.
+
+        ``residual`` is that before it: far from the solution the oil changes by less, and near it
+        nodes may open.
 
         Where surfaces touch the sum of both pressures follows the change and the oil pressure has
         its part of it: one that falls does so by its density, whose slope at high pressure would
@@ -150,10 +158,11 @@ class TouchingSystem:
         u = (np.where(self.free, change[: self.size], 0.0) + self.known_oil).reshape(shape)
         v = np.where(self.touching, change[self.size : -1], u.ravel() - contact.ravel())
         v, touching = v.reshape(shape), self.touching.reshape(shape)
-        step = part * np.clip(u, -LARGEST_STEP, LARGEST_STEP)
+        most = LARGEST_STEPS[int(residual > FAR)]
+        step = part * np.clip(u, -most, most)
         total = np.maximum(oil + contact + part * np.clip(v, -LARGEST_PRESS, LARGEST_PRESS), 0.0)
         inside = np.where(u < 0.0, self._by_density(oil, part * u, step), oil + step)
-        if not opens:
+        if residual >= OPENING:
             inside = np.minimum(inside, total)
         pressure = np.where(touching, inside, np.maximum(oil + step, 0.0))
         opened = (1.0 - part) * contact
