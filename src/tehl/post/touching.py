@@ -25,8 +25,9 @@ standing roughness that four cells per summit press into contact, eight may leav
 BAR_OF_FILM, LARGEST_BAR = 3.0, 0.2
 """Error bar of the share over the relative error of the film to expect, and largest one of a share
 that is known. Where the film is as thin as the boundary film, the error of the film decides what
-touches, though its thickness there does not show it: each of 90 random waves and surfaces changed
-by less on the next finer grid."""
+touches, though its thickness there does not show it: the shares of 106 of 108 random waves and
+surfaces changed by less on the next finer grid, the two others by up to 1.6 bars. The factor was
+chosen on 90 of them."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -164,7 +164,7 @@ class TouchingNewton(TouchingOperators):
             if found < (1.0 - SUFFICIENT * part) * largest or part < SHORTEST:
                 break
             part *= 0.5
-        if self.residual() < NEAR and part == 1.0:
+        if found < NEAR and part == 1.0:
             self.free_steps -= 1
         return part
 

@@ -111,7 +111,7 @@ class Stepper:
             elif self.newton is None:
                 level.set_pressure(self.predictor.onward())
             else:
-                self.newton.refresh()  # a resumed run has no factors of earlier steps
+                self.newton.refresh()  # as a resumed run, which has no factorisation
             level.pose_step(history + self.squeeze.onward(), heights, load)
             try:
                 end = self._solve(self.settings[number].name)
