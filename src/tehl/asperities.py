@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 SummitDensity = Annotated[float, Quantity("a number per area", "1/m^2", '"1e10 1/m^2"')]
 Friction = Annotated[float, Quantity("a plain number", "-", "0.1", "non-negative")]
 
-APART, LOG_STEP = 10.0, 0.02
+APART, LOG_STEP = 8.0, 0.02
 """Separation over sigma beyond which no area is in contact, and step of a spline up to there."""
 FARTHEST = 35.0
 """Gap over sigma from which no asperity touches."""
@@ -125,15 +125,14 @@ class GreenwoodTripp(_Touching):
         factor = 16.0 * math.sqrt(2.0) * math.pi / 15.0 * self.load_factor(sigma) ** 2
         return factor * steep * 0.5 * modulus
 
-    def area(self, gap: "Array", sigma: float) -> "Array":
-        """Return the part of the area in which asperities touch, at most one [-]."""
-        part = (math.pi * self.load_factor(sigma)) ** 2 * _on_map(2.0, gap)
-        return np.minimum(part, 1.0)
+    def spots(self, gap: "Array", sigma: float) -> "tuple[Array, Array]":
+        """Return the part of the area in which asperities touch [-], and their spots per area.
 
-    def spots(self, gap: "Array", sigma: float) -> "Array":
-        """Return the spots of contact per area [1/m^2], 4 pi eta^2 beta sigma F_1."""
-        pairs = self.summit_density * self.load_factor(sigma)
-        return 4.0 * math.pi * pairs * _on_map(1.0, gap)
+        At most one, and 4 pi eta^2 beta sigma F_1 [1/m^2].
+        """
+        factor, (number, part) = self.load_factor(sigma), _on_map(gap)
+        part *= (math.pi * factor) ** 2
+        return np.minimum(part, 1.0), 4.0 * math.pi * self.summit_density * factor * number
 
 
 class SurfacePatch(_Touching):
@@ -177,15 +176,13 @@ class SurfacePatch(_Touching):
         """Return the pressure that the asperities carry at gaps over Sq, for E' [Pa]."""
         return self.unit(sigma, modulus) * self.load(gap)
 
-    def area(self, gap: "Array", sigma: float) -> "Array":
-        """Return the part of the area in which asperities touch [-]."""
-        del sigma
-        return self.curves.touching(gap)
+    def spots(self, gap: "Array", sigma: float) -> "tuple[Array, Array]":
+        """Return the part of the area in which asperities touch [-], and their spots per area.
 
-    def spots(self, gap: "Array", sigma: float) -> "Array":
-        """Return the spots of contact per area [1/m^2]: connected pixels of the patch."""
+        Spots [1/m^2] are connected pixels of the patch.
+        """
         del sigma
-        return self.curves.spots(gap)
+        return self.curves.touching(gap), self.curves.spots(gap)
 
     def mean_gap(self, gap: "Array") -> "Array":
         """Return the mean gap over Sq: the distance of the deformed mean planes [-]."""
@@ -238,20 +235,26 @@ def gaussian_integral(n: float, gap: "Array") -> "Array":
     return np.where(gap < FARTHEST, found, 0.0)
 
 
-def _on_map(n: float, gap: "Array") -> "Array":
-    """Return F_n to 1e-9, zero from `APART` on: on all nodes of a grid F_n itself takes long."""
-    found, near = np.zeros_like(gap), gap < APART
-    found[near] = np.exp(_logarithm(n)(np.maximum(gap[near], -DEEPEST)))
+def _on_map(gap: "Array") -> "Array":
+    """Return F_1 and F_2 to 1e-9, zero from `APART` on, (2, *shape of ``gap``).
+
+    On all nodes of a grid the functions themselves take long.
+    """
+    near = gap < APART
+    found = np.zeros((2, *gap.shape))
+    values = np.exp(_logarithms()(np.maximum(gap[near], -DEEPEST)))
+    for each, value in zip(found, values, strict=True):
+        each[near] = value
     return found
 
 
 @cache
-def _logarithm(n: float) -> "CubicSpline":
-    """Return ln F_n as a spline of the separation."""
+def _logarithms() -> "CubicSpline":
+    """Return ln F_1 and ln F_2 as a spline of the separation."""
     from scipy.interpolate import CubicSpline  # noqa: PLC0415
 
     at = np.arange(-DEEPEST, APART + LOG_STEP, LOG_STEP)
-    return CubicSpline(at, np.log(gaussian_integral(n, at)))
+    return CubicSpline(at, np.log([gaussian_integral(n, at) for n in (1.0, 2.0)]), axis=1)
 
 
 def mean_gap(gap: "Array") -> "Array":

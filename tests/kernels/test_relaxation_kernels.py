@@ -252,7 +252,8 @@ def test_the_stiffness_of_a_hollow_is_the_slope_of_the_flow_into_it(mirror):
     step, decay = 1e-3, 12.0
     rows = np.arange(4001) * step
     mobility, ones = np.exp(-decay * rows), np.ones_like(rows)
-    table = np.stack([mobility, -decay * step * mobility, ones, 0.0 * ones], axis=1)
+    mobility = np.stack([mobility, -decay * step * mobility], axis=1)
+    flow = properties.FlowTable(mobility, np.stack([ones, 0.0 * ones], axis=1), step)
     stencil, p = stencil_of(mirror), 1.0 + 0.1 * np.random.default_rng(3).random((7, 8))
     p[3, 4] = 0.3
     fields = (np.empty_like(p) for _ in range(3))
@@ -260,13 +261,13 @@ def test_the_stiffness_of_a_hollow_is_the_slope_of_the_flow_into_it(mirror):
     for sign in (-1.0, 1.0):
         moved = p.copy()
         moved[3, 4] += sign * nudge
-        properties.properties(film._replace(p=moved), table, step, 0.0)
+        properties.properties(film._replace(p=moved), flow, 0.0)
         out = np.empty_like(p)
         reynolds.operator(film, stencil, out)  # the pressure itself stays
         flows.append(out[3, 4])
-    properties.properties(film, table, step, 0.0)
+    properties.properties(film, flow, 0.0)
     stiffness = np.empty_like(p)
-    relaxation.stiffen(film, stencil, table, step, stiffness)
+    relaxation.stiffen(film, stencil, flow, stiffness)
     assert stiffness[3, 4] == pytest.approx((flows[0] - flows[1]) / (2 * nudge), rel=1e-2)
     assert (stiffness >= 0.0).all()
 

@@ -39,20 +39,19 @@ def test_the_residual_counts_wet_nodes_and_those_that_ought_to_be(mirror):
     assert mean == pytest.approx((weight * np.abs(r) / diagonal).sum() / weight.sum(), rel=1e-12)
 
 
+def linear(pressure: np.ndarray, step: float) -> np.ndarray:
+    """Return the table of a density that grows with the pressure."""
+    return np.column_stack([1.0 + 0.2 * pressure, np.full(pressure.size, 0.2 * step)])
+
+
 def test_properties_reproduce_cubics_and_hold_the_film_at_its_floor():
     step, nodes = 0.5, np.arange(9) * 0.5
-    table = np.column_stack(
-        [
-            2.0 + nodes**3,
-            3.0 * nodes**2 * step,
-            1.0 + 0.2 * nodes,
-            np.full(9, 0.2 * step),
-        ]
-    )
-    p = np.array([[-1.0, 0.0, 0.3, 1.7, 3.99, 4.0]])
-    h = np.array([[0.5, 1e-9, 0.7, 0.01, 1.0, 2.0]])
-    film = isotropic(p, h, np.empty((1, 6)), np.empty((1, 6)), np.empty((1, 6)))
-    properties.properties(film, table, step, 0.1)
+    mobility = np.column_stack([2.0 + nodes**3, 3.0 * nodes**2 * step])
+    flow = properties.FlowTable(mobility, linear(nodes, step), step)
+    p = np.array([[-1.0, 0.0, 0.3, 1.7, 3.99, 4.0, 0.5, 0.9, 2.1]])
+    h = np.array([[0.5, 1e-9, 0.7, 0.01, 1.0, 2.0, 0.2, 0.1, 3.0]])
+    film = isotropic(p, h, *np.empty((3, 1, 9)))
+    properties.properties(film, flow, 0.1)
     positive = np.maximum(p, 0.0)
     np.testing.assert_allclose(film.eps, (2.0 + positive**3) * np.maximum(h, 0.1) ** 3, rtol=1e-13)
     np.testing.assert_allclose(film.rho, 1.0 + 0.2 * positive, rtol=1e-13)
@@ -63,23 +62,22 @@ def test_the_factors_of_a_heated_film_give_its_mobility_and_density_back():
     """At the pressure they are taken at, whatever part of the mobility follows the pressure."""
     step, generator = 0.5, np.random.default_rng(5)
     rows = np.arange(9) * step
-    table = np.column_stack(
-        [np.exp(-rows), -step * np.exp(-rows), 1.0 + 0.2 * rows, np.full(9, 0.2 * step)]
-    )
-    p, h, *others = 3.0 * generator.random((9, 4, 6))
+    mobility = np.column_stack([np.exp(-rows), -step * np.exp(-rows)])
+    flow = properties.FlowTable(mobility, linear(rows, step), step)
+    p, h, *others = 3.0 * generator.random((9, 4, 11))
     heated = properties.Heated(*(0.2 + field for field in others[:5]))
     heated.over_exponent[:] /= 4.0
-    film = properties.Film(p, h, *np.empty((5, 4, 6)))
-    factors = properties.Factors(*np.empty((5, 4, 6)))
-    properties.factors_of(heated, film._replace(h=np.ones_like(h)), table, step, factors)
-    properties.heated_properties(film, factors, table, step, 0.5)
+    film = properties.Film(p, h, *np.empty((5, 4, 11)))
+    factors = properties.Factors(*np.empty((5, 4, 11)))
+    properties.factors_of(heated, film._replace(h=np.ones_like(h)), flow, factors)
+    properties.heated_properties(film, factors, flow, 0.5)
     cube = np.maximum(h, 0.5) ** 3
     np.testing.assert_allclose(film.eps, heated.mobility * cube, rtol=1e-12)
     np.testing.assert_allclose(film.eps_x, heated.mobility * cube * heated.stretch_x, rtol=1e-12)
     np.testing.assert_allclose(film.eps_y, heated.mobility * cube * heated.stretch_y, rtol=1e-12)
     np.testing.assert_allclose(film.rho, heated.density, rtol=1e-12)
-    cold = isotropic(p, h, *np.empty((3, 4, 6)))
-    properties.properties(cold, table, step, 0.5)
+    cold = isotropic(p, h, *np.empty((3, 4, 11)))
+    properties.properties(cold, flow, 0.5)
     np.testing.assert_allclose(film.drho, cold.drho * heated.density / cold.rho, rtol=1e-12)
 
 

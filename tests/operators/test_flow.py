@@ -17,11 +17,9 @@ FLOW = flow_table(SCALED)
 
 
 def properties_of(pressure: float, film: float, floor: float = 0.0) -> tuple[float, float, float]:
-    p, h = np.full((1, 1), pressure), np.full((1, 1), film)
-    out = [np.empty((1, 1)) for _ in range(3)]
-    properties.properties(
-        properties.Film(p, h, *out, eps_x=out[0], eps_y=out[0]), FLOW.table, FLOW.step, floor
-    )
+    p, h = np.full((1, 8), pressure), np.full((1, 8), film)
+    out = [np.empty((1, 8)) for _ in range(3)]
+    properties.properties(properties.Film(p, h, *out, eps_x=out[0], eps_y=out[0]), FLOW, floor)
     eps, rho, drho = (float(field[0, 0]) for field in out)
     return eps, rho, drho
 

@@ -14,7 +14,7 @@ from tehl.errors import InputError
 from tehl.film_formulas import expected_film
 from tehl.io.case import case_from_tables
 from tehl.io.store import load, save
-from tehl.kernels import properties, reynolds
+from tehl.kernels import asperities, properties, reynolds
 from tehl.operators.asperities import asperity_table
 from tehl.operators.influence import dense_matrix
 from tehl.operators.line_source import line_rise
@@ -63,7 +63,7 @@ def test_the_pressure_of_asperities_has_its_published_form():
     exact = factor * math.sqrt(sigma / beta) * 0.5 * modulus * gaussian_integral(2.5, at)
     assert asperities.pressure(at, sigma, modulus) == pytest.approx(exact, rel=1e-12)
     area = math.pi**2 * (eta * beta * sigma) ** 2 * gaussian_integral(2.0, at)
-    assert asperities.area(at, sigma) == pytest.approx(area, rel=1e-12)
+    assert asperities.spots(at, sigma)[0] == pytest.approx(area, rel=1e-12)
 
 
 def test_the_channel_is_that_of_patir_and_cheng_and_stays_open():
@@ -511,7 +511,8 @@ def test_dry_asperities_follow_the_film_that_they_move():
         **{name: np.zeros(separation.shape) for name in ("stiffness", "opening", "channel")},
     )
     frozen = np.zeros(separation.shape, np.uint8)
-    properties.touch(film, separation, laws.table, laws.grid, frozen, reach)
+    oil = properties.FlowTable(np.ones((9, 2)), np.ones((9, 2)), 1.0)
+    asperities.touch(film, separation, laws.laws, oil, frozen, reach)
     scales, sigma = ScaledProblem.of(problem).scales, problem.asperity_rms
 
     def left(more: float, height: float, q: float) -> float:

@@ -72,9 +72,9 @@ def test_mass_flow_through_sections_of_the_contact_is_conserved():
     run = film_of(100.0, 10.0, tight(129))
     numbers, flow = run.groups, flow_table(run.scaled_problem)
     p, h, x, y = run.scaled.pressure, run.scaled.film, run.scaled.x, run.scaled.y
-    at = np.arange(len(flow.table))
-    eps = np.interp(p / flow.step, at, flow.table[:, 0]) * h**3
-    mass = np.interp(p / flow.step, at, flow.table[:, 2]) * h
+    at = np.arange(len(flow.mobility))
+    eps = np.interp(p / flow.step, at, flow.mobility[:, 0]) * h**3
+    mass = np.interp(p / flow.step, at, flow.density[:, 0]) * h
     dx, dy = x[1] - x[0], y[1] - y[0]
     i = np.flatnonzero((x > -1.5) & (x < 0.7))  # a window that is wet all over
     rows = np.flatnonzero(np.abs(y) < 0.55)

@@ -31,8 +31,8 @@ def test_the_film_of_a_standing_wave_is_that_of_an_independent_solver():
 def compression(smooth: Result, length: float) -> np.ndarray:
     """Return C = h E' k/(4 B) at every node, B the bulk modulus at the local pressure."""
     flow = flow_table(smooth.scaled_problem)
-    rows = np.minimum((smooth.scaled.pressure / flow.step).astype(int), len(flow.table) - 1)
-    per_pressure = flow.table[rows, 3] / flow.step / flow.table[rows, 2]
+    rows = np.minimum((smooth.scaled.pressure / flow.step).astype(int), len(flow.density) - 1)
+    per_pressure = flow.density[rows, 1] / flow.step / flow.density[rows, 0]
     return np.pi**2 / 2.0 * smooth.scaled.film / length * per_pressure
 
 

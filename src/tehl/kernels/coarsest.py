@@ -16,6 +16,7 @@ from tehl.kernels.raw import raw
 from tehl.kernels.reynolds import STEADILY, Stencil, flux_weights
 from tehl.typing import Array, FlagArray, IntArray
 
+NEGLIGIBLE = 1e-6  # part of a change of the pressure that asperities take by the film it moves
 HERE, EAST, WEST, NORTH, SOUTH, FAR = range(6)
 
 
@@ -150,17 +151,19 @@ def _find_free(state: Coarse, system: CoarseSystem, mirror: int, nx: int, free: 
 
 @helper
 def _find_carrying(state: Coarse, system: CoarseSystem, shape: tuple[int, int], work: Work) -> int:
-    """List all nodes, mark those where asperities alone change; return their count.
+    """List the nodes where oil or asperities change; mark those where asperities alone do.
 
-    ``shape``: mirror, and nodes of a row.
+    Return their count. ``shape``: mirror, and nodes of a row.
     """
     count, (mirror, nx) = 0, shape
     for j in range(0 if mirror else 1, state.p.shape[0] // nx - 1):
         for here in range(j * nx + 1, j * nx + nx - 1):
             wet = state.p[here] != 0.0 or system.residual[here] < 0.0
             work.dry[here] = not wet or system.frozen[here] > 0
-            work.free[count] = here
-            count += 1
+            carried = state.stiffness[here] * system.influence[here, here]
+            if not work.dry[here] or carried > NEGLIGIBLE:
+                work.free[count] = here
+                count += 1
     return count
 
 
@@ -251,8 +254,9 @@ def _add_slopes(system: CoarseSystem, work: Work, row: int, count: int) -> None:
     """Add the derivatives at node ``near[0]`` to a row of the matrix, of all nodes in ``full``."""
     full, near, by_p, by_h = work.full, work.near, work.by_p, work.by_h
     for n in range(6):
-        for m in range(full.shape[0]):
-            full[m] += by_h[n] * system.influence[near[n], m]
+        if by_h[n] != 0.0:  # dry asperities move with their own film only
+            for m in range(full.shape[0]):
+                full[m] += by_h[n] * system.influence[near[n], m]
     for n in range(6):
         full[near[n]] += by_p[n]
         work.matrix[row, count] += by_h[n]

@@ -21,7 +21,7 @@ import numpy as np
 
 from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.lanes import LANES, any_of, where
-from tehl.kernels.properties import Film
+from tehl.kernels.properties import Film, FlowTable
 from tehl.kernels.raw import raw
 from tehl.kernels.reynolds import (
     STEADILY,
@@ -37,6 +37,7 @@ Span = tuple[int, int]
 
 PASSES = 6  # of the policy iteration, before clipping
 FREE, CAVITATED, KEPT, WAS_CAVITATED = 0.0, 1.0, 2.0, 3.0  # states of a node
+NEGLIGIBLE = 1e-2  # part of a change of the pressure that asperities take by the film it moves
 MARGIN = 3  # empty nodes on both sides of a line
 CHUNK = 32  # nodes copied at a time, so that they stay in the first cache
 LOADED = ("east", "across", "mass_p", "rho", "dipole", "rest", "p", "state", "hardness")
@@ -109,15 +110,16 @@ def mark_dipoles(film: Film, stencil: Stencil, relaxation: LineRelaxation) -> No
 
 
 @kernel
-def stiffen(film: Film, stencil: Stencil, table: Array, step: float, out: Array) -> None:
+def stiffen(film: Film, stencil: Stencil, flow: FlowTable, out: Array) -> None:
     """Write the contribution of the change of conductance with pressure to the diagonal to ``out``.
 
     Where the pressure rises to a neighbour by many times the pressure 1/alpha that thickens the oil
     by a factor of e, the flow between both depends on the conductance of the lower one more than on
-    the pressure difference. Columns of ``table`` as in `tehl.kernels.properties`.
+    the pressure difference.
     """
-    film, table, out = raw((film, table, out))
+    film, flow, out = raw((film, flow, out))
     ny, nx = film.p.shape
+    table, step = flow.mobility, flow.step
     last = table.shape[0] - 2
     clear(out)
     for j in range(0 if stencil.mirror else 1, ny - 1):
@@ -264,7 +266,7 @@ def _fill_row(
     here.east_2 = b_ww * p[4] + b_w * p[3] + b_c * p[2] + beyond.dipole * change
     if relaxation.touches:
         around = far.hardness + west.hardness + here.hardness + east.hardness
-        if any_of(around > 0.0):
+        if any_of(around * p[0] > NEGLIGIBLE):
             hardness = a_ww * far.hardness, a_w * west.hardness
             _add_asperities(relaxation, i, (*hardness, a_c * here.hardness, a_e * east.hardness))
 

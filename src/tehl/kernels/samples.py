@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, get_args, get_type_hints
 import numpy as np
 from numba import typeof, types
 
-from tehl.kernels import coarsest, properties, relaxation, reynolds, summation, transfer
+from tehl.kernels import asperities, coarsest, properties, relaxation, reynolds, summation, transfer
 from tehl.kernels.energy import march, records, trail
 
 NUMBERS = {int: types.int64, float: types.float64, bool: types.boolean}
@@ -116,6 +116,7 @@ COUPLED = (
 )
 """Of heated and shear-thinning films, besides."""
 RARE = (
+    _sample(asperities.touch, 0.7, grid=1),
     _sample(relaxation.stiffen, 0.4),
     _sample(relaxation.relax_points, 0.4, self_film=1),
     _sample(reynolds.diagonal, 0.3),

@@ -14,6 +14,7 @@ from tehl.asperities import (
     gaussian_integral,
     mean_gap,
 )
+from tehl.kernels.asperities import AsperityLaws
 from tehl.mixed import LEAST, MOST
 from tehl.problem import ContactProblem
 from tehl.scaling import ScaledProblem
@@ -24,6 +25,8 @@ STEP = 0.02
 LEAST_CARRIED = 0.01
 """Least oil that is carried over that of the gap: pools of a rough surface at rest carry none."""
 
+Tables = dict[str, Array]
+"""Laws over the gap over sigma, by the names of `AsperityLaws`."""
 NO_PRESSURE, NO_OVERLAP = 1e-15, 1e-12
 """Pressure over its unit, and mean gap less separation over sigma, of asperities that are apart."""
 
@@ -34,44 +37,39 @@ class AsperityTable:
 
     Attributes
     ----------
-    table : (n, 6) or (n, 8) array
-        Pressure of the asperities, mean gap, channel along x and, if they matter, conductance
-        along y over that along x, and what the surfaces carry over the gap, each with its slope
-        times the step [-].
-    grid : (3,) array
-        Least separation, difference of two rows, and the separation from which no asperities
-        touch [-].
+    laws : AsperityLaws
+        Their values and slopes at steps of H.
+    separations : (n,) array
+        The H of each row [-].
     """
 
-    table: Array
-    grid: Array
+    laws: AsperityLaws
+    separations: Array
 
     @property
     def sigma(self) -> float:
         """Standard deviation of the heights [-]."""
-        return float(self.grid[1]) / STEP
+        return float(self.laws.grid[1]) / STEP
 
     @property
     def is_anisotropic(self) -> bool:
         """Whether the conductance along y may differ from that along x."""
-        return self.table.shape[1] > 6
+        return self.laws.across.size > 0
 
     @property
     def slides(self) -> bool:
         """Whether the surfaces carry more or less than the gap holds."""
-        return self.table.shape[1] > 8
+        return self.laws.carried.size > 0
 
     def widening(self, separation: Array) -> Array:
         """Return the slope of the channel by the separation, of the shape of ``separation`` [-]."""
-        separations = self.grid[0] + self.grid[1] * np.arange(len(self.table))
-        slopes = self.table[:, 5] / self.grid[1]
-        found: Array = np.interp(separation, separations, slopes, right=1.0)
+        slopes = self.laws.channel[:, 1] / self.laws.grid[1]
+        found: Array = np.interp(separation, self.separations, slopes, right=1.0)
         return found
 
     def separation(self, gap: float) -> float:
         """Return the separation of the mean planes at a mean gap [-]."""
-        separations = self.grid[0] + self.grid[1] * np.arange(len(self.table))
-        return float(np.interp(gap, self.table[:, 2], separations, right=gap))
+        return float(np.interp(gap, self.laws.gap[:, 0], self.separations, right=gap))
 
 
 def asperity_table(scaled: ScaledProblem) -> AsperityTable | None:
@@ -80,24 +78,41 @@ def asperity_table(scaled: ScaledProblem) -> AsperityTable | None:
     law, sigma = problem.asperities, problem.asperity_rms
     if law is None:
         return None
-    unit = sigma / scales.film_thickness
     pressure = law.unit(sigma, problem.reduced_modulus) / scales.hertz_pressure
     stamp = law.map.stamp if isinstance(law, SurfacePatch) else None
+    return _scaled(law, stamp, sliding_part(problem), pressure, sigma / scales.film_thickness)
+
+
+@lru_cache(maxsize=4)  # one for all grids of a contact
+def _scaled(
+    law: Asperities, stamp: object, part: float, pressure: float, unit: float
+) -> AsperityTable:
+    """Return the laws for units of pressure and of height [-]."""
     laws = _of_patch(law, stamp) if isinstance(law, SurfacePatch) else _of_summits()
-    if part := sliding_part(problem):
-        laws = np.concatenate([laws, _of_sliding(law, stamp, part)], axis=1)
-    factors = np.repeat([pressure, unit, unit, 1.0, 1.0], 2)[: laws.shape[1]]
-    separations = LEAST + STEP * np.arange(len(laws))
-    overlap = laws[:, 2] - separations
-    touching = np.nonzero((laws[:, 0] > NO_PRESSURE) | (overlap > NO_OVERLAP))[0]
+    if part:
+        laws = laws | _of_sliding(law, stamp, part)
+    units = {"pressure": pressure, "gap": unit, "channel": unit}
+    separations = LEAST + STEP * np.arange(float(len(laws["gap"])))
+    overlap = laws["gap"][:, 0] - separations
+    touching = np.nonzero((laws["pressure"][:, 0] > NO_PRESSURE) | (overlap > NO_OVERLAP))[0]
     apart = separations[touching[-1]] + STEP
-    return AsperityTable(table=laws * factors, grid=np.array([LEAST, STEP, apart]) * unit)
+    return AsperityTable(
+        laws=AsperityLaws(
+            **{name: units.get(name, 1.0) * table for name, table in laws.items()},
+            grid=np.array([LEAST, STEP, apart]) * unit,
+        ),
+        separations=separations * unit,
+    )
 
 
 @cache
-def _of_summits() -> Array:
-    """Return the laws of Greenwood and Tripp, the same for all summits, as `_tabulated`."""
-    return _tabulated(lambda gap: gaussian_integral(2.5, gap), mean_gap, channel)
+def _of_summits() -> Tables:
+    """Return the laws of Greenwood and Tripp, the same for all summits."""
+    return {
+        "pressure": _tabulated(lambda gap: gaussian_integral(2.5, gap)),
+        "gap": _tabulated(mean_gap),
+        "channel": _tabulated(channel),
+    }
 
 
 def sliding_part(problem: ContactProblem) -> float:
@@ -115,29 +130,28 @@ def sliding_part(problem: ContactProblem) -> float:
 
 
 @lru_cache(maxsize=4)
-def _of_sliding(law: Asperities, stamp: object, part: float) -> Array:
-    """Return what the surfaces carry over the mean gap, after no anisotropy of summits."""
+def _of_sliding(law: Asperities, stamp: object, part: float) -> Tables:
+    """Return what the surfaces carry over the mean gap."""
     del stamp
-
-    def carried(gap: Array) -> Array:
-        return np.maximum(1.0 + part * law.carried(gap), LEAST_CARRIED)
-
-    is_patch = isinstance(law, SurfacePatch)
-    return _tabulated(carried) if is_patch else _tabulated(np.ones_like, carried)
+    return {
+        "carried": _tabulated(lambda gap: np.maximum(1.0 + part * law.carried(gap), LEAST_CARRIED))
+    }
 
 
 @lru_cache(maxsize=4)
-def _of_patch(law: SurfacePatch, stamp: object) -> Array:
-    """Return the laws of a measured patch, as `_tabulated`."""
+def _of_patch(law: SurfacePatch, stamp: object) -> Tables:
+    """Return the laws of a measured patch."""
     del stamp
-    return _tabulated(law.load, law.mean_gap, law.channel, law.across)
+    return {
+        "pressure": _tabulated(law.load),
+        "gap": _tabulated(law.mean_gap),
+        "channel": _tabulated(law.channel),
+        "across": _tabulated(law.across),
+    }
 
 
-def _tabulated(*curves: Callable[[Array], Array]) -> Array:
-    """Return curves over the gap, each with its slope times the step."""
+def _tabulated(curve: Callable[[Array], Array]) -> Array:
+    """Return a curve over the gap and its slope times the step, (n, 2)."""
     gap, d = np.arange(LEAST, MOST + STEP, STEP), 0.1 * STEP
-    columns = []
-    for curve in curves:
-        rise = 8.0 * (curve(gap + d) - curve(gap - d)) - (curve(gap + 2 * d) - curve(gap - 2 * d))
-        columns += [curve(gap), rise / (12.0 * d) * STEP]
-    return np.ascontiguousarray(np.stack(columns, axis=1))
+    rise = 8.0 * (curve(gap + d) - curve(gap - d)) - (curve(gap + 2 * d) - curve(gap - 2 * d))
+    return np.stack([curve(gap), rise / (12.0 * d) * STEP], axis=1)

@@ -1,32 +1,16 @@
 """Mobility and density of the lubricant, tabulated over pressure for the Reynolds equation."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
+from tehl.kernels.properties import FlowTable
 from tehl.scaling import ScaledProblem
 from tehl.typing import Array
 
 LARGEST_PRESSURE = 8.0
 """End of the table, in Hertz pressures: rough contacts reach 2 to 5."""
 NODES = 8192
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class FlowTable:
-    """Isothermal mobility rho/(eta lambda) and density rho over the dimensionless pressure.
-
-    Attributes
-    ----------
-    table : (NODES + 1, 4) array
-        Mobility, its slope times ``step``, density, its slope times ``step``.
-    step : float
-        Pressure between two rows [-].
-    """
-
-    table: Array
-    step: float
 
 
 def flow_table(scaled: ScaledProblem) -> FlowTable:
@@ -48,13 +32,11 @@ def flow_table(scaled: ScaledProblem) -> FlowTable:
 
     step = LARGEST_PRESSURE / NODES
     pressure = step * np.arange(NODES + 1.0)
-    columns = [
-        mobility(pressure),
-        slope(mobility, pressure, step) * step,
-        density(pressure),
-        slope(density, pressure, step) * step,
-    ]
-    return FlowTable(table=np.ascontiguousarray(np.stack(columns, axis=1)), step=step)
+
+    def tabulated(law: Callable[[Array], Array]) -> Array:
+        return np.stack([law(pressure), slope(law, pressure, step) * step], axis=1)
+
+    return FlowTable(mobility=tabulated(mobility), density=tabulated(density), step=step)
 
 
 def slope(law: Callable[[Array], Array], pressure: Array, step: float) -> Array:

@@ -13,7 +13,7 @@ with I u the injected or weighted fine solution and R full weighting.
 import numpy as np
 
 from tehl.grid import Grid
-from tehl.kernels import properties, reynolds, transfer
+from tehl.kernels import asperities, properties, reynolds, transfer
 from tehl.operators.far_field import FarField
 from tehl.operators.film import hertz_pressure
 from tehl.operators.load import TARGET
@@ -197,18 +197,22 @@ class Level:
         if self.far_field is not None:
             self.far_field.set_edges(self.film.p, h)
             self.sources.outside = self.far_field.load(h, self.equations.gap)
-        self._touch(REACH)
         self._meet()
-        self.update_properties()
+        self._share(REACH)
         self._is_stale = False
         if self.stencil.conserves == reynolds.STEADILY and self.is_finest:
             self._mark_cavities()
 
-    def _touch(self, reach: float) -> None:
-        """Evaluate the asperities at the present separation; see `properties.touch`."""
-        laws, frozen = self.equations.asperities, self.smoother.frozen
+    def _share(self, reach: float) -> None:
+        """Evaluate the asperities at the present separation, and conductance and density.
+
+        ``reach`` as for `asperities.touch`.
+        """
+        laws, flow, frozen = self.equations.asperities, self.equations.flow, self.smoother.frozen
         if laws is not None:
-            properties.touch(self.film, self.separation, laws.table, laws.grid, frozen, reach)
+            asperities.touch(self.film, self.separation, laws.laws, flow, frozen, reach)
+        if laws is None or self.factors is not None:
+            self.update_properties()
 
     def _meet(self) -> None:
         """Find where the surfaces touch: the film is the boundary film there.
@@ -271,15 +275,9 @@ class Level:
     def _evaluate(self, film: properties.Film) -> None:
         flow, floor = self.equations.flow, self.equations.floor
         if self.factors is None:
-            properties.properties(film, flow.table, flow.step, floor)
+            properties.properties(film, flow, floor)
         else:
-            properties.heated_properties(film, self.factors, flow.table, flow.step, floor)
-        if film.across.size:
-            isotropic = film.eps if self.factors is None else film.eps_y
-            np.multiply(isotropic, film.across, out=film.eps_y)
-        if film.carried.size:
-            np.multiply(film.rho, film.carried, out=film.rho)
-            np.multiply(film.drho, film.carried, out=film.drho)
+            properties.heated_properties(film, self.factors, flow, floor)
 
     def nodal_film(self) -> tuple[float, float]:
         """Return central and smallest nodal film [-]."""
@@ -518,12 +516,11 @@ class Level:
         """
         g = coarse.sources.film
         coarse.separation[:] = self.separation[::2, ::2]
-        coarse._touch(-1.0)
+        coarse._share(-1.0)
         coarse.kept = coarse.film.asperity.copy()
         coarse.equations.deformation.deflect(coarse.pressure, g)
         np.subtract(coarse.separation, g, out=g)
         g -= coarse.rigid_approach
-        coarse.update_properties()
 
     def restrict_reynolds(self, coarse: "Level") -> None:
         """Pose the Reynolds equation:  f_c = L_c(P_c, H_c) + R (f - L(P, H)),  R full weighting.

@@ -117,11 +117,11 @@ def film_asperities(level: Level, scaled: ScaledProblem) -> FilmAsperities | Non
     if problem.asperities is None:
         return None
     separation, sigma = level.separation * scales.film_thickness, problem.asperity_rms
-    law, apart = problem.asperities, separation / sigma
+    area, spots = problem.asperities.spots(separation / sigma, sigma)
     return FilmAsperities(
         pressure=grid.unfold(level.film.asperity * scales.hertz_pressure),
-        area=grid.unfold(law.area(apart, sigma)),
-        spots=grid.unfold(law.spots(apart, sigma)),
+        area=grid.unfold(area),
+        spots=grid.unfold(spots),
         separation=grid.unfold(separation),
         rms=np.array(sigma),
         balance=np.array(asperity_balance(level)),

@@ -109,7 +109,7 @@ class LineSmoother:
     def sweep(self, film: Film, stencil: Stencil, rhs: Array, flow: FlowTable) -> None:
         """Relax ``film.p`` in place."""
         if self.is_stiff:
-            kernels.stiffen(film, stencil, flow.table, flow.step, self.stiffness)
+            kernels.stiffen(film, stencil, flow, self.stiffness)
         kernels.relax_lines(film, stencil, rhs, self.workspace)
 
 

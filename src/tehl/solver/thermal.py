@@ -251,8 +251,7 @@ class Coupling:
         factors = properties.Factors(*np.empty((5, *shape)))
         # at H = 1 the conductance is the mobility: factors do not depend on the film
         isothermal = properties.Film(fine.film.p, np.ones(shape), *np.empty((5, *shape)))
-        flow = fine.equations.flow
-        properties.factors_of(heated, isothermal, flow.table, flow.step, factors)
+        properties.factors_of(heated, isothermal, fine.equations.flow, factors)
         before = fine.factors
         if before is None and self.damping < 1.0:
             before = properties.Factors(np.zeros(shape), *np.ones((4, *shape)))  # isothermal

@@ -172,7 +172,7 @@ class TouchingSystem:
     def _by_density(self, oil: Array, change: Array, otherwise: Array) -> Array:
         """Return the pressure whose density is that of a linear ``change``, not negative."""
         film, flow = self.level.film, self.level.equations.flow
-        density = flow.table[:, 2]
+        density = flow.density[:, 0]
         if not density[-1] > density[0]:  # incompressible
             return np.maximum(oil + otherwise, 0.0)
         pressures, wanted = flow.step * np.arange(density.size), film.rho + film.drho * change
