@@ -23,7 +23,6 @@ from tehl.solver.level import Level
 from tehl.solver.newton import one_thread
 from tehl.solver.touching_system import (
     TouchingOperators,
-    TouchingPreconditioner,
     TouchingSystem,
     flux_difference,
 )
@@ -34,8 +33,6 @@ SUFFICIENT, SHORTEST = 0.05, 0.12
 taken in any case: sets of nodes that change raise the residual for some steps."""
 MEMORY = 5
 """Steps of which the largest residual must decrease."""
-SLOW = 40
-"""Products of a step beyond which the next one factorises again."""
 CLOSE, TIGHTLY, LARGEST_CLOSING = 1e-7, 1e-5, 1e-4
 """Residual below which the oil is balanced; the same over the tolerance of a tight solve, as the
 pressure, and with it the load, moves by a thousand residuals; and its largest change by that."""
@@ -71,7 +68,6 @@ class TouchingNewton(TouchingOperators):
 
     def __init__(self, level: Level, coarse: Grid, *, order: int = 2, closing: float = 0.0) -> None:
         super().__init__(level, coarse)
-        self.factors: TouchingPreconditioner | None = None
         self.past: list[float] = []
         self.free_steps = FREE
         self.closing = closing
@@ -86,8 +82,8 @@ class TouchingNewton(TouchingOperators):
         self.refresh()
 
     def refresh(self) -> None:
-        """Discard the preconditioner and the residuals of earlier steps."""
-        self.factors, self.past = None, []
+        """Discard the residuals of earlier steps."""
+        self.past = []
 
     def step(self) -> float:
         """Perform one step; return the part of it that was taken.
@@ -103,18 +99,12 @@ class TouchingNewton(TouchingOperators):
         else:
             self._lower_orders()
         system = TouchingSystem(self)
-        old = self.factors
         try:
             with one_thread():
-                change, is_solved = self._solve(system)
-                if not is_solved and old is not None:
-                    self.factors = None
-                    change, _ = self._solve(system)
+                change = system.solve(ACCURACY)
         except (RuntimeError, ValueError) as error:  # singular or not finite
             raise DivergedError from error
         part = self._search(system, change)
-        if system.products > SLOW or part < 1.0:
-            self.factors = None
         if self.residual() < self.closing:
             self.is_balanced = close_balance(level, self.neighbours)
         return part
@@ -144,11 +134,6 @@ class TouchingNewton(TouchingOperators):
         touching = self.level.touching
         self.level.film.second[with_neighbours(touching ^ self.touched)] = 0
         self.touched = touching.copy()
-
-    def _solve(self, system: TouchingSystem) -> tuple[Array, bool]:
-        if self.factors is None:
-            self.factors = TouchingPreconditioner(system)
-        return system.solve(self.factors, ACCURACY)
 
     def _search(self, system: TouchingSystem, change: Array) -> float:
         """Take the step, or a part of it if the residual would rise above the last ones."""

@@ -9,14 +9,15 @@ of H00 (docs/theory/contact.md):
     sum(v) dx dy = w - sum(P + P_c) dx dy.
 
 At a touching node the film is known, so the first equation is that of u alone and the second that
-of v. The Krylov method is that of `tehl.solver.newton`; the contact is preconditioned by the
-inverse of K on the periodic plane.
+of v. The Krylov method is that of `tehl.solver.newton`. Where surfaces touch, and where the oil
+conducts so little that it carries its film along, the film is known and the pressure makes it: both
+are preconditioned by the inverse of K on the periodic plane.
 """
 
 import numpy as np
 from scipy.linalg import lu_factor, lu_solve
 from scipy.sparse import csc_matrix, csr_matrix
-from scipy.sparse.linalg import LinearOperator, gcrotmk, splu
+from scipy.sparse.linalg import LinearOperator, SuperLU, gcrotmk, splu
 
 from tehl.grid import Grid
 from tehl.kernels import reynolds
@@ -29,17 +30,21 @@ from tehl.typing import Array, BoolArray
 LARGEST_STEPS, FAR = (5.0, 1.0), 0.1
 """Largest change of the pressure of oil per step, in Hertz pressures, and residual above which the
 second one holds. Near the solution that would leave the load out of balance."""
-OPENING = 1e-4
-"""Residual below which oil may exceed the sum of both pressures at a node, which then opens."""
+OPENING = 0.1
+"""Pressure by which oil may exceed the sum of both at a node, which then opens, in Hertz pressures.
+If it may not exceed it, patches that only a coarser grid has open node by node."""
+STIFF, LEADING = 0.35, 0.2
+"""Least parts of the film, and of that at the node itself, in the equation of a node whose oil
+carries its film along."""
 LARGEST_PRESS = 20.0
 """Largest change per step of the sum of both pressures where surfaces touch, in Hertz pressures:
 the contact is linear, and small steps there only make many of them."""
 
 
 class TouchingOperators(Newton):
-    """What the steps on a level share: those of Newton's method for films, and two of the contact.
+    """What the steps on a level share: those of Newton's method for films, and two more.
 
-    ``flattening`` and ``close_influence`` precondition the contact, and the film between its nodes.
+    ``flattening`` and ``close_influence`` precondition known films, and the film between them.
     """
 
     def __init__(self, level: Level, coarse: Grid) -> None:
@@ -129,26 +134,25 @@ class TouchingSystem:
             ]
         )
 
-    def solve(self, factors: "TouchingPreconditioner", accuracy: float) -> tuple[Array, bool]:
-        """Return the solution by GCROT, and whether it has the relative residual ``accuracy``."""
-        size = self.rest.size
-        change, missed = gcrotmk(
+    def solve(self, accuracy: float) -> Array:
+        """Return the solution by GCROT to a relative residual of ``accuracy``."""
+        size, factors = self.rest.size, TouchingPreconditioner(self)
+        change, _ = gcrotmk(
             LinearOperator((size, size), matvec=self.product, dtype=float),
             self.rest,
             rtol=accuracy,
             maxiter=ROUNDS,
             m=VECTORS,
-            M=LinearOperator((size, size), matvec=lambda r: factors.solve(self, r), dtype=float),
+            M=LinearOperator((size, size), matvec=factors.solve, dtype=float),
         )
-        return np.asarray(change), missed == 0
+        return np.asarray(change)
 
     def stepped(
         self, before: tuple[Array, float, Array], change: Array, part: float, residual: float
     ) -> tuple[Array, float, Array]:
         """Return oil pressure, rigid approach and contact pressure after ``part`` of a change.
 
-        ``residual`` is that before it: far from the solution the oil changes by less, and near it
-        nodes may open.
+        ``residual`` is that before it: far from the solution the oil changes by less.
 
         Where surfaces touch the sum of both pressures follows the change and the oil pressure has
         its part of it: one that falls does so by its density, whose slope at high pressure would
@@ -162,8 +166,7 @@ class TouchingSystem:
         step = part * np.clip(u, -most, most)
         total = np.maximum(oil + contact + part * np.clip(v, -LARGEST_PRESS, LARGEST_PRESS), 0.0)
         inside = np.where(u < 0.0, self._by_density(oil, part * u, step), oil + step)
-        if residual >= OPENING:
-            inside = np.minimum(inside, total)
+        inside = np.minimum(inside, total + OPENING)
         pressure = np.where(touching, inside, np.maximum(oil + step, 0.0))
         opened = (1.0 - part) * contact
         carried = np.where(touching, total - inside, opened)
@@ -182,72 +185,94 @@ class TouchingSystem:
 
 
 class TouchingPreconditioner:
-    """Approximate inverse of a system: coarse correction, then the oil, then the contact.
+    """Approximate inverse of a system, in three stages, each of what the last one has left.
 
-    Later steps use it as well.
+    A correction on a coarse grid; the pressures of oil, by a factorisation with close deflections;
+    and, last, the pressures that make known films, by `TouchingOperators.flattening`.
     """
 
     def __init__(self, system: TouchingSystem) -> None:
-        operators, touching = system.operators, rows(system.touching.astype(float))
-        free, apart = (
-            rows(system.free.astype(float)),
-            rows((system.free & ~system.touching).astype(float)),
-        )
+        self.system, operators = system, system.operators
+        free, touching = (rows(one.astype(float)) for one in (system.free, system.touching))
+        apart = rows((system.free & ~system.touching).astype(float))
         near = system.by_film @ operators.close_influence @ apart
-        close = free @ (system.by_pressure @ free + near) + rows((~system.free).astype(float))
         self.close = splu(
-            beside(close, system.shape[1]).astype(np.float32),
+            beside(system.by_pressure @ free + near + rows(1.0 - free.diagonal()), system.shape[1]),
             permc_spec="MMD_AT_PLUS_A",
             diag_pivot_thresh=0.01,
             options={"SymmetricMode": True},
         )
+        self.carried, self.wedge = self._wedge()
         moving = system.free | system.touching
-        at_coarse = moving[operators.same].astype(float)
-        self.to_fine = csr_matrix(rows(moving.astype(float)) @ operators.to_fine @ rows(at_coarse))
-        self.to_coarse = csr_matrix(rows(at_coarse) @ operators.to_coarse)
-        by_pressure = self.to_coarse @ apart @ system.by_pressure @ apart @ self.to_fine
+        self.at_coarse = moving[operators.same].astype(float)
+        self.to_fine = csr_matrix(
+            rows(moving.astype(float)) @ operators.to_fine @ rows(self.at_coarse)
+        )
+        self.to_coarse = csr_matrix(rows(self.at_coarse) @ operators.to_coarse)
+        by_pressure = self.to_coarse @ system.by_pressure @ apart @ self.to_fine
         by_film = self.to_coarse @ (apart @ system.by_film + system.stiffness * touching)
         size = operators.deflection.shape[0]
         matrix = np.zeros((size + 1, size + 1))
         matrix[:-1, :-1] = by_pressure.toarray()
         matrix[:-1, :-1] += (
             csr_matrix(by_film @ operators.to_fine) @ operators.deflection
-        ) * at_coarse
+        ) * self.at_coarse
         matrix[:-1, -1] = by_film @ np.ones(system.size)
         matrix[-1, :-1] = operators.load_weights @ self.to_fine
         empty = np.nonzero(~matrix[:-1, :-1].any(axis=1))[0]  # no moving fine node: identity
         matrix[empty, empty] = 1.0
         self.coarse = lu_factor(matrix)
 
-    def solve(self, system: TouchingSystem, rest: Array) -> Array:
-        """Return an approximate solution of ``system`` for the right-hand side ``rest``."""
-        size, touching = system.size, system.touching
-        row = np.where(touching, rest[size:-1], np.where(system.free, rest[:size], 0.0))
+    def _wedge(self) -> tuple[BoolArray, SuperLU]:
+        """Return where oil carries its film along, and the factors of L_H there.
+
+        Upstream along lines only: a triangular matrix, the factors of which have no more entries.
+        """
+        system = self.system
+        part = np.asarray(abs(system.by_film).sum(1)).ravel() / system.stiffness
+        leads = np.abs(system.by_film.diagonal()) / system.stiffness > LEADING
+        carried: BoolArray = system.free & ~system.touching & (part > STIFF) & leads
+        inside = rows(carried.astype(float))
+        entries, nx = (inside @ system.by_film @ inside).tocoo(), system.shape[1]
+        upstream = (entries.row // nx == entries.col // nx) & (entries.col <= entries.row)
+        places = (entries.row[upstream], entries.col[upstream])
+        lower = csc_matrix((entries.data[upstream], places), shape=entries.shape)
+        matrix = csc_matrix(lower + rows(1.0 - inside.diagonal()))
+        return carried, splu(matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0)
+
+    def solve(self, rest: Array) -> Array:
+        """Return an approximate solution for the right-hand side ``rest``."""
+        system, operators = self.system, self.system.operators
+        size, free, touching = system.size, system.free, system.touching
+        row = np.where(touching, rest[size:-1], np.where(free, rest[:size], 0.0))
         coarse = lu_solve(self.coarse, np.append(self.to_coarse @ row, rest[-1]))
-        both, change = self.to_fine @ coarse[:-1], np.zeros_like(rest)
-        change[:size] = np.where(touching, 0.0, both)
-        change[size:-1] = np.where(touching, both, 0.0)
-        change[-1] = coarse[-1]
-        left = rest - system.product(change)
-        change[:size] += self.close.solve(left[:size].astype(np.float32))
-        change[size:-1] += np.where(touching, 0.0, left[size:-1])
-        if touching.any():  # what the oil has just moved counts: a third of the iterations
-            gap = np.where(touching, rest[size:-1] - system.product(change)[size:-1], 0.0)
+        both = self.to_fine @ coarse[:-1]
+        oil, total = np.where(touching, 0.0, both), np.where(touching, both, rest[size:-1])
+        # the coarse deflection is accurate enough, and saves a product
+        film = operators.to_fine @ (operators.deflection @ (self.at_coarse * coarse[:-1]))
+        flow = system.by_pressure @ oil + system.by_film @ (film + coarse[-1])
+        left = rest[:size] - np.where(free, flow, oil)
+        oil += self.close.solve(left.astype(np.float32))
+        if touching.any() or self.carried.any():
+            left = rest - system.product(np.concatenate([oil, total, coarse[-1:]]))
+            gap = np.where(touching, left[size:-1] / system.stiffness, 0.0)
+            gap += self.wedge.solve(np.where(self.carried, left[:size], 0.0))
             flat = np.empty(system.shape)
-            system.operators.flattening.deflect(gap.reshape(system.shape) / system.stiffness, flat)
-            change[size:-1] += np.where(touching, flat.ravel(), 0.0)
-        return change
+            operators.flattening.deflect(gap.reshape(system.shape), flat)
+            oil += np.where(self.carried, flat.ravel(), 0.0)
+            total += np.where(touching, flat.ravel(), 0.0)
+        return np.concatenate([oil, total, coarse[-1:]])
 
 
 def beside(matrix: csr_matrix, nx: int) -> csc_matrix:
-    """Return the entries of a matrix between nodes of the same line, and of the next ones.
+    """Return the entries of a matrix between nodes of a line, and of the next ones, as float32.
 
     The few others save no iterations, and double the cost of a factorisation.
     """
     entries = matrix.tocoo()
     near = np.abs(entries.row // nx - entries.col // nx) <= 1
     places = (entries.row[near], entries.col[near])
-    return csc_matrix((entries.data[near], places), shape=matrix.shape)
+    return csc_matrix((entries.data[near].astype(np.float32), places), shape=matrix.shape)
 
 
 def flux_difference(level: Level) -> csr_matrix:
