@@ -46,6 +46,8 @@ MOST_DOUBLINGS = 4
 """Most doublings of `MOST_CYCLES`, one per coarser grid, where temperatures converge slowly."""
 MOST_TOUCHING = 30
 """The same in Newton steps where surfaces may touch: the nodes that do change for some of them."""
+MOST_COMBINED = 20
+"""The same where cycles are combined between asperities finer than the grid: it takes some."""
 HERTZ_CYCLES = 2
 """Cycles after which a grid that started from the Hertz pressure has a film."""
 MOST_FRONT_CYCLES = 24
@@ -116,8 +118,7 @@ class GridIteration:
 
     def _iterate(self, levels: Sequence[Level]) -> None:
         """Iterate on the last of ``levels`` until it has converged, stalled or used its cycles."""
-        fine, finer = levels[-1], len(self.levels) - len(levels)
-        finest = not finer
+        fine, finest = levels[-1], len(levels) == len(self.levels)
         fine.pose_problem()
         fine.update()
         done = self._start_heat(levels)
@@ -131,15 +132,7 @@ class GridIteration:
         begins = len(levels) - 1 == self.roughness.first  # the first level with the heights
         done += self._raise_heights(levels, newton) if begins else 0
         trace.note(*fine.nodal_film())
-        most = _most_steps(newton)
-        if self.coupling.state is not None and not newton:
-            # smooth parts of the temperature may converge slowly: on coarse grids that costs little
-            damped = self.coupling.damping < 1.0
-            most <<= MOST_DOUBLINGS if damped else min(finer, MOST_DOUBLINGS)
-        if fine.stencil.conserves and not newton:
-            most = max(most, MOST_FRONT_CYCLES)
-        if finest:
-            most = self.strategy.patience * self.options.max_cycles
+        most = self._most_steps(levels, newton, anderson)
         for number in range(1, most + 1):
             before = fine.unknowns() if anderson else None
             report = self._iteration(levels, step, number + done)
@@ -152,6 +145,24 @@ class GridIteration:
                     # a combination must not wet the nodes that the last cycle cavitated
                     combined[:-1][fine.film.p.ravel() <= 0.0] = 0.0
                 fine.set_unknowns(combined)
+
+    def _most_steps(
+        self, levels: Sequence[Level], newton: Newton | None, anderson: Anderson | None
+    ) -> int:
+        """Return the most cycles, or steps of Newton's method, on the last of ``levels``."""
+        equations, finer = levels[-1].equations, len(self.levels) - len(levels)
+        if not finer:
+            return self.strategy.patience * self.options.max_cycles
+        if newton:
+            return MOST_TOUCHING if isinstance(newton, TouchingNewton) else MOST_STEPS
+        most = MOST_CYCLES
+        if self.coupling.state is not None:
+            # smooth parts of the temperature may converge slowly: on coarse grids that costs little
+            damped = self.coupling.damping < 1.0
+            most <<= MOST_DOUBLINGS if damped else min(finer, MOST_DOUBLINGS)
+        if equations.stencil.conserves:
+            most = max(most, MOST_FRONT_CYCLES)
+        return MOST_COMBINED if anderson and equations.asperities is not None else most
 
     def _measure(self, levels: Sequence[Level]) -> None:
         """Record further values of the last of ``levels``."""
@@ -229,11 +240,13 @@ class GridIteration:
         )
 
     def _anderson(self, levels: Sequence[Level]) -> Anderson | None:
-        """Return the acceleration of the cycles if the last of ``levels`` has heights."""
+        """Return the acceleration of the cycles if the last of ``levels`` has asperities."""
         memory = self.strategy.memory
         if self.coupling.damping < 1.0:
             memory = min(memory, DAMPED_MEMORY)
-        return Anderson(memory) if memory and self.roughness.is_on(levels) else None
+        equations = levels[-1].equations
+        touches = equations.asperities is not None and not equations.stencil.conserves
+        return Anderson(memory) if memory and (touches or self.roughness.is_on(levels)) else None
 
     def _raise_heights(self, levels: Sequence[Level], newton: Newton | None) -> int:
         """Raise the heights on the first level that has them; return the number of iterations."""
@@ -319,10 +332,3 @@ class GridIteration:
 def coarse_grid(levels: Sequence[Level], nodes: int) -> Grid:
     """Return the coarsest grid of at least ``nodes`` along x."""
     return next((one.grid for one in levels if one.grid.nx >= nodes), levels[-1].grid)
-
-
-def _most_steps(newton: Newton | None) -> int:
-    """Return the most cycles, or steps of a method, on a grid that is not the finest."""
-    if isinstance(newton, TouchingNewton):
-        return MOST_TOUCHING
-    return MOST_STEPS if newton else MOST_CYCLES

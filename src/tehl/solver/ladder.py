@@ -30,7 +30,7 @@ class Strategy:
     relaxation: Relaxation
     continuation: Continuation = field(default_factory=Continuation)
     memory: int = 0
-    """Earlier cycles combined by Anderson acceleration between rough surfaces; 0 is none."""
+    """Earlier cycles combined by Anderson acceleration between asperities; 0 is none."""
     patience: int = 1
     """Factor on the largest number of cycles."""
     damping: float = 1.0
@@ -65,7 +65,13 @@ SMOOTH = (
     Strategy(relaxation=ROBUST),
     Strategy(relaxation=STEEP),
 )
-BETWEEN_ASPERITIES = Strategy(relaxation=GENTLE, patience=3)
+BETWEEN_ASPERITIES = (
+    Strategy(relaxation=FAST),
+    # asperities that carry half the load behind a steep spike: the cycles alone go to and fro
+    Strategy(relaxation=ROBUST, memory=5, patience=2),
+    Strategy(relaxation=STEEP),
+    Strategy(relaxation=GENTLE, patience=3),
+)
 COUPLED = (
     Strategy(relaxation=BROAD),
     Strategy(relaxation=ROBUST, patience=3),
@@ -123,7 +129,7 @@ def ladder(problem: ContactProblem, options: Options, *, rough: bool) -> tuple[S
         cycles = tuple(one for one in BETWEEN_ROUGH if not one.newton)
         # and their Jacobian does not know partly filled cavities
         return cycles if problem.is_coupled or problem.conserves_oil else BETWEEN_ROUGH
-    last = () if problem.asperities is None else (BETWEEN_ASPERITIES,)
     if not problem.is_coupled:
-        return (*SMOOTH, *last)
+        return SMOOTH if problem.asperities is None else BETWEEN_ASPERITIES
+    last = () if problem.asperities is None else BETWEEN_ASPERITIES[-1:]
     return (*(COUPLED if problem.slide_roll_ratio else COUPLED[:-1]), *last)
