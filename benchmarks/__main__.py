@@ -16,6 +16,7 @@ from benchmarks import (
     rough,
     speed,
     thermal,
+    touching,
     waves,
 )
 from benchmarks.table import Table
@@ -30,6 +31,7 @@ TOPICS: dict[str, Callable[..., Table | Iterable[Table]]] = {
     "rough": rough.tables,
     "asperities": asperities.tables,
     "mixed": mixed.table,
+    "touching": touching.table,
 }
 BY_DEFAULT = ("speed", "rate", "deformation")
 
@@ -54,7 +56,7 @@ def main() -> None:
     tables = []
     for topic in given.topics or BY_DEFAULT:
         make = TOPICS[topic]
-        if topic in ("rough", "asperities", "mixed"):
+        if topic in ("rough", "asperities", "mixed", "touching"):
             make = partial(make, given.points)
         made = make(quick=given.quick)
         for table in [made] if isinstance(made, Table) else made:
