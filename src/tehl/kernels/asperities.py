@@ -14,10 +14,10 @@ from tehl.kernels.properties import Film, FlowTable, interpolated, line_properti
 from tehl.kernels.raw import lanes, raw
 from tehl.typing import Array, FlagArray
 
-FOLLOWING, FOLLOWED, GENTLE = 20, 0.01, 0.1
-"""Most steps of Newton's method for the pressure of asperities, and the last over their sum; and
-rows of the table that a step moves, times the slope if that is above one, below which the next step
-is as small."""
+FOLLOWING, FOLLOWED, SHORT = 20, 0.01, 0.1
+"""Newton's method for the pressure of dry asperities: most steps; last step over their sum; and
+rows of the table that a step moves, times the slope dP_a/dP if above one, below which the next one
+would be as small as that: within a row the slope changes by less than a fifth."""
 
 
 class AsperityLaws(NamedTuple):
@@ -124,8 +124,8 @@ def _share(
         if reach >= 0.0 and film.p[j, i] != 0.0 and frozen[j, i] == 0:
             film.p[j, i] = max(film.p[j, i] - missing, 0.0)
         elif reach > 0.0 and missing != 0.0:
-            place, slope = (separation[j, i], reach), -reach * film.stiffness[j, i]
-            missing = _followed(laws, place, film.asperity[j, i], (missing, slope))
+            at, law = (separation[j, i], reach), (missing, -reach * film.stiffness[j, i])
+            missing = _followed(laws, at, film.asperity[j, i], law)
         if missing != 0.0:  # else the field is not written
             film.asperity[j, i] += missing
 
@@ -157,7 +157,7 @@ def _followed(
         if abs(step) <= FOLLOWED * abs(more):
             break
         more += step
-        if abs(reach * per_step * step) * max(1.0, abs(slope)) < GENTLE:
+        if abs(reach * per_step * step) * max(1.0, abs(slope)) < SHORT:
             break
         x = (height + reach * more - first) * per_step
         pressure, rise = 0.0, 0.0

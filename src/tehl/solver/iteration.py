@@ -162,7 +162,7 @@ class GridIteration:
             most <<= MOST_DOUBLINGS if damped else min(finer, MOST_DOUBLINGS)
         if equations.stencil.conserves:
             most = max(most, MOST_FRONT_CYCLES)
-        return MOST_COMBINED if anderson and equations.asperities is not None else most
+        return MOST_COMBINED if anderson and not self.roughness.is_on(levels) else most
 
     def _measure(self, levels: Sequence[Level]) -> None:
         """Record further values of the last of ``levels``."""

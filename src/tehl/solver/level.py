@@ -208,10 +208,10 @@ class Level:
 
         ``reach`` as for `asperities.touch`.
         """
-        laws, flow, frozen = self.equations.asperities, self.equations.flow, self.smoother.frozen
-        if laws is not None:
-            asperities.touch(self.film, self.separation, laws.laws, flow, frozen, reach)
-        if laws is None or self.factors is not None:
+        table, flow, frozen = self.equations.asperities, self.equations.flow, self.smoother.frozen
+        if table is not None:
+            asperities.touch(self.film, self.separation, table.laws, flow, frozen, reach)
+        if table is None or self.factors is not None:
             self.update_properties()
 
     def _meet(self) -> None:
