@@ -1,9 +1,12 @@
 """The live page is for one person on one machine, and outlives what goes wrong."""
 
 import os
+import re
 import signal
+import socket
 import subprocess
 import sys
+import time
 import urllib.error
 import urllib.request
 from pathlib import Path
@@ -109,6 +112,18 @@ def test_a_port_that_is_taken_is_a_sentence(served):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="needs /proc")
+def test_a_tab_that_closes_while_it_loads_prints_nothing(served):
+    parts = urlsplit(served.address)
+    script = re.search(r'/_nicegui/[^"]+\.js', status_of(served.address)[1])[0]
+    request = f"GET {script}?{parts.query} HTTP/1.1\r\nHost: {parts.netloc}\r\n\r\n".encode()
+    for wait in (0.0, 0.002, 0.004, 0.008):
+        with socket.create_connection((parts.hostname, parts.port)) as closed:
+            closed.sendall(request)
+            time.sleep(wait)
+    assert status_of(served.address)[0] == 200
+    assert "Traceback" not in served.errors()
+
+
 def test_ctrl_c_leaves_nothing_behind(tmp_path):
     server = Served(folder=tmp_path)
     until(server.workers)

@@ -1,6 +1,7 @@
 """The server of the page: on the loopback address only, for whoever has the token."""
 
 import asyncio
+import logging
 import os
 import secrets
 import socket
@@ -137,6 +138,7 @@ def serve(case: Path | None, text: str, port: int | None, *, browser: bool, repo
         ui.page("/", title="tehl explore", favicon=_ICON, language="en-US", response_timeout=20)(
             page.build
         )
+        logging.getLogger("uvicorn.error").addFilter(of_open_tabs)
         address = f"http://{ADDRESS}:{taken}/?token={token}"
         app.on_startup(lambda: background_tasks.create(_announce(taken, address, report)))
         ui.run(
@@ -151,6 +153,15 @@ def serve(case: Path | None, text: str, port: int | None, *, browser: bool, repo
             uvicorn_logging_level="error",
             timeout_graceful_shutdown=1,
         )
+
+
+def of_open_tabs(record: logging.LogRecord) -> bool:
+    """Return whether a message of the server is more than that a tab was closed while it loaded.
+
+    Starlette raises "No response returned." then, and nobody waits for the response.
+    """
+    error = record.exc_info[1] if record.exc_info else None
+    return not (isinstance(error, RuntimeError) and str(error) == "No response returned.")
 
 
 async def _announce(port: int, address: str, report: Any) -> None:
