@@ -56,7 +56,8 @@ def both_pressures(result: Result) -> np.ndarray:
 @pytest.fixture(scope="module")
 def bump() -> Result:
     """Return the bump of the dense reference solutions, M = 200, L = 0.5, H_c = 0.02."""
-    return solve(through_film(bumpy((200.0, 0.5), 1.0, 0.25), 0.02), on(65, AROUND_BUMP))
+    problem = through_film(bumpy((200.0, 0.5), 1.0, 0.25), 0.02)
+    return solve(problem, on(65, AROUND_BUMP, accuracy="tight"))
 
 
 @pytest.fixture(scope="module")

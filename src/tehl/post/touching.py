@@ -22,12 +22,10 @@ from tehl.typing import Array, BoolArray, IntArray, SingleArray
 LEAST_CELLS = 8.0
 """Mesh widths across the patches of contact below which a share of the load is not known: of
 standing roughness that four cells per summit press into contact, eight may leave none."""
-BAR_OF_FILM, LARGEST_BAR = 3.0, 0.2
+BAR_OF_FILM, LARGEST_BAR = 4.0, 0.2
 """Error bar of the share over the relative error of the film to expect, and largest one of a share
 that is known. Where the film is as thin as the boundary film, the error of the film decides what
-touches, though its thickness there does not show it: the shares of 106 of 108 random waves and
-surfaces changed by less on the next finer grid, the two others by up to 1.6 bars. The factor was
-chosen on 90 of them."""
+touches, though its thickness there does not show it (docs/theory/contact.md, resolution)."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -129,12 +127,11 @@ def touching(result: Solution) -> Touching | None:
     meet = touching_nodes(result)
     share = float((cells * both)[meet].sum()) / scales.load
     area, motion = float(cells[meet].sum()), result.problem.motion
-    bar = None if result.errors is None else result.errors.load_share
     slides = result.problem.slide_roll_ratio != 0.0
     return Touching(
         margin=MARGIN * film.thickness,
         share=share,
-        share_error=max(share * (bar or 0.0), _bar_of_film(result, film)),
+        share_error=_error_bar(result, film, share),
         is_certified="load_share" in result.uncertainty,
         solid_share=float((cells * found.pressure).sum()) / scales.load,
         area=area,
@@ -149,8 +146,8 @@ def touching(result: Solution) -> Touching | None:
     )
 
 
-def _bar_of_film(result: Solution, film: ContactFilm) -> float:
-    """Return the error bar of the share as the grid has an error in the film of the oil [-].
+def _error_bar(result: Solution, film: ContactFilm, share: float) -> float:
+    """Return the error bar of the share: by grids, or more by the error in the film of the oil [-].
 
     Nothing depends on a film that is thin beside the boundary film: oil flows as its cube.
     """
@@ -158,7 +155,9 @@ def _bar_of_film(result: Solution, film: ContactFilm) -> float:
     groups, domain = scaled.entering, domain_of(scaled, result.options)
     alone, least = expected_central_film(groups), film.thickness / scaled.scales.film_thickness
     error = expected_bar(groups, domain, result.x.size, film=max(alone, least))
-    return min(BAR_OF_FILM * min(error, 1.0) * min(alone / least, 1.0) ** 3, 1.0)
+    by_film = BAR_OF_FILM * min(error, 1.0) * min(alone / least, 1.0) ** 3
+    by_grids = None if result.errors is None else result.errors.load_share
+    return max(min(by_film, 1.0), share * (by_grids or 0.0))
 
 
 def touching_nodes(result: Solution) -> BoolArray:

@@ -121,8 +121,9 @@ class GridTrace:
     ``measured`` has further values after the last cycle (`tehl.solver.measures`).
     ``damping`` is the damping factor of heat and thinning between rough surfaces, 1 is undamped: no
     convergence rate is below 1 - damping. ``negligible`` is the relative iteration error of the
-    film that is always accepted. A grid on which the iteration ``diverged`` is not compared with
-    others.
+    film that is always accepted. Without a coarser film to compare, a mean change of ``steady`` is
+    accepted: where surfaces touch, single nodes change by more. A grid on which the iteration
+    ``diverged`` is not compared with others.
     """
 
     central: Trace = field(default_factory=Trace)
@@ -134,6 +135,7 @@ class GridTrace:
     least_cycles: int = LEAST_CYCLES
     damping: float = 1.0
     negligible: float = 0.0
+    steady: float = 0.0
     diverged: bool = False
 
     def __post_init__(self) -> None:
@@ -217,7 +219,7 @@ def film_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
     if abs(last.load_error) > LARGEST_LOAD_ERROR or last.change > now.largest_change:
         return False
     if coarser is None:  # without a discretisation error: a change of 1e-3 Hertz pressures
-        return last.change < now.damping * 1e-3
+        return last.change < now.damping * 1e-3 or last.mean_change < now.steady
     pairs = ((now.central, coarser.central), (now.minimum, coarser.minimum))
     # discretisation error of second order: a third of the change from the coarser grid
     limit = max(abs(a.values[-1] - b.values[-1]) / 3.0 for a, b in pairs) / 3.0

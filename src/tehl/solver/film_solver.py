@@ -194,7 +194,7 @@ class FilmSolver(GridIteration):
         """Solve on the coarsest grid by Newton's method, from the Hertz pressure."""
         coarsest = self.levels[0]
         coarsest.start_from_hertz(self.hierarchy.expected_film)
-        if coarsest.equations.contact_film is None:
+        if coarsest.equations.contact_film is None or not self.strategy.newton:
             for _ in range(FIRST_STEPS):
                 self.hierarchy.coarsest.step()
         else:

@@ -38,6 +38,7 @@ from tehl.solver.newton import Newton
 from tehl.solver.outputs import asperity_balance, contact_balance, oil_balance
 from tehl.solver.thermal import Coupling
 from tehl.solver.touching import CLOSE, TIGHTLY, TouchingNewton, raise_heights
+from tehl.solver.touching_cycle import TouchingCycle
 from tehl.typing import Array
 
 MOST_CYCLES = 4
@@ -45,7 +46,7 @@ MOST_CYCLES = 4
 MOST_DOUBLINGS = 4
 """Most doublings of `MOST_CYCLES`, one per coarser grid, where temperatures converge slowly."""
 MOST_TOUCHING = 30
-"""The same in Newton steps where surfaces may touch: the nodes that do change for some of them."""
+"""The same where surfaces may touch, also in Newton steps: the nodes that do change for some."""
 MOST_COMBINED = 20
 """The same where cycles are combined between asperities finer than the grid: it takes some."""
 HERTZ_CYCLES = 2
@@ -59,6 +60,11 @@ LARGEST_MADE, ROUNDING = 1e-10, 1e-13
 """Oil made or lost between surfaces that may touch, over what passes, which takes a few more Newton
 steps, and in tight solves with asperities, over what enters, which takes ten more cycles; and
 residual from which Newton steps end if they gain no more."""
+MADE_BY_CYCLES = 0.01
+"""The same where surfaces touch and cycles end at the error of the grid."""
+STEADY = 1e-3
+"""Mean change of the pressure per cycle that ends them on a grid where surfaces may touch, and with
+which no coarser one is comparable."""
 FREE_ORDERS = 4
 """Cycles after which nodes keep the order with which they pass on oil: else it may change with the
 meniscus, and the meniscus with it."""
@@ -122,13 +128,17 @@ class GridIteration:
         fine.pose_problem()
         fine.update()
         done = self._start_heat(levels)
-        largest = LARGEST_ROUGH_CHANGE if self.roughness.is_on(levels) else LARGEST_CHANGE
+        by_cycles = fine.equations.contact_film is not None and not self.strategy.newton
+        is_rough = self.roughness.is_on(levels) and not by_cycles  # a node that parts changes more
         trace = GridTrace(
-            largest_change=largest, damping=self.coupling.damping, negligible=self.goal.negligible
+            largest_change=LARGEST_ROUGH_CHANGE if is_rough else LARGEST_CHANGE,
+            damping=self.coupling.damping,
+            negligible=self.goal.negligible,
+            steady=STEADY if by_cycles else 0.0,
         )
         self.traces.append(trace)
         newton, anderson = self._newton(levels), self._anderson(levels)
-        step = newton.step if newton else partial(self.hierarchy.cycle, levels)
+        step = newton.step if newton else self._cycle(levels)
         begins = len(levels) - 1 == self.roughness.first  # the first level with the heights
         done += self._raise_heights(levels, newton) if begins else 0
         trace.note(*fine.nodal_film())
@@ -156,6 +166,8 @@ class GridIteration:
         if newton:
             return MOST_TOUCHING if isinstance(newton, TouchingNewton) else MOST_STEPS
         most = MOST_CYCLES
+        if equations.contact_film is not None and self.roughness.is_on(levels):
+            return MOST_TOUCHING
         if self.coupling.state is not None:
             # smooth parts of the temperature may converge slowly: on coarse grids that costs little
             damped = self.coupling.damping < 1.0
@@ -224,20 +236,34 @@ class GridIteration:
         Surfaces that may touch need it on smooth grids too.
         """
         touches = levels[-1].equations.contact_film is not None
-        if not (touches or (self.strategy.newton and self.roughness.is_on(levels))):
+        if not (self.strategy.newton and (touches or self.roughness.is_on(levels))):
             return None
         if not touches:
             return Newton(levels[-1], coarse_grid(levels, COARSE_NODES))
         is_last = len(levels) == len(self.levels)
         is_start = levels[-1].grid.nx < FIRST_ORDER and not is_last
-        tight = self.options.accuracy == "tight"
-        closing = TIGHTLY * self.options.tolerance if tight else CLOSE
         return TouchingNewton(
             levels[-1],
             coarse_grid(levels, COARSE_TOUCHING),
             order=1 if is_start else 2,
-            closing=closing if is_last else 0.0,
+            closing=(self._tightly_closed or CLOSE) if is_last else 0.0,
         )
+
+    @property
+    def _tightly_closed(self) -> float:
+        """Residual below which a tight solve balances the oil; zero at other accuracies."""
+        return TIGHTLY * self.options.tolerance if self.options.accuracy == "tight" else 0.0
+
+    def _cycle(self, levels: Sequence[Level]) -> Callable[[], None]:
+        """Return the cycle on ``levels``, with contact if the heights of the last one may touch."""
+        fine, cycle = levels[-1], partial(self.hierarchy.cycle, levels)
+        if fine.equations.contact_film is None:
+            return cycle
+        fine.keeps_contact = not self.roughness.is_on(levels)  # none between smooth surfaces
+        if fine.keeps_contact:
+            return cycle
+        is_last = len(levels) == len(self.levels)
+        return TouchingCycle(fine, cycle, self._tightly_closed if is_last else 0.0).step
 
     def _anderson(self, levels: Sequence[Level]) -> Anderson | None:
         """Return the acceleration of the cycles if the last of ``levels`` has asperities."""
@@ -250,7 +276,7 @@ class GridIteration:
 
     def _raise_heights(self, levels: Sequence[Level], newton: Newton | None) -> int:
         """Raise the heights on the first level that has them; return the number of iterations."""
-        fine, numbers, cycle = levels[-1], count(1), partial(self.hierarchy.cycle, levels)
+        fine, numbers, cycle = levels[-1], count(1), self._cycle(levels)
 
         def iterate(step: Callable[[], object]) -> float:
             return self._iteration(levels, step, next(numbers)).residual
@@ -300,7 +326,9 @@ class GridIteration:
         if fine.equations.contact_film is not None and fine is self.finest:
             before_it, self.made = self.made, contact_balance(fine)
             rounded = report.residual <= ROUNDING and self.made > 0.5 * before_it
-            self.is_settled = self.made <= LARGEST_MADE or rounded
+            exactly = self.strategy.newton or self.options.accuracy == "tight"
+            largest = LARGEST_MADE if exactly else MADE_BY_CYCLES
+            self.is_settled = self.made <= largest or rounded
         if fine.equations.asperities is not None and self.options.accuracy == "tight":
             self.is_balanced = fine is not self.finest or asperity_balance(fine) <= LARGEST_MADE
         self.monitor.cycle(report)

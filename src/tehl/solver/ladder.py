@@ -98,6 +98,13 @@ BETWEEN_ROUGH = (
     Strategy(relaxation=BESIDE_NEWTON, continuation=Continuation(points=5.0), newton=True),
 )
 TOUCHING = (
+    # Anderson acceleration combines states that touch at other nodes: it takes more cycles
+    Strategy(relaxation=ROUGH, patience=2),
+    Strategy(
+        relaxation=CAREFUL,
+        continuation=Continuation(correction=0.5, limit=0.3, ramp=8),
+        patience=3,
+    ),
     Strategy(
         relaxation=BESIDE_NEWTON,
         continuation=Continuation(points=5.0),
@@ -121,7 +128,7 @@ def ladder(problem: ContactProblem, options: Options, *, rough: bool) -> tuple[S
         Whether the surfaces have heights.
     """
     if problem.contact_film is not None:
-        return TOUCHING
+        return TOUCHING if rough else TOUCHING[-1:]  # a smooth contact touches all over
     if options.smoother != "auto":
         return (STATED[options.smoother],)
     if rough:

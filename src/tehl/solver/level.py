@@ -80,6 +80,7 @@ class Level:
             partial, second = np.zeros(shape, np.uint8), np.zeros(shape, np.uint8)
             self.film = self.film._replace(partial=partial, second=second, asperity=np.zeros(shape))
         self.keeps_orders = False  # the nodes of second order stay as they are
+        self.keeps_contact = False  # and those that touch
         self.rigid_approach = 0.0
         self.sources = Sources(f, g, equations.target)
         self.residual = np.zeros(shape)
@@ -112,9 +113,11 @@ class Level:
         """The same by fluxes through the faces of cells where surfaces may touch.
 
         The order of each flux is then chosen by `Film.second`, and oil is conserved all the same.
-        In a time step there are none: what moves with the film stays in it.
+        In a time step there are none: what moves with the film stays in it. Coarser grids of a
+        cycle correct the finest one by the usual wedge.
         """
-        if self.equations.contact_film is None or self.stencil.w1 == 0.0:
+        touches = self.equations.contact_film is not None and self.is_finest
+        if not touches or self.stencil.w1 == 0.0:
             return self.stencil
         return self.stencil._replace(conserves=reynolds.STEADILY)
 
@@ -218,17 +221,21 @@ class Level:
         """Find where the surfaces touch: the film is the boundary film there.
 
         Complementarity of contact pressure and gap by the sign of P_c - (H - H_c)/K_00 (primal-dual
-        active set: Hintermüller, Ito and Kunisch 2002).
+        active set: Hintermüller, Ito and Kunisch 2002). In a cycle the nodes that touch stay.
         """
         least, film, inner = self.equations.contact_film, self.film, (slice(None, -1), slice(1, -1))
         if least is None:
             return
-        gap = (self.separation - least) / self.equations.influence.self_film
-        self.touching[inner] = (film.asperity > gap)[inner]
-        if not self.grid.mirror:
-            self.touching[0] = False
-        np.maximum(self.separation, least, out=film.h)
-        film.h[self.touching] = least
+        if self.keeps_contact:
+            film.h[:] = self.separation
+        else:
+            gap = (self.separation - least) / self.equations.influence.self_film
+            self.touching[inner] = (film.asperity > gap)[inner]
+            if not self.grid.mirror:
+                self.touching[0] = False
+            np.maximum(self.separation, least, out=film.h)
+        if self.is_finest:
+            film.h[self.touching] = least
 
     def missing_gap(self) -> float:
         """Return the mean error of H = H_c where surfaces touch, as a pressure [-]."""
@@ -319,7 +326,7 @@ class Level:
         """Set the right-hand sides of a steady problem: f = 0, g = gap - heights, w the load."""
         self.sources.reynolds[:] = 0.0
         self.sources.load = self.equations.target
-        self.is_finest = True
+        self.is_finest, self.keeps_contact = True, False
         self.apply_heights(1.0)
         self.smoother.frozen[:] = 0  # the finest grid decides where the film ends
 
@@ -431,7 +438,7 @@ class Level:
         """Smooth the error of the pressure by ``sweeps`` relaxation sweeps."""
         for _ in range(sweeps):
             self.update()
-            self.smoother.sweep(self.film, self.stencil, self.sources.reynolds, self.equations.flow)
+            self.smoother.sweep(self.film, self.balance, self.sources.reynolds, self.equations.flow)
             self._is_stale = True
 
     def relax_fronts(self) -> bool:
@@ -514,8 +521,12 @@ class Level:
         The fine film satisfies its equation exactly, so there is no residual to add. Density and
         conductance of the coarse grid follow from the injected film.
         """
-        g = coarse.sources.film
-        coarse.separation[:] = self.separation[::2, ::2]
+        g, film = coarse.sources.film, self.separation
+        if self.equations.contact_film is not None:  # where surfaces touch, H_c
+            film = self.film.h
+            coarse.keeps_contact, coarse.film.asperity[:] = True, 0.0
+            coarse.film.h[:] = film[::2, ::2]
+        coarse.separation[:] = film[::2, ::2]
         coarse._share(-1.0)
         coarse.kept = coarse.film.asperity.copy()
         coarse.equations.deformation.deflect(coarse.pressure, g)

@@ -17,7 +17,7 @@ from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import MatrixRankWarning, spsolve
 
 from tehl.grid import Grid
-from tehl.operators.jacobian import Neighbours, jacobian
+from tehl.operators.jacobian import jacobian, neighbours_of
 from tehl.solver.convergence import DivergedError
 from tehl.solver.level import Level
 from tehl.solver.newton import one_thread
@@ -33,7 +33,7 @@ SUFFICIENT, SHORTEST = 0.05, 0.12
 taken in any case: sets of nodes that change raise the residual for some steps."""
 MEMORY = 5
 """Steps of which the largest residual must decrease."""
-CLOSE, TIGHTLY, LARGEST_CLOSING = 1e-7, 1e-5, 1e-4
+CLOSE, TIGHTLY, LARGEST_CLOSING = 1e-7, 1e-4, 1e-4
 """Residual below which the oil is balanced; the same over the tolerance of a tight solve, as the
 pressure, and with it the load, moves by a thousand residuals; and its largest change by that."""
 NEAR = 1e-2
@@ -72,13 +72,12 @@ class TouchingNewton(TouchingOperators):
         self.free_steps = FREE
         self.closing = closing
         self.is_balanced = False  # solved: a further step would only perturb the balance
-        self.touched = level.touching.copy()  # in the step before
         self.set_order(order)
 
     def set_order(self, order: int) -> None:
         """Set the largest order of the fluxes; their orders are chosen again."""
         self.order, self.free_steps, self.past = order, FREE, []
-        self._choose_orders()
+        choose_orders(self.level, order)
         self.refresh()
 
     def refresh(self) -> None:
@@ -95,9 +94,9 @@ class TouchingNewton(TouchingOperators):
             return 1.0
         level.update()
         if self.free_steps > 0:
-            self._choose_orders()
+            choose_orders(level, self.order)
         else:
-            self._lower_orders()
+            lower_orders(level)
         system = TouchingSystem(self)
         try:
             with one_thread():
@@ -106,7 +105,7 @@ class TouchingNewton(TouchingOperators):
             raise DivergedError from error
         part = self._search(system, change)
         if self.residual() < self.closing:
-            self.is_balanced = close_balance(level, self.neighbours)
+            self.is_balanced = close_balance(level)
         return part
 
     def residual(self) -> float:
@@ -119,21 +118,6 @@ class TouchingNewton(TouchingOperators):
         Nodes that open in the last step keep theirs, of either sign, until the next one.
         """
         return float(np.abs(np.where(self.level.touching, 0.0, self.level.film.asperity)).max())
-
-    def _choose_orders(self) -> None:
-        second, touching = self.level.film.second, self.level.touching
-        if self.order == 1 or self.level.stencil.w2 == 0.0:
-            second[:] = 0
-            return
-        second[:] = ~with_neighbours(touching)
-        second[:, 0] = 0
-        self.touched = touching.copy()
-
-    def _lower_orders(self) -> None:
-        """Lower the order where nodes still begin or cease to touch: with it they may cycle."""
-        touching = self.level.touching
-        self.level.film.second[with_neighbours(touching ^ self.touched)] = 0
-        self.touched = touching.copy()
 
     def _search(self, system: TouchingSystem, change: Array) -> float:
         """Take the step, or a part of it if the residual would rise above the last ones."""
@@ -154,16 +138,16 @@ class TouchingNewton(TouchingOperators):
         return part
 
 
-def close_balance(level: Level, neighbours: Neighbours) -> bool:
+def close_balance(level: Level) -> bool:
     """Solve the Reynolds equation of a level for the oil pressure, at the present film.
 
     Return whether it did.
 
-    The last digits of the balance would take several more Newton steps, as these are inexact. The
+    The last digits of the balance would take several more steps, as these are inexact. The
     change of the pressure is so small that the film keeps its value; where surfaces touch, the sum
     of both pressures stays. Too large a change, in oil that is nearly incompressible, is not made.
     """
-    film, before = level.film, level.state()
+    film, before, neighbours = level.film, level.state(), neighbours_of(level.grid, level.stencil)
     for _ in range(2):
         level.evaluate_residual()
         free = (film.p > 0.0) & (neighbours.here.diagonal() > 0.0).reshape(film.p.shape)
@@ -190,6 +174,21 @@ def close_balance(level: Level, neighbours: Neighbours) -> bool:
         film.p[:] = moved
         level.update_properties()
     return True
+
+
+def choose_orders(level: Level, order: int = 2) -> None:
+    """Set the orders of the fluxes: 1 where surfaces touch and beside, else ``order``."""
+    second = level.film.second
+    if order == 1 or level.stencil.w2 == 0.0:
+        second[:] = 0
+        return
+    second[:] = ~with_neighbours(level.touching)
+    second[:, 0] = 0
+
+
+def lower_orders(level: Level) -> None:
+    """Lower the orders where surfaces have begun to touch: if they rise again, nodes may cycle."""
+    level.film.second[with_neighbours(level.touching)] = 0
 
 
 def with_neighbours(marked: BoolArray) -> BoolArray:

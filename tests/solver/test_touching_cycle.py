@@ -1,0 +1,106 @@
+"""Cycles for surfaces that touch: the contact they solve, and the answers of Newton's method."""
+
+import numpy as np
+import pytest
+from scipy.linalg import cholesky, solve_triangular
+from scipy.optimize import nnls
+
+from tehl.film_formulas import expected_central_film
+from tehl.grid import Grid
+from tehl.operators.influence import dense_matrix
+from tehl.options import Domain, Options
+from tehl.result import Result
+from tehl.scaling import ScaledProblem
+from tehl.solver import solve, steady
+from tehl.solver.convergence import DivergedError
+from tehl.solver.hierarchy import Hierarchy
+from tehl.solver.ladder import TOUCHING
+from tehl.solver.relaxation import ROUGH
+from tehl.solver.touching_cycle import MOST_TOUCHING, TouchingCycle
+from tests.reference import moes_contact
+from tests.solver.rough import wavy
+from tests.solver.test_touching import through_film
+
+SQUARE = Domain(x=(-2.0, 2.0), y=(-2.0, 2.0))
+
+
+@pytest.mark.parametrize("mirror", [False, True])
+def test_the_contact_pressure_is_that_of_a_complementarity_problem(mirror: bool):
+    least = 0.05
+    problem = through_film(moes_contact(100.0, 5.0), least)
+    grid = Grid(nx=33, ny=33, domain=SQUARE, mirror=mirror)
+    options = Options(points=33, edges="zero", domain=SQUARE, deformation="fft")
+    level = Hierarchy.on(grid, ScaledProblem.of(problem), options, ROUGH).finest
+    level.start_from_hertz(0.1)
+    rough = 0.1 * np.cos(4.0 * np.pi * grid.x) * np.cos(2.0 * np.pi * grid.y)[:, None]
+    level.sources.film -= rough
+    oil = 0.6 * level.film.p
+    level.set_state(oil, level.rigid_approach)
+    level.update()
+    apart = level.separation.copy()
+
+    TouchingCycle(level, lambda: None)._settle(12)
+
+    # P_c >= 0, K P_c + H - H_c >= 0, complementary: least squares with the Cholesky factor of K
+    influence = dense_matrix(grid.shape, mirror, level.equations.influence)
+    inner = np.zeros(grid.shape, bool)
+    inner[(0 if mirror else 1) : -1, 1:-1] = True
+    inside = inner.ravel()
+    matrix = influence[np.ix_(inside, inside)]
+    weights = np.ones(grid.shape)
+    weights[1:] = 2.0 if mirror else 1.0  # a node and its image
+    scale = np.sqrt(weights.ravel()[inside])
+    symmetric = scale[:, None] * matrix / scale
+    factor = cholesky(0.5 * (symmetric + symmetric.T))
+    gap = scale * (apart.ravel()[inside] - least)
+    found, _ = nnls(factor, solve_triangular(factor, -gap, trans=1))
+    expected = np.zeros(inside.size)
+    expected[inside] = found / scale
+    assert expected.max() > 0.1
+    assert level.film.asperity.ravel() == pytest.approx(expected, abs=1e-9)
+    assert level.film.p == pytest.approx(oil)  # it stays
+    assert (level.separation[inner] >= least - 1e-12).all()
+
+
+def test_more_nodes_than_a_dense_system_has_are_left_to_newtons_method():
+    problem = through_film(moes_contact(100.0, 5.0), 0.5)
+    grid = Grid(nx=65, ny=65, domain=SQUARE, mirror=False)
+    level = Hierarchy.on(grid, ScaledProblem.of(problem), Options(points=65), ROUGH).finest
+    level.start_from_hertz(0.1)
+    level.set_state(0.0 * level.film.p, level.rigid_approach - 1.0)
+    level.update()
+    assert np.count_nonzero(level.touching) > MOST_TOUCHING
+    with pytest.raises(DivergedError):
+        TouchingCycle(level, lambda: None)._settle(12)
+
+
+@pytest.fixture(scope="module")
+def grooves() -> list[Result]:
+    """Return grooves along the motion by cycles, default and tight, and by Newton's method."""
+    film = expected_central_film(ScaledProblem.of(moes_contact(100.0, 5.0)).groups)
+    problem = through_film(wavy((100.0, 5.0), (film, 1.0, 90.0)), 0.5 * film)
+    found = [solve(problem, Options(points=65, accuracy=a)) for a in ("discretisation", "tight")]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(steady, "ladder", lambda *_, **__: TOUCHING[-1:])
+        return [*found, solve(problem, Options(points=65, accuracy="tight"))]
+
+
+def test_cycles_and_newtons_method_find_the_same_film_and_contact(grooves: list[Result]):
+    _, cycles, newton = grooves
+    assert (cycles.history[-1].smoother, newton.history[-1].smoother) == ("careful", "newton")
+    assert 0.3 < cycles.touching.share < 0.4
+    assert cycles.scaled.film == pytest.approx(newton.scaled.film, abs=1e-7)
+    assert cycles.scaled.pressure == pytest.approx(newton.scaled.pressure, abs=1e-5)
+    unit = cycles.scales.hertz_pressure
+    assert cycles.contact.pressure / unit == pytest.approx(newton.contact.pressure / unit, abs=1e-5)
+    assert max(float(one.contact.balance) for one in (cycles, newton)) < 1e-10
+
+
+def test_a_solve_to_the_error_of_the_grid_balances_the_oil_to_a_hundredth(grooves: list[Result]):
+    default, tight, _ = grooves
+    least = default.problem.contact_film.thickness / default.scales.film_thickness
+    assert default.scaled.film.min() >= least * (1.0 - 1e-12)
+    assert 1e-10 < float(default.contact.balance) < 0.01
+    assert len(default.history) < len(tight.history)
+    assert default.touching.share == pytest.approx(tight.touching.share, abs=0.01)
+    assert default.touching.share_error > 0.01
