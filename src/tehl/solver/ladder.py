@@ -99,10 +99,9 @@ BETWEEN_ROUGH = (
 )
 TOUCHING = (
     # Anderson acceleration combines states that touch at other nodes: it takes more cycles
-    Strategy(relaxation=ROUGH, patience=2),
     Strategy(
         relaxation=CAREFUL,
-        continuation=Continuation(correction=0.5, limit=0.3, ramp=8),
+        continuation=Continuation(correction=0.7, limit=0.3, ramp=8),
         patience=3,
     ),
     Strategy(
