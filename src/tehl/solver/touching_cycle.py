@@ -167,6 +167,7 @@ class TouchingCycle:
             return
         both = film.p + film.asperity
         self.oil.frozen[:] = ~touching
+        self.oil.ends[:] = np.where(touching.any(axis=1), touching.shape[1] - 1, 1)
         for _ in range(SWEEPS):
             self.oil.sweep(film, level.balance, level.sources.reynolds, level.equations.flow)
             np.minimum(film.p, both + OPENING, out=film.p, where=touching)
