@@ -74,6 +74,16 @@ def test_more_nodes_than_a_dense_system_has_are_left_to_newtons_method():
         TouchingCycle(level, lambda: None)._settle(12)
 
 
+def test_a_film_that_is_not_finite_has_diverged():
+    problem = through_film(moes_contact(100.0, 5.0), 0.05)
+    grid = Grid(nx=33, ny=33, domain=SQUARE, mirror=False)
+    level = Hierarchy.on(grid, ScaledProblem.of(problem), Options(points=33), ROUGH).finest
+    level.start_from_hertz(0.1)
+    level.sources.film[16, 16] = -np.inf
+    with pytest.raises(DivergedError):
+        TouchingCycle(level, lambda: None)._settle(12)
+
+
 @pytest.fixture(scope="module")
 def grooves() -> list[Result]:
     """Return grooves along the motion by cycles, default and tight, and by Newton's method."""

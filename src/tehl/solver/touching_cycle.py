@@ -14,9 +14,10 @@ A last sweep over the finest grid relaxes what both have changed.
 
 from collections.abc import Callable
 from functools import partial
+from typing import Any
 
 import numpy as np
-from scipy.linalg import lu_factor, lu_solve
+from scipy.linalg import cho_factor, cho_solve, lu_factor, lu_solve
 
 from tehl.solver.convergence import DivergedError
 from tehl.solver.level import Level
@@ -60,7 +61,10 @@ class TouchingCycle:
         self.level, self.cycle, self.closing = level, cycle, closing
         self.number, self.is_balanced = 0, False
         self.factored = np.zeros(grid.shape, bool)  # the nodes of the last factors
-        self.factors: tuple[Array, IntArray] = (np.zeros((0, 0)), np.zeros(0, int))
+        self.factors: Any = None
+        # the influence of a node and of its image is not symmetric
+        by_lu = bool(grid.mirror)
+        self.factorise, self.solve = (lu_factor, lu_solve) if by_lu else (cho_factor, cho_solve)
         self.influence = influence.table(grid.shape[0] * (1 + grid.mirror), grid.shape[1])
         self.oil = LineSmoother(grid, influence, FIXED_FILM)
         for film in (self.oil.workspace.point, self.oil.workspace.dipole):
@@ -128,7 +132,7 @@ class TouchingCycle:
     def _missing_contact(self) -> Array:
         """Return the change of the contact pressure for H = H_c at the present nodes, P_c = 0 else.
 
-        Raises DivergedError when there are too many.
+        Raises DivergedError when there are too many, or the film is not finite.
         """
         level, film = self.level, self.level.film
         change = np.where(level.touching, 0.0, -film.asperity)
@@ -140,20 +144,22 @@ class TouchingCycle:
         gap = (level.equations.contact_film or 0.0) - level.separation[here]
         if opened[0].size:
             gap -= self._between(here, opened) @ change[opened]
+        if not np.isfinite(gap).all():
+            raise DivergedError
         with one_thread():
             if not np.array_equal(level.touching, self.factored):
                 self.factored = level.touching.copy()
-                self.factors = lu_factor(self._between(here, here), overwrite_a=True)
-            change[here] = lu_solve(self.factors, gap)
+                self.factors = self.factorise(self._between(here, here), overwrite_a=True)
+            change[here] = self.solve(self.factors, gap)
         return change
 
     def _between(self, here: Nodes, there: Nodes) -> Array:
         """Return the influence of some nodes, ``there``, on others, (m, n)."""
         (rows, columns), (other_rows, other_columns) = here, there
-        apart = np.abs(columns[:, None] - other_columns)
-        matrix: Array = self.influence[np.abs(rows[:, None] - other_rows), apart]
+        nx, apart = self.level.grid.nx, np.abs(columns[:, None] - other_columns)
+        matrix: Array = self.influence.take(nx * np.abs(rows[:, None] - other_rows) + apart)
         if self.level.grid.mirror:  # and of their images
-            images = self.influence[rows[:, None] + other_rows, apart]
+            images = self.influence.take(nx * (rows[:, None] + other_rows) + apart)
             matrix += np.where(other_rows > 0, images, 0.0)
         return matrix
 
