@@ -111,7 +111,6 @@ def test_a_port_that_is_taken_is_a_sentence(served):
     assert found.stderr.startswith(f"tehl: port {port} is taken")
 
 
-@pytest.mark.skipif(os.name == "nt", reason="needs /proc")
 def test_a_tab_that_closes_while_it_loads_prints_nothing(served):
     parts = urlsplit(served.address)
     script = re.search(r'/_nicegui/[^"]+\.js', status_of(served.address)[1])[0]
@@ -124,6 +123,7 @@ def test_a_tab_that_closes_while_it_loads_prints_nothing(served):
     assert "Traceback" not in served.errors()
 
 
+@pytest.mark.skipif(os.name == "nt", reason="needs /proc")
 def test_ctrl_c_leaves_nothing_behind(tmp_path):
     server = Served(folder=tmp_path)
     until(server.workers)

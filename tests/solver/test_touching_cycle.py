@@ -16,7 +16,7 @@ from tehl.solver.convergence import DivergedError
 from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.ladder import TOUCHING
 from tehl.solver.relaxation import ROUGH
-from tehl.solver.touching_cycle import MOST_TOUCHING, TouchingCycle
+from tehl.solver.touching_cycle import MOST_NODES, TouchingCycle
 from tests.reference import moes_contact
 from tests.solver.rough import wavy
 from tests.solver.test_touching import through_film
@@ -69,7 +69,7 @@ def test_more_nodes_than_a_dense_system_has_are_left_to_newtons_method():
     level.start_from_hertz(0.1)
     level.set_state(0.0 * level.film.p, level.rigid_approach - 1.0)
     level.update()
-    assert np.count_nonzero(level.touching) > MOST_TOUCHING
+    assert np.count_nonzero(level.touching) > MOST_NODES
     with pytest.raises(DivergedError):
         TouchingCycle(level, lambda: None)._settle(12)
 
@@ -112,5 +112,8 @@ def test_a_solve_to_the_error_of_the_grid_balances_the_oil_to_a_hundredth(groove
     assert default.scaled.film.min() >= least * (1.0 - 1e-12)
     assert 1e-10 < float(default.contact.balance) < 0.01
     assert len(default.history) < len(tight.history)
-    assert default.touching.share == pytest.approx(tight.touching.share, abs=0.01)
+    # the iteration error is a part of the bar, which is that of the grid
+    assert default.touching.share == pytest.approx(
+        tight.touching.share, abs=0.1 * default.touching.share_error
+    )
     assert default.touching.share_error > 0.01

@@ -156,9 +156,9 @@ def serve(case: Path | None, text: str, port: int | None, *, browser: bool, repo
 
 
 def of_open_tabs(record: logging.LogRecord) -> bool:
-    """Return whether a message of the server is more than that a tab was closed while it loaded.
+    """Return whether a message of the server concerns a tab that is still open.
 
-    Starlette raises "No response returned." then, and nobody waits for the response.
+    Starlette raises "No response returned." when a client disconnects before the response starts.
     """
     error = record.exc_info[1] if record.exc_info else None
     return not (isinstance(error, RuntimeError) and str(error) == "No response returned.")

@@ -63,8 +63,8 @@ residual from which Newton steps end if they gain no more."""
 MADE_BY_CYCLES = 0.01
 """The same where surfaces touch and cycles end at the error of the grid."""
 STEADY = 1e-3
-"""Mean change of the pressure per cycle that ends them on a grid where surfaces may touch, and with
-which no coarser one is comparable."""
+"""Mean change of the pressure that ends the cycles on a grid where surfaces may touch and that has
+no comparable coarser grid."""
 FREE_ORDERS = 4
 """Cycles after which nodes keep the order with which they pass on oil: else it may change with the
 meniscus, and the meniscus with it."""
@@ -246,11 +246,11 @@ class GridIteration:
             levels[-1],
             coarse_grid(levels, COARSE_TOUCHING),
             order=1 if is_start else 2,
-            closing=(self._tightly_closed or CLOSE) if is_last else 0.0,
+            closing=(self._balanced_below or CLOSE) if is_last else 0.0,
         )
 
     @property
-    def _tightly_closed(self) -> float:
+    def _balanced_below(self) -> float:
         """Residual below which a tight solve balances the oil; zero at other accuracies."""
         return TIGHTLY * self.options.tolerance if self.options.accuracy == "tight" else 0.0
 
@@ -263,7 +263,7 @@ class GridIteration:
         if fine.keeps_contact:
             return cycle
         is_last = len(levels) == len(self.levels)
-        return TouchingCycle(fine, cycle, self._tightly_closed if is_last else 0.0).step
+        return TouchingCycle(fine, cycle, self._balanced_below if is_last else 0.0).step
 
     def _anderson(self, levels: Sequence[Level]) -> Anderson | None:
         """Return the acceleration of the cycles if the last of ``levels`` has asperities."""

@@ -36,7 +36,7 @@ lower them: nodes that touch may else follow the orders, and the orders them."""
 MOST_CHANGES = 12
 """Most changes of the nodes that touch, at fixed oil pressure, after a cycle. Before its last sweep
 one is enough: more of them touch where they will not."""
-MOST_TOUCHING = 1200
+MOST_NODES = 1200
 """Most nodes that touch: with dense systems of more, cycles take as long as Newton's method."""
 
 Nodes = tuple[IntArray, ...]
@@ -62,9 +62,9 @@ class TouchingCycle:
         self.number, self.is_balanced = 0, False
         self.factored = np.zeros(grid.shape, bool)  # the nodes of the last factors
         self.factors: Any = None
-        # the influence of a node and of its image is not symmetric
-        by_lu = bool(grid.mirror)
-        self.factorise, self.solve = (lu_factor, lu_solve) if by_lu else (cho_factor, cho_solve)
+        # with the images of the nodes the influence is not symmetric
+        by_lu, by_cholesky = (lu_factor, lu_solve), (cho_factor, cho_solve)
+        self.factorise, self.solve = by_lu if grid.mirror else by_cholesky
         self.influence = influence.table(grid.shape[0] * (1 + grid.mirror), grid.shape[1])
         self.oil = LineSmoother(grid, influence, FIXED_FILM)
         for film in (self.oil.workspace.point, self.oil.workspace.dipole):
@@ -139,7 +139,7 @@ class TouchingCycle:
         opened, here = np.nonzero(change), np.nonzero(level.touching)
         if not here[0].size:
             return change
-        if here[0].size > MOST_TOUCHING:
+        if here[0].size > MOST_NODES:
             raise DivergedError
         gap = (level.equations.contact_film or 0.0) - level.separation[here]
         if opened[0].size:
