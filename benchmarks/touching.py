@@ -56,6 +56,6 @@ def table(points: int, *, quick: bool = False) -> Table:
     )
     options = Options(points=points)
     if not quick:
-        attempt(moes_contact(100.0, 8.0), options)  # compiles
+        attempt(contact(*CONTACTS[0]), Options(points=65))  # compiles
     made.rows.extend(row(*one, options) for one in (CONTACTS[2:3] if quick else CONTACTS))
     return made
