@@ -81,7 +81,10 @@ class FilmShear(_ReadOnly):
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class HeatBalance:
-    """Powers of the pressurised film in W; their sum is the discretisation error."""
+    """Powers of the pressurised film in the loaded zone in W.
+
+    Their sum is the discretisation error.
+    """
 
     shear: float
     compression: float
@@ -90,7 +93,7 @@ class HeatBalance:
     surface_2: float
     """Heat conducted into the solids [W]."""
     carried_out: float
-    """Enthalpy that the oil carries out of the pressurised film less what it brings in [W]."""
+    """Enthalpy that the oil carries out of this film less what it brings in [W]."""
 
     @property
     def error(self) -> float:

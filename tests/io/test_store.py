@@ -263,12 +263,13 @@ def test_saving_and_loading_import_no_compiler_and_no_xarray(result, tmp_path):
     save(result, tmp_path / "out.nc")
     code = (
         "import sys; from tehl.io.store import load, save; r = load(sys.argv[1]); "
-        "save(r, sys.argv[1]); "
-        "print([m for m in ('numba', 'xarray', 'pandas', 'scipy') if m in sys.modules])"
+        "print([m for m in ('numba', 'xarray', 'pandas', 'scipy') if m in sys.modules]); "
+        "save(r, sys.argv[1]); "  # its drag beyond the grid needs scipy, as the solver did
+        "print([m for m in ('numba', 'xarray', 'pandas') if m in sys.modules])"
     )
     run = [sys.executable, "-c", code, str(tmp_path / "out.nc")]
     done = subprocess.run(run, capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "[]"
+    assert done.stdout.split() == ["[]", "[]"]
 
 
 def test_a_damaged_byte_anywhere_is_reported_in_one_line_or_harmless(result, tmp_path):

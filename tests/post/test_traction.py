@@ -5,7 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import tehl
+from tehl.loaded_zone import zone_part
+from tehl.options import Domain
 from tehl.post.traction import under_pressure
+from tehl.supply import Supply
+from tests.cases import moes_problem
 from tests.fixtures_result import make_result
 from tests.fixtures_thermal import with_shear
 
@@ -15,7 +20,8 @@ def test_without_stresses_there_is_no_traction(result):
 
 
 def test_a_stress_proportional_to_pressure_is_the_coefficient(sheared):
-    carried = np.sum(sheared.pressure * under_pressure(sheared)) / sheared.scales.load
+    zone = zone_part(sheared.scaled.x, sheared.scaled.y)
+    carried = np.sum(sheared.pressure * zone * under_pressure(sheared)) / sheared.scales.load
     assert sheared.traction.mid_film == pytest.approx(-0.05 * carried, rel=1e-12)
     assert sheared.traction.mid_film * 80.0 == pytest.approx(-0.05 * carried * 80.0)
 
@@ -64,7 +70,44 @@ def test_a_traction_beyond_that_of_oils_is_not_credible(sheared):
 
 
 def test_stresses_outside_the_pressurised_film_do_not_count(sheared):
-    dry = sheared.scaled.pressure <= 0
+    dry = under_pressure(sheared) == 0
     shear = replace(sheared.shear, mid_film=np.where(dry, np.nan, sheared.shear.mid_film))
     found = replace(sheared, shear=shear).traction
     assert found.mid_film == sheared.traction.mid_film
+
+
+@pytest.fixture(scope="module")
+def thick_films():
+    """M = 5, L = 5 at one mesh width, on the default domain and one twice as large."""
+    problem = moes_problem(5.0, 5.0)
+    contact = problem.contact.model_copy(update={"slide_roll_ratio": 0.25})
+    problem = problem.model_copy(update={"contact": contact})
+    domain = Domain(x=(-6.8, 3.09), y=(-5.1, 5.1))
+    wide = Domain(x=(-13.6, 6.18), y=(-10.2, 10.2))
+    return [
+        tehl.solve(problem, tehl.Options(points=n, domain=one, edges="far_field"))
+        for n, one in ((129, domain), (257, wide))
+    ]
+
+
+def test_friction_of_a_thick_film_does_not_depend_on_the_domain(thick_films):
+    near, wide = (one.traction for one in thick_films)
+    # over the whole domain it is 27 % larger on the wider one
+    for name in ("mid_film", "surface_1", "surface_2"):
+        assert getattr(near, name) == pytest.approx(getattr(wide, name), rel=0.004), name
+
+
+def test_the_drag_of_the_surroundings_does_not_depend_on_the_domain(thick_films):
+    near, wide = (one.traction.surroundings for one in thick_films)
+    for name in ("mid_film", "surface_1", "surface_2", "friction_power"):
+        assert getattr(near, name) == pytest.approx(getattr(wide, name), rel=0.004), name
+    # half of R_x, up to which the gap counts
+    assert near.radius == pytest.approx(0.5 * thick_films[0].problem.radius_x)
+    # most of it is drag on both surfaces: three times that of the loaded zone
+    assert 2.5 < near.mid_film / thick_films[0].traction.mid_film < 4.0
+
+
+def test_starved_films_have_no_flooded_surroundings(sheared):
+    supply = Supply(ratio=0.5)
+    starved = replace(sheared, problem=sheared.problem.model_copy(update={"supply": supply}))
+    assert starved.traction.surroundings is None

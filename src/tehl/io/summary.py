@@ -222,11 +222,19 @@ def _temperature(found: Temperature) -> Block:
 
 
 def _traction(found: Traction) -> Block:
-    return {"sliding": found.mid_film} | _picked(
-        found,
-        *("surface_1", "mid_film", "surface_2", "rolling", "rolling_by_film"),
-        *("closure_error", "credible", "friction_power_w"),
+    around = found.surroundings
+    return (
+        {"sliding": found.mid_film}
+        | _picked(
+            found,
+            *("surface_1", "mid_film", "surface_2", "rolling", "rolling_by_film"),
+            *("closure_error", "credible", "friction_power_w"),
+        )
+        | {"surroundings": None if around is None else _picked(around, *_SURROUNDINGS)}
     )
+
+
+_SURROUNDINGS = ("surface_1", "mid_film", "surface_2", "friction_power_w", "radius_m")
 
 
 def _heat(heat: FilmHeat) -> Block:

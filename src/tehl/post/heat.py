@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl.fields import FilmHeat
+from tehl.loaded_zone import is_inside
 from tehl.solution import Solution
 from tehl.typing import Array
 
@@ -16,7 +17,7 @@ class Temperature:
     inlet: float
     """Temperature of the oil at the inlet [K]."""
     film_rise_max: float
-    """Largest rise in the film, surfaces included; of all nodes [K]."""
+    """Largest rise in the film of the loaded zone, surfaces included; of all nodes [K]."""
     film_rise_max_at: tuple[float, float, float]
     """Where: X, Y in Hertz half-widths (Y >= 0 for a symmetric contact) and zeta = z/h."""
     mid_film_rise_central: float
@@ -24,7 +25,7 @@ class Temperature:
     """Rise at X = Y = 0, half-way between the surfaces and as mean across the film [K]."""
     surface_1_rise_max: float
     surface_2_rise_max: float
-    """Largest rise of each surface [K]."""
+    """Largest rise of each surface in the loaded zone [K]."""
     mid_film: Array
     mean: Array
     """(ny, nx): T at mid-film and T averaged across the film [K]."""
@@ -38,9 +39,10 @@ def temperature(result: Solution) -> Temperature | None:
     mid_film = np.tensordot(lagrange_weights(heat.zeta, 0.5), heat.temperature, axes=1)
     mean = mean_temperature(heat)
     # Of equal temperatures the one with the largest Y: a symmetric contact has Y >= 0.
-    field = heat.temperature[:, ::-1]
-    layer, row, column = np.unravel_index(int(np.argmax(field)), field.shape)
     scaled = result.scaled
+    inside = is_inside(scaled.x, scaled.y)
+    field = np.where(inside, heat.temperature, -np.inf)[:, ::-1]
+    layer, row, column = np.unravel_index(int(np.argmax(field)), field.shape)
     return Temperature(
         inlet=inlet,
         film_rise_max=float(field[layer, row, column]) - inlet,
@@ -51,8 +53,8 @@ def temperature(result: Solution) -> Temperature | None:
         ),
         mid_film_rise_central=scaled.at_origin(mid_film) - inlet,
         mean_rise_central=scaled.at_origin(mean) - inlet,
-        surface_1_rise_max=float(heat.temperature[0].max()) - inlet,
-        surface_2_rise_max=float(heat.temperature[-1].max()) - inlet,
+        surface_1_rise_max=float(heat.temperature[0][inside].max()) - inlet,
+        surface_2_rise_max=float(heat.temperature[-1][inside].max()) - inlet,
         mid_film=mid_film,
         mean=mean,
     )

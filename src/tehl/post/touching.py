@@ -14,7 +14,7 @@ import numpy as np
 from tehl.contact_film import MARGIN, ContactFilm
 from tehl.domain import domain_of, expected_bar
 from tehl.film_formulas import expected_central_film
-from tehl.post.traction import LARGEST_CREDIBLE, cell_widths
+from tehl.post.traction import cell_widths, traction
 from tehl.scaling import ScaledProblem
 from tehl.solution import Solution
 from tehl.typing import Array, BoolArray, IntArray, SingleArray
@@ -139,7 +139,7 @@ def touching(result: Solution) -> Touching | None:
         contact_pressure_max=float(found.pressure.max()),
         pressure_max=float(both.max()),
         friction_boundary=film.friction * share if slides else 0.0,
-        friction_film=_film_friction(result, cells, meet),
+        friction_film=_film_friction(result),
         power_boundary=film.friction * share * scales.load * abs(motion.speed_1 - motion.speed_2),
         patches=_patches(result, meet, cells * both, both),
         balance=float(found.balance),
@@ -191,12 +191,9 @@ def largest_patches(least: float, films: SingleArray, pressures: SingleArray) ->
     return cells
 
 
-def _film_friction(result: Solution, cells: Array, meet: BoolArray) -> float | None:
-    if result.shear is None:
-        return None
-    apart = (result.pressure > 0.0) & ~meet
-    found = abs(float((cells * result.shear.mid_film)[apart].sum())) / result.scales.load
-    return found if found <= LARGEST_CREDIBLE else None
+def _film_friction(result: Solution) -> float | None:
+    forces = traction(result)
+    return abs(forces.mid_film) if forces is not None and forces.credible else None
 
 
 def _patches(result: Solution, meet: BoolArray, loads: Array, both: Array) -> Patches | None:

@@ -1,7 +1,9 @@
 """Traction of a film: shear forces on the surfaces and at mid-film over the load.
 
-The stress is ``tau = eta du/dz``, so all coefficients are negative where surface 1 is the faster
-(SRR > 0), which the film brakes. They give the force on surface 1; that on surface 2 is opposite.
+They are those of the loaded zone, `tehl.loaded_zone`; the drag of the flooded oil around it stands
+apart, `tehl.post.surroundings`. The stress is ``tau = eta du/dz``, so all coefficients are negative
+where surface 1 is the faster (SRR > 0), which the film brakes. They give the force on surface 1;
+that on surface 2 is opposite.
 """
 
 import math
@@ -9,6 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tehl.loaded_zone import wet_part, zone_part
+from tehl.post.surroundings import Surroundings, surroundings
 from tehl.solution import Solution
 from tehl.typing import Array
 
@@ -18,20 +22,21 @@ LARGEST_CREDIBLE = 0.1
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Traction:
-    r"""Traction coefficients of a film, negative for SRR > 0.
+    r"""Traction coefficients of a film in the loaded zone, negative for SRR > 0.
 
     Without inertia the stress is linear across the film, whatever the viscosity does:
     ``surface_1 = mid_film - rolling``, ``surface_2 = mid_film + rolling`` with
 
     .. math:: \mathrm{rolling} = \frac{1}{2w} \iint h \frac{\partial p}{\partial x}
-              = -\frac{1}{2w} \iint p \frac{\partial h}{\partial x}
+              = \frac{1}{2w} \iint \left( \frac{\partial (p h)}{\partial x}
+              - p \frac{\partial h}{\partial x} \right)
     """
 
     surface_1: float
     mid_film: float
     surface_2: float
-    """Integral of tau_zx over the pressurised film at z = 0, h/2 and h, over the load [-]; the one
-    at mid-film is the sliding part."""
+    """Integral of tau_zx over the pressurised film of the loaded zone at z = 0, h/2 and h, over the
+    load [-]; the one at mid-film is the sliding part."""
     rolling: float
     """Rolling part by the pressure gradient, positive [-]."""
     rolling_by_film: float
@@ -39,7 +44,9 @@ class Traction:
     load: float
     """Normal load w [N]."""
     friction_power: float
-    """Power that the surfaces transfer to the film [W]."""
+    """Power that the surfaces transfer to the film in the loaded zone [W]."""
+    surroundings: Surroundings | None = None
+    """Drag of the flooded oil around the loaded zone; None for starved films."""
 
     @property
     def credible(self) -> bool:
@@ -64,9 +71,10 @@ class Traction:
 def traction(result: Solution) -> Traction | None:
     """Return the traction of ``result``, None where it has no shear stresses.
 
-    Integrals are sums over the nodes under pressure; the gradient is a central difference. Where
-    surfaces touch through a boundary film, its friction replaces the sliding part. The steady film
-    at the start of a transient run carries the load at time zero.
+    Integrals are sums over the nodes under pressure, weighted by the part of their cells in the
+    loaded zone; the gradient is a central difference. Where surfaces touch through a boundary film,
+    its friction replaces the sliding part. The steady film at the start of a transient run carries
+    the load at time zero.
 
     Parameters
     ----------
@@ -78,7 +86,8 @@ def traction(result: Solution) -> Traction | None:
         return None
     motion, transient = result.problem.motion, result.problem.transient
     load = result.scales.load * (1.0 if transient is None else transient.load_at(0.0))
-    area = under_pressure(result)
+    wet = under_pressure(result)
+    area = wet * zone_part(result.scaled.x, result.scaled.y)
     inside = area > 0
     weights = area[inside]
     pressure, film = np.maximum(result.pressure, 0.0), result.film_thickness
@@ -93,7 +102,7 @@ def traction(result: Solution) -> Traction | None:
         integral(stress - rubbed) for stress in (shear.surface_1, shear.mid_film, shear.surface_2)
     )
     push = integral(film * _slope(pressure, result.x))
-    lift = -integral(pressure * _slope(film, result.x))
+    lift = integral(_slope(pressure * film, result.x) - pressure * _slope(film, result.x))
     return Traction(
         surface_1=first / load,
         mid_film=middle / load,
@@ -102,14 +111,14 @@ def traction(result: Solution) -> Traction | None:
         rolling_by_film=0.5 * lift / load,
         load=load,
         friction_power=second * motion.speed_2 - first * motion.speed_1,
+        surroundings=surroundings(result, shear, wet - area, load),
     )
 
 
 def under_pressure(result: Solution) -> Array:
-    """Return the area of each node where the film is under pressure, else zero [m^2], (ny, nx)."""
+    """Return the area of the cell of each node that is under pressure [m^2], (ny, nx)."""
     area = np.outer(cell_widths(result.y), cell_widths(result.x))
-    area *= result.scaled.pressure > 0
-    return area
+    return area * wet_part(result.scaled.pressure)
 
 
 def cell_widths(axis: Array) -> Array:

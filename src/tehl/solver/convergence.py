@@ -320,7 +320,8 @@ def further_errors(traces: list[GridTrace], otherwise: float, domain: float) -> 
             bar *= UNEVEN
         found[name] = abs(bar / last) + domain
     heats = traces[-1].measured
-    for name in ("heat_surface_1", "heat_surface_2"):  # parts of the heat that shear generates
+    # parts of the heat that shear generates
+    for name in ("heat_surface_1", "heat_surface_2", "heat_carried_out"):
         if name in found:
             shared = CONDUCTED * found["heat_shear"] * abs(heats["heat_shear"] / heats[name])
             found[name] = max(found[name], shared)

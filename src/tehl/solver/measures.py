@@ -5,6 +5,7 @@ from dataclasses import asdict
 import numpy as np
 
 from tehl.contact_film import MARGIN
+from tehl.loaded_zone import is_inside, wet_part, zone_of
 from tehl.operators.energy import FilmState
 from tehl.operators.film import hertz_pressure
 from tehl.operators.heated_film import stress_unit
@@ -80,7 +81,8 @@ def mid_film_traction(
 ) -> float:
     """Return the mid-film traction coefficient, the integral of the stress over the load [-].
 
-    That of the film: nodes where surfaces touch through a boundary film are left out.
+    That of the film in the loaded zone: nodes where surfaces touch through a boundary film are left
+    out.
 
     Parameters
     ----------
@@ -92,7 +94,7 @@ def mid_film_traction(
         Load over that of the contact [-].
     """
     stress = newtonian_sliding(level, scaled) if state is None else state.view("tau_x").T
-    wet, scales = np.where(level.film.p > 0.0, stress, 0.0), scaled.scales
+    wet, scales = stress * zone_of(level.grid) * wet_part(level.film.p), scaled.scales
     wet[level.film.h <= (1.0 + MARGIN) * (level.equations.contact_film or 0.0)] = 0.0
     area = scales.half_width_x * scales.half_width_y
     unit = stress_unit(scales) * area / (scales.load * load)
@@ -100,13 +102,15 @@ def mid_film_traction(
 
 
 def _rises(state: FilmState) -> dict[str, float]:
-    """Return the temperature rises of a film over the oil at the inlet [K]."""
+    """Return the rises over the oil at the inlet, the largest ones of the loaded zone [K]."""
     temperature, inlet = state.temperature, state.film.scaled.scales.temperature
+    inside = is_inside(state.grid.x, state.grid.y).T
+    first, second = (float(temperature[:, side][inside].max()) - inlet for side in (0, -1))
     weights = lagrange_weights(state.film.across.zeta, 0.5)
     middle = np.ascontiguousarray(np.einsum("k,xky->yx", weights, temperature))
     return {
-        "film_rise_max": float(temperature.max()) - inlet,
+        "film_rise_max": float(temperature.max(axis=1)[inside].max()) - inlet,
         "mid_film_rise_central": central_value(state.grid, middle) - inlet,
-        "surface_1_rise_max": float(temperature[:, 0].max()) - inlet,
-        "surface_2_rise_max": float(temperature[:, -1].max()) - inlet,
+        "surface_1_rise_max": first,
+        "surface_2_rise_max": second,
     }

@@ -15,6 +15,7 @@ from tehl.fields import (
     HeatBalance,
 )
 from tehl.grid import Grid
+from tehl.loaded_zone import wet_part, zone_of
 from tehl.operators.energy import FilmState, pressure_slopes
 from tehl.operators.heated_film import stress_unit
 from tehl.scaling import ScaledProblem
@@ -84,7 +85,7 @@ def film_heat(state: FilmState) -> FilmHeat | None:
 
 
 def heat_balance(state: FilmState) -> HeatBalance:
-    """Return the heat balance of the film under pressure [W].
+    """Return the heat balance of the film under pressure in the loaded zone [W].
 
     The enthalpy carried out is the divergence of its flux by central differences, which the solver
     does not use: the error of the balance measures the discretisation error.
@@ -101,7 +102,7 @@ def heat_balance(state: FilmState) -> HeatBalance:
     area[inner] = 2.0 if terms.mirror else 1.0
     if terms.mirror:
         area[1:-1, 0] = 1.0
-    area[pressure <= 0.0] = 0.0  # the balance is that of the film under pressure
+    area *= (wet_part(pressure.T) * zone_of(grid)).T  # of the film under pressure in the zone
     scales = state.film.scaled.scales
     area *= grid.dx * grid.dy * scales.half_width_x * scales.half_width_y * state.film.flux_unit
     powers = (view("shear"), view("work"), *state.fluxes, carried)

@@ -34,7 +34,8 @@ _BLOCKS = {
     "temperature": "film_rise_max_k film_rise_max_at.0 mid_film_rise_central_k "
     "mean_rise_central_k surface_1_rise_max_k surface_2_rise_max_k inlet_k",
     "traction": "surface_1 mid_film surface_2 sliding rolling rolling_by_film closure_error "
-    "credible friction_power_w",
+    "credible friction_power_w surroundings.surface_1 surroundings.mid_film surroundings.surface_2 "
+    "surroundings.friction_power_w surroundings.radius_m",
     "heat": "shear_w compression_w surface_1_w surface_2_w carried_out_w solid_peclet.0 sources.0",
     "roughness": "surface_1_sq_m surface_2_sq_m composite_sq_m surface_1_sa_m surface_2_sa_m "
     "surface_1_sq_on_grid_m surface_2_sq_on_grid_m composite_sq_on_grid_m lost_share warning "
