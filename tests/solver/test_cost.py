@@ -1,9 +1,11 @@
 """Cost of a result in units of one FFT deformation."""
 
+import time
+
 import pytest
 
 from tehl.options import Options
-from tehl.solver import solve, with_work
+from tehl.solver import cost, solve, with_work
 from tehl.solver.cost import fft_seconds
 from tests.cases import moes_problem
 
@@ -18,3 +20,18 @@ def test_work_is_the_cost_in_units_of_the_same_grid():
     # the unit is measured twice: equal up to the noise of a shared machine
     again = result.cost.cpu_seconds / fft_seconds(129, 129)
     assert result.cost.work == pytest.approx(again, rel=0.9)
+
+
+@pytest.mark.parametrize("tick", [0.0156, 1e9])
+def test_a_coarse_clock_loses_no_result(monkeypatch, tick):
+    """Windows counts CPU time in ticks of 1/64 s; a clock that stands still gives no work."""
+    clock = time.process_time
+    monkeypatch.setattr(cost.time, "process_time", lambda: clock() // tick * tick)
+    result = with_work(solve(moes_problem(20.0, 10.0), Options(points=65)))
+    assert (result.cost.work is None) == (tick > 1.0)
+
+
+def test_timing_large_grids_takes_no_longer():
+    started = time.process_time()
+    seconds = fft_seconds(4097, 4097)
+    assert time.process_time() - started < seconds

@@ -14,6 +14,7 @@ from tehl.solver import solve, steady
 from tehl.solver.diagnosis import error_setting
 from tehl.solver.monitor import SILENT
 from tehl.solver.remedy import working_hint
+from tests.cases import ball_tables
 from tests.solver.test_status import failure, moes
 
 
@@ -39,21 +40,28 @@ def test_no_setting_is_named_if_none_converges():
     assert "No setting is known" in str(hint)
 
 
-def test_a_stiff_heated_oil_gets_a_hint_that_works(monkeypatch):
-    # Barus, L = 14, pure sliding: the shear stress exceeds any oil's
+def test_no_hint_removes_heat_or_names_another_oil():
+    # Barus, L = 14, Carreau, pure sliding, heated
     problem, _ = contact(12, 225)
     with pytest.raises(ConvergenceError) as caught:
         solve(problem, Options(error=0.1))
-    hint = caught.value.result.status.hint
-    assert hint.settings
-    monkeypatch.setattr(steady, "working_hint", None)
-    tables = problem.model_dump(exclude_none=True)
-    if "thermal" in hint.settings:
-        del tables["thermal"]
-    if "lubricant.shear" in hint.settings:
-        tables["lubricant"]["shear"] = hint.settings["lubricant.shear"]
-    error = hint.settings.get("numerics.error", 0.1)
-    assert solve(ContactProblem.model_validate(tables), Options(error=error)).status.converged
+    settings = caught.value.result.status.hint.settings
+    assert not {"thermal", "lubricant.shear"} & set(settings)
+
+
+def test_bodies_of_stated_temperature_do_not_break_the_search_for_a_hint():
+    """Without heat the temperature of a body is not valid: it was removed alone."""
+    tables = ball_tables(thermal={"temperature": "40 degC"})
+    tables["surface_1"] = tables["surface_1"] | {"temperature": "60 degC"}
+    tables["lubricant"] |= {"conductivity": 0.14, "heat_capacity": 2000.0}
+    tables["lubricant"]["viscosity"] |= {"gamma": 0.04, "reference_temperature": "40 degC"}
+    problem = ContactProblem.model_validate(tables)
+    failed = replace(failure(100.0, points=33).result, problem=problem, options=Options())
+
+    def fails(*_):
+        raise InputError("no memory")
+
+    assert working_hint(failed, fails, SILENT).settings == {}
 
 
 def test_stated_nodes_are_not_searched(monkeypatch):

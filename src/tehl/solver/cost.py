@@ -1,5 +1,6 @@
 """Cost of a result: seconds, and their number in units of one FFT deformation on the same grid."""
 
+import math
 import time
 from dataclasses import replace
 
@@ -8,7 +9,11 @@ import numpy as np
 from tehl.result import Result
 from tehl.solution import NO_COST, Cost
 
-REPEATS = 20
+ENOUGH, LONGEST = 0.06, 0.3
+"""CPU seconds after which no further transform is timed, a few ticks of any CPU clock, and most
+seconds on a busy machine."""
+TIMED = 513
+"""Most nodes per direction that are timed; the cost of larger grids grows as n log n."""
 
 
 class Clock:
@@ -30,25 +35,38 @@ def fft_seconds(nx: int, ny: int) -> float:
     """Return the CPU seconds of one zero-padded FFT deformation on ``nx`` by ``ny`` nodes.
 
     Real transform, product with a given spectrum, inverse; full domain, period of twice the
-    intervals, float64, one thread, reused buffers; median of `REPEATS`.
+    intervals, float64, one thread, reused buffers; mean over one interval, as a CPU clock may tick
+    at 16 ms. Zero if the clock did not tick.
     """
+    if max(nx, ny) > TIMED:
+        fewer = [min(n, TIMED) for n in (nx, ny)]
+        growth = math.log(nx * ny) / math.log(math.prod(fewer))
+        return fft_seconds(*fewer) * growth * (nx * ny) / math.prod(fewer)
     shape = (2 * (ny - 1), 2 * (nx - 1))
     padded, spectrum = np.zeros(shape), np.ones((shape[0], shape[1] // 2 + 1))
     transform, convolved = np.zeros(spectrum.shape, complex), np.zeros(shape)
     padded[:ny, :nx] = 1.0
-    seconds = []
-    for _ in range(REPEATS + 1):
-        start = time.process_time()
+
+    def deform() -> None:
         np.fft.rfft2(padded, out=transform)
-        transform *= spectrum
+        np.multiply(transform, spectrum, out=transform)
         np.fft.ifft(transform, axis=0, out=transform)
         np.fft.irfft(transform, shape[1], axis=1, out=convolved)
-        seconds.append(time.process_time() - start)
-    return float(np.median(seconds[1:]))
+
+    deform()
+    start, end, count = time.process_time(), time.perf_counter() + LONGEST, 0
+    while time.process_time() - start < ENOUGH and time.perf_counter() < end:
+        deform()
+        count += 1
+    return (time.process_time() - start) / max(count, 1)
 
 
 def with_work(result: Result) -> Result:
-    """Return ``result`` with ``cost.work``: its CPU seconds in units of `fft_seconds`."""
+    """Return ``result`` with ``cost.work``: its CPU seconds in units of `fft_seconds`.
+
+    None where the clock is too coarse for that.
+    """
     ny, nx = result.scaled.pressure.shape
-    work = result.cost.cpu_seconds / fft_seconds(nx, ny)
+    unit = fft_seconds(nx, ny)
+    work = result.cost.cpu_seconds / unit if unit > 0.0 else None
     return replace(result, cost=replace(result.cost, work=work))

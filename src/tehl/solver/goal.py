@@ -61,6 +61,8 @@ def _by_grids(
         domain = far_field_error(scaled.entering, edges) + entry_error(scaled, edges)
     if not roughness.is_rough:
         comparable = [trace for trace in traces if not trace.diverged]
+        if len(comparable) < 2:
+            return None
         return error_estimate(comparable, order, domain, newtonian=newtonian)
     # grids that resolve the same heights
     comparable = [trace for trace in traces[roughness.first_comparable :] if not trace.diverged]
