@@ -6,12 +6,16 @@ from types import SimpleNamespace
 import pytest
 from benchmarks.random_contacts import contact
 
+from tehl.domain import planned
 from tehl.errors import InputError
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import ConvergenceError
+from tehl.scaling import ScaledProblem
+from tehl.solution import Status
 from tehl.solver import solve, steady
 from tehl.solver.diagnosis import error_setting
+from tehl.solver.film_solver import FilmSolver
 from tehl.solver.monitor import SILENT
 from tehl.solver.remedy import working_hint
 from tests.cases import ball_tables
@@ -84,3 +88,57 @@ def test_an_error_is_named_only_where_it_can_be_asked_for(reached, named):
     found = error_setting(reached)
     assert found == ({} if named is None else {"numerics.error": named})
     Options.model_validate({"error": named})
+
+
+def test_the_film_of_a_coarser_grid_is_kept_where_the_memory_ends(monkeypatch):
+    real = FilmSolver._solve_finest
+
+    def without_memory(run: FilmSolver):
+        if run.finest.grid.nx > 300:
+            raise MemoryError
+        real(run)
+
+    monkeypatch.setattr(FilmSolver, "_solve_finest", without_memory)
+    with pytest.raises(ConvergenceError, match=r"memory is not enough .* is kept") as caught:
+        solve(moes(100.0), Options(error=5e-3, max_time=5.0))
+    result = caught.value.result
+    assert result.status.cause == "memory"
+    assert result.film.central > 0
+    assert result.errors.central < 0.1
+
+
+def test_other_nodes_are_tried_before_a_hint(monkeypatch):
+    """The strategies are made to fail on the planned nodes only."""
+    real, tried = steady.try_strategies, []
+
+    def fails_as_planned(problem, options, **others):
+        tried.append(options.points)
+        attempt, result = real(problem, options, **others)
+        if options.points == "auto":
+            status = Status(kind="diverged", cause="diverged", message="x")
+            result = replace(result, status=status)
+        return attempt, result
+
+    monkeypatch.setattr(steady, "try_strategies", fails_as_planned)
+    result = solve(moes(20.0), Options())
+    assert result.status.converged
+    assert tried[0] == "auto"
+    assert result.scaled.x.size > solve_size(20.0)
+    assert max(result.errors.central, result.errors.minimum) <= 0.02
+
+
+def solve_size(load: float) -> int:
+    return max(planned(ScaledProblem.of(moes(load)), Options()).shape)
+
+
+def test_a_film_that_converged_on_the_way_is_kept_and_nothing_worse_is_named():
+    failed = replace(failure(100.0, points=33).result, options=Options())
+    calls: list[float] = []
+
+    def fails(_, options: Options):
+        calls.append(options.target)
+        raise InputError("no memory")
+
+    hint = working_hint(failed, fails, SILENT, ((129, 129), 0.09))
+    assert hint.settings == {"numerics.error": "10 %"}
+    assert max(calls) < 0.09

@@ -21,6 +21,7 @@ from tehl.solver.continuation import (
 from tehl.solver.convergence import (
     LARGEST_CHANGE,
     LARGEST_ROUGH_CHANGE,
+    SLOW_CYCLES,
     GridTrace,
     check_divergence,
     film_converged,
@@ -194,6 +195,8 @@ class GridIteration:
     def _is_done(self, trace: GridTrace, *, finest: bool) -> bool:
         """Return whether the iteration on a grid has converged or stalled."""
         coarser = self._coarser_trace()
+        if finest and self.goal.is_over and len(trace.reports) >= SLOW_CYCLES:
+            return True
         if not self.is_settled:
             return stalled(trace, self.strategy.patience)
         if not finest:

@@ -1,14 +1,19 @@
 """Settings that work where a solve failed: they are tried before a hint names them."""
 
+import math
 import time
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from functools import partial
 
+from tehl.domain import FAMILIES, planned
 from tehl.errors import TehlError
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.result import Result
+from tehl.scaling import ScaledProblem
 from tehl.solution import Hint, Settings, settings_text
+from tehl.solver.diagnosis import error_setting
 from tehl.solver.monitor import Monitor
 from tehl.units import percentage
 
@@ -21,9 +26,46 @@ LONGER = 3.0
 LEAST_SECONDS = 1.0
 """Least time for the trials."""
 Solve = Callable[[ContactProblem, Options], Result]
+Reached = tuple[tuple[int, int], float]
+"""Nodes (nx, ny) and relative error of a film that converged."""
+OTHERS = 2
+"""Other numbers of nodes that are tried."""
 
 
-def working_hint(failed: Result, solve: Solve, monitor: Monitor) -> Hint:
+def solved_on_other_nodes(failed: Result, solve: Solve, monitor: Monitor) -> Result | None:
+    """Return the film on slightly more nodes if it converges there to the error to reach.
+
+    On some grids, coarser ones of their hierarchy included, the discrete equations have no
+    solution, or one that the cycles do not find, and on others of nearly the same mesh width they
+    have one.
+
+    Parameters
+    ----------
+    failed, solve, monitor
+        As in `working_hint`.
+    """
+    if failed.status.kind not in ("diverged", "stalled") or not failed.history:
+        return None
+    end = time.perf_counter() + failed.options.max_time - failed.cost.wall_seconds
+    nodes = max(planned(ScaledProblem.of(failed.problem), failed.options).shape)
+    for more in [one for one in sorted(FAMILIES) if one > nodes][:OTHERS]:
+        left = end - time.perf_counter()
+        if left <= 0.0:
+            break
+        monitor.message(f"trying {more} x {more} nodes")
+        options = failed.options.on_points(more, more).model_copy(update={"max_time": left})
+        with suppress(TehlError):
+            found = solve(failed.problem, options)
+            errors = found.errors
+            error = math.inf if errors is None else max(errors.central, errors.minimum)
+            if found.status.converged and error <= failed.options.target:
+                return found
+    return None
+
+
+def working_hint(
+    failed: Result, solve: Solve, monitor: Monitor, reached: Reached | None = None
+) -> Hint:
     """Return a hint to settings with which a failed contact converges; without any if none does.
 
     Parameters
@@ -34,11 +76,15 @@ def working_hint(failed: Result, solve: Solve, monitor: Monitor) -> Hint:
         Returns the result of a contact, converged or not.
     monitor : Monitor
         Receives what is tried.
+    reached : Reached or None
+        The film that converged on the way: nothing worse is named.
     """
-    limit = min(LONGER * failed.cost.wall_seconds, failed.options.max_time)
+    wall = failed.cost.wall_seconds
+    limit = min(LONGER * wall, failed.options.max_time - wall)
     end = time.perf_counter() + max(limit, LEAST_SECONDS)
     found = None
-    for trials in (_default_domain(failed), _errors(failed), _other_physics(failed)):
+    least = math.inf if reached is None else reached[1]
+    for trials in (_default_domain(failed), _errors(failed, least), _other_physics(failed)):
         for settings, problem, options in trials:
             left = end - time.perf_counter()
             if left <= 0.0:
@@ -48,6 +94,9 @@ def working_hint(failed: Result, solve: Solve, monitor: Monitor) -> Hint:
             found = _tried(settings, partial(solve, problem, limited)) or found
         if found is not None:
             return found
+    if reached is not None:
+        (nx, ny), error = reached
+        return Hint(f"{nx} x {ny} nodes converged.", error_setting(error))
     return Hint("No setting is known with which this contact converges.")
 
 
@@ -74,12 +123,10 @@ def _default_domain(failed: Result) -> Iterator[Trial]:
         yield {"numerics.domain": False, "numerics.edges": False}, failed.problem, options
 
 
-def _errors(failed: Result) -> Iterator[Trial]:
-    """Yield larger errors to reach, that of the present hint included."""
-    settings = failed.status.hint.settings if failed.status.hint else {}
-    named = Options.model_validate({"error": settings.get("numerics.error", ERRORS[0])}).target
-    for error in sorted({*ERRORS, named}, reverse=True):
-        if error > failed.options.target:
+def _errors(failed: Result, least: float) -> Iterator[Trial]:
+    """Yield larger errors to reach, up to the one that was reached, ``least``."""
+    for error in ERRORS:
+        if failed.options.target < error < least:
             options = failed.options.model_copy(update={"error": error})
             yield {"numerics.error": percentage(error)}, failed.problem, options
 

@@ -40,11 +40,14 @@ from tehl.solver.outputs import (
     newtonian_shear,
     oil_balance,
 )
-from tehl.solver.remedy import working_hint
+from tehl.solver.remedy import Reached, solved_on_other_nodes, working_hint
 from tehl.solver.verdict import TOO_COARSE, touching, verdict
 from tehl.starvation import Flooded, check_supply
+from tehl.units import percentage
 
+NO_MEMORY = "memory"
 GRID_CAUSES = (
+    NO_MEMORY,
     "grid_too_coarse",
     "error_not_reached",
     "domain_too_small",
@@ -52,7 +55,7 @@ GRID_CAUSES = (
     "sides_too_close",
 )
 """Causes of failure that no other strategy removes."""
-WITHOUT_ERROR = ("error_not_reached", *TOO_COARSE)
+WITHOUT_ERROR = (NO_MEMORY, "error_not_reached", *TOO_COARSE)
 """Causes of failure for which a larger error may converge."""
 
 
@@ -63,6 +66,8 @@ class Attempt:
     run: FilmSolver
     status: Status
     reached: bool
+    reached_before: Reached | None = None
+    """The best film on coarser grids of all strategies, between smooth surfaces."""
 
     @property
     def is_final(self) -> bool:
@@ -120,24 +125,47 @@ def solve(
             raise InputError(
                 f"{why}; solve it with tehl.{function} (the command tehl solve does so by itself)"
             )
-    _, result = try_strategies(problem, options, monitor=monitor, rough=True, guess=guess)
+    attempt, result = try_strategies(problem, options, monitor=monitor, rough=True, guess=guess)
     if not result.status.converged:
         status = result.status
         unsure = status.kind in ("diverged", "stalled") or status.cause in WITHOUT_ERROR
         if options.points == "auto" and unsure:
-            result = _with_working_hint(result, monitor)
+            result = _after_failure(result, attempt.reached_before, monitor)
+    if not result.status.converged:
         raise ConvergenceError(result.status.message or "not converged", result)
     return result
 
 
-def _with_working_hint(failed: Result, monitor: Monitor) -> Result:
-    """Return a failed result with a hint whose settings were tried."""
+def _after_failure(failed: Result, reached: Reached | None, monitor: Monitor) -> Result:
+    """Return the film on other nodes if it converges there, else the failed one with a hint.
+
+    A coarser film that converged on the way, on the nodes and with the error of ``reached``, takes
+    the place of the failed one.
+    """
 
     def attempt(problem: ContactProblem, options: Options) -> Result:
         return try_strategies(problem, options, monitor=monitor, rough=True)[1]
 
-    hint = working_hint(failed, attempt, monitor)
-    return replace(failed, status=replace(failed.status, hint=hint))
+    on_others = solved_on_other_nodes(failed, attempt, monitor)
+    if on_others is not None:
+        return replace(on_others, options=failed.options)
+    hint = working_hint(failed, attempt, monitor, reached)
+    failed = replace(failed, status=replace(failed.status, hint=hint))
+    if reached is None:
+        return failed
+    (nx, ny), error = reached
+    kept = attempt(failed.problem, failed.options.on_points(nx, ny))
+    if not kept.status.converged:
+        return failed
+    text = f"The film on {nx} x {ny} nodes is kept; its error is about {percentage(error)}."
+    status = replace(failed.status, kind="not_converged", message=f"{failed.status.message} {text}")
+    return replace(
+        kept,
+        options=failed.options,
+        status=status,
+        history=failed.history + kept.history,
+        cost=failed.cost + kept.cost,
+    )
 
 
 def try_strategies(  # noqa: PLR0913 (variants of one solve)
@@ -192,6 +220,9 @@ def try_strategies(  # noqa: PLR0913 (variants of one solve)
         if attempts[-1].is_final or goal.is_over:
             break
     best = min(reversed(attempts), key=lambda attempt: attempt.rank)  # of equals the most robust
+    if not (best.status.converged or problem.is_rough):
+        films = [found for one in attempts if (found := one.run.reached_before()) is not None]
+        best = replace(best, reached_before=min(films, key=lambda film: film[1], default=None))
     result = _result(best, options, tuple(history.reports), clock.cost())
     return best, replace(result, supplied=_supplied(best.run.finest, flooded))
 
@@ -253,6 +284,12 @@ def _run(run: FilmSolver, *, force: bool) -> Attempt:
         except ArithmeticError:
             run.hierarchy.salvage()
             return Attempt(run=run, status=diverged(run), reached=False)
+        except MemoryError:
+            nx, ny = run.finest.grid.points
+            del run.levels[len(run.traces) :]
+            message = f"The memory is not enough for {nx} x {ny} nodes."
+            status = Status(kind="not_converged", cause=NO_MEMORY, message=message)
+            return Attempt(run=run, status=status, reached=False)
     return Attempt(run=run, status=verdict(run, reached=reached), reached=reached)
 
 
