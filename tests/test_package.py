@@ -73,3 +73,13 @@ def test_modules_of_post_and_pictures_are_reachable_and_loaded_on_use():
     assert dir(tehl.post) == sorted(tehl.post.__all__)
     with pytest.raises(AttributeError, match="nonsense"):
         _ = tehl.post.nonsense
+
+
+def test_the_programs_that_tests_start_can_be_interrupted():
+    """A shell starts commands in the background with SIGINT ignored, which children inherit."""
+    code = (
+        "import signal; signal.signal(signal.SIGINT, signal.SIG_IGN); import tests.conftest; "
+        "print(signal.getsignal(signal.SIGINT) is signal.default_int_handler)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "True"

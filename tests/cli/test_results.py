@@ -159,3 +159,10 @@ def test_a_transient_result_is_exported_too(tmp_path, run, monkeypatch, words, n
     assert done.code == 0
     assert done.out.split() == names
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted(["run.nc", *names])
+
+
+def test_a_report_is_not_written_into_a_pdf(stored, run):
+    done = run("report", str(stored), "-o", str(stored.with_suffix(".pdf")))
+    assert done.code == 2
+    assert "a report ends in .html" in done.err
+    assert not stored.with_suffix(".pdf").exists()

@@ -5,6 +5,7 @@ import errno
 import json
 import os
 import signal
+import subprocess
 import sys
 from pathlib import Path
 from types import SimpleNamespace
@@ -317,6 +318,27 @@ def test_an_interrupt_leaves_nothing(folder, solver, run):
     done = run("solve", "ball.toml")
     assert done.code == 130
     assert names(folder) == ["ball.toml"]
+
+
+def test_a_kill_that_a_destructor_receives_is_not_lost(tmp_path):
+    """Python ignores exceptions in destructors, that of the signal handler too."""
+    code = """
+import os, signal, sys, time
+from tehl.cli.ending import ending
+class Dying:
+    def __del__(self):
+        signal.raise_signal(signal.SIGTERM)
+with ending():
+    del (dying := [Dying()])[:]
+    time.sleep(20.0)
+    print("went on")
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=60
+    )
+    assert done.returncode == 143
+    assert "went on" not in done.stdout
+    assert "Exception ignored" not in done.stderr
 
 
 def test_a_kill_while_writing_leaves_nothing(folder, solver, run, monkeypatch):

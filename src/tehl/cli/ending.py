@@ -5,8 +5,9 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from functools import partial
 from typing import Any, NoReturn
 
 import typer
@@ -24,6 +25,8 @@ _WrongCommandLine: Any = typer.BadParameter.__mro__[2]
 """Base of the errors of a wrong command line; typer does not export it."""
 EXPECTED = (_WrongCommandLine, TehlError, MemoryError, OSError, ModuleNotFoundError)
 _SIGNALS = ("SIGTERM", "SIGHUP")
+AGAIN = 0.05
+"""Seconds after which a signal that a destructor has received is sent again."""
 _LONGEST = 300
 """Characters of a message about the command line."""
 
@@ -95,7 +98,8 @@ def ending() -> Iterator[None]:
         received.append(number)
         raise SystemExit(128 + number)
 
-    before = {}
+    before, hook = {}, sys.unraisablehook
+    sys.unraisablehook = partial(_raise_again, received, hook)
     if threading.current_thread() is threading.main_thread():
         known = [getattr(signal, name) for name in _SIGNALS if hasattr(signal, name)]
         ignored = [number for number in known if signal.getsignal(number) == signal.SIG_IGN]
@@ -111,8 +115,17 @@ def ending() -> Iterator[None]:
             raise SystemExit(128 + received[0]) from None
         raise
     finally:
+        sys.unraisablehook = hook
         for number, handler in before.items():
             signal.signal(number, handler)
+
+
+def _raise_again(received: list[int], hook: Callable[[Any], object], unraisable: Any) -> None:
+    """Signal again if a destructor, in which Python ignores exceptions, has received a signal."""
+    if received and isinstance(unraisable.exc_value, SystemExit):
+        threading.Timer(AGAIN, os.kill, (os.getpid(), received[-1])).start()
+    else:
+        hook(unraisable)
 
 
 def _report(message: str) -> None:

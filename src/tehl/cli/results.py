@@ -170,6 +170,8 @@ def report(
 
     path = stored.with_suffix(".html") if output is None else output
     check_writable(path, sources=(stored,))
+    if path.suffix.lower() not in (".html", ".htm"):
+        raise InputError(f"output {path}: a report ends in .html; print it as PDF in a browser")
     result = load(stored)
     summary = load_summary(stored)
     page = report_text(

@@ -254,18 +254,18 @@ def _load_sharing(found: LoadSharing) -> Block:
 
 def _touching(found: Touching) -> Block:
     names = ("number", "area_mean_m2", "area_largest_m2", "pressure_mean_pa", "pressure_max_pa")
-    return (
-        {
-            "share": found.share if found.is_share_known else None,
-            "share_error": found.share_error if found.is_share_known else None,
-        }
-        | _picked(
-            found,
-            *("margin_m", "friction", "friction_film", "friction_boundary", "area_m2", "area_part"),
-            *("contact_pressure_max_pa", "pressure_max_pa", "power_boundary_w", "balance"),
-        )
-        | {"patches": None if found.patches is None else _picked(found.patches, *names, "cells")}
-    )
+    block = _picked(
+        found,
+        *("share", "share_error", "margin_m", "friction", "friction_film", "friction_boundary"),
+        *("area_m2", "area_part", "contact_pressure_max_pa", "pressure_max_pa"),
+        *("power_boundary_w", "balance"),
+    ) | {"patches": None if found.patches is None else _picked(found.patches, *names, "cells")}
+    # what follows from a share that is not known is not known either
+    hidden = () if found.is_share_known else _OF_SHARE
+    return {key: None if key in hidden else value for key, value in block.items()}
+
+
+_OF_SHARE = ("share", "share_error", "friction", "friction_boundary", "power_boundary_w", "patches")
 
 
 def _starvation(found: Starvation) -> Block:

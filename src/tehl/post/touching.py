@@ -162,8 +162,8 @@ def _error_bar(result: Solution, film: ContactFilm, share: float) -> float:
 
 def touching_nodes(result: Solution) -> BoolArray:
     """Return the nodes whose film exceeds the boundary film by at most `MARGIN`, (ny, nx)."""
-    film = result.problem.contact_film
-    if film is None:
+    film, found = result.problem.contact_film, result.contact
+    if film is None or found is None or not found.pressure.any():  # the oil carries all
         return np.zeros(result.scaled.film.shape, bool)
     return film.meets(result.film_thickness)
 

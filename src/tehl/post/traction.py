@@ -95,8 +95,9 @@ def traction(result: Solution) -> Traction | None:
     def integral(stress: Array) -> float:  # a dot product would start all threads of the BLAS
         return float(np.sum(weights * stress[inside]))
 
-    boundary = result.problem.contact_film
-    meet = boundary is not None and boundary.meets(result.film_thickness)
+    boundary, found = result.problem.contact_film, result.contact
+    carries = found is not None and bool(found.pressure.any())
+    meet = carries and boundary is not None and boundary.meets(result.film_thickness)
     rubbed = np.where(meet, shear.mid_film, 0.0)
     first, middle, second = (
         integral(stress - rubbed) for stress in (shear.surface_1, shear.mid_film, shear.surface_2)

@@ -64,6 +64,8 @@ def shared_load(level: Level) -> float:
     least = level.equations.contact_film
     if least is None:
         return level.asperity_load()
+    if not level.film.asperity.any():  # the oil carries all
+        return 0.0
     meets = level.film.h <= (1.0 + MARGIN) * least
     return level.equations.load.integral(np.where(meets, level.pressure, 0.0)) / level.sources.load
 
@@ -95,7 +97,8 @@ def mid_film_traction(
     """
     stress = newtonian_sliding(level, scaled) if state is None else state.view("tau_x").T
     wet, scales = stress * zone_of(level.grid) * wet_part(level.film.p), scaled.scales
-    wet[level.film.h <= (1.0 + MARGIN) * (level.equations.contact_film or 0.0)] = 0.0
+    if level.film.asperity.any():
+        wet[level.film.h <= (1.0 + MARGIN) * (level.equations.contact_film or 0.0)] = 0.0
     area = scales.half_width_x * scales.half_width_y
     unit = stress_unit(scales) * area / (scales.load * load)
     return level.equations.load.integral(wet) * unit
