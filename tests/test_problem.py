@@ -13,6 +13,7 @@ from pydantic import ValidationError
 
 from tehl.errors import InputError
 from tehl.heat import FilmEnergy, source_form
+from tehl.lubricant import Barus
 from tehl.problem import ContactProblem, Surface
 from tehl.scaling import groups
 from tests.cases import ball_tables, moes_problem
@@ -270,3 +271,17 @@ def test_ra_of_a_surface_becomes_rq():
     assert Surface.model_validate_json(found.model_dump_json()) == found
     with pytest.raises(InputError, match="states ra_roughness and rms_roughness"):
         Surface(material="steel", ra_roughness=1e-7, rms_roughness=1e-7)
+
+
+class Thinner(Barus):
+    """A law of a user."""
+
+    def viscosity(self, pressure, temperature):
+        return 0.5 * super().viscosity(pressure, temperature)
+
+
+def test_a_law_of_ones_own_is_refused_as_its_file_would_hold_another_oil():
+    tables = ball_tables()
+    tables["lubricant"] |= {"viscosity": Thinner(eta_0=0.04, alpha=2.2e-8)}
+    with pytest.raises(ValueError, match=r"lubricant.viscosity = Thinner: own classes are not"):
+        ContactProblem.model_validate(tables)

@@ -8,7 +8,7 @@ import math
 from importlib import import_module
 from typing import Any, Self
 
-from pydantic import model_validator
+from pydantic import BaseModel, model_validator
 
 from tehl.asperities import GreenwoodTripp
 from tehl.contact import Contact, PointContact, Surface
@@ -64,6 +64,7 @@ def check(problem: PointContact) -> None:
 
     Raises ValueError with one sentence on the first fault.
     """
+    check_classes(problem, "")
     check_radii(problem)
     check_temperatures(problem)
     check_heat(problem)
@@ -83,6 +84,22 @@ def check(problem: PointContact) -> None:
             f"be between {1.0 / LARGEST_RATIO:g} and {LARGEST_RATIO:g}"
         )
     check_size(problem)
+
+
+def check_classes(table: BaseModel, path: str) -> None:
+    """Check that laws and surfaces are those of this package, which a file can store."""
+    for name in type(table).model_fields:
+        value, key = getattr(table, name), f"{path}{name}"
+        if not isinstance(value, BaseModel):
+            continue
+        kind = type(value)
+        if kind.__module__.partition(".")[0] != __package__:
+            raise ValueError(
+                f"{key} = {kind.__qualname__}: own classes are not supported, as a result file "
+                f"would store its parent {kind.__base__.__name__ if kind.__base__ else ''}; use a "
+                "law of tehl.lubricant or a surface of tehl.roughness"
+            )
+        check_classes(value, f"{key}.")
 
 
 def check_size(problem: PointContact) -> None:
