@@ -132,8 +132,31 @@ def _field(models: Sequence[Model], key: str | int) -> FieldInfo | None:
 # ---- one sentence per type of mistake
 
 
+LINE = "line contacts are not computed yet; state an ellipse by radius_x and radius_y"
+STEADY = "only load and the roughness of the surfaces vary in time; state it under [contact]"
+OTHER_WORDS = {
+    "contact.width": LINE,
+    "contact.length": LINE,
+    "contact.line_load": LINE,
+    "contact.load_per_length": LINE,
+    "contact.speed": "did you mean entrainment_speed, the mean speed of both surfaces?",
+    "transient.entrainment_speed": STEADY,
+    "transient.slide_roll_ratio": STEADY,
+    "transient.radius": STEADY,
+    "transient.radius_x": STEADY,
+    "transient.radius_y": STEADY,
+    "surface_1.ra": "did you mean ra_roughness?",
+    "surface_2.ra": "did you mean ra_roughness?",
+    "surface_1.rq": "did you mean rms_roughness?",
+    "surface_2.rq": "did you mean rms_roughness?",
+}
+"""What to write for keys that are no misspelling of the right one."""
+
+
 def _unknown_key(mistake: _Mistake) -> str:
     models, word = mistake.models[-2], str(mistake.path[-1])
+    if mistake.name in OTHER_WORDS:
+        return f"{mistake.name} is not a known key; {OTHER_WORDS[mistake.name]}"
     law = _chosen_law(models, mistake.table)
     if law is not None and any(word in model.model_fields for model in models):
         return _key_of_another_law(mistake, law)
@@ -144,6 +167,8 @@ def _unknown_key(mistake: _Mistake) -> str:
     of_case = mistake.models[0][0] in (ContactProblem, Options)
     paths = (*_key_paths(ContactProblem), *_key_paths(Options, f"{NUMERICS}."))
     elsewhere = [path for path in paths if of_case and path.split(".")[-1] == word]
+    # of several tables with this key, which is meant is not known
+    elsewhere = elsewhere if len(elsewhere) == 1 else []
     moved = elsewhere and not near and len(word) > 1
     suggestion = f"did you mean {elsewhere[0]}?" if moved else _suggest(word, known)
     return f"{mistake.name} is not a known key; {suggestion}"
