@@ -3,6 +3,7 @@
 import copy
 import json
 import re
+import tomllib
 from dataclasses import replace
 from typing import Any
 
@@ -10,6 +11,7 @@ import pytest
 
 from tehl.film_formulas import expected_central_film
 from tehl.io.case import case_from_tables
+from tehl.io.templates import template_text
 from tehl.options import Options
 from tehl.report.explain import Explanation, as_summary, as_text, explain
 from tehl.report.readable import length
@@ -300,3 +302,11 @@ def test_a_problem_explains_itself():
     assert found == case
     assert repr(found) == as_text(case)
     assert case.scaled.problem.explain().domain == explain(case.scaled.problem, Options()).domain
+
+
+@pytest.mark.parametrize(("groove", "is_asked"), [("-4.95 mm", False), ("4.95 mm", True)])
+def test_a_groove_without_its_minus_is_reported(groove: str, is_asked: bool):
+    tables = tomllib.loads(template_text("bearing").replace("-4.95 mm", groove))
+    asked = explain(*case_from_tables(tables)).questions
+    words = "surface_2.radius_y = 4.95 mm: the surface is convex across the rolling direction"
+    assert any(words in question for question in asked) == is_asked

@@ -33,6 +33,8 @@ SLOWEST_LINE = 5.0
 NEAR, LEAST_DOMAIN_ERROR = 0.95, 0.005
 """Edge of a stated domain over the recommended one below which it is mentioned, and error of the
 film by zero pressure on the edges from which on it is."""
+CLOSEST, WIDEST = 1.005, 1.25
+"""Radius of the groove of a bearing over that of its ball: conformities of 0.5025 to 0.625."""
 MOLECULAR = 5e-9
 """Film below which the oil is not a continuum [m]."""
 STEEP = 0.1
@@ -96,6 +98,7 @@ def questions(
     ranges = (one.question() for one in typical_ranges(scaled))
     return (
         *(question for question in ranges if question),
+        *_about_groove(scaled.problem),
         *_about_film(scaled),
         *_about_sliding(scaled.problem),
         *_about_heat(scaled.problem, heat),
@@ -125,6 +128,19 @@ def typical_ranges(scaled: ScaledProblem) -> Iterator[Typical]:
     yield from _ranges_of_solid("surface_1", problem.surface_1)
     yield from _ranges_of_solid("surface_2", problem.surface_2)
     yield from _ranges_of_oil(problem)
+
+
+def _about_groove(problem: ContactProblem) -> Iterator[str]:
+    """Yield a surface that would be the groove of a ball if its radius across were negative."""
+    surfaces = {"surface_1": problem.surface_1, "surface_2": problem.surface_2}
+    for name, other in (("surface_1", "surface_2"), ("surface_2", "surface_1")):
+        ball, across = surfaces[other].radius, surfaces[name].radius_y
+        if ball and across and CLOSEST <= across / ball <= WIDEST:
+            yield (
+                f"{name}.radius_y = {1e3 * across:.4g} mm: the surface is convex across the "
+                f"rolling direction; the groove of a ball has a negative radius_y, "
+                f'"-{1e3 * across:.4g} mm"'
+            )
 
 
 def _ranges_of_solid(name: str, surface: Surface) -> Iterator[Typical]:
