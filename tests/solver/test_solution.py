@@ -3,11 +3,14 @@
 import numpy as np
 import pytest
 
+from tehl.cli.text import as_text
 from tehl.operators.flow import flow_table
 from tehl.operators.load import TARGET
+from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import Result
 from tehl.solver import solve
+from tests.cases import ball_tables
 from tests.reference import moes_contact
 from tests.solver.runs import film_of, multigrid, tight
 
@@ -174,3 +177,14 @@ def test_unequal_numbers_of_nodes_are_solved():
     assert run.scaled.film.shape == (65, 97)
     square = film_of(50.0, 8.0, tight(65))
     assert run.film_scaled.central == pytest.approx(square.film_scaled.central, rel=0.05)
+
+
+def test_a_friction_that_no_oil_transmits_has_no_error_bar_and_is_no_answer():
+    tables = ball_tables()
+    tables["contact"] |= {"load": "1300 N", "slide_roll_ratio": 0.5}  # 2 GPa, Newtonian
+    result = solve(ContactProblem.model_validate(tables), Options(points=257))
+    assert abs(result.traction.mid_film) > 1.0
+    assert result.errors.traction_mid_film is None
+    line = next(row for row in as_text(result).splitlines() if "not an answer" in row)
+    assert "state lubricant.shear" in line
+    assert "is usual here" in line

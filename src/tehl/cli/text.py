@@ -5,6 +5,7 @@ from functools import partial
 from tehl.cli.reference_runs import Comparisons
 from tehl.io.summary import estimates
 from tehl.post.film import no_film
+from tehl.post.traction import LARGEST_CREDIBLE
 from tehl.report.readable import UNTITLED, length_unit
 from tehl.report.rendering import render
 from tehl.result import Result
@@ -30,11 +31,20 @@ def as_text(result: Result | TransientResult, compared: Comparisons | None = Non
         "transient.txt" if transient else "steady.txt",
         bar=partial(_bar, result),
         compared=compared,
+        expected=_expected_traction(start),
         no_film=no_film(start),
         result=result,
         rough=compared.rough_film or start.roughness,
         title=start.problem.title or UNTITLED,
     ).rstrip()
+
+
+def _expected_traction(result: Result) -> float | None:
+    """Return the traction that `tehl explain` expects, if the computed one is not credible."""
+    if result.traction is None or result.traction.credible:
+        return None
+    heat = result.problem.explain().heat
+    return None if heat is None else min(heat.traction, LARGEST_CREDIBLE)
 
 
 def failure_text(status: Status, reason: str | None) -> str:

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from tehl.options import Options
+from tehl.post.traction import LARGEST_CREDIBLE
 from tehl.solution import CycleReport, ErrorEstimate
 
 LEAST_CYCLES = 2
@@ -284,7 +285,9 @@ def error_estimate(
     resolved = _resolves_spike(traces, found)
     if newtonian and not resolved:  # the stress at the spike grows with its viscosity
         found.pop("traction_mid_film", None)
-    if "traction_mid_film" in found:  # the shear rate is the sliding speed over the film
+    if abs(traces[-1].measured.get("traction_mid_film", 0.0)) > LARGEST_CREDIBLE:
+        found.pop("traction_mid_film", None)  # it follows from the law, but no oil transmits it
+    elif "traction_mid_film" in found:  # the shear rate is the sliding speed over the film
         found["traction_mid_film"] = max(found["traction_mid_film"], estimate.central)
     elif _is_hottest_inside(traces[-1]) and not (resolved and _slows(_excess(traces))):
         # without sliding that is where the oil flows through the spike
