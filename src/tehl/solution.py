@@ -119,6 +119,10 @@ class CycleReport:
     """Sum of the changes of pressure in this cycle over the sum of pressures [-]; not stored."""
 
 
+ORDERS = (1.4, 2.8)
+"""Observed orders that count as second order."""
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Estimate:
     """A value with its error bar."""
@@ -134,6 +138,12 @@ class Estimate:
     """Order observed on three grids; None if they do not show one."""
     values: tuple[float, ...]
     """Values on the grids, coarse to fine."""
+
+    @property
+    def is_second_order(self) -> bool:
+        """Whether the grids show second order, so that the value is extrapolated."""
+        order = self.observed_order
+        return order is not None and ORDERS[0] <= order <= ORDERS[1]
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

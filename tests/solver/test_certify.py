@@ -42,12 +42,32 @@ def test_the_bar_contains_the_limit_of_nearly_second_order(limit, coefficient, o
 
 
 @given(LIMITS, COEFFICIENTS)
-def test_a_sequence_without_order_gives_the_finest_value_and_the_whole_change(limit, coefficient):
+def test_a_sequence_that_alternates_gives_the_finest_value_and_twice_the_change(limit, coefficient):
     values = (limit, limit * (1 + coefficient), limit)
     found = estimate(values, domain=0.0)
     assert found.value == values[2]
-    assert found.uncertainty == pytest.approx(abs(values[2] - values[1]))
+    assert found.uncertainty == pytest.approx(2.0 * abs(values[2] - values[1]))
     assert found.observed_order is None
+
+
+@given(LIMITS, COEFFICIENTS, st.floats(0.75, 1.35))
+def test_the_bar_of_a_low_order_contains_the_limit(limit, coefficient, order):
+    found = estimate(sequence(limit, coefficient, order), domain=0.0)
+    assert abs(found.value - limit) <= found.uncertainty * (1 + 1e-6)
+
+
+def test_changes_that_grow_have_a_bar_of_twice_the_last_one():
+    found = estimate((1.0, 1.001, 1.003), domain=0.0)
+    assert found.value == 1.003
+    assert found.uncertainty == pytest.approx(0.004)
+    assert found.observed_order < 0.0
+
+
+def test_values_that_follow_from_the_film_keep_the_change_of_the_extrapolation():
+    values = (1.0, 1.03, 1.0375)  # second order, to which the film would give a quarter of it
+    of_film, of_traction = (estimate(values, 0.0, residue).uncertainty for residue in (0.25, 1.0))
+    assert of_traction == pytest.approx(0.0025)
+    assert of_film == pytest.approx(0.25 * of_traction)
 
 
 def test_a_constant_sequence_has_the_bar_of_the_domain_only():

@@ -141,9 +141,18 @@ def _certified(certified: dict[str, Estimate]) -> Iterator[tuple[str, ...]]:
             name.replace("_", " "),
             f"{one.value * factor:.5g}{word}",
             *(f"{part * factor:.2g}{word}" for part in parts),
-            "" if one.observed_order is None else f"{one.observed_order:.2f}",
+            _order(one),
             ", ".join(f"{value * factor:.5g}" for value in one.values),
         )
+
+
+def _order(estimate: Estimate) -> str:
+    """Return the observed order, marked where the value is not extrapolated with it."""
+    if len(estimate.values) < 3:
+        return ""
+    order = estimate.observed_order
+    shown = "none" if order is None else f"{order:.2f}"
+    return shown if estimate.is_second_order else f"{shown} (not 2: not extrapolated)"
 
 
 def _transient(run: TransientResult) -> dict[str, Any]:

@@ -13,21 +13,24 @@ from tehl.operators.heights import UnresolvedError
 from tehl.options import Domain, Options, can_be_halved, check_certifiable
 from tehl.problem import ContactProblem
 from tehl.result import ConvergenceError, Result
-from tehl.solution import NO_COST, Cost, Estimate, Hint, Status
+from tehl.solution import NO_COST, ORDERS, Cost, Estimate, Hint, Status
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.steady import solve
 from tehl.solver.verdict import LARGEST_BAR, too_coarse
 
 WIDER = 2
 """Size of the larger domain over that of the result."""
-ORDERS = (1.4, 2.8)
-"""Observed orders that count as second order."""
 OUTLET_HALF = 0.5
 """X downstream of which the pressure spike is searched, in Hertz half-widths."""
 JUDGED = ("film_central", "film_minimum", "pressure_max")
 """Values whose error bars decide whether the grid is too coarse; small temperatures do not."""
-RESIDUE = 0.25
-"""Least error bar over the extrapolated change."""
+RESIDUE, LESS_REGULAR = 0.25, 1.0
+"""Least error bar over the extrapolated change, of the film, and of what follows from it less
+regularly: three grids may show second order by chance."""
+FOLLOWING = ("traction_mid_film", "load_share", "mid_film_rise_central")
+"""Values that converge less regularly than the film."""
+GROWING = 2.0
+"""Error bar over a change that is not smaller than the one before."""
 WITHOUT_FIRST = "The first grid is left out: each bar is the full change between the other two."
 
 AnyResult = TypeVar("AnyResult")
@@ -222,7 +225,11 @@ def _with_bars(finest: Result, first: Result | None, middle: Result, wide: Resul
     runs, wider = [_quantities(run) for run in used], _quantities(wide)
     # the larger domain has the mesh of the middle grid: their difference is due to the domain
     uncertainty = {
-        name: estimate(tuple(run[name] for run in runs), domain=abs(wider[name] - runs[-2][name]))
+        name: estimate(
+            tuple(run[name] for run in runs),
+            domain=abs(wider[name] - runs[-2][name]),
+            residue=LESS_REGULAR if name in FOLLOWING else RESIDUE,
+        )
         for name in wider
     }
     highest = uncertainty["pressure_max"]
@@ -272,13 +279,29 @@ def with_growing_spike(highest: Estimate, middle: float, finest: float) -> Estim
     return replace(highest, discretisation=bar, uncertainty=math.hypot(bar, highest.domain))
 
 
-def estimate(values: tuple[float, ...], domain: float) -> Estimate:
+def _without_order(first: float, last: float) -> float:
+    """Return the error bar of a value whose two last changes do not show second order.
+
+    Of lower order, the change before covers all further ones from order 0.7 on; changes that grow
+    or alternate may go on so, and a last change much smaller than the one before is chance.
+    """
+    alternates, first, last = first * last < 0.0, abs(first), abs(last)
+    if first == 0.0:  # of two grids
+        return last
+    if alternates or last >= first:
+        return GROWING * max(first, last) if last >= first else max(last, 0.25 * first)
+    is_faster = last < first / 2.0 ** ORDERS[1]
+    return max(last, 0.25 * first) if is_faster else first
+
+
+def estimate(values: tuple[float, ...], domain: float, residue: float = RESIDUE) -> Estimate:
     """Return the Richardson extrapolation of two or three grids with its error bar.
 
     If the grids show second order, the extrapolated value is h_3 + (h_3 - h_2)/3, and the bar its
-    difference to that with the observed order, at least a quarter of (h_3 - h_2)/3. If not, the
-    value is h_3 and the bar |h_3 - h_2|. ``values`` are h_1, h_2, h_3 or h_2, h_3 on grids halved
-    each time, and ``domain`` is the change by the larger domain.
+    difference to that with the observed order, at least ``residue`` of (h_3 - h_2)/3. If not, the
+    value is h_3, and the bar that of `_without_order`; of two grids |h_3 - h_2|. ``values`` are
+    h_1, h_2, h_3 or h_2, h_3 on grids halved each time, and ``domain`` is the change by the larger
+    domain.
     """
     last = values[-1] - values[-2]
     first = values[1] - values[0] if len(values) == 3 else 0.0
@@ -288,9 +311,9 @@ def estimate(values: tuple[float, ...], domain: float) -> Estimate:
     elif order is not None and ORDERS[0] <= order <= ORDERS[1]:
         value = values[-1] + last / 3.0
         observed = values[-1] + last / (2.0**order - 1.0)
-        bar = max(abs(observed - value), RESIDUE * abs(last) / 3.0)
+        bar = max(abs(observed - value), residue * abs(last) / 3.0)
     else:
-        value, bar = values[-1], abs(last)
+        value, bar = values[-1], _without_order(first, last)
     return Estimate(
         value=value,
         uncertainty=math.hypot(bar, domain),

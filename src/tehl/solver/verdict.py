@@ -25,7 +25,7 @@ from tehl.solver.diagnosis import (
 from tehl.solver.film_solver import FilmSolver
 from tehl.solver.film_summary import film_summary
 from tehl.solver.level import Level
-from tehl.solver.outputs import heat_balance
+from tehl.solver.outputs import asperity_balance, contact_balance, heat_balance
 from tehl.starvation import is_starved
 from tehl.units import percentage
 
@@ -50,6 +50,8 @@ STARVED = 0.9
 """Film over fully flooded film below which an edge is too close."""
 LARGEST_COOLING = 5.0
 """Largest temperature of a film below that of all that enters it and expands adiabatically [K]."""
+LARGEST_MISSING_OIL = 0.05
+"""Largest oil made or lost in the film, over the oil that enters: the film errs about as much."""
 LARGEST_MISSING_HEAT = 0.3
 """Largest error of the heat balance over the heat that is turned over. In pure rolling, with little
 heat, the backflow in the inlet stores some for many sweeps."""
@@ -73,7 +75,7 @@ def verdict(run: FilmSolver, *, reached: bool) -> Status:
     # a grid too coarse explains cycles that do not converge
     if found.converged and not reached:
         return not_reached(run)
-    for judge in (_load_status, _heat_status, _domain_status, _error_status):
+    for judge in (_load_status, _oil_status, _heat_status, _domain_status, _error_status):
         if found.converged and not (status := judge(run)).converged:
             return status
     return found
@@ -272,6 +274,28 @@ def _load_status(run: FilmSolver) -> Status:
     """Judge whether the stored pressure carries the load."""
     error = run.finest.load_error()
     return not_reached(run) if abs(error) > LARGEST_LOAD_ERROR else CONVERGED
+
+
+def _oil_status(run: FilmSolver) -> Status:
+    """Judge whether a film that shares its load conserves oil: its flow follows from what touches.
+
+    A film that carries all converges by its residual.
+    """
+    level = run.finest
+    if level.equations.asperities is not None:
+        missing = asperity_balance(level)
+    elif level.equations.contact_film is not None:
+        missing = contact_balance(level)
+    else:
+        return CONVERGED
+    if missing <= LARGEST_MISSING_OIL:
+        return CONVERGED
+    return _failed(
+        "oil_not_balanced",
+        f"The oil of the film does not balance on {level.grid.nx} x {level.grid.ny} nodes: "
+        f"{percentage(missing)} of what enters is made or lost on the way.",
+        grid_hint(level.grid.points, run.hierarchy.scaled),
+    )
 
 
 def _error_status(run: FilmSolver) -> Status:
