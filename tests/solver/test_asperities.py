@@ -21,6 +21,7 @@ from tehl.operators.line_source import line_rise
 from tehl.operators.transient_film import Rubbing
 from tehl.options import Options
 from tehl.plots import asperity_map, pictures_of
+from tehl.post.heat import work_error
 from tehl.problem import ContactProblem
 from tehl.report.page import report_text
 from tehl.scaling import ScaledProblem, scales
@@ -404,6 +405,9 @@ def test_asperities_that_rub_heat_the_surfaces():
     assert flux * cell == pytest.approx(power, rel=0.01)
     first, second = (rise.max() for rise in state.solids.rises)
     assert first == pytest.approx(second, rel=0.1)  # both become as warm
+    for one in found:  # the flow that asperities narrow takes less work
+        assert abs(one.heat.balance.error) < 0.01
+        assert abs(work_error(one)) < 0.02
     for rise, surface in ((first, "surface_1_rise_max"), (second, "surface_2_rise_max")):
         more = getattr(warm.temperature, surface) - getattr(cold.temperature, surface)
         assert more == pytest.approx(rise, rel=0.5)

@@ -5,6 +5,7 @@ from functools import partial
 from tehl.cli.reference_runs import Comparisons
 from tehl.io.summary import estimates
 from tehl.post.film import no_film
+from tehl.post.heat import work_error
 from tehl.post.traction import LARGEST_CREDIBLE
 from tehl.report.readable import UNTITLED, length_unit
 from tehl.report.rendering import render
@@ -36,6 +37,7 @@ def as_text(result: Result | TransientResult, compared: Comparisons | None = Non
         result=result,
         rough=compared.rough_film or start.roughness,
         title=start.problem.title or UNTITLED,
+        work_error=work_error(start),
     ).rstrip()
 
 

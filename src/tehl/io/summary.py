@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import TypeAdapter
 
 from tehl.fields import FilmHeat
-from tehl.post.heat import Temperature
+from tehl.post.heat import Temperature, work_error
 from tehl.post.load_sharing import LoadSharing
 from tehl.post.roughness import RoughFilm
 from tehl.post.starvation import Starvation
@@ -327,7 +327,8 @@ def _convergence(result: Result) -> Block:
     finest = [report for report in history if report.points == history[-1].points]
     last = _picked(finest[-1], *names) if finest else dict.fromkeys(names)
     balance = None if result.heat is None else result.heat.balance.error
-    return {"cycles": len(finest), **last, "heat_balance_error": balance}
+    balances = {"heat_balance_error": balance, "work_balance_error": work_error(result)}
+    return {"cycles": len(finest), **last, **balances}
 
 
 # ---- transient results

@@ -86,7 +86,13 @@ class FilmState:
         first, second = (surface.bulk[:, rows] for surface in self.surfaces)
         return first, second
 
-    def set_film(self, pressure: Array, film: Array, floor: float = 0.0) -> None:
+    def set_film(
+        self,
+        pressure: Array,
+        film: Array,
+        floor: float = 0.0,
+        conducted: tuple[Array, Array] | None = None,
+    ) -> None:
         """Set pressure and film, and evaluate the fields that depend on them only.
 
         Parameters
@@ -95,11 +101,18 @@ class FilmState:
             Dimensionless.
         floor : float
             Least film thickness.
+        conducted : (array, array) or None
+            Conductance along x and y over that of a smooth gap of the same film, where asperities
+            narrow it [-]. The slopes of the pressure count by its root: the flow then generates as
+            much heat as it takes work.
         """
         grid, fields, scales = self.grid, self.fields, self.film.scaled.scales
         rows = slice(0, pressure.shape[0])
         fields.p[:, rows], fields.h[:, rows] = pressure.T, np.maximum(film.T, floor)
         slope_x, slope_y = pressure_slopes(grid, self.film.scaled.groups, pressure)
+        if conducted is not None:
+            slope_x *= np.sqrt(conducted[0])
+            slope_y *= np.sqrt(conducted[1])
         fields.px[:, rows], fields.py[:, rows] = slope_x.T, slope_y.T
         lubricant, si = self.film.scaled.problem.lubricant, scales.hertz_pressure * fields.p
         fields.over_scale[:] = stress_unit(scales) / lubricant.shear.stress_scale(si)

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl.fields import FilmHeat
-from tehl.loaded_zone import is_inside
+from tehl.loaded_zone import is_inside, zone_part
+from tehl.post.traction import traction, under_pressure
 from tehl.solution import Solution
 from tehl.typing import Array
 
@@ -58,6 +59,35 @@ def temperature(result: Solution) -> Temperature | None:
         mid_film=mid_film,
         mean=mean,
     )
+
+
+def work_error(result: Solution) -> float | None:
+    """Return what the heat of the film lacks of the power that the surfaces transfer to it [-].
+
+    Over the larger of both. Forces and heat follow from different equations, which agree where the
+    mesh resolves the film. None for an isothermal run.
+    """
+    forces = traction(result)
+    if result.heat is None or forces is None:
+        return None
+    made = result.heat.balance.shear + result.heat.balance.compression
+    power = forces.friction_power + _pumped_in(result, result.heat)
+    return (power - made) / (max(abs(power), abs(made)) or 1.0)
+
+
+def _pumped_in(result: Solution, heat: FilmHeat) -> float:
+    """Return the work that oil under pressure does as it flows into the loaded zone [W].
+
+    That is the integral of q grad p around it, with ``q = u_m h - h^3/(12 eta) grad p`` of oil
+    that is hardly compressed.
+    """
+    x, y, film, pressure = result.x, result.y, result.film_thickness, result.pressure
+    outside = under_pressure(result) * (1.0 - zone_part(result.scaled.x, result.scaled.y))
+    along, across = np.gradient(pressure, x, axis=1), np.gradient(pressure, y, axis=0)
+    eta = result.problem.lubricant.viscosity.viscosity(pressure, mean_temperature(heat))
+    carried = result.problem.motion.entrainment_speed * film * along
+    spent = film**3 / (12.0 * eta) * (along**2 + across**2)
+    return float((outside * (carried - spent)).sum())
 
 
 def mean_temperature(heat: FilmHeat) -> Array:

@@ -13,6 +13,7 @@ from tehl.io.summary import estimates
 from tehl.io.tables import DEFINITIONS
 from tehl.plots import Pictures, pictures_of
 from tehl.post.film import no_film
+from tehl.post.heat import work_error
 from tehl.post.micro_film import RoughnessEffect
 from tehl.post.roughness import rough_film
 from tehl.post.thermal_effect import ThermalEffect
@@ -96,6 +97,7 @@ def report_text(
         "longest": LONGEST,
         "rough": rough_film(result, smooth),
         "roughness_effect": roughness,
+        "work_error": work_error(result),
     }
     return render("steady.html", **content)
 

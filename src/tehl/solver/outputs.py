@@ -54,7 +54,9 @@ def film_shear(state: FilmState) -> FilmShear:
     """Return the shear stress of a heated or shear-thinning film."""
     grid, sliding = state.grid, state.view("tau_x")
     unit = stress_unit(state.film.scaled.scales)
-    rolling = 0.5 * state.model.terms.poiseuille * state.view("h") * state.view("px")
+    # the force on the gap, whatever asperities leave of its flow
+    slope_x, _ = pressure_slopes(grid, state.film.scaled.groups, state.view("p").T)
+    rolling = 0.5 * state.model.terms.poiseuille * state.view("h") * slope_x.T
     return FilmShear(
         surface_1=_unfold(grid, unit * (sliding - rolling)),
         mid_film=_unfold(grid, unit * sliding),

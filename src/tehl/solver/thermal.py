@@ -297,8 +297,11 @@ def damped(
 
 def _set_film(state: FilmState, level: Level) -> None:
     """Set pressure and film of a level, and the heat of its asperities."""
-    touches = level.equations.asperities is not None
-    pressure = np.maximum(level.film.p, 0.0) if touches else level.film.p
-    state.set_film(pressure, level.film.h, level.equations.floor)
-    if touches:
-        state.rub(level.film.asperity)
+    film, floor = level.film, level.equations.floor
+    if level.equations.asperities is None:
+        state.set_film(film.p, film.h, floor)
+        return
+    along = (film.channel / np.maximum(film.h, floor)) ** 3
+    across = along * film.across if film.across.size else along
+    state.set_film(np.maximum(film.p, 0.0), film.h, floor, (along, across))
+    state.rub(film.asperity)
