@@ -79,7 +79,8 @@ class Options(Table):
     """Pressure on the edges of the domain: that of the far field, or zero as in much of the
     literature; ``"auto"`` takes the far field unless ``domain`` is stated."""
     deformation: Literal["auto", "mlmi", "fft", "lines", "direct"] = "auto"
-    """Method for the elastic deflection; ``"auto"`` takes the cheapest at equal accuracy."""
+    """Method for the elastic deflection; ``"auto"`` takes the cheapest, of those that are
+    exact to rounding if ``accuracy = "tight"``."""
     cycle: Literal["V", "W", "F"] = "V"
     """Multigrid cycle."""
     pre_sweeps: Sweeps = 2

@@ -164,3 +164,19 @@ def test_auto_does_not_take_the_multilevel_sum_on_long_cells():
     wide = contact_groups(100.0)
     assert isinstance(choose("auto", grid_of(257, 257, mirror=True), wide), FftDeformation)
     assert isinstance(choose("auto", grid_of(65, 257, mirror=True), wide), LineDeformation)
+
+
+def test_a_tight_film_is_deflected_to_rounding_under_a_narrow_peak():
+    grid = grid_of(257, 257, mirror=True)
+    x, y = np.meshgrid(grid.x, grid.y)
+    pressure = np.exp(-((x**2 + y**2) / (1.5 * grid.dx) ** 2))
+    tight, usual = (choose("auto", grid, contact_groups(), exact=exact) for exact in (True, False))
+    reference = deflection("lines", grid, pressure)
+    errors = []
+    for method in (tight, usual):
+        out = np.zeros(grid.shape)
+        method.deflect(pressure, out)
+        errors.append(np.abs(out - reference).max() / reference.max())
+    assert errors[0] < 1e-12
+    assert isinstance(usual, MultilevelDeformation)
+    assert errors[1] > 1e-5

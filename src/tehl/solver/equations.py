@@ -92,7 +92,9 @@ class Equations:
             flow=flow,
             stencil=steady_stencil(grid, groups, options.wedge_order, conserves=conserves),
             influence=influence_of(grid, groups),
-            deformation=choose(options.deformation, grid, groups),
+            deformation=choose(
+                options.deformation, grid, groups, exact=options.accuracy == "tight"
+            ),
             load=Load(grid),
             target=load * TARGET,
             gap=gap(grid, groups),
