@@ -9,7 +9,7 @@ from typing import Annotated
 from pydantic import Field
 
 from tehl.typing import Array, BoolArray
-from tehl.units import Length, Quantity, Table
+from tehl.units import BoundaryFilm, Quantity, Table
 
 Friction = Annotated[float, Quantity("a plain number", "-", "0.1", "non-negative")]
 
@@ -22,7 +22,7 @@ MARGIN = 0.05
 class ContactFilm(Table):
     """A film that no pressure removes; the surfaces touch where it is all that is left."""
 
-    thickness: Length
+    thickness: BoundaryFilm
     """Least film thickness [m]."""
     friction: Annotated[Friction, Field(le=2.0)] = 0.1
     """Friction coefficient where they touch [-]."""

@@ -15,8 +15,8 @@ LARGEST_FILE = 1_000_000
 """Characters of a profile that are read."""
 
 MOST_PASSES = 100_000
-LARGEST_RATIO = 1e3
-"""Largest supply over what the flooded contact passes on."""
+LEAST_RATIO, LARGEST_RATIO = 1e-3, 1e3
+"""Least and largest supply over what the flooded contact passes on."""
 OilRatio = Annotated[float, Quantity("a plain number", "-", "0.5")]
 
 
@@ -36,7 +36,7 @@ class Supply(Table):
     ] = None
     """Places y [m] and layers there [m], linear between; or the name of a CSV file with both in two
     columns, in metres or with their units in its header: ``y [mm], layer [um]``."""
-    ratio: Annotated[OilRatio, Field(le=LARGEST_RATIO)] | None = None
+    ratio: Annotated[OilRatio, Field(ge=LEAST_RATIO, le=LARGEST_RATIO)] | None = None
     """Oil that enters, over what the fully flooded contact passes on at its centre [-]."""
     passes: Annotated[int, Field(ge=2, le=MOST_PASSES)] | None = None
     """Times that the same surfaces pass the contact: the oil that leaves it comes back."""

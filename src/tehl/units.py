@@ -166,6 +166,8 @@ class Quantity:
     """Which values are possible."""
     flat: bool = False
     """Whether infinity is allowed (radius of a flat)."""
+    most: float = math.inf
+    """Value that no such quantity exceeds [SI]: a larger bare number is in another unit."""
 
     @property
     def dimension(self) -> Dimension:
@@ -184,6 +186,8 @@ class Quantity:
             raise ValueError(f"is not a number; {self._expected}")
         if abs(value) > 1e300:  # so that huge integers of a case file do not overflow
             return self._check(math.inf if value > 0 else -math.inf)
+        if value > self.most:
+            raise ValueError(f"is in {self.unit} as a bare number; {self._expected}")
         return self._check(float(value))
 
     @property
@@ -311,6 +315,7 @@ Time = Annotated[float, Quantity("a time", "s", '"2 ms"')]
 Duration = Annotated[float, Quantity("a time", "s", '"10 min"')]
 Instant = Annotated[float, Quantity("a time", "s", '"2 ms"', "non-negative")]
 Length = Annotated[float, Quantity("a length", "m", '"20 mm"')]
+BoundaryFilm = Annotated[float, Quantity("a length", "m", '"5 nm"')]
 Height = Annotated[float, Quantity("a length", "m", '"0.05 um"', "non-negative")]
 Place = Annotated[float, Quantity("a length", "m", '"0.2 mm"', "any")]
 Radius = Annotated[float, Quantity("a radius", "m", '"20 mm"', "any", flat=True)]
@@ -321,9 +326,11 @@ NonNegativeStress = Annotated[float, Quantity("a shear stress", "Pa", '"5 MPa"',
 Force = Annotated[float, Quantity("a force", "N", '"80 N"')]
 Speed = Annotated[float, Quantity("a speed", "m/s", '"1.5 m/s"')]
 Viscosity = Annotated[float, Quantity("a viscosity", "Pa s", '"0.04 Pa s"')]
-KinematicViscosity = Annotated[float, Quantity("a kinematic viscosity", "m^2/s", '"68 mm^2/s"')]
+KinematicViscosity = Annotated[
+    float, Quantity("a kinematic viscosity", "m^2/s", '"68 mm^2/s"', most=1.0)
+]
 PressureCoefficient = Annotated[
-    float, Quantity("an inverse pressure", "1/Pa", '"22 1/GPa"', "non-negative")
+    float, Quantity("an inverse pressure", "1/Pa", '"22 1/GPa"', "non-negative", most=1e-4)
 ]
 Temperature = Annotated[float, Quantity("a temperature", "K", '"40 degC"')]
 TemperatureCoefficient = Annotated[

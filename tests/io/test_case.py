@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from tehl.errors import InputError
-from tehl.io.case import case_from_tables, read_case, read_case_and_options
+from tehl.io.case import case_from_tables, change, read_case, read_case_and_options
 from tehl.io.templates import template_text
 from tehl.options import Domain, coarsenable, coarsenings
 from tests.cases import ball_tables
@@ -50,6 +50,14 @@ MISTAKES = [
     ("contact.speed=1 m/s", "contact.speed is not a known key", "did you mean entrainment_speed"),
     ("surface_1.ra=0.1 um", "surface_1.ra is not a known key", "did you mean ra_roughness?"),
     ("surface_2.rq=0.1 um", "surface_2.rq is not a known key", "did you mean rms_roughness?"),
+    (
+        "lubricant.viscosity.alpha=22",
+        "alpha = 22",
+        "is in 1/Pa as a bare number; expected an inverse",
+    ),
+    ("surface_1.roughness='0.05 um'", "surface_1.roughness", "rms_roughness or ra_roughness"),
+    ("supply.ratio=1e-12", "supply.ratio = 1e-12", "at least 0.001"),
+    ("contact_film.thickness=few", "contact_film.thickness", 'a length such as "5 nm"'),
     ("contact.load='80'", 'contact.load = "80"', "lacks a unit"),
     ("contact.load=80 mm", "has the unit of a length (mm)", 'a force such as "80 N"'),
     ("contact.load=80 newton", "unknown unit 'newton'", '"80 N"'),
@@ -100,7 +108,7 @@ MISTAKES = [
     ("lubricant.viscosity={law='walther', nu_40='68 mPa s', nu_100=8e-6}", "nu_40", "mm^2/s"),
     ("lubricant.viscosity={law='walther', nu_40=6e-5, nu_100=8e-6}", "viscosity needs", "alpha"),
     (
-        "lubricant.viscosity={law='walther', nu_40=6, nu_100=8, z=0.6}",
+        "lubricant.viscosity={law='walther', nu_40='6 mm^2/s', nu_100='8 mm^2/s', z=0.6}",
         "viscosity has nu_40",
         "fall",
     ),
@@ -313,3 +321,18 @@ def test_a_change_of_the_nodes_or_the_error_replaces_the_other(
     path.write_text(template_text("ball-on-disc"), encoding="utf-8")
     _, options = read_case_and_options(path, [first, second])
     assert (options.points, options.error) == (points, error)
+
+
+def test_bodies_that_are_both_flat_along_y_make_a_line_contact(tmp_path):
+    text = template_text("ball-on-disc").replace(
+        'radius = "20 mm"', 'radius_x = "20 mm"\nradius_y = "inf"'
+    )
+    (tmp_path / "line.toml").write_text(text)
+    with pytest.raises(InputError, match="line contacts are not computed yet"):
+        read_case(tmp_path / "line.toml")
+
+
+def test_a_table_is_left_out_by_false():
+    tables = {"thermal": {"layers": 9}, "contact": {"load": 1.0}}
+    change(tables, "thermal=false")
+    assert tables == {"contact": {"load": 1.0}}

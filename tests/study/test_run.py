@@ -176,7 +176,8 @@ def test_a_fault_of_the_program_is_a_row_too(tmp_path, monkeypatch):
 def test_identical_cases_are_solved_once(tmp_path):
     same = [replace(cases(1)[0], name=name, labels={"way": name}) for name in "ab"]
     store, notes = Store(tmp_path), Notes()
-    assert run(same, store, monitor=notes).total == 1
+    outcome = run(same, store, monitor=notes)
+    assert (outcome.total, outcome.equal) == (1, 1)
     frame = table(same, store)
     assert list(frame["way"]) == ["a", "b"]
     assert frame["film.h_min_m"].nunique() == 1

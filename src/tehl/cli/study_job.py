@@ -292,6 +292,8 @@ def _show_outcome(outcome: Outcome, written: Written) -> None:
         f"{outcome.converged} of {outcome.total} cases converged, {outcome.reused} were finished "
         f"before; {duration(outcome.wall_seconds)}"
     )
+    if outcome.equal:
+        typer.echo(f"  {outcome.equal} further rows equal others, and are solved once")
     if outcome.uncertain:
         typer.echo(
             f"  {outcome.uncertain} of them with an uncertain minimum film: see the messages in "

@@ -200,7 +200,10 @@ def replaced_by(path: str) -> str:
 
 
 def change(tables: dict[str, Any], override: str) -> None:
-    """Apply one override ``key.path=value`` in place; raise an InputError if it is invalid."""
+    """Apply one override ``key.path=value`` in place; raise an InputError if it is invalid.
+
+    The value ``false`` leaves out a table.
+    """
     key, equals, text = (part.strip() for part in override.partition("="))
     names = key.split(".")
     if not equals or not all(names):
@@ -217,7 +220,10 @@ def change(tables: dict[str, Any], override: str) -> None:
         node = node.setdefault(name, {})
         if not isinstance(node, dict):
             raise InputError(f"invalid override {shown(override)}: {short(name)} is not a table")
-    node[names[-1]] = plain_value(text)
+    value, whole = plain_value(text), isinstance(node.get(names[-1]), dict)
+    node[names[-1]] = value
+    if value is False and whole:  # a table that is switched off
+        del node[names[-1]]
     node.pop(replaced_by(key), None)
 
 

@@ -244,6 +244,15 @@ def _not_a_table(mistake: _Mistake) -> str:
     if str(mistake.value).startswith("{"):
         quoted = '{ law = "eyring", stress = "5 MPa" }'
         return f"not a TOML table; put words and quantities in double quotes, {quoted}"
+    if (
+        mistake.path
+        and mistake.path[-1] == "roughness"
+        and isinstance(mistake.value, int | float | str)
+    ):
+        return (
+            "must be a table of heights; a number alone, for the ratio lambda, is rms_roughness "
+            "or ra_roughness"
+        )
     laws = (model for model in mistake.models[-1] if mistake.value in _tags(model))
     return "must be a table" + "".join(f" such as {_whole_table(law, {})}" for law in laws)
 

@@ -48,7 +48,7 @@ class _Estimable(Quantity):
 
 Alpha = Annotated[
     float | Literal["estimated"],
-    _Estimable("an inverse pressure", "1/Pa", '"22 1/GPa"', "non-negative"),
+    _Estimable("an inverse pressure", "1/Pa", '"22 1/GPa"', "non-negative", most=1e-4),
 ]
 """A pressure coefficient [1/Pa], or "estimated"."""
 

@@ -53,6 +53,8 @@ class Outcome:
 
     total: int
     """Different cases, by their keys."""
+    equal: int
+    """Further rows of the study that equal one of them."""
     reused: int
     """Cases that were finished before."""
     converged: int
@@ -118,6 +120,7 @@ def run(  # noqa: PLR0913 (keywords with defaults)
         If rows or fields cannot be written, or no worker starts; what is finished is kept.
     """
     start = time.perf_counter()
+    cases = list(cases)
     every = {case.key: case for case in cases}
     done = store.finished(every.values())
     if retry_failed:
@@ -136,6 +139,7 @@ def run(  # noqa: PLR0913 (keywords with defaults)
     rows = done | solved
     return Outcome(
         total=len(every),
+        equal=len(cases) - len(every),
         reused=len(done),
         converged=sum(row.converged for row in rows.values()),
         uncertain=sum(row.converged and row.hint is not None for row in rows.values()),

@@ -52,7 +52,7 @@ _BLOCKS = {
     "patches.cells",
     "starvation": "ratio degree degree_error degree_by_law flooded_film_m meniscus_m "
     "inlet_distance_m entering_m leaving_m leaving_each_m balance",
-    "convergence": "cycles residual change load_error heat_balance_error",
+    "convergence": "cycles residual change load_error heat_balance_error work_balance_error",
     "errors": "central minimum discretisation_central discretisation_minimum iteration_central "
     "iteration_minimum domain supply load_share pressure_max traction_mid_film film_rise_max "
     "mid_film_rise_central surface_1_rise_max surface_2_rise_max ripple_film ripple_pressure "
