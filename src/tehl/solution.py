@@ -282,6 +282,12 @@ class Solution:
     """Which part of the stated heights the grid carries; None when both surfaces are smooth."""
 
     @property
+    def load(self) -> float:
+        """Return the load of the film; at the start of a transient run that of t = 0 [N]."""
+        transient = self.problem.transient
+        return self.scales.load * (1.0 if transient is None else transient.load_at(0.0))
+
+    @property
     def scaled_problem(self) -> ScaledProblem:
         """The problem with its scales and dimensionless groups."""
         scaled = ScaledProblem(problem=self.problem, scales=self.scales, groups=self.groups)

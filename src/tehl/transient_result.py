@@ -126,6 +126,20 @@ class TransientResult(Saved):
     """Error bars along the history of a certified run."""
 
     @property
+    def friction(self) -> Array | None:
+        """Friction of film and solid contact together over the load at that time, positive [-].
+
+        None without asperities or a boundary film, and where the share of these is not known.
+        """
+        problem = self.start.problem
+        solid = problem.asperities or problem.contact_film
+        if solid is None or (problem.contact_film is not None and self.why_share_unknown):
+            return None
+        slides = problem.slide_roll_ratio != 0.0
+        rubbed = solid.friction * self.history.asperity_load if slides else 0.0
+        return abs(self.history.traction) + rubbed
+
+    @property
     def patch_cells(self) -> float:
         """Largest mean diameter, or width, of patches of contact in the frames [mesh widths].
 

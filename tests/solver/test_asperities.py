@@ -450,19 +450,25 @@ def test_the_rougher_surface_carries_more_if_it_is_faster():
 
 def test_a_mixed_film_stays_as_it_is_and_follows_the_load():
     tables = rough(50.0, 8.0, 0.5).model_dump(exclude_none=True)
+    tables["contact"] |= {"slide_roll_ratio": 0.02}
     found = []
-    for course in ([[0.0, 1.0], [2e-4, 1.0]], [[0.0, 1.0], [1e-4, 1.3], [2e-4, 1.3]]):
+    for course in ([[0.0, 0.7], [2e-4, 0.7]], [[0.0, 1.0], [1e-4, 1.3], [2e-4, 1.3]]):
         transient = {"duration": 2e-4, "frames": 0, "load": course}
         problem = case_from_tables(tables | {"transient": transient})[0]
         run = solve_transient(problem, Options(points=97))
         assert run.status.converged
         assert run.history.asperity_load[0] == pytest.approx(run.start.load_sharing.share, rel=0.01)
+        film, shared = abs(run.history.traction[0]), run.start.load_sharing
+        boundary = run.start.problem.asperities.friction * run.history.asperity_load[0]
+        assert run.friction[0] == pytest.approx(film + boundary)
+        assert shared.friction_boundary == pytest.approx(boundary, rel=0.01)
+        assert run.summary()["friction"]["start"] == run.friction[0]
         found.append(run.history)
     steady, pressed = found
     assert np.ptp(steady.film_minimum) < 1e-6 * steady.film_minimum[0]
     assert np.ptp(steady.asperity_load) < 1e-4 * steady.asperity_load[0]
-    assert pressed.film_minimum.min() < 0.99 * steady.film_minimum[0]
-    assert 1.3 * pressed.asperity_load[-1] > 1.1 * steady.asperity_load[0]
+    assert pressed.film_minimum.min() < 0.99 * pressed.film_minimum[0]
+    assert 1.3 * pressed.asperity_load[-1] > 1.1 * pressed.asperity_load[0]
     assert run.summary()["asperity_load"]["value"] == pytest.approx(pressed.asperity_load.max())
     assert "asperities       carry" in as_text(run)
 

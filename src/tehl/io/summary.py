@@ -352,6 +352,7 @@ def _transient(run: TransientResult) -> Block:
         "pressure": {"p_max_pa": _extreme(history.pressure_max, times, np.argmax)},
         "temperature": None if run.start.heat is None else {"film_rise_max_k": rise},
         "traction": _range(history.traction),
+        "friction": None if (friction := run.friction) is None else _range(friction),
         "asperity_load": None
         if run.start.asperities is None and run.start.problem.contact_film is None
         else _extreme(history.asperity_load, times, np.argmax),

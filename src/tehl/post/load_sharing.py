@@ -60,7 +60,7 @@ def load_sharing(result: Solution) -> LoadSharing | None:
     if found is None or law is None or result.status.kind == "diverged":
         return None
     cells = np.outer(cell_widths(result.y), cell_widths(result.x))
-    share = float((cells * found.pressure).sum()) / scales.load
+    share = float((cells * found.pressure).sum()) / result.load
     share = share if share > NOTHING else 0.0
     hertz = math.pi * scales.half_width_x * scales.half_width_y
     area, error = float((cells * found.area).sum()), None
@@ -78,7 +78,7 @@ def load_sharing(result: Solution) -> LoadSharing | None:
         separation_central=middle,
         separation_ratio=middle / float(found.rms),
         friction_boundary=law.friction * share if result.problem.slide_roll_ratio else 0.0,
-        power_boundary=law.friction * share * scales.load * abs(motion.speed_1 - motion.speed_2),
+        power_boundary=law.friction * share * result.load * abs(motion.speed_1 - motion.speed_2),
         spots=spots(result, found),
         balance=float(found.balance),
         friction_film=0.0 if forces is None else abs(forces.mid_film),

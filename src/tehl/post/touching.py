@@ -125,7 +125,7 @@ def touching(result: Solution) -> Touching | None:
     cells = np.outer(cell_widths(result.y), cell_widths(result.x))
     both = result.pressure + found.pressure
     meet = touching_nodes(result)
-    share = float((cells * both)[meet].sum()) / scales.load
+    share = float((cells * both)[meet].sum()) / result.load
     area, motion = float(cells[meet].sum()), result.problem.motion
     slides = result.problem.slide_roll_ratio != 0.0
     return Touching(
@@ -133,14 +133,14 @@ def touching(result: Solution) -> Touching | None:
         share=share,
         share_error=_error_bar(result, film, share),
         is_certified="load_share" in result.uncertainty,
-        solid_share=float((cells * found.pressure).sum()) / scales.load,
+        solid_share=float((cells * found.pressure).sum()) / result.load,
         area=area,
         area_part=area / (math.pi * scales.half_width_x * scales.half_width_y),
         contact_pressure_max=float(found.pressure.max()),
         pressure_max=float(both.max()),
         friction_boundary=film.friction * share if slides else 0.0,
         friction_film=_film_friction(result),
-        power_boundary=film.friction * share * scales.load * abs(motion.speed_1 - motion.speed_2),
+        power_boundary=film.friction * share * result.load * abs(motion.speed_1 - motion.speed_2),
         patches=_patches(result, meet, cells * both, both),
         balance=float(found.balance),
     )

@@ -84,8 +84,7 @@ def traction(result: Solution) -> Traction | None:
     shear = result.shear
     if shear is None:
         return None
-    motion, transient = result.problem.motion, result.problem.transient
-    load = result.scales.load * (1.0 if transient is None else transient.load_at(0.0))
+    motion, load = result.problem.motion, result.load
     wet = under_pressure(result)
     area = wet * zone_part(result.scaled.x, result.scaled.y)
     inside = area > 0
