@@ -9,9 +9,10 @@ from tehl.domain import chosen_domain, domain_of, planned
 from tehl.film_formulas import (
     FilmEstimate,
     Lubrication,
-    expected_film,
     film_estimates,
+    likely_film,
     lubrication,
+    lubrication_by_share,
     regime,
 )
 from tehl.grid import Grid
@@ -47,7 +48,9 @@ class Explanation:
     follows: bool
     """Whether the number of nodes follows from the error to reach."""
     central_film: float
-    """Central film to expect [m]."""
+    """Central film to expect [m], by the first formula in its range."""
+    formula: str
+    """The authors of that formula."""
     films: tuple[FilmEstimate, ...]
     """By each formula."""
     composite: float
@@ -125,8 +128,15 @@ class Explanation:
         return self.starved_part * minimum / self.composite if self.composite > 0 else None
 
     @property
+    def share(self) -> float | None:
+        """Part of the load on asperities by formula [-]; None where they are not computed."""
+        return self.shared.share if self.shared else None
+
+    @property
     def lubrication(self) -> Lubrication | None:
-        """Boundary, mixed or full film, by ``lambda_central``; None without roughness."""
+        """Boundary, mixed or full film, by ``share`` or else ``lambda_central``; None if smooth."""
+        if self.share is not None:
+            return lubrication_by_share(self.share)
         return None if self.lambda_central is None else lubrication(self.lambda_central)
 
 
@@ -137,7 +147,8 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
     follows = planned(scaled, asked.model_copy(update={"points": "auto"}))
     options = follows if asked.points == "auto" else asked
     check_supply(scaled, domain_of(scaled, options))
-    film, (ny, nx) = expected_film(scaled), options.shape
+    likely, (ny, nx) = likely_film(scaled), options.shape
+    film = likely.central_m
     wanted, domain = chosen_domain(scaled, asked.target), domain_of(scaled, options)
     grid = Grid(nx=nx, ny=ny, domain=domain, mirror=False)
     mesh = (grid.dx * scaled.scales.half_width_x, grid.dy * scaled.scales.half_width_y)
@@ -149,6 +160,7 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
         options=options,
         follows=asked.points == "auto",
         central_film=film,
+        formula=likely.formula,
         films=film_estimates(scaled.groups, scaled.scales),
         composite=problem.asperity_rms or problem.rms_roughness
         if heights is None
@@ -209,6 +221,7 @@ def as_summary(case: Explanation) -> dict[str, Any]:
         **_contact_as_summary(case),
         "regime": regime(case.scaled.groups),
         "central_film_m": case.central_film,
+        "central_film_formula": case.formula,
         "supply": None
         if problem.supply is None
         else {
