@@ -317,6 +317,7 @@ def test_lambda_takes_the_first_formula_whose_range_has_the_contact():
     radii = {"radius_x": "20 mm", "radius_y": "8 mm"}
     case = ball_tables(surface_1={"material": "steel"} | radii | rough)
     del case["contact"]["radius"]
+    case["surface_2"] = {"material": "steel", "radius": "inf"}
     slender = explain(*case_from_tables(case))
     assert slender.scaled.groups.radius_ratio > 1.0
     chosen = next(film for film in slender.films if film.formula == "Chittenden")
