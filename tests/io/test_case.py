@@ -336,3 +336,22 @@ def test_a_table_is_left_out_by_false():
     tables = {"thermal": {"layers": 9}, "contact": {"load": 1.0}}
     change(tables, "thermal=false")
     assert tables == {"contact": {"load": 1.0}}
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (
+            {"contact": 5},
+            "contact = 5: must be a table: write [contact] on a line of its own, its keys below",
+        ),
+        (
+            {"contact": {"radius": 0.01, "load": {}, "entrainment_speed": 1.0}},
+            'contact.load is a number, not a table: write load = "80 N" below [contact]',
+        ),
+    ],
+)
+def test_a_number_and_a_table_in_place_of_one_another_are_explained(change, message):
+    with pytest.raises(InputError) as caught:
+        case_from_tables(ball_tables() | change)
+    assert str(caught.value) == message

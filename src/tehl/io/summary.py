@@ -335,6 +335,7 @@ def _transient(run: TransientResult) -> Block:
             "step_s": run.time_step,
             "steps": len(times) - 1,
             "frames": len(run.frames.step),
+            "late_extremes": list(run.late_extremes),
         },
         "film": {
             "h_min_m": _extreme(history.film_minimum, times, np.argmin),

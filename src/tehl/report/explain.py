@@ -4,7 +4,7 @@ from dataclasses import asdict, dataclass
 from html import escape
 from typing import Any
 
-from tehl.cpu_time import expected_seconds
+from tehl.cpu_time import expected_seconds, seconds_range
 from tehl.domain import chosen_domain, domain_of, planned
 from tehl.film_formulas import (
     FilmEstimate,
@@ -85,6 +85,11 @@ class Explanation:
     def _repr_html_(self) -> str:
         """Return the same for notebooks."""
         return f'<pre style="font-family: monospace">{escape(as_text(self))}</pre>'
+
+    @property
+    def seconds_range(self) -> tuple[float, float]:
+        """Least and largest time of the solve to expect [s]."""
+        return seconds_range(self.scaled, self.seconds)
 
     @property
     def supply_ratio(self) -> float:
@@ -254,6 +259,7 @@ def as_summary(case: Explanation) -> dict[str, Any]:
         "expected_points": case.expected_points,
         "memory_bytes": case.memory,
         "seconds": case.seconds,
+        "seconds_range": list(case.seconds_range),
         "time": plan,
         "questions": list(case.questions),
     }

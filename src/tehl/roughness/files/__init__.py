@@ -83,7 +83,8 @@ def checked(file: str) -> Path:
     try:
         found = path.stat()
     except FileNotFoundError:
-        raise InputError("does not exist") from None
+        folder = path.resolve().parent
+        raise InputError(f"does not exist in {folder}: check roughness.file") from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise InputError(f"cannot be read: {reason.lower()}") from None
