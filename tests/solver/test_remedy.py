@@ -1,11 +1,11 @@
 """Hints are settings that were seen to converge."""
 
+import math
 import time
-from dataclasses import math
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
-import replace
 from benchmarks.random_contacts import contact
 
 from tehl.domain import planned

@@ -371,7 +371,11 @@ def example(field: FieldInfo) -> str | None:
     """Return a good value of a field, as a case file shows it; None if it has none."""
     if field.examples:
         return json.dumps(field.examples[0])
-    return next((note.example for note in field.metadata if isinstance(note, Quantity)), None)
+    inside = (
+        note for one in get_args(field.annotation) for note in getattr(one, "__metadata__", ())
+    )
+    notes = (*field.metadata, *inside)
+    return next((note.example for note in notes if isinstance(note, Quantity)), None)
 
 
 # ---- words
