@@ -163,7 +163,7 @@ def test_the_picture_has_map_histogram_and_spectrum(tmp_path, shape):
         (("{}", *STATED, "--points", "65"), "--points needs a contact"),
         (("{}", *STATED, "--half-width", "2 N"), "--half-width = '2 N': has the unit of a force"),
         (("{}", *STATED, "--half-width", "2 um", "--contact", "a"), "both state a contact"),
-        (("{}x",), "does not exist"),
+        (("{}x",), "no map"),
         (("/",), "is a folder"),
     ],
 )

@@ -92,3 +92,21 @@ def test_a_case_file_may_be_in_the_encodings_of_windows(tmp_path, encoding):
     (tmp_path / "a.toml").write_text(mark + text, encoding=encoding)
     (tmp_path / "b.toml").write_text(text, encoding="utf-8")
     assert read_case(tmp_path / "a.toml") == read_case(tmp_path / "b.toml")
+
+
+@pytest.mark.parametrize(
+    ("tables", "key"),
+    [
+        ('[surface_2.roughness]\ntype = "map"\nfile = "no.npy"', "surface_2.roughness.file"),
+        (
+            '[[surface_2.roughness]]\ntype = "wave"\namplitude = "1 nm"\nwavelength = "50 um"\n'
+            '[[surface_2.roughness]]\ntype = "map"\nfile = "no.npy"',
+            "surface_2.roughness.1.file",
+        ),
+    ],
+)
+def test_a_missing_map_is_named_with_its_key_and_folder(case, tables, key):
+    case.write_text(f"{case.read_text(encoding='utf-8')}\n{tables}\n", encoding="utf-8")
+    with pytest.raises(InputError) as caught:
+        read_case(case)
+    assert str(caught.value) == f'{case}: {key}: no map "no.npy" in {case.parent}'

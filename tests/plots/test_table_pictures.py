@@ -146,13 +146,21 @@ def test_measured_points_are_converted_to_the_units_of_the_picture(table, tmp_pa
     assert figure.axes[0].get_legend_handles_labels()[1][-2:] == ["lab", "b"]
 
 
+def test_measured_points_of_a_spreadsheet_may_have_decimal_commas(table, tmp_path):
+    path = tmp_path / "lab.csv"
+    path.write_text("load [kN];film [um];error [nm]\n0,02;0,021;1\n0,04;0,04;\n", encoding="utf-16")
+    figure = curves(table, "load", "h_min_m")
+    overlay(figure, table, "load", "h_min_m", path=path)
+    assert drawn(figure)[-1] == ([20.0, 40.0], pytest.approx([21.0, 40.0]))
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [
         ("load,film [s]\n1,2\n", r"the unit of film\.h_min_m such as m"),
         ("load\n1\n", "give two columns"),
         ("load,film\n1,thin\n", "does not hold numbers"),
-        ("", "cannot be read"),
+        ("", "give two columns"),
     ],
 )
 def test_invalid_measured_points_raise_an_input_error(table, tmp_path, text, words):

@@ -201,7 +201,7 @@ def test_code_in_a_pickle_does_not_run(tmp_path):
 def test_places_that_are_not_files_are_reported(tmp_path):
     for name, words in (
         (str(tmp_path), "is a folder"),
-        (str(tmp_path / "none.npy"), "does not exist"),
+        (str(tmp_path / "none.npy"), f'no map "none.npy" in {tmp_path}'),
         ("/dev/null", "not a regular file"),
         ("a\0b.npy", "cannot be read"),
         ("a" * 5000 + ".npy", "cannot be read"),

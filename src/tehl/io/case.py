@@ -16,6 +16,7 @@ from tehl.io.atomic import shortened
 from tehl.io.mistakes import NUMERICS, describe, short, shown
 from tehl.options import Options
 from tehl.problem import ContactProblem
+from tehl.roughness import Map, Sum
 from tehl.units import percentage
 
 if TYPE_CHECKING:
@@ -74,6 +75,7 @@ def case_from_tables(
     """
     physics = {key: value for key, value in tables.items() if key != NUMERICS}
     problem = _validated(ContactProblem, physics, prefix="", folder=folder)
+    _check_maps(problem)
     options = _validated(Options, tables.get(NUMERICS, {}), prefix=NUMERICS)
     if options.error is not None and options.points != "auto":
         raise InputError(
@@ -90,6 +92,20 @@ def _validated(
         return model.model_validate(data, context={"folder": folder})
     except ValidationError as error:
         raise InputError(describe(error, data, model, prefix)) from error
+
+
+def _check_maps(problem: ContactProblem) -> None:
+    """Raise if the file of a measured surface is missing; the message names its key."""
+    for name in ("surface_1", "surface_2"):
+        roughness = getattr(problem, name).roughness
+        parts = roughness.parts if isinstance(roughness, Sum) else (roughness,)
+        for number, part in enumerate(parts):
+            if isinstance(part, Map):
+                place = f".{number}" if isinstance(roughness, Sum) else ""
+                try:
+                    part.stamp  # noqa: B018 (raises)
+                except InputError as error:
+                    raise InputError(f"{name}.roughness{place}.file: {error}") from None
 
 
 def case_schema() -> dict[str, Any]:

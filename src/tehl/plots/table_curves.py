@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tehl.errors import InputError
+from tehl.io.lists import lines_of_file
 from tehl.plots.frame import BLUE, ORANGE, PLAIN, empty, figure_of
 from tehl.plots.table_columns import Column, certified, converged, dress, find_column, numbers
 from tehl.typing import Array
@@ -21,8 +22,6 @@ _LINES = ("-", "--", ":", "-.")
 _MARKS = ("o", "s", "^", "D", "v", "P")
 _POINTS = "x+*1"
 _MOST_CURVES = 40
-_LARGEST_OVERLAY = 10**7
-"""Bytes of a file of measured points."""
 
 
 def curves(  # noqa: PLR0913 (one call, as in other libraries of pictures)
@@ -153,6 +152,7 @@ def overlay(picture: Figure, table: "pd.DataFrame", x: str, y: str, *, path: Pat
 
     The first two columns are x and y, in SI or in the unit in brackets behind the name,
     ``film [nm]``; a column ``error`` gives bars, and a column ``name`` distinguishes series.
+    Semicolons or tabs may separate the cells, and then commas be decimal.
 
     Parameters
     ----------
@@ -191,15 +191,8 @@ def overlay(picture: Figure, table: "pd.DataFrame", x: str, y: str, *, path: Pat
 def _points(path: Path) -> "pd.DataFrame":
     import pandas as pd  # noqa: PLC0415 (0.5 s, and only for overlays)
 
-    try:
-        if path.stat().st_size > _LARGEST_OVERLAY:
-            raise InputError(f"{path} is larger than 10 MB, so not a list of measured points")
-        points = pd.read_csv(path, skipinitialspace=True)
-    except FileNotFoundError:
-        raise InputError(f"file of measured points {path} does not exist") from None
-    except (OSError, ValueError) as error:
-        reason = str(error).partition("\n")[0]
-        raise InputError(f"{path} cannot be read as measured points: {reason}") from None
+    lines = lines_of_file(path, "file of measured points")
+    points = pd.DataFrame(lines[1:], columns=lines[0] if lines else None).replace("", "nan")
     if points.shape[1] < 2 or not len(points):
         raise InputError(f"{path} has no measured points: give two columns, x and y, with names")
     return points

@@ -5,7 +5,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import lru_cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -43,15 +42,9 @@ def _naming(surface: MapSettings) -> Iterator[None]:
         raise InputError(f"map {shown(surface.file)} {error}") from None
 
 
-def found_file(surface: MapSettings) -> Path:
-    """Return the path of the file of a map; the error of a missing one names it."""
-    with _naming(surface):
-        return checked(surface.file)
-
-
 def raw_map(surface: MapSettings) -> RawMap:
     """Return the content of the file of a map; errors name the file."""
-    path = found_file(surface)
+    path = checked(surface.file)
     with _naming(surface):
         return read(path, layout=surface.layout, variable=surface.variable, form=surface.format)
 
@@ -68,7 +61,7 @@ def tile_of(surface: MapSettings) -> Tile:
 
 def stamp_of(surface: MapSettings) -> tuple[int, int]:
     """Return what changes when a file does: its size and when it was written."""
-    state = found_file(surface).stat()
+    state = checked(surface.file).stat()
     return state.st_size, state.st_mtime_ns
 
 

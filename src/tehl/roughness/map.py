@@ -50,9 +50,9 @@ class Map(MapSettings):
     @property
     def fingerprint(self) -> str:
         """Return the SHA-256 sum of the file."""
-        from tehl.roughness.loading import found_file  # noqa: PLC0415 (a case needs no scipy)
+        from tehl.roughness.files import checked  # noqa: PLC0415 (a case needs no scipy)
 
-        with found_file(self).open("rb") as file:
+        with checked(self.file).open("rb") as file:
             return hashlib.file_digest(file, "sha256").hexdigest()
 
     @property

@@ -15,7 +15,7 @@ from pydantic import Field, model_validator
 
 from tehl.errors import InputError
 from tehl.io.atomic import shortened
-from tehl.studies.lists import heading, lines_of_file, value_of, values_of_file
+from tehl.io.lists import heading, lines_of_file, value_of, values_of_file
 from tehl.studies.tables import is_reserved
 from tehl.typing import Array
 from tehl.units import Table

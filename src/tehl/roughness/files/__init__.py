@@ -13,7 +13,7 @@ from tehl.roughness.files.libraries import (
     read_npy,
     read_npz,
 )
-from tehl.roughness.files.raw import LARGEST_FILE, RawMap
+from tehl.roughness.files.raw import LARGEST_FILE, RawMap, shown
 from tehl.roughness.files.text import Layout, read_text
 from tehl.roughness.files.x3p import read_x3p
 
@@ -78,22 +78,22 @@ def _format_of(path: Path) -> str:
 
 
 def checked(file: str) -> Path:
-    """Return the path of an existing file; raise InputError, without the name, for others."""
-    path = Path(file).expanduser()
+    """Return the path of an existing file; the InputError of another one names it."""
+    path, name = Path(file).expanduser(), f"map {shown(file)}"
     try:
         found = path.stat()
     except FileNotFoundError:
-        folder = path.resolve().parent
-        raise InputError(f"does not exist in {folder}: check roughness.file") from None
+        folder = shown(path.absolute().parent)
+        raise InputError(f'no map "{shown(path.name)}" in {folder}') from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise InputError(f"cannot be read: {reason.lower()}") from None
+        raise InputError(f"{name} cannot be read: {reason.lower()}") from None
     if stat.S_ISDIR(found.st_mode):
-        raise InputError("is a folder, not a file of heights")
+        raise InputError(f"{name} is a folder, not a file of heights")
     if not stat.S_ISREG(found.st_mode):
-        raise InputError("is not a regular file")
+        raise InputError(f"{name} is not a regular file")
     if found.st_size == 0:
-        raise InputError("is empty")
+        raise InputError(f"{name} is empty")
     if found.st_size > LARGEST_FILE:
-        raise InputError(f"is larger than {LARGEST_FILE // 10**9} GB: crop the map before")
+        raise InputError(f"{name} is larger than {LARGEST_FILE // 10**9} GB: crop the map before")
     return path

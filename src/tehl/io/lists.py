@@ -1,4 +1,4 @@
-"""Lists of cases and of values in CSV files, as spreadsheets save them."""
+"""Lists of cases, of values and of measured points in CSV files, as spreadsheets save them."""
 
 import csv
 import re
@@ -32,14 +32,15 @@ def values_of_file(path: Path, column: str) -> list[Any]:
     return [value_of(line[place], headings[place][1]) for line in lines[1:] if line[place]]
 
 
-def lines_of_file(path: Path) -> list[list[str]]:
-    """Return the cells of the lines of a CSV file that are not empty, all of the same number."""
+def lines_of_file(path: Path, what: str = "list of cases") -> list[list[str]]:
+    """Return the cells of the lines of a CSV file that are not empty, all of the same number.
+
+    Messages call the file ``what``.
+    """
     shown = shortened(path)
     try:
         if path.stat().st_size > _LARGEST:
-            raise InputError(
-                f"{shown} is larger than {_LARGEST // 10**6} MB, so not a list of cases"
-            )
+            raise InputError(f"{shown} is larger than {_LARGEST // 10**6} MB, so not a {what}")
         with path.open("rb") as start:
             encoding = encoding_of(start.read(2))
         with path.open(encoding=encoding, newline="") as file:
@@ -49,9 +50,9 @@ def lines_of_file(path: Path) -> list[list[str]]:
             if reader.dialect.delimiter != ",":
                 lines = [(number, [_pointed(cell) for cell in line]) for number, line in lines]
     except FileNotFoundError:
-        raise InputError(f"list of cases {shown} does not exist") from None
+        raise InputError(f"{what} {shown} does not exist") from None
     except (OSError, UnicodeError, csv.Error) as error:
-        raise InputError(f"{shown} cannot be read as a list of cases: {error}") from None
+        raise InputError(f"{shown} cannot be read as a {what}: {error}") from None
     lines = [(number, line) for number, line in lines if any(line)]
     for number, line in lines:
         if len(line) != len(lines[0][1]):
