@@ -166,7 +166,7 @@ def _unknown_key(mistake: _Mistake) -> str:
         known.append(NUMERICS)
     near = difflib.get_close_matches(word, known, n=1, cutoff=0.55)
     of_case = mistake.models[0][0] in (ContactProblem, Options)
-    paths = (*_key_paths(ContactProblem), *_key_paths(Options, f"{NUMERICS}."))
+    paths = (*key_paths(ContactProblem), *key_paths(Options, f"{NUMERICS}."))
     elsewhere = [path for path in paths if of_case and path.split(".")[-1] == word]
     # of several tables with this key, which is meant is not known
     elsewhere = elsewhere if len(elsewhere) == 1 else []
@@ -381,12 +381,12 @@ def example(field: FieldInfo) -> str | None:
 # ---- words
 
 
-def _key_paths(model: Model, prefix: str = "") -> Iterator[str]:
+def key_paths(model: Model, prefix: str = "") -> Iterator[str]:
     """Yield the paths of all keys of a model, those of tables in it included."""
     for key, field in model.model_fields.items():
         yield f"{prefix}{key}"
         for deeper in _models(field.annotation):
-            yield from _key_paths(deeper, f"{prefix}{key}.")
+            yield from key_paths(deeper, f"{prefix}{key}.")
 
 
 def _suggest(word: str, known: list[str]) -> str:
