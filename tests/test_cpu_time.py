@@ -2,13 +2,14 @@
 
 import pytest
 
-from tehl.cpu_time import expected_cycles, expected_seconds
+from tehl.cpu_time import expected_cycles, expected_seconds, seconds_range
 from tehl.options import Options
 from tehl.problem import ContactProblem
 from tehl.result import Result
 from tehl.scaling import ScaledProblem
 from tehl.solver.steady import solve
 from tests.cases import ball_tables
+from tests.reference import heated_contact, moes_contact
 
 WAVE = {"material": "steel", "roughness": {"type": "wave", "amplitude": "20 nm"}}
 RANDOM = {"type": "random", "rms": "20 nm", "correlation_length": "100 um"}
@@ -72,3 +73,11 @@ def test_an_error_to_reach_adds_to_the_time_of_its_grid():
     finest = expected_cycles(scaled, Options())[-1][0]
     stated = Options(points=finest.points)
     assert expected_seconds(scaled, Options()) > expected_seconds(scaled, stated)
+
+
+def test_hard_contacts_have_a_wider_range_of_time():
+    easy = ScaledProblem.of(moes_contact(100.0, 8.0))
+    heavy = ScaledProblem.of(moes_contact(4000.0, 8.0))
+    heated = ScaledProblem.of(heated_contact(0.5))
+    assert seconds_range(easy, 2.0) == (1.0, 6.0)
+    assert seconds_range(heavy, 2.0) == seconds_range(heated, 2.0) == (1.0, 20.0)

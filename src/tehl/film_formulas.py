@@ -29,6 +29,10 @@ Lubrication = Literal["boundary", "mixed", "full film"]
 FULL_FILM, BOUNDARY = 3.0, 1.0
 """Lambda from which the film separates the surfaces, and below which asperities carry the load."""
 
+LITTLE, MOSTLY = 0.01, 0.9
+"""Part of the load on asperities below which the film is full, and from which on they are said to
+carry the load: where asperities are computed, lambda is not asked."""
+
 WIDE, SLENDER = 0.7, 1.4
 """R_x/R_y below and above which the formulas for the minimum film lose accuracy.
 
@@ -180,6 +184,12 @@ def expected_film(scaled: ScaledProblem) -> float:
     return expected_central_film(scaled.groups) * scaled.scales.film_thickness
 
 
+def likely_film(scaled: ScaledProblem) -> FilmEstimate:
+    """Return the film by the first formula whose range has the contact; of [3]_ if none has it."""
+    films = film_estimates(scaled.groups, scaled.scales)
+    return next((film for film in films if film.valid), films[0])
+
+
 def regime(groups: Groups) -> Regime:
     """Return the lubrication regime.
 
@@ -201,6 +211,13 @@ def lubrication(lambda_central: float) -> Lubrication:
     if lambda_central >= FULL_FILM:
         return "full film"
     return "mixed" if lambda_central >= BOUNDARY else "boundary"
+
+
+def lubrication_by_share(share: float) -> Lubrication:
+    """Return in words how far a film separates asperities by the part of the load they carry."""
+    if share < LITTLE:
+        return "full film"
+    return "mixed" if share < MOSTLY else "boundary"
 
 
 FORMULAS = (

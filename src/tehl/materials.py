@@ -22,6 +22,8 @@ class Solid(Table):
     heat_capacity: SolidHeatCapacity | None = None
     conductivity: SolidConductivity | None = None
     """Thermal properties [kg/m^3], [J/kg/K], [W/m/K]; only needed when heat is computed."""
+    hardness: Pressure | None = None
+    """Of indentation [Pa]: summits that would carry more yield."""
     transparent: bool = False
     """Whether film thickness can be measured through it by light: interferograms are drawn."""
     name: str | None = None

@@ -139,6 +139,17 @@ class Estimate:
     values: tuple[float, ...]
     """Values on the grids, coarse to fine."""
 
+    def scaled(self, unit: float) -> "Estimate":
+        """Return the same in another unit, of which one of its own is ``unit``."""
+        return replace(
+            self,
+            value=self.value * unit,
+            uncertainty=self.uncertainty * unit,
+            discretisation=self.discretisation * unit,
+            domain=self.domain * unit,
+            values=tuple(value * unit for value in self.values),
+        )
+
     @property
     def is_second_order(self) -> bool:
         """Whether the grids show second order, so that the value is extrapolated."""
@@ -261,7 +272,8 @@ class Solution:
     provenance: Provenance
     """Computing cost and origin."""
     uncertainty: dict[str, Estimate] = field(default_factory=dict)
-    """Of a certified result: ``film_central``, ``film_minimum``, ``pressure_max`` [-]."""
+    """Of a certified result, dimensionless as the solver has them, rises in kelvin; ``certified``
+    has them in SI."""
     shear: FilmShear | None = None
     """Shear stresses; None without a valid film."""
     heat: FilmHeat | None = None
@@ -280,6 +292,17 @@ class Solution:
     """Earlier passes of the same surfaces and this one; None of a single film."""
     resolution: Resolution | None = None
     """Which part of the stated heights the grid carries; None when both surfaces are smooth."""
+
+    @property
+    def certified(self) -> dict[str, Estimate]:
+        """Values of a certified result with their error bars: films [m], pressure [Pa], rises [K].
+
+        ``film_central``, ``film_minimum``, ``pressure_max``; ``traction_mid_film``, ``load_share``,
+        ``film_rise_max`` and ``mid_film_rise_central`` where the contact has them.
+        """
+        film, pressure = self.scales.film_thickness, self.scales.hertz_pressure
+        units = {"film_central": film, "film_minimum": film, "pressure_max": pressure}
+        return {name: one.scaled(units.get(name, 1.0)) for name, one in self.uncertainty.items()}
 
     @property
     def load(self) -> float:
@@ -323,11 +346,15 @@ class Solution:
 
     @property
     def film(self) -> FilmSummary:
-        """Central and minimum film thickness, and place of the minimum [m]."""
-        scales, film = self.scales, self.film_scaled
+        """Central and minimum film thickness, and place of the minimum [m].
+
+        Those of a certified result are its extrapolated values, ``film_scaled`` those of its grid.
+        """
+        scales, film, known = self.scales, self.film_scaled, self.certified
+        certain = {name.removeprefix("film_"): one.value for name, one in known.items()}
         return FilmSummary(
-            central=film.central * scales.film_thickness,
-            minimum=film.minimum * scales.film_thickness,
+            central=certain.get("central", film.central * scales.film_thickness),
+            minimum=certain.get("minimum", film.minimum * scales.film_thickness),
             minimum_node=film.minimum_node * scales.film_thickness,
             minimum_at=(
                 film.minimum_at[0] * scales.half_width_x,

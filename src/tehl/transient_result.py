@@ -8,6 +8,10 @@ from tehl.saved import Saved
 from tehl.solution import Cost, Estimate, Provenance, Status
 from tehl.typing import Array, IntArray, SingleArray
 
+LATE, NOTICED, FEW_STEPS = 0.1, 0.01, 20
+"""Last part of a run in which an extreme is late, by which part of it it must then have grown, and
+fewest steps that show it."""
+
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class StepReport:
@@ -138,6 +142,26 @@ class TransientResult(Saved):
         slides = problem.slide_roll_ratio != 0.0
         rubbed = solid.friction * self.history.asperity_load if slides else 0.0
         return abs(self.history.traction) + rubbed
+
+    @property
+    def late_extremes(self) -> tuple[str, ...]:
+        """Extremes that were reached at the end of a run whose duration is not stated.
+
+        They may grow in a longer one: a periodic or mirrored map goes on to pass the contact.
+        """
+        transient, time = self.start.problem.transient, self.history.time
+        if transient is None or transient.duration is not None or time.size < FEW_STEPS:
+            return ()
+        early = time <= (1.0 - LATE) * time[-1]
+        extremes = (
+            ("minimum film", -self.history.film_minimum),
+            ("largest pressure", self.history.pressure_max),
+        )
+        return tuple(
+            name
+            for name, values in extremes
+            if values.max() - values[early].max() > NOTICED * abs(values.max())
+        )
 
     @property
     def patch_cells(self) -> float:

@@ -397,3 +397,22 @@ def test_a_missing_map_of_a_patch_is_named_with_its_key(tmp_path):
     patch = {"model": "surface", "map": {"file": "no.npy"}}
     with pytest.raises(InputError, match=r"^asperities\.map\.file: no map \"no\.npy\" in /"):
         case_from_tables(ball_tables() | {"asperities": patch}, tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (
+            {"contact": 5},
+            "contact = 5: must be a table: write [contact] on a line of its own, its keys below",
+        ),
+        (
+            {"contact": {"radius": 0.01, "load": {}, "entrainment_speed": 1.0}},
+            'contact.load is a number, not a table: write load = "80 N" below [contact]',
+        ),
+    ],
+)
+def test_a_number_and_a_table_in_place_of_one_another_are_explained(change, message):
+    with pytest.raises(InputError) as caught:
+        case_from_tables(ball_tables() | change)
+    assert str(caught.value) == message

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tehl.cli.text import as_text
 from tehl.errors import InputError
 from tehl.post.transient import envelope, largest_change, moving_profiles, passing_features
 from tehl.post.waves import passing_wave
@@ -148,3 +149,14 @@ def test_nabla_takes_the_shorter_wavelength(degrees):
     shorter = LENGTH * min(1.0, 1.0 / math.tan(max(angle, 1e-9)))
     expected = shorter / start.scales.half_width_x * math.sqrt(start.groups.M / start.groups.L)
     assert passing_wave(run, 1).nabla == pytest.approx(expected)
+
+
+def test_extremes_at_the_end_of_a_run_of_unstated_duration_are_named():
+    run = make_transient()
+    assert run.late_extremes == ()
+    film = run.history.film_minimum.copy()
+    film[-1] = 0.5 * film.min()
+    late = replace(run, history=replace(run.history, film_minimum=film))
+    assert late.late_extremes == ("minimum film",)
+    assert "minimum film still changed at the end of the run: state a longer" in as_text(late)
+    assert late.summary()["time"]["late_extremes"] == ["minimum film"]

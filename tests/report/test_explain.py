@@ -310,3 +310,29 @@ def test_a_groove_without_its_minus_is_reported(groove: str, is_asked: bool):
     asked = explain(*case_from_tables(tables)).questions
     words = "surface_2.radius_y = 4.95 mm: the surface is convex across the rolling direction"
     assert any(words in question for question in asked) == is_asked
+
+
+def test_lambda_takes_the_first_formula_whose_range_has_the_contact():
+    rough = {"rms_roughness": "0.1 um"}
+    radii = {"radius_x": "20 mm", "radius_y": "8 mm"}
+    case = ball_tables(surface_1={"material": "steel"} | radii | rough)
+    del case["contact"]["radius"]
+    case["surface_2"] = {"material": "steel", "radius": "inf"}
+    slender = explain(*case_from_tables(case))
+    assert slender.scaled.groups.radius_ratio > 1.0
+    chosen = next(film for film in slender.films if film.formula == "Chittenden")
+    assert slender.formula == "Chittenden"
+    assert slender.central_film == chosen.central_m
+    assert slender.lambda_central == pytest.approx(chosen.central_m / slender.composite)
+    assert "with the film of Chittenden" in as_text(slender)
+    assert as_summary(slender)["central_film_formula"] == "Chittenden"
+
+
+def test_sharp_summits_are_not_plausible():
+    def asked(radius):
+        table = {"model": "greenwood-tripp", "rms": "0.1 um", "summit_radius": radius}
+        case = explained("asperities", table | {"summit_density": "5e9 1/m^2"})
+        return [text for text in case.questions if "asperities.rms / summit_radius" in text]
+
+    assert asked("50 um") == []
+    assert "summits this sharp would yield" in asked("5 um")[0]

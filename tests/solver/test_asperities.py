@@ -24,6 +24,7 @@ from tehl.plots import asperity_map, pictures_of
 from tehl.post.heat import work_error
 from tehl.problem import ContactProblem
 from tehl.report.page import report_text
+from tehl.result import ConvergenceError
 from tehl.scaling import ScaledProblem, scales
 from tehl.solution import Status
 from tehl.solver import solve, solve_transient
@@ -567,3 +568,56 @@ def test_a_diverged_result_offers_no_map_of_asperities(mixed):
     lost = replace(mixed, status=Status(kind="diverged", cause="diverged"))
     assert "asperities" in pictures_of(mixed)
     assert "asperities" not in pictures_of(lost)
+
+
+def softer(result, hardness):
+    """Return a result whose first solid has a hardness [Pa]."""
+    case = result.problem
+    solid = case.surface_1.material.model_copy(update={"hardness": hardness})
+    surface = case.surface_1.model_copy(update={"material": solid})
+    return replace(result, problem=case.model_copy(update={"surface_1": surface}))
+
+
+def test_summits_yield_at_the_hardness_of_the_softer_solid(mixed):
+    elastic = mixed.load_sharing
+    assert elastic.spots.pressure == elastic.spots.elastic_pressure
+    hardness = 0.4 * elastic.spots.pressure
+    pressed = softer(mixed, hardness)
+    shared, found = pressed.load_sharing, mixed.asperities
+    assert shared.spots.pressure == pytest.approx(hardness)
+    assert shared.spots.elastic_pressure == elastic.spots.pressure
+    assert shared.spots.radius == pytest.approx(elastic.spots.radius * 0.4**-0.5)
+    cell = (mixed.x[1] - mixed.x[0]) * (mixed.y[1] - mixed.y[0])
+    assert shared.area >= found.pressure.sum() * cell / hardness * (1 - 1e-6)
+    assert shared.share == elastic.share
+    assert "their hardness (" in as_text(pressed)
+    assert "the hardness, where most is carried" in report_text(pressed, dpi=30)
+
+
+def test_the_regime_follows_the_share_of_the_load_where_asperities_are_computed(mixed):
+    rough_numbers = mixed.roughness
+    assert rough_numbers.share == mixed.load_sharing.share
+    assert rough_numbers.lubrication == "mixed"
+    thin = replace(rough_numbers, lambda_central=0.5)
+    assert thin.lubrication == "mixed"
+    assert replace(thin, share=None).lubrication == "boundary"
+    assert replace(thin, share=0.005).lubrication == "full film"
+    assert replace(thin, share=0.95).lubrication == "boundary"
+    assert f"asperities carry {percent(rough_numbers.share)} of the load" in as_text(mixed)
+    page = report_text(mixed, dpi=30)
+    assert "Mixed lubrication" in page
+    assert f"asperities carry {percent(rough_numbers.share)} of the load" in page
+
+
+def percent(part):
+    return f"{float(f'{100 * part:.3g}'):g} %"
+
+
+def test_asperities_whose_oil_does_not_balance_fail_by_name(monkeypatch):
+    problem, options = rough(100.0, 8.0, 1.0), Options(points=129)
+    monkeypatch.setattr("tehl.solver.verdict.asperity_balance", lambda _: 0.2)
+    with pytest.raises(ConvergenceError) as failure:
+        solve(problem, options)
+    status = failure.value.result.status
+    assert status.cause == "oil_not_balanced"
+    assert "20 % of what enters is made or lost" in status.message

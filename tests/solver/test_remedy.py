@@ -1,5 +1,7 @@
 """Hints are settings that were seen to converge."""
 
+import math
+import time
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -31,7 +33,7 @@ def test_the_smallest_error_that_converges_is_named():
         return solve(problem, options)
 
     texts: list[str] = []
-    hint = working_hint(failed, only_coarse, SimpleNamespace(message=texts.append))
+    hint = working_hint(failed, only_coarse, SimpleNamespace(message=texts.append), math.inf)
     assert hint.settings == {"numerics.error": "20 %"}
     assert "nodes then converge to an error of" in hint.advice
     assert len(texts) == 3
@@ -39,7 +41,7 @@ def test_the_smallest_error_that_converges_is_named():
 
 def test_no_setting_is_named_if_none_converges():
     failed = failure(100.0, points=33).result
-    hint = working_hint(failed, lambda *_: failed, SILENT)
+    hint = working_hint(failed, lambda *_: failed, SILENT, math.inf)
     assert hint.settings == {}
     assert "No setting is known" in str(hint)
 
@@ -65,7 +67,7 @@ def test_bodies_of_stated_temperature_do_not_break_the_search_for_a_hint():
     def fails(*_):
         raise InputError("no memory")
 
-    assert working_hint(failed, fails, SILENT).settings == {}
+    assert working_hint(failed, fails, SILENT, math.inf).settings == {}
 
 
 def test_stated_nodes_are_not_searched(monkeypatch):
@@ -139,6 +141,19 @@ def test_a_film_that_converged_on_the_way_is_kept_and_nothing_worse_is_named():
         calls.append(options.target)
         raise InputError("no memory")
 
-    hint = working_hint(failed, fails, SILENT, ((129, 129), 0.09))
+    hint = working_hint(failed, fails, SILENT, math.inf, ((129, 129), 0.09))
     assert hint.settings == {"numerics.error": "10 %"}
     assert max(calls) < 0.09
+
+
+def test_no_hint_is_tried_after_the_time_of_the_solve_is_over():
+    failed = failure(100.0, points=33).result
+    failed = replace(failed, options=Options(), cost=replace(failed.cost, wall_seconds=50.0))
+    limits: list[float] = []
+
+    def fails(_, options: Options):
+        limits.append(options.max_time)
+        raise InputError("no memory")
+
+    working_hint(failed, fails, SILENT, time.perf_counter() - 10.0)
+    assert max(limits) <= 1.0  # the least time that trials get

@@ -256,7 +256,10 @@ def _show_forecast(study: Study, folder: Path, workers: int, *, as_json: bool) -
     typer.echo(plan.title or "Study")
     typer.echo(f"  cases         {found.cases}, from {cases[0].name} to {cases[-1].name}")
     typer.echo(f"  to be solved  {found.open}")
-    typer.echo(f"  time          about {wall} on {workers} cores, {cpu} of computing")
+    known = "hard ones take up to ten times as long; the progress shows what is left"
+    if found.is_calibrated:
+        known = "by the cases finished so far"
+    typer.echo(f"  time          about {wall} on {workers} cores, {cpu} of computing; {known}")
     typer.echo(f"  disk          about {found.disk_bytes / 1e6:.3g} MB in {folder}")
     typer.echo(f"  memory        about {found.memory_bytes / 1e6:.3g} MB besides the program")
 

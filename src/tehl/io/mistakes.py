@@ -67,7 +67,8 @@ def describe(error: ValidationError, data: object, model: Model, prefix: str = "
         table = table[part]
     name = ".".join(_key(part) for part in ((prefix, *path) if prefix else path))
     mistake = _Mistake(name, path, first, _models_at(model, path), table)
-    return _SENTENCES.get(first["type"], _pydantic_sentence)(mistake)
+    sentence = _SENTENCES.get(first["type"], _pydantic_sentence)
+    return _of_heading(mistake) or sentence(mistake)
 
 
 def of_call(error: ValidationError, values: Mapping[str, Any], model: Model) -> InputError:
@@ -324,8 +325,23 @@ def _not_a_table(mistake: _Mistake) -> str:
             "must be a table of heights; a number alone, for the ratio lambda, is rms_roughness "
             "or ra_roughness"
         )
+    if len(mistake.path) == 1 and not isinstance(mistake.value, str):
+        return f"must be a table: write [{mistake.name}] on a line of its own, its keys below"
     laws = (model for model in mistake.models[-1] if mistake.value in _tags(model))
     return "must be a table" + "".join(f" such as {_whole_table(law, {})}" for law in laws)
+
+
+def _of_heading(mistake: _Mistake) -> str:
+    """Return what is wrong with a table in place of a number; nothing of another mistake."""
+    if not isinstance(mistake.value, Mapping) or len(mistake.path) < 2:
+        return ""
+    if mistake.error["type"] in ("missing", "extra_forbidden"):  # of a key in this table
+        return ""
+    key, field = mistake.path[-1], _field(mistake.models[-2], mistake.path[-1])
+    if field is None or mistake.models[-1] or (good := example(field)) is None:
+        return ""
+    parent = mistake.name.rpartition(".")[0]
+    return f"{mistake.name} is a number, not a table: write {key} = {good} below [{parent}]"
 
 
 def _limits(mistake: _Mistake) -> str:
@@ -426,7 +442,11 @@ def example(field: FieldInfo) -> str | None:
     """Return a good value of a field, as a case file shows it; None if it has none."""
     if field.examples:
         return json.dumps(field.examples[0])
-    return next((note.example for note in field.metadata if isinstance(note, Quantity)), None)
+    inside = (
+        note for one in get_args(field.annotation) for note in getattr(one, "__metadata__", ())
+    )
+    notes = (*field.metadata, *inside)
+    return next((note.example for note in notes if isinstance(note, Quantity)), None)
 
 
 # ---- words

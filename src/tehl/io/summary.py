@@ -3,7 +3,7 @@
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from typing import Any, TypeVar
 
 import numpy as np
@@ -101,17 +101,7 @@ _TRANSIENT: dict[str, tuple[Path, ...]] = {
 
 def estimates(result: Result | TransientResult) -> dict[str, Estimate]:
     """Return the values of a certified result with their error bars, in SI."""
-    if isinstance(result, TransientResult):
-        return result.uncertainty
-    film, pressure = result.scales.film_thickness, result.scales.hertz_pressure
-    units = {"film_central": film, "film_minimum": film, "pressure_max": pressure}
-    return {name: _scaled(one, units.get(name, 1.0)) for name, one in result.uncertainty.items()}
-
-
-def _scaled(estimate: Estimate, unit: float) -> Estimate:
-    parts = ("value", "uncertainty", "discretisation", "domain")
-    changes: Block = {part: getattr(estimate, part) * unit for part in parts}
-    return replace(estimate, values=tuple(unit * value for value in estimate.values), **changes)
+    return result.uncertainty if isinstance(result, TransientResult) else result.certified
 
 
 def _mirrored(result: Result | TransientResult, places: dict[str, tuple[Path, ...]]) -> Block:
@@ -178,18 +168,19 @@ def _groups(result: Result) -> Block:
 
 
 def _film(result: Result) -> Block:
-    film, scaled, moes = result.film, result.film_scaled, moes_film_factor(result)
+    film, moes, unit = result.film, moes_film_factor(result), result.scales.film_thickness
+    minimum, central = film.minimum / unit, film.central / unit
     numbers = {
         "h_min_m": film.minimum,
         "h_central_m": film.central,
-        "H_min": scaled.minimum,
-        "H_min_node": scaled.minimum_node,
-        "H_central": scaled.central,
-        "H_min_moes": scaled.minimum * moes,
-        "H_central_moes": scaled.central * moes,
+        "H_min": minimum,
+        "H_min_node": result.film_scaled.minimum_node,
+        "H_central": central,
+        "H_min_moes": minimum * moes,
+        "H_central_moes": central * moes,
     }
     return {name: value if value > 0 else None for name, value in numbers.items()} | {
-        "minimum_at": scaled.minimum_at,
+        "minimum_at": result.film_scaled.minimum_at,
         "rigid_approach": result.rigid_approach,
     }
 
@@ -243,7 +234,7 @@ def _heat(heat: FilmHeat) -> Block:
 
 
 def _load_sharing(found: LoadSharing) -> Block:
-    names = ("number", "radius_m", "pressure_pa", "flash_rise_k")
+    names = ("number", "radius_m", "pressure_pa", "elastic_pressure_pa", "flash_rise_k")
     return _picked(
         found,
         *("share", "share_error", "friction", "friction_film", "friction_boundary"),
@@ -344,6 +335,7 @@ def _transient(run: TransientResult) -> Block:
             "step_s": run.time_step,
             "steps": len(times) - 1,
             "frames": len(run.frames.step),
+            "late_extremes": list(run.late_extremes),
         },
         "film": {
             "h_min_m": _extreme(history.film_minimum, times, np.argmin),

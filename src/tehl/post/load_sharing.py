@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl.post.spots import Spots, spots
+from tehl.post.spots import Spots, real_area, spots
 from tehl.post.traction import cell_widths, traction
 from tehl.solution import Solution
 
@@ -63,7 +63,7 @@ def load_sharing(result: Solution) -> LoadSharing | None:
     share = float((cells * found.pressure).sum()) / result.load
     share = share if share > NOTHING else 0.0
     hertz = math.pi * scales.half_width_x * scales.half_width_y
-    area, error = float((cells * found.area).sum()), None
+    area, error = float((cells * real_area(result, found)).sum()), None
     if result.errors is not None and result.errors.load_share is not None:
         error = share * result.errors.load_share
     motion = result.problem.motion

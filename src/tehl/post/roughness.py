@@ -6,8 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl.film_formulas import Lubrication, expected_film, lubrication
+from tehl.film_formulas import Lubrication, likely_film, lubrication, lubrication_by_share
 from tehl.post.film import no_film
+from tehl.post.load_sharing import load_sharing
+from tehl.post.touching import touching
 from tehl.post.waves.response import REACH, WaveResponse, wave_notes, wave_responses
 from tehl.roughness.resolution import Resolution
 from tehl.solution import Solution
@@ -75,10 +77,14 @@ class RoughFilm:
     """The waves of the surfaces, one by one."""
     wave_notes: tuple[str, ...]
     """What is left out of them, and why."""
+    share: float | None
+    """Load on asperities, or where surfaces touch, over the load [-]; None if not computed."""
 
     @property
     def lubrication(self) -> Lubrication:
-        """Boundary, mixed or full film, by ``lambda_central``."""
+        """Boundary, mixed or full film, by ``share`` or else by ``lambda_central``."""
+        if self.share is not None:
+            return lubrication_by_share(self.share)
         return lubrication(self.lambda_central)
 
 
@@ -108,7 +114,7 @@ def rough_film(result: Solution, smooth: Solution | None = None) -> RoughFilm | 
     if no_film(result) or not composite > _SMOOTH:
         return None
     film = film_in_contact(result)
-    formula = expected_film(result.scaled_problem)
+    formula = likely_film(result.scaled_problem).central_m
     central = result.film.central if result.heights is None else middle_film(result)
     row, column = (int(np.argmin(np.abs(axis))) for axis in (result.scaled.y, result.scaled.x))
     scaled = result.scaled
@@ -132,7 +138,16 @@ def rough_film(result: Solution, smooth: Solution | None = None) -> RoughFilm | 
         ripples_y=_ripples(result.scaled.y, result.film_thickness[:, column]),
         waves=wave_responses(result, smooth),
         wave_notes=wave_notes(result),
+        share=_solid_share(result),
     )
+
+
+def _solid_share(result: Solution) -> float | None:
+    """Return the part of the load that asperities carry [-]; None where it is not known."""
+    averaged, patches = load_sharing(result), touching(result)
+    if patches is not None:
+        return patches.share if patches.is_share_known else None
+    return None if averaged is None else averaged.share
 
 
 def ripples(x: Array, y: Array, film: Array, pressure: Array) -> tuple[float, float]:

@@ -4,14 +4,15 @@ from dataclasses import asdict, dataclass
 from html import escape
 from typing import Any
 
-from tehl.cpu_time import expected_seconds
+from tehl.cpu_time import expected_seconds, seconds_range
 from tehl.domain import chosen_domain, domain_of, planned
 from tehl.film_formulas import (
     FilmEstimate,
     Lubrication,
-    expected_film,
     film_estimates,
+    likely_film,
     lubrication,
+    lubrication_by_share,
     regime,
 )
 from tehl.grid import Grid
@@ -47,7 +48,9 @@ class Explanation:
     follows: bool
     """Whether the number of nodes follows from the error to reach."""
     central_film: float
-    """Central film to expect [m]."""
+    """Central film to expect [m], by the first formula in its range."""
+    formula: str
+    """The authors of that formula."""
     films: tuple[FilmEstimate, ...]
     """By each formula."""
     composite: float
@@ -82,6 +85,11 @@ class Explanation:
     def _repr_html_(self) -> str:
         """Return the same for notebooks."""
         return f'<pre style="font-family: monospace">{escape(as_text(self))}</pre>'
+
+    @property
+    def seconds_range(self) -> tuple[float, float]:
+        """Least and largest time of the solve to expect [s]."""
+        return seconds_range(self.scaled, self.seconds)
 
     @property
     def supply_ratio(self) -> float:
@@ -125,8 +133,15 @@ class Explanation:
         return self.starved_part * minimum / self.composite if self.composite > 0 else None
 
     @property
+    def share(self) -> float | None:
+        """Part of the load on asperities by formula [-]; None where they are not computed."""
+        return self.shared.share if self.shared else None
+
+    @property
     def lubrication(self) -> Lubrication | None:
-        """Boundary, mixed or full film, by ``lambda_central``; None without roughness."""
+        """Boundary, mixed or full film, by ``share`` or else ``lambda_central``; None if smooth."""
+        if self.share is not None:
+            return lubrication_by_share(self.share)
         return None if self.lambda_central is None else lubrication(self.lambda_central)
 
 
@@ -137,7 +152,8 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
     follows = planned(scaled, asked.model_copy(update={"points": "auto"}))
     options = follows if asked.points == "auto" else asked
     check_supply(scaled, domain_of(scaled, options))
-    film, (ny, nx) = expected_film(scaled), options.shape
+    likely, (ny, nx) = likely_film(scaled), options.shape
+    film = likely.central_m
     wanted, domain = chosen_domain(scaled, asked.target), domain_of(scaled, options)
     grid = Grid(nx=nx, ny=ny, domain=domain, mirror=False)
     mesh = (grid.dx * scaled.scales.half_width_x, grid.dy * scaled.scales.half_width_y)
@@ -149,6 +165,7 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
         options=options,
         follows=asked.points == "auto",
         central_film=film,
+        formula=likely.formula,
         films=film_estimates(scaled.groups, scaled.scales),
         composite=problem.asperity_rms or problem.rms_roughness
         if heights is None
@@ -209,6 +226,7 @@ def as_summary(case: Explanation) -> dict[str, Any]:
         **_contact_as_summary(case),
         "regime": regime(case.scaled.groups),
         "central_film_m": case.central_film,
+        "central_film_formula": case.formula,
         "supply": None
         if problem.supply is None
         else {
@@ -241,6 +259,7 @@ def as_summary(case: Explanation) -> dict[str, Any]:
         "expected_points": case.expected_points,
         "memory_bytes": case.memory,
         "seconds": case.seconds,
+        "seconds_range": list(case.seconds_range),
         "time": plan,
         "questions": list(case.questions),
     }

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from tehl.asperities import GreenwoodTripp
 from tehl.domain import (
     chosen_domain,
     domain_error,
@@ -10,7 +11,7 @@ from tehl.domain import (
     expected_bar,
     planned,
 )
-from tehl.film_formulas import expected_film
+from tehl.film_formulas import likely_film
 from tehl.heat import FAR_BODY, LAYERS
 from tehl.lubricant import Limiting, Roelands, RoelandsExponential, Walther
 from tehl.options import Domain, Options
@@ -39,6 +40,8 @@ MOLECULAR = 5e-9
 """Film below which the oil is not a continuum [m]."""
 STEEP = 0.1
 """Slope from which on Reynolds' equation does not hold."""
+SHARP = (1e-4, 1e-2)
+"""Height of asperities over the radius of their summits: of machined surfaces."""
 ROUNDING = 1e-9
 """Part of a limit by which a value may miss it: groups are computed from SI with rounding."""
 
@@ -70,6 +73,8 @@ class Typical(NamedTuple):
 _UNIT = "check the unit (a bare number is SI)"
 _RUBBER = f"a polymer or rubber? Otherwise {_UNIT}"
 _YIELD = "the solids would yield, check load, radius and modulus"
+_BLUNT = "check the units of rms and summit_radius"
+_SHARP = f"summits this sharp would yield, {_BLUNT}"
 _WIDE = "wider contacts may not converge, and line contacts are not supported"
 
 
@@ -128,6 +133,10 @@ def typical_ranges(scaled: ScaledProblem) -> Iterator[Typical]:
     yield from _ranges_of_solid("surface_1", problem.surface_1)
     yield from _ranges_of_solid("surface_2", problem.surface_2)
     yield from _ranges_of_oil(problem)
+    summits = problem.asperities
+    if isinstance(summits, GreenwoodTripp):
+        ratio, least, most = problem.asperity_rms / summits.summit_radius, *SHARP
+        yield Typical("asperities.rms / summit_radius", ratio, least, most, "", _BLUNT, _SHARP)
 
 
 def _about_groove(problem: ContactProblem) -> Iterator[str]:
@@ -194,7 +203,7 @@ def _ranges_of_oil(problem: ContactProblem) -> Iterator[Typical]:
 
 
 def _about_film(scaled: ScaledProblem) -> Iterator[str]:
-    film, rough = expected_film(scaled), scaled.problem.rms_roughness
+    film, rough = likely_film(scaled).central_m, scaled.problem.rms_roughness
     if scaled.problem.asperities is not None:
         rough = 0.0  # they are computed
     if film < MOLECULAR:
@@ -313,7 +322,7 @@ def _about_grid(options: Options, scaled: ScaledProblem) -> Iterator[str]:
 
 
 def _about_heights(scaled: ScaledProblem, options: Options, found: Asperities) -> Iterator[str]:
-    film, pressure = expected_film(scaled), scaled.problem.hertz.pressure
+    film, pressure = likely_film(scaled).central_m, scaled.problem.hertz.pressure
     yield from found.remarks
     if found.resolution.warning is not None:
         yield found.resolution.warning

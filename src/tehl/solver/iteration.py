@@ -69,6 +69,8 @@ no comparable coarser grid."""
 FREE_ORDERS = 4
 """Cycles after which nodes keep the order with which they pass on oil: else it may change with the
 meniscus, and the meniscus with it."""
+COMPARED = 3
+"""Grids whose values make error bars."""
 ISOTHERMAL_CYCLES = 4
 """Cycles before damped heat begins."""
 FIRST_ORDER = 64
@@ -109,7 +111,6 @@ class GridIteration:
             self.options,
             slide_in_steps=strategy.slide_in_steps,
             damping=strategy.damping,
-            any_grid_final=goal.is_open,
         )
         self.roughness = Roughness(hierarchy.levels, heights, strategy.continuation)
         self.traces: list[GridTrace] = []  # of each grid, coarsest first
@@ -220,7 +221,9 @@ class GridIteration:
             cycles = HERTZ_CYCLES
         for number in range(1, cycles + 1):
             self._iteration(levels, partial(self.hierarchy.cycle, levels), number)
-        if self.coupling.begin(levels, finest=levels[-1] is self.finest):
+        finer = len(self.levels) - len(levels)
+        full = self.goal.is_open or finer < COMPARED
+        if self.coupling.begin(levels, finest=not finer, full=full):
             for level in levels:
                 level.set_relaxation(self.strategy.relaxation)
         return cycles

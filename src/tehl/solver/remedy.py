@@ -32,7 +32,9 @@ OTHERS = 2
 """Other numbers of nodes that are tried."""
 
 
-def solved_on_other_nodes(failed: Result, solve: Solve, monitor: Monitor) -> Result | None:
+def solved_on_other_nodes(
+    failed: Result, solve: Solve, monitor: Monitor, end: float
+) -> Result | None:
     """Return the film on slightly more nodes if it converges there to the error to reach.
 
     On some grids, coarser ones of their hierarchy included, the discrete equations have no
@@ -41,12 +43,11 @@ def solved_on_other_nodes(failed: Result, solve: Solve, monitor: Monitor) -> Res
 
     Parameters
     ----------
-    failed, solve, monitor
+    failed, solve, monitor, end
         As in `working_hint`.
     """
     if failed.status.kind not in ("diverged", "stalled") or not failed.history:
         return None
-    end = time.perf_counter() + failed.options.max_time - failed.cost.wall_seconds
     nodes = max(planned(ScaledProblem.of(failed.problem), failed.options).shape)
     for more in [one for one in sorted(FAMILIES) if one > nodes][:OTHERS]:
         left = end - time.perf_counter()
@@ -64,7 +65,7 @@ def solved_on_other_nodes(failed: Result, solve: Solve, monitor: Monitor) -> Res
 
 
 def working_hint(
-    failed: Result, solve: Solve, monitor: Monitor, reached: Reached | None = None
+    failed: Result, solve: Solve, monitor: Monitor, end: float, reached: Reached | None = None
 ) -> Hint:
     """Return a hint to settings with which a failed contact converges; without any if none does.
 
@@ -76,12 +77,13 @@ def working_hint(
         Returns the result of a contact, converged or not.
     monitor : Monitor
         Receives what is tried.
+    end : float
+        When ``numerics.max_time`` is over, on the clock of `time.perf_counter` [s].
     reached : Reached or None
         The film that converged on the way: nothing worse is named.
     """
-    wall = failed.cost.wall_seconds
-    limit = min(LONGER * wall, failed.options.max_time - wall)
-    end = time.perf_counter() + max(limit, LEAST_SECONDS)
+    now = time.perf_counter()
+    end = max(min(now + LONGER * failed.cost.wall_seconds, end), now + LEAST_SECONDS)
     found = None
     least = math.inf if reached is None else reached[1]
     for trials in (_default_domain(failed), _errors(failed, least), _other_physics(failed)):

@@ -1,6 +1,7 @@
 """Solve a steady contact: choose the grid, try the strategies, judge, assemble the result."""
 
 import platform
+import time
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from functools import cache
@@ -125,19 +126,23 @@ def solve(
             raise InputError(
                 f"{why}; solve it with tehl.{function} (the command tehl solve does so by itself)"
             )
+    started = time.perf_counter()
     attempt, result = try_strategies(problem, options, monitor=monitor, rough=True, guess=guess)
     if not result.status.converged:
         status = result.status
         unsure = status.kind in ("diverged", "stalled") or status.cause in WITHOUT_ERROR
         if options.points == "auto" and unsure:
-            result = _after_failure(result, attempt.reached_before, monitor)
+            end = started + options.max_time
+            result = _after_failure(result, attempt.reached_before, monitor, end)
     if not result.status.converged:
         raise ConvergenceError(result.status.message or "not converged", result)
     return result
 
 
-def _after_failure(failed: Result, reached: Reached | None, monitor: Monitor) -> Result:
+def _after_failure(failed: Result, reached: Reached | None, monitor: Monitor, end: float) -> Result:
     """Return the film on other nodes if it converges there, else the failed one with a hint.
+
+    Nothing is tried after ``end`` on the clock of `time.perf_counter`.
 
     A coarser film that converged on the way, on the nodes and with the error of ``reached``, takes
     the place of the failed one.
@@ -146,10 +151,10 @@ def _after_failure(failed: Result, reached: Reached | None, monitor: Monitor) ->
     def attempt(problem: ContactProblem, options: Options) -> Result:
         return try_strategies(problem, options, monitor=monitor, rough=True)[1]
 
-    on_others = solved_on_other_nodes(failed, attempt, monitor)
+    on_others = solved_on_other_nodes(failed, attempt, monitor, end)
     if on_others is not None:
         return replace(on_others, options=failed.options)
-    hint = working_hint(failed, attempt, monitor, reached)
+    hint = working_hint(failed, attempt, monitor, end, reached)
     failed = replace(failed, status=replace(failed.status, hint=hint))
     if reached is None:
         return failed

@@ -59,8 +59,6 @@ class Coupling:
         Damping factor of the logarithms of mobility and density per sweep, 1 is undamped [-]. On
         rough flanks the pressure gradient may cause nearly all heat and thinning; undamped, the
         flow increases both before the pressure can fall, and the iteration diverges.
-    any_grid_final : bool
-        Whether any grid may become that of the result, and so needs the full sources.
     """
 
     def __init__(
@@ -70,7 +68,6 @@ class Coupling:
         *,
         slide_in_steps: bool = False,
         damping: float = 1.0,
-        any_grid_final: bool = False,
     ) -> None:
         self.scaled, is_coupled = scaled, scaled.problem.is_coupled
         self.film = HeatedFilm(scaled) if is_coupled else None
@@ -79,14 +76,13 @@ class Coupling:
         counter_moving = min(motion.speed_1, motion.speed_2) <= 0.0
         # without counter-moving surfaces the backflow of the coarser grids is accurate enough
         self.thorough = options.accuracy == "tight" or counter_moving
-        self.any_grid_final = any_grid_final
         self.sweeps_left = RAMP if slide_in_steps else 0
         self.damping = damping if is_coupled else 1.0
         self.state: FilmState | None = None  # on the last level that was started
         self.factors: properties.Factors | None = None
         self.change, self.rise, self.skip = 0.0, 0.0, False
 
-    def begin(self, levels: Sequence[Level], *, finest: bool) -> bool:
+    def begin(self, levels: Sequence[Level], *, finest: bool, full: bool) -> bool:
         """Heat the last of ``levels``; return whether it is heated or thinned.
 
         It starts from the temperatures of the next coarser grid, if there are any. A coarser grid
@@ -96,8 +92,9 @@ class Coupling:
         ----------
         levels : sequence of Level
             Coarsest first.
-        finest : bool
-            Whether the last one is the level of the result, or may become it.
+        finest, full : bool
+            Whether the last one is the level of the result, and whether it has the full sources: so
+            do those whose temperatures are compared.
         """
         if self.film is None:
             return False
@@ -107,9 +104,8 @@ class Coupling:
         if not (finest or coarser is not None or (large and resolved)):
             return False
         self.skip = False
-        final = finest or self.any_grid_final
         state = FilmState(
-            fine.grid, self.film, self.wedge_order, finest=final, thorough=self.thorough
+            fine.grid, self.film, self.wedge_order, finest=full, thorough=self.thorough
         )
         state.is_first_grid = not finest
         self.state = state

@@ -34,6 +34,8 @@ class Forecast:
     wall_seconds: float
     disk_bytes: float
     memory_bytes: float
+    is_calibrated: bool
+    """Whether finished cases show how fast this machine solves these contacts."""
 
 
 def forecast(
@@ -67,6 +69,7 @@ def forecast(
         wall_seconds=longest + (_START_SECONDS if waiting else 0.0),
         disk_bytes=disk,
         memory_bytes=sum(needs[:workers]),
+        is_calibrated=len(known) >= _ENOUGH,
     )
 
 

@@ -45,7 +45,8 @@ _BLOCKS = {
     "ripples_y.depth_m " + " ".join(f"waves.0.{key}" for key in _WAVE.split()),
     "load_sharing": "share share_error friction friction_film friction_boundary area_m2 area_part "
     "asperity_pressure_max_pa pressure_max_pa separation_central_m separation_ratio "
-    "power_boundary_w balance spots.number spots.radius_m spots.pressure_pa spots.flash_rise_k",
+    "power_boundary_w balance spots.number spots.radius_m spots.pressure_pa "
+    "spots.elastic_pressure_pa spots.flash_rise_k",
     "touching": "share share_error margin_m friction friction_film friction_boundary area_m2 "
     "area_part contact_pressure_max_pa pressure_max_pa power_boundary_w balance patches.number "
     "patches.area_mean_m2 patches.area_largest_m2 patches.pressure_mean_pa patches.pressure_max_pa "
