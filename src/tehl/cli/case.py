@@ -8,8 +8,18 @@ import typer
 from tehl.cli.arguments import AsJson, CaseFile, Overrides
 
 
+def _templates(incomplete: str) -> list[tuple[str, str]]:
+    """Return the templates and their titles, of which the shell completes a name."""
+    from tehl.io.templates import templates
+
+    known = templates() | templates("studies")
+    return [(name, title) for name, title in known.items() if name.startswith(incomplete)]
+
+
 def new(
-    template: Annotated[str, typer.Argument(help="Name of the template.")] = "ball-on-disc",
+    template: Annotated[
+        str, typer.Argument(help="Name of the template.", autocompletion=_templates)
+    ] = "ball-on-disc",
     show_list: Annotated[bool, typer.Option("--list", help="List the templates.")] = False,
 ) -> None:
     """Print a commented case or study file to edit."""
