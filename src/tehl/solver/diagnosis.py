@@ -213,7 +213,7 @@ def _shear_stress(scaled: ScaledProblem) -> Iterator[LikelyCause]:
 
 
 def _film_below_grid(grid: Grid, scaled: ScaledProblem) -> Iterator[LikelyCause]:
-    """Yield the grid if it cannot resolve the expected film, unless solids carry most of the load."""
+    """Yield the grid if it cannot resolve the film, unless solids carry most of the load."""
     if solids_carry(scaled):
         return
     groups, film, here = scaled.groups, film_to_resolve(scaled), min(grid.nx, grid.ny)
