@@ -36,7 +36,7 @@ from tehl.studies.folder import (
     store_of,
     write_table,
 )
-from tehl.studies.forecast import check_memory_of, forecast
+from tehl.studies.forecast import check_memory_of, expected_times, forecast
 from tehl.studies.pictures import Picture, picture_of, save
 from tehl.studies.plan import Plan, Study, study_of
 from tehl.studies.runner import Outcome
@@ -156,7 +156,8 @@ def _solved(study: Study, folder: Path, workers: int, job: StudyJob) -> Outcome:
     """Solve what is not finished; on an interrupt show how to continue."""
     plan = study.plan
     with closing(store_of(plan, folder)) as store:
-        _check_resources(study, store.finished(study.cases), workers, job.scheduler)
+        finished = store.finished(study.cases)
+        _check_resources(study, finished, workers, job.scheduler)
         if job.replace:
             remove_outcome(folder)
         else:
@@ -164,7 +165,8 @@ def _solved(study: Study, folder: Path, workers: int, job: StudyJob) -> Outcome:
         is_new = save_plan(plan, folder)
         Thread(target=_load_late, args=(bool(plan.pictures),), daemon=True).start()
         try:
-            with study_progress(quiet=job.quiet) as monitor:
+            expected = expected_times(study.cases, {} if job.replace else finished)
+            with study_progress(expected, quiet=job.quiet) as monitor:
                 return solve(
                     study.cases,
                     store,
