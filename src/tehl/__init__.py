@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from tehl.problem import Contact, ContactProblem, Surface
     from tehl.result import ConvergenceError, Result
     from tehl.solver import certify, certify_transient, solve, solve_passes, solve_transient
-    from tehl.studies import study
+    from tehl.studies import solve_contacts, study
     from tehl.transient_result import TransientResult
 
 __all__ = [
@@ -53,6 +53,7 @@ __all__ = [
     "read_case",
     "read_case_and_options",
     "solve",
+    "solve_contacts",
     "solve_passes",
     "solve_transient",
     "studies",
@@ -73,7 +74,7 @@ _HOMES = {
         "tehl.solver": (
             *("certify", "certify_transient", "solve", "solve_passes", "solve_transient"),
         ),
-        "tehl.studies": ("study",),
+        "tehl.studies": ("solve_contacts", "study"),
         "tehl.transient_result": ("TransientResult",),
     }.items()
     for name in names

@@ -110,6 +110,17 @@ class Table(BaseModel, metaclass=_OneSentence):
 
 
 @lru_cache(maxsize=256)
+def is_unit(text: str) -> bool:
+    """Whether ``text`` is a unit that quantities may have."""
+    if not any(letter.isalpha() or letter == "%" for letter in text):
+        return False
+    try:
+        _read_unit(text)
+    except ValueError:
+        return text in ("%", "degC")
+    return True
+
+
 def _read_unit(text: str) -> tuple[float, Dimension]:
     """Return factor to SI and dimension of a unit such as ``W/m/K`` or ``1/(Pa s)``.
 

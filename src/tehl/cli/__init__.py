@@ -14,6 +14,7 @@ COMMANDS = {
     "explore": "explore",
     "layer": "layer",
     "study": "study",
+    "contacts": "contacts",
     "plot": "results",
     "animate": "results",
     "export": "results",

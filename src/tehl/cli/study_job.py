@@ -78,7 +78,7 @@ def run(job: StudyJob) -> bool:
     Invalid study, folder or arguments are an InputError before anything is solved; a folder in use
     or not writable, or workers that do not start, an OSError, and finished cases are kept.
     """
-    workers, pictures = _workers(job.jobs), [picture_of(words) for words in job.plots]
+    workers, pictures = number_of_workers(job.jobs), [picture_of(words) for words in job.plots]
     _check_sheet(job)
     plan, folder = _plan(job)
     _check_folder(folder, job.source)
@@ -104,7 +104,7 @@ def run(job: StudyJob) -> bool:
     return not outcome.failed
 
 
-def _workers(jobs: str | None) -> int:
+def number_of_workers(jobs: str | None) -> int:
     """Return the number of processes: as stated, or one per core of this process."""
     if jobs is not None:
         number = int(jobs) if jobs.isascii() and jobs.isdigit() and len(jobs) < 7 else 0

@@ -37,6 +37,11 @@ def lines_of_file(path: Path, what: str = "list of cases") -> list[list[str]]:
 
     Messages call the file ``what``.
     """
+    return [line for _, line in numbered_lines(path, what)]
+
+
+def numbered_lines(path: Path, what: str = "list of cases") -> list[tuple[int, list[str]]]:
+    """Return the same with the numbers of the lines."""
     shown = shortened(path)
     try:
         if path.stat().st_size > _LARGEST:
@@ -60,7 +65,7 @@ def lines_of_file(path: Path, what: str = "list of cases") -> list[list[str]]:
                 f"{shown}: line {number} has {len(line)} cells, but the first has "
                 f"{len(lines[0][1])}"
             )
-    return [line for _, line in lines]
+    return lines
 
 
 def _delimiter(first: str) -> str:

@@ -237,9 +237,7 @@ def _in_another_table(mistake: _Mistake, word: str) -> str:
     own = f"{mistake.name.partition('.')[0]}." if "." in mistake.name else "\n"
     paths = [
         path
-        for path in dict.fromkeys(
-            (*_key_paths(ContactProblem), *_key_paths(Options, f"{NUMERICS}."))
-        )
+        for path in dict.fromkeys((*key_paths(ContactProblem), *key_paths(Options, f"{NUMERICS}.")))
         if path.split(".")[-1] == word
         and (path.startswith(own) or (path.startswith(tables) and path.count(".") == 1))
     ]
@@ -452,12 +450,12 @@ def example(field: FieldInfo) -> str | None:
 # ---- words
 
 
-def _key_paths(model: Model, prefix: str = "") -> Iterator[str]:
+def key_paths(model: Model, prefix: str = "") -> Iterator[str]:
     """Yield the paths of all keys of a model, those of tables in it included."""
     for key, field in model.model_fields.items():
         yield f"{prefix}{key}"
         for deeper in _models(field.annotation):
-            yield from _key_paths(deeper, f"{prefix}{key}.")
+            yield from key_paths(deeper, f"{prefix}{key}.")
 
 
 def _suggest(word: str, known: list[str]) -> str:

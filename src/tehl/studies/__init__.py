@@ -8,8 +8,10 @@
     table(cases, store)
 """
 
+from tehl.studies.answers import solve_contacts
 from tehl.studies.axes import Axis, Sample
 from tehl.studies.case import Case, Row
+from tehl.studies.contacts import read_contacts
 from tehl.studies.file import cases_of, read_study, study
 from tehl.studies.plan import Study, study_of
 from tehl.studies.runner import Outcome, StudyMonitor, run
@@ -28,8 +30,10 @@ __all__ = [
     "Study",
     "StudyMonitor",
     "cases_of",
+    "read_contacts",
     "read_study",
     "run",
+    "solve_contacts",
     "study",
     "study_of",
     "table",

@@ -1,0 +1,45 @@
+"""``tehl contacts``: a spreadsheet of contacts in, the same with films, friction and bars out."""
+
+from pathlib import Path
+from typing import Annotated
+
+from typer import Argument, Exit, Option
+
+from tehl.cli.arguments import AsJson, Quiet
+from tehl.cli.ending import NOT_CONVERGED
+
+
+def contacts(  # noqa: PLR0913 (the options of the command)
+    table: Annotated[
+        Path, Argument(metavar="TABLE", help="A row per contact: .csv, .xlsx or .parquet.")
+    ],
+    *,
+    output: Annotated[
+        Path, Option("-o", "--output", metavar="FILE", help="Answers: .xlsx, .csv or .parquet.")
+    ],
+    template: Annotated[
+        Path | None,
+        Option(
+            "--template",
+            metavar="CASE",
+            help="Case file with what the rows do not state; the ball on a disc if left out.",
+        ),
+    ] = None,
+    jobs: Annotated[
+        str | None, Option("--jobs", "-j", metavar="N", help="Processes; one per core if left out.")
+    ] = None,
+    scheduler: Annotated[
+        str | None, Option(metavar="ADDRESS", help="Running dask cluster, tcp://HOST:8786.")
+    ] = None,
+    as_json: AsJson = False,
+    quiet: Quiet = False,
+) -> None:
+    """Solve each row of a table of contacts; write the table with the answers beside it.
+
+    The same command continues a list that was interrupted. Exit code 0: all rows converged; 1: some
+    are wrong or failed, and are named; 2: bad input, nothing is solved.
+    """
+    from tehl.cli.contacts_job import run
+
+    if not run(table, output, template, jobs, scheduler, as_json=as_json, quiet=quiet):
+        raise Exit(NOT_CONVERGED)

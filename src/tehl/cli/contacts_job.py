@@ -1,0 +1,90 @@
+"""One job of ``tehl contacts``: read, solve, write, say what happened."""
+
+import json
+from contextlib import closing
+from pathlib import Path
+
+import typer
+
+from tehl.cli.lines import show
+from tehl.cli.progress import SHOWN, duration, study_progress
+from tehl.cli.study_job import number_of_workers
+from tehl.errors import InputError
+from tehl.io.atomic import check_writable
+from tehl.studies.answers import check_output, solve_list, write_answers
+from tehl.studies.contacts import Contacts, read_contacts
+from tehl.studies.folder import locked
+from tehl.studies.forecast import expected_times
+from tehl.studies.runner import Outcome
+from tehl.studies.store import Store
+
+
+def run(  # noqa: PLR0913 (the arguments of the command)
+    source: Path,
+    output: Path,
+    template: Path | None,
+    jobs: str | None,
+    scheduler: str | None,
+    *,
+    as_json: bool,
+    quiet: bool,
+) -> bool:
+    """Do what the arguments state; return whether all rows converged."""
+    workers = number_of_workers(jobs)
+    check_output(output)
+    check_writable(output, sources=(source, *(() if template is None else (template,))))
+    found = read_contacts(source, template)
+    if not found.cases:
+        raise InputError(f"{source}: no row can be solved; {found.wrong[0].message}")
+    for row in found.wrong[:SHOWN]:
+        show(f"tehl: {row.message}", err=True)
+    if len(found.wrong) > SHOWN:
+        show(f"tehl: and {len(found.wrong) - SHOWN} more wrong rows", err=True)
+    folder = output.with_name(f"{output.name}.contacts")
+    with locked(folder), closing(Store(folder)) as store:
+        try:
+            expected = expected_times(found.cases, store.finished(found.cases))
+            with study_progress(expected, quiet=quiet) as monitor:
+                outcome = solve_list(
+                    found, store, jobs=workers, scheduler=scheduler, forked=True, monitor=monitor
+                )
+        except (KeyboardInterrupt, SystemExit, OSError):
+            show(
+                f"tehl: finished contacts are kept in {folder}; continue with the same command",
+                err=True,
+            )
+            raise
+        write_answers(found, store, output)
+    _show(found, outcome, output, as_json=as_json)
+    return not (found.wrong or outcome.failed)
+
+
+def _show(found: Contacts, outcome: Outcome, output: Path, *, as_json: bool) -> None:
+    if as_json:
+        numbers = {
+            "rows": len(found.rows),
+            "wrong": [row.message for row in found.wrong],
+            "equal": outcome.equal,
+            "reused": outcome.reused,
+            "converged": outcome.converged,
+            "failed": [
+                {"name": case.name, "cause": row.cause, "message": row.message}
+                for case, row in outcome.failed
+            ],
+            "cpu_seconds": outcome.cpu_seconds,
+            "wall_seconds": outcome.wall_seconds,
+            "table": str(output),
+        }
+        typer.echo(json.dumps(numbers))
+        return
+    show(
+        f"{outcome.converged} of {outcome.total} contacts converged, {outcome.reused} were "
+        f"finished before; {duration(outcome.wall_seconds)}"
+    )
+    if outcome.equal:
+        show(f"  {outcome.equal} further rows equal others, and are solved once")
+    if found.wrong:
+        show(f"  {len(found.wrong)} of {len(found.rows)} rows are wrong, see the table")
+    for case, row in outcome.failed[:SHOWN]:
+        show(f"  failed: {case.name}: {row.message or row.cause}")
+    typer.echo(f"written: {output}", err=True)

@@ -1,0 +1,324 @@
+"""What a list of contacts gives back: a line per row with its answers and bars, in a table."""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import closing, nullcontext
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+from tehl.errors import InputError
+from tehl.io.atomic import replacing
+from tehl.problem import ContactProblem
+from tehl.studies.case import Row, Scalar
+from tehl.studies.contacts import (
+    Column,
+    Contacts,
+    Listed,
+    check_package,
+    contacts_of,
+    template_tables,
+)
+from tehl.studies.runner import QUIET, Outcome, StudyMonitor, run
+from tehl.studies.store import Store
+from tehl.units import percentage
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+FORMATS = (".csv", ".xlsx", ".parquet")
+_CHUNK = 500
+"""Rows whose outcome is in memory at a time."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """A column of the answers: heading, unit, number of the summary, and its relative bar."""
+
+    heading: str
+    unit: str
+    path: str
+    factor: float = 1.0
+    bar: str = ""
+    digits: str = "0.000"
+
+
+ANSWERS = (
+    Answer("Hertz pressure", "GPa", "groups.hertz_pressure_pa", 1e-9),
+    Answer("a_x", "um", "groups.hertz_half_width_m", 1e6, digits="0.0"),
+    Answer("a_y", "um", "groups.hertz_half_width_y_m", 1e6, digits="0.0"),
+    Answer("Moes M", "-", "groups.M", digits="0.0"),
+    Answer("Moes L", "-", "groups.L", digits="0.00"),
+    Answer("central film", "nm", "film.h_central_m", 1e9, "errors.central", "0.0"),
+    Answer("minimum film", "nm", "film.h_min_m", 1e9, "errors.minimum", "0.0"),
+    Answer("largest pressure", "GPa", "pressure.max_pa", 1e-9, "errors.pressure_max"),
+    Answer("lambda", "-", "roughness.lambda_central", digits="0.00"),
+    Answer("kappa, as lambda^1.3", "-", "kappa", digits="0.00"),
+    Answer("friction", "-", "friction", 1.0, "friction_bar", "0.0000"),
+    Answer("friction loss", "W", "loss", digits="0.000"),
+    Answer("film rise", "K", "temperature.film_rise_max_k", 1.0, "errors.film_rise_max", "0.0"),
+    Answer(
+        "rise of surface 1",
+        "K",
+        "temperature.surface_1_rise_max_k",
+        1.0,
+        "errors.surface_1_rise_max",
+        "0.0",
+    ),
+    Answer(
+        "rise of surface 2",
+        "K",
+        "temperature.surface_2_rise_max_k",
+        1.0,
+        "errors.surface_2_rise_max",
+        "0.0",
+    ),
+    Answer("load on asperities", "%", "share", 100.0, "share_bar", "0.0"),
+    Answer("degree of starvation", "-", "starvation.degree"),
+)
+"""What a list gives back, in this order; columns without any value are left out."""
+_KAPPA = 1.3
+"""kappa over lambda: ISO 281:2007, 9.3.3.1, takes kappa = lambda^1.3."""
+
+
+def values_of(row: Row) -> dict[str, Scalar]:
+    """Return the numbers of a converged row by the names of `ANSWERS`, SI, and their bars."""
+    found = dict(row.summary)
+
+    def number(name: str) -> float | None:
+        value = found.get(name)
+        return float(value) if isinstance(value, int | float) else None
+
+    ratio = number("roughness.lambda_central")
+    found["kappa"] = None if ratio is None or ratio <= 0 else ratio**_KAPPA
+    sliding = number("traction.mid_film")
+    found["friction"] = None if sliding is None else abs(sliding)
+    found["friction_bar"] = number("errors.traction_mid_film")
+    loss = number("traction.friction_power_w")
+    for block in ("load_sharing", "touching"):
+        if number(f"{block}.share") is not None:
+            found["share"], found["share_bar"] = (
+                number(f"{block}.share"),
+                number("errors.load_share"),
+            )
+        if (both := number(f"{block}.friction")) is not None:
+            found["friction"], found["friction_bar"] = both, None
+        if (rubbed := number(f"{block}.power_boundary_w")) is not None and loss is not None:
+            loss += rubbed
+    if found.get("traction.credible") is False:
+        found["friction"] = loss = None
+    found["loss"] = loss
+    return found
+
+
+def answers(contacts: Contacts, store: Store) -> Iterator[dict[str, Any]]:
+    """Yield a line for each row: cells, answers with their bars, regime, and how it was obtained.
+
+    Rows are taken from the store in parts, so that the memory does not grow with the list.
+    """
+    for first in range(0, len(contacts.rows), _CHUNK):
+        part = contacts.rows[first : first + _CHUNK]
+        known = store.rows([row.case for row in part if row.case is not None])
+        for row in part:
+            found = None if row.case is None else known.get(row.case.key)
+            yield _line(row, contacts.columns, found)
+
+
+def _line(row: Listed, columns: Sequence[Column], found: Row | None) -> dict[str, Any]:
+    line: dict[str, Any] = {
+        one.heading: cell for one, cell in zip(columns, row.cells, strict=True) if one.heading
+    }
+    if found is not None and found.converged:
+        values = values_of(found)
+        for one in ANSWERS:
+            value, bar = values.get(one.path), values.get(one.bar)
+            if isinstance(value, int | float):
+                name = _named(one.heading, one.unit)
+                line[name] = value * one.factor
+                if isinstance(bar, int | float):
+                    line[f"± {name}"] = abs(value * one.factor * bar)
+        line["regime"] = values.get("roughness.lubrication")
+    line["status"] = "wrong row" if row.case is None else found.status if found else "open"
+    line["obtained"] = row.message if row.case is None else _obtained(found)
+    return line
+
+
+def _named(heading: str, unit: str) -> str:
+    return heading if unit == "-" else f"{heading} [{unit}]"
+
+
+def _obtained(row: Row | None) -> str:
+    """Return how a row was obtained, or why not, in a sentence."""
+    if row is None:
+        return "not solved yet"
+    if not row.converged:
+        hint = f" {row.hint}" if row.hint else ""
+        return f"{row.message or row.cause or row.status}{hint}"
+    errors = [row.summary.get(f"errors.{name}") for name in ("central", "minimum")]
+    worst = max((one for one in errors if isinstance(one, int | float)), default=None)
+    nodes = f"{row.summary.get('cost.points.0')} x {row.summary.get('cost.points.1')}"
+    text = f"solved on {nodes} nodes"
+    return text if worst is None else f"{text}, film to {percentage(worst)}"
+
+
+def headings_of(lines: Iterable[Mapping[str, Any]], contacts: Contacts) -> list[str]:
+    """Return the columns of the answers: those of the list, and those that any line has."""
+    seen = dict.fromkeys(name for line in lines for name in line)
+    stated = [one.heading for one in contacts.columns if one.heading]
+    ordered = [
+        name
+        for one in ANSWERS
+        for name in (_named(one.heading, one.unit), f"± {_named(one.heading, one.unit)}")
+        if name in seen
+    ]
+    rest = [name for name in ("regime", "status", "obtained") if name in seen]
+    return [*stated, *(name for name in ordered if name not in stated), *rest]
+
+
+# ---- writing
+
+
+def check_output(path: Path) -> None:
+    """Raise if the format of the answers is not known, or needs a package that is missing."""
+    ending = path.suffix.lower()
+    if ending not in FORMATS:
+        known = ", ".join(FORMATS)
+        raise InputError(f"output {path}: format not supported; it ends in one of {known}")
+    package = {".xlsx": ("openpyxl", "xlsx"), ".parquet": ("pyarrow", "parquet")}.get(ending)
+    if package is not None:
+        check_package(*package, path)
+
+
+def write_answers(contacts: Contacts, store: Store, path: Path) -> None:
+    """Write the answers as CSV, Excel or Parquet, by the ending of ``path``, or nothing."""
+    check_output(path)
+    headings = headings_of(answers(contacts, store), contacts)
+    lines = answers(contacts, store)
+    with replacing(path) as temporary:
+        if path.suffix.lower() == ".xlsx":
+            _write_sheet(headings, lines, temporary)
+        else:
+            frame = frame_of(headings, lines)
+            if path.suffix.lower() == ".csv":
+                frame.to_csv(temporary, index=False)
+            else:
+                for name in frame.columns:
+                    if frame[name].dtype == object:
+                        frame[name] = frame[name].map(
+                            lambda cell: None if cell is None else str(cell)
+                        )
+                frame.to_parquet(temporary, index=False)
+
+
+def frame_of(headings: Sequence[str], lines: Iterable[Mapping[str, Any]]) -> "pd.DataFrame":
+    """Return lines as a frame with these columns."""
+    import pandas as pd  # noqa: PLC0415 (0.5 s)
+
+    return pd.DataFrame.from_records(
+        [[line.get(name) for name in headings] for line in lines], columns=list(headings)
+    )
+
+
+def _write_sheet(headings: Sequence[str], lines: Iterable[Mapping[str, Any]], path: Path) -> None:
+    """Write a sheet as engineers do: headings, a row of units, both frozen, numbers formatted."""
+    from openpyxl import Workbook  # noqa: PLC0415 (an extra)
+    from openpyxl.styles import Alignment, Font  # noqa: PLC0415
+    from openpyxl.utils import get_column_letter  # noqa: PLC0415
+
+    book = Workbook()
+    page = book.active
+    page.title = "contacts"
+    split = [re.fullmatch(r"(.*?)(?: \[(.*)\])?", name, re.DOTALL) for name in headings]
+    names = [match[1] if match else name for match, name in zip(split, headings, strict=True)]
+    page.append(names)
+    page.append([(match[2] or "") if match else "" for match in split])
+    formats = {_named(one.heading, one.unit): one.digits for one in ANSWERS}
+    formats |= {f"± {name}": f"{digits}0" for name, digits in formats.items()}
+    widest = [len(name) for name in names]
+    for number, line in enumerate(lines, 3):
+        for place, name in enumerate(headings, 1):
+            value = line.get(name)
+            if value is None:
+                continue
+            cell = page.cell(number, place, value)
+            if name in formats:
+                cell.number_format = formats[name]
+            elif isinstance(value, str):
+                widest[place - 1] = max(widest[place - 1], min(len(value), 60))
+    for place, width in enumerate(widest, 1):
+        page.column_dimensions[get_column_letter(place)].width = max(8, width + 2)
+        for row in (1, 2):
+            page.cell(row, place).font = Font(bold=row == 1, italic=row == 2)
+            page.cell(row, place).alignment = Alignment(wrap_text=row == 1, vertical="top")
+    page.freeze_panes = "A3"
+    page.auto_filter.ref = f"A2:{get_column_letter(len(headings))}{page.max_row}"
+    book.save(path)
+
+
+def solve_contacts(
+    frame: "pd.DataFrame",
+    template: str | Path | ContactProblem | None = None,
+    *,
+    jobs: int = 1,
+    store: str | Path | None = None,
+    monitor: StudyMonitor = QUIET,
+) -> "pd.DataFrame":
+    """Solve a list of contacts; return the list with what was found beside each row.
+
+    Parameters
+    ----------
+    frame : pandas.DataFrame
+        A row per contact. Columns are keys of the case file or words for them, with a unit:
+        ``"load [N]"``, ``"p_h (GPa)"``, ``"contact.slide_roll_ratio"``; numbers without one are SI.
+    template : str, Path, ContactProblem or None
+        Case file or contact with what the columns do not state; that of
+        ``tehl new ball-on-disc`` if left out.
+    jobs : int
+        Processes. With more than one, a script needs ``if __name__ == "__main__":``.
+    store : str, Path or None
+        Folder in which finished contacts are kept and found again; nowhere if left out.
+    monitor : StudyMonitor
+        Takes the reports.
+
+    Returns
+    -------
+    pandas.DataFrame
+        The columns of ``frame``, those of `ANSWERS` with units and bars, ``regime``, ``status`` and
+        ``obtained``, with the index of ``frame``.
+
+    Raises
+    ------
+    InputError
+        If a column is not known. A wrong row has the status ``"wrong row"``, and the others are
+        solved.
+    """
+    if isinstance(template, ContactProblem):
+        base, folder = template.model_dump(mode="json", exclude_unset=True), None
+    else:
+        base, folder = template_tables(None if template is None else Path(template))
+    contacts = contacts_of(frame, base, folder)
+    with (
+        TemporaryDirectory() if store is None else nullcontext(store) as place,
+        closing(Store(place)) as kept,
+    ):
+        solve_list(contacts, kept, jobs=jobs, monitor=monitor)
+        lines = list(answers(contacts, kept))
+    found = frame_of(headings_of(lines, contacts), lines)
+    found.index = frame.index[-len(found) :]
+    return found
+
+
+def solve_list(
+    contacts: Contacts,
+    store: Store,
+    *,
+    jobs: int = 1,
+    scheduler: str | None = None,
+    forked: bool = False,
+    monitor: StudyMonitor = QUIET,
+) -> Outcome:
+    """Solve the rows of a list that the store does not have; arguments as of `tehl.studies.run`."""
+    return run(
+        contacts.cases, store, jobs=jobs, scheduler=scheduler, forked=forked, monitor=monitor
+    )

@@ -1,0 +1,424 @@
+"""Lists of contacts: a row of a spreadsheet per contact, and its film, friction and bars beside it.
+
+A heading states a key of the case file, or a word for it, and a unit: ``load [N]``, ``p_h (GPa)``,
+``temperature / degC``, ``speed in m/s``, ``load_N``; the units may stand in a row of their own.
+What a row does not state is that of the template.
+"""
+
+import copy
+import difflib
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import closing
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tehl.errors import InputError
+from tehl.io.atomic import shortened
+from tehl.io.case import case_from_tables, plain_value, toml_tables
+from tehl.io.lists import numbered_lines
+from tehl.io.mistakes import key_paths
+from tehl.io.templates import template_text
+from tehl.options import Options
+from tehl.problem import ContactProblem
+from tehl.studies.case import Case
+from tehl.units import is_unit
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+TEMPLATE = "ball-on-disc"
+"""The template of a list that has none."""
+
+_WORDS = {
+    "contact.load": "load force normal_load normal_force w q f_n",
+    "contact.hertz_pressure": "p_h ph p_hertz p0 p_0 hertz_pressure hertzian_pressure",
+    "contact.entrainment_speed": "u_m u speed entrainment_speed entrainment mean_speed "
+    "entraining_speed rolling_speed",
+    "contact.slide_roll_ratio": "srr slip slide_roll_ratio slide_to_roll_ratio",
+    "contact.radius": "radius r reduced_radius",
+    "contact.radius_x": "r_x rx radius_x reduced_radius_x",
+    "contact.radius_y": "r_y ry radius_y reduced_radius_y",
+    "lubricant.temperature": "temperature oil_temperature inlet_temperature t_oil t",
+    "lubricant.name": "oil lubricant",
+    "lubricant.viscosity.nu_40": "nu_40 nu40 kv40 kv_40 viscosity_40",
+    "lubricant.viscosity.nu_100": "nu_100 nu100 kv100 kv_100 viscosity_100",
+    "lubricant.viscosity.eta_0": "eta_0 eta eta0 viscosity dynamic_viscosity",
+    "lubricant.viscosity.alpha": "alpha pressure_viscosity_coefficient",
+    "supply.ratio": "supply_ratio",
+    "numerics.error": "error accuracy",
+    "title": "title name contact position id no number nr",
+} | {
+    f"surface_{side}.{key}": " ".join(f"{word}_{side} {word}{side}" for word in words.split())
+    for side in (1, 2)
+    for key, words in {
+        "rms_roughness": "rms_roughness sq rq sigma",
+        "ra_roughness": "ra_roughness ra sa",
+        "material": "material solid",
+        "radius": "radius r",
+        "radius_x": "radius_x r_x rx",
+        "radius_y": "radius_y r_y ry",
+        "temperature": "temperature t",
+    }.items()
+}
+_KEYS = {word: key for key, words in _WORDS.items() for word in words.split()}
+"""Keys of the case by words of headings."""
+_RADII = ("radius", "radius_x", "radius_y")
+_ALTERNATIVES = (
+    ("contact.load", "contact.hertz_pressure", "contact.moes_load"),
+    ("contact.entrainment_speed", "contact.moes_speed"),
+    ("surface_1.rms_roughness", "surface_1.ra_roughness"),
+    ("surface_2.rms_roughness", "surface_2.ra_roughness"),
+    ("numerics.error", "numerics.points"),
+)
+"""Keys of which a case states one: a row that states another removes that of the template."""
+_SIGNS = str.maketrans({"µ": "u", "μ": "u", "²": "^2", "³": "^3", "·": " ", "⋅": " ", "−": "-"})
+_DEGREES = {"°C": "degC", "C": "degC", "°": "deg", "° C": "degC"}
+_HEADING = re.compile(
+    r"(?P<name>.+?)\s*(?:\[(?P<a>.*)\]|\((?P<b>.*)\)|\s+in\s+(?P<c>\S.*)|\s*/\s*(?P<d>\S.*))\s*"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A column of a list: its heading as it was typed, the key of the case, and the unit."""
+
+    heading: str
+    key: str | None
+    """None where the column is carried over as it is."""
+    unit: str
+
+
+@dataclass(frozen=True, slots=True)
+class Listed:
+    """A row of a list: where it stands, its cells, and its case or what is wrong with it."""
+
+    number: int
+    """Of the row in the file, from 1."""
+    cells: tuple[Any, ...]
+    case: Case | None
+    message: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Contacts:
+    """A list that was read."""
+
+    columns: tuple[Column, ...]
+    rows: tuple[Listed, ...]
+
+    @property
+    def cases(self) -> list[Case]:
+        """Cases of the rows that are right."""
+        return [row.case for row in self.rows if row.case is not None]
+
+    @property
+    def wrong(self) -> list[Listed]:
+        """Rows that are not."""
+        return [row for row in self.rows if row.case is None]
+
+
+# ---- reading
+
+
+def read_contacts(path: Path, template: Path | None = None) -> Contacts:
+    """Return the list of contacts of a file.
+
+    Parameters
+    ----------
+    path : Path
+        CSV as spreadsheets save it, Excel or Parquet.
+    template : Path or None
+        Case file with what the rows do not state; that of ``tehl new ball-on-disc`` if left out.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or a heading is not known; wrong rows are kept with their
+        message.
+    """
+    base, folder = template_tables(template)
+    lines = _lines(path)
+    try:
+        return _contacts(lines, base, folder)
+    except InputError as error:
+        raise InputError(f"{shortened(path)}: {error}") from None
+
+
+def template_tables(template: Path | None) -> tuple[dict[str, Any], Path | None]:
+    """Return the tables of a template and the folder in which its files are."""
+    if template is None:
+        import tomllib  # noqa: PLC0415 (only here)
+
+        base = tomllib.loads(template_text(TEMPLATE))
+        return base, None
+    try:
+        return toml_tables(template), template.parent
+    except InputError as error:
+        raise InputError(f"template {shortened(template)}: {error}") from None
+
+
+def _lines(path: Path) -> list[tuple[int, list[Any]]]:
+    """Return the numbers and the cells of the rows of a file, headings first; None is empty."""
+    ending = path.suffix.lower()
+    if ending == ".xlsx":
+        return _lines_of_sheet(path)
+    if ending == ".parquet":
+        frame = _frame_of_parquet(path)
+        return _lines_of_frame(frame)
+    return [
+        (number, [cell or None for cell in line])
+        for number, line in numbered_lines(path, "list of contacts")
+    ]
+
+
+def _lines_of_sheet(path: Path) -> list[tuple[int, list[Any]]]:
+    check_package("openpyxl", "xlsx", path)
+    from openpyxl import load_workbook  # noqa: PLC0415 (an extra)
+
+    if not path.exists():
+        raise InputError(f"list of contacts {shortened(path)} does not exist")
+    try:
+        book = load_workbook(path, read_only=True, data_only=True)
+    except Exception as error:  # openpyxl has no common base of its errors
+        raise InputError(f"{shortened(path)} cannot be read as Excel: {error}") from None
+    with closing(book):
+        found = [
+            (number, [_stripped(cell) for cell in line])
+            for number, line in enumerate(book.worksheets[0].iter_rows(values_only=True), 1)
+        ]
+    found = [(number, line) for number, line in found if any(cell is not None for cell in line)]
+    width = max((k + 1 for _, line in found[:1] for k, one in enumerate(line) if one), default=0)
+    return [(number, (line + [None] * width)[:width]) for number, line in found]
+
+
+def _frame_of_parquet(path: Path) -> "pd.DataFrame":
+    check_package("pyarrow", "parquet", path)
+    import pandas as pd  # noqa: PLC0415 (0.5 s)
+
+    try:
+        return pd.read_parquet(path)
+    except FileNotFoundError:
+        raise InputError(f"list of contacts {shortened(path)} does not exist") from None
+    except (OSError, ValueError) as error:
+        raise InputError(f"{shortened(path)} cannot be read as Parquet: {error}") from None
+
+
+def _lines_of_frame(frame: "pd.DataFrame") -> list[tuple[int, list[Any]]]:
+    """Return headings and rows of a frame; the first row has number 1."""
+    head = [(0, [str(name) for name in frame.columns])]
+    empty = frame.isna().to_numpy()
+    values = frame.astype(object).to_numpy()
+    return head + [
+        (
+            number,
+            [None if none else _stripped(_plain(cell)) for cell, none in zip(*row, strict=True)],
+        )
+        for number, row in enumerate(zip(values, empty, strict=True), 1)
+    ]
+
+
+def _plain(cell: Any) -> Any:
+    return cell.item() if hasattr(cell, "item") else cell
+
+
+def _stripped(cell: Any) -> Any:
+    return (cell.strip() or None) if isinstance(cell, str) else cell
+
+
+def check_package(package: str, extra: str, path: Path) -> None:
+    """Raise an InputError that names the extra if a package for a format is missing."""
+    if find_spec(package) is None:
+        raise InputError(f'{path}: needs {package}; install it with pip install "tehl[{extra}]"')
+
+
+def _contacts(
+    lines: list[tuple[int, list[Any]]], base: dict[str, Any], folder: Path | None
+) -> Contacts:
+    if len(lines) < 2:
+        raise InputError("has no contacts: the first row has the headings, each other one contact")
+    columns = [_column("" if cell is None else str(cell)) for cell in lines[0][1]]
+    body = lines[1:]
+    if _is_units(body[0][1]):
+        units = [_unit("" if cell is None else str(cell)) for cell in body[0][1]]
+        columns = [
+            Column(one.heading, one.key, unit or one.unit)
+            for one, unit in zip(columns, units, strict=True)
+        ]
+        body = body[1:]
+    _check_columns(columns, [line for _, line in body])
+    if not body:
+        raise InputError("has no contacts below its units")
+    rows = tuple(_listed(number, cells, columns, base, folder) for number, cells in body)
+    return Contacts(columns=tuple(columns), rows=rows)
+
+
+def contacts_of(frame: "pd.DataFrame", base: dict[str, Any], folder: Path | None) -> Contacts:
+    """Return the list of a frame, of which rows have their numbers from 1."""
+    return _contacts(_lines_of_frame(frame), base, folder)
+
+
+def _column(text: str) -> Column:
+    """Return the column of a heading."""
+    match = _HEADING.fullmatch(text)
+    name, unit = text, ""
+    if match is not None:
+        name = match["name"]
+        unit = next((one for one in match.group("a", "b", "c", "d") if one is not None), "")
+    key, word = _key(name), _unit(unit)
+    if key is None and not unit and "_" in name:  # load_N
+        first, _, last = name.rpartition("_")
+        if is_unit(_unit(last)) and (known := _key(first)) is not None:
+            key, word = known, _unit(last)
+    if unit and not is_unit(word):
+        if key is not None and word not in ("-", "1", ""):
+            raise InputError(f'the unit of the column "{text}" is not known: {unit}')
+        word = ""
+    return Column(text, key, "" if word in ("-", "1") else word)
+
+
+def _unit(text: str) -> str:
+    plain = text.strip().strip("[]()").strip()
+    return _DEGREES.get(plain, plain.translate(_SIGNS).replace("°C", "degC"))
+
+
+def _is_units(cells: Sequence[Any]) -> bool:
+    """Whether a row has units in place of values."""
+    words = [str(cell) for cell in cells if cell is not None]
+    units = [word for word in words if is_unit(_unit(word)) or word in ("-", "1")]
+    return bool(units) and len(units) == len(words) and set(words) != {"1"}
+
+
+def _key(name: str) -> str | None:
+    """Return the key of the case that a heading means; None if it is not known."""
+    text = name.strip()
+    word = re.sub(r"[\W_]+", "_", text.lower()).strip("_")
+    if word in _KEYS:
+        return _KEYS[word]
+    paths = _paths()
+    if "." in text and text.split(".")[0] in _tables():
+        return text
+    if text in paths:
+        return text
+    ends = [path for path in paths if path.rpartition(".")[2] == word]
+    return ends[0] if len(ends) == 1 else None
+
+
+def _paths() -> list[str]:
+    return [*key_paths(ContactProblem), *key_paths(Options, "numerics.")]
+
+
+def _tables() -> set[str]:
+    return {*ContactProblem.model_fields, "numerics"}
+
+
+def _check_columns(columns: Sequence[Column], lines: Sequence[Sequence[Any]]) -> None:
+    """Raise for headings that are not known and hold numbers, and for keys that stand twice."""
+    keys = [one.key for one in columns if one.key is not None]
+    for one in columns:
+        if one.key is not None and keys.count(one.key) > 1:
+            raise InputError(f"two columns state {one.key}: remove one of them")
+    if not keys:
+        raise InputError("has no column that a case file knows, such as load [N]")
+    for place, one in enumerate(columns):
+        if one.key is not None or not one.heading:
+            continue
+        values = [line[place] for line in lines if line[place] is not None]
+        numeric = [not isinstance(plain_value(str(value)), str) for value in values]
+        if one.unit or (values and all(numeric)):
+            known = [*_KEYS, *_paths()]
+            word = re.split(r"[\[(/]", one.heading)[0].strip().lower()
+            near = difflib.get_close_matches(word, known, n=1, cutoff=0.6)
+            guess = f"did you mean {near[0]}?" if near else "take a key of the case file"
+            raise InputError(f'the column "{one.heading}" is not known; {guess}')
+
+
+def _listed(
+    number: int,
+    cells: Sequence[Any],
+    columns: Sequence[Column],
+    base: dict[str, Any],
+    folder: Path | None,
+) -> Listed:
+    """Return a row with its case, or with what is wrong in it."""
+    stated = {
+        one.key: _value(cell, one.unit)
+        for one, cell in zip(columns, cells, strict=True)
+        if one.key is not None and cell is not None
+    }
+    try:
+        problem, options = case_from_tables(_tables_of(base, stated), folder)
+        if problem.transient is not None or problem.has_passes:
+            raise InputError("a list of contacts has steady ones: leave out transient and passes")
+    except InputError as error:
+        text = str(error)
+        for one in columns:
+            if one.key is not None and text.startswith(one.key):
+                text = f'column "{one.heading}": {text}'
+                break
+        return Listed(number, tuple(cells), None, f"row {number}: {text}")
+    labels: dict[str, float | str] = {"row": float(number)}
+    case = Case(name=f"row {number}", problem=problem, options=options, labels=labels)
+    return Listed(number, tuple(cells), case)
+
+
+def _value(cell: Any, unit: str) -> Any:
+    """Return a cell with the unit of its column; text that has a unit of its own keeps it."""
+    if isinstance(cell, str):
+        found = plain_value(cell)
+        if isinstance(found, str):
+            return found
+        cell = found
+    if isinstance(cell, bool) or not isinstance(cell, int | float) or not unit:
+        return cell
+    return f"{cell!r} {unit}"
+
+
+def _tables_of(base: dict[str, Any], stated: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the tables of a case: the template with what a row states."""
+    tables = copy.deepcopy(base)
+    for key in _replaced(stated):
+        _remove(tables, key)
+    if "lubricant.name" in stated:
+        temperature = _found(tables, "lubricant.temperature")
+        tables["lubricant"] = {} if temperature is None else {"temperature": temperature}
+    for key, value in stated.items():
+        _set(tables, key, value)
+    return tables
+
+
+def _replaced(stated: Mapping[str, Any]) -> Iterator[str]:
+    """Yield keys of a template that cannot stand beside those that a row states."""
+    for group in _ALTERNATIVES:
+        if any(key in stated for key in group):
+            yield from group
+    for table in {key.partition(".")[0] for key in stated if key.rpartition(".")[2] in _RADII}:
+        others = ("surface_1", "surface_2") if table == "contact" else (table,)
+        for name in ("contact", *others):
+            yield from (f"{name}.{key}" for key in _RADII)
+
+
+def _found(tables: Any, key: str) -> Any:
+    for part in key.split("."):
+        tables = tables.get(part) if isinstance(tables, dict) else None
+    return tables
+
+
+def _remove(tables: dict[str, Any], key: str) -> None:
+    parent, _, last = key.rpartition(".")
+    node = _found(tables, parent)
+    if isinstance(node, dict):
+        node.pop(last, None)
+
+
+def _set(tables: dict[str, Any], key: str, value: Any) -> None:
+    *parents, last = key.split(".")
+    for part in parents:
+        node = tables.get(part)
+        if isinstance(node, str):  # the name of an oil or of a law
+            node = {"name": node}
+        tables[part] = node = {} if node is None else node
+        tables = node
+    tables[last] = value

@@ -1,0 +1,237 @@
+"""Lists of contacts: headings, units, templates, wrong rows, answers, spreadsheets."""
+
+import json
+
+import pandas as pd
+import pytest
+from openpyxl import Workbook, load_workbook
+from typer.testing import CliRunner
+
+import tehl
+from tehl.cli import application
+from tehl.errors import InputError
+from tehl.io.case import read_case
+from tehl.studies import Store
+from tehl.studies.answers import answers, values_of
+from tehl.studies.case import Case, Row
+from tehl.studies.contacts import _column, _tables_of, read_contacts
+
+COARSE = """
+[contact]
+radius = "10 mm"
+load = "20 N"
+entrainment_speed = "1 m/s"
+[surface_1]
+material = "steel"
+[surface_2]
+material = "steel"
+[lubricant]
+name = "mineral-oil"
+[numerics]
+points = 65
+"""
+
+
+@pytest.fixture
+def template(tmp_path):
+    """Return a case file that is solved at once."""
+    path = tmp_path / "case.toml"
+    path.write_text(COARSE)
+    return path
+
+
+def command(*words):
+    """Run ``tehl contacts``."""
+    return CliRunner().invoke(application(), ["contacts", *map(str, words)])
+
+
+@pytest.mark.parametrize(
+    ("heading", "key", "unit"),
+    [
+        ("load [N]", "contact.load", "N"),
+        ("Load (kN)", "contact.load", "kN"),
+        ("load / N", "contact.load", "N"),
+        ("load/N", "contact.load", "N"),
+        ("load in N", "contact.load", "N"),
+        ("load_N", "contact.load", "N"),
+        ("contact.load", "contact.load", ""),
+        ("p_h [GPa]", "contact.hertz_pressure", "GPa"),
+        ("Hertz pressure (GPa)", "contact.hertz_pressure", "GPa"),
+        ("u_m [m/s]", "contact.entrainment_speed", "m/s"),
+        ("SRR [-]", "contact.slide_roll_ratio", ""),
+        ("SRR (%)", "contact.slide_roll_ratio", "%"),
+        ("oil temperature [°C]", "lubricant.temperature", "degC"),
+        ("nu_40 [mm²/s]", "lubricant.viscosity.nu_40", "mm^2/s"),
+        ("Ra 1 [µm]", "surface_1.ra_roughness", "um"),
+        ("surface_2.rms_roughness [um]", "surface_2.rms_roughness", "um"),
+        ("numerics.points", "numerics.points", ""),
+        ("oil", "lubricant.name", ""),
+        ("remark", None, ""),
+    ],
+)
+def test_headings_are_read_in_every_usual_spelling(heading, key, unit):
+    column = _column(heading)
+    assert (column.key, column.unit) == (key, unit)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "load [N];speed [m/s];remark\n20,5;1,0;new\n30,5;2,0;\n",
+        "load,speed,remark\nN,m/s,\n20.5,1.0,new\n30.5,2.0,\n",
+        "load_kN\tspeed in m/s\tremark\n0,0205\t1\tnew\n0,0305\t2\t\n",
+    ],
+)
+def test_spreadsheets_of_all_countries_give_the_same_contacts(tmp_path, template, text):
+    path = tmp_path / "list.csv"
+    path.write_text(text)
+    found = read_contacts(path, template)
+    problems = [case.problem for case in found.cases]
+    assert [one.load for one in problems] == pytest.approx([20.5, 30.5])
+    assert [one.entrainment_speed for one in problems] == pytest.approx([1.0, 2.0])
+    assert found.rows[0].cells[2] == "new"
+
+
+def test_a_row_that_states_another_key_removes_that_of_the_template(template):
+    base = read_case_tables(template)
+    tables = _tables_of(base, {"contact.hertz_pressure": "1 GPa", "contact.radius_x": "5 mm"})
+    assert tables["contact"] == {
+        "entrainment_speed": "1 m/s",
+        "hertz_pressure": "1 GPa",
+        "radius_x": "5 mm",
+    }
+    assert base["contact"]["load"] == "20 N"
+    tables = _tables_of(base, {"lubricant.name": "iso-vg-68", "surface_1.radius": "4 mm"})
+    assert tables["lubricant"] == {"name": "iso-vg-68"}
+    assert tables["surface_1"] == {"material": "steel", "radius": "4 mm"}
+
+
+def read_case_tables(path):
+    """Return the tables of a case file."""
+    return tehl.io.case.toml_tables(path)
+
+
+def test_wrong_headings_are_one_sentence(tmp_path, template):
+    path = tmp_path / "list.csv"
+    for text, words in (
+        ("lod [N],speed\n1,2\n", 'the column "lod [N]" is not known; did you mean load'),
+        ("load [N],force [N]\n1,2\n", "two columns state contact.load"),
+        ("load [furlong]\n1\n", 'the unit of the column "load [furlong]" is not known'),
+        ("load [N]\n", "has no contacts"),
+        ("remark\nnew\n", "has no column that a case file knows"),
+        ("strange\n5\n", "has no column that a case file knows"),
+        ("load,strange\n5,6\n", 'the column "strange" is not known'),
+    ):
+        path.write_text(text)
+        with pytest.raises(InputError) as caught:
+            read_contacts(path, template)
+        assert words in str(caught.value)
+
+
+def test_wrong_rows_are_named_and_the_others_are_solved_equal_ones_once(tmp_path, template):
+    path, out = tmp_path / "list.csv", tmp_path / "out.csv"
+    path.write_text("title,load [N]\na,20\nb,-5\nc,20\n\nd,much\ne,25\n")
+    done = command(path, "-o", out, "--template", template, "-j", 1, "--json")
+    assert done.exit_code == 1
+    found = json.loads(done.stdout.strip().splitlines()[-1])
+    assert found["rows"] == 5
+    assert found["equal"] == 1
+    assert found["converged"] == 2
+    assert [text.split(":")[0] for text in found["wrong"]] == ["row 3", "row 6"]
+    assert 'column "load [N]": contact.load' in found["wrong"][0]
+    table = pd.read_csv(out)
+    assert list(table["status"]) == [
+        "converged",
+        "wrong row",
+        "converged",
+        "wrong row",
+        "converged",
+    ]
+    first, third = table.iloc[0], table.iloc[2]
+    assert first["central film [nm]"] == third["central film [nm]"]
+    result = tehl.solve(read_case(template), tehl.Options(points=65))
+    assert first["central film [nm]"] == pytest.approx(1e9 * result.film.central)
+    assert first["± central film [nm]"] == pytest.approx(
+        1e9 * result.film.central * result.errors.central
+    )
+    assert first["obtained"].startswith("solved on 65 x 65 nodes, film to ")
+    assert "row 3" in table.iloc[1]["obtained"]
+
+    again = command(path, "-o", out, "--template", template, "-j", 1, "--json")
+    assert json.loads(again.stdout.strip().splitlines()[-1])["reused"] == 2
+
+
+def test_excel_comes_back_as_an_engineer_would_format_it(tmp_path, template):
+    book = Workbook()
+    book.active.append(["title", "load", "speed"])
+    book.active.append([None, "N", "m/s"])
+    book.active.append(["inner", 20, 1.5])
+    path, out = tmp_path / "list.xlsx", tmp_path / "out.xlsx"
+    book.save(path)
+    done = command(path, "-o", out, "--template", template, "-j", 1, "--quiet")
+    assert done.exit_code == 0, done.output
+    page = load_workbook(out).active
+    assert page.freeze_panes == "A3"
+    assert page.auto_filter.ref.startswith("A2:")
+    heads = [cell.value for cell in page[1]]
+    units = dict(zip(heads, (cell.value for cell in page[2]), strict=True))
+    assert units["central film"] == units["± central film"] == "nm"
+    assert heads.index("± central film") == heads.index("central film") + 1
+    assert units["Hertz pressure"] == "GPa"
+    line = dict(zip(heads, page[3], strict=True))
+    assert line["title"].value == "inner"
+    assert line["central film"].number_format == "0.0"
+    assert line["status"].value == "converged"
+    assert command(path, "-o", tmp_path / "out.txt").exit_code != 0
+
+
+def test_a_frame_is_solved_from_python(template):
+    frame = pd.DataFrame({"load [N]": [20.0, None], "mark": ["a", "b"]}, index=[10, 11])
+    found = tehl.solve_contacts(frame, template)
+    assert list(found.index) == [10, 11]
+    assert list(found["mark"]) == ["a", "b"]
+    # an empty cell is the load of the template, which is the same
+    assert found.loc[10, "minimum film [nm]"] == found.loc[11, "minimum film [nm]"]
+    assert found.loc[10, "Hertz pressure [GPa]"] > 0
+    same = tehl.solve_contacts(frame, read_case(template))
+    assert same.loc[10, "status"] in ("converged", "not_converged")
+
+
+def test_friction_and_loss_contain_those_of_asperities():
+    row = Row(
+        key="",
+        status="converged",
+        summary={
+            "traction.mid_film": -0.02,
+            "traction.friction_power_w": 3.0,
+            "load_sharing.share": 0.5,
+            "load_sharing.friction": 0.06,
+            "load_sharing.power_boundary_w": 2.0,
+            "roughness.lambda_central": 2.0,
+        },
+    )
+    values = values_of(row)
+    assert values["friction"] == 0.06
+    assert values["loss"] == 5.0
+    assert values["share"] == 0.5
+    assert values["kappa"] == pytest.approx(2.0**1.3)
+    oil = Row(
+        key="", status="converged", summary={"traction.mid_film": -3.0, "traction.credible": False}
+    )
+    assert values_of(oil)["friction"] is None
+
+
+def test_answers_are_taken_in_parts(tmp_path, template, monkeypatch):
+    path = tmp_path / "list.csv"
+    path.write_text("load [N]\n" + "".join(f"{20 + n}\n" for n in range(7)))
+    contacts = read_contacts(path, template)
+    asked: list[int] = []
+
+    def rows(_, cases: list[Case]):
+        asked.append(len(cases))
+        return {}
+
+    monkeypatch.setattr(Store, "rows", rows)
+    monkeypatch.setattr("tehl.studies.answers._CHUNK", 3)
+    assert [line["status"] for line in answers(contacts, Store(tmp_path / "s"))] == ["open"] * 7
+    assert asked == [3, 3, 1]
