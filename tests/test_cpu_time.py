@@ -8,7 +8,7 @@ from tehl.problem import ContactProblem
 from tehl.result import Result
 from tehl.scaling import ScaledProblem
 from tehl.solver.steady import solve
-from tests.cases import ball_tables
+from tests.cases import ball_tables, moes_problem
 from tests.reference import heated_contact, moes_contact
 
 WAVE = {"material": "steel", "roughness": {"type": "wave", "amplitude": "20 nm"}}
@@ -80,4 +80,6 @@ def test_hard_contacts_have_a_wider_range_of_time():
     heavy = ScaledProblem.of(moes_contact(4000.0, 8.0))
     heated = ScaledProblem.of(heated_contact(0.5))
     assert seconds_range(easy, 2.0) == (1.0, 6.0)
+    slender = ScaledProblem.of(moes_problem(100.0, 8.0, radius_x=0.02, radius_y=0.01))
     assert seconds_range(heavy, 2.0) == seconds_range(heated, 2.0) == (1.0, 20.0)
+    assert seconds_range(slender, 2.0) == (1.0, 20.0)

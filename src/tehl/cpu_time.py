@@ -26,19 +26,17 @@ STARTING = 0.4
 """Cost of the start of a grid in cycles."""
 WAVE_NODES = 8.0
 """Nodes on the shortest wave from which a grid has the heights."""
-WIDE = 4.0
-"""a_y/a_x, or its inverse, above which a contact is slender."""
 SURPLUS = 1.5
 """Factor for the one contact in eight that takes a finer grid than planned, or a fallback, and for
 cores that other programs use too: 1.2 on a quiet machine, 1.9 with both of its cores busy."""
 FINER, THICK, VISCOUS = 1.6, 100.0, 5.5
 """Factor where half of the thinning and heated contacts take a finer grid, and the largest M and
 least L where they do."""
-
-
+SLENDER, WIDE = 0.7, 4.0
+"""a_y/a_x below and above which a contact takes longer."""
 HIGH, HIGHER, HEAVY = 3.0, 10.0, 2000.0
 """CPU time that eight to nine of ten solves stay below, over the one to expect; that of heated,
-thinning, starved and slender contacts and of those with a Moes load above the last number."""
+thinning, starved, slender and wide contacts and of those with a Moes load above the last number."""
 
 
 def seconds_range(scaled: ScaledProblem, seconds: float) -> tuple[float, float]:
@@ -48,13 +46,14 @@ def seconds_range(scaled: ScaledProblem, seconds: float) -> tuple[float, float]:
     reached.
     """
     problem, groups = scaled.problem, scaled.entering
-    hard = problem.is_coupled or problem.supply is not None or groups.M > HEAVY
-    hard = (
-        hard
+    is_hard = (
+        problem.is_coupled
+        or problem.supply is not None
         or problem.contact_film is not None
-        or max(groups.ellipticity, 1.0 / groups.ellipticity) > WIDE
+        or groups.M > HEAVY
+        or not SLENDER <= groups.ellipticity <= WIDE
     )
-    return 0.5 * seconds, (HIGHER if hard else HIGH) * seconds
+    return 0.5 * seconds, (HIGHER if is_hard else HIGH) * seconds
 
 
 def expected_seconds(scaled: ScaledProblem, options: Options) -> float:

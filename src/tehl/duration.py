@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from tehl.errors import InputError
+from tehl.roughness.map import Map
 from tehl.roughness.model import Extent
 from tehl.roughness.superposition import OneRoughness, Sum
 from tehl.roughness.waves import HarmonicModel
@@ -153,6 +154,24 @@ def duration_of(scaled: ScaledProblem) -> float:
     passing = max((part.passing_time(units, transient) for part in moving), default=0.0)
     loaded = max((time for time, _ in transient.load), default=0.0)
     return max(passing, loaded, units.half_width_x / units.speed)
+
+
+def whole_passing(scaled: ScaledProblem) -> float:
+    """Return the time in which maps that repeat at their edges pass the contact whole [s].
+
+    It is zero without one that moves.
+    """
+    transient, units = scaled.problem.transient, scaled.scales
+    if transient is None:
+        return 0.0
+    before = (transient.entrance if transient.start == "smooth" else 0.0) + BEYOND
+    distances = (
+        (before * units.half_width_x + part.roughness.box[0][1] - part.roughness.box[0][0], part)
+        for part in parts_of(scaled)
+        if isinstance(part.roughness, Map) and part.is_endless and part.speed != 0
+    )
+    times = (far / min(abs(part.speed), units.speed) for far, part in distances)
+    return max(times, default=0.0)
 
 
 def number_of_steps(scaled: ScaledProblem, seconds: float) -> int:

@@ -1,16 +1,22 @@
 """Result of a transient solve: a film that changes with time while its surfaces move."""
 
+from contextlib import suppress
 from dataclasses import dataclass, field
 
+from tehl.duration import whole_passing
+from tehl.errors import InputError
 from tehl.post.touching import largest_patches, why_unknown
 from tehl.result import Result
 from tehl.saved import Saved
+from tehl.scaling import ScaledProblem
 from tehl.solution import Cost, Estimate, Provenance, Status
 from tehl.typing import Array, IntArray, SingleArray
 
 LATE, NOTICED, FEW_STEPS = 0.1, 0.01, 20
 """Last part of a run in which an extreme is late, by which part of it it must then have grown, and
 fewest steps that show it."""
+LONGER, ROUNDING = 2.0, 1e-9
+"""Duration to try over that of a run whose extremes are late, and equal durations."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -154,14 +160,31 @@ class TransientResult(Saved):
             return ()
         early = time <= (1.0 - LATE) * time[-1]
         extremes = (
-            ("minimum film", -self.history.film_minimum),
-            ("largest pressure", self.history.pressure_max),
+            ("minimum film", "film_minimum", -self.history.film_minimum),
+            ("largest pressure", "pressure_max", self.history.pressure_max),
         )
+        bars = {name: one.uncertainty for name, one in self.uncertainty.items()}
         return tuple(
-            name
-            for name, values in extremes
-            if values.max() - values[early].max() > NOTICED * abs(values.max())
+            words
+            for words, name, values in extremes
+            if values.max() - values[early].max()
+            > max(NOTICED * abs(values.max()), bars.get(name, 0.0))
         )
+
+    @property
+    def longer_duration(self) -> float | None:
+        """Duration to state where the default one ended early [s]; None where it did not.
+
+        It lasts until maps that repeat at their edges have passed whole, or twice as long where
+        extremes changed at the end.
+        """
+        transient, end = self.start.problem.transient, float(self.history.time[-1])
+        if transient is None or transient.duration is not None or not self.status.converged:
+            return None
+        needed = LONGER * end if self.late_extremes else 0.0
+        with suppress(InputError):  # the file of a map that a stored result need not have
+            needed = max(needed, whole_passing(ScaledProblem.of(self.start.problem)))
+        return needed if needed > (1.0 + ROUNDING) * end else None
 
     @property
     def patch_cells(self) -> float:

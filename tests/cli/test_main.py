@@ -7,8 +7,11 @@ import sys
 from pathlib import Path
 
 import pytest
+from typer._completion_classes import BashComplete
+from typer.main import get_command
 
-from tehl.cli import COMMANDS, main
+from tehl.cli import COMMANDS, application, main
+from tehl.io.store import save
 from tehl.io.templates import template_text, templates
 
 HEAVY = ("numba", "scipy", "xarray", "matplotlib", "h5py", "pandas")
@@ -176,6 +179,27 @@ def _completing(tmp_path: Path, *arguments: str, **environment: str):
     command = [sys.executable, "-c", "from tehl.cli import main; main()", *arguments]
     env = os.environ | names | environment
     return subprocess.run(command, capture_output=True, text=True, env=env, check=False, timeout=60)
+
+
+def completed(*words: str) -> list[str]:
+    """Return what the shell offers in place of the last of ``words``."""
+    command = get_command(application())
+    shell = BashComplete(command, {}, "tehl", "_TEHL_COMPLETE")
+    return [one.value for one in shell.get_completions(list(words[:-1]), words[-1])]
+
+
+def test_the_shell_completes_templates():
+    assert completed("new", "st") == ["starved", "stribeck", "starvation-curve"]
+    assert completed("new", "") == [*templates(), *templates("studies")]
+
+
+def test_the_shell_completes_pictures_of_a_result(result, tmp_path):
+    stored = str(tmp_path / "ball.nc")
+    save(result, stored)
+    assert completed("plot", stored, "--only", "pr") == ["pressure", "pressure_surface"]
+    assert completed("plot", "--only", "film,pressure", "--only", "x") == []
+    assert completed("plot", stored, "--only", "film,ce") == ["film,centre_lines"]
+    assert completed("plot", str(tmp_path / "none.nc"), "--only", "f") == []
 
 
 def test_the_shell_completes_subcommands_once_installed(tmp_path):

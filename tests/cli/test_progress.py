@@ -158,6 +158,18 @@ def test_a_study_on_a_pipe_writes_a_line_now_and_then_and_names_failures(capsys)
     ]
 
 
+def test_the_time_left_of_a_study_is_that_of_cases_like_those_finished():
+    now, every = [0.0], cases(6)
+    expected = {case.key: 1.0 if number < 4 else 30.0 for number, case in enumerate(every)}
+    lines = StudyProgress(None, expected, clock=lambda: now[0])
+    lines.begin(6, 0)
+    for number, case in enumerate(every[:4], start=1):
+        now[0] += 2.0
+        lines.finished(case, Row(key=case.key, status="converged"))
+        assert ("left" in lines.counts) == (number >= 3)
+    assert "2 min left" in lines.counts  # two cases of 60 s, as all took twice as long
+
+
 def test_a_time_is_shown_in_a_unit_that_suits():
     assert [duration(s) for s in (5, 600, 7200)] == ["5 s", "10 min", "2.0 h"]
 

@@ -338,6 +338,67 @@ def test_a_table_is_left_out_by_false():
     assert tables == {"contact": {"load": 1.0}}
 
 
+SUGGESTED = {
+    "contact.force": "load",
+    "contact.normal_load": "load",
+    "contact.max_pressure": "hertz_pressure",
+    "contact.velocity": "entrainment_speed",
+    "contact.mean_speed": "entrainment_speed",
+    "contact.SRR": "slide_roll_ratio",
+    "contact.slip": "slide_roll_ratio",
+    "contact.R": "radius",
+    "contact.temperature": "lubricant.temperature",
+    "contact.viscosity": "lubricant.viscosity",
+    "contact.modulus": None,
+    "contact.amplitude": None,
+    "contact.thickness": None,
+    "contact.law": None,
+    "contact.lambda": None,
+    "surface_1.E": "material.young_modulus",
+    "surface_1.nu": "material.poisson_ratio",
+    "surface_1.sigma": "rms_roughness",
+    "surface_2.Ra": "ra_roughness",
+    "surface_2.speed": "contact.entrainment_speed",
+    "surface_2.texture": None,
+    "surface_2.width": None,
+    "lubricant.eta": "viscosity.eta_0",
+    "lubricant.alpha": "viscosity.alpha",
+    "lubricant.eyring_stress": "shear.stress",
+    "lubricant.beta": "lubricant.density.beta",
+    "lubricant.cp": "heat_capacity",
+    "lubricant.barus": None,
+    "thermal.oil_temperature": "temperature",
+    "numerics.nodes": "points",
+    "numerics.iterations": "max_cycles",
+    "numerics.steps": None,
+    "numerics.relaxation": None,
+    "transient.time_step": "stride",
+    "transient.time": "duration",
+    "supply.film": "layer",
+    "supply.starvation": None,
+    "contact_film.mu": "friction",
+}
+"""Keys in the field's words, and the key to suggest; none where none is plausible."""
+
+
+@pytest.mark.parametrize(("wrong", "right"), SUGGESTED.items())
+def test_a_suggested_key_is_plausible_in_its_table(wrong, right):
+    table, _, key = wrong.partition(".")
+    tables = ball_tables()
+    stated = tables.get(table, {})
+    tables[table] = (stated if isinstance(stated, dict) else {"name": stated}) | {key: 1.0}
+    with pytest.raises(InputError, match="is not a known key") as caught:
+        case_from_tables(tables)
+    said = str(caught.value).partition("; ")[2]
+    assert said.startswith("known are" if right is None else f"did you mean {right}?")
+
+
+def test_a_missing_map_of_a_patch_is_named_with_its_key(tmp_path):
+    patch = {"model": "surface", "map": {"file": "no.npy"}}
+    with pytest.raises(InputError, match=r"^asperities\.map\.file: no map \"no\.npy\" in /"):
+        case_from_tables(ball_tables() | {"asperities": patch}, tmp_path)
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [

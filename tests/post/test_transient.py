@@ -7,12 +7,14 @@ import numpy as np
 import pytest
 
 from tehl.cli.text import as_text
+from tehl.duration import BEYOND
 from tehl.errors import InputError
 from tehl.post.transient import envelope, largest_change, moving_profiles, passing_features
 from tehl.post.waves import passing_wave
+from tehl.problem import ContactProblem
 from tehl.transient_result import TransientResult
 from tests.fixtures_result import CASE, make_result
-from tests.fixtures_transient import make_transient, passing
+from tests.fixtures_transient import make_certified, make_transient, passing
 
 LENGTH = 3e-4
 
@@ -158,5 +160,34 @@ def test_extremes_at_the_end_of_a_run_of_unstated_duration_are_named():
     film[-1] = 0.5 * film.min()
     late = replace(run, history=replace(run.history, film_minimum=film))
     assert late.late_extremes == ("minimum film",)
-    assert "minimum film still changed at the end of the run: state a longer" in as_text(late)
+    assert late.longer_duration == pytest.approx(2.0 * run.history.time[-1])
+    assert 'changed at the end of the run: take transient.duration = "' in as_text(late)
     assert late.summary()["time"]["late_extremes"] == ["minimum film"]
+    certified = make_certified()
+    bar = replace(certified.uncertainty["film_minimum"], uncertainty=film.max())
+    assert replace(late, uncertainty={"film_minimum": bar}).late_extremes == ()
+
+
+@pytest.mark.parametrize(
+    ("outside", "stated"),
+    [("periodic", {}), ("mirror", {}), ("flat", {}), ("periodic", {"duration": 1e-3})],
+)
+def test_a_map_that_repeats_passes_whole_in_the_duration_that_is_named(tmp_path, outside, stated):
+    run = make_transient()
+    np.save(tmp_path / "map.npy", np.sin(np.arange(400.0)) * np.ones((40, 1)))
+    rough = {"type": "map", "file": str(tmp_path / "map.npy"), "unit": "nm", "pixel": 1e-5}
+    tables = run.start.problem.model_dump(exclude_none=True)
+    tables["surface_1"]["roughness"] = rough | {"outside": outside}
+    tables["transient"] |= stated
+    problem = ContactProblem.model_validate(tables)
+    repeated = replace(run, start=replace(run.start, problem=problem))
+    if outside == "flat" or stated:
+        assert repeated.longer_duration is None
+        return
+    units, motion = run.start.scales, problem.motion
+    slower = min(motion.speed_1, units.speed)
+    distance = 400 * 1e-5 + (2.5 + BEYOND) * units.half_width_x
+    assert repeated.longer_duration == pytest.approx(distance / slower)
+    assert "repeats at its edges has not passed whole" in as_text(repeated)
+    (tmp_path / "map.npy").unlink()
+    assert repeated.longer_duration is None

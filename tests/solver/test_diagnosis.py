@@ -3,10 +3,12 @@
 import pytest
 
 from tehl.grid import Grid
+from tehl.io.case import case_from_tables, tables_of_text
+from tehl.io.templates import template_text
 from tehl.options import Domain, Options
 from tehl.problem import ContactProblem
 from tehl.scaling import ScaledProblem
-from tehl.solver.diagnosis import LikelyCause, diverged, likely_cause
+from tehl.solver.diagnosis import LikelyCause, diverged, grid_hint, likely_cause
 from tehl.solver.film_solver import FilmSolver
 from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.ladder import COUPLED
@@ -54,6 +56,27 @@ def test_a_film_too_thin_for_the_grid_is_attributed_to_the_grid():
     assert found is not None
     assert found.cause == "film_below_grid"
     assert "numerics.points = " in str(found.hint)
+
+
+@pytest.mark.parametrize(
+    ("template", "changes"),
+    [
+        ("boundary-film", {"entrainment_speed": "1e-6 m/s"}),
+        ("mixed", {"entrainment_speed": "1e-6 m/s", "load": "50 N"}),
+    ],
+)
+def test_no_number_of_nodes_follows_from_the_film_where_solids_carry_the_load(template, changes):
+    tables = tables_of_text(template_text(template))
+    tables["contact"] = tables["contact"] | changes
+    if template == "mixed":
+        tables["asperities"]["rms"] = "0.1 um"
+        for name in ("surface_1", "surface_2"):
+            tables[name].pop("rms_roughness", None)
+    problem, _ = case_from_tables(tables)
+    scaled = ScaledProblem.of(problem)
+    assert grid_hint((65, 65), scaled).settings == {"numerics.points": 129}
+    found = cause_of(problem, 65)
+    assert found is None or found.cause != "film_below_grid"
 
 
 def test_all_likely_causes_are_reported_and_the_first_names_the_cause():

@@ -157,3 +157,19 @@ def test_no_hint_is_tried_after_the_time_of_the_solve_is_over():
 
     working_hint(failed, fails, SILENT, time.perf_counter() - 10.0)
     assert max(limits) <= 1.0  # the least time that trials get
+
+
+def test_a_trial_ends_at_the_cycle_after_the_time_that_is_left(monkeypatch):
+    failed = replace(failure(100.0, points=33).result, options=Options())
+
+    def goes_on(*_, monitor, **__):
+        for _ in range(100):
+            time.sleep(0.05)
+            monitor.cycle(failed.history[-1])
+        raise AssertionError("the trial was not ended")
+
+    monkeypatch.setattr(steady, "try_strategies", goes_on)
+    start = time.perf_counter()
+    result = steady._after_failure(failed, None, SILENT, start - 10.0)
+    assert "No setting is known" in str(result.status.hint)
+    assert time.perf_counter() - start < 2.0

@@ -6,10 +6,21 @@ from typing import Annotated
 import typer
 
 from tehl.cli.arguments import AsJson, CaseFile, Overrides
+from tehl.cli.lines import show
+
+
+def _templates(incomplete: str) -> list[tuple[str, str]]:
+    """Return the templates and their titles, of which the shell completes a name."""
+    from tehl.io.templates import templates
+
+    known = templates() | templates("studies")
+    return [(name, title) for name, title in known.items() if name.startswith(incomplete)]
 
 
 def new(
-    template: Annotated[str, typer.Argument(help="Name of the template.")] = "ball-on-disc",
+    template: Annotated[
+        str, typer.Argument(help="Name of the template.", autocompletion=_templates)
+    ] = "ball-on-disc",
     show_list: Annotated[bool, typer.Option("--list", help="List the templates.")] = False,
 ) -> None:
     """Print a commented case or study file to edit."""
@@ -19,9 +30,9 @@ def new(
         typer.echo(template_text(template), nl=False)
         return
     for name, title in templates().items():
-        typer.echo(f"{name:<14} {title}")
+        show(f"{name:<16}  {title}")
     for name, title in templates("studies").items():
-        typer.echo(f"{name:<14} {title} (a study)")
+        show(f"{name:<16}  {title} (a study)")
 
 
 def explain(case: CaseFile, *, overrides: Overrides, as_json: AsJson = False) -> None:
@@ -31,7 +42,10 @@ def explain(case: CaseFile, *, overrides: Overrides, as_json: AsJson = False) ->
     from tehl.report.explain import explain as explained
 
     explanation = explained(*read_case_and_options(case, overrides))
-    typer.echo(json.dumps(as_summary(explanation)) if as_json else as_text(explanation))
+    if as_json:
+        typer.echo(json.dumps(as_summary(explanation)))
+    else:
+        show(as_text(explanation))
 
 
 def schema() -> None:

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
-import typer
-
+from tehl.cli.lines import show
 from tehl.errors import InputError
 from tehl.io.atomic import check_writable
 from tehl.io.checkpoint import Fingerprint, read_checkpoint, write_checkpoint
@@ -72,7 +71,7 @@ class Keeper(Generic[State]):
             write_checkpoint(self.path, self.owner, self.kind.pack(self.last))
         except (OSError, InputError) as error:
             if not self._reported:
-                typer.echo(f"tehl: checkpoint not written: {error}", err=True)
+                show(f"tehl: checkpoint not written: {error}", err=True)
             self._reported = True
             return False
         return True
@@ -84,7 +83,7 @@ class Keeper(Generic[State]):
             yield
         except (KeyboardInterrupt, SystemExit, MemoryError):
             if self.write() and self.last is not None:
-                typer.echo(
+                show(
                     f"tehl: {self._where(self.last)} is saved in {self.path}; tehl solve --resume "
                     "continues from it",
                     err=True,
@@ -99,9 +98,7 @@ class Keeper(Generic[State]):
         check_writable(self.path)
         if not self.path.exists():
             if resume:
-                typer.echo(
-                    f"checkpoint {self.path} does not exist: starting at time zero", err=True
-                )
+                show(f"checkpoint {self.path} does not exist: starting at time zero", err=True)
             return None
         if not resume:
             raise InputError(
@@ -109,7 +106,7 @@ class Keeper(Generic[State]):
                 "start again"
             )
         state = self.kind.unpack(read_checkpoint(self.path, self.owner))
-        typer.echo(f"continuing after {self._where(state)} of {self.path}", err=True)
+        show(f"continuing after {self._where(state)} of {self.path}", err=True)
         return state
 
     def _where(self, state: State) -> str:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import typer
 
+from tehl.cli.lines import show
 from tehl.cli.progress import SHOWN, duration, study_progress
 from tehl.cli.study_job import number_of_workers
 from tehl.errors import InputError
@@ -13,6 +14,7 @@ from tehl.io.atomic import check_writable
 from tehl.studies.answers import check_output, solve_list, write_answers
 from tehl.studies.contacts import Contacts, read_contacts
 from tehl.studies.folder import locked
+from tehl.studies.forecast import expected_times
 from tehl.studies.runner import Outcome
 from tehl.studies.store import Store
 
@@ -35,18 +37,19 @@ def run(  # noqa: PLR0913 (the arguments of the command)
     if not found.cases:
         raise InputError(f"{source}: no row can be solved; {found.wrong[0].message}")
     for row in found.wrong[:SHOWN]:
-        typer.echo(f"tehl: {row.message}", err=True)
+        show(f"tehl: {row.message}", err=True)
     if len(found.wrong) > SHOWN:
-        typer.echo(f"tehl: and {len(found.wrong) - SHOWN} more wrong rows", err=True)
+        show(f"tehl: and {len(found.wrong) - SHOWN} more wrong rows", err=True)
     folder = output.with_name(f"{output.name}.contacts")
     with locked(folder), closing(Store(folder)) as store:
         try:
-            with study_progress(quiet=quiet) as monitor:
+            expected = expected_times(found.cases, store.finished(found.cases))
+            with study_progress(expected, quiet=quiet) as monitor:
                 outcome = solve_list(
                     found, store, jobs=workers, scheduler=scheduler, forked=True, monitor=monitor
                 )
         except (KeyboardInterrupt, SystemExit, OSError):
-            typer.echo(
+            show(
                 f"tehl: finished contacts are kept in {folder}; continue with the same command",
                 err=True,
             )
@@ -74,14 +77,14 @@ def _show(found: Contacts, outcome: Outcome, output: Path, *, as_json: bool) -> 
         }
         typer.echo(json.dumps(numbers))
         return
-    typer.echo(
+    show(
         f"{outcome.converged} of {outcome.total} contacts converged, {outcome.reused} were "
         f"finished before; {duration(outcome.wall_seconds)}"
     )
     if outcome.equal:
-        typer.echo(f"  {outcome.equal} further rows equal others, and are solved once")
+        show(f"  {outcome.equal} further rows equal others, and are solved once")
     if found.wrong:
-        typer.echo(f"  {len(found.wrong)} of {len(found.rows)} rows are wrong, see the table")
+        show(f"  {len(found.wrong)} of {len(found.rows)} rows are wrong, see the table")
     for case, row in outcome.failed[:SHOWN]:
-        typer.echo(f"  failed: {case.name}: {row.message or row.cause}")
+        show(f"  failed: {case.name}: {row.message or row.cause}")
     typer.echo(f"written: {output}", err=True)

@@ -12,6 +12,7 @@ from typing import Any, NoReturn
 
 import typer
 
+from tehl.cli.lines import show
 from tehl.errors import TehlError
 
 NOT_CONVERGED, BAD_INPUT, ENVIRONMENT = 1, 2, 3
@@ -35,7 +36,7 @@ def fail(error: BaseException) -> NoReturn:
     """Print an error to stderr, with ``--json`` also as an object to stdout, and exit."""
     message, status, code = _outcome(error)
     with suppress(OSError):
-        typer.echo(f"tehl: {message}", err=True)
+        show(f"tehl: {message}", err=True)
     if "--json" in sys.argv[1:]:
         with suppress(OSError):
             typer.echo(json.dumps({"status": status, "message": message}))
@@ -131,4 +132,4 @@ def _raise_again(received: list[int], hook: Callable[[Any], object], unraisable:
 def _report(message: str) -> None:
     """Print why the program ends, unless the terminal is gone."""
     with suppress(OSError):
-        typer.echo(f"tehl: {message}", err=True)
+        show(f"tehl: {message}", err=True)

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import typer
 
+from tehl.cli.lines import show
 from tehl.cli.progress import busy, progress
 from tehl.cli.reference_runs import REFERENCES, Comparisons, compare, smooth_file
 from tehl.cli.text import as_text, failure_text
@@ -74,7 +75,7 @@ def run(job: Job) -> bool:
         compared = _compared(result, references, job)
     _show(result, compared, job)
     if failure is not None:
-        typer.echo(failure_text(result.status, failure), err=True)
+        show(failure_text(result.status, failure), err=True)
     return failure is None
 
 
@@ -176,7 +177,7 @@ def _compared(result: Result, cases: dict[str, ContactProblem], job: Job) -> Com
         other, failure = _solved(problem, result.grid_options, replace(job, certify=False))
         found[what] = other if failure is None and isinstance(other, Result) else None
         if found[what] is None:
-            typer.echo(f"tehl: reference run {what} did not converge: {failure}", err=True)
+            show(f"tehl: reference run {what} did not converge: {failure}", err=True)
     compared = compare(result, found)
     with busy(f"writing {job.target}", quiet=job.quiet):
         save(result, job.target, extra=compared.blocks)
@@ -190,7 +191,7 @@ def _show(result: Result | TransientResult, compared: Comparisons, job: Job) -> 
     if job.as_json:
         typer.echo(json.dumps(result.summary() | compared.blocks, allow_nan=False))
     else:
-        typer.echo(as_text(result, compared))
+        show(as_text(result, compared))
     typer.echo(f"written: {job.target}", err=True)
     if compared.smooth is not None:
         typer.echo(f"written: {smooth_file(job.target)}", err=True)

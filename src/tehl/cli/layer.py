@@ -9,6 +9,7 @@ from typer import Exit, Option, echo
 
 from tehl.cli.arguments import AsJson, CaseFile, Overrides, Quiet
 from tehl.cli.ending import NOT_CONVERGED
+from tehl.cli.lines import show
 from tehl.errors import InputError
 
 if TYPE_CHECKING:
@@ -58,7 +59,7 @@ def layer(  # noqa: PLR0913 (the options of the command)
         try:
             result = solve(problem, options, monitor=monitor)
         except ConvergenceError as error:
-            echo(f"tehl: not converged: {error}", err=True)
+            show(f"tehl: not converged: {error}", err=True)
             raise Exit(NOT_CONVERGED) from None
     decay, times = layer_decay(result), np.linspace(0.0, end, steps + 1)
     films = decay.film(times), decay.film(times, by_formula=True)
@@ -66,7 +67,10 @@ def layer(  # noqa: PLR0913 (the options of the command)
     starved = result.starvation
     degree = None if starved is None else starved.degree
     title = problem.title or case.stem
-    echo(_json(decay, rows) if as_json else _text(title, decay, rows, degree))
+    if as_json:
+        echo(_json(decay, rows))
+    else:
+        show(_text(title, decay, rows, degree))
     if output is not None:
         _write(output, rows)
 

@@ -4,7 +4,7 @@ import math
 import sys
 import time
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -60,6 +60,8 @@ _SILENT = 2.0
 """Seconds after which a live view that does not change shows the time."""
 _EVERY = 10.0
 """Seconds between two plain lines of a study."""
+_ENOUGH = 3
+"""Finished cases that show how long the others take."""
 SHOWN = 20
 """Failed cases that are named."""
 
@@ -102,18 +104,20 @@ def busy(what: str, *, quiet: bool) -> Iterator[None]:
 
 
 @contextmanager
-def study_progress(*, quiet: bool) -> Iterator["StudyMonitor"]:
-    """Yield the monitor of a study: a bar, or a line now and then."""
+def study_progress(
+    expected: Mapping[str, float] | None = None, *, quiet: bool
+) -> Iterator["StudyMonitor"]:
+    """Yield the monitor of a study: a bar, or a line now and then; ``expected`` as below."""
     from tehl.studies.runner import QUIET
 
     if quiet:
         yield QUIET
     elif not _is_terminal():
-        yield StudyProgress(None)
+        yield StudyProgress(None, expected)
     else:
         columns = (BarColumn(bar_width=20), TextColumn("{task.description}"))
         with Progress(*columns, console=Console(stderr=True), refresh_per_second=4) as bar:
-            yield StudyProgress(bar)
+            yield StudyProgress(bar, expected)
 
 
 def compile_kernels(*, coupled: bool) -> None:
@@ -295,10 +299,29 @@ class _StepProgress(_Shown):
 
 
 class StudyProgress(_Shown):
-    """The monitor of a study; counts all cases, those finished before and now, and failed now."""
+    """The monitor of a study; counts all cases, those finished before and now, and failed now.
 
-    def __init__(self, bar: Progress | None, clock: Callable[[], float] = time.monotonic) -> None:
+    Parameters
+    ----------
+    bar : Progress or None
+        Where they are shown; None is on plain lines.
+    expected : mapping or None
+        CPU seconds of the open cases to expect, by key: their ratios decide what is left. None
+        takes all for equal.
+    clock : callable
+        Returns the seconds now.
+    """
+
+    def __init__(
+        self,
+        bar: Progress | None,
+        expected: Mapping[str, float] | None = None,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
         super().__init__(bar, {})
+        self._expected = dict(expected or {})
+        self._usual = sum(self._expected.values()) / len(self._expected) if expected else 1.0
+        self._worked = self._work = 0.0
         self.total = self.reused = self.done = self.failed = 0
         self._clock = clock
         self._start = self._last = clock()
@@ -307,6 +330,8 @@ class StudyProgress(_Shown):
     def begin(self, total: int, reused: int) -> None:
         """Show the number of cases."""
         self.total, self.reused = total, reused
+        known = self._expected.values()
+        self._work = sum(known) + self._usual * max(self.open - len(known), 0)
         self._start = self._last = self._clock()
         if self._task is None:
             self.message(f"{total} cases, {reused} of them finished before")
@@ -315,6 +340,7 @@ class StudyProgress(_Shown):
     def finished(self, case: "Case", row: "Row") -> None:
         """Count a case, and name it if it failed."""
         self.done += 1
+        self._worked += self._expected.get(case.key, self._usual)
         self.failed += not row.converged
         if not row.converged and self.failed <= SHOWN:
             cause = (row.cause or row.status).replace("_", " ")
@@ -341,7 +367,10 @@ class StudyProgress(_Shown):
         text = f"{self.total - self.open} of {self.total} cases"
         if self.done:
             rate = self.done / max(self._clock() - self._start, 1e-9)
-            text += f", {rate:.3g} per second, {duration(self.open / rate)} left"
+            text += f", {rate:.3g} per second"
+        if self.done >= _ENOUGH:
+            pace = (self._clock() - self._start) / self._worked
+            text += f", {duration(pace * max(self._work - self._worked, 0.0))} left"
         return f"{text}, {self.failed} failed" if self.failed else text
 
 

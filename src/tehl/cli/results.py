@@ -1,13 +1,14 @@
 """``tehl plot``, ``animate``, ``export`` and ``report``: what can be made of a stored result."""
 
+from contextlib import suppress
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from typer import Option, echo
+from typer import Context, Option, echo
 
 from tehl.cli.arguments import Stored
-from tehl.errors import InputError
+from tehl.errors import InputError, TehlError
 
 if TYPE_CHECKING:
     from tehl.plots import Pictures
@@ -17,6 +18,23 @@ if TYPE_CHECKING:
 Format = StrEnum("Format", ["csv", "vtk", "npz", "mat"])
 Image = StrEnum("Image", ["png", "pdf", "svg"])
 What = StrEnum("What", ["lines", "fields", "history"])
+
+
+def _pictures(ctx: Context, incomplete: str) -> list[str]:
+    """Return the pictures of the result on the command line, the last of which the shell completes.
+
+    Without a result that can be read there are none.
+    """
+    from tehl.io.store import load
+    from tehl.plots import pictures_of
+
+    before, comma, begun = incomplete.rpartition(",")
+    words = [ctx.params.get("stored"), *ctx.args]  # what follows an unfinished option is left
+    for stored in filter(None, words):
+        with suppress(TehlError, OSError):
+            names = pictures_of(load(stored))
+            return [f"{before}{comma}{name}" for name in names if name.startswith(begun)]
+    return []
 
 
 def plot(  # noqa: PLR0913 (the options of the command)
@@ -32,7 +50,11 @@ def plot(  # noqa: PLR0913 (the options of the command)
     ] = None,
     only: Annotated[
         str | None,
-        Option(metavar="NAME,NAME", help="Draw these pictures only, such as film,pressure."),
+        Option(
+            metavar="NAME,NAME",
+            help="Draw these pictures only, such as film,pressure.",
+            autocompletion=_pictures,
+        ),
     ] = None,
     show_list: Annotated[
         bool, Option("--list", help="List the names of the pictures; draw nothing.")

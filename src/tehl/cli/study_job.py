@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
+from tehl.cli.lines import show
 from tehl.cli.progress import SHOWN, duration, study_progress
 from tehl.errors import InputError
 from tehl.io.atomic import check_place, check_writable, shortened
@@ -35,7 +36,7 @@ from tehl.studies.folder import (
     store_of,
     write_table,
 )
-from tehl.studies.forecast import check_memory_of, forecast
+from tehl.studies.forecast import check_memory_of, expected_times, forecast
 from tehl.studies.pictures import Picture, picture_of, save
 from tehl.studies.plan import Plan, Study, study_of
 from tehl.studies.runner import Outcome
@@ -155,7 +156,8 @@ def _solved(study: Study, folder: Path, workers: int, job: StudyJob) -> Outcome:
     """Solve what is not finished; on an interrupt show how to continue."""
     plan = study.plan
     with closing(store_of(plan, folder)) as store:
-        _check_resources(study, store.finished(study.cases), workers, job.scheduler)
+        finished = store.finished(study.cases)
+        _check_resources(study, finished, workers, job.scheduler)
         if job.replace:
             remove_outcome(folder)
         else:
@@ -163,7 +165,8 @@ def _solved(study: Study, folder: Path, workers: int, job: StudyJob) -> Outcome:
         is_new = save_plan(plan, folder)
         Thread(target=_load_late, args=(bool(plan.pictures),), daemon=True).start()
         try:
-            with study_progress(quiet=job.quiet) as monitor:
+            expected = expected_times(study.cases, {} if job.replace else finished)
+            with study_progress(expected, quiet=job.quiet) as monitor:
                 return solve(
                     study.cases,
                     store,
@@ -178,7 +181,7 @@ def _solved(study: Study, folder: Path, workers: int, job: StudyJob) -> Outcome:
             if store.exists:
                 scheduler = () if job.scheduler is None else ("--scheduler", job.scheduler)
                 again = shlex.join(["tehl", "study", str(folder), *scheduler])
-                typer.echo(f"tehl: finished cases are kept; continue with: {again}", err=True)
+                show(f"tehl: finished cases are kept; continue with: {again}", err=True)
             elif is_new:
                 (folder / PLAN).unlink()
             raise
@@ -221,7 +224,7 @@ def _write(frame: "pd.DataFrame", folder: Path, pictures: tuple[Picture, ...]) -
         try:
             written["pictures"].append(str(save(picture, frame, folder)))
         except InputError as error:
-            typer.echo(f"tehl: picture {Path(picture.file_name).stem}: {error}", err=True)
+            show(f"tehl: picture {Path(picture.file_name).stem}: {error}", err=True)
     return written
 
 
@@ -253,15 +256,15 @@ def _show_forecast(study: Study, folder: Path, workers: int, *, as_json: bool) -
         typer.echo(json.dumps(asdict(found) | {"jobs": workers}))
         return
     cpu, wall = duration(found.cpu_seconds), duration(found.wall_seconds)
-    typer.echo(plan.title or "Study")
-    typer.echo(f"  cases         {found.cases}, from {cases[0].name} to {cases[-1].name}")
-    typer.echo(f"  to be solved  {found.open}")
+    show(plan.title or "Study")
+    show(f"  cases         {found.cases}, from {cases[0].name} to {cases[-1].name}")
+    show(f"  to be solved  {found.open}")
     known = "hard ones take up to ten times as long; the progress shows what is left"
     if found.is_calibrated:
         known = "by the cases finished so far"
-    typer.echo(f"  time          about {wall} on {workers} cores, {cpu} of computing; {known}")
-    typer.echo(f"  disk          about {found.disk_bytes / 1e6:.3g} MB in {folder}")
-    typer.echo(f"  memory        about {found.memory_bytes / 1e6:.3g} MB besides the program")
+    show(f"  time          about {wall} on {workers} cores, {cpu} of computing; {known}")
+    show(f"  disk          about {found.disk_bytes / 1e6:.3g} MB in {folder}")
+    show(f"  memory        about {found.memory_bytes / 1e6:.3g} MB besides the program")
 
 
 def _outcome_as_json(outcome: Outcome, written: Written) -> str:
@@ -291,25 +294,25 @@ def _outcome_as_json(outcome: Outcome, written: Written) -> str:
 
 
 def _show_outcome(outcome: Outcome, written: Written) -> None:
-    typer.echo(
+    show(
         f"{outcome.converged} of {outcome.total} cases converged, {outcome.reused} were finished "
         f"before; {duration(outcome.wall_seconds)}"
     )
     if outcome.equal:
-        typer.echo(f"  {outcome.equal} further rows equal others, and are solved once")
+        show(f"  {outcome.equal} further rows equal others, and are solved once")
     if outcome.uncertain:
-        typer.echo(
+        show(
             f"  {outcome.uncertain} of them with an uncertain minimum film: see the messages in "
             "the table"
         )
     for case, row in outcome.failed[:SHOWN]:
-        typer.echo(f"  failed: {case.name}: {row.message or row.cause}")
+        show(f"  failed: {case.name}: {row.message or row.cause}")
     if len(outcome.failed) > SHOWN:
-        typer.echo(f"  and {len(outcome.failed) - SHOWN} more, see the table")
+        show(f"  and {len(outcome.failed) - SHOWN} more, see the table")
     for case, row in outcome.retried[:SHOWN]:
-        typer.echo(f"  converged on retry: {case.name}: {settings_text(row.retry_settings)}")
+        show(f"  converged on retry: {case.name}: {settings_text(row.retry_settings)}")
     hints = Counter(str(row.hint) for _, row in outcome.failed if row.hint)
     for hint, count in hints.most_common(SHOWN):
-        typer.echo(f"  hint: {hint}" if count == 1 else f"  hint for {count} of them: {hint}")
+        show(f"  hint: {hint}" if count == 1 else f"  hint for {count} of them: {hint}")
     for path in (*written["table"], *written["pictures"]):
         typer.echo(f"written: {path}", err=True)

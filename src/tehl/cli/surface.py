@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from typer import Argument, Option, echo
 
 from tehl.cli.arguments import AsJson
+from tehl.cli.lines import show
 
 if TYPE_CHECKING:
     from tehl.roughness import Map
@@ -65,7 +66,10 @@ def surface(  # noqa: PLR0913, PLR0917 (the options of the command)
     keys = {key: value for key, value in stated.items() if value is not None}
     mesh = _mesh(contact, half_width, points)
     found = preview(_map(file, keys, overrides), mesh)
-    echo(json.dumps(as_summary(found)) if as_json else as_text(found))
+    if as_json:
+        echo(json.dumps(as_summary(found)))
+    else:
+        show(as_text(found))
     if output is not None:
         from tehl.plots.surface import surface_preview
 

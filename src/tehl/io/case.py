@@ -95,17 +95,18 @@ def _validated(
 
 
 def _check_maps(problem: ContactProblem) -> None:
-    """Raise if the file of a measured surface is missing; the message names its key."""
-    for name in ("surface_1", "surface_2"):
-        roughness = getattr(problem, name).roughness
-        parts = roughness.parts if isinstance(roughness, Sum) else (roughness,)
-        for number, part in enumerate(parts):
-            if isinstance(part, Map):
-                place = f".{number}" if isinstance(roughness, Sum) else ""
-                try:
-                    part.stamp  # noqa: B018 (raises)
-                except InputError as error:
-                    raise InputError(f"{name}.roughness{place}.file: {error}") from None
+    """Raise if the file of a measured surface cannot be read; the message names its key."""
+    stated: dict[str, object] = {"asperities.map": getattr(problem.asperities, "map", None)}
+    for name in ("surface_1.roughness", "surface_2.roughness"):
+        rough = getattr(problem, name.partition(".")[0]).roughness
+        parts = rough.parts if isinstance(rough, Sum) else ()
+        stated |= {name: rough} | {f"{name}.{n}": part for n, part in enumerate(parts)}
+    for name, surface in stated.items():
+        if isinstance(surface, Map):
+            try:
+                surface.stamp  # noqa: B018 (raises)
+            except InputError as error:
+                raise InputError(f"{name}.file: {error}") from None
 
 
 def case_schema() -> dict[str, Any]:

@@ -136,43 +136,112 @@ def _field(models: Sequence[Model], key: str | int) -> FieldInfo | None:
 LINE = "line contacts are not computed yet; state an ellipse by radius_x and radius_y"
 STEADY = "only load and the roughness of the surfaces vary in time; state it under [contact]"
 OTHER_WORDS = {
-    "contact.width": LINE,
-    "contact.length": LINE,
-    "contact.line_load": LINE,
-    "contact.load_per_length": LINE,
-    "contact.speed": "did you mean entrainment_speed, the mean speed of both surfaces?",
-    "transient.entrainment_speed": STEADY,
-    "transient.slide_roll_ratio": STEADY,
-    "transient.radius": STEADY,
-    "transient.radius_x": STEADY,
-    "transient.radius_y": STEADY,
-    "surface_1.ra": "did you mean ra_roughness?",
-    "surface_2.ra": "did you mean ra_roughness?",
-    "surface_1.rq": "did you mean rms_roughness?",
-    "surface_2.rq": "did you mean rms_roughness?",
+    "contact": {
+        **dict.fromkeys(("width", "length", "line_load", "load_per_length"), LINE),
+        "speed": "did you mean entrainment_speed, the mean speed of both surfaces?",
+        "sliding_speed": "did you mean slide_roll_ratio, (u_1 - u_2) over the mean speed?",
+        "diameter": "did you mean radius, half of it?",
+    },
+    "surface": {"diameter": "did you mean radius, half of it?"},
+    "transient": dict.fromkeys(
+        ("entrainment_speed", "slide_roll_ratio", "radius", "radius_x", "radius_y"), STEADY
+    ),
 }
-"""What to write for keys that are no misspelling of the right one."""
+"""What to write for keys of a table that are no misspelling of the right one."""
+SYNONYMS = {
+    "contact": {
+        "load": "force normal_load normal_force weight w f",
+        "hertz_pressure": "pressure max_pressure maximum_pressure hertz_stress p_h",
+        "entrainment_speed": "velocity mean_speed rolling_speed rolling_velocity u_m u",
+        "slide_roll_ratio": "srr slip slide_ratio sliding_ratio slide_to_roll",
+        "radius_x": "rx r_x radius_1",
+        "radius_y": "ry r_y radius_2",
+        "radius": "r",
+        "lubricant.temperature": "temperature oil_temperature",
+    },
+    "surface": {
+        "rms_roughness": "rq sq sigma rms roughness_rms",
+        "ra_roughness": "ra sa roughness_ra",
+        "temperature": "temp bulk_temperature body_temperature",
+        "contact.entrainment_speed": "speed velocity",
+        "material.young_modulus": "e young youngs_modulus elastic_modulus modulus young_modulus",
+        "material.poisson_ratio": "nu poisson poissons_ratio poisson_ratio",
+        "material.conductivity": "conductivity thermal_conductivity",
+        "material.density": "density rho",
+        "material.heat_capacity": "heat_capacity specific_heat",
+    },
+    "lubricant": {
+        "viscosity.eta_0": "eta eta0 eta_0 dynamic_viscosity viscosity_0",
+        "viscosity.alpha": "alpha pressure_coefficient pressure_viscosity_coefficient",
+        "viscosity.nu_40": "nu_40 viscosity_40 kinematic_viscosity",
+        "viscosity.nu_100": "nu_100 viscosity_100",
+        "shear.stress": "eyring_stress shear_stress limiting_shear_stress",
+        "heat_capacity": "cp specific_heat",
+        "temperature": "inlet_temperature oil_temperature",
+        "name": "grade oil",
+    },
+    "numerics": {
+        "points": "nodes n grid mesh nx ny",
+        "error": "precision relative_error",
+        "max_cycles": "iterations max_iterations cycles",
+        "max_time": "timeout time_limit",
+    },
+    "transient": {
+        "duration": "time end_time t_end end",
+        "stride": "dt step time_step",
+    },
+    "supply": {"layer": "film oil_film inlet_film film_thickness height"},
+    "contact_film": {"thickness": "film h height", "friction": "mu friction_coefficient"},
+    "asperities": {"friction": "mu friction_coefficient", "rms": "sigma sq rq"},
+}
+"""By table and right key: other words for it, in lower case."""
+MISPLACED = (NUMERICS, "contact", "lubricant", "thermal", "transient")
+"""Tables whose keys are stated in others by mistake."""
+ALIKE = 0.72
+"""Likeness of a misspelled key and the right one."""
 
 
 def _unknown_key(mistake: _Mistake) -> str:
     models, word = mistake.models[-2], str(mistake.path[-1])
-    if mistake.name in OTHER_WORDS:
-        return f"{mistake.name} is not a known key; {OTHER_WORDS[mistake.name]}"
     law = _chosen_law(models, mistake.table)
     if law is not None and any(word in model.model_fields for model in models):
         return _key_of_another_law(mistake, law)
     known = list(dict.fromkeys(key for m in ([law] if law else models) for key in m.model_fields))
     if len(mistake.path) == 1 and ContactProblem in models:
         known.append(NUMERICS)
-    near = difflib.get_close_matches(word, known, n=1, cutoff=0.55)
-    of_case = mistake.models[0][0] in (ContactProblem, Options)
-    paths = (*key_paths(ContactProblem), *key_paths(Options, f"{NUMERICS}."))
-    elsewhere = [path for path in paths if of_case and path.split(".")[-1] == word]
-    # of several tables with this key, which is meant is not known
-    elsewhere = elsewhere if len(elsewhere) == 1 else []
-    moved = elsewhere and not near and len(word) > 1
-    suggestion = f"did you mean {elsewhere[0]}?" if moved else _suggest(word, known)
+    table = re.sub("_[12]$", "", mistake.name.rpartition(".")[0])
+    suggestion = (
+        OTHER_WORDS.get(table, {}).get(word)
+        or _right_word(table, word)
+        or _close(word, known, ALIKE)
+        or _in_another_table(mistake, word)
+        or f"known are {', '.join(known)}"
+    )
     return f"{mistake.name} is not a known key; {suggestion}"
+
+
+def _right_word(table: str, word: str) -> str:
+    """Return the question after the right key for another word; empty without one."""
+    right = (key for key, words in SYNONYMS.get(table, {}).items() if word.lower() in words.split())
+    return "".join(f"did you mean {key}?" for key in right)
+
+
+def _in_another_table(mistake: _Mistake, word: str) -> str:
+    """Return the question after the only plausible table that has a key; empty without one.
+
+    That is one within the table of the mistake, or one of the tables of `MISPLACED`.
+    """
+    if mistake.models[0][0] not in (ContactProblem, Options) or len(word) < 2:
+        return ""
+    tables = tuple(f"{name}." for name in MISPLACED)
+    own = f"{mistake.name.partition('.')[0]}." if "." in mistake.name else "\n"
+    paths = [
+        path
+        for path in dict.fromkeys((*key_paths(ContactProblem), *key_paths(Options, f"{NUMERICS}.")))
+        if path.split(".")[-1] == word
+        and (path.startswith(own) or (path.startswith(tables) and path.count(".") == 1))
+    ]
+    return f"did you mean {paths[0]}?" if len(paths) == 1 else ""
 
 
 def _missing(mistake: _Mistake) -> str:
@@ -390,8 +459,13 @@ def key_paths(model: Model, prefix: str = "") -> Iterator[str]:
 
 
 def _suggest(word: str, known: list[str]) -> str:
-    close = difflib.get_close_matches(word[:100], known, n=1, cutoff=0.55)
-    return f"did you mean {close[0]}?" if close else f"known are {', '.join(known)}"
+    return _close(word, known, 0.55) or f"known are {', '.join(known)}"
+
+
+def _close(word: str, known: list[str], alike: float) -> str:
+    """Return the question after the word that is most alike; empty without one."""
+    close = difflib.get_close_matches(word[:100], known, n=1, cutoff=alike)
+    return "".join(f"did you mean {one}?" for one in close)
 
 
 def _key(part: str | int) -> str:

@@ -336,6 +336,7 @@ def _transient(run: TransientResult) -> Block:
             "steps": len(times) - 1,
             "frames": len(run.frames.step),
             "late_extremes": list(run.late_extremes),
+            "longer_duration_s": run.longer_duration,
         },
         "film": {
             "h_min_m": _extreme(history.film_minimum, times, np.argmin),

@@ -23,6 +23,8 @@ LARGEST_TRACTION = 0.1
 
 RESOLVED = 0.1
 """Expected error of the film from which on a grid does not resolve it."""
+MOST_LOAD = 0.5
+"""Part of the load on solids from which on the film decides no number of nodes."""
 LESS_ROUGH = Hint(
     "Take lower or longer asperities, a higher speed, or more nodes (numerics.points)."
 )
@@ -211,7 +213,9 @@ def _shear_stress(scaled: ScaledProblem) -> Iterator[LikelyCause]:
 
 
 def _film_below_grid(grid: Grid, scaled: ScaledProblem) -> Iterator[LikelyCause]:
-    """Yield the grid if it cannot resolve the expected film."""
+    """Yield the grid if it cannot resolve the film, unless solids carry most of the load."""
+    if solids_carry(scaled):
+        return
     groups, film, here = scaled.groups, film_to_resolve(scaled), min(grid.nx, grid.ny)
     needed = expected_points(groups, grid.domain, RESOLVED, film=film)
     if not needed > here:
@@ -233,7 +237,20 @@ def _round(value: float) -> str:
 
 
 def grid_hint(points: tuple[int, int], scaled: ScaledProblem) -> Hint:
-    """Return the hint to the recommended grid, at least twice as fine as ``points``."""
-    domain, film = chosen_domain(scaled, USUAL_ERROR), film_to_resolve(scaled)
-    needed = expected_points(scaled.groups, domain, RESOLVED, film=film)
-    return Hint(settings={"numerics.points": max(needed, 2 * max(points) - 1)})
+    """Return the hint to the recommended grid, at least twice as fine as ``points``.
+
+    Where solids carry most of the load no film recommends one.
+    """
+    nodes = 2 * max(points) - 1
+    if not solids_carry(scaled):
+        domain, film = chosen_domain(scaled, USUAL_ERROR), film_to_resolve(scaled)
+        nodes = max(nodes, expected_points(scaled.groups, domain, RESOLVED, film=film))
+    return Hint(settings={"numerics.points": nodes})
+
+
+def solids_carry(scaled: ScaledProblem) -> bool:
+    """Return whether asperities or a boundary film carry most of the load, by formulas."""
+    boundary = scaled.problem.contact_film
+    if boundary is not None and expected_film(scaled) < boundary.thickness:
+        return True
+    return scaled.problem.asperities is not None and shared_load(scaled).share > MOST_LOAD

@@ -1,7 +1,9 @@
-"""Receivers of the reports of a solve: protocols, one that discards, one that records."""
+"""Receivers of the reports of a solve: protocols, and those that discard, record or end it."""
 
+import time
 from typing import Protocol
 
+from tehl.errors import TehlError
 from tehl.solution import CycleReport
 from tehl.transient_result import StepReport
 
@@ -42,3 +44,21 @@ class Recorder:
         """Record the report and pass it on."""
         self.reports.append(report)
         self._monitor.cycle(report)
+
+
+class TimeIsOverError(TehlError):
+    """A solve has taken the time that it was given."""
+
+
+class Deadline:
+    """Passes everything on to ``monitor``; ends the solve at the first cycle after ``seconds``."""
+
+    def __init__(self, monitor: Monitor, seconds: float) -> None:
+        self._monitor, self._end = monitor, time.perf_counter() + seconds
+        self.message = monitor.message
+
+    def cycle(self, report: CycleReport) -> None:
+        """Pass the report on; raise TimeIsOverError if the time is over."""
+        self._monitor.cycle(report)
+        if time.perf_counter() > self._end:
+            raise TimeIsOverError("the time is over")

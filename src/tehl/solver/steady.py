@@ -31,7 +31,7 @@ from tehl.solver.goal import Goal
 from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.ladder import ladder
 from tehl.solver.level import Level
-from tehl.solver.monitor import SILENT, Monitor, Recorder
+from tehl.solver.monitor import SILENT, Deadline, Monitor, Recorder, TimeIsOverError
 from tehl.solver.outputs import (
     film_asperities,
     film_contact,
@@ -149,7 +149,8 @@ def _after_failure(failed: Result, reached: Reached | None, monitor: Monitor, en
     """
 
     def attempt(problem: ContactProblem, options: Options) -> Result:
-        return try_strategies(problem, options, monitor=monitor, rough=True)[1]
+        limited = Deadline(monitor, options.max_time)
+        return try_strategies(problem, options, monitor=limited, rough=True)[1]
 
     on_others = solved_on_other_nodes(failed, attempt, monitor, end)
     if on_others is not None:
@@ -159,7 +160,10 @@ def _after_failure(failed: Result, reached: Reached | None, monitor: Monitor, en
     if reached is None:
         return failed
     (nx, ny), error = reached
-    kept = attempt(failed.problem, failed.options.on_points(nx, ny))
+    try:
+        kept = attempt(failed.problem, failed.options.on_points(nx, ny))
+    except TimeIsOverError:
+        return failed
     if not kept.status.converged:
         return failed
     text = f"The film on {nx} x {ny} nodes is kept; its error is about {percentage(error)}."

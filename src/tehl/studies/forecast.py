@@ -73,6 +73,12 @@ def forecast(
     )
 
 
+def expected_times(cases: Sequence[Case], finished: Mapping[str, Row]) -> dict[str, float]:
+    """Return the CPU seconds to expect of the cases that are not finished, by their keys."""
+    every = {case.key: case for case in cases}
+    return {key: _seconds(case) for key, case in every.items() if key not in finished}
+
+
 def check_memory_of(forecast: Forecast, jobs: int) -> None:
     """Raise an InputError if all workers together need more memory than is available."""
     available = available_memory()
