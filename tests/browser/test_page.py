@@ -7,11 +7,11 @@ import sys
 
 import pytest
 
-from tehl.explore.case_text import CaseText
+from tehl.explore.case_text import CaseText, template_case
 from tehl.io.templates import template_text
 from tests.browser.conftest import number, opened, solved, type_into, until
 
-BALL = template_text("ball-on-disc")
+BALL = template_case("ball-on-disc").text
 
 
 def printed_by_solve(case, folder):

@@ -5,9 +5,10 @@ import pytest
 pytest.importorskip("tomlkit", reason="needs pip install 'tehl[explore]'")
 
 from tehl.errors import InputError
-from tehl.explore.case_text import CaseText
+from tehl.explore.case_text import CaseText, template_case
 from tehl.io.case import case_from_tables
 from tehl.io.templates import template_text, templates
+from tehl.solver import solve
 
 BALL = template_text("ball-on-disc")
 
@@ -58,6 +59,17 @@ def test_number_of_nodes_and_error_replace_each_other():
     assert case.get("numerics.error") is None
     case.set("numerics.error", "1 %")
     assert case.get("numerics.points") is None
+
+
+def test_the_first_sliding_of_the_page_has_a_friction_that_an_oil_can_transmit():
+    case = template_case("ball-on-disc")
+    case.set("contact.slide_roll_ratio", 0.02)
+    case.set("numerics.points", 65)
+    problem, options = case_from_tables(case.tables)
+    found = solve(problem, options).traction
+    assert found.credible
+    assert 0.02 < abs(found.mid_film) < 0.06
+    assert template_case("bearing").text == template_text("bearing")
 
 
 @pytest.mark.parametrize("packed", ["x", "!!!", "AAAA", "eJwDAA"])

@@ -9,6 +9,7 @@ import tomlkit
 
 from tehl.errors import InputError
 from tehl.io.case import replaced_by, tables_of_text, text_of
+from tehl.io.templates import template_text
 from tehl.lubricant.fluid import OILS
 from tehl.materials import SOLIDS
 from tehl.named import find_table
@@ -18,6 +19,20 @@ LARGEST = 200_000
 """Characters of the text of a case; one with more is not a case that a person wrote."""
 _WITHOUT = ("name", "source", "aliases")
 """Keys of a named solid or oil that do not hold any more once it is edited."""
+_SHEAR = {"law": "limiting", "slope": 0.05}
+"""Shear law of the page where a template states the Newtonian one."""
+
+
+def template_case(name: str) -> "CaseText":
+    """Return a template for the page: a Newtonian oil gets a limiting shear stress.
+
+    One move of the slider of the sliding would otherwise give the friction of an oil that transmits
+    any stress, a coefficient of five. Without sliding the film is that of the Newtonian oil.
+    """
+    case = CaseText(template_text(name))
+    if case.get("lubricant.shear.law") == "newtonian":
+        case.set("lubricant.shear", _SHEAR)
+    return case
 
 
 class CaseText:

@@ -5,13 +5,13 @@ from typing import Any
 from nicegui import ui
 
 from tehl.errors import InputError
-from tehl.explore.case_text import LARGEST, CaseText
+from tehl.explore.case_text import LARGEST, CaseText, template_case
 from tehl.explore.elements import button, main_button
 from tehl.explore.jobs import End, Failure, Note
 from tehl.explore.tab import Tab
 from tehl.explore.tasks import Export, Saved
 from tehl.explore.worker import Solver
-from tehl.io.templates import template_text, templates
+from tehl.io.templates import templates
 
 FILES = {
     "nc": "Result, NetCDF",
@@ -88,7 +88,7 @@ class Header:
     # ---- cases
 
     def _take_template(self, name: str) -> None:
-        self.tab.open(CaseText(template_text(name)))
+        self.tab.open(template_case(name))
 
     def _open_dialog(self) -> None:
         with ui.dialog() as dialog, ui.card().classes("open-card"):
