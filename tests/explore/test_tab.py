@@ -1,12 +1,15 @@
 """A tab takes changes of its case, shows faults beside their controls, and holds its scales."""
 
+from dataclasses import replace
+
 import pytest
 
 pytest.importorskip("tomlkit", reason="needs pip install 'tehl[explore]'")
 
 from tehl.explore.case_text import CaseText
 from tehl.explore.files import Files
-from tehl.explore.jobs import Ask, End, Failure, Part
+from tehl.explore.jobs import Ask, End, Failure, Part, TooCoarse
+from tehl.explore.numbers import value_of
 from tehl.explore.shown import shown
 from tehl.explore.tab import Tab
 from tehl.io.templates import template_text
@@ -120,6 +123,70 @@ def test_results_of_an_older_request_are_dropped_unless_a_slider_moves(tab, part
     tab.turn(knob(tab, "contact.load"), 91, "N", moving=True)
     old(part)
     assert tab.shown is not None
+
+
+def unconverged(part):
+    outcome = replace(part.shown.outcome, converged=False, words="not converged: grid too coarse")
+    return Part(replace(part.shown, outcome=outcome), final=True)
+
+
+def test_while_a_new_contact_is_solved_the_film_before_is_old_and_follows_the_formula(tab, part):
+    tab.solver.receivers[-1](part)
+    assert not tab.is_old
+    before = tab.shown
+    tab.turn(knob(tab, "contact.entrainment_speed"), 3.0, "m/s", moving=True)
+    assert tab.is_old
+    film = value_of(tab.shown.numbers, "h_central")
+    assert film.by_formula
+    assert film.value == pytest.approx(
+        2.0**0.67 * value_of(before.numbers, "h_central").value, rel=0.03
+    )
+    assert tab.shown.maps.film.max() == pytest.approx(
+        before.maps.film.max() * tab.shown.maps.central / before.maps.central
+    )
+    tab.solver.receivers[-1](part)
+    assert not tab.is_old
+    assert tab.shown is part.shown
+
+
+def test_the_result_of_an_older_place_of_the_slider_is_scaled_to_the_present_one(tab, part):
+    load = knob(tab, "contact.load")
+    tab.solver.receivers[-1](part)
+    tab.turn(load, 90, "N", moving=True)
+    tab.turn(load, 160, "N", moving=True)
+    tab.solver.receivers[-2](part)
+    assert tab.is_old
+    ratio = tab.shown.maps.hertz_pressure / part.shown.maps.hertz_pressure
+    assert ratio == pytest.approx((160 / 90) ** (1 / 3))
+    assert tab.shown.maps.half_widths[0] > part.shown.maps.half_widths[0]
+
+
+def test_another_accuracy_leaves_the_film_of_the_contact_current(tab, part):
+    tab.solver.receivers[-1](part)
+    tab.apply({"numerics.points": 129})
+    assert tab.is_busy
+    assert not tab.is_old
+
+
+def test_a_film_that_did_not_converge_is_never_shown(tab, part):
+    tab.solver.receivers[-1](unconverged(part))
+    assert tab.shown is None
+    tab.solver.receivers[-1](part)
+    tab.turn(knob(tab, "contact.load"), 90, "N", moving=False)
+    tab.solver.receivers[-1](TooCoarse("129 × 129 is too coarse"))
+    assert tab.coarse
+    tab.solver.receivers[-1](unconverged(part))
+    tab.solver.receivers[-1](End())
+    assert tab.is_old
+    assert value_of(tab.shown.numbers, "h_central").by_formula
+    assert not tab.latest.outcome.converged
+
+
+def test_a_state_by_formula_cannot_be_pinned(tab, part):
+    tab.solver.receivers[-1](part)
+    tab.turn(knob(tab, "contact.load"), 90, "N", moving=False)
+    tab.pin()
+    assert tab.pinned is None
 
 
 def test_scales_hold_still_while_comparing(tab, part):

@@ -25,6 +25,11 @@ def main_button(words: str, action: Callable[[], Any], *, icon: str | None = Non
     return made.props("no-caps unelevated").classes("main-button")
 
 
+def mark(element: ui.element, style: str, *, on: bool) -> None:
+    """Give a class to an element, or take it away."""
+    element.classes(add=style) if on else element.classes(remove=style)
+
+
 class Drawing:
     """An image in colours with a drawing over it; either may be left out."""
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from nicegui import ui
 
-from tehl.explore.elements import button
+from tehl.explore.elements import button, mark
 from tehl.explore.numbers import Number, value_of
 from tehl.explore.tab import Tab
 
@@ -32,6 +32,8 @@ class NumberPanel:
     def _hear(self, topic: str) -> None:
         if topic == "numbers":
             self.update()
+        elif topic == "status":
+            mark(self.place, "old", on=self.tab.is_old)
 
     def update(self) -> None:
         """Show the numbers of the present result."""
@@ -82,6 +84,8 @@ def value_text(one: Number) -> str:
     """Return a number with its error bar and unit."""
     assert one.value is not None
     unit = f" <small>{escape(one.unit)}</small>" if one.unit else ""
+    if one.by_formula:
+        return f'<b>{_rounded(one.value, 3)}</b>{unit} <span class="bar">by formula</span>'
     if one.error is None or not math.isfinite(one.error) or one.value == 0.0:
         return f"<b>{_rounded(one.value, 4)}</b>{unit}"
     half = abs(one.value * one.error)
@@ -125,22 +129,21 @@ def _change(one: Number, other: Number | None) -> str:
 
 def _bar(one: Number) -> str:
     """Return a drawing of the relative error bar, with the formulas as marks."""
-    if one.error is None or not one.value:
+    if not one.value or (one.error is None and not one.by_formula):
         return ""
-    half = min(abs(one.error) / _REACH, 1.0) * 50.0
-    parts = [
-        '<path d="M0 7H100" class="track"/>',
-        f'<path d="M{50 - half:.2f} 7H{50 + half:.2f}" class="band"/>',
-        '<path d="M50 2V12" class="middle"/>',
-    ]
+    parts = ['<path d="M0 7H100" class="track"/>', '<path d="M50 2V12" class="middle"/>']
+    words = "no error bar yet"
+    if one.error is not None:
+        half = min(abs(one.error) / _REACH, 1.0) * 50.0
+        parts.insert(1, f'<path d="M{50 - half:.2f} 7H{50 + half:.2f}" class="band"/>')
+        words = f"error bar {100 * abs(one.error):.2g} %"
     for author, value in one.formulas:
         away = (value / one.value - 1.0) / _REACH
         if abs(away) <= 1.0:
             at = 50 + 50 * away
-            words = f"<title>{escape(author)}</title>"
-            parts.append(f'<path d="M{at:.2f} 3V11" class="formula">{words}</path>')
+            name = f"<title>{escape(author)}</title>"
+            parts.append(f'<path d="M{at:.2f} 3V11" class="formula">{name}</path>')
     drawing = "".join(parts)
-    words = f"error bar {100 * abs(one.error):.2g} %"
     return (
         f'<svg class="error-bar" viewBox="0 0 100 14" preserveAspectRatio="none" role="img" '
         f'aria-label="{words}">{drawing}</svg>'

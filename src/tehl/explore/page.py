@@ -10,7 +10,7 @@ from tehl.errors import InputError
 from tehl.explore.case_text import CaseText
 from tehl.explore.control_panel import ControlPanel
 from tehl.explore.curve_panel import CurvePanel
-from tehl.explore.elements import button
+from tehl.explore.elements import button, mark
 from tehl.explore.files import Files
 from tehl.explore.header import Header
 from tehl.explore.jobs import End, Warm
@@ -138,7 +138,8 @@ class TabPage:
         with ui.element("div").classes("compare"):
             self.hold = ui.switch("hold scales", on_change=lambda event: tab.hold(held=event.value))
             self.hold.props("dense")
-            button("Pin", tab.pin, icon="push_pin").tooltip("keep this state to compare")
+            self.pin = button("Pin", tab.pin, icon="push_pin")
+            self.pin.tooltip("keep this state to compare")
             self.unpin = button("Unpin", tab.unpin)
             self.unpin.set_visibility(False)
 
@@ -167,8 +168,9 @@ class TabPage:
             self.hold.set_value(self.tab.held)
             compares = self.tab.pinned is not None
             self.unpin.set_visibility(compares)
-            style = {"add": "comparing"} if compares else {"remove": "comparing"}
-            self.middle.classes(**style)
+            mark(self.middle, "comparing", on=compares)
+        if topic == "status":
+            self.pin.set_enabled(not self.tab.is_old)
         if topic == "status" and not self.tab.is_moving:
             packed = self.tab.case.packed
             if packed != self._address and self.client.has_socket_connection:

@@ -15,7 +15,7 @@ from tehl.explore.colour_map import (
     value_at,
 )
 from tehl.explore.curves import line_charts
-from tehl.explore.elements import Drawing
+from tehl.explore.elements import Drawing, mark
 from tehl.explore.relief import relief_figure
 from tehl.explore.shown import Shown
 from tehl.explore.tab import Tab
@@ -160,6 +160,8 @@ class PicturePanel:
     def _hear(self, topic: str) -> None:
         if topic == "picture":
             self.draw()
+        elif topic == "status":
+            mark(self.present.place, "old", on=self.tab.is_old)
 
     def draw(self) -> None:
         """Draw the chosen view."""

@@ -7,12 +7,13 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from tehl.errors import InputError
+from tehl.explore.by_formula import scaled_by_formula
 from tehl.explore.case_text import CaseText
 from tehl.explore.colour_map import film_limits, pressure_limits, section_limits
 from tehl.explore.controls import Choice, Group, Knob, groups
 from tehl.explore.curves import line_tops
 from tehl.explore.files import Files
-from tehl.explore.jobs import Ask, End, Explained, Failure, Note, Part
+from tehl.explore.jobs import Ask, End, Explained, Failure, Note, Part, TooCoarse
 from tehl.explore.shown import Shown
 from tehl.explore.worker import Solver
 from tehl.io.case import case_from_tables
@@ -56,6 +57,9 @@ class Pinned:
 class Tab:
     """A case, its controls, and the result on screen.
 
+    ``shown`` is on screen: the last film that converged, scaled by formula while ``is_old``, until
+    that of the present contact has converged. ``latest`` is how the last solve ended.
+
     ``tell`` is called with the topic of each change: "controls", "fault", "status", "picture",
     "numbers", "explained".
     """
@@ -68,6 +72,8 @@ class Tab:
         self.groups: tuple[Group, ...] = ()
         self.fault: Fault | None = None
         self.shown: Shown | None = None
+        self.latest: Shown | None = None
+        self.coarse = ""
         self.explained: Explained | None = None
         self.pinned: Pinned | None = None
         self.note, self.is_busy, self.is_moving = "", False, False
@@ -76,6 +82,7 @@ class Tab:
         self._undo: list[str] = []
         self._is_valid = False
         self._request = 0
+        self._solved: tuple[ContactProblem, Shown] | None = None
 
     def tell(self, topic: str) -> None:
         """Report a change."""
@@ -180,6 +187,11 @@ class Tab:
 
     # ---- the result
 
+    @property
+    def is_old(self) -> bool:
+        """Whether the film on screen is not a solution of the present contact."""
+        return self._solved is not None and self._solved[0] != self.problem
+
     def solve(self) -> None:
         """Solve the case: on the coarse grid while a slider moves, then as the case asks."""
         try:
@@ -189,9 +201,14 @@ class Tab:
             return
         self._request += 1
         number = self._request
-        self.is_busy, self.note = True, ""
+        problem = self.problem
+        assert problem is not None
+        self.is_busy, self.note, self.coarse = True, "", ""
         ask = Ask(tables=tables, quick=self.is_moving, fringes=self.view == "fringes")
-        self.solver.submit(self.owner, ask, lambda message: self._receive(number, message))
+        self.solver.submit(self.owner, ask, lambda message: self._receive(number, problem, message))
+        if self.is_old:
+            self.latest = None
+            self._look()
         self.tell("status")
 
     def stop(self) -> None:
@@ -200,33 +217,53 @@ class Tab:
         self.is_busy, self.note = False, "stopped"
         self.tell("status")
 
-    def _receive(self, number: int, message: Any) -> None:
+    def _receive(self, number: int, problem: "ContactProblem", message: Any) -> None:
         """Take a message of the worker; results of an older place of the slider are shown too."""
         newest = number == self._request
         if isinstance(message, Part):
             if newest or self.is_moving:
-                self.shown = message.shown
-                self._fit()
-                self.tell("picture")
-                self.tell("numbers")
-        elif not newest:
-            return
-        elif isinstance(message, Explained):
+                self._take(problem, message.shown)
+        elif newest:
+            self._read(message)
+        self.tell("status")
+
+    def _take(self, problem: "ContactProblem", found: Shown) -> None:
+        """Take a result; a film that did not converge is not shown."""
+        self.latest = found
+        if found.outcome.converged:
+            self._solved = problem, found
+            self._look()
+
+    def _read(self, message: Any) -> None:
+        """Take what the worker says of the newest request."""
+        if isinstance(message, Explained):
             self.explained = message
             self.tell("explained")
         elif isinstance(message, Note):
             self.note = message.text
+        elif isinstance(message, TooCoarse):
+            self.coarse = message.text
         elif isinstance(message, Failure):
             self._blame(self.files.hidden(message.text), "")
         elif isinstance(message, End):
             self.is_busy, self.note = False, ""
-        self.tell("status")
+            self.coarse = self.coarse if self.is_moving else ""
+
+    def _look(self) -> None:
+        """Show the last solution, scaled by formula if it is not of the present contact."""
+        assert self._solved is not None
+        assert self.problem is not None
+        solved, shown = self._solved
+        self.shown = scaled_by_formula(shown, solved, self.problem) if self.is_old else shown
+        self._fit()
+        self.tell("picture")
+        self.tell("numbers")
 
     # ---- comparing
 
     def pin(self) -> None:
         """Keep the state on screen to compare; the scales of colours then hold still."""
-        if self.shown is not None:
+        if self.shown is not None and not self.is_old:
             self.pinned = Pinned(CaseText(self.case.text), self.shown)
             self.held = True
             self.tell("picture")
