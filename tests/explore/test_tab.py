@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 pytest.importorskip("tomlkit", reason="needs pip install 'tehl[explore]'")
@@ -23,7 +24,7 @@ class Recorder:
         self.jobs, self.receivers = [], []
 
     def submit(self, owner, job, receive):
-        assert owner == "one"
+        assert owner in ("one", "one pinned")
         self.jobs.append(job)
         self.receivers.append(receive)
 
@@ -205,6 +206,28 @@ def test_the_interferogram_is_computed_when_it_is_shown(tab):
     tab.show("fringes")
     assert isinstance(tab.solver.jobs[-1], Ask)
     assert tab.solver.jobs[-1].fringes
+
+
+def test_the_interferogram_of_a_pinned_state_is_computed_too(tab, part):
+    tab.solver.receivers[-1](part)
+    tab.pin()
+    tab.turn(knob(tab, "contact.load"), 90, "N", moving=False)
+    tab.show("fringes")
+    ask, receive = tab.solver.jobs[-1], tab.solver.receivers[-1]
+    assert ask.fringes
+    assert ask.tables["contact"]["load"] == "80 N"
+    receive(Part(replace(part.shown, fringes=np.zeros((2, 2, 3), np.uint8)), final=True))
+    assert tab.pinned.shown.fringes is not None
+
+
+def test_centre_lines_stay_in_their_frame_while_scales_are_held(tab, part):
+    tab.solver.receivers[-1](part)
+    tab.pin()
+    before = tab.limits["lines"]
+    tab.turn(knob(tab, "contact.load"), 800, "N", moving=False)
+    assert tab.limits["lines"][1] >= tab.shown.lines.x[2].max() > before[1]
+    tab.undo()
+    assert tab.limits["lines"][1] > before[1]
 
 
 def test_a_radius_becomes_that_of_a_flat(tab):

@@ -78,6 +78,7 @@ class Page:
             assert self.background is not None
             tab.listeners.clear()
             self.live.cancel(owner)
+            self.live.cancel(f"{owner} pinned")
             for job in ("sweep", "run", "file", "surface"):
                 self.background.cancel(f"{owner} {job}")
 

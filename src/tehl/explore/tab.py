@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -288,7 +288,24 @@ class Tab:
         self.view = view
         if view == "fringes" and (self.shown is None or self.shown.fringes is None):
             self.solve()
+        if view == "fringes" and self.pinned is not None and self.pinned.shown.fringes is None:
+            self._complete(self.pinned)
         self.tell("picture")
+
+    def _complete(self, pinned: Pinned) -> None:
+        """Compute the interferogram of a pinned state, which the worker may still hold."""
+
+        def receive(message: Any) -> None:
+            if self.pinned is not pinned:
+                return
+            if isinstance(message, Part) and message.final:
+                self.pinned = replace(pinned, shown=message.shown)
+                self.tell("picture")
+            elif isinstance(message, Failure):
+                self._blame(f"the interferogram of the pinned state: {message.text}", "")
+
+        ask = Ask(tables=self.files.resolved(pinned.case.tables), fringes=True)
+        self.solver.submit(f"{self.owner} pinned", ask, receive)
 
     def _fit(self) -> None:
         """Fit the scales to the result, unless they are held or a slider moves."""
@@ -303,5 +320,10 @@ class Tab:
         if shown.section is not None:
             wanted["temperature"] = section_limits(shown.section)
         if self.held or self.is_moving:
+            film, pressure = (
+                max(ends)
+                for ends in zip(wanted["lines"], self.limits.get("lines", (0.0, 0.0)), strict=True)
+            )
             wanted |= {key: value for key, value in self.limits.items() if key in wanted}
+            wanted["lines"] = film, pressure  # lines stay in their frame
         self.limits = wanted
