@@ -1,5 +1,7 @@
 """The text of a case changes key by key, and fits into an address."""
 
+import hashlib
+
 import pytest
 
 pytest.importorskip("tomlkit", reason="needs pip install 'tehl[explore]'")
@@ -83,6 +85,12 @@ def test_an_address_cannot_unpack_to_a_huge_text():
     with pytest.raises(InputError):
         CaseText("#" * 250_000)
     assert len(CaseText.unpacked(huge.packed).text) == 150_000
+
+
+def test_a_case_that_is_too_long_for_an_address_has_no_link():
+    noise = hashlib.shake_256().hexdigest(70_000)
+    assert CaseText(BALL).link.startswith("/?case=")
+    assert CaseText(f"# {noise}").link == ""
 
 
 def test_text_that_is_not_toml_names_the_line():

@@ -114,6 +114,9 @@ def test_a_failure_of_the_worker_is_shown(tab):
     tab.solver.receivers[-1](End())
     assert tab.fault.text == "The process that solves has ended"
     assert not tab.is_busy
+    assert not tab.fault.again  # the same case would fail again
+    tab.solver.receivers[-1](Failure("The process that solves has ended", again=True))
+    assert tab.fault.again
 
 
 def test_results_of_an_older_request_are_dropped_unless_a_slider_moves(tab, part):

@@ -17,6 +17,8 @@ from tehl.named import find_table
 _LAWS = ("lubricant.viscosity.", "lubricant.density.")
 LARGEST = 200_000
 """Characters of the text of a case; one with more is not a case that a person wrote."""
+LONGEST = 60_000
+"""Characters of a case in an address; servers and mail programs cut longer ones."""
 _WITHOUT = ("name", "source", "aliases")
 """Keys of a named solid or oil that do not hold any more once it is edited."""
 _SHEAR = {"law": "limiting", "slope": 0.05}
@@ -78,6 +80,12 @@ class CaseText:
         """The text in letters, digits, hyphens and underscores, for an address."""
         content = zlib.compress(self.text.encode("utf-8"), 9)
         return base64.urlsafe_b64encode(content).decode("ascii").rstrip("=")
+
+    @property
+    def link(self) -> str:
+        """The address of the case on the page; empty if it were too long."""
+        packed = self.packed
+        return f"/?case={packed}" if len(packed) <= LONGEST else ""
 
     def get(self, path: str) -> Any:
         """Return the value at a dotted path as the text states it; None if it does not."""

@@ -136,8 +136,13 @@ class Header:
         ui.notify("Python code copied")
 
     def _copy_link(self) -> None:
-        packed = self.tab.case.packed
-        ui.run_javascript(f'navigator.clipboard.writeText(location.origin + "/?case={packed}")')
+        link = self.tab.case.link
+        if not link:
+            ui.notify(
+                "this case is too long for a link: save it as a file instead", type="negative"
+            )
+            return
+        ui.run_javascript(f'navigator.clipboard.writeText(location.origin + "{link}")')
         ui.notify("link copied")
 
     # ---- files of a result

@@ -77,6 +77,8 @@ class Failure:
     """A sentence on why there is no result."""
 
     text: str
+    again: bool = False
+    """Whether the same case may be solved the next time."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,6 +23,7 @@ from tehl.explore.tab import VIEWS, Tab
 from tehl.explore.worker import Solver
 
 STYLE = Path(__file__).with_name("style.css")
+LOST = Path(__file__).with_name("lost.js")
 _MEASURE = """(size) => emit([size.width, window.innerHeight])"""
 _LATER = 10.0
 """Seconds after which the second worker starts."""
@@ -101,9 +102,10 @@ class TabPage:
         """Make all parts."""
         ui.colors(primary="#1f4e9c", negative="#b3001b")
         ui.add_css(STYLE.read_text(encoding="utf-8"))
+        ui.add_body_html(f"<script>{LOST.read_text(encoding='utf-8')}</script>")
         ui.query(".nicegui-content").classes("page")
         Header(self.tab, self.background).build()
-        with ui.element("main").classes("columns"):
+        with ui.element("div").classes("columns"):
             with ui.element("section").classes("left").props('aria-label="the contact"'):
                 dialog = SurfaceDialog(self.tab, self.background)
                 ControlPanel(self.tab, dialog.open)
@@ -173,7 +175,7 @@ class TabPage:
         if topic == "status":
             self.pin.set_enabled(not self.tab.is_old)
         if topic == "status" and not self.tab.is_moving:
-            packed = self.tab.case.packed
-            if packed != self._address and self.client.has_socket_connection:
-                self._address = packed
-                self.client.run_javascript(f'history.replaceState(null, "", "/?case={packed}")')
+            link = self.tab.case.link or "/"
+            if link != self._address and self.client.has_socket_connection:
+                self._address = link
+                self.client.run_javascript(f'history.replaceState(null, "", "{link}")')

@@ -70,7 +70,7 @@ class StatusLine:
         has_hint = fault is None and failed and outcome is not None
         self.hint.set_text(f"hint: {outcome.hint}" if has_hint and outcome and outcome.hint else "")
         self.apply.set_visibility(bool(has_hint and outcome and outcome.settings))
-        self.again.set_visibility(fault is not None and not fault.path)
+        self.again.set_visibility(fault is not None and fault.again)
 
     def _sentence(self) -> str:
         tab, latest = self.tab, self.tab.latest

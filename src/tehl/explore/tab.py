@@ -44,6 +44,8 @@ class Fault:
 
     text: str
     path: str = ""
+    again: bool = False
+    """Whether it may be gone if the case is solved again."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -244,7 +246,8 @@ class Tab:
         elif isinstance(message, TooCoarse):
             self.coarse = message.text
         elif isinstance(message, Failure):
-            self._blame(self.files.hidden(message.text), "")
+            self.fault = Fault(self.files.hidden(message.text), again=message.again)
+            self.tell("fault")
         elif isinstance(message, End):
             self.is_busy, self.note = False, ""
             self.coarse = self.coarse if self.is_moving else ""
