@@ -15,7 +15,7 @@ from tehl.explore.colour_map import (
     pressure_picture,
     value_at,
 )
-from tehl.explore.curves import Point, line_charts, line_tops, swept_chart
+from tehl.explore.curves import Point, line_charts, line_tops, swept_chart, values_on_line
 from tehl.explore.numbers import numbers, value_of
 from tehl.explore.shown import shown
 from tehl.report.explain import explain
@@ -84,6 +84,17 @@ def test_centre_lines_and_sweeps_are_drawings(seen):
     assert drawing.count('class="point"') == 2
     assert drawing.count('class="whisker"') == 1
     assert drawing.count('class="minimum"') == 1
+
+
+def test_film_and_pressure_on_a_centre_line_are_read_under_the_pointer(seen):
+    charts = line_charts(seen, SIZE, line_tops(seen.lines))
+    frame = charts[0].frame
+    words = values_on_line(seen.lines, charts, frame.x(0.0), 100.0)
+    assert words.startswith("x = 0 µm:  h = ")
+    assert f"h = {seen.maps.central:.4g} nm" in words
+    below = charts[1].frame.x(0.0), frame.height + 9.0
+    assert values_on_line(seen.lines, charts, *below).startswith("y = 0")
+    assert values_on_line(seen.lines, charts, 2.0, 100.0) == ""
 
 
 def test_numbers_are_those_of_the_result_with_bars_and_formulas(result):

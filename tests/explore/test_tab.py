@@ -66,6 +66,35 @@ def test_one_undo_takes_back_a_whole_move(tab):
     assert tab.case.get("contact.load") == "80 N"
 
 
+def test_redo_takes_an_undone_change_again_until_another_change(tab):
+    load = knob(tab, "contact.load")
+    for number in (90, 100):
+        tab.turn(load, number, "N", moving=False)
+    tab.undo()
+    tab.undo()
+    assert tab.case.get("contact.load") == "80 N"
+    tab.redo()
+    tab.redo()
+    assert tab.case.get("contact.load") == "100 N"
+    tab.undo()
+    tab.turn(load, 95, "N", moving=False)
+    tab.redo()
+    assert tab.case.get("contact.load") == "95 N"
+
+
+def test_the_history_of_the_browser_undoes_and_redoes(tab):
+    load, cases = knob(tab, "contact.load"), [tab.case]
+    for number in (90, 100, 110):
+        tab.turn(load, number, "N", moving=False)
+        cases.append(tab.case)
+    tab.visit(cases[1])
+    assert tab.case.text == cases[1].text
+    tab.visit(cases[3])
+    assert tab.case.text == cases[3].text
+    tab.undo()
+    assert tab.case.text == cases[2].text
+
+
 def test_a_faulty_entry_is_a_sentence_beside_its_control_and_is_not_solved(tab):
     before = len(tab.solver.jobs)
     assert not tab.type(knob(tab, "contact.load"), "-3", "N")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 from nicegui import ui
 
 from tehl.explore.controls import Choice, Group, Knob
-from tehl.explore.elements import button
+from tehl.explore.elements import button, plain
 from tehl.explore.tab import Tab
 
 if TYPE_CHECKING:
@@ -119,12 +119,12 @@ class KnobRow:
         return round(number / step) * step
 
     def _moved(self, event: Any) -> None:
-        place = float(_plain(event.args))
+        place = float(plain(event.args))
         if place != self.left_at:  # the last place comes once more after the release
             self._set(place, moving=True)
 
     def _released(self, event: Any) -> None:
-        self.left_at = float(_plain(event.args))
+        self.left_at = float(plain(event.args))
         self._set(self.left_at, moving=False)
         if self.knob.is_log and not _EDGE < self.left_at < _STEPS - _EDGE:
             self._centre()
@@ -191,8 +191,3 @@ class ChoiceRow:
         """Show a sentence below the selector, none if it is empty."""
         self.fault.set_text(text)
         self.fault.set_visibility(bool(text))
-
-
-def _plain(arguments: Any) -> Any:
-    """Return the first argument of an event."""
-    return arguments[0] if isinstance(arguments, list) else arguments

@@ -3,6 +3,7 @@
 import asyncio
 from pathlib import Path
 from typing import Any
+from urllib.parse import parse_qs
 
 from nicegui import Client, ui
 
@@ -10,9 +11,9 @@ from tehl.errors import InputError
 from tehl.explore.case_text import CaseText
 from tehl.explore.control_panel import ControlPanel
 from tehl.explore.curve_panel import CurvePanel
-from tehl.explore.elements import button, mark
+from tehl.explore.elements import button, mark, plain
 from tehl.explore.files import Files
-from tehl.explore.header import Header
+from tehl.explore.header import THEME, Header
 from tehl.explore.jobs import End, Warm
 from tehl.explore.movie_panel import MoviePanel
 from tehl.explore.number_panel import Explanation, NumberPanel
@@ -23,7 +24,7 @@ from tehl.explore.tab import VIEWS, Tab
 from tehl.explore.worker import Solver
 
 STYLE = Path(__file__).with_name("style.css")
-LOST = Path(__file__).with_name("lost.js")
+SCRIPT = Path(__file__).with_name("page.js")
 _MEASURE = """(size) => emit([size.width, window.innerHeight])"""
 _LATER = 10.0
 """Seconds after which the second worker starts."""
@@ -102,9 +103,10 @@ class TabPage:
         """Make all parts."""
         ui.colors(primary="#1f4e9c", negative="#b3001b")
         ui.add_css(STYLE.read_text(encoding="utf-8"))
-        ui.add_body_html(f"<script>{LOST.read_text(encoding='utf-8')}</script>")
+        ui.add_body_html(f"<script>{SCRIPT.read_text(encoding='utf-8')}</script>")
         ui.query(".nicegui-content").classes("page")
-        Header(self.tab, self.background).build()
+        request = self.client.request
+        Header(self.tab, self.background).build(request.cookies.get(THEME, "") if request else "")
         with ui.element("div").classes("columns"):
             with ui.element("section").classes("left").props('aria-label="the contact"'):
                 dialog = SurfaceDialog(self.tab, self.background)
@@ -116,6 +118,7 @@ class TabPage:
                 NumberPanel(self.tab, self._sweep)
                 Explanation(self.tab)
         self.tab.listeners.append(self._hear)
+        ui.on("visited", lambda event: self._visit(plain(event.args)))
 
     def _build_middle(self) -> None:
         tab = self.tab
@@ -177,5 +180,14 @@ class TabPage:
         if topic == "status" and not self.tab.is_moving:
             link = self.tab.case.link or "/"
             if link != self._address and self.client.has_socket_connection:
+                new = bool(self._address) and not self.tab.is_stepping
+                change = "pushState" if new else "replaceState"  # the back button undoes
                 self._address = link
-                self.client.run_javascript(f'history.replaceState(null, "", "{link}")')
+                self.client.run_javascript(f'history.{change}(null, "", "{link}")')
+
+    def _visit(self, link: str) -> None:
+        """Take the case of an address that the back or the forward button has gone to."""
+        self._address = link
+        packed = parse_qs(link.partition("?")[2]).get("case", [""])[0]
+        if packed:
+            self.tab.visit(CaseText.unpacked(packed))

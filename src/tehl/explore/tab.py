@@ -61,6 +61,7 @@ class Tab:
 
     ``shown`` is on screen: the last film that converged, scaled by formula while ``is_old``, until
     that of the present contact has converged. ``latest`` is how the last solve ended.
+    ``is_stepping`` while undo or redo takes another case.
 
     ``tell`` is called with the topic of each change: "controls", "fault", "status", "picture",
     "numbers", "explained".
@@ -81,7 +82,9 @@ class Tab:
         self.note, self.is_busy, self.is_moving = "", False, False
         self.view, self.held = "film", False
         self.limits: dict[str, Any] = {}
+        self.is_stepping = False
         self._undo: list[str] = []
+        self._redo: list[str] = []
         self._is_valid = False
         self._request = 0
         self._solved: tuple[ContactProblem, Shown] | None = None
@@ -136,12 +139,35 @@ class Tab:
 
     def undo(self) -> None:
         """Take the case before the last change."""
-        if self._undo:
-            self.case = CaseText(self._undo.pop())
-            self._check(rebuild=True)
+        self._step(self._undo, self._redo)
+
+    def redo(self) -> None:
+        """Take the case after the change that was undone last."""
+        self._step(self._redo, self._undo)
+
+    def visit(self, case: CaseText) -> None:
+        """Take a case of the history of the browser, by undo or redo where it is one of theirs."""
+        for stack, step in ((self._undo, self.undo), (self._redo, self.redo)):
+            if case.text != self.case.text and case.text in stack:
+                while case.text != self.case.text:
+                    step()
+        if case.text != self.case.text:
+            self.open(case)
+
+    def _step(self, source: list[str], target: list[str]) -> None:
+        """Take the last case of one stack, and keep the present one on the other."""
+        if not source:
+            return
+        if self._is_valid:
+            target.append(self.case.text)
+        self.case = CaseText(source.pop())
+        self.is_stepping = True
+        self._check(rebuild=True)
+        self.is_stepping = False
 
     def _remember(self) -> None:
         """Keep the present case for undo; a faulty one is not worth it."""
+        self._redo.clear()
         if self._is_valid and self._undo[-1:] != [self.case.text]:
             self._undo = [*self._undo[-_UNDONE:], self.case.text]
 

@@ -1,3 +1,6 @@
+// The back and the forward button of the browser take the case of the address.
+window.addEventListener("popstate", () => emitEvent("visited", location.pathname + location.search));
+
 // What the notice of a lost connection says: whether the page has ended or has been started again.
 setInterval(async () => {
   const popup = document.getElementById("popup");
