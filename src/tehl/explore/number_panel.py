@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 
 _REACH = 0.3
 """Relative deviation at the ends of the drawn error bar."""
-_MARKS = {"Nijenbanning-Venner-Moes": "NVM", "Hamrock-Dowson": "HD", "Chittenden": "Ch"}
+_MAIN = ("h_central", "h_min", "p_max", "friction")
+"""Numbers that stay in sight on a narrow screen."""
 
 
 class NumberPanel:
@@ -60,6 +61,28 @@ class NumberPanel:
                     name = f"curve of the {one.name}"
                     sweep = partial(self.sweep, one.key)
                     button("", sweep, icon="show_chart", name=name).classes("sweep")
+
+
+class MainNumbers:
+    """The main numbers in one line, which stays in sight on a narrow screen."""
+
+    def __init__(self, tab: Tab) -> None:
+        self.tab = tab
+        self.line = ui.html("", sanitize=False).classes("main-numbers")
+        tab.listeners.append(self._hear)
+
+    def _hear(self, topic: str) -> None:
+        shown = self.tab.shown
+        if topic == "numbers" and shown is not None:
+            found = (value_of(shown.numbers, key) for key in _MAIN)
+            self.line.set_content("".join(_in_brief(one) for one in found if one is not None))
+        elif topic == "status":
+            mark(self.line, "old", on=self.tab.is_old)
+
+
+def _in_brief(one: Number) -> str:
+    value = "" if one.value is None else f"{_rounded(one.value, 3)} {escape(one.unit)}"
+    return f"<span><i>{_symbol(one.symbol)}</i> {value or '–'}</span>"
 
 
 def number_html(one: Number, other: Number | None) -> str:

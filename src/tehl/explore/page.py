@@ -16,7 +16,7 @@ from tehl.explore.files import Files
 from tehl.explore.header import THEME, Header
 from tehl.explore.jobs import End, Warm
 from tehl.explore.movie_panel import MoviePanel
-from tehl.explore.number_panel import Explanation, NumberPanel
+from tehl.explore.number_panel import Explanation, MainNumbers, NumberPanel
 from tehl.explore.picture_panel import PicturePanel
 from tehl.explore.status import StatusLine
 from tehl.explore.surface_dialog import SurfaceDialog
@@ -117,6 +117,7 @@ class TabPage:
             with ui.element("section").classes("right").props('aria-label="numbers"'):
                 NumberPanel(self.tab, self._sweep)
                 Explanation(self.tab)
+            MainNumbers(self.tab)
         self.tab.listeners.append(self._hear)
         ui.on("visited", lambda event: self._visit(plain(event.args)))
 
