@@ -54,6 +54,19 @@ def test_the_image_has_the_film_in_its_colours(seen):
     assert film == pytest.approx(seen.maps.central, rel=0.01)  # one of 256 colours
 
 
+def test_the_ground_around_the_contact_has_no_colour(seen):
+    picture = film_picture(seen.maps, film_limits(seen.maps), SIZE)
+    image = Image.open(io.BytesIO(base64.b64decode(picture.image.partition(",")[2])))
+    alpha = np.asarray(image.convert("RGBA"))[..., 3]
+    rows, columns = alpha.shape
+    frame = picture.frame
+    row = round((frame.y(0.0) - frame.y.end) / picture.place[3] * (rows - 1))
+    column = round((frame.x(0.0) - frame.x.start) / picture.place[2] * (columns - 1))
+    assert alpha[row, column] == 255
+    assert alpha[0, 0] == alpha[-1, -1] == 0
+    assert 0.4 < (alpha == 0).mean() < 0.9
+
+
 def test_both_maps_have_contact_and_labels(seen):
     film = film_picture(seen.maps, film_limits(seen.maps), SIZE).overlay
     pressure = pressure_picture(seen.maps, pressure_limits(seen.maps), SIZE).overlay

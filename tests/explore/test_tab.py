@@ -262,6 +262,17 @@ def test_centre_lines_stay_in_their_frame_while_scales_are_held(tab, part):
     assert tab.limits["lines"][1] > before[1]
 
 
+def test_a_film_that_outgrows_held_colours_gets_a_wider_range(tab, part):
+    tab.solver.receivers[-1](part)
+    tab.pin()
+    before = tab.limits["film"]
+    tab.turn(knob(tab, "contact.entrainment_speed"), 1.6, "m/s", moving=True)
+    assert tab.limits["film"] == before
+    tab.turn(knob(tab, "contact.entrainment_speed"), 6.0, "m/s", moving=True)
+    assert tab.limits["film"].high > 1.1 * tab.shown.maps.central
+    assert tab.limits["film"].low == before.low
+
+
 def test_a_radius_becomes_that_of_a_flat(tab):
     tab.choose(knob(tab, "contact.radius|"), "bodies")
     assert not tab.type(knob(tab, "surface_1.radius"), "0", "mm")

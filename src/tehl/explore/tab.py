@@ -34,6 +34,8 @@ VIEWS = {
 }
 """Views of a contact, by name."""
 _UNDONE = 50
+_ROOM = 1.1
+"""Largest film with a colour over the central one, at least."""
 
 Listener = Callable[[str], None]
 
@@ -353,6 +355,9 @@ class Tab:
                 max(ends)
                 for ends in zip(wanted["lines"], self.limits.get("lines", (0.0, 0.0)), strict=True)
             )
+            before, central = self.limits.get("film"), shown.maps.central
+            if before is not None and before.high < _ROOM * central:  # it would have no colour
+                self.limits["film"] = before.joined(wanted["film"])
             wanted |= {key: value for key, value in self.limits.items() if key in wanted}
             wanted["lines"] = film, pressure  # lines stay in their frame
         self.limits = wanted
