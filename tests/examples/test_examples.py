@@ -194,7 +194,7 @@ def test_a_bearing_list_has_its_films():
     table = example("bearing_list").main()
     assert list(table["status"]) == ["converged", "converged"]
     inner, outer = table.iloc[0], table.iloc[1]
-    # Hertz: 1111 N on the narrower inner ring press more
-    assert inner["Hertz pressure [GPa]"] > outer["Hertz pressure [GPa]"] > 1.0
+    # Hertz: on the narrower inner ring the same load presses more
+    assert inner["Hertz pressure [GPa]"] > outer["Hertz pressure [GPa]"] > 0.5
     assert inner["central film [nm]"] < outer["central film [nm]"]
     assert inner["± central film [nm]"] < 0.02 * inner["central film [nm]"]
