@@ -53,7 +53,8 @@ def rows(forces: list[float], speeds: list[float]) -> pd.DataFrame:
 
 def main() -> pd.DataFrame:
     """Return the answers for one load and speed."""
-    return tehl.solve_contacts(rows([500.0], [3000.0]), tehl.ContactProblem.model_validate(TEMPLATE))
+    template = tehl.ContactProblem.model_validate(TEMPLATE)
+    return tehl.solve_contacts(rows([500.0], [3000.0]), template)
 
 
 if __name__ == "__main__":
