@@ -41,7 +41,7 @@ from tehl.solver.outputs import (
     newtonian_shear,
     oil_balance,
 )
-from tehl.solver.remedy import Reached, solved_on_other_nodes, working_hint
+from tehl.solver.remedy import LEAST_SECONDS, Reached, solved_on_other_nodes, working_hint
 from tehl.solver.verdict import TOO_COARSE, touching, verdict
 from tehl.starvation import Flooded, check_supply
 from tehl.units import percentage
@@ -149,7 +149,7 @@ def _after_failure(failed: Result, reached: Reached | None, monitor: Monitor, en
     """
 
     def attempt(problem: ContactProblem, options: Options) -> Result:
-        limited = Deadline(monitor, options.max_time)
+        limited = Deadline(monitor, max(options.max_time, LEAST_SECONDS))
         return try_strategies(problem, options, monitor=limited, rough=True)[1]
 
     on_others = solved_on_other_nodes(failed, attempt, monitor, end)
