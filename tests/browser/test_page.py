@@ -7,11 +7,11 @@ import sys
 
 import pytest
 
-from tehl.explore.case_text import CaseText
+from tehl.explore.case_text import CaseText, template_case
 from tehl.io.templates import template_text
 from tests.browser.conftest import number, opened, solved, type_into, until
 
-BALL = template_text("ball-on-disc")
+BALL = template_case("ball-on-disc").text
 
 
 def printed_by_solve(case, folder):
@@ -236,6 +236,39 @@ def test_undo_takes_back_a_change(page):
     page.get_by_role("button", name="undo").click()
     entry = page.get_by_role("textbox", name="load", exact=True)
     until(lambda: entry.input_value() == "80")
+
+
+def test_the_back_button_undoes_and_the_keyboard_redoes(page):
+    entry = page.get_by_role("textbox", name="load", exact=True)
+    for load in ("90", "100"):
+        type_into(page, "load", load)
+        until(lambda load=load: stated(page, "contact.load") == f"{load} N")
+    page.go_back()
+    until(lambda: entry.input_value() == "90")
+    page.go_forward()
+    until(lambda: entry.input_value() == "100")
+    page.locator(".case-title").click()
+    page.keyboard.press("Control+z")
+    until(lambda: entry.input_value() == "90")
+    page.keyboard.press("Control+Shift+Z")
+    until(lambda: entry.input_value() == "100")
+
+
+def test_the_theme_is_kept_over_a_reload(page):
+    assert "body--dark" not in page.locator("body").get_attribute("class")
+    button = page.get_by_role("button", name="dark or light")
+    button.click()
+    page.locator("body.body--dark").wait_for()
+    page.reload()
+    page.locator("body.body--dark").wait_for()
+    button.click()
+    page.locator("body.body--light").wait_for()
+
+
+def test_values_of_curves_are_read_under_the_pointer(page):
+    page.get_by_role("tab", name="Centre lines").click()
+    page.locator(".slot:visible .drawing svg").first.hover(position={"x": 300, "y": 150})
+    page.locator(".readout", has_text="Hertz").wait_for()
 
 
 def test_a_transient_run_plays_as_a_movie(context, served):

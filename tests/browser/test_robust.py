@@ -132,3 +132,39 @@ def test_ctrl_c_leaves_nothing_behind(tmp_path):
     until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in workers), 10)
     assert [path.name for path in tmp_path.iterdir()] == ["explore.log"]
     assert "Traceback" not in server.messages
+
+
+def test_a_link_that_is_too_long_is_a_sentence(served):
+    for length in (70_000, 1_000_000):
+        code, text = status_of(f"{served.address}&case={'a' * length}")
+        assert code == 414
+        assert "open the case as a file" in text
+
+
+def test_a_tab_of_a_page_that_was_started_again_names_the_new_address(browser, tmp_path, compiled):
+    del compiled
+    context = browser.new_context()
+    for name in ("first", "second"):
+        (tmp_path / name).mkdir()
+    first = Served(folder=tmp_path / "first")
+    port = str(urlsplit(first.address).port)
+    page = opened(context, first.address)
+    assert first.end() == 0
+    page.get_by_text("The page has ended").wait_for(timeout=60_000)
+    second = Served("--port", port, folder=tmp_path / "second")
+    page.get_by_text("Open the new address").wait_for(timeout=60_000)
+    context.close()
+    assert second.end() == 0
+
+
+def test_one_main_and_nothing_to_click_below_24_pixels(page):
+    assert page.locator("main").count() == 1
+    small = page.evaluate(
+        """() => [...document.querySelectorAll(
+            'button, .q-slider, [role=tab], [role=switch], .q-field__control, .q-item')]
+        .filter(one => one.offsetParent)
+        .map(one => [one.getAttribute('aria-label') || one.className,
+                     ...['width', 'height'].map(k => one.getBoundingClientRect()[k])])
+        .filter(([, width, height]) => Math.min(width, height) < 24)"""
+    )
+    assert small == []

@@ -50,6 +50,21 @@ def test_no_view_is_wider_than_the_window(page, size, scheme):
         until(lambda: page.evaluate("document.documentElement.scrollWidth") <= width)
 
 
+def test_on_a_phone_the_header_is_one_line_and_the_main_numbers_stay_in_sight(page):
+    page.set_viewport_size({"width": 390, "height": 844})
+    until(lambda: page.locator(".top").bounding_box()["height"] < 60)
+    slider = page.get_by_role("slider", name="slide-to-roll ratio")
+    slider.scroll_into_view_if_needed()
+    page.evaluate("window.scrollBy(0, 200)")
+    numbers = page.locator(".main-numbers")
+    before, box = numbers.inner_text(), numbers.bounding_box()
+    assert box["y"] > 700
+    assert box["y"] + box["height"] <= 844
+    slider.locator('[tabindex="0"]').focus()
+    page.keyboard.press("ArrowLeft")
+    until(lambda: numbers.inner_text() != before)
+
+
 def test_the_screenshots_of_the_guide(page):
     store(page, "explore")
     page.get_by_role("button", name="Pin", exact=True).click()

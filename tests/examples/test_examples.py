@@ -188,3 +188,13 @@ def test_grooves_touch_at_low_speed_and_are_apart_at_high_speed():
     assert shares[-1] == areas[-1] == 0.0
     assert areas[1] < 0.7  # the grooves hold oil
     assert max(balances) < 1e-9
+
+
+def test_a_bearing_list_has_its_films():
+    table = example("bearing_list").main()
+    assert list(table["status"]) == ["converged", "converged"]
+    inner, outer = table.iloc[0], table.iloc[1]
+    # Hertz: on the narrower inner ring the same load presses more
+    assert inner["Hertz pressure [GPa]"] > outer["Hertz pressure [GPa]"] > 0.5
+    assert inner["central film [nm]"] < outer["central film [nm]"]
+    assert inner["± central film [nm]"] < 0.02 * inner["central film [nm]"]

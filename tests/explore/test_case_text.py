@@ -1,13 +1,16 @@
 """The text of a case changes key by key, and fits into an address."""
 
+import hashlib
+
 import pytest
 
 pytest.importorskip("tomlkit", reason="needs pip install 'tehl[explore]'")
 
 from tehl.errors import InputError
-from tehl.explore.case_text import CaseText
+from tehl.explore.case_text import CaseText, template_case
 from tehl.io.case import case_from_tables
 from tehl.io.templates import template_text, templates
+from tehl.solver import solve
 
 BALL = template_text("ball-on-disc")
 
@@ -60,6 +63,17 @@ def test_number_of_nodes_and_error_replace_each_other():
     assert case.get("numerics.points") is None
 
 
+def test_the_first_sliding_of_the_page_has_a_friction_that_an_oil_can_transmit():
+    case = template_case("ball-on-disc")
+    case.set("contact.slide_roll_ratio", 0.02)
+    case.set("numerics.points", 65)
+    problem, options = case_from_tables(case.tables)
+    found = solve(problem, options).traction
+    assert found.credible
+    assert 0.02 < abs(found.mid_film) < 0.06
+    assert template_case("bearing").text == template_text("bearing")
+
+
 @pytest.mark.parametrize("packed", ["x", "!!!", "AAAA", "eJwDAA"])
 def test_a_damaged_address_is_a_sentence(packed):
     with pytest.raises(InputError, match="damaged"):
@@ -71,6 +85,12 @@ def test_an_address_cannot_unpack_to_a_huge_text():
     with pytest.raises(InputError):
         CaseText("#" * 250_000)
     assert len(CaseText.unpacked(huge.packed).text) == 150_000
+
+
+def test_a_case_that_is_too_long_for_an_address_has_no_link():
+    noise = hashlib.shake_256().hexdigest(70_000)
+    assert CaseText(BALL).link.startswith("/?case=")
+    assert CaseText(f"# {noise}").link == ""
 
 
 def test_text_that_is_not_toml_names_the_line():

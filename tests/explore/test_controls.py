@@ -74,6 +74,18 @@ def test_heat_can_be_switched_on_and_off():
     assert case_from_tables(case.tables)[0].thermal is None
 
 
+def test_the_slider_of_a_concave_radius_is_logarithmic_and_keeps_its_sign():
+    _, _, items = controls_of("ball-on-disc")
+    knob = next(item for item in items if item.path == "surface_1.radius")
+    reach = knob.reach(-0.0495)
+    parts = [knob.part(value, reach) for value in (-0.495, -0.0495, -0.00495)]
+    assert parts == pytest.approx([0.0, 0.5, 1.0])
+    assert knob.at(0.505, reach) == pytest.approx(-0.0495, rel=0.03)
+    assert all(knob.at(step / 200, reach) < 0 for step in range(201))
+    for value in (-0.3, -0.02):
+        assert knob.at(knob.part(value, reach), reach) == pytest.approx(value)
+
+
 def test_temperatures_are_shown_in_degrees_and_stated_so():
     _, _, items = controls_of("thermal")
     knob = next(item for item in items if item.path == "thermal.temperature")

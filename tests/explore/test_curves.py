@@ -6,6 +6,14 @@ pytest.importorskip("nicegui", reason="needs pip install 'tehl[explore]'")
 
 from tehl.errors import InputError
 from tehl.explore.curve_panel import ends
+from tehl.explore.curves import Point, nearest, swept_chart
+
+
+def test_the_value_nearest_to_the_pointer_is_read():
+    points = [Point(1.0, 2.0, 0.1), Point(2.0, None), Point(3.0, 4.0)]
+    frame = swept_chart(points, ("speed", "film"), (640.0, 480.0), (1.0, 3.0)).frame
+    assert nearest(points, frame, frame.x(2.95)) is points[2]
+    assert nearest(points, frame, frame.x(2.0)) is None
 
 
 def test_ends_are_read_with_a_point_or_a_comma():

@@ -22,6 +22,12 @@ def test_a_temperature_changes_by_kelvins_and_another_quantity_by_a_share(unit, 
     assert words in number_html(one, replace(one, value=50.0))
 
 
+def test_a_number_by_formula_is_marked_and_keeps_its_height():
+    one = Number(key="a", name="a", symbol="a", value=40.0, unit="nm", by_formula=True)
+    assert "by formula" in number_html(one, None)
+    assert "error-bar" in number_html(one, None)
+
+
 def test_surfaces_that_touch_add_to_friction_and_power():
     tables = tables_of_text(template_text("boundary-film"))
     tables["contact"]["slide_roll_ratio"] = 1e-5

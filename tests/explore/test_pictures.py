@@ -15,7 +15,7 @@ from tehl.explore.colour_map import (
     pressure_picture,
     value_at,
 )
-from tehl.explore.curves import Point, line_charts, line_tops, swept_chart
+from tehl.explore.curves import Point, line_charts, line_tops, swept_chart, values_on_line
 from tehl.explore.numbers import numbers, value_of
 from tehl.explore.shown import shown
 from tehl.report.explain import explain
@@ -54,6 +54,19 @@ def test_the_image_has_the_film_in_its_colours(seen):
     assert film == pytest.approx(seen.maps.central, rel=0.01)  # one of 256 colours
 
 
+def test_the_ground_around_the_contact_has_no_colour(seen):
+    picture = film_picture(seen.maps, film_limits(seen.maps), SIZE)
+    image = Image.open(io.BytesIO(base64.b64decode(picture.image.partition(",")[2])))
+    alpha = np.asarray(image.convert("RGBA"))[..., 3]
+    rows, columns = alpha.shape
+    frame = picture.frame
+    row = round((frame.y(0.0) - frame.y.end) / picture.place[3] * (rows - 1))
+    column = round((frame.x(0.0) - frame.x.start) / picture.place[2] * (columns - 1))
+    assert alpha[row, column] == 255
+    assert alpha[0, 0] == alpha[-1, -1] == 0
+    assert 0.4 < (alpha == 0).mean() < 0.9
+
+
 def test_both_maps_have_contact_and_labels(seen):
     film = film_picture(seen.maps, film_limits(seen.maps), SIZE).overlay
     pressure = pressure_picture(seen.maps, pressure_limits(seen.maps), SIZE).overlay
@@ -84,6 +97,17 @@ def test_centre_lines_and_sweeps_are_drawings(seen):
     assert drawing.count('class="point"') == 2
     assert drawing.count('class="whisker"') == 1
     assert drawing.count('class="minimum"') == 1
+
+
+def test_film_and_pressure_on_a_centre_line_are_read_under_the_pointer(seen):
+    charts = line_charts(seen, SIZE, line_tops(seen.lines))
+    frame = charts[0].frame
+    words = values_on_line(seen.lines, charts, frame.x(0.0), 100.0)
+    assert words.startswith("x = 0 µm:  h = ")
+    assert f"h = {seen.maps.central:.4g} nm" in words
+    below = charts[1].frame.x(0.0), frame.height + 9.0
+    assert values_on_line(seen.lines, charts, *below).startswith("y = 0")
+    assert values_on_line(seen.lines, charts, 2.0, 100.0) == ""
 
 
 def test_numbers_are_those_of_the_result_with_bars_and_formulas(result):

@@ -10,7 +10,7 @@ import pytest
 pytest.importorskip("tomlkit", reason="needs pip install 'tehl[explore]'")
 
 from tehl.explore.case_text import CaseText
-from tehl.explore.jobs import Ask, End, Explained, Failure, Part
+from tehl.explore.jobs import Ask, Desk, End, Explained, Failure, Part, TooCoarse
 from tehl.explore.worker import DIED, Solver
 from tehl.io.case import case_from_tables
 from tehl.io.templates import template_text
@@ -118,6 +118,34 @@ async def killed_while_it_starts(solver, inbox, after):
     await asyncio.wait_for(after.ended, 60)
     assert after.of(Part)
     assert not after.of(Failure)
+
+
+class Silent:
+    """A connection over which nothing comes."""
+
+    def send(self, message):
+        pass
+
+    def poll(self):
+        return False
+
+
+@pytest.mark.parametrize(
+    ("quick", "words"),
+    [
+        (False, "129 × 129 is too coarse, solving 769 × 769, about "),
+        (True, "65 × 65 is too coarse: solved when the slider is released"),
+    ],
+)
+def test_a_coarse_grid_on_which_the_film_did_not_converge_is_a_sentence(quick, words, stalled):
+    desk = Desk(Silent())
+    desk.warm.add(False)
+    desk.result = lambda *_: stalled
+    case = CaseText(CASE.text)
+    case.set("numerics.points", 769)
+    messages = list(desk.solve(Ask(tables=case.tables, quick=quick)))
+    assert next(one.text for one in messages if isinstance(one, TooCoarse)).startswith(words)
+    assert [one.final for one in messages if isinstance(one, Part)] == [True] * (not quick)
 
 
 @pytest.mark.skipif(os.name == "nt", reason="kills a process by a signal")

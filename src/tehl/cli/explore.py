@@ -26,16 +26,15 @@ def explore(
     """
     for name in THREADS:  # small products of matrices are ten times as slow on two threads
         os.environ.setdefault(name, "1")
-    from tehl.io.case import read_case_and_options
-    from tehl.io.templates import template_text
-
-    text = template_text(TEMPLATE)
     if case is not None:
+        from tehl.io.case import read_case_and_options
+
         read_case_and_options(case)  # for its errors, before a page opens
-        text = case.read_text(encoding="utf-8-sig")
     _check_extra()
+    from tehl.explore.case_text import template_case
     from tehl.explore.server import serve
 
+    text = case.read_text(encoding="utf-8-sig") if case else template_case(TEMPLATE).text
     with suppress(KeyboardInterrupt):  # the usual end
         serve(case, text, port, browser=browser, report=_report)
 

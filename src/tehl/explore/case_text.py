@@ -9,6 +9,7 @@ import tomlkit
 
 from tehl.errors import InputError
 from tehl.io.case import replaced_by, tables_of_text, text_of
+from tehl.io.templates import template_text
 from tehl.lubricant.fluid import OILS
 from tehl.materials import SOLIDS
 from tehl.named import find_table
@@ -16,8 +17,24 @@ from tehl.named import find_table
 _LAWS = ("lubricant.viscosity.", "lubricant.density.")
 LARGEST = 200_000
 """Characters of the text of a case; one with more is not a case that a person wrote."""
+LONGEST = 60_000
+"""Characters of a case in an address; servers and mail programs cut longer ones."""
 _WITHOUT = ("name", "source", "aliases")
 """Keys of a named solid or oil that do not hold any more once it is edited."""
+_SHEAR = {"law": "limiting", "slope": 0.05}
+"""Shear law of the page where a template states the Newtonian one."""
+
+
+def template_case(name: str) -> "CaseText":
+    """Return a template for the page: a Newtonian oil gets a limiting shear stress.
+
+    One move of the slider of the sliding would otherwise give the friction of an oil that transmits
+    any stress, a coefficient of five. Without sliding the film is that of the Newtonian oil.
+    """
+    case = CaseText(template_text(name))
+    if case.get("lubricant.shear.law") == "newtonian":
+        case.set("lubricant.shear", _SHEAR)
+    return case
 
 
 class CaseText:
@@ -63,6 +80,12 @@ class CaseText:
         """The text in letters, digits, hyphens and underscores, for an address."""
         content = zlib.compress(self.text.encode("utf-8"), 9)
         return base64.urlsafe_b64encode(content).decode("ascii").rstrip("=")
+
+    @property
+    def link(self) -> str:
+        """The address of the case on the page; empty if it were too long."""
+        packed = self.packed
+        return f"/?case={packed}" if len(packed) <= LONGEST else ""
 
     def get(self, path: str) -> Any:
         """Return the value at a dotted path as the text states it; None if it does not."""

@@ -23,6 +23,8 @@ _WIDEST = 400.0
 """Pixels of an image; the browser draws it wider, smoothly."""
 _NUMBERS = count()
 """For names of gradients: one in a hidden drawing has no effect on another."""
+_CLEAR = 255
+"""The last of the colours, which is transparent where a map has no colour for large values."""
 _CONTOURED = 128
 """Points along an axis on which contour lines are traced."""
 
@@ -53,7 +55,7 @@ class Look:
     bar: bool = True
     """Whether a colour bar stands at its right."""
     opens: bool = False
-    """Whether the last colour stands for all larger values too."""
+    """Whether what is larger than the limits has no colour: the ground of the page."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +92,10 @@ def section_limits(section: Section) -> Limits:
 def film_picture(
     maps: Maps, limits: Limits, size: tuple[float, float], *, bar: bool = True
 ) -> Picture:
-    """Draw the film with contour lines, Hertz contact and minimum; ``bar`` adds its colours."""
+    """Draw the film with contour lines, Hertz contact and minimum; ``bar`` adds its colours.
+
+    The gap around the contact, above the limits, is the ground of the page.
+    """
     levels = [level for level in ticks(limits.low, limits.high, 9) if level > limits.low]
     opens = bool(maps.film.max() > limits.high)
     look = Look(limits, levels, "viridis", "film thickness [nm]", bar, opens)
@@ -244,10 +249,14 @@ def _png(pixels: Array, look: Look) -> str:
         part = np.log(np.maximum(pixels, 1e-9) / limits.low) / math.log(limits.high / limits.low)
     else:
         part = (pixels - limits.low) / (limits.high - limits.low)
-    image = Image.fromarray((255.0 * np.clip(part, 0.0, 1.0)).astype(np.uint8), "P")
+    indices = (_CLEAR * np.clip(part, 0.0, 1.0)).astype(np.uint8)
+    if look.opens:
+        indices = np.where(part > 1.0, _CLEAR, np.minimum(indices, _CLEAR - 1)).astype(np.uint8)
+    image = Image.fromarray(indices, "P")
     image.putpalette(_palette(look.colours))
     buffer = io.BytesIO()
-    image.save(buffer, "PNG", compress_level=1)
+    clear = {"transparency": _CLEAR} if look.opens else {}
+    image.save(buffer, "PNG", compress_level=1, **clear)
     return _uri(buffer)
 
 
@@ -334,10 +343,9 @@ def _colour_bar(frame: Frame, look: Look) -> str:
         parts.append(text(left + 20, y + 4, number_text(value), "", "start"))
     parts.append(turned(left + 62, top + 0.5 * height, look.label, "label"))
     if look.opens:
-        red, green, blue = table[-1].tolist()
         parts.append(
-            f'<path d="M{left} {top}l6.5 -11l6.5 11z" fill="rgb({red},{green},{blue})">'
-            "<title>and more</title></path>"
+            f'<path d="M{left} {top}l6.5 -11l6.5 11z" class="frame">'
+            "<title>more has no colour</title></path>"
         )
     return "".join(parts)
 

@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING, Any
 from nicegui import ui
 
 from tehl.explore.controls import Choice, Group, Knob
-from tehl.explore.elements import button
+from tehl.explore.elements import button, plain
 from tehl.explore.tab import Tab
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-_STEPS = 200
+_STEPS, _EDGE = 200, 2
+"""Places of a slider, and those at either end from which its range moves on."""
 _THROTTLE = 0.03
 """Seconds between two places of a moving slider."""
 
@@ -105,40 +106,27 @@ class KnobRow:
     # ---- the slider
 
     def _place(self) -> int:
-        low, high = self.reach
-        value = min(max(self.value, low), high)
-        if self.knob.is_log and low > 0:
-            part = math.log(value / low) / math.log(high / low)
-        else:
-            part = (value - low) / (high - low)
-        return round(_STEPS * part)
+        return round(_STEPS * self.knob.part(self.value, self.reach))
 
     def _at(self, place: float) -> float:
         """Return the value at a place of the slider, to three digits."""
-        low, high = self.reach
-        part = place / _STEPS
-        value = (
-            low * (high / low) ** part
-            if self.knob.is_log and low > 0
-            else low + part * (high - low)
-        )
-        number = self.knob.number(value, self.unit)
-        step = 10.0 ** (math.floor(math.log10(max(abs(number), 1e-12))) - 2)
-        if not (self.knob.is_log and low > 0):
-            size = abs(self.knob.number(high, self.unit) - self.knob.number(low, self.unit))
-            step = 10.0 ** (math.floor(math.log10(size)) - 2)
+        number = self.knob.number(self.knob.at(place / _STEPS, self.reach), self.unit)
+        size = abs(number)
+        if not self.knob.spreads(self.reach):
+            low, high = (self.knob.number(end, self.unit) for end in self.reach)
+            size = abs(high - low)
+        step = 10.0 ** (math.floor(math.log10(max(size, 1e-12))) - 2)
         return round(number / step) * step
 
     def _moved(self, event: Any) -> None:
-        place = float(_plain(event.args))
+        place = float(plain(event.args))
         if place != self.left_at:  # the last place comes once more after the release
             self._set(place, moving=True)
 
     def _released(self, event: Any) -> None:
-        self.left_at = float(_plain(event.args))
+        self.left_at = float(plain(event.args))
         self._set(self.left_at, moving=False)
-        low, high = self.reach
-        if self.knob.is_log and not 1.05 * low < self.value < high / 1.05:
+        if self.knob.is_log and not _EDGE < self.left_at < _STEPS - _EDGE:
             self._centre()
 
     def _set(self, place: float, *, moving: bool) -> None:
@@ -203,8 +191,3 @@ class ChoiceRow:
         """Show a sentence below the selector, none if it is empty."""
         self.fault.set_text(text)
         self.fault.set_visibility(bool(text))
-
-
-def _plain(arguments: Any) -> Any:
-    """Return the first argument of an event."""
-    return arguments[0] if isinstance(arguments, list) else arguments

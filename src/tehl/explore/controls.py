@@ -81,11 +81,31 @@ class Knob:
         return f"{number:.6g} {unit}"
 
     def reach(self, value: float) -> Span:
-        """Return the range of the slider around a value, SI."""
+        """Return the range of the slider around a value, SI; a logarithmic one keeps its sign."""
         low, high = self.span
+        if self.is_log and value < 0:
+            low, high = self.reach(-value)
+            return -high, -low
         if self.is_log and value > 0:
             return max(min(low, value), value / _DECADE), min(max(high, value), value * _DECADE)
         return min(low, value), max(high, value)
+
+    def part(self, value: float, reach: Span) -> float:
+        """Return where a value lies in a range, from 0 to 1."""
+        low, high = reach
+        value = min(max(value, low), high)
+        if self.spreads(reach):
+            return math.log(value / low) / math.log(high / low)
+        return (value - low) / (high - low)
+
+    def at(self, part: float, reach: Span) -> float:
+        """Return the value at a part of a range, the inverse of `part`."""
+        low, high = reach
+        return low * (high / low) ** part if self.spreads(reach) else low + part * (high - low)
+
+    def spreads(self, reach: Span) -> bool:
+        """Return whether a slider over a range is logarithmic: it has one sign."""
+        return self.is_log and reach[0] * reach[1] > 0
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,20 +1,23 @@
 """The view of curves: a control is swept in the background, points appear as they are solved."""
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from nicegui import ui
 
 from tehl.errors import InputError
 from tehl.explore.case_text import CaseText
 from tehl.explore.controls import Knob, swept_knobs
-from tehl.explore.curves import Point, swept_chart
-from tehl.explore.elements import button, main_button
+from tehl.explore.curves import Point, nearest, swept_chart
+from tehl.explore.elements import button, main_button, read_at_pointer
 from tehl.explore.jobs import End, Failure
 from tehl.explore.numbers import value_of
 from tehl.explore.tab import Tab
 from tehl.explore.tasks import Sweep, Swept
 from tehl.explore.worker import Solver
+
+if TYPE_CHECKING:
+    from tehl.explore.axes import Frame
 
 _POINTS = 13
 _MOST = 101
@@ -38,6 +41,7 @@ class CurvePanel:
         self.knob: Knob | None = None
         self.span, self.wanted, self.size = (1.0, 10.0), 0, (720.0, 480.0)
         self._number = 0
+        self._drawn: tuple[Frame | None, list[Point], tuple[str, str]] = None, [], ("", "")
         self._around: Any = None  # the case of the curve, without what is swept
         with ui.element("div").classes("curves") as self.place:
             self._build_choices()
@@ -47,6 +51,8 @@ class CurvePanel:
                 self.bar.classes("sweep-bar")
                 button("", self._save, icon="download", name="save the table, CSV")
             self.drawing = ui.html("", sanitize=False).classes("drawing")
+            self.readout = ui.label(" ").classes("readout")
+            read_at_pointer(self.drawing, self.readout, self._value_at)
         self.place.set_visibility(False)
         tab.listeners.append(self._hear)
 
@@ -202,6 +208,17 @@ class CurvePanel:
         points = [self._point(one, key) for one in self.points]
         chart = swept_chart(points, labels, self.size, self.span, self._here(knob, key))
         self.drawing.set_content(chart.drawing)
+        self._drawn = chart.frame, points, labels
+
+    def _value_at(self, right: float, down: float) -> str:
+        """Return the swept value nearest to a pixel."""
+        del down
+        frame, points, labels = self._drawn
+        point = nearest(points, frame, right) if frame is not None else None
+        if point is None or point.y is None:
+            return ""
+        bar = f" ± {abs(point.y * point.error):.2g}" if point.error else ""
+        return f"{labels[0]} = {point.x:.4g}:  {labels[1]} = {point.y:.4g}{bar}"
 
     def _point(self, one: Swept, key: str) -> Point:
         found = value_of(one.numbers, key)

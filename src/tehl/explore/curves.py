@@ -10,6 +10,8 @@ from tehl.explore.axes import Frame, Scale, svg, text, turned
 from tehl.explore.shown import Line, Lines, Shown
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 62.0, 62.0, 28.0, 46.0
+_NEAR = 30.0
+"""Pixels from the pointer within which a swept value is read."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +54,27 @@ def line_tops(lines: Lines) -> tuple[float, float]:
     _, film, pressure, hertz = lines.x
     middle = float(np.median(film[hertz > 0])) if (hertz > 0).any() else float(film.max())
     return 3.0 * max(middle, 1e-3), 1.12 * max(float(pressure.max()), float(hertz.max()), 1e-6)
+
+
+def values_on_line(lines: Lines, charts: Sequence[Chart], right: float, down: float) -> str:
+    """Return film and pressure on a centre line at a pixel of its charts, one below the other."""
+    for name, line, chart in zip("xy", (lines.x, lines.y), charts, strict=True):
+        if down < chart.frame.height:
+            place, film, pressure, hertz = line
+            at = chart.frame.x.data(right)
+            if not place[0] <= at <= place[-1]:
+                return ""
+            h, p, dry = (float(np.interp(at, place, one)) for one in (film, pressure, hertz))
+            return f"{name} = {at:.0f} µm:  h = {h:.4g} nm,  p = {p:.3g} GPa,  Hertz {dry:.3g} GPa"
+        down -= chart.frame.height
+    return ""
+
+
+def nearest(points: Sequence[Point], frame: Frame, right: float) -> Point | None:
+    """Return the swept value nearest to a pixel along x, None if none is near."""
+    known = [point for point in points if point.y is not None]
+    found = min(known, key=lambda point: abs(frame.x(point.x) - right), default=None)
+    return found if found is not None and abs(frame.x(found.x) - right) < _NEAR else None
 
 
 def _centre_line(

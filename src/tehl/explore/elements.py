@@ -25,6 +25,35 @@ def main_button(words: str, action: Callable[[], Any], *, icon: str | None = Non
     return made.props("no-caps unelevated").classes("main-button")
 
 
+POINTER = """(event) => {
+    const box = event.currentTarget.getBoundingClientRect();
+    emit([event.clientX - box.left, event.clientY - box.top]);
+}"""
+
+
+def plain(arguments: Any) -> Any:
+    """Return the first argument of an event."""
+    return arguments[0] if isinstance(arguments, list) else arguments
+
+
+def read_at_pointer(
+    over: ui.element, readout: ui.label, words: Callable[[float, float], str]
+) -> None:
+    """Show in ``readout`` what ``words`` returns for the pixel under the pointer."""
+
+    def point(event: Any) -> None:
+        place = event.args[0] if isinstance(event.args[0], list) else event.args
+        readout.set_text(words(*map(float, place)) or " ")
+
+    over.on("mousemove", point, js_handler=POINTER, throttle=0.04)
+    over.on("mouseleave", lambda: readout.set_text(" "))
+
+
+def mark(element: ui.element, style: str, *, on: bool) -> None:
+    """Give a class to an element, or take it away."""
+    element.classes(add=style) if on else element.classes(remove=style)
+
+
 class Drawing:
     """An image in colours with a drawing over it; either may be left out."""
 

@@ -1,17 +1,17 @@
-"""The top of the page: title, templates, open, save, undo, dark or light."""
+"""The top of the page: title, templates, open, save, undo, redo, dark or light."""
 
 from typing import Any
 
 from nicegui import ui
 
 from tehl.errors import InputError
-from tehl.explore.case_text import LARGEST, CaseText
+from tehl.explore.case_text import LARGEST, CaseText, template_case
 from tehl.explore.elements import button, main_button
 from tehl.explore.jobs import End, Failure, Note
 from tehl.explore.tab import Tab
 from tehl.explore.tasks import Export, Saved
 from tehl.explore.worker import Solver
-from tehl.io.templates import template_text, templates
+from tehl.io.templates import templates
 
 FILES = {
     "nc": "Result, NetCDF",
@@ -20,6 +20,8 @@ FILES = {
     "film.svg": "Picture, SVG",
 }
 """Files made from a result, by kind."""
+THEME = "tehl-theme"
+"""Cookie of the browser with the choice of dark or light."""
 PICTURES = {
     "film": "film",
     "pressure": "pressure",
@@ -38,8 +40,8 @@ class Header:
         self.tab, self.background = tab, background
         tab.listeners.append(self._hear)
 
-    def build(self) -> None:
-        """Make the header."""
+    def build(self, theme: str) -> None:
+        """Make the header; ``theme`` is "dark", "light" or that of the system."""
         with ui.element("header").classes("top"):
             ui.html('<b>tehl</b> <span class="thin">explore</span>', sanitize=False).classes(
                 "brand"
@@ -51,7 +53,8 @@ class Header:
             button("Open", self._open_dialog, icon="folder_open")
             self._save_menu()
             button("", self.tab.undo, icon="undo", name="undo, Ctrl+Z")
-            self.dark = ui.dark_mode(value=None)
+            button("", self.tab.redo, icon="redo", name="redo, Ctrl+Y")
+            self.dark = ui.dark_mode(value={"dark": True, "light": False}.get(theme))
             button("", self._shade, icon="contrast", name="dark or light")
         self.progress = ui.label("").classes("progress-note")
         self.progress.set_visibility(False)
@@ -78,17 +81,28 @@ class Header:
         if topic == "controls" and self.tab.problem is not None:
             self.title.set_text(self.tab.problem.title or "untitled contact")
 
-    def _shade(self) -> None:
-        self.dark.value = not self.dark.value
+    async def _shade(self) -> None:
+        """Change between dark and light; a cookie of the browser keeps the choice."""
+        is_dark = await ui.run_javascript("document.body.classList.contains('body--dark')")
+        self.dark.value = not is_dark
+        theme = "light" if is_dark else "dark"
+        ui.run_javascript(
+            f'document.cookie = "{THEME}={theme}; path=/; max-age=31536000; SameSite=Lax"'
+        )
 
     def _key(self, event: Any) -> None:
-        if event.action.keydown and event.modifiers.ctrl and event.key == "z":
+        if not event.action.keydown or not (event.modifiers.ctrl or event.modifiers.meta):
+            return
+        key = str(event.key).lower()
+        if key == "y" or (key == "z" and event.modifiers.shift):
+            self.tab.redo()
+        elif key == "z":
             self.tab.undo()
 
     # ---- cases
 
     def _take_template(self, name: str) -> None:
-        self.tab.open(CaseText(template_text(name)))
+        self.tab.open(template_case(name))
 
     def _open_dialog(self) -> None:
         with ui.dialog() as dialog, ui.card().classes("open-card"):
@@ -136,8 +150,13 @@ class Header:
         ui.notify("Python code copied")
 
     def _copy_link(self) -> None:
-        packed = self.tab.case.packed
-        ui.run_javascript(f'navigator.clipboard.writeText(location.origin + "/?case={packed}")')
+        link = self.tab.case.link
+        if not link:
+            ui.notify(
+                "this case is too long for a link: save it as a file instead", type="negative"
+            )
+            return
+        ui.run_javascript(f'navigator.clipboard.writeText(location.origin + "{link}")')
         ui.notify("link copied")
 
     # ---- files of a result

@@ -66,10 +66,19 @@ class Part:
 
 
 @dataclass(frozen=True, slots=True)
+class TooCoarse:
+    """The film did not converge on a grid on the way, and is not shown."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
 class Failure:
     """A sentence on why there is no result."""
 
     text: str
+    again: bool = False
+    """Whether the same case may be solved the next time."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,15 +170,21 @@ class Desk:
             self.send(Failure(f"{type(error).__name__}: {error}"))
         self.send(End())
 
-    def solve(self, ask: Ask) -> Iterator[Explained | Note | Part]:
-        """Yield what formulas say, and results on finer and finer grids."""
+    def solve(self, ask: Ask) -> Iterator[Explained | Note | Part | TooCoarse]:
+        """Yield what formulas say, and results on finer and finer grids.
+
+        A film that did not converge on a grid on the way is not a result: it may be far off.
+        """
         problem, options = case_from_tables(ask.tables)
         found = explain(problem, options)
         yield Explained(_groups(found), found.questions, found.seconds)
         yield from self.compiled(coupled=problem.is_coupled)
         for stage, final in self.stages(steady(problem), options, found, quick=ask.quick):
             result = self.result(steady(problem), stage)
-            yield Part(shown(result, found, fringes=ask.fringes), final)
+            if final or result.status.converged:
+                yield Part(shown(result, found, fringes=ask.fringes), final)
+            else:
+                yield too_coarse(stage, options, found, quick=ask.quick)
 
     def result(self, problem: ContactProblem, options: Options) -> Result:
         """Return the result of a problem, converged or not; a recent one is not solved again."""
@@ -235,6 +250,21 @@ def _stages(options: Options, found: Explanation, *, quick: bool) -> Iterator[tu
             yield options.model_copy(update={"points": nodes, "error": None}), False
     if not quick or finest <= QUICK:
         yield options, True
+
+
+def too_coarse(stage: Options, options: Options, found: Explanation, *, quick: bool) -> TooCoarse:
+    """Return what to say of a grid on which the film did not converge."""
+    nx, ny = stage.shape[::-1]
+    words = f"{nx} × {ny} is too coarse"
+    if quick:
+        return TooCoarse(f"{words}: solved when the slider is released")
+    finest = found.expected_points
+    columns, rows = (finest, finest) if options.points == "auto" else options.shape[::-1]
+    return TooCoarse(f"{words}, solving {columns} × {rows}, about {_seconds(found.seconds)}")
+
+
+def _seconds(time: float) -> str:
+    return f"{max(1.0, float(f'{time:.1g}')):.0f} s"
 
 
 def _groups(found: Explanation) -> tuple[tuple[str, str], ...]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from nicegui import ui
 
-from tehl.explore.elements import button
+from tehl.explore.elements import button, mark
 from tehl.explore.numbers import Number, value_of
 from tehl.explore.tab import Tab
 
@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 
 _REACH = 0.3
 """Relative deviation at the ends of the drawn error bar."""
-_MARKS = {"Nijenbanning-Venner-Moes": "NVM", "Hamrock-Dowson": "HD", "Chittenden": "Ch"}
+_MAIN = ("h_central", "h_min", "p_max", "friction")
+"""Numbers that stay in sight on a narrow screen."""
 
 
 class NumberPanel:
@@ -32,6 +33,8 @@ class NumberPanel:
     def _hear(self, topic: str) -> None:
         if topic == "numbers":
             self.update()
+        elif topic == "status":
+            mark(self.place, "old", on=self.tab.is_old)
 
     def update(self) -> None:
         """Show the numbers of the present result."""
@@ -60,6 +63,28 @@ class NumberPanel:
                     button("", sweep, icon="show_chart", name=name).classes("sweep")
 
 
+class MainNumbers:
+    """The main numbers in one line, which stays in sight on a narrow screen."""
+
+    def __init__(self, tab: Tab) -> None:
+        self.tab = tab
+        self.line = ui.html("", sanitize=False).classes("main-numbers")
+        tab.listeners.append(self._hear)
+
+    def _hear(self, topic: str) -> None:
+        shown = self.tab.shown
+        if topic == "numbers" and shown is not None:
+            found = (value_of(shown.numbers, key) for key in _MAIN)
+            self.line.set_content("".join(_in_brief(one) for one in found if one is not None))
+        elif topic == "status":
+            mark(self.line, "old", on=self.tab.is_old)
+
+
+def _in_brief(one: Number) -> str:
+    value = "" if one.value is None else f"{_rounded(one.value, 3)} {escape(one.unit)}"
+    return f"<span><i>{_symbol(one.symbol)}</i> {value or '–'}</span>"
+
+
 def number_html(one: Number, other: Number | None) -> str:
     """Return a number with its error bar, its formulas and the pinned one."""
     name = f'<span class="name">{escape(one.name)}</span> <i>{_symbol(one.symbol)}</i>'
@@ -82,6 +107,8 @@ def value_text(one: Number) -> str:
     """Return a number with its error bar and unit."""
     assert one.value is not None
     unit = f" <small>{escape(one.unit)}</small>" if one.unit else ""
+    if one.by_formula:
+        return f'<b>{_rounded(one.value, 3)}</b>{unit} <span class="bar">by formula</span>'
     if one.error is None or not math.isfinite(one.error) or one.value == 0.0:
         return f"<b>{_rounded(one.value, 4)}</b>{unit}"
     half = abs(one.value * one.error)
@@ -125,22 +152,21 @@ def _change(one: Number, other: Number | None) -> str:
 
 def _bar(one: Number) -> str:
     """Return a drawing of the relative error bar, with the formulas as marks."""
-    if one.error is None or not one.value:
+    if not one.value or (one.error is None and not one.by_formula):
         return ""
-    half = min(abs(one.error) / _REACH, 1.0) * 50.0
-    parts = [
-        '<path d="M0 7H100" class="track"/>',
-        f'<path d="M{50 - half:.2f} 7H{50 + half:.2f}" class="band"/>',
-        '<path d="M50 2V12" class="middle"/>',
-    ]
+    parts = ['<path d="M0 7H100" class="track"/>', '<path d="M50 2V12" class="middle"/>']
+    words = "no error bar yet"
+    if one.error is not None:
+        half = min(abs(one.error) / _REACH, 1.0) * 50.0
+        parts.insert(1, f'<path d="M{50 - half:.2f} 7H{50 + half:.2f}" class="band"/>')
+        words = f"error bar {100 * abs(one.error):.2g} %"
     for author, value in one.formulas:
         away = (value / one.value - 1.0) / _REACH
         if abs(away) <= 1.0:
             at = 50 + 50 * away
-            words = f"<title>{escape(author)}</title>"
-            parts.append(f'<path d="M{at:.2f} 3V11" class="formula">{words}</path>')
+            name = f"<title>{escape(author)}</title>"
+            parts.append(f'<path d="M{at:.2f} 3V11" class="formula">{name}</path>')
     drawing = "".join(parts)
-    words = f"error bar {100 * abs(one.error):.2g} %"
     return (
         f'<svg class="error-bar" viewBox="0 0 100 14" preserveAspectRatio="none" role="img" '
         f'aria-label="{words}">{drawing}</svg>'

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from tehl.film_formulas import FilmEstimate
 from tehl.report.explain import Explanation
 from tehl.result import Result
 
@@ -29,6 +30,8 @@ class Number:
     """Authors of formulas, and their values in ``unit``."""
     remark: str = ""
     """Why there is no value, or what limits it."""
+    by_formula: bool = False
+    """Whether it is scaled by a formula from the contact before."""
 
 
 def numbers(result: Result, explanation: Explanation) -> tuple[Number, ...]:
@@ -55,11 +58,6 @@ def _film(result: Result, explanation: Explanation) -> Iterator[Number]:
         ("h_min", "minimum film", "h_min", film.minimum),
     ):
         central = key == "h_central"
-        by_formula = tuple(
-            (one.formula, part * metres * 1e9)
-            for one in explanation.films
-            if (metres := one.central_m if central else one.minimum_m) is not None
-        )
         yield Number(
             key=key,
             name=name,
@@ -67,9 +65,23 @@ def _film(result: Result, explanation: Explanation) -> Iterator[Number]:
             value=value * 1e9 if value > 0 else None,
             unit="nm",
             error=None if errors is None else errors.central if central else errors.minimum,
-            formulas=by_formula,
+            formulas=film_formulas(explanation.films, part, central=central),
             remark="" if value > 0 else NO_FILM,
         )
+
+
+def film_formulas(
+    films: tuple[FilmEstimate, ...], part: float, *, central: bool
+) -> tuple[tuple[str, float], ...]:
+    """Return the authors of film formulas and their central or minimum films [nm].
+
+    ``part`` is the film over that of the flooded contact.
+    """
+    return tuple(
+        (one.formula, part * metres * 1e9)
+        for one in films
+        if (metres := one.central_m if central else one.minimum_m) is not None
+    )
 
 
 def _film_over_roughness(result: Result, explanation: Explanation) -> Iterator[Number]:

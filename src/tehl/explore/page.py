@@ -3,6 +3,7 @@
 import asyncio
 from pathlib import Path
 from typing import Any
+from urllib.parse import parse_qs
 
 from nicegui import Client, ui
 
@@ -10,12 +11,12 @@ from tehl.errors import InputError
 from tehl.explore.case_text import CaseText
 from tehl.explore.control_panel import ControlPanel
 from tehl.explore.curve_panel import CurvePanel
-from tehl.explore.elements import button
+from tehl.explore.elements import button, mark, plain
 from tehl.explore.files import Files
-from tehl.explore.header import Header
+from tehl.explore.header import THEME, Header
 from tehl.explore.jobs import End, Warm
 from tehl.explore.movie_panel import MoviePanel
-from tehl.explore.number_panel import Explanation, NumberPanel
+from tehl.explore.number_panel import Explanation, MainNumbers, NumberPanel
 from tehl.explore.picture_panel import PicturePanel
 from tehl.explore.status import StatusLine
 from tehl.explore.surface_dialog import SurfaceDialog
@@ -23,6 +24,7 @@ from tehl.explore.tab import VIEWS, Tab
 from tehl.explore.worker import Solver
 
 STYLE = Path(__file__).with_name("style.css")
+SCRIPT = Path(__file__).with_name("page.js")
 _MEASURE = """(size) => emit([size.width, window.innerHeight])"""
 _LATER = 10.0
 """Seconds after which the second worker starts."""
@@ -78,6 +80,7 @@ class Page:
             assert self.background is not None
             tab.listeners.clear()
             self.live.cancel(owner)
+            self.live.cancel(f"{owner} pinned")
             for job in ("sweep", "run", "file", "surface"):
                 self.background.cancel(f"{owner} {job}")
 
@@ -100,9 +103,11 @@ class TabPage:
         """Make all parts."""
         ui.colors(primary="#1f4e9c", negative="#b3001b")
         ui.add_css(STYLE.read_text(encoding="utf-8"))
+        ui.add_body_html(f"<script>{SCRIPT.read_text(encoding='utf-8')}</script>")
         ui.query(".nicegui-content").classes("page")
-        Header(self.tab, self.background).build()
-        with ui.element("main").classes("columns"):
+        request = self.client.request
+        Header(self.tab, self.background).build(request.cookies.get(THEME, "") if request else "")
+        with ui.element("div").classes("columns"):
             with ui.element("section").classes("left").props('aria-label="the contact"'):
                 dialog = SurfaceDialog(self.tab, self.background)
                 ControlPanel(self.tab, dialog.open)
@@ -112,7 +117,9 @@ class TabPage:
             with ui.element("section").classes("right").props('aria-label="numbers"'):
                 NumberPanel(self.tab, self._sweep)
                 Explanation(self.tab)
+            MainNumbers(self.tab)
         self.tab.listeners.append(self._hear)
+        ui.on("visited", lambda event: self._visit(plain(event.args)))
 
     def _build_middle(self) -> None:
         tab = self.tab
@@ -138,7 +145,8 @@ class TabPage:
         with ui.element("div").classes("compare"):
             self.hold = ui.switch("hold scales", on_change=lambda event: tab.hold(held=event.value))
             self.hold.props("dense")
-            button("Pin", tab.pin, icon="push_pin").tooltip("keep this state to compare")
+            self.pin = button("Pin", tab.pin, icon="push_pin")
+            self.pin.tooltip("keep this state to compare")
             self.unpin = button("Unpin", tab.unpin)
             self.unpin.set_visibility(False)
 
@@ -167,10 +175,20 @@ class TabPage:
             self.hold.set_value(self.tab.held)
             compares = self.tab.pinned is not None
             self.unpin.set_visibility(compares)
-            style = {"add": "comparing"} if compares else {"remove": "comparing"}
-            self.middle.classes(**style)
+            mark(self.middle, "comparing", on=compares)
+        if topic == "status":
+            self.pin.set_enabled(not self.tab.is_old)
         if topic == "status" and not self.tab.is_moving:
-            packed = self.tab.case.packed
-            if packed != self._address and self.client.has_socket_connection:
-                self._address = packed
-                self.client.run_javascript(f'history.replaceState(null, "", "/?case={packed}")')
+            link = self.tab.case.link or "/"
+            if link != self._address and self.client.has_socket_connection:
+                new = bool(self._address) and not self.tab.is_stepping
+                change = "pushState" if new else "replaceState"  # the back button undoes
+                self._address = link
+                self.client.run_javascript(f'history.{change}(null, "", "{link}")')
+
+    def _visit(self, link: str) -> None:
+        """Take the case of an address that the back or the forward button has gone to."""
+        self._address = link
+        packed = parse_qs(link.partition("?")[2]).get("case", [""])[0]
+        if packed:
+            self.tab.visit(CaseText.unpacked(packed))

@@ -14,16 +14,12 @@ from tehl.explore.colour_map import (
     section_picture,
     value_at,
 )
-from tehl.explore.curves import line_charts
-from tehl.explore.elements import Drawing
+from tehl.explore.curves import Chart, line_charts, values_on_line
+from tehl.explore.elements import Drawing, mark, read_at_pointer
 from tehl.explore.relief import relief_figure
 from tehl.explore.shown import Shown
 from tehl.explore.tab import Tab
 
-_POINTER = """(event) => {
-    const box = event.currentTarget.getBoundingClientRect();
-    emit([event.clientX - box.left, event.clientY - box.top]);
-}"""
 _GAP, _BAR, _SMALL, _LINES = 16.0, 70.0, 560.0, 440.0
 """Pixels between two maps, of the colour bar of one of them, from which on both fit, and twice the
 height of the centre lines below."""
@@ -36,13 +32,13 @@ class Slot:
         self.bar, self.view = bar, ""
         self.shown: Shown | None = None
         self.picture: Picture | None = None
+        self.charts: list[Chart] = []
         with ui.element("div").classes("slot") as self.place:
             self.title = ui.label(name).classes("slot-title")
             self.drawing = Drawing()
             self.readout = ui.label(" ").classes("readout")
             self.relief: ui.plotly | None = None
-            self.drawing.overlay.on("mousemove", self._point, js_handler=_POINTER, throttle=0.04)
-            self.drawing.overlay.on("mouseleave", lambda: self.readout.set_text(" "))
+            read_at_pointer(self.drawing.overlay, self.readout, self._values_at)
 
     def draw(
         self,
@@ -62,8 +58,8 @@ class Slot:
             self.relief.delete()
             self.relief = None
         if view == "lines":
-            charts = line_charts(shown, size, limits["lines"], other)
-            self.drawing.show_lines("".join(chart.drawing for chart in charts))
+            self.charts = line_charts(shown, size, limits["lines"], other)
+            self.drawing.show_lines("".join(chart.drawing for chart in self.charts))
             return
         picture = _picture(view, shown, limits, size, bar=self.bar)
         if picture is None:
@@ -81,15 +77,15 @@ class Slot:
         else:
             self.relief.update_figure(figure)
 
-    def _point(self, event: Any) -> None:
-        """Show the values under the pointer."""
+    def _values_at(self, right: float, down: float) -> str:
+        """Return the values at a pixel."""
         picture, shown = self.picture, self.shown
+        if shown is not None and self.view == "lines":
+            return values_on_line(shown.lines, self.charts, right, down)
         if picture is None or shown is None:
-            return
-        place = event.args[0] if isinstance(event.args[0], list) else event.args
-        x, y = picture.frame.x.data(place[0]), picture.frame.y.data(place[1])
+            return ""
         values = _rise if self.view == "temperature" else _values
-        self.readout.set_text(values(shown, x, y) or " ")
+        return values(shown, picture.frame.x.data(right), picture.frame.y.data(down))
 
 
 _REASONS = {
@@ -160,6 +156,8 @@ class PicturePanel:
     def _hear(self, topic: str) -> None:
         if topic == "picture":
             self.draw()
+        elif topic == "status":
+            mark(self.present.place, "old", on=self.tab.is_old)
 
     def draw(self) -> None:
         """Draw the chosen view."""

@@ -15,7 +15,7 @@ from nicegui import app, background_tasks, ui
 from starlette.responses import HTMLResponse
 
 from tehl.errors import InputError
-from tehl.explore.case_text import CaseText
+from tehl.explore.case_text import LONGEST, CaseText
 from tehl.explore.files import LARGEST, Files, named_files
 
 ADDRESS = "127.0.0.1"
@@ -26,8 +26,16 @@ REFUSED = (
     "printed in its terminal."
 )
 TOO_LARGE = f"An upload has at most {LARGEST // 10**6} MB: crop the map before."
+TOO_LONG = (
+    f"This link is longer than {LONGEST // 1000} kB, and may have been cut on its way: "
+    "open the case as a file on the page."
+)
+_LONGEST_LINE = 2_100_000
+"""Bytes of a request line that are read, to reply to it: browsers send up to two million."""
 _AROUND = 100_000
 """Bytes around the file in the request of an upload."""
+_BESIDE = 500
+"""Bytes beside the case in the query of an address."""
 _POLICY = (
     "default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval'; "
     "style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; "
@@ -62,6 +70,9 @@ class Guard:
         given = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
         if not self._may_pass(headers, given):
             await _refuse(scope, receive, send, REFUSED, 403)
+            return
+        if len(scope["query_string"]) > LONGEST + _BESIDE:
+            await _refuse(scope, receive, send, TOO_LONG, 414)
             return
         if scope["type"] == "http" and not _is_small(scope["method"], headers):
             await _refuse(scope, receive, send, TOO_LARGE, 413)
@@ -152,6 +163,8 @@ def serve(case: Path | None, text: str, port: int | None, *, browser: bool, repo
             reconnect_timeout=30.0,
             uvicorn_logging_level="error",
             timeout_graceful_shutdown=1,
+            http="h11",  # the other parser has no reply to a long line but "Invalid HTTP request"
+            h11_max_incomplete_event_size=_LONGEST_LINE,
         )
 
 

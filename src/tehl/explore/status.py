@@ -53,9 +53,9 @@ class StatusLine:
             self._show_accuracy()
 
     def _show(self) -> None:
-        tab, shown = self.tab, self.tab.shown
+        tab, latest = self.tab, self.tab.latest
         self.stop.set_visibility(tab.is_busy and bool(tab.note))
-        outcome = shown.outcome if shown is not None else None
+        outcome = latest.outcome if latest is not None else None
         waits = tab.is_busy or tab.is_moving  # a coarse grid may fail where the fine one converges
         failed = outcome is not None and not outcome.converged and not waits
         state = "busy" if tab.is_busy else "bad" if failed or tab.fault else "good"
@@ -70,23 +70,32 @@ class StatusLine:
         has_hint = fault is None and failed and outcome is not None
         self.hint.set_text(f"hint: {outcome.hint}" if has_hint and outcome and outcome.hint else "")
         self.apply.set_visibility(bool(has_hint and outcome and outcome.settings))
-        self.again.set_visibility(fault is not None and not fault.path)
+        self.again.set_visibility(fault is not None and fault.again)
 
     def _sentence(self) -> str:
-        tab, shown = self.tab, self.tab.shown
-        if shown is None:
-            return tab.note or ("solving" if tab.is_busy else "no result yet")
-        nodes = "{} × {} nodes".format(*shown.points)
-        if tab.is_busy and tab.note:
-            return tab.note
-        if tab.is_busy:
-            return f"{nodes}, refining"
-        words = f"{shown.outcome.words} on {nodes} in {1e3 * shown.seconds:.0f} ms"
+        tab, latest = self.tab, self.tab.latest
+        if tab.is_busy or tab.coarse or latest is None:
+            parts = ["by formula" if tab.is_old else "", tab.coarse, tab.note]
+            doing = "" if any(parts[1:]) else self._doing()
+            return ", ".join(filter(None, [*parts, doing]))
+        nodes = "{} × {} nodes".format(*latest.points)
+        words = f"{latest.outcome.words} on {nodes} in {1e3 * latest.seconds:.0f} ms"
         if tab.fault is not None:
             return f"shown is the last valid case, {words}"
+        if tab.is_old:
+            return f"by formula, {words}"
         if tab.problem is not None and tab.problem.transient is not None:
             return f"{words}, at the start of the run"
         return words
+
+    def _doing(self) -> str:
+        """Return what goes on in a word or two."""
+        tab = self.tab
+        if not tab.is_busy:
+            return "no result yet" if tab.shown is None else "not solved"
+        if tab.shown is None or tab.is_old:
+            return "solving"
+        return "{} × {} nodes, refining".format(*tab.shown.points)
 
     def _show_accuracy(self) -> None:
         key, options = self._stated(), dict(ACCURACIES)
@@ -108,6 +117,6 @@ class StatusLine:
         return f"numerics.points={points}" if points else f"numerics.error={error or '2 %'}"
 
     def _apply(self) -> None:
-        shown = self.tab.shown
-        if shown is not None and shown.outcome.settings:
-            self.tab.apply(dict(shown.outcome.settings))
+        latest = self.tab.latest
+        if latest is not None and latest.outcome.settings:
+            self.tab.apply(dict(latest.outcome.settings))

@@ -2,17 +2,18 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from tehl.errors import InputError
+from tehl.explore.by_formula import scaled_by_formula
 from tehl.explore.case_text import CaseText
 from tehl.explore.colour_map import film_limits, pressure_limits, section_limits
 from tehl.explore.controls import Choice, Group, Knob, groups
 from tehl.explore.curves import line_tops
 from tehl.explore.files import Files
-from tehl.explore.jobs import Ask, End, Explained, Failure, Note, Part
+from tehl.explore.jobs import Ask, End, Explained, Failure, Note, Part, TooCoarse
 from tehl.explore.shown import Shown
 from tehl.explore.worker import Solver
 from tehl.io.case import case_from_tables
@@ -33,6 +34,8 @@ VIEWS = {
 }
 """Views of a contact, by name."""
 _UNDONE = 50
+_ROOM = 1.1
+"""Largest film with a colour over the central one, at least."""
 
 Listener = Callable[[str], None]
 
@@ -43,6 +46,8 @@ class Fault:
 
     text: str
     path: str = ""
+    again: bool = False
+    """Whether it may be gone if the case is solved again."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +61,10 @@ class Pinned:
 class Tab:
     """A case, its controls, and the result on screen.
 
+    ``shown`` is on screen: the last film that converged, scaled by formula while ``is_old``, until
+    that of the present contact has converged. ``latest`` is how the last solve ended.
+    ``is_stepping`` while undo or redo takes another case.
+
     ``tell`` is called with the topic of each change: "controls", "fault", "status", "picture",
     "numbers", "explained".
     """
@@ -68,14 +77,19 @@ class Tab:
         self.groups: tuple[Group, ...] = ()
         self.fault: Fault | None = None
         self.shown: Shown | None = None
+        self.latest: Shown | None = None
+        self.coarse = ""
         self.explained: Explained | None = None
         self.pinned: Pinned | None = None
         self.note, self.is_busy, self.is_moving = "", False, False
         self.view, self.held = "film", False
         self.limits: dict[str, Any] = {}
+        self.is_stepping = False
         self._undo: list[str] = []
+        self._redo: list[str] = []
         self._is_valid = False
         self._request = 0
+        self._solved: tuple[ContactProblem, Shown] | None = None
 
     def tell(self, topic: str) -> None:
         """Report a change."""
@@ -127,12 +141,35 @@ class Tab:
 
     def undo(self) -> None:
         """Take the case before the last change."""
-        if self._undo:
-            self.case = CaseText(self._undo.pop())
-            self._check(rebuild=True)
+        self._step(self._undo, self._redo)
+
+    def redo(self) -> None:
+        """Take the case after the change that was undone last."""
+        self._step(self._redo, self._undo)
+
+    def visit(self, case: CaseText) -> None:
+        """Take a case of the history of the browser, by undo or redo where it is one of theirs."""
+        for stack, step in ((self._undo, self.undo), (self._redo, self.redo)):
+            if case.text != self.case.text and case.text in stack:
+                while case.text != self.case.text:
+                    step()
+        if case.text != self.case.text:
+            self.open(case)
+
+    def _step(self, source: list[str], target: list[str]) -> None:
+        """Take the last case of one stack, and keep the present one on the other."""
+        if not source:
+            return
+        if self._is_valid:
+            target.append(self.case.text)
+        self.case = CaseText(source.pop())
+        self.is_stepping = True
+        self._check(rebuild=True)
+        self.is_stepping = False
 
     def _remember(self) -> None:
         """Keep the present case for undo; a faulty one is not worth it."""
+        self._redo.clear()
         if self._is_valid and self._undo[-1:] != [self.case.text]:
             self._undo = [*self._undo[-_UNDONE:], self.case.text]
 
@@ -180,6 +217,11 @@ class Tab:
 
     # ---- the result
 
+    @property
+    def is_old(self) -> bool:
+        """Whether the film on screen is not a solution of the present contact."""
+        return self._solved is not None and self._solved[0] != self.problem
+
     def solve(self) -> None:
         """Solve the case: on the coarse grid while a slider moves, then as the case asks."""
         try:
@@ -189,9 +231,14 @@ class Tab:
             return
         self._request += 1
         number = self._request
-        self.is_busy, self.note = True, ""
+        problem = self.problem
+        assert problem is not None
+        self.is_busy, self.note, self.coarse = True, "", ""
         ask = Ask(tables=tables, quick=self.is_moving, fringes=self.view == "fringes")
-        self.solver.submit(self.owner, ask, lambda message: self._receive(number, message))
+        self.solver.submit(self.owner, ask, lambda message: self._receive(number, problem, message))
+        if self.is_old:
+            self.latest = None
+            self._look()
         self.tell("status")
 
     def stop(self) -> None:
@@ -200,33 +247,54 @@ class Tab:
         self.is_busy, self.note = False, "stopped"
         self.tell("status")
 
-    def _receive(self, number: int, message: Any) -> None:
+    def _receive(self, number: int, problem: "ContactProblem", message: Any) -> None:
         """Take a message of the worker; results of an older place of the slider are shown too."""
         newest = number == self._request
         if isinstance(message, Part):
             if newest or self.is_moving:
-                self.shown = message.shown
-                self._fit()
-                self.tell("picture")
-                self.tell("numbers")
-        elif not newest:
-            return
-        elif isinstance(message, Explained):
+                self._take(problem, message.shown)
+        elif newest:
+            self._read(message)
+        self.tell("status")
+
+    def _take(self, problem: "ContactProblem", found: Shown) -> None:
+        """Take a result; a film that did not converge is not shown."""
+        self.latest = found
+        if found.outcome.converged:
+            self._solved = problem, found
+            self._look()
+
+    def _read(self, message: Any) -> None:
+        """Take what the worker says of the newest request."""
+        if isinstance(message, Explained):
             self.explained = message
             self.tell("explained")
         elif isinstance(message, Note):
             self.note = message.text
+        elif isinstance(message, TooCoarse):
+            self.coarse = message.text
         elif isinstance(message, Failure):
-            self._blame(self.files.hidden(message.text), "")
+            self.fault = Fault(self.files.hidden(message.text), again=message.again)
+            self.tell("fault")
         elif isinstance(message, End):
             self.is_busy, self.note = False, ""
-        self.tell("status")
+            self.coarse = self.coarse if self.is_moving else ""
+
+    def _look(self) -> None:
+        """Show the last solution, scaled by formula if it is not of the present contact."""
+        assert self._solved is not None
+        assert self.problem is not None
+        solved, shown = self._solved
+        self.shown = scaled_by_formula(shown, solved, self.problem) if self.is_old else shown
+        self._fit()
+        self.tell("picture")
+        self.tell("numbers")
 
     # ---- comparing
 
     def pin(self) -> None:
         """Keep the state on screen to compare; the scales of colours then hold still."""
-        if self.shown is not None:
+        if self.shown is not None and not self.is_old:
             self.pinned = Pinned(CaseText(self.case.text), self.shown)
             self.held = True
             self.tell("picture")
@@ -251,7 +319,24 @@ class Tab:
         self.view = view
         if view == "fringes" and (self.shown is None or self.shown.fringes is None):
             self.solve()
+        if view == "fringes" and self.pinned is not None and self.pinned.shown.fringes is None:
+            self._complete(self.pinned)
         self.tell("picture")
+
+    def _complete(self, pinned: Pinned) -> None:
+        """Compute the interferogram of a pinned state, which the worker may still hold."""
+
+        def receive(message: Any) -> None:
+            if self.pinned is not pinned:
+                return
+            if isinstance(message, Part) and message.final:
+                self.pinned = replace(pinned, shown=message.shown)
+                self.tell("picture")
+            elif isinstance(message, Failure):
+                self._blame(f"the interferogram of the pinned state: {message.text}", "")
+
+        ask = Ask(tables=self.files.resolved(pinned.case.tables), fringes=True)
+        self.solver.submit(f"{self.owner} pinned", ask, receive)
 
     def _fit(self) -> None:
         """Fit the scales to the result, unless they are held or a slider moves."""
@@ -266,5 +351,13 @@ class Tab:
         if shown.section is not None:
             wanted["temperature"] = section_limits(shown.section)
         if self.held or self.is_moving:
+            film, pressure = (
+                max(ends)
+                for ends in zip(wanted["lines"], self.limits.get("lines", (0.0, 0.0)), strict=True)
+            )
+            before, central = self.limits.get("film"), shown.maps.central
+            if before is not None and before.high < _ROOM * central:  # it would have no colour
+                self.limits["film"] = before.joined(wanted["film"])
             wanted |= {key: value for key, value in self.limits.items() if key in wanted}
+            wanted["lines"] = film, pressure  # lines stay in their frame
         self.limits = wanted

@@ -126,7 +126,7 @@ class Solver:
             try:
                 self._perform(request, self._alive())
             except OSError as error:  # no process can be started
-                self._pass_on(request, Failure(str(error)))
+                self._pass_on(request, Failure(str(error), again=True))
                 self._pass_on(request, End())
             with self._changed:
                 self._running = None
@@ -165,7 +165,7 @@ class Solver:
         except (EOFError, OSError):
             worker.process.join(_GRACE)  # the connection may end before the process
             if not self._closed:
-                self._pass_on(request, Failure(DIED))
+                self._pass_on(request, Failure(DIED, again=True))
                 self._pass_on(request, End())
 
     def _pass_on(self, request: Request, message: Any) -> None:
