@@ -138,7 +138,9 @@ MISTAKES = [
     ("lubricant.shear={law='limiting'}", "lubricant.shear needs stress or slope", '"20 MPa"'),
     ("lubricant.shear={law='limiting', slope=-1}", "lubricant.shear.slope = -1", "0.04"),
     ("title=4", "title = 4", "must be a string"),
-    ("numerics=3", "numerics = 3", "must be a table"),
+    ("numerics=3", "write [numerics] on a line of its own", 'error = "1 %" below it'),
+    ("numerics.max_time={}", "numerics.max_time is a number, not a table", "below [numerics]"),
+    ("lubricant.viscosity=5", "must be a table such as", '{ law = "roelands", eta_0 = '),
     ("numerics.points=100", "numerics.points = 100", "cannot be coarsened"),
     ("numerics={error='1 %', points=129}", "numerics.error = 1 %", "both stated"),
     ("numerics.points=[129, 100]", "numerics.points = 100", "cannot be coarsened"),
@@ -404,7 +406,8 @@ def test_a_missing_map_of_a_patch_is_named_with_its_key(tmp_path):
     [
         (
             {"contact": 5},
-            "contact = 5: must be a table: write [contact] on a line of its own, its keys below",
+            "contact = 5: must be a table: write [contact] on a line of its own and "
+            'radius = "20 mm" below it',
         ),
         (
             {"contact": {"radius": 0.01, "load": {}, "entrainment_speed": 1.0}},

@@ -323,15 +323,20 @@ def _not_a_table(mistake: _Mistake) -> str:
             "must be a table of heights; a number alone, for the ratio lambda, is rms_roughness "
             "or ra_roughness"
         )
-    if len(mistake.path) == 1 and not isinstance(mistake.value, str):
-        return f"must be a table: write [{mistake.name}] on a line of its own, its keys below"
-    laws = (model for model in mistake.models[-1] if mistake.value in _tags(model))
-    return "must be a table" + "".join(f" such as {_whole_table(law, {})}" for law in laws)
+    models = mistake.models[-1]
+    laws = [model for model in models if _tags(model)]
+    if laws:
+        chosen = next((law for law in laws if mistake.value in _tags(law)), laws[0])
+        return f"must be a table such as {_whole_table(chosen, {})}"
+    fields = (pair for model in models for pair in model.model_fields.items())
+    keys = (f"{key} = {good}" for key, field in fields if (good := example(field)))
+    key = next(keys, "its keys")
+    return f"must be a table: write [{mistake.name}] on a line of its own and {key} below it"
 
 
 def _of_heading(mistake: _Mistake) -> str:
     """Return what is wrong with a table in place of a number; nothing of another mistake."""
-    if not isinstance(mistake.value, Mapping) or len(mistake.path) < 2:
+    if not isinstance(mistake.value, Mapping) or "." not in mistake.name:
         return ""
     if mistake.error["type"] in ("missing", "extra_forbidden"):  # of a key in this table
         return ""
