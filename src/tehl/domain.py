@@ -6,7 +6,8 @@ from dataclasses import replace
 from tehl.entering import entry_error
 from tehl.film_formulas import expected_central_film, moes_film_unit
 from tehl.mixed import shared_load
-from tehl.options import USUAL_ERROR, Domain, Options
+from tehl.options import USUAL_PLAIN_ERROR, Domain, Options
+from tehl.problem import ContactProblem
 from tehl.scaling import Groups, ScaledProblem
 from tehl.starvation import is_starved, starved_domain, supplied_film
 
@@ -39,6 +40,12 @@ FAMILIES = tuple(2**k * n + 1 for k in range(2, 9) for n in (16, 20, 24, 28))
 BAR, BAR_COUPLED, MARGIN = 0.24, 1.16, 1.25
 """Factors of `expected_bar`: of all contacts, of heated and thinning ones, and the margin with
 which four of five contacts reach the error on the expected grid."""
+EXTRAPOLATED, HIGHER = 0.35, (2.5, 1.5)
+"""Error bar of an extrapolated film over that of the film without, where that is large; factor and
+power of that where it is small."""
+EXTRAPOLATED_DOMAIN = 2.0
+"""Error for which the domain is chosen over the one to reach, of extrapolated films: the edges
+leave a seventh of it (0.3 % of 2 %), and the mesh less than without extrapolation."""
 WAVE_NODES, ROUGH_NODES = 20.0, 1024
 """Nodes on the shortest wave of the surfaces, and most nodes for that reason."""
 
@@ -52,7 +59,7 @@ def gap_widths(groups: Groups) -> tuple[float, float]:
     return along, along / math.sqrt(groups.radius_ratio) / groups.ellipticity
 
 
-def recommended_domain(groups: Groups, error: float = USUAL_ERROR) -> Domain:
+def recommended_domain(groups: Groups, error: float = USUAL_PLAIN_ERROR) -> Domain:
     """Return the domain, in Hertz half-widths, for a film with a relative ``error``.
 
     The far field on its edges leaves an error of the order of the distance to the power -3:
@@ -67,7 +74,7 @@ def recommended_domain(groups: Groups, error: float = USUAL_ERROR) -> Domain:
         Relative error of the film that is acceptable [-].
     """
     along, across = gap_widths(groups)
-    larger = max(USUAL_ERROR / error, 1.0) ** (1.0 / 3.0)
+    larger = max(USUAL_PLAIN_ERROR / error, 1.0) ** (1.0 / 3.0)
     wide = max(groups.ellipticity, 1.0) ** WIDE_INLET
     inlet = larger * max(INLET[0] * wide, INLET[1] * along)
     width = larger * max(SIDES[0], SIDES[1] * across)
@@ -143,7 +150,7 @@ def expected_bar(
     return float(factor * width**2 * loads / (film**0.59 * groups.ellipticity**1.05))
 
 
-def expected_points(
+def expected_points(  # noqa: PLR0913 (one formula)
     groups: Groups,
     domain: Domain,
     error: float,
@@ -151,6 +158,7 @@ def expected_points(
     is_coupled: bool = False,
     least: float = 0.0,
     film: float | None = None,
+    extrapolate: bool = False,
 ) -> int:
     """Return the nodes per direction on which the error bars of the film will be below an error.
 
@@ -166,12 +174,17 @@ def expected_points(
         Nodes that must be exceeded, for waves of the surfaces.
     film : float or None
         Central film, if another than that of smooth flooded contacts [-]: `film_to_resolve`.
+    extrapolate : bool
+        Whether the two finest grids are combined.
     """
     left = max(error - far_field_error(groups, domain), 0.5 * error) / MARGIN
     bars = (
         (nodes, expected_bar(groups, domain, nodes, is_coupled=is_coupled, film=film))
         for nodes in FAMILIES
     )
+    if extrapolate:
+        factor, power = HIGHER
+        bars = ((nodes, min(EXTRAPOLATED * bar, factor * bar**power)) for nodes, bar in bars)
     return next((nodes for nodes, bar in bars if nodes > least and bar <= left), FAMILIES[-1])
 
 
@@ -184,11 +197,24 @@ def _nodes_of_waves(scaled: ScaledProblem, domain: Domain) -> float:
     return min(WAVE_NODES * max(along, across), ROUGH_NODES)
 
 
+def settled(problem: ContactProblem, options: Options) -> Options:
+    """Return ``options`` that say whether the film of a contact is extrapolated.
+
+    Waves of rough surfaces, nodes that touch and time steps do not show one order.
+    """
+    if options.extrapolate is not None:
+        return options
+    smooth = not (problem.is_rough or problem.contact_film is not None)
+    found = options.points == "auto" and smooth and problem.transient is None
+    return options.model_copy(update={"extrapolate": found})
+
+
 def planned(scaled: ScaledProblem, options: Options) -> Options:
     """Return ``options`` with the nodes on which the error to reach is expected.
 
     Options that state ``points`` are returned as they are.
     """
+    options = settled(scaled.problem, options)
     if options.points != "auto":
         return options
     domain = domain_of(scaled, options)
@@ -199,6 +225,7 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
         is_coupled=scaled.problem.is_coupled,
         least=_nodes_of_waves(scaled, domain),
         film=film_to_resolve(scaled),
+        extrapolate=bool(options.extrapolate),
     )
     return options.on_points(nodes, nodes)
 
@@ -222,7 +249,13 @@ def domain_of(scaled: ScaledProblem, options: Options) -> Domain:
     """Return the domain of a solve: the stated or the chosen one."""
     if isinstance(options.domain, Domain):
         return options.domain
-    return chosen_domain(scaled, options.target)
+    return chosen_domain(scaled, error_of_domain(scaled, options))
+
+
+def error_of_domain(scaled: ScaledProblem, options: Options) -> float:
+    """Return the relative error of the film for which the domain is chosen [-]."""
+    options = settled(scaled.problem, options)
+    return options.target * (EXTRAPOLATED_DOMAIN if options.extrapolate else 1.0)
 
 
 def chosen_domain(scaled: ScaledProblem, error: float) -> Domain:

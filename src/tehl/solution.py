@@ -187,6 +187,8 @@ class ErrorEstimate:
     heat_carried_out: float | None = None
     """Error bars of further values, all parts together, relative [-]; None if the contact does not
     have the value, or too few grids do."""
+    extrapolated: bool = False
+    """Whether the values are extrapolated from the two finest grids."""
     spike_resolved: bool = True
     """Whether the largest pressure will stay the largest on finer grids: if not, the pressure spike
     is narrower than the mesh and may exceed it."""

@@ -274,7 +274,7 @@ def test_hardly_any_sliding_shows_no_zeros():
 def test_a_stated_grid_is_shown_with_the_expected_one_and_its_error_in_question():
     case, usual = explained("numerics.points", 65), explained()
     assert case.expected_points == usual.expected_points == usual.options.shape[0]
-    assert f"65 x 65 nodes   {case.expected_points} expected for an error of 2 %" in as_text(case)
+    assert f"65 x 65 nodes   {case.expected_points} expected for an error of 1 %" in as_text(case)
     question = next(text for text in case.questions if "coarse" in text)
     assert "numerics.points = 65: the expected error of the film is about 17 %" in question
     assert 'set numerics.error = "2 %" instead' in question
@@ -284,7 +284,7 @@ def test_a_stated_grid_is_shown_with_the_expected_one_and_its_error_in_question(
 def test_the_grid_to_expect_is_shown_with_the_error_to_reach():
     case = explained()
     assert case.follows
-    assert "nodes   expected for an error of 2 %" in as_text(case)
+    assert "nodes   expected for an error of 1 %" in as_text(case)
 
 
 def test_an_estimated_pressure_coefficient_is_shown():

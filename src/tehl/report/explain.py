@@ -5,7 +5,7 @@ from html import escape
 from typing import Any
 
 from tehl.cpu_time import expected_seconds, seconds_range
-from tehl.domain import chosen_domain, domain_of, planned
+from tehl.domain import chosen_domain, domain_of, error_of_domain, planned
 from tehl.film_formulas import (
     FilmEstimate,
     Lubrication,
@@ -69,6 +69,7 @@ class Explanation:
     recommended_domain: Domain
     """The domain of the solve, stated or recommended, and the one recommended for the load."""
     expected_points: int
+    expected_error: float
     """Nodes per direction on which the error to reach is expected."""
     memory: float
     seconds: float
@@ -154,7 +155,8 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
     check_supply(scaled, domain_of(scaled, options))
     likely, (ny, nx) = likely_film(scaled), options.shape
     film = likely.central_m
-    wanted, domain = chosen_domain(scaled, asked.target), domain_of(scaled, options)
+    wanted = chosen_domain(scaled, error_of_domain(scaled, asked))
+    domain = domain_of(scaled, options)
     grid = Grid(nx=nx, ny=ny, domain=domain, mirror=False)
     mesh = (grid.dx * scaled.scales.half_width_x, grid.dy * scaled.scales.half_width_y)
     heights, plan = asperities(problem, options, mesh, film), transient_plan(scaled, options, mesh)
@@ -178,6 +180,7 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
         domain=domain,
         recommended_domain=wanted,
         expected_points=follows.shape[0],
+        expected_error=follows.target,
         memory=needed_memory(options, problem),
         seconds=expected_seconds(scaled, asked),
         time=plan,

@@ -8,6 +8,7 @@ from tehl.domain import (
     chosen_domain,
     domain_error,
     domain_of,
+    error_of_domain,
     expected_bar,
     planned,
 )
@@ -279,7 +280,7 @@ def _about_bodies(bodies: BodyEffect | None) -> Iterator[str]:
 
 def _about_domain(options: Options, scaled: ScaledProblem) -> Iterator[str]:
     """Yield edges of a stated domain that are near, and what it truncates."""
-    stated, wanted = options.domain, chosen_domain(scaled, options.target)
+    stated, wanted = options.domain, chosen_domain(scaled, error_of_domain(scaled, options))
     if not isinstance(stated, Domain):
         return
     for name, here, there in (

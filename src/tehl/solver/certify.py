@@ -79,7 +79,7 @@ def certify(
         monitor.message("certify: number of nodes")
         known = solve(problem, options, monitor=monitor)
         options = certifiable(known.grid_options)
-    options = options.model_copy(update={"accuracy": "tight"})
+    options = options.model_copy(update={"accuracy": "tight", "extrapolate": False})
     check_certifiable(options)
     monitor.message("certify: grid 1 of 3")
     first = _companion(problem, halved(options, 2), monitor)

@@ -9,7 +9,7 @@ from tehl.film_formulas import expected_film
 from tehl.grid import Grid
 from tehl.heat import FAR_BODY, FilmEnergy
 from tehl.mixed import shared_load
-from tehl.options import LARGEST_ERROR, USUAL_ERROR
+from tehl.options import LARGEST_ERROR, USUAL_PLAIN_ERROR
 from tehl.problem import ContactProblem
 from tehl.scaling import ScaledProblem
 from tehl.solution import Hint, Settings, Status
@@ -243,7 +243,7 @@ def grid_hint(points: tuple[int, int], scaled: ScaledProblem) -> Hint:
     """
     nodes = 2 * max(points) - 1
     if not solids_carry(scaled):
-        domain, film = chosen_domain(scaled, USUAL_ERROR), film_to_resolve(scaled)
+        domain, film = chosen_domain(scaled, USUAL_PLAIN_ERROR), film_to_resolve(scaled)
         nodes = max(nodes, expected_points(scaled.groups, domain, RESOLVED, film=film))
     return Hint(settings={"numerics.points": nodes})
 

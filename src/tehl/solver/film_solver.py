@@ -130,9 +130,12 @@ class FilmSolver(GridIteration):
         level = self.levels[len(self.traces) - 1]
         return estimated_errors(level, self.traces, self.roughness, self.hierarchy)
 
-    def reached_before(self) -> tuple[tuple[int, int], float] | None:
-        """Return nodes and error bar of the finest grid that converged before the last one."""
-        for number in range(len(self.traces) - 2, LEAST_GRIDS - 1, -1):
+    def reached_before(self, *, last: bool = False) -> tuple[tuple[int, int], float] | None:
+        """Return nodes and error bar of the finest grid that converged before the last one.
+
+        The ``last`` one counts too if the solve ended before the next grid.
+        """
+        for number in range(len(self.traces) - (1 if last else 2), LEAST_GRIDS - 1, -1):
             trace, level = self.traces[number], self.levels[number]
             if not trace.reports or not self._is_acceptable(trace):
                 continue

@@ -63,7 +63,13 @@ def _by_grids(
         comparable = [trace for trace in traces if not trace.diverged]
         if len(comparable) < 2:
             return None
-        return error_estimate(comparable, order, domain, newtonian=newtonian)
+        return error_estimate(
+            comparable,
+            order,
+            domain,
+            newtonian=newtonian,
+            extrapolate=bool(hierarchy.options.extrapolate) and traces[-2:] == comparable[-2:],
+        )
     # grids that resolve the same heights
     comparable = [trace for trace in traces[roughness.first_comparable :] if not trace.diverged]
     if len(comparable) < 2:

@@ -29,11 +29,12 @@ from tehl.solver.convergence import (
     stalled,
     temperature_converged,
 )
+from tehl.solver.extrapolation import outputs_of
 from tehl.solver.goal import Goal
 from tehl.solver.hierarchy import Hierarchy
 from tehl.solver.ladder import Strategy
 from tehl.solver.level import Level
-from tehl.solver.measures import measured
+from tehl.solver.measures import film_numbers, measured
 from tehl.solver.monitor import Monitor
 from tehl.solver.newton import Newton
 from tehl.solver.outputs import asperity_balance, contact_balance, oil_balance
@@ -69,6 +70,8 @@ no comparable coarser grid."""
 FREE_ORDERS = 4
 """Cycles after which nodes keep the order with which they pass on oil: else it may change with the
 meniscus, and the meniscus with it."""
+EXTRAPOLATED_PART = 0.15
+"""Iteration error accepted on grids that are extrapolated, over that accepted on others."""
 COMPARED = 3
 """Grids whose values make error bars."""
 ISOTHERMAL_CYCLES = 4
@@ -137,6 +140,7 @@ class GridIteration:
             damping=self.coupling.damping,
             negligible=self.goal.negligible,
             steady=STEADY if by_cycles else 0.0,
+            part=EXTRAPOLATED_PART if self.options.extrapolate else 1.0,
         )
         self.traces.append(trace)
         newton, anderson = self._newton(levels), self._anderson(levels)
@@ -182,6 +186,12 @@ class GridIteration:
         """Record further values of the last of ``levels``."""
         scaled, state = self.hierarchy.scaled, self.coupling.state
         self.traces[-1].measured = measured(levels[-1], scaled, state)
+        if not self.options.extrapolate:
+            return
+        self.traces[-1].measured |= film_numbers(levels[-1])
+        self.traces[-1].outputs = outputs_of(levels[-1], scaled, state)
+        for trace in self.traces[:-2]:  # two grids are combined
+            trace.outputs = None
 
     def _finish(self, levels: Sequence[Level]) -> None:
         """Make the last of ``levels`` the finest, and iterate until it has converged or stalled."""

@@ -12,7 +12,7 @@ from tehl.operators.heated_film import stress_unit
 from tehl.post.heat import lagrange_weights
 from tehl.post.roughness import ripples
 from tehl.scaling import ScaledProblem
-from tehl.solver.film_summary import central_value
+from tehl.solver.film_summary import central_value, film_summary
 from tehl.solver.level import Level
 from tehl.solver.outputs import heat_balance, newtonian_sliding
 
@@ -54,6 +54,12 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
         powers = asdict(heat_balance(state))
         found |= _rises(state) | {f"heat_{name}": power for name, power in powers.items()}
     return found
+
+
+def film_numbers(level: Level) -> dict[str, float]:
+    """Return ``film_central`` and ``film_minimum`` between the nodes [-]."""
+    film = film_summary(level.grid, level.film.h, level.equations.contact_film)
+    return {"film_central": film.central, "film_minimum": film.minimum}
 
 
 def shared_load(level: Level) -> float:

@@ -9,9 +9,9 @@ from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np
 
-from tehl.domain import domain_of, planned
+from tehl.domain import domain_of, planned, settled
 from tehl.errors import InputError
-from tehl.fields import Fields, FilmHeat, FilmShear, SurfaceHeights
+from tehl.fields import SurfaceHeights
 from tehl.grid import Grid, can_mirror
 from tehl.kernels.warmup import warm_up
 from tehl.memory import check_memory
@@ -25,6 +25,7 @@ from tehl.solution import Cost, CycleReport, Provenance, Status, Supplied
 from tehl.solver.continuation import TouchingError
 from tehl.solver.cost import Clock
 from tehl.solver.diagnosis import diverged
+from tehl.solver.extrapolation import Outputs, extrapolated, outputs_of
 from tehl.solver.film_solver import FilmSolver
 from tehl.solver.film_summary import central_value, film_summary
 from tehl.solver.goal import Goal
@@ -33,12 +34,6 @@ from tehl.solver.ladder import ladder
 from tehl.solver.level import Level
 from tehl.solver.monitor import SILENT, Deadline, Monitor, Recorder, TimeIsOverError
 from tehl.solver.outputs import (
-    film_asperities,
-    film_contact,
-    film_heat,
-    film_oil,
-    film_shear,
-    newtonian_shear,
     oil_balance,
 )
 from tehl.solver.remedy import LEAST_SECONDS, Reached, solved_on_other_nodes, working_hint
@@ -116,7 +111,7 @@ def solve(
     InputError
         When the grid does not fit into the memory, or a measured surface cannot be read.
     """
-    options = options or Options()
+    options = settled(problem, options or Options())
     others = (
         (problem.transient is not None, "transient: the case is not steady", "solve_transient"),
         (problem.has_passes, "supply.passes: the case has several films", "solve_passes"),
@@ -201,6 +196,7 @@ def try_strategies(  # noqa: PLR0913 (variants of one solve)
         The flooded contact; None computes it if oil is supplied.
     """
     warm_up(coupled=problem.is_coupled)
+    options = settled(problem, options)
     flooded = flooded or flooded_film(problem, options, monitor)
     clock, history = Clock(), Recorder(monitor)
     scaled = ScaledProblem.of(problem)
@@ -230,7 +226,8 @@ def try_strategies(  # noqa: PLR0913 (variants of one solve)
             break
     best = min(reversed(attempts), key=lambda attempt: attempt.rank)  # of equals the most robust
     if not (best.status.converged or problem.is_rough):
-        films = [found for one in attempts if (found := one.run.reached_before()) is not None]
+        known = [one.run.reached_before(last=one.status.cause == NO_MEMORY) for one in attempts]
+        films = [film for film in known if film is not None]
         best = replace(best, reached_before=min(films, key=lambda film: film[1], default=None))
     result = _result(best, options, tuple(history.reports), clock.cost())
     return best, replace(result, supplied=_supplied(best.run.finest, flooded))
@@ -253,9 +250,10 @@ def flooded_film(
     if not result.status.converged:
         return None
     grid, film = attempt.run.finest.grid, attempt.run.finest.film
+    central = result.film_scaled.central
     return Flooded(
-        film=central_value(grid, film.h),
-        oil=central_value(grid, film.rho * film.h),
+        film=central,
+        oil=central_value(grid, film.rho) * central,
         error=0.0 if result.errors is None else result.errors.central,
     )
 
@@ -315,32 +313,28 @@ def _result(
     """Assemble the result of an attempt on the full domain."""
     run = attempt.run
     level, grid, scaled = run.finest, run.finest.grid, run.hierarchy.scaled
-    full = Grid(nx=grid.nx, ny=grid.ny, domain=grid.domain, mirror=False)
-    shear, heat = _stress_and_heat(attempt)
+    found = _outputs(attempt)
     return Result(
         problem=scaled.problem,
         options=options,
         scales=scaled.scales,
         groups=scaled.groups,
-        scaled=Fields(
-            x=full.x,
-            y=full.y,
-            pressure=grid.unfold(np.maximum(level.film.p, 0.0)),
-            film=grid.unfold(level.film.h),
-        ),
+        scaled=found.fields,
         rigid_approach=level.rigid_approach,
-        film_scaled=film_summary(level.grid, level.film.h, level.equations.contact_film),
+        film_scaled=film_summary(
+            grid, found.fields.film[-grid.shape[0] :], level.equations.contact_film
+        ),
         status=attempt.status,
         history=history,
         errors=run.errors(),
         cost=cost,
         provenance=provenance(),
-        shear=shear,
-        heat=heat,
+        shear=found.shear,
+        heat=found.heat,
         heights=_surfaces(run),
-        asperities=film_asperities(level, scaled),
-        contact=film_contact(level, scaled),
-        oil=film_oil(level, scaled),
+        asperities=found.asperities,
+        contact=found.contact,
+        oil=found.oil,
         resolution=resolution_of(
             scaled.problem,
             (grid.dx * scaled.scales.half_width_x, grid.dy * scaled.scales.half_width_y),
@@ -348,17 +342,15 @@ def _result(
     )
 
 
-def _stress_and_heat(attempt: Attempt) -> tuple[FilmShear | None, FilmHeat | None]:
-    """Return shear stresses and temperatures; None without a valid film."""
-    run = attempt.run
-    if attempt.status.kind == "diverged" or run.finest.film.h.min() <= 0.0:
-        return None, None
-    if not run.hierarchy.scaled.problem.is_coupled:
-        return newtonian_shear(run.finest, run.hierarchy.scaled), None
-    state = run.coupling.state
-    if state is None or state.grid != run.finest.grid:
-        return None, None
-    return film_shear(state), film_heat(state)
+def _outputs(attempt: Attempt) -> Outputs:
+    """Return the fields of an attempt, extrapolated if its grids show the order."""
+    run, scaled = attempt.run, attempt.run.hierarchy.scaled
+    valid, errors = attempt.status.kind != "diverged", run.errors()
+    found = outputs_of(run.finest, scaled, run.coupling.state, valid=valid)
+    coarser = run.traces[-2].outputs if len(run.traces) > 1 else None
+    if not (valid and errors is not None and errors.extrapolated and coarser is not None):
+        return found
+    return extrapolated(found, coarser)
 
 
 def provenance() -> Provenance:

@@ -57,7 +57,8 @@ _BLOCKS = {
     "errors": "central minimum discretisation_central discretisation_minimum iteration_central "
     "iteration_minimum domain supply load_share pressure_max traction_mid_film film_rise_max "
     "mid_film_rise_central surface_1_rise_max surface_2_rise_max ripple_film ripple_pressure "
-    "heat_shear heat_compression heat_surface_1 heat_surface_2 heat_carried_out spike_resolved",
+    "heat_shear heat_compression heat_surface_1 heat_surface_2 heat_carried_out extrapolated "
+    "spike_resolved",
     "cost": "points.0 cpu_seconds wall_seconds work",
 }
 """Columns of the summary by their blocks; of a list, those of its first entry."""

@@ -1,0 +1,74 @@
+"""Values extrapolated from the two finest grids: of higher order, and one with the fields."""
+
+import numpy as np
+import pytest
+
+from tehl.fields import Fields
+from tehl.options import Options
+from tehl.solver import certify, solve
+from tehl.solver.extrapolation import Outputs, extrapolated
+from tests.reference import heated_contact, moes_contact
+
+
+def sampled(nodes: int) -> Outputs:
+    """Return fields on [-1, 1]^2 with an error of second order; the film has a dry half."""
+    x = np.linspace(-1.0, 1.0, nodes)
+    error = (2.0 / (nodes - 1)) ** 2
+    height = 2.0 + x[None, :] * x[:, None] + error * (1.0 + x)[None, :]
+    pressure = np.where(x[None, :] > 0, height, 0.0)
+    return Outputs(fields=Fields(x=x, y=x, pressure=pressure, film=height + 0 * x[:, None]))
+
+
+def test_an_error_of_second_order_vanishes_and_zeros_remain():
+    found = extrapolated(sampled(65), sampled(33)).fields
+    x = found.x
+    exact = 2.0 + x[None, :] * x[:, None]
+    assert found.film == pytest.approx(exact, abs=1e-14)
+    assert (found.pressure[:, x <= 0] == 0).all()
+    assert found.pressure[:, x > 0.05] == pytest.approx(exact[:, x > 0.05], abs=1e-14)
+
+
+@pytest.mark.parametrize("case", [moes_contact(200.0, 10.0), heated_contact(0.5)])
+def test_an_eighth_of_the_nodes_gives_the_film_of_a_fine_grid(case):
+    coarse, plain = (
+        solve(case, Options(points=193, extrapolate=combined)) for combined in (True, False)
+    )
+    fine = solve(case, Options(points=769, extrapolate=True))
+    assert coarse.errors.extrapolated
+    assert not plain.errors.extrapolated
+    for name in ("central", "minimum"):
+        there = getattr(fine.film_scaled, name)
+        error, without = (
+            abs(getattr(one.film_scaled, name) / there - 1.0) for one in (coarse, plain)
+        )
+        assert error < 0.25 * without
+        assert error < getattr(coarse.errors, name) < getattr(plain.errors, name)
+    # pressure of the extrapolated field carries the load
+    x, y, scaled = coarse.scaled.x, coarse.scaled.y, coarse.scaled
+    load = np.trapezoid(np.trapezoid(scaled.pressure, x, axis=1), y)
+    full = np.trapezoid(np.trapezoid(fine.scaled.pressure, fine.scaled.x, axis=1), fine.scaled.y)
+    assert load == pytest.approx(full, rel=2e-3)
+    if coarse.heat is not None:
+        frictions = [abs(one.traction.mid_film) for one in (plain, coarse, fine)]
+        assert frictions == sorted(frictions)  # nearer than without
+        off = abs(frictions[1] / frictions[2] - 1.0)
+        assert off < coarse.errors.traction_mid_film
+        assert coarse.heat.balance.error == pytest.approx(0.0, abs=1e-3)
+
+
+def test_without_extrapolation_and_on_stated_nodes_the_film_is_that_of_the_grid():
+    case = moes_contact(20.0, 10.0)
+    plain = solve(case, Options(extrapolate=False))
+    assert plain.options.target == 0.02
+    stated = solve(case, Options(points=plain.scaled.x.size))
+    assert not stated.errors.extrapolated
+    assert (stated.scaled.film == plain.scaled.film).all()
+
+
+def test_error_bars_of_certified_values_need_no_extrapolated_grids():
+    found = certify(moes_contact(20.0, 10.0), Options(points=129, extrapolate=True))
+    assert not found.errors.extrapolated
+    known = solve(moes_contact(20.0, 10.0), Options(error=0.002))
+    bar = found.uncertainty["film_central"]
+    reach = bar.uncertainty + known.errors.central * bar.value
+    assert abs(bar.value - known.film_scaled.central) < reach
