@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from openpyxl import Workbook
 
 from tehl.errors import InputError
 from tehl.studies import Axis, Sample, cases_of
@@ -173,4 +174,18 @@ def test_a_list_of_cases_may_be_that_of_a_spreadsheet(tmp_path, mark, encoding):
     assert [[one.value for one in row] for row in found.rows] == [
         ["1.5 N", -0.25, "a, b"],
         ["1.5e2 N", 0.5, "2.5 x"],
+    ]
+
+
+def test_a_list_of_cases_may_be_an_excel_sheet(tmp_path):
+    book = Workbook()
+    book.active.append(["name", "contact.load [N]", "surface_1.material"])
+    book.active.append(["light", 1.5, None])
+    book.active.append(["heavy", 150, "glass"])
+    book.save(tmp_path / "list.xlsx")
+    found = block_of_file(tmp_path / "list.xlsx")
+    assert found.titles == ("light", "heavy")
+    assert [[one and one.value for one in row] for row in found.rows] == [
+        ["1.5 N", None],
+        ["150 N", "glass"],
     ]

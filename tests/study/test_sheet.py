@@ -2,6 +2,7 @@
 
 import pandas as pd
 import pytest
+from openpyxl import Workbook
 
 from tehl.errors import InputError
 from tehl.studies import read_study, study_of
@@ -99,6 +100,14 @@ def test_an_axis_takes_its_values_from_a_column_of_a_file(tmp_path):
     assert [case.problem.entrainment_speed for case in cases] == [0.5, 1.5]
     (tmp_path / "alone.csv").write_text("measured [m/s]\n2\n")
     assert planned(tmp_path, 'file = "alone.csv"')[0].problem.entrainment_speed == 2.0
+    book = Workbook()
+    for line in (("run", "speed [mm/s]"), ("a", 500), (None, None), ("b", 1500.0)):
+        book.active.append(line)
+    book.save(tmp_path / "speeds.xlsx")
+    assert planned(tmp_path, 'file = "speeds.xlsx"\ncolumn = "speed"') == cases
+    (tmp_path / "no.xlsx").write_text("no book")
+    with pytest.raises(InputError, match=r"no\.xlsx cannot be read as Excel"):
+        planned(tmp_path, 'file = "no.xlsx"')
     for name, words in (("speeds.csv", "its columns are run, speed"), ("no.csv", "does not exist")):
         with pytest.raises(InputError, match=words):
             planned(tmp_path, f'file = "{name}"')

@@ -1,7 +1,9 @@
-"""Lists of cases, of values and of measured points in CSV files, as spreadsheets save them."""
+"""Lists of cases, of values and of measured points in Excel and CSV files of spreadsheets."""
 
 import csv
 import re
+from contextlib import closing
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -33,7 +35,9 @@ def values_of_file(path: Path, column: str) -> list[Any]:
 
 
 def lines_of_file(path: Path, what: str = "list of cases") -> list[list[str]]:
-    """Return the cells of the lines of a CSV file that are not empty, all of the same number.
+    """Return the cells of the lines of a file that are not empty, all of the same number.
+
+    ``.xlsx`` is read as Excel, its first sheet; all others as CSV.
 
     Messages call the file ``what``.
     """
@@ -42,6 +46,11 @@ def lines_of_file(path: Path, what: str = "list of cases") -> list[list[str]]:
 
 def numbered_lines(path: Path, what: str = "list of cases") -> list[tuple[int, list[str]]]:
     """Return the same with the numbers of the lines."""
+    if path.suffix.lower() == ".xlsx":
+        return [
+            (number, ["" if cell is None else str(cell) for cell in line])
+            for number, line in lines_of_sheet(path, what)
+        ]
     shown = shortened(path)
     try:
         if path.stat().st_size > _LARGEST:
@@ -66,6 +75,41 @@ def numbered_lines(path: Path, what: str = "list of cases") -> list[tuple[int, l
                 f"{len(lines[0][1])}"
             )
     return lines
+
+
+def lines_of_sheet(path: Path, what: str = "list of cases") -> list[tuple[int, list[Any]]]:
+    """Return the numbers and the cells of the rows of the first Excel sheet that are not empty.
+
+    All rows have as many cells as the first one has headings; an empty cell is None.
+    """
+    check_package("openpyxl", "xlsx", path)
+    from openpyxl import load_workbook  # noqa: PLC0415 (an extra)
+
+    if not path.exists():
+        raise InputError(f"{what} {shortened(path)} does not exist")
+    try:
+        book = load_workbook(path, read_only=True, data_only=True)
+    except Exception as error:  # openpyxl has no common base of its errors
+        raise InputError(f"{shortened(path)} cannot be read as Excel: {error}") from None
+    with closing(book):
+        found = [
+            (number, [stripped(cell) for cell in line])
+            for number, line in enumerate(book.worksheets[0].iter_rows(values_only=True), 1)
+        ]
+    found = [(number, line) for number, line in found if any(cell is not None for cell in line)]
+    width = max((k + 1 for _, line in found[:1] for k, one in enumerate(line) if one), default=0)
+    return [(number, (line + [None] * width)[:width]) for number, line in found]
+
+
+def stripped(cell: Any) -> Any:
+    """Return a cell without blanks around its text; None if nothing is left."""
+    return (cell.strip() or None) if isinstance(cell, str) else cell
+
+
+def check_package(package: str, extra: str, path: Path) -> None:
+    """Raise an InputError that names the extra if a package for a format is missing."""
+    if find_spec(package) is None:
+        raise InputError(f'{path}: needs {package}; install it with pip install "tehl[{extra}]"')
 
 
 def _delimiter(first: str) -> str:

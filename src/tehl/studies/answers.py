@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 from tehl.errors import InputError
 from tehl.io.atomic import replacing
+from tehl.io.lists import check_package
 from tehl.problem import ContactProblem
 from tehl.studies.case import Row, Scalar
 from tehl.studies.contacts import (
     Column,
     Contacts,
     Listed,
-    check_package,
     contacts_of,
     template_tables,
 )

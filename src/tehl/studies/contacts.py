@@ -9,16 +9,14 @@ import copy
 import difflib
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import closing
 from dataclasses import dataclass
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tehl.errors import InputError
 from tehl.io.atomic import shortened
 from tehl.io.case import case_from_tables, plain_value, toml_tables
-from tehl.io.lists import numbered_lines
+from tehl.io.lists import check_package, lines_of_sheet, numbered_lines, stripped
 from tehl.io.mistakes import key_paths
 from tehl.io.templates import template_text
 from tehl.options import Options
@@ -164,7 +162,7 @@ def _lines(path: Path) -> list[tuple[int, list[Any]]]:
     """Return the numbers and the cells of the rows of a file, headings first; None is empty."""
     ending = path.suffix.lower()
     if ending == ".xlsx":
-        return _lines_of_sheet(path)
+        return lines_of_sheet(path, "list of contacts")
     if ending == ".parquet":
         frame = _frame_of_parquet(path)
         return _lines_of_frame(frame)
@@ -172,26 +170,6 @@ def _lines(path: Path) -> list[tuple[int, list[Any]]]:
         (number, [cell or None for cell in line])
         for number, line in numbered_lines(path, "list of contacts")
     ]
-
-
-def _lines_of_sheet(path: Path) -> list[tuple[int, list[Any]]]:
-    check_package("openpyxl", "xlsx", path)
-    from openpyxl import load_workbook  # noqa: PLC0415 (an extra)
-
-    if not path.exists():
-        raise InputError(f"list of contacts {shortened(path)} does not exist")
-    try:
-        book = load_workbook(path, read_only=True, data_only=True)
-    except Exception as error:  # openpyxl has no common base of its errors
-        raise InputError(f"{shortened(path)} cannot be read as Excel: {error}") from None
-    with closing(book):
-        found = [
-            (number, [_stripped(cell) for cell in line])
-            for number, line in enumerate(book.worksheets[0].iter_rows(values_only=True), 1)
-        ]
-    found = [(number, line) for number, line in found if any(cell is not None for cell in line)]
-    width = max((k + 1 for _, line in found[:1] for k, one in enumerate(line) if one), default=0)
-    return [(number, (line + [None] * width)[:width]) for number, line in found]
 
 
 def _frame_of_parquet(path: Path) -> "pd.DataFrame":
@@ -214,7 +192,7 @@ def _lines_of_frame(frame: "pd.DataFrame") -> list[tuple[int, list[Any]]]:
     return head + [
         (
             number,
-            [None if none else _stripped(_plain(cell)) for cell, none in zip(*row, strict=True)],
+            [None if none else stripped(_plain(cell)) for cell, none in zip(*row, strict=True)],
         )
         for number, row in enumerate(zip(values, empty, strict=True), 1)
     ]
@@ -222,16 +200,6 @@ def _lines_of_frame(frame: "pd.DataFrame") -> list[tuple[int, list[Any]]]:
 
 def _plain(cell: Any) -> Any:
     return cell.item() if hasattr(cell, "item") else cell
-
-
-def _stripped(cell: Any) -> Any:
-    return (cell.strip() or None) if isinstance(cell, str) else cell
-
-
-def check_package(package: str, extra: str, path: Path) -> None:
-    """Raise an InputError that names the extra if a package for a format is missing."""
-    if find_spec(package) is None:
-        raise InputError(f'{path}: needs {package}; install it with pip install "tehl[{extra}]"')
 
 
 def _contacts(
