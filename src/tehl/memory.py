@@ -1,5 +1,6 @@
 """Memory that a solve needs, and memory that is available."""
 
+import math
 import os
 import re
 from pathlib import Path
@@ -12,6 +13,8 @@ BYTES_PER_NODE = 180
 """Measured peak memory of an isothermal Newtonian solve per node of the finest full grid."""
 BYTES_COUPLED, BYTES_PER_LAYER = 270, 10
 """Added by heat or shear thinning: per node, and per node and layer across the film."""
+PART = 0.5
+"""Part of the free memory that a solve takes unasked."""
 USUAL_LAYERS = 9
 NEGLIGIBLE = 16e6
 """Need that any machine running Python can satisfy [byte]: available memory is not checked."""
@@ -37,6 +40,13 @@ def available_memory() -> float | None:
     """Return the memory available to this process [byte], None if unknown."""
     known = [number for number in (_of_machine(), *map(_of_container, _LIMITS)) if number]
     return min(known, default=None)
+
+
+def memory_limit(options: Options) -> float:
+    """Return the memory that a solve may take where its error decides the nodes [byte]."""
+    if options.max_memory is not None:
+        return float(options.max_memory)
+    return PART * (available_memory() or math.inf)
 
 
 def check_memory(options: Options, problem: ContactProblem | None = None) -> None:

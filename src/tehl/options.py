@@ -1,9 +1,10 @@
 """Numerical options of a run: the ``[numerics]`` table of a case file."""
 
 import math
+import re
 from typing import Annotated, Literal, Self
 
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import BeforeValidator, ByteSize, Field, model_validator
 
 from tehl.errors import InputError
 from tehl.units import Duration, Share, Table
@@ -13,6 +14,15 @@ def _not_a_boolean(value: object) -> object:
     """Reject true and false, which Python converts to 1 and 0."""
     if isinstance(value, bool):
         raise ValueError("is not a number")
+    return value
+
+
+def _memory(value: object) -> object:
+    """Reject text and numbers that are no amount of memory."""
+    unlimited = isinstance(value, float) and not math.isfinite(value)
+    known = not isinstance(value, str) or re.fullmatch(r"\s*\d*\.?\d+\s*[kMGT]i?B\s*", value)
+    if isinstance(value, bool) or unlimited or not known:
+        raise ValueError('is not an amount of memory, such as "2 GB"')
     return value
 
 
@@ -77,6 +87,9 @@ class Options(Table):
     steady contacts whose surfaces are smooth on the mesh."""
     max_time: Duration = 3600.0
     """Time after which no finer grid is started."""
+    max_memory: Annotated[ByteSize, Field(gt=0), BeforeValidator(_memory)] | None = None
+    """Memory that grids for an ``error`` may need, such as ``"2 GB"``; left out, half of what is
+    free. Stated ``points`` may take all."""
     domain: Domain | Literal["auto"] = "auto"
     """``"auto"`` takes the domain from the Moes load so that it contributes less than 0.3 % to the
     error of the film."""

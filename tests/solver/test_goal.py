@@ -77,6 +77,17 @@ def test_the_time_limits_the_grid_and_the_result_says_so():
     assert solve(moes_contact(20.0, 5.0), Options(error=wanted)).status.converged
 
 
+def test_the_memory_limits_the_grid_and_the_result_says_so():
+    options = Options.model_validate({"error": 1e-4, "max_memory": "50 MB"})
+    with pytest.raises(ConvergenceError) as caught:
+        solve(moes_contact(20.0, 5.0), options)
+    result = caught.value.result
+    assert result.status.cause == "error_not_reached"
+    assert "numerics.max_memory is 0.05 GB" in result.status.message
+    assert result.scaled.film.size * 180 < 50e6
+    assert result.errors.central < 0.01  # that of the largest grid
+
+
 @pytest.mark.parametrize("load", [0.1, 1.0])
 def test_a_rigid_contact_follows_its_similarity_law(load):
     # isoviscous and rigid: H in half-widths of the gap does not depend on the load

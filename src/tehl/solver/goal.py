@@ -1,12 +1,11 @@
 """The accuracy to reach: error estimates of a run so far, and whether a finer grid follows."""
 
-import math
 import time
 from dataclasses import dataclass, field, replace
 
 from tehl.domain import far_field_error
 from tehl.entering import entry_error
-from tehl.memory import available_memory, needed_memory
+from tehl.memory import memory_limit, needed_memory
 from tehl.options import Domain, Options, can_be_halved
 from tehl.scaling import ScaledProblem
 from tehl.solution import ErrorEstimate
@@ -108,7 +107,7 @@ class Goal:
 
     def fitting(self, plan: Options) -> Options:
         """Return options of the planned grid, halved until it fits into the memory."""
-        available = available_memory() or math.inf
+        available = memory_limit(self.options)
         while self.is_open and can_be_halved(plan, LEAST_HALVINGS):
             if needed_memory(plan, self.scaled.problem) <= available:
                 break
@@ -159,7 +158,7 @@ class Goal:
         now, limit = time.perf_counter(), self.options.max_time
         expected = FACTOR * (now - self._last)
         needed = needed_memory(self.options.on_points(nx, ny), self.scaled.problem)
-        available = available_memory() or math.inf
+        available = memory_limit(self.options)
         self.obstacle = ""
         if errors is not None and errors.domain > self.options.target:
             cause = "the domain, upstream of which the bodies warm or cool the oil"
@@ -171,7 +170,7 @@ class Goal:
         elif needed > available:
             self.obstacle = (
                 f"{nx} x {ny} nodes need {needed / 1e9:.2g} GB of memory, and "
-                f"{available / 1e9:.2g} GB are available"
+                f"{_named_limit(self.options, available)}"
             )
         elif now - self._started + expected > limit:
             self.obstacle = (
@@ -179,3 +178,10 @@ class Goal:
                 f"{limit:g} s"
             )
         return not self.obstacle
+
+
+def _named_limit(options: Options, limit: float) -> str:
+    """Return the limit of the memory in words."""
+    if options.max_memory is not None:
+        return f"numerics.max_memory is {limit / 1e9:.2g} GB"
+    return f"half of what is free is {limit / 1e9:.2g} GB (numerics.max_memory)"

@@ -19,6 +19,7 @@ from tehl.solver.relaxation import (
     ROBUST,
     ROUGH,
     STEEP,
+    STEEPER,
     Relaxation,
 )
 
@@ -64,6 +65,7 @@ SMOOTH = (
     Strategy(relaxation=FAST),
     Strategy(relaxation=ROBUST),
     Strategy(relaxation=STEEP),
+    Strategy(relaxation=STEEPER),
 )
 BETWEEN_ASPERITIES = (
     Strategy(relaxation=FAST),
@@ -74,9 +76,11 @@ BETWEEN_ASPERITIES = (
 )
 COUPLED = (
     Strategy(relaxation=BROAD),
+    Strategy(relaxation=STEEP, damping=0.3, patience=3),
+    # heavily loaded and starved or heated: on fine grids the rim of the film is wide and steep
+    Strategy(relaxation=STEEPER, damping=0.3, patience=4),
     Strategy(relaxation=ROBUST, patience=3),
     Strategy(relaxation=ROBUST, damping=0.3, patience=3),
-    Strategy(relaxation=STEEP, damping=0.3, patience=3),
     Strategy(relaxation=ROBUST, slide_in_steps=True),
 )
 BETWEEN_ROUGH = (

@@ -152,7 +152,7 @@ def _after_failure(failed: Result, reached: Reached | None, monitor: Monitor, en
         return replace(on_others, options=failed.options)
     hint = working_hint(failed, attempt, monitor, end, reached)
     failed = replace(failed, status=replace(failed.status, hint=hint))
-    if reached is None:
+    if reached is None or failed.status.cause == "error_not_reached":  # its film is the best
         return failed
     (nx, ny), error = reached
     try:
