@@ -49,7 +49,7 @@ FARTHEST = 35.0
 """Gap over sigma from which no asperity touches."""
 DEEPEST = 30.0
 """Depth over sigma from which F_n is its power of the depth."""
-DENSE, STEEP = (1e-5, 1.0), (1e-6, 0.5)
+DENSE, STEEP = (1e-5, 5.0), (1e-6, 0.5)
 """Limits of eta beta sigma and of sigma over beta: surfaces have 0.03 to 0.06, and 1e-4 to 1e-2."""
 LEAST_GAP = 0.5
 """Least h/sigma of the flow factor; below it the channel narrows with the mean gap."""

@@ -47,6 +47,7 @@ MISTAKES = [
     ("lubricant.viscosity.alfa=3", "lubricant.viscosity.alfa is not a known key", "alpha"),
     ("contact.width=10 mm", "contact.width is not a known key", "line contacts are not computed"),
     ("contact.line_load=1e5", "contact.line_load", "line contacts are not computed yet"),
+    ("contact.type=line", "contact.type", "line contacts are not computed yet"),
     ("contact.speed=1 m/s", "contact.speed is not a known key", "did you mean entrainment_speed"),
     ("surface_1.ra=0.1 um", "surface_1.ra is not a known key", "did you mean ra_roughness?"),
     ("surface_2.rq=0.1 um", "surface_2.rq is not a known key", "did you mean rms_roughness?"),

@@ -137,7 +137,7 @@ LINE = "line contacts are not computed yet; state an ellipse by radius_x and rad
 STEADY = "only load and the roughness of the surfaces vary in time; state it under [contact]"
 OTHER_WORDS = {
     "contact": {
-        **dict.fromkeys(("width", "length", "line_load", "load_per_length"), LINE),
+        **dict.fromkeys(("type", "width", "length", "line_load", "load_per_length"), LINE),
         "speed": "did you mean entrainment_speed, the mean speed of both surfaces?",
         "sliding_speed": "did you mean slide_roll_ratio, (u_1 - u_2) over the mean speed?",
         "diameter": "did you mean radius, half of it?",

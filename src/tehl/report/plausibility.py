@@ -126,8 +126,8 @@ def typical_ranges(scaled: ScaledProblem) -> Iterator[Typical]:
         ("reduced radius_y", problem.radius_y, 1e-4, 5, "m", _UNIT),
         ("entrainment speed", problem.entrainment_speed, 1e-4, 100, "m/s", _UNIT),
         ("a_x / R_x", slender, 0, 0.2, "", "the solids are not half-spaces on this scale"),
-        ("a_y / a_x", groups.ellipticity, 0.05, 10, "", "check the order of the radii", _WIDE),
-        ("Moes M", groups.M, 1, 2000, "", rigid, "check the load: a very fine grid is needed"),
+        ("a_y / a_x", groups.ellipticity, 0.05, 30, "", "check the order of the radii", _WIDE),
+        ("Moes M", groups.M, 1, 10000, "", rigid, "check the load: a very fine grid is needed"),
         ("Moes L", groups.L, 0, 25, "", "check speed and viscosity"),
     ):
         yield Typical(*row)
