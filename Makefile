@@ -56,7 +56,7 @@ format: $(DEV)  ## let ruff write the formatting
 bench: $(DEV)  ## one table: time, work, rate, memory, growth with the grid
 	$(BIN)/python -m benchmarks
 
-coverage: $(DEV)  ## random contacts: which reach 2 %, whether error bars hold and hints work
+coverage: $(DEV)  ## random contacts: which reach the default error, whether error bars hold and hints work
 	$(BIN)/python -m benchmarks.coverage --contacts 300 --judge --follow
 
 paper: $(DEV)  ## the paper on which this package is based, recomputed and judged in out/paper

@@ -1,7 +1,7 @@
-"""Random contacts from the defaults: which reach 2 %, whether error bars hold and hints work.
+"""Random contacts from the defaults: which reach their error, if bars hold and hints work.
 
 ``python -m benchmarks.coverage --contacts 1000 --seed 1`` prints which contacts of each class
-converge to 2 %, with the causes of the others, and how the times compare with those of
+converge to it, with the causes of the others, and how the times compare with those of
 ``tehl explain``. ``--judge`` solves each that converges once more on
 a grid four times as fine, twice if that takes more than 1025 nodes or 513 of a heated one, and
 prints how the differences compare with the error bars. ``--follow`` solves each that fails once
@@ -127,7 +127,8 @@ def _off(result: Result, nodes: int, *, heated: bool) -> dict[str, float]:
     if finer > AFFORDABLE:
         return {}
     try:
-        judge = attempt(result.problem, Options(points=finer))
+        combined = result.errors is not None and result.errors.extrapolated
+        judge = attempt(result.problem, Options(points=finer, extrapolate=combined))
     except InputError:
         return {}
     here, there, known = values(result), values(judge), bars(result)
@@ -141,7 +142,7 @@ def _off(result: Result, nodes: int, *, heated: bool) -> dict[str, float]:
 def robustness(rows: list[dict[str, Any]]) -> Table:
     """Return how many contacts of each class reached the error."""
     made = Table(
-        title=f"Contacts that reach 2 % from the defaults ({len(rows)} random contacts)",
+        title=f"Contacts that reach the default error ({len(rows)} random contacts)",
         columns=("class", *(name for name, _, _ in RANGES), "CPU s, median", "largest"),
     )
     for kind in CLASSES:

@@ -1,0 +1,26 @@
+"""The tables of contacts as machines have them."""
+
+from benchmarks.machines import KINDS, contact, judged, reached, row
+
+
+def test_every_contact_is_a_valid_case_and_the_same_each_time():
+    kinds = set()
+    for number in range(60):
+        kind, features, problem = contact(3, number)
+        assert contact(3, number) == (kind, features, problem)
+        assert (problem.thermal is not None) == ("thermal" in features)
+        kinds.add(kind)
+    assert kinds == set(KINDS)
+
+
+def test_contacts_count_by_kind_and_feature_and_failures_are_named():
+    rows = [row(3, number, 20.0, judge=number == 0) for number in range(3)]
+    bad = {"number": 9, "kind": "cam", "features": ["plain"], "M": 1e4, "L": 9.0}
+    bad |= {"ellipticity": 4.0, "cause": "stalled", "seconds": 3.0, "error": 0.2}
+    table = reached([*rows, bad])
+    good = sum(one["cause"] is None for one in rows)
+    assert table.rows[0][:2] == ("all", f"{good} of 4")
+    assert good > 0
+    assert any("contact 9 (cam, plain; M = 10000" in note for note in table.notes)
+    known = [{"off": {"film_central": 0.4}}, {"off": {"film_central": 1.5}}, {}]
+    assert judged(known).rows == [("film_central", 2, 50.0, 100.0, 0.95, 1.5)]
