@@ -96,4 +96,5 @@ def setup(app: Any) -> None:
 figures.make(HERE / "theory" / "figures")
 gallery.make(HERE.parent / "examples", HERE / "gallery")
 samples.make(HERE / "samples", gallery.newest(HERE / "samples.py"))
+samples.make_list(HERE / "samples", gallery.newest(HERE / "samples.py"))
 notebook.make(HERE.parent / "examples" / "tutorial.ipynb", HERE / "tutorials" / "notebook.md")

@@ -63,8 +63,8 @@ class Strategy:
 
 SMOOTH = (
     Strategy(relaxation=FAST),
-    Strategy(relaxation=ROBUST),
     Strategy(relaxation=STEEP),
+    Strategy(relaxation=ROBUST),
     Strategy(relaxation=STEEPER),
 )
 BETWEEN_ASPERITIES = (

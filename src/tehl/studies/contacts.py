@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 TEMPLATE = "ball-on-disc"
 """The template of a list that has none."""
 
+ROW_SECONDS = 60.0
+"""Time after which no finer grid is started for a contact, unless the list or the template states it."""
 _WORDS = {
     "contact.load": "load force normal_load normal_force w q f_n",
     "contact.hertz_pressure": "p_h ph p_hertz p0 p_0 hertz_pressure hertzian_pressure",
@@ -328,6 +330,8 @@ def _listed(
                 break
         return Listed(number, tuple(cells), None, f"row {number}: {text}")
     labels: dict[str, float | str] = {"row": float(number)}
+    if "max_time" not in options.model_fields_set:
+        options = options.model_copy(update={"max_time": ROW_SECONDS})
     case = Case(name=f"row {number}", problem=problem, options=options, labels=labels)
     return Listed(number, tuple(cells), case)
 
