@@ -60,10 +60,8 @@ def make_list(folder: Path, newest: float) -> None:
     (place / "case.toml").write_text(printed(place, "new", "bearing"), encoding="utf-8")
     printed(place, "contacts", "rings.csv", "-o", "films.csv", "--template", "case.toml", "--quiet")
     films = pd.read_csv(place / "films.csv")
-    done.write_text(
-        films[list(SHOWN)].rename(columns=SHOWN).to_string(index=False, float_format="%.4g"),
-        "utf-8",
-    )
+    shown = films[list(SHOWN)].rename(columns=SHOWN)
+    done.write_text(shown.to_string(index=False, float_format="%.4g"), "utf-8")
 
 
 def printed(place: Path, *words: str) -> str:

@@ -31,7 +31,7 @@ TEMPLATE = "ball-on-disc"
 """The template of a list that has none."""
 
 ROW_SECONDS = 60.0
-"""Time after which no finer grid is started for a contact, unless the list or the template states it."""
+"""Time after which no finer grid is started for a contact, if it states none."""
 _WORDS = {
     "contact.load": "load force normal_load normal_force w q f_n",
     "contact.hertz_pressure": "p_h ph p_hertz p0 p_0 hertz_pressure hertzian_pressure",
