@@ -74,7 +74,7 @@ def steel(**odd: float) -> dict[str, float]:
     return {"young_modulus": 2.06e11, "poisson_ratio": 0.3} | usual | odd
 
 
-LINE = {"radius_x": "20 mm", "radius_y": "2 m", "load": "8 kN", "entrainment_speed": "1.5 m/s"}
+LINE = {"radius_x": "20 mm", "radius_y": "20 m", "load": "8 kN", "entrainment_speed": "1.5 m/s"}
 ODD = [
     ("contact.load", "20 kN", "Hertz pressure"),
     ("contact.load", "1e-3 N", "Hertz pressure"),
@@ -171,7 +171,7 @@ def test_an_implausible_value_is_reported(change: str, value: object, words: str
     assert any(words in question for question in explained(change, value).questions)
 
 
-@pytest.mark.parametrize(("load", "speed"), [(2000, 20), (5000, 10)])
+@pytest.mark.parametrize(("load", "speed"), [(2000, 20), (20000, 10)])
 def test_an_extreme_pressure_is_reported(load: float, speed: float):
     contact = {"radius": "20 mm", "moes_load": load, "moes_speed": speed}
     case = explained(contact=contact)
