@@ -74,7 +74,7 @@ def contact(seed: int, number: int) -> tuple[str, set[str], ContactProblem]:
             "radius_y": -ball * random.uniform(0.515, 0.535),
         }
         # n d_m from 10^4 to 6 10^5 mm/min; both rings entrain with a quarter of the shaft
-        speed = between(1e4, 6e5) * 1e-3 / 60 * math.pi / 2 * (1 - (ball / pitch) ** 2) / 2
+        speed = between(1e4, 6e5) * 1e-3 / 60 * math.pi / 2 * (1 - (ball / pitch) ** 2)
         pressure, slip, finish = between(0.7, 2.6), between(1e-3, 0.1), (0.01, 0.06)
         stated = {}
     else:
