@@ -36,7 +36,8 @@ def work_of(result: Result) -> int:
 def test_the_cycles_expected_are_those_of_the_solve(scaled):
     known = expected_cycles(scaled, Options())
     expected = sum(cycles * grid.nx * grid.ny for grid, cycles in known)
-    assert 0.5 < work_of(solve(scaled.problem)) / expected < 2.0
+    # full multigrid may end one grid before the planned one, or one behind it
+    assert 0.3 < work_of(solve(scaled.problem)) / expected < 4.0
 
 
 def test_the_heights_are_raised_on_the_first_grid_that_has_eight_nodes_per_wave():

@@ -82,9 +82,10 @@ class Options(Table):
     """Nodes per direction (x, y) of the finest grid, ``n 2^k + 1``: then ``error`` is not enforced,
     and only chooses the domain."""
     extrapolate: bool | None = None
-    """Whether the two finest grids are combined, (4 f_h - f_2h) / 3, where they show second order:
-    the values are then of higher order. Left out, they are where ``error`` decides the nodes, for
-    steady contacts whose surfaces are smooth on the mesh."""
+    """Whether the values are of higher order: a wedge of third order, unless ``wedge_order`` is
+    stated, and the two finest grids combined, (4 f_h - f_2h) / 3, where they show second order.
+    Left out, they are where ``error`` decides the nodes, for steady contacts whose surfaces are
+    smooth on the mesh."""
     max_time: Duration = 3600.0
     """Time after which no finer grid is started."""
     max_memory: Annotated[ByteSize, Field(gt=0), BeforeValidator(_memory)] | None = None
@@ -104,8 +105,9 @@ class Options(Table):
     pre_sweeps: Sweeps = 2
     post_sweeps: Sweeps = 2
     """Relaxation sweeps before and after the coarse-grid correction, at least one together."""
-    wedge_order: Literal[1, 2] = 2
-    """Order of the upstream difference of the wedge term."""
+    wedge_order: Literal[1, 2, 3] | None = None
+    """Order of the upstream difference of the wedge term; with 3 the conductance between two nodes
+    is their geometric mean too. Left out, it is 3 where ``extrapolate`` holds, else 2."""
     smoother: Literal["auto", "fast", "broad", "robust", "gauss-seidel"] = "auto"
     """Setting of the hybrid line relaxation; ``"auto"`` falls back from fast to robust, and from
     broad to robust where heat or shear thinning widen the zone in which the film conducts.
@@ -128,6 +130,11 @@ class Options(Table):
         assert self.points != "auto"
         nx, ny = (self.points, self.points) if isinstance(self.points, int) else self.points
         return ny, nx
+
+    @property
+    def order(self) -> int:
+        """Order of the wedge."""
+        return self.wedge_order or (3 if self.extrapolate else 2)
 
     @property
     def target(self) -> float:

@@ -180,7 +180,7 @@ MISTAKES = [
     ("numerics.domain={x=[-4.5, 1.5]}", "numerics.domain.y is missing", ""),
     ("numerics.domain=big", 'numerics.domain = "big"', "auto"),
     ("numerics.cycle='Z'", "numerics.cycle", "known are V, W, F"),
-    ("numerics.wedge_order=3", "numerics.wedge_order = 3", "known are 1, 2"),
+    ("numerics.wedge_order=4", "numerics.wedge_order = 4", "known are 1, 2, 3"),
     ("numerics.tolerance=2", "numerics.tolerance = 2", "greater than 0 and less than 1"),
     ("numerics.points=[257, 5]", "numerics.points.1 = 5", "from 17 to 16385"),
     ("numerics.points=33.5", "numerics.points = 33.5", "a whole number from 17 to 16385"),

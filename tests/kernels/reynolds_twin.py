@@ -16,8 +16,19 @@ def random_film(shape, seed=0):
     return isotropic(*(0.5 + rng.random(shape) for _ in range(5)))
 
 
-def stencil_of(mirror, dx=0.25, dy=0.4):
-    return Stencil(1.0 / dx**2, 1.0 / dy**2, 1.5 / dx, -2.0 / dx, 0.5 / dx, mirror)
+def stencil_of(mirror, dx=0.25, dy=0.4, third=False, fore=0):
+    weights = 1.5 / dx, -2.0 / dx, 0.5 / dx
+    third = 1.0 / (3.0 * dx) if third else 0.0
+    return Stencil(1.0 / dx**2, 1.0 / dy**2, *weights, mirror, third=third, fore=fore)
+
+
+def means(stencil, first, second, along):
+    """Twice the conductance of the faces between two arrays of nodes."""
+    if stencil.third == 0.0:
+        return first + second
+    geometric = 2.0 * np.sqrt(first * second)
+    logarithmic = (2.0 * geometric + first + second) / 3.0
+    return np.where(second > first, logarithmic, geometric) if along else geometric
 
 
 def operator_twin(film, stencil):
@@ -27,12 +38,18 @@ def operator_twin(film, stencil):
         fields = [np.vstack([a[1:2], a]) for a in film]
     p, h, eps, rho, *_ = fields
     middle, inner = slice(1, -1), slice(1, -1)
-    east = (eps[:, 1:] + eps[:, :-1]) * np.diff(p, axis=1)
-    north = (eps[1:] + eps[:-1]) * np.diff(p, axis=0)
+    east = means(stencil, eps[:, :-1], eps[:, 1:], along=True) * np.diff(p, axis=1)
+    north = means(stencil, eps[:-1], eps[1:], along=False) * np.diff(p, axis=0)
     flow = rho * h
     wedge = np.zeros_like(p)
     wedge[:, 2:] = stencil.w0 * flow[:, 2:] + stencil.w1 * flow[:, 1:-1] + stencil.w2 * flow[:, :-2]
     wedge[:, 1] = (stencil.w0 - stencil.w2) * (flow[:, 1] - flow[:, 0])
+    if stencil.third > 0.0:
+        columns = np.arange(1, p.shape[1] - 1)
+        weights = np.where(columns < stencil.fore, stencil.third, 0.5 * stencil.third)
+        faces = np.zeros_like(p)
+        faces[:, 1:-1] = weights * (flow[:, 2:] - 2.0 * flow[:, 1:-1] + flow[:, :-2])
+        wedge[:, 1:-1] += np.diff(faces, axis=1)[:, :-1]
     result = 0.5 * stencil.cx * np.diff(east, axis=1)[middle]
     result += 0.5 * stencil.cy * np.diff(north, axis=0)[:, inner] - wedge[middle, inner]
     out = np.zeros_like(film.p)

@@ -90,14 +90,16 @@ def test_nodes_of_small_conductance_far_from_cavities_relax_as_dipoles():
 
 
 @MIRROR
-@pytest.mark.parametrize("dipole", [0, 1])
-def test_the_band_is_the_derivative_of_the_operator(dipole, mirror):
+@pytest.mark.parametrize(
+    ("dipole", "parts"), [(0, (0.25, 0.25)), (1, (0.25, 0.25)), (1, (0.4, 0.1))]
+)
+def test_the_band_is_the_derivative_of_the_operator(dipole, parts, mirror):
     shape, j = (5, 12), 1
     if mirror:
         j = 0
     nx = shape[1]
     film, stencil = random_film(shape, 4), stencil_of(mirror)
-    setting = relaxation_of(shape, influence=0.4)
+    setting = relaxation_of(shape, influence=0.4)._replace(along=parts[0], aside=parts[1])
     setting.kind[j, 1:-1] = dipole
     set_up(film, stencil, setting, (j, 1), (1, nx - 2))
     band = dense_band(setting.nodes, 0)
@@ -106,8 +108,8 @@ def test_the_band_is_the_derivative_of_the_operator(dipole, mirror):
         change = np.zeros(shape)
         change[j, k] = 1.0
         if dipole:
-            change[j, [k - 1, k + 1]] = -0.25
-            change[[j + 1, abs(j - 1)], k] = -0.25
+            change[j, [k - 1, k + 1]] = -parts[0]
+            change[[j + 1, abs(j - 1)], k] = -parts[1]
         lift = np.zeros(shape)
         lift[j] = shapes[np.abs(np.arange(nx) - k)]
 

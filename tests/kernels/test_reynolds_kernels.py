@@ -10,8 +10,9 @@ MIRROR = pytest.mark.parametrize("mirror", [0, 1])
 
 
 @MIRROR
-def test_the_operator_equals_its_numpy_twin(mirror):
-    film, stencil = random_film((7, 11)), stencil_of(mirror)
+@pytest.mark.parametrize("third", [False, True])
+def test_the_operator_equals_its_numpy_twin(mirror, third):
+    film, stencil = random_film((7, 11)), stencil_of(mirror, third=third, fore=6)
     out = np.full((7, 11), 9.0)
     reynolds.operator(film, stencil, out)
     np.testing.assert_allclose(out, operator_twin(film, stencil), rtol=1e-12, atol=1e-11)

@@ -9,8 +9,10 @@ from tehl.operators.influence import influence_of
 from tehl.operators.reynolds import line_influence, steady_stencil
 from tehl.options import Domain
 from tehl.typing import Array
+from tests.kernels.from_python import from_python
 from tests.operators.contacts import contact_groups, grid_of
 
+both_x = from_python(reynolds.both_x)
 BOX = Domain(x=(-2.0, 2.0), y=(-1.5, 1.5))
 
 
@@ -57,13 +59,14 @@ def test_the_poiseuille_term_is_of_second_order(mirror, ratio):
     )
 
 
-def wedge_error(points: int, wedge: int) -> float:
+def wedge_error(points: int, wedge: int, *, upstream: bool = False) -> float:
     grid = grid_of(points, points, mirror=True, domain=BOX)
     x, y = grid.x[None, :], grid.y[:, None]
     rho, h = 1.2 + 0.1 * np.sin(x + y), 1.0 + 0.5 * x**2 + 0.5 * y**2
     exact = -(0.1 * np.cos(x + y) * h + rho * x)
     error = apply(grid, {"rho": rho, "h": h}, wedge=wedge) - exact
-    return float(np.abs(error[:-1, 2:-1]).max())  # the first node has only one upstream
+    last = int(np.searchsorted(grid.x, 0.0)) if upstream else -1
+    return float(np.abs(error[:-1, 2:last]).max())  # the first node has only one upstream
 
 
 @pytest.mark.parametrize("wedge", [1, 2])
@@ -71,7 +74,20 @@ def test_the_wedge_term_has_the_chosen_order(wedge):
     assert order(lambda n: wedge_error(n, wedge)) == pytest.approx(wedge, abs=0.1)
 
 
-@pytest.mark.parametrize("wedge", [1, 2])
+def test_a_wedge_of_third_order_is_one_upstream_of_the_centre():
+    assert order(lambda n: wedge_error(n, 3, upstream=True)) == pytest.approx(3.0, abs=0.1)
+
+
+@pytest.mark.parametrize("factor", [1.0, 1.5, 4.0, 10.0])
+def test_the_conductance_of_a_face_is_a_geometric_or_a_logarithmic_mean(factor):
+    stencil = steady_stencil(grid_of(33, 33, mirror=True, domain=BOX), contact_groups(), 3)
+    falling, rising = (0.5 * both_x(stencil, *pair) for pair in ((factor, 1), (1, factor)))
+    assert falling == pytest.approx(factor**0.5)
+    exact = (factor - 1.0) / np.log(factor) if factor > 1.0 else 1.0
+    assert rising == pytest.approx(exact, rel=0.02)
+
+
+@pytest.mark.parametrize("wedge", [1, 2, 3])
 def test_the_wedge_of_a_linear_film_is_exact_from_the_first_node_on(wedge):
     grid = grid_of(33, 33, mirror=True, domain=BOX)
     film = 5.0 + np.broadcast_to(grid.x, grid.shape)

@@ -84,7 +84,7 @@ def cylinder(centre: float, oil: float, nodes: int, upstream: float) -> tuple[fl
     for number in range(500):  # the film grows upstream by some nodes per sweep
         reynolds.mark_partial(film, stencil, zero, scratch, lines.ends)
         if number < 450:
-            reynolds.mark_second_order(film, 2)
+            reynolds.mark_second_order(film, stencil)
         relaxation.relax_lines(film, stencil, zero, lines)
     held, passed = np.zeros_like(h), np.zeros_like(h)
     reynolds.oil_flow(film, stencil, held, passed)

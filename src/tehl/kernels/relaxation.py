@@ -26,6 +26,8 @@ from tehl.kernels.raw import raw
 from tehl.kernels.reynolds import (
     STEADILY,
     Stencil,
+    both,
+    both_x,
     clear,
     flux_weights,
     line_operator,
@@ -65,7 +67,8 @@ class LineRelaxation(NamedTuple):
     the contribution of the change of conductance to the diagonal (`stiffen`). ``rest`` (LANES, nx)
     holds the residuals of eight lines, ``nodes`` (nx + 6,) their systems as records `NODE`;
     ``cells`` (nx + 6, FIELDS, LANES) is a view of ``nodes`` as numbers. From node ``ends[j]`` (ny,)
-    on, all of line j is frozen. ``touches`` is 1 with asperities finer than the grid.
+    on, all of line j is frozen. A dipole lowers each neighbour along x by ``along`` and along y by
+    ``aside`` of its rise. ``touches`` is 1 with asperities finer than the grid.
     """
 
     xi: float
@@ -81,6 +84,8 @@ class LineRelaxation(NamedTuple):
     nodes: Records
     cells: Array
     ends: IntArray
+    along: float = 0.25
+    aside: float = 0.25
     touches: int = 0
 
 
@@ -159,8 +164,9 @@ def _load_line(
     half_x, half_y = 0.5 * stencil.cx, 0.5 * stencil.cy
     for i in range(span[0], span[1]):
         at = i + MARGIN
-        cells[at, EAST, lane] = half_x * (eps_x[j, i] + eps_x[j, i + 1])
-        across = half_y * (2.0 * eps_y[j, i] + eps_y[j + 1, i] + eps_y[south, i])
+        cells[at, EAST, lane] = half_x * both_x(stencil, eps_x[j, i], eps_x[j, i + 1])
+        across = both(stencil, eps_y[j, i], eps_y[j + 1, i])
+        across = half_y * (across + both(stencil, eps_y[j, i], eps_y[south, i]))
         cells[at, ACROSS, lane] = across + relaxation.stiffness[j, i]
         cells[at, MASS_P, lane] = film.drho[j, i] * film.h[j, i]
         cells[at, RHO, lane] = film.rho[j, i]
@@ -189,12 +195,12 @@ def _load_flux(
             cells[at, OWN, lane] = 1.5 * rate
             cells[at, UPSTREAM, lane] = -2.0 * rate
             cells[at, FARTHER, lane] = 0.5 * rate
-            cells[at, BACK, lane] = half * (film.eps_x[j, i] + film.eps_x[j, i - 1])
+            cells[at, BACK, lane] = half * both_x(stencil, film.eps_x[j, i - 1], film.eps_x[j, i])
             continue
         here, west, farther = partial[j, i] > 0, partial[j, i - 1] > 0, partial[j, far] > 0
         orders = second[j, i] > 0, second[j, i - 1] > 0
         w0, w1, w2 = flux_weights(stencil, (here, west, farther), orders, i)
-        back = 0.5 * stencil.cx * (film.eps_x[j, i] + film.eps_x[j, i - 1])
+        back = half * both_x(stencil, film.eps_x[j, i - 1], film.eps_x[j, i])
         cells[at, OWN, lane] = w0
         cells[at, UPSTREAM, lane] = w1
         cells[at, FARTHER, lane] = w2
@@ -242,6 +248,7 @@ def _fill_row(
         Conductance to the west.
     """
     nodes, p, d = relaxation.nodes, relaxation.point, relaxation.dipole
+    along, aside = relaxation.along, relaxation.aside
     d0, d1, d2, d3, d4 = d[0] - p[0], d[1] - p[1], d[2] - p[2], d[3] - p[3], d[4] - p[4]
     w0, w1, w2 = weights
     farthest, far, west, here, east, beyond = (
@@ -252,17 +259,18 @@ def _fill_row(
     a_c = -a_e - west_east - here.across - w0 * here.mass_p
     b_ww, b_w, b_c = -w2 * far.rho, -w1 * west.rho, -w0 * here.rho
     # column of a point at i + s, then the difference if the node relaxes as a dipole
-    change = b_ww * d1 + b_w * d2 + b_c * d3 - 0.25 * a_ww
+    change = b_ww * d1 + b_w * d2 + b_c * d3 - along * a_ww
     here.west_3 = b_ww * p[1] + b_w * p[2] + b_c * p[3] + farthest.dipole * change
-    change = b_ww * d0 + b_w * d1 + b_c * d2 - 0.25 * a_w
+    change = b_ww * d0 + b_w * d1 + b_c * d2 - along * a_w
     here.west_2 = a_ww + b_ww * p[0] + b_w * p[1] + b_c * p[2] + far.dipole * change
-    change = b_ww * d1 + b_w * d0 + b_c * d1 - 0.25 * (a_ww + a_c)
+    change = b_ww * d1 + b_w * d0 + b_c * d1 - along * (a_ww + a_c)
     here.west_1 = a_w + b_ww * p[1] + b_w * p[0] + b_c * p[1] + west.dipole * change
-    change = b_ww * d2 + b_w * d1 + b_c * d0 - 0.25 * (a_w + a_e + here.across)
+    change = b_ww * d2 + b_w * d1 + b_c * d0
+    change = change - along * (a_w + a_e) - aside * here.across
     here.centre = a_c + b_ww * p[2] + b_w * p[1] + b_c * p[0] + here.dipole * change
-    change = b_ww * d3 + b_w * d2 + b_c * d1 - 0.25 * a_c
+    change = b_ww * d3 + b_w * d2 + b_c * d1 - along * a_c
     here.east_1 = a_e + b_ww * p[3] + b_w * p[2] + b_c * p[1] + east.dipole * change
-    change = b_ww * d4 + b_w * d3 + b_c * d2 - 0.25 * a_e
+    change = b_ww * d4 + b_w * d3 + b_c * d2 - along * a_e
     here.east_2 = b_ww * p[4] + b_w * p[3] + b_c * p[2] + beyond.dipole * change
     if relaxation.touches:
         around = far.hardness + west.hardness + here.hardness + east.hardness
@@ -475,8 +483,9 @@ def add_dipoles(film: Film, relaxation: LineRelaxation, mirror: int) -> None:
         south = row_below(j)
         end = max(ends[j], ends[south], ends[j + 1])
         for i in range(1, min(end + 1, nx - 1)):
-            around = delta[j, i - 1] + delta[j, i + 1] + delta[south, i] + delta[j + 1, i]
-            changed = p[j, i] + delta[j, i] - 0.25 * around
+            around = relaxation.along * (delta[j, i - 1] + delta[j, i + 1])
+            around += relaxation.aside * (delta[south, i] + delta[j + 1, i])
+            changed = p[j, i] + delta[j, i] - around
             p[j, i] = changed if touches else max(changed, 0.0)
 
 

@@ -9,13 +9,12 @@ from tehl.kernels.energy.records import BLOCK, GHOSTS, Model, Surface, Terms
 from tehl.operators.across import SCHEMES
 from tehl.operators.law_table import law_table
 from tehl.operators.line_source import history
+from tehl.operators.reynolds import UPSTREAM
 from tehl.operators.surfaces import Side, sides
 from tehl.problem import ContactProblem
 from tehl.scaling import ScaledProblem, Scales
 
 MEANS = {"generalised": 0, "mean": 1, "mean-all": 2}
-UPSTREAM = {1: (1.0, -1.0, 0.0), 2: (1.5, -2.0, 0.5)}
-"""Weights of upstream differences, by their order."""
 
 
 class HeatedFilm:
@@ -105,7 +104,7 @@ def film_terms(grid: Grid, scaled: ScaledProblem, wedge_order: int) -> Terms:
     conductivity = problem.lubricant.ambient_conductivity or 1.0
     across = scales.film_thickness**2 / conductivity
     along = scales.speed / scales.half_width_x
-    w0, w1, w2 = UPSTREAM[wedge_order]
+    w0, w1, w2 = UPSTREAM[min(wedge_order, 2)]
     slide = -problem.slide_roll_ratio
     return Terms(
         peclet=film_peclet(scaled),

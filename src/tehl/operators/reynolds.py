@@ -12,6 +12,8 @@ from tehl.operators.influence import Influence
 from tehl.scaling import Groups
 from tehl.typing import Array
 
+UPSTREAM = {1: (1.0, -1.0, 0.0), 2: (1.5, -2.0, 0.5)}
+"""Weights of rho H of a node and of its upstream neighbours in the wedge, by its order [1/dx]."""
 REACH = 8
 """Nodes along a line in the influence of one node, as the line relaxation uses it."""
 
@@ -27,12 +29,13 @@ def steady_stencil(
         The nodes.
     groups : Groups
         The ellipticity scales the differences along y.
-    wedge_order : {1, 2}
-        Order of the upstream difference: (1, -1) or (3/2, -2, 1/2) over dx.
+    wedge_order : {1, 2, 3}
+        Order of the upstream difference: (1, -1), (3/2, -2, 1/2) or (2, 3, -6, 1)/6 over dx, the
+        last with geometric means of the conductance.
     conserves : bool
         Whether oil is conserved in cavities.
     """
-    weights = {1: (1.0, -1.0, 0.0), 2: (1.5, -2.0, 0.5)}[wedge_order]
+    weights = UPSTREAM[min(wedge_order, 2)]
     w0, w1, w2 = (w / grid.dx for w in weights)
     return Stencil(
         cx=1.0 / grid.dx**2,
@@ -42,7 +45,15 @@ def steady_stencil(
         w2=w2,
         mirror=int(grid.mirror),
         conserves=STEADILY if conserves else 0,
+        third=1.0 / (3.0 * grid.dx) if wedge_order > 2 else 0.0,
+        fore=int(np.searchsorted(grid.x, 0.0)),
     )
+
+
+def conductance(stencil: Stencil, here: Array, there: Array) -> Array:
+    """Return the conductance of the faces between pairs of nodes."""
+    found: Array = np.sqrt(here * there) if stencil.third > 0.0 else 0.5 * (here + there)
+    return found
 
 
 def step_stencil(stencil: Stencil, time_step: float) -> Stencil:
@@ -54,6 +65,7 @@ def step_stencil(stencil: Stencil, time_step: float) -> Stencil:
     grids, which take the same time step.
     """
     conserves = IN_TIME if stencil.conserves else 0
+    stencil = stencil._replace(third=0.0)
     return stencil._replace(w0=1.5 / time_step, w1=0.0, w2=0.0, conserves=conserves)
 
 
@@ -111,15 +123,19 @@ def steady_flux(film: Film, held: Array, spacing: float, order: int) -> Array:
     return difference
 
 
-def line_influence(influence: Influence) -> tuple[Array, Array]:
+def line_influence(
+    influence: Influence, parts: tuple[float, float] = (0.25, 0.25)
+) -> tuple[Array, Array]:
     """Return the film along a line per unit change of one node, and of a dipole, (`REACH`,) each.
 
-    A dipole raises one node and lowers its four neighbours by a quarter: its far field decays fast,
-    so that it changes the film locally (Venner and Lubrecht 2000, chapter 6).
+    A dipole raises one node and lowers its neighbours by ``parts`` of that, along x and along y:
+    its far field decays fast, so that it changes the film locally (Venner and Lubrecht 2000,
+    chapter 6).
     """
+    along, aside = parts
     line = influence(0, slice(0, REACH + 1))
     beside = influence(1, slice(0, REACH))
     point = line[:REACH]
     west = line[[1, *range(REACH - 1)]]
-    dipole = point - 0.25 * (west + line[1:] + 2.0 * beside)
+    dipole = point - along * (west + line[1:]) - 2.0 * aside * beside
     return point.copy(), dipole

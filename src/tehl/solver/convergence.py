@@ -31,6 +31,8 @@ ROUGH_PART = 0.7
 """Error over the last change of the film between grids that resolve the heights: a third if of
 second order; measured up to 0.65 for the minimum film between waves (87 of them, 257 and 513
 nodes)."""
+THIRD_PART = 0.6
+"""The same of a wedge of third order."""
 SMOOTH_PART, WAVE_PART = 1.7, 20.0
 """Factors of the two terms of `single_grid_estimate`."""
 SPIKE_GROWTH, UNRESOLVED_GROWTH, SLOWING = 2.0, 6.0, 0.7
@@ -51,6 +53,9 @@ and 69 of 70 minimum films of random contacts lie inside their bars, as judged o
 LEFT, LARGEST_LEFT = 4.0, 0.4
 """Least bar of an extrapolated film over its error without extrapolation: over the relative change
 of the film by the last grid, and largest value."""
+LEAST_RATIO, MOST_RATIO, SMALL_CHANGE = 2.8, 6.0, 1e-3
+"""Ratio of two changes of the film that shows second order (1.5 to 2.6), and relative change that
+is negligible."""
 LARGEST_CHANGE_OF_FILM = 0.3
 """Relative change of the film by the last grid up to which it is extrapolated."""
 SHARED = 0.25
@@ -286,21 +291,18 @@ def error_estimate(
     """
     bars: list[float] = []
     changes: list[float] = []
+    otherwise = ROUGH_PART if rough else THIRD_PART if order > 2 else 1.0
     for name in ("central", "minimum"):
-        values = [getattr(trace, name).values[-1] for trace in traces[-3:]]
+        values = _films(traces[-3:], name)
         film = abs(values[-1]) or 1.0
-        bar = (
-            discretisation_bar(values, ROUGH_PART if rough else 1.0)
-            if order > 1
-            else first_order_bar(values)
-        )
+        bar = discretisation_bar(values, otherwise) if order > 1 else first_order_bar(values)
         changes.append(abs(values[-1] - values[-2]))
         if rough and changes[-1] > film:  # far from the limit
             bar = changes[-1]
         bars.append(max(bar, SHARED * changes[0]) / film)
     estimate = _estimate(traces[-1], domain, *bars)
-    combined: Any = extrapolated_bars(traces) if extrapolate else None
-    if combined is not None:
+    combined: Any = extrapolated_bars(traces, order) if extrapolate else None
+    if combined is not None and (order < 3 or max(combined.values()) < max(bars)):
         estimate = replace(estimate, extrapolated=True, **combined)
     found = further_errors(traces, ROUGH_PART if rough else 1.0, domain)
     resolved = _resolves_spike(traces, found)
@@ -317,7 +319,15 @@ def error_estimate(
     return replace(estimate, **others)
 
 
-def extrapolated_bars(traces: list[GridTrace]) -> dict[str, float] | None:
+def _films(traces: list[GridTrace], name: str) -> list[float]:
+    """Return the central or minimum film of some grids, between the nodes where that is known."""
+    key = f"film_{name}"
+    if all(key in trace.measured for trace in traces):
+        return [trace.measured[key] for trace in traces]
+    return [getattr(trace, name).values[-1] for trace in traces]
+
+
+def extrapolated_bars(traces: list[GridTrace], order: int = 2) -> dict[str, float] | None:
     """Return the relative error bars of a film extrapolated from the last two grids.
 
     A part of the change of the extrapolated value from the pair of grids before, at least a part of
@@ -328,6 +338,9 @@ def extrapolated_bars(traces: list[GridTrace]) -> dict[str, float] | None:
     ----------
     traces : list of GridTrace
         Grids halved each time, coarsest first.
+    order : {2, 3}
+        Order of the wedge. Where it is three, what is left is of second order where other parts of
+        the equations err more: the changes must show it, or be negligible.
     """
     known = [trace.measured for trace in traces[-3:] if trace.measured]
     if len(known) < 3 or traces[-2].outputs is None:
@@ -337,6 +350,10 @@ def extrapolated_bars(traces: list[GridTrace]) -> dict[str, float] | None:
         first, middle, last = (one[name] for one in known)
         change, film = abs(last - middle), last + (last - middle) / 3.0
         if not (last > 0.0 and change < LARGEST_CHANGE_OF_FILM * last):
+            return None
+        before = (middle - first) * math.copysign(1.0, last - middle)
+        shown = LEAST_RATIO * change < before < MOST_RATIO * change
+        if order > 2 and not (shown or change < SMALL_CHANGE * last):
             return None
         further = abs(film - (middle + (middle - first) / 3.0))
         left = min(LARGEST_LEFT, LEFT * change / film) * change / 3.0

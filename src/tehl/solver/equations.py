@@ -39,7 +39,7 @@ class Equations:
     flow: FlowTable
     """Mobility and density of the lubricant over pressure."""
     stencil: reynolds.Stencil
-    """Weights of the Reynolds operator."""
+    """Weights of the Reynolds operator on the finest grid of a cycle."""
     influence: Influence
     """Deflection per unit pressure on one cell."""
     deformation: Deformation
@@ -61,6 +61,11 @@ class Equations:
     """Boundary film through which the surfaces may touch [-]; None has no contact."""
     floor: float
     """Least film in the conductance [-]: the discrete film of coarse grids may not be positive."""
+
+    @property
+    def robust(self) -> reynolds.Stencil:
+        """Weights on the coarser grids of a cycle: a wedge of second order at most."""
+        return self.stencil._replace(third=0.0)
 
     @classmethod
     def on(
@@ -85,12 +90,13 @@ class Equations:
             Load that the film carries, over that of the contact [-].
         """
         groups, oil = scaled.groups, entering_oil(scaled)
-        starved, conserves = oil is not None, scaled.problem.conserves_oil
+        conserves = scaled.problem.conserves_oil
+        starved = oil is not None
         return cls(
             grid=grid,
             groups=groups,
             flow=flow,
-            stencil=steady_stencil(grid, groups, options.wedge_order, conserves=conserves),
+            stencil=steady_stencil(grid, groups, options.order, conserves=conserves),
             influence=influence_of(grid, groups),
             deformation=choose(
                 options.deformation, grid, groups, exact=options.accuracy == "tight"

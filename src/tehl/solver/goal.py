@@ -52,7 +52,7 @@ def _by_grids(
     level: Level, traces: list[GridTrace], roughness: Roughness, hierarchy: Hierarchy
 ) -> ErrorEstimate | None:
     """Return the errors of `estimated_errors` without that of the supply."""
-    scaled, order = hierarchy.scaled, hierarchy.options.wedge_order
+    scaled, order = hierarchy.scaled, hierarchy.options.order
     if len(traces) < 2 or not traces[-1].reports or traces[-1].diverged:
         return None
     edges, domain, newtonian = level.grid.domain, 0.0, not scaled.problem.is_coupled

@@ -59,7 +59,8 @@ class CoarsestSolver:
         level.update()
         # unlike evaluate_residual, not zero at cavitated nodes: the Newton step may wet them
         residual = np.empty_like(level.residual)
-        reynolds.operator(level.film, level.stencil, residual)
+        stencil = level.equations.robust
+        reynolds.operator(level.film, stencil, residual)
         np.subtract(level.sources.reynolds, residual, out=residual)
         laws = level.equations.asperities
         system = CoarseSystem(
@@ -71,7 +72,7 @@ class CoarsestSolver:
             nearest=np.inf if laws is None else laws.sigma + 0.5 * float(level.film.h.min()),
         )
         before = level.film.p.copy(), level.film.asperity.copy()
-        change = newton_step(self._linearised(), level.stencil, system, LONGEST_STEP)
+        change = newton_step(self._linearised(), stencil, system, LONGEST_STEP)
         level.move(change)
         if laws is not None:
             self._shorten(before, change)

@@ -4,7 +4,7 @@ A strategy is a relaxation with the settings of everything around it. Smooth iso
 the first rung only, up to M = 1000 and more; later rungs trade speed for robustness.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from tehl.options import Options
 from tehl.problem import ContactProblem
@@ -39,6 +39,8 @@ class Strategy:
     energy equation; 1 is undamped [-]."""
     newton: bool = False
     """Use Newton's method instead of cycles on the grids that have the heights."""
+    wedge_order: int | None = None
+    """Order of the wedge on this rung, if it is another than that of the options."""
     slide_in_steps: bool = False
     """Raise the sliding speed from zero over the first sweeps of the energy equation."""
 
@@ -58,7 +60,8 @@ class Strategy:
         if self.newton:
             return "Newton's method (slow)"
         steps = ", with continuation in the sliding speed" if self.slide_in_steps else ""
-        return f"the {self.name} smoother{steps}"
+        order = "" if self.wedge_order is None else ", with a wedge of second order"
+        return f"the {self.name} smoother{steps}{order}"
 
 
 SMOOTH = (
@@ -115,6 +118,8 @@ TOUCHING = (
         patience=2,
     ),
 )
+FIRST = 2
+"""Strategies that are tried with a wedge of third order before one of second order."""
 STATED = {one.name: Strategy(relaxation=one) for one in (FAST, BROAD, ROBUST, GAUSS_SEIDEL)}
 
 
@@ -139,6 +144,16 @@ def ladder(problem: ContactProblem, options: Options, *, rough: bool) -> tuple[S
         cycles = tuple(one for one in BETWEEN_ROUGH if not one.newton)
         # and their Jacobian does not know partly filled cavities
         return cycles if problem.is_coupled or problem.conserves_oil else BETWEEN_ROUGH
+    rungs = _rungs(problem)
+    if options.order < 3 or options.wedge_order is not None:
+        return rungs
+    # behind steep pressure spikes some contacts converge with second order only
+    second = tuple(replace(one, wedge_order=2) for one in rungs)
+    return (*rungs[:FIRST], *second[:FIRST], *second[FIRST:])
+
+
+def _rungs(problem: ContactProblem) -> tuple[Strategy, ...]:
+    """Return the strategies for smooth surfaces."""
     if not problem.is_coupled:
         return SMOOTH if problem.asperities is None else BETWEEN_ASPERITIES
     last = () if problem.asperities is None else BETWEEN_ASPERITIES[-1:]

@@ -105,8 +105,12 @@ class Level:
 
     @property
     def stencil(self) -> reynolds.Stencil:
-        """Weights of the Reynolds operator."""
-        return self.equations.stencil
+        """Weights of the Reynolds operator.
+
+        Coarser levels of a cycle, and the coarsest, have a wedge of second order (double
+        discretisation: Brandt 1982): it is more robust where the mesh does not resolve the film.
+        """
+        return self.equations.stencil if self.is_finest else self.equations.robust
 
     @property
     def balance(self) -> reynolds.Stencil:
@@ -251,7 +255,7 @@ class Level:
         scratch = np.empty((1, film.p.shape[1]))
         reynolds.mark_partial(film, stencil, self.sources.reynolds, scratch, self.smoother.ends)
         if not self.keeps_orders:
-            reynolds.mark_second_order(film, 2 if stencil.w2 > 0.0 else 1)
+            reynolds.mark_second_order(film, stencil)
 
     def held_oil(self) -> Array:
         """Return the oil at each node after a time step, ``grid.shape`` [-].
@@ -508,7 +512,7 @@ class Level:
         coarse.is_finest, coarse.sources.outside = False, 0.0
         if self.stencil.conserves == reynolds.STEADILY:  # the finest grid decides where films begin
             coarse.film.partial[:] = self.film.partial[::2, ::2]
-            reynolds.mark_second_order(coarse.film, 2 if coarse.stencil.w2 > 0.0 else 1)
+            reynolds.mark_second_order(coarse.film, coarse.stencil)
         # I P and H00: `correct_from` interpolates the change since
         before, _ = coarse.restricted
         before[:] = coarse.film.p

@@ -18,6 +18,7 @@ from tehl.grid import Grid
 from tehl.loaded_zone import wet_part, zone_of
 from tehl.operators.energy import FilmState, pressure_slopes
 from tehl.operators.heated_film import stress_unit
+from tehl.operators.reynolds import conductance
 from tehl.scaling import ScaledProblem
 from tehl.solver.level import Level
 from tehl.typing import Array
@@ -213,7 +214,7 @@ def oil_balance(level: Level, *, until: float = np.inf) -> float:
     through = weights @ passed[:, :-1]
     sides = np.zeros(passed.shape[1])
     for edge, inner in ((-1, -2), (0, 1))[: 1 if mirror else 2]:
-        eps = 0.5 * (film.eps_y[edge] + film.eps_y[inner])
+        eps = conductance(stencil, film.eps_y[edge], film.eps_y[inner])
         sides += stencil.cy * eps * (film.p[edge] - film.p[inner])
     gained = np.cumsum(sides[1:-1]) / (stencil.w0 - stencil.w2)
     change = np.abs(through[1:] - through[0] - gained) / through[0]

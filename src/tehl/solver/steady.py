@@ -215,6 +215,10 @@ def try_strategies(  # noqa: PLR0913 (variants of one solve)
     for number, strategy in enumerate(rungs):
         if number:
             monitor.message(f"falling back to {strategy.description}")
+        if strategy.wedge_order is not None and strategy.wedge_order != plan.order:
+            same = options.model_copy(update={"wedge_order": strategy.wedge_order})
+            plan = goal.fitting(planned(scaled, same))
+            grid = finest_grid(scaled, plan)
         hierarchy = Hierarchy.on(grid, scaled, plan, strategy.first_relaxation, load)
         run = FilmSolver(
             hierarchy, strategy, heights=heights, goal=goal, monitor=history, guess=start

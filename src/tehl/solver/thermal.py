@@ -71,7 +71,7 @@ class Coupling:
     ) -> None:
         self.scaled, is_coupled = scaled, scaled.problem.is_coupled
         self.film = HeatedFilm(scaled) if is_coupled else None
-        self.wedge_order = options.wedge_order
+        self.wedge_order = options.order
         motion = scaled.problem.motion
         counter_moving = min(motion.speed_1, motion.speed_2) <= 0.0
         # without counter-moving surfaces the backflow of the coarser grids is accurate enough

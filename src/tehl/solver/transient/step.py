@@ -75,7 +75,7 @@ class Stepper:
         self.solver, self.transient, self.settings = solver, transient, settings
         level = solver.finest
         self.time_step = transient.stride * level.grid.dx
-        self.steady, self.wedge = _steady_oil(level, solver.options.wedge_order)
+        self.steady, self.wedge = _steady_oil(level, solver.options.order)
         self.now, self.before = self.steady.copy(), self.steady.copy()
         self.predictor = Predictor(level.pressure, transient.stride)
         # all levels take the same time step, and so the same weight of rho H
@@ -89,7 +89,7 @@ class Stepper:
             self.newton = TouchingNewton(level, coarse_grid(solver.levels, COARSE_TOUCHING))
         step = (self.time_step, level.grid.dx, transient.stride)
         excess = solver.coupling.excess()
-        self.squeeze = Squeeze(self.steady, excess, step, solver.options.wedge_order)
+        self.squeeze = Squeeze(self.steady, excess, step, solver.options.order)
         self.setting = 0
         self.choose(0)
 
