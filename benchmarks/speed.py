@@ -13,8 +13,8 @@ from tests.reference import DOMAIN, moes_contact
 
 from benchmarks.measure import fft_unit
 from benchmarks.table import Table
-from tehl.options import Options
-from tehl.problem import ContactProblem
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
 from tehl.solver import solve
 
 ROOT = Path(__file__).parents[1]
@@ -23,7 +23,7 @@ REPEATS = {129: 15, 257: 9, 513: 7, 1025: 5}
 MEMORY_SCRIPT = """
 import json, sys
 from pathlib import Path
-from tehl.options import Options
+from tehl.contact.options import Options
 from tehl.solver import solve
 from tests.reference import DOMAIN, moes_contact
 

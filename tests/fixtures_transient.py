@@ -5,9 +5,9 @@ from functools import cache
 
 import numpy as np
 
-from tehl.problem import ContactProblem
-from tehl.solution import Cost, Estimate, Provenance, Status
-from tehl.transient_result import Frames, History, HistoryBars, Profiles, TransientResult
+from tehl.contact.problem import ContactProblem
+from tehl.result.solution import Cost, Estimate, Provenance, Status
+from tehl.result.transient import Frames, History, HistoryBars, Profiles, TransientResult
 from tests.fixtures_result import CASE, make_result
 
 STEPS = 60

@@ -2,11 +2,11 @@
 
 import pytest
 
-from tehl.cpu_time import expected_cycles, expected_seconds, seconds_range
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import Result
-from tehl.scaling import ScaledProblem
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.cpu_time import expected_cycles, expected_seconds, seconds_range
+from tehl.estimate.scaling import ScaledProblem
+from tehl.result.result import Result
 from tehl.solver.steady import solve
 from tests.cases import ball_tables, moes_problem
 from tests.reference import heated_contact, moes_contact

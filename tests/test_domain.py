@@ -4,10 +4,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tehl.domain import expected_points, recommended_domain
-from tehl.errors import InputError
-from tehl.options import Domain, Options, coarsenable, coarsenings
-from tehl.scaling import groups
+from tehl.base.errors import InputError
+from tehl.contact.options import Domain, Options, coarsenable, coarsenings
+from tehl.estimate.domain import expected_points, recommended_domain
+from tehl.estimate.scaling import groups
 from tests.reference import moes_contact
 
 

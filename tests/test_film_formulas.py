@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tehl.film_formulas import (
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.film_formulas import (
     asymptotes,
     expected_central_film,
     film_estimates,
@@ -14,8 +15,7 @@ from tehl.film_formulas import (
     moes_film_unit,
     regime,
 )
-from tehl.problem import ContactProblem
-from tehl.scaling import groups, scales
+from tehl.estimate.scaling import groups, scales
 from tests.cases import ball_tables, moes_problem
 
 # M, L; central film of Nijenbanning-Venner-Moes; central and minimum of Hamrock-Dowson and of

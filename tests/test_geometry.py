@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from tehl.geometry import Motion, Radii, reduced_radii, reduced_radius
+from tehl.contact.shape import Motion, Radii, reduced_radii, reduced_radius
 from tehl.roughness import Smooth
 
 

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tehl.grid import Grid, can_mirror, halved_grids
-from tehl.options import Domain
+from tehl.contact.options import Domain
+from tehl.estimate.grid import Grid, can_mirror, halved_grids
 from tests.reference import DOMAIN
 
 COARSENABLE = st.builds(lambda n, k: n * 2**k + 1, st.integers(16, 31), st.integers(1, 4))

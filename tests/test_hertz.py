@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tehl.hertz import elliptic_b_d, ellipticity, hertz_contact, load_of_pressure
+from tehl.contact.hertz import elliptic_b_d, ellipticity, hertz_contact, load_of_pressure
 
 # Ry/Rx, k, E, K, a_x, a_y, p_h, approach for Rx = w = E' = 1. Exact; evaluated to the digits shown
 # with independent software.

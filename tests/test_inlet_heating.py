@@ -4,7 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tehl.inlet_heating import (
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.inlet_heating import (
     gupta,
     inlet_factors,
     inlet_heating_factor,
@@ -12,7 +13,6 @@ from tehl.inlet_heating import (
     thermal_loading,
     wilson_sheu,
 )
-from tehl.problem import ContactProblem
 from tests.cases import ball_tables
 
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from tehl.grid import Grid
-from tehl.loaded_zone import RADIUS, is_inside, wet_part, zone_of, zone_part
-from tehl.options import Domain
+from tehl.contact.options import Domain
+from tehl.estimate.grid import Grid
+from tehl.operators.loaded_zone import RADIUS, is_inside, wet_part, zone_of, zone_part
 
 
 def disc(points: int, edge: float = 3.1) -> float:

@@ -5,10 +5,10 @@ import tomllib
 
 import pytest
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
+from tehl.base.named import read_tables
+from tehl.contact.materials import SOLIDS, Solid, material, reduced_modulus
 from tehl.lubricant.fluid import OILS
-from tehl.materials import SOLIDS, Solid, material, reduced_modulus
-from tehl.named import read_tables
 
 
 def test_the_reduced_modulus_is_twice_the_contact_modulus():

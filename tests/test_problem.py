@@ -11,11 +11,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from tehl.errors import InputError
-from tehl.heat import FilmEnergy, source_form
+from tehl.base.errors import InputError
+from tehl.contact.heat import FilmEnergy, source_form
+from tehl.contact.problem import ContactProblem, Surface
+from tehl.estimate.scaling import groups
 from tehl.lubricant import Barus
-from tehl.problem import ContactProblem, Surface
-from tehl.scaling import groups
 from tests.cases import ball_tables, moes_problem
 
 

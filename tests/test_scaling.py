@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tehl.problem import ContactProblem
-from tehl.scaling import groups, scales
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.scaling import groups, scales
 from tests.cases import ball_tables, moes_problem
 
 # M, L, lambda_bar, alpha_bar of the circle: closed forms, to the digits shown.

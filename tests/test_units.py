@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import BaseModel, ValidationError
 
-from tehl.units import (
+from tehl.base.units import (
     Angle,
     Conductivity,
     Density,

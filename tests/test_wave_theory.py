@@ -4,8 +4,8 @@ import math
 
 import pytest
 
+from tehl.estimate.wave_theory import FlatFilm, amplitude_reduction, bulk_modulus, nabla_of
 from tehl.roughness import Wave
-from tehl.wave_theory import FlatFilm, amplitude_reduction, bulk_modulus, nabla_of
 
 FILM = FlatFilm(film=2e-7, bulk_modulus=1e10, viscosity=1e3, reduced_modulus=2.2e11)
 WAVE = Wave(amplitude=1e-8, wavelength=5e-5)

@@ -6,7 +6,7 @@ from types import ModuleType, SimpleNamespace
 
 import pytest
 
-from tehl.result import ConvergenceError
+from tehl.result.result import ConvergenceError
 from tests.fixtures_result import make_result
 
 

@@ -18,8 +18,8 @@ from tehl import cli
 from tehl.cli.checkpoint import STEPS, Keeper
 from tehl.io.checkpoint import Fingerprint
 from tehl.plots import animation
-from tehl.result import ConvergenceError
-from tehl.solution import Hint, Status
+from tehl.result.result import ConvergenceError
+from tehl.result.solution import Hint, Status
 from tests.fixtures_result import make_result
 from tests.fixtures_transient import make_certified, make_transient
 

@@ -6,7 +6,7 @@ import pytest
 
 pytest.importorskip("tomlkit", reason="needs pip install 'tehl[explore]'")
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.explore.case_text import CaseText, template_case
 from tehl.io.case import case_from_tables
 from tehl.io.templates import template_text, templates

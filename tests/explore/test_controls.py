@@ -4,7 +4,7 @@ import pytest
 
 pytest.importorskip("tomlkit", reason="needs pip install 'tehl[explore]'")
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.explore.case_text import CaseText
 from tehl.explore.controls import Choice, Knob, groups
 from tehl.io.case import case_from_tables

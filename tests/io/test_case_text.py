@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.io.case import read_case
 from tehl.io.templates import template_text
 

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 import tehl
-from tehl.errors import FileFormatError
+from tehl.base.errors import FileFormatError
 from tehl.io.store import load_as
-from tehl.result import Result
-from tehl.solution import Status
-from tehl.transient_result import TransientResult
+from tehl.result.result import Result
+from tehl.result.solution import Status
+from tehl.result.transient import TransientResult
 from tests.fixtures_transient import make_certified, make_transient
 
 

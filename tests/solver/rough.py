@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from tehl.grid import Grid
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import scales
 from tehl.operators.heights import Heights
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import Result
-from tehl.scaling import scales
+from tehl.result.result import Result
 from tehl.solver import solve
 from tests.reference import moes_contact
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from tehl.options import Domain, Options
-from tehl.result import ConvergenceError
+from tehl.contact.options import Domain, Options
+from tehl.result.result import ConvergenceError
 from tehl.solver import solve
 from tests.cases import moes_problem
 

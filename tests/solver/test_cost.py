@@ -4,7 +4,7 @@ import time
 
 import pytest
 
-from tehl.options import Options
+from tehl.contact.options import Options
 from tehl.solver import cost, solve, with_work
 from tehl.solver.cost import fft_seconds
 from tests.cases import moes_problem

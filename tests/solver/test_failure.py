@@ -5,8 +5,8 @@ import warnings
 import numpy as np
 import pytest
 
-from tehl.options import Domain, Options
-from tehl.result import ConvergenceError
+from tehl.contact.options import Domain, Options
+from tehl.result.result import ConvergenceError
 from tehl.solver import solve
 from tests.reference import DOMAIN, moes_contact
 

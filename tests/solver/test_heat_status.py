@@ -2,10 +2,10 @@
 
 import pytest
 
-import tehl.solver.verdict as judge
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import ConvergenceError, Result
+import tehl.solver.judging.verdict as judge
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
+from tehl.result.result import ConvergenceError, Result
 from tehl.solver import solve
 from tests.reference import heated_contact
 

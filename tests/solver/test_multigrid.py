@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tehl.options import Options
+from tehl.contact.options import Options
 from tehl.solver import solve
 from tests.reference import DOMAIN, moes_contact
 from tests.solver.runs import film_of, multigrid, tight

@@ -8,18 +8,18 @@ from types import SimpleNamespace
 import pytest
 from benchmarks.random_contacts import contact
 
-from tehl.domain import planned
-from tehl.errors import InputError
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import ConvergenceError
-from tehl.scaling import ScaledProblem
-from tehl.solution import Status
+from tehl.base.errors import InputError
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.domain import planned
+from tehl.estimate.scaling import ScaledProblem
+from tehl.result.result import ConvergenceError
+from tehl.result.solution import Status
 from tehl.solver import solve, steady
-from tehl.solver.diagnosis import error_setting
-from tehl.solver.film_solver import FilmSolver
+from tehl.solver.cycle.film_solver import FilmSolver
+from tehl.solver.judging.diagnosis import error_setting
+from tehl.solver.judging.remedy import working_hint
 from tehl.solver.monitor import SILENT
-from tehl.solver.remedy import working_hint
 from tests.cases import ball_tables
 from tests.solver.test_status import failure, moes
 

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from tehl.cli.text import as_text
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
 from tehl.operators.flow import flow_table
 from tehl.operators.load import TARGET
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import Result
+from tehl.result.result import Result
 from tehl.solver import solve
 from tests.cases import ball_tables
 from tests.reference import moes_contact

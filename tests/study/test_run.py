@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from tehl import solver
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.io.case import case_from_tables
-from tehl.solution import Cost, Hint
+from tehl.result.solution import Cost, Hint
 from tehl.studies import Case, Row, Store, engines, run, runner, study, table
 from tehl.studies.case import flat, retried, row_of, unit_of
 from tehl.studies.tables import is_number

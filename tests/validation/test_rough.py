@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tehl.operators.flow import flow_table
-from tehl.result import ConvergenceError, Result
+from tehl.result.result import ConvergenceError, Result
 from tehl.solver import solve
 from tests.reference import moes_contact
 from tests.solver.rough import rough_film

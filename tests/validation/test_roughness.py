@@ -9,9 +9,9 @@ from functools import cache
 
 import pytest
 
-from tehl.options import Options
+from tehl.contact.options import Options
 from tehl.post.waves import WaveResponse, wave_responses
-from tehl.result import Result
+from tehl.result.result import Result
 from tehl.solver import solve
 from tests.reference import CLOSE, moes_contact, wavy_contact
 

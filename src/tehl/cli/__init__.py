@@ -76,7 +76,7 @@ def _common(
     version: bool = typer.Option(False, "--version", help="Print the version and exit."),
 ) -> None:
     if version:
-        from tehl.version import __version__
+        from tehl.base.version import __version__
 
         typer.echo(f"tehl {__version__}")
         raise typer.Exit

@@ -10,8 +10,8 @@ from tehl.cli.arguments import AsJson
 from tehl.cli.ending import ENVIRONMENT
 
 if TYPE_CHECKING:
-    from tehl.problem import ContactProblem
-    from tehl.result import Result
+    from tehl.contact.problem import ContactProblem
+    from tehl.result.result import Result
 
 PACKAGES = (
     *("tehl", "numpy", "scipy", "numba", "llvmlite", "pydantic", "typer", "rich", "xarray"),
@@ -102,13 +102,13 @@ def _warm() -> None:
 
 
 def _problem() -> "ContactProblem":
-    from tehl.problem import ContactProblem
+    from tehl.contact.problem import ContactProblem
 
     return ContactProblem.model_validate(_CASE)
 
 
 def _solved() -> "Result":
-    from tehl.options import Domain, Options
+    from tehl.contact.options import Domain, Options
     from tehl.solver import solve
 
     domain = Domain(x=(-4.5, 1.5), y=(-3.0, 3.0))
@@ -149,7 +149,7 @@ def _storage() -> Check:
     import numpy as np
 
     from tehl.io.store import load_as, save
-    from tehl.result import Result
+    from tehl.result.result import Result
 
     result = _solved()
     with tempfile.TemporaryDirectory() as folder:

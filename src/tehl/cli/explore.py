@@ -42,7 +42,7 @@ def explore(
 def _check_extra() -> None:
     from importlib.util import find_spec
 
-    from tehl.errors import InputError
+    from tehl.base.errors import InputError
 
     missing = [name for name in ("nicegui", "tomlkit") if find_spec(name) is None]
     if missing:

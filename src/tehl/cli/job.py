@@ -6,22 +6,22 @@ from pathlib import Path
 
 import typer
 
+from tehl.base.atomic import check_folder, check_writable, remove_with_parts
+from tehl.base.errors import InputError
 from tehl.cli.lines import show
 from tehl.cli.progress import busy, progress
 from tehl.cli.reference_runs import REFERENCES, Comparisons, compare, smooth_file
 from tehl.cli.text import as_text, failure_text
-from tehl.domain import planned
-from tehl.errors import InputError
-from tehl.io.atomic import check_folder, check_writable, remove_with_parts
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.domain import planned
+from tehl.estimate.memory import check_memory
+from tehl.estimate.scaling import ScaledProblem
 from tehl.io.case import read_case_and_options
 from tehl.io.checkpoint import checkpoint_of, fingerprint
 from tehl.io.store import save
-from tehl.memory import check_memory
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import ConvergenceError, Result
-from tehl.scaling import ScaledProblem
-from tehl.transient_result import TransientResult
+from tehl.result.result import ConvergenceError, Result
+from tehl.result.transient import TransientResult
 
 COMPARED_TO = 1e-4
 """Tolerance of runs that are compared: small differences need tightly converged films."""

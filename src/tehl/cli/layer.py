@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Annotated
 
 from typer import Exit, Option, echo
 
+from tehl.base.errors import InputError
 from tehl.cli.arguments import AsJson, CaseFile, Overrides, Quiet
 from tehl.cli.ending import NOT_CONVERGED
 from tehl.cli.lines import show
-from tehl.errors import InputError
 
 if TYPE_CHECKING:
+    from tehl.contact.problem import ContactProblem
     from tehl.post.layer import LayerDecay
-    from tehl.problem import ContactProblem
 
 COLUMNS = ("time_s", "film_m", "film_by_formula_m")
 """Columns of the table: time, and film with F by the solved pressure and by the closed form."""
@@ -38,12 +38,12 @@ def layer(  # noqa: PLR0913 (the options of the command)
     """Show how a starved film decays over time by side flow."""
     import numpy as np
 
+    from tehl.base.atomic import check_writable
+    from tehl.base.units import Duration, quantity
     from tehl.cli.progress import progress
-    from tehl.io.atomic import check_writable
     from tehl.io.case import read_case_and_options
     from tehl.post.layer import layer_decay
-    from tehl.result import ConvergenceError
-    from tehl.units import Duration, quantity
+    from tehl.result.result import ConvergenceError
 
     try:
         end = quantity(Duration).parse(time)
@@ -91,7 +91,7 @@ def _single(problem: "ContactProblem", case: Path) -> "ContactProblem":
 
 
 def _write(path: Path, rows: Rows) -> None:
-    from tehl.io.atomic import replacing
+    from tehl.base.atomic import replacing
 
     with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
         csv.writer(file).writerows([COLUMNS, *rows])

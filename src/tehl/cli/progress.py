@@ -20,12 +20,12 @@ from rich.table import Column, Table
 from rich.text import Text
 
 if TYPE_CHECKING:
+    from tehl.contact.problem import ContactProblem
+    from tehl.estimate.scaling import Scales
     from tehl.kernels.warmup import Progress as CompileProgress
-    from tehl.problem import ContactProblem
-    from tehl.scaling import Scales
-    from tehl.solution import CycleReport
+    from tehl.result.solution import CycleReport
+    from tehl.result.transient import StepReport
     from tehl.studies import Case, Row, StudyMonitor
-    from tehl.transient_result import StepReport
 
 Columns = dict[str, tuple[int, str]]
 """By heading: the width, and the words, a template for a report and other numbers."""
@@ -69,7 +69,7 @@ SHOWN = 20
 @contextmanager
 def progress(problem: "ContactProblem", *, quiet: bool) -> Iterator[Any]:
     """Yield the monitor of a solve: a row per multigrid cycle, of a transient run per time step."""
-    from tehl.scaling import scales
+    from tehl.estimate.scaling import scales
     from tehl.solver.monitor import SILENT
 
     if quiet:

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from typer import Context, Option, echo
 
+from tehl.base.errors import InputError, TehlError
 from tehl.cli.arguments import Stored
-from tehl.errors import InputError, TehlError
 
 if TYPE_CHECKING:
     from tehl.plots import Pictures
-    from tehl.result import Result
-    from tehl.transient_result import TransientResult
+    from tehl.result.result import Result
+    from tehl.result.transient import TransientResult
 
 Format = StrEnum("Format", ["csv", "vtk", "npz", "mat"])
 Image = StrEnum("Image", ["png", "pdf", "svg"])
@@ -86,7 +86,7 @@ def plot(  # noqa: PLR0913 (the options of the command)
 
 def _destination(stored: Path, output: Path | None) -> tuple[Path | None, Path]:
     """Return file, if the output is one, and folder of the pictures, both checked."""
-    from tehl.io.atomic import check_folder, check_writable
+    from tehl.base.atomic import check_folder, check_writable
 
     folder = stored.with_name(f"{stored.stem}_plots") if output is None else output
     if output is not None and output.suffix[1:].lower() in tuple(Image) and not output.is_dir():
@@ -127,10 +127,10 @@ def animate(
 
     It shows the frames of the result (transient.frames of its case).
     """
-    from tehl.io.atomic import check_writable
+    from tehl.base.atomic import check_writable
     from tehl.io.store import load_as
     from tehl.plots import animation
-    from tehl.transient_result import TransientResult
+    from tehl.result.transient import TransientResult
 
     target = stored.with_suffix(".gif") if output is None else output
     animation.check_format(target)
@@ -160,7 +160,7 @@ def export(
     VTK: of a steady result the ending .vtr gives the plane of the film, .vts the film as a volume
     with its temperatures; of a transient result .pvd gives all frames, one .vtr file each.
     """
-    from tehl.io.atomic import check_writable
+    from tehl.base.atomic import check_writable
     from tehl.io.export import ending_of
     from tehl.io.export import export as write
     from tehl.io.store import load
@@ -182,8 +182,8 @@ def report(
 
     It has numbers, pictures, formulas, inputs, groups, errors and convergence.
     """
+    from tehl.base.atomic import check_writable, replacing
     from tehl.cli.reference_runs import smooth_beside
-    from tehl.io.atomic import check_writable, replacing
     from tehl.io.store import load, load_summary
     from tehl.io.summary import from_block
     from tehl.post.micro_film import RoughnessEffect

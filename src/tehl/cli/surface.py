@@ -57,7 +57,7 @@ def surface(  # noqa: PLR0913, PLR0917 (the options of the command)
     as_json: AsJson = False,
 ) -> None:
     """Show a measured surface: size, unit, roughness, spectrum, and what a grid resolves of it."""
-    from tehl.io.atomic import check_writable, replacing
+    from tehl.base.atomic import check_writable, replacing
     from tehl.roughness.preview import preview
 
     if output is not None:
@@ -87,7 +87,7 @@ def _pair(text: str | None) -> list[str] | str | None:
 def _map(file: Path, keys: dict[str, Any], overrides: list[str]) -> "Map":
     from pydantic import ValidationError
 
-    from tehl.errors import InputError
+    from tehl.base.errors import InputError
     from tehl.io.case import change
     from tehl.io.mistakes import describe
     from tehl.roughness import Map
@@ -102,9 +102,9 @@ def _map(file: Path, keys: dict[str, Any], overrides: list[str]) -> "Map":
 
 
 def _mesh(contact: Path | None, half_width: str | None, points: int | None) -> "Mesh | None":
-    from tehl.errors import InputError
+    from tehl.base.errors import InputError
+    from tehl.base.units import Length, quantity
     from tehl.roughness.preview import Mesh
-    from tehl.units import Length, quantity
 
     if contact is not None:
         if half_width is not None:

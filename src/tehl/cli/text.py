@@ -9,9 +9,9 @@ from tehl.post.heat import work_error
 from tehl.post.traction import LARGEST_CREDIBLE
 from tehl.report.readable import UNTITLED, length_unit
 from tehl.report.rendering import render
-from tehl.result import Result
-from tehl.solution import Status
-from tehl.transient_result import TransientResult
+from tehl.result.result import Result
+from tehl.result.solution import Status
+from tehl.result.transient import TransientResult
 
 _UNITS = {
     "pressure_max": (1e-9, "GPa"),

@@ -10,14 +10,14 @@ from multiprocessing.connection import Connection
 from threading import Thread
 from typing import Any
 
-from tehl.errors import TehlError
+from tehl.base.errors import TehlError
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
 from tehl.explore.shown import Shown, shown
 from tehl.io.case import case_from_tables
-from tehl.options import Options
-from tehl.problem import ContactProblem
 from tehl.report.explain import Explanation, explain
-from tehl.result import ConvergenceError, Result
-from tehl.solution import CycleReport
+from tehl.result.result import ConvergenceError, Result
+from tehl.result.solution import CycleReport
 from tehl.studies.worker import end_with_parent
 
 QUICK, MIDDLE = 65, 129
@@ -269,7 +269,7 @@ def _seconds(time: float) -> str:
 
 def _groups(found: Explanation) -> tuple[tuple[str, str], ...]:
     """Return load, Hertz contact, groups and regime in words."""
-    from tehl.film_formulas import regime  # noqa: PLC0415
+    from tehl.estimate.film_formulas import regime  # noqa: PLC0415
 
     problem, groups = found.scaled.problem, found.scaled.groups
     hertz = problem.hertz

@@ -14,7 +14,7 @@ from urllib.parse import parse_qs
 from nicegui import app, background_tasks, ui
 from starlette.responses import HTMLResponse
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.explore.case_text import LONGEST, CaseText
 from tehl.explore.files import LARGEST, Files, named_files
 

@@ -9,20 +9,20 @@ from typing import Any
 
 import numpy as np
 
-from tehl.errors import InputError, TehlError
+from tehl.base.errors import InputError, TehlError
+from tehl.base.typing import Array, SingleArray
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
 from tehl.explore.jobs import Cycles, Desk, Note, steady
 from tehl.explore.numbers import Number, numbers
 from tehl.explore.shown import Maps, maps_of
 from tehl.io.case import case_from_tables, changed
-from tehl.options import Options
 from tehl.plots.frame import window_part
-from tehl.problem import ContactProblem
 from tehl.report.explain import explain
-from tehl.result import Result
+from tehl.result.result import Result
+from tehl.result.transient import StepReport, TransientResult
 from tehl.roughness import Map
 from tehl.roughness.preview import preview, view
-from tehl.transient_result import StepReport, TransientResult
-from tehl.typing import Array, SingleArray
 
 _PIXELS = 220
 """Points of a preview along an axis."""

@@ -10,7 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, create_model
 
-from tehl.fields import (
+from tehl.base.typing import Array
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
+from tehl.io import tables
+from tehl.io.summary import summary
+from tehl.io.tables import Column
+from tehl.result.fields import (
     Fields,
     FilmAsperities,
     FilmContact,
@@ -20,15 +26,9 @@ from tehl.fields import (
     PassHistory,
     SurfaceHeights,
 )
-from tehl.io import tables
-from tehl.io.summary import summary
-from tehl.io.tables import Column
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import Result
-from tehl.solution import CycleReport
-from tehl.transient_result import Frames, History, HistoryBars, Profiles, TransientResult
-from tehl.typing import Array
+from tehl.result.result import Result
+from tehl.result.solution import CycleReport
+from tehl.result.transient import Frames, History, HistoryBars, Profiles, TransientResult
 
 FORMAT_VERSION = 4
 STEADY, TRANSIENT = KINDS = ("steady", "transient")

@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tehl.errors import InputError
-from tehl.io.atomic import check_writable, replacing
+from tehl.base.atomic import check_writable, replacing
+from tehl.base.errors import InputError
 from tehl.io.content import Variable, variables
 from tehl.io.summary import summary
 from tehl.io.tables import COORDINATES
 from tehl.io.vtk import collection, rectilinear_grid, structured_grid
-from tehl.result import Result
-from tehl.transient_result import TransientResult
+from tehl.result.result import Result
+from tehl.result.transient import TransientResult
 
 _ENDINGS = {".csv": "csv", ".npz": "npz", ".mat": "mat"}
 _FORMATS = {

@@ -10,10 +10,10 @@ from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
-from tehl.errors import InputError
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.units import Quantity, percentage
+from tehl.base.errors import InputError
+from tehl.base.units import Quantity, percentage
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
 
 NUMERICS = "numerics"
 """Table of a case that holds its options."""

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from tehl.errors import FileFormatError, InputError
-from tehl.io.atomic import replacing, shortened
+from tehl.base.atomic import replacing, shortened
+from tehl.base.errors import FileFormatError, InputError
 from tehl.io.content import (
     FORMAT_VERSION,
     KINDS,
@@ -22,8 +22,8 @@ from tehl.io.content import (
 )
 from tehl.io.summary import plain
 from tehl.io.tables import COORDINATES
-from tehl.result import Result
-from tehl.transient_result import TransientResult
+from tehl.result.result import Result
+from tehl.result.transient import TransientResult
 
 if TYPE_CHECKING:
     import h5netcdf

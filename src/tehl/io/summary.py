@@ -9,18 +9,18 @@ from typing import Any, TypeVar
 import numpy as np
 from pydantic import TypeAdapter
 
-from tehl.fields import FilmHeat
+from tehl.base.typing import Array
+from tehl.post.boundary_contact import Touching
 from tehl.post.heat import Temperature, work_error
-from tehl.post.load_sharing import LoadSharing
 from tehl.post.roughness import RoughFilm
 from tehl.post.starvation import Starvation
-from tehl.post.touching import Touching
+from tehl.post.summits import LoadSharing
 from tehl.post.traction import Traction
 from tehl.post.waves.response import WaveResponse
-from tehl.result import Result
-from tehl.solution import ErrorEstimate, Estimate
-from tehl.transient_result import HistoryBars, TransientResult
-from tehl.typing import Array
+from tehl.result.fields import FilmHeat
+from tehl.result.result import Result
+from tehl.result.solution import ErrorEstimate, Estimate
+from tehl.result.transient import HistoryBars, TransientResult
 
 Block = dict[str, Any]
 Part = TypeVar("Part")

@@ -12,10 +12,10 @@ is the symmetry line y = 0; otherwise it is an edge with p = 0. Fields are those
 
 from typing import NamedTuple
 
+from tehl.base.typing import Array, FlagArray, IntArray
 from tehl.kernels.compiled import helper, kernel, summing_helper
 from tehl.kernels.properties import Film
 from tehl.kernels.raw import raw
-from tehl.typing import Array, FlagArray, IntArray
 
 STEADILY, IN_TIME = 1, 2
 

@@ -16,15 +16,15 @@ from pydantic import (
     field_validator,
 )
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
+from tehl.base.named import find_table, known_names, read_tables
+from tehl.base.typing import Array
+from tehl.base.units import Conductivity, HeatCapacity, PressureCoefficient, Table, Temperature
 from tehl.lubricant.density import DensityLaw
 from tehl.lubricant.law import Law
 from tehl.lubricant.shear import Newtonian, ShearLaw
 from tehl.lubricant.viscosity import ViscosityLaw
 from tehl.lubricant.walther import Walther
-from tehl.named import find_table, known_names, read_tables
-from tehl.typing import Array
-from tehl.units import Conductivity, HeatCapacity, PressureCoefficient, Table, Temperature
 
 
 class ConductivityOfPressure(Law):

@@ -5,12 +5,12 @@
 
 import numpy as np
 
-from tehl.grid import Grid
+from tehl.base.typing import Array
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import Groups
 from tehl.kernels.properties import Film
 from tehl.kernels.reynolds import IN_TIME, STEADILY, Stencil
 from tehl.operators.influence import Influence
-from tehl.scaling import Groups
-from tehl.typing import Array
 
 REACH = 8
 """Nodes along a line in the influence of one node, as the line relaxation uses it."""

@@ -16,8 +16,8 @@ from matplotlib.image import AxesImage
 from numpy.typing import NDArray
 from PIL import Image
 
-from tehl.errors import InputError
-from tehl.io.atomic import replacing
+from tehl.base.atomic import replacing
+from tehl.base.errors import InputError
 from tehl.plots.frame import (
     ALONG_X,
     MICRO,
@@ -28,7 +28,7 @@ from tehl.plots.frame import (
     window_places,
 )
 from tehl.plots.transient import CentreLines, time_unit
-from tehl.transient_result import TransientResult
+from tehl.result.transient import TransientResult
 
 FORMATS = (".gif", ".mp4", ".html")
 MOST = 200

@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator, NullFormatter
 
 from tehl.plots.frame import BLUE, GREEN, ORANGE, PLAIN, figure_of, single
-from tehl.result import Result
+from tehl.result.result import Result
 
 _CURVES = (
     ("residual", "residual, scaled by the diagonal", "o-", BLUE),

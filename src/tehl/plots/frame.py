@@ -14,10 +14,10 @@ from matplotlib.patches import Ellipse
 from matplotlib.patheffects import AbstractPathEffect, withStroke
 from matplotlib.ticker import MaxNLocator
 
+from tehl.base.typing import Array
 from tehl.post.film import no_film
-from tehl.result import Result
-from tehl.transient_result import TransientResult
-from tehl.typing import Array
+from tehl.result.result import Result
+from tehl.result.transient import TransientResult
 
 MICRO, GIGA = 1e6, 1e-9
 WINDOW = ((-2.2, 1.6), (-1.7, 1.7))

@@ -16,9 +16,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from tehl.base.typing import Array
 from tehl.plots.frame import MICRO, figure_of, map_axes, window_part
-from tehl.result import Result
-from tehl.typing import Array
+from tehl.result.result import Result
 
 Light = Literal["white", "dichromatic", "monochromatic"]
 _PIXELS = 900

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.plots.frame import (
     ALONG_X,
     FILM,
@@ -31,7 +31,7 @@ from tehl.plots.temperature import Line, rises
 from tehl.post.film import Profile, hertz_pressure, profile_x, profile_y
 from tehl.post.micro_film import micro_film
 from tehl.post.roughness import film_histogram, rough_film
-from tehl.result import Result
+from tehl.result.result import Result
 
 _REACH = 1.25
 """Half-widths of the centre line between rough surfaces, on each side."""

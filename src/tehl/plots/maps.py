@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator, NullFormatter, NullLocator
 
-from tehl.errors import InputError
-from tehl.fields import SurfaceHeights
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
 from tehl.plots.frame import (
     GIGA,
     MAP,
@@ -33,8 +33,8 @@ from tehl.plots.frame import (
 )
 from tehl.post.micro_film import micro_film
 from tehl.post.roughness import in_contact, rough_film
-from tehl.result import Result
-from tehl.typing import Array
+from tehl.result.fields import SurfaceHeights
+from tehl.result.result import Result
 
 FILTERED = 0.75
 """Half-widths within which filtered ripples are shown: the filter smears the rim of the contact."""

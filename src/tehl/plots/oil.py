@@ -19,7 +19,7 @@ from tehl.plots.frame import (
     window_places,
 )
 from tehl.post.starvation import meniscus, oil_flux
-from tehl.result import Result
+from tehl.result.result import Result
 
 NANO = 1e9
 _STREAMS: dict[str, Any] = {"color": "0.25", "linewidth": 0.5, "arrowsize": 0.6, "density": 0.9}

@@ -14,8 +14,8 @@ from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from tehl.errors import InputError
-from tehl.fields import FilmHeat
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
 from tehl.plots.frame import (
     ALONG_X,
     BLUE,
@@ -43,8 +43,8 @@ from tehl.plots.frame import (
     window_places,
 )
 from tehl.post.heat import Temperature
-from tehl.result import Result
-from tehl.typing import Array
+from tehl.result.fields import FilmHeat
+from tehl.result.result import Result
 
 Line = tuple[int, slice] | tuple[slice, int]
 """Index of a grid line in the fields."""

@@ -7,10 +7,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
 from tehl.plots.frame import BLUE, GIGA, ORANGE, PLAIN, empty, figure_of
-from tehl.result import Result
-from tehl.typing import Array
+from tehl.result.result import Result
 
 _STYLES = {True: ("o-", ORANGE, "thermal"), False: ("s--", BLUE, "isothermal")}
 _FADING = (1.0, 0.55, 0.3)

@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from tehl.base.typing import Array
 from tehl.plots.frame import (
     ALONG_X,
     FILM,
@@ -22,8 +23,7 @@ from tehl.plots.frame import (
     span_part,
 )
 from tehl.post.transient import envelope, passing_features
-from tehl.transient_result import HistoryBars, TransientResult
-from tehl.typing import Array
+from tehl.result.transient import HistoryBars, TransientResult
 
 _MOMENTS = 4
 """Moments in one picture."""

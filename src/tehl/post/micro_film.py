@@ -6,16 +6,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
+from tehl.contact.problem import ContactProblem
 from tehl.post.roughness import in_contact, middle_film, square
-from tehl.problem import ContactProblem
 from tehl.roughness import Smooth
 from tehl.roughness.prepare import gaussian_mean
 from tehl.roughness.statistics import statistics
-from tehl.typing import Array
 
 if TYPE_CHECKING:
-    from tehl.result import Result
+    from tehl.result.result import Result
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)

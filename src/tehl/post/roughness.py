@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl.film_formulas import Lubrication, likely_film, lubrication, lubrication_by_share
+from tehl.base.typing import Array, BoolArray
+from tehl.estimate.film_formulas import Lubrication, likely_film, lubrication, lubrication_by_share
+from tehl.post.boundary_contact import touching
 from tehl.post.film import no_film
-from tehl.post.load_sharing import load_sharing
-from tehl.post.touching import touching
+from tehl.post.summits import load_sharing
 from tehl.post.waves.response import REACH, WaveResponse, wave_notes, wave_responses
+from tehl.result.solution import Solution
 from tehl.roughness.resolution import Resolution
-from tehl.solution import Solution
-from tehl.typing import Array, BoolArray
 
 QUANTILES = (0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
 """Parts of the contact whose films are reported."""

@@ -3,12 +3,12 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from tehl.errors import InputError
-from tehl.inlet_heating import InletFactor, inlet_factors
-from tehl.problem import ContactProblem
+from tehl.base.errors import InputError
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.inlet_heating import InletFactor, inlet_factors
 
 if TYPE_CHECKING:
-    from tehl.result import Result
+    from tehl.result.result import Result
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

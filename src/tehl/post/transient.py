@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tehl.duration import Part, parts_of
-from tehl.errors import InputError
-from tehl.fields import Fields, FilmSummary, SurfaceHeights
-from tehl.grid import Grid
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
+from tehl.contact.options import Domain
+from tehl.estimate.duration import Part, parts_of
+from tehl.estimate.grid import Grid
 from tehl.operators.heights import MovingHeights
-from tehl.options import Domain
 from tehl.post.micro_film import smooth_reference
-from tehl.typing import Array
+from tehl.result.fields import Fields, FilmSummary, SurfaceHeights
 
 if TYPE_CHECKING:
-    from tehl.result import Result
-    from tehl.transient_result import TransientResult
+    from tehl.result.result import Result
+    from tehl.result.transient import TransientResult
 
 _INSIDE = 0.8
 """Half-widths of y = 0 on each side in which the largest changes are searched."""

@@ -5,10 +5,10 @@ import io
 from html import escape
 from typing import Any
 
-from tehl.headline import headline
 from tehl.plots import film_map, history
-from tehl.result import Result
-from tehl.transient_result import TransientResult
+from tehl.report.headline import headline
+from tehl.result.result import Result
+from tehl.result.transient import TransientResult
 
 _DPI = 72
 

@@ -7,8 +7,9 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from tehl.errors import InputError
-from tehl.film_formulas import film_estimates
+from tehl.base.errors import InputError
+from tehl.estimate.film_formulas import film_estimates
+from tehl.estimate.wave_theory import waves_of
 from tehl.io.summary import estimates
 from tehl.io.tables import DEFINITIONS
 from tehl.plots import Pictures, pictures_of
@@ -21,10 +22,9 @@ from tehl.post.transient import largest_change, passing_features
 from tehl.post.waves import PassingWave, passing_wave
 from tehl.report.readable import UNTITLED, input_rows
 from tehl.report.rendering import UNITS, render
-from tehl.result import Result
-from tehl.solution import Estimate
-from tehl.transient_result import TransientResult
-from tehl.wave_theory import waves_of
+from tehl.result.result import Result
+from tehl.result.solution import Estimate
+from tehl.result.transient import TransientResult
 
 CAPTIONS = {
     "history": "Film, pressure and traction over time.",

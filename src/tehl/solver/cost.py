@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from tehl.result import Result
-from tehl.solution import NO_COST, Cost
+from tehl.result.result import Result
+from tehl.result.solution import NO_COST, Cost
 
 ENOUGH, LONGEST = 0.06, 0.3
 """CPU seconds after which no further transform is timed, a few ticks of any CPU clock, and most

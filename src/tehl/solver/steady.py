@@ -9,37 +9,37 @@ from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np
 
-from tehl.domain import domain_of, planned, settled
-from tehl.errors import InputError
-from tehl.fields import SurfaceHeights
-from tehl.grid import Grid, can_mirror
+from tehl.base.errors import InputError
+from tehl.base.units import percentage
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.domain import domain_of, planned, settled
+from tehl.estimate.grid import Grid, can_mirror
+from tehl.estimate.memory import check_memory
+from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.starvation import Flooded, check_supply
 from tehl.kernels.warmup import warm_up
-from tehl.memory import check_memory
 from tehl.operators.heights import heights_of
 from tehl.operators.resolution import resolution_of
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import ConvergenceError, Result
-from tehl.scaling import ScaledProblem
-from tehl.solution import Cost, CycleReport, Provenance, Status, Supplied
-from tehl.solver.continuation import TouchingError
+from tehl.result.fields import SurfaceHeights
+from tehl.result.result import ConvergenceError, Result
+from tehl.result.solution import Cost, CycleReport, Provenance, Status, Supplied
 from tehl.solver.cost import Clock
-from tehl.solver.diagnosis import diverged
-from tehl.solver.extrapolation import Outputs, extrapolated, outputs_of
-from tehl.solver.film_solver import FilmSolver
-from tehl.solver.film_summary import central_value, film_summary
-from tehl.solver.goal import Goal
-from tehl.solver.hierarchy import Hierarchy
-from tehl.solver.ladder import ladder
-from tehl.solver.level import Level
-from tehl.solver.monitor import SILENT, Deadline, Monitor, Recorder, TimeIsOverError
-from tehl.solver.outputs import (
+from tehl.solver.cycle.continuation import TouchingError
+from tehl.solver.cycle.film_solver import FilmSolver
+from tehl.solver.cycle.hierarchy import Hierarchy
+from tehl.solver.cycle.ladder import ladder
+from tehl.solver.cycle.level import Level
+from tehl.solver.judging.diagnosis import diverged
+from tehl.solver.judging.extrapolation import Outputs, extrapolated, outputs_of
+from tehl.solver.judging.film_summary import central_value, film_summary
+from tehl.solver.judging.goal import Goal
+from tehl.solver.judging.outputs import (
     oil_balance,
 )
-from tehl.solver.remedy import LEAST_SECONDS, Reached, solved_on_other_nodes, working_hint
-from tehl.solver.verdict import TOO_COARSE, touching, verdict
-from tehl.starvation import Flooded, check_supply
-from tehl.units import percentage
+from tehl.solver.judging.remedy import LEAST_SECONDS, Reached, solved_on_other_nodes, working_hint
+from tehl.solver.judging.verdict import TOO_COARSE, touching, verdict
+from tehl.solver.monitor import SILENT, Deadline, Monitor, Recorder, TimeIsOverError
 
 NO_MEMORY = "memory"
 GRID_CAUSES = (

@@ -11,12 +11,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field, StrictBool, ValidationError
 
-from tehl.errors import InputError
-from tehl.io.atomic import shortened
+from tehl.base.atomic import shortened
+from tehl.base.errors import InputError
+from tehl.base.units import Table
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
 from tehl.io.case import change, toml_tables
 from tehl.io.mistakes import describe, short
-from tehl.options import Options
-from tehl.problem import ContactProblem
 from tehl.studies.axes import (
     Axis,
     Sample,
@@ -31,7 +32,6 @@ from tehl.studies.plan import Plan, Study, study_of
 from tehl.studies.runner import run
 from tehl.studies.store import Keep, Store
 from tehl.studies.tables import table
-from tehl.units import Table
 
 if TYPE_CHECKING:
     import pandas as pd

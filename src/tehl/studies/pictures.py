@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from tehl.errors import InputError
-from tehl.io.atomic import replacing
+from tehl.base.atomic import replacing
+from tehl.base.errors import InputError
+from tehl.base.units import Table
 from tehl.studies.tables import missing_column
-from tehl.units import Table
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -8,7 +8,7 @@ from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.kernels.cache import is_cold
 from tehl.studies.case import Case, Row, retried
 from tehl.studies.engines import Engine, WorkerDied, engine_of

@@ -5,9 +5,9 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tehl.errors import InputError
-from tehl.io.atomic import replacing
-from tehl.units import Quantity
+from tehl.base.atomic import replacing
+from tehl.base.errors import InputError
+from tehl.base.units import Quantity
 
 if TYPE_CHECKING:
     import pandas as pd

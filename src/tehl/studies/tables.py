@@ -5,7 +5,7 @@ import re
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
-from tehl.solution import settings_text
+from tehl.result.solution import settings_text
 from tehl.studies.case import Case, Scalar, unit_of
 from tehl.studies.store import Store
 

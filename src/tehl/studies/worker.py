@@ -12,10 +12,10 @@ from pathlib import Path
 from threading import Thread
 from typing import Any
 
-from tehl.errors import InputError, TehlError
+from tehl.base.errors import InputError, TehlError
 from tehl.io.store import load_as
-from tehl.result import ConvergenceError, Result
-from tehl.solution import Cost
+from tehl.result.result import ConvergenceError, Result
+from tehl.result.solution import Cost
 from tehl.studies.case import Case, Row, row_of
 
 Files = tuple[Path | None, Path | None]

@@ -1,4 +1,4 @@
-"""Amplitude of a wave that passes a place, fitted in time, beside :mod:`tehl.wave_theory`."""
+"""Amplitude of a wave that passes a place, fitted in time, beside `tehl.estimate.wave_theory`."""
 
 import math
 from dataclasses import dataclass
@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
+from tehl.estimate.wave_theory import amplitude_reduction, nabla_of, waves_of
 from tehl.post.waves.response import Ripple, ripple
 from tehl.roughness import WaveVector
-from tehl.typing import Array
-from tehl.wave_theory import amplitude_reduction, nabla_of, waves_of
 
 if TYPE_CHECKING:
-    from tehl.transient_result import TransientResult
+    from tehl.result.transient import TransientResult
 
 MOST_PERIODS = 4
 """Periods at the end of a run over which a passing wave is fitted."""

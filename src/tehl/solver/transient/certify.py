@@ -10,12 +10,14 @@ from functools import partial
 
 import numpy as np
 
-from tehl.errors import InputError
-from tehl.options import Options, can_be_halved, check_certifiable
-from tehl.problem import ContactProblem
-from tehl.result import ConvergenceError
-from tehl.solution import Estimate
-from tehl.solver.certify import (
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
+from tehl.contact.options import Options, can_be_halved, check_certifiable
+from tehl.contact.problem import ContactProblem
+from tehl.result.result import ConvergenceError
+from tehl.result.solution import Estimate
+from tehl.result.transient import HistoryBars, TransientResult
+from tehl.solver.judging.certify import (
     ORDERS,
     RESIDUE,
     WITHOUT_FIRST,
@@ -31,11 +33,9 @@ from tehl.solver.certify import (
     widest,
     with_growing_spike,
 )
+from tehl.solver.judging.verdict import LARGEST_BAR
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.transient.run import solve_transient
-from tehl.solver.verdict import LARGEST_BAR
-from tehl.transient_result import HistoryBars, TransientResult
-from tehl.typing import Array
 
 JUDGED = ("film_minimum", "film_central_least", "pressure_max")
 """Values whose error bars decide whether the grid is too coarse; temperatures do not."""

@@ -5,29 +5,29 @@ from dataclasses import asdict, replace
 
 import numpy as np
 
-from tehl.domain import planned
-from tehl.duration import misplaced, number_of_steps
-from tehl.errors import InputError
-from tehl.grid import Grid
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
+from tehl.contact.transient import Transient
+from tehl.estimate.domain import planned
+from tehl.estimate.duration import misplaced, number_of_steps
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import ScaledProblem
 from tehl.kernels.warmup import warm_up
 from tehl.operators.heights import MovingHeights
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import ConvergenceError, Result
-from tehl.scaling import ScaledProblem
-from tehl.solution import Hint, Status
+from tehl.result.result import ConvergenceError, Result
+from tehl.result.solution import Hint, Status
+from tehl.result.transient import StepReport, TransientResult
 from tehl.solver.cost import Clock
-from tehl.solver.level import Level
-from tehl.solver.measures import mid_film_traction
+from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH, Relaxation
+from tehl.solver.judging.measures import mid_film_traction
 from tehl.solver.monitor import SILENT, StepMonitor
-from tehl.solver.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH, Relaxation
 from tehl.solver.steady import Attempt, finest_grid, try_strategies
 from tehl.solver.transient.checks import check_load, check_stride, check_waves
 from tehl.solver.transient.snapshot import ANEW, Record, Snapshot, carried, kept_steps
 from tehl.solver.transient.step import StepEnd, StepError, Stepper
-from tehl.transient import Transient
-from tehl.transient_result import StepReport, TransientResult
-from tehl.typing import Array
 
 SETTINGS, COUPLED_SETTINGS = (FAST, ROUGH, CAREFUL), (BROAD, ROBUST, CAREFUL)
 """Relaxations of a step, fastest first; and those for heated or shear-thinning films."""
