@@ -4,9 +4,9 @@ from tests.reference import DOMAIN, moes_contact
 
 from benchmarks.measure import attempt
 from benchmarks.table import Cell, Table
+from tehl.api.problem import ContactProblem
+from tehl.api.results import Result
 from tehl.contact.options import Domain, Options
-from tehl.contact.problem import ContactProblem
-from tehl.result.result import Result
 
 LOADS = (5, 7, 10, 15, 20, 40, 57.21, 100, 200, 500, 1000)
 POINTS = 257

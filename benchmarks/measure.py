@@ -12,11 +12,11 @@ from collections.abc import Callable
 import numpy as np
 from scipy import fft
 
+from tehl.api.problem import ContactProblem
+from tehl.api.results import ConvergenceError, Result
+from tehl.api.solvers import solve
 from tehl.contact.options import Options
-from tehl.contact.problem import ContactProblem
 from tehl.estimate.scaling import ScaledProblem
-from tehl.result.result import ConvergenceError, Result
-from tehl.solver import solve
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import Strategy

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from tehl.contact.problem import ContactProblem
+from tehl.api.problem import ContactProblem
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.scaling import ScaledProblem
 

@@ -13,9 +13,9 @@ from tests.reference import DOMAIN, moes_contact
 
 from benchmarks.measure import fft_unit
 from benchmarks.table import Table
+from tehl.api.problem import ContactProblem
+from tehl.api.solvers import solve
 from tehl.contact.options import Options
-from tehl.contact.problem import ContactProblem
-from tehl.solver import solve
 
 ROOT = Path(__file__).parents[1]
 SIZES = (129, 257, 513, 1025)
@@ -24,7 +24,7 @@ MEMORY_SCRIPT = """
 import json, sys
 from pathlib import Path
 from tehl.contact.options import Options
-from tehl.solver import solve
+from tehl.api.solvers import solve
 from tests.reference import DOMAIN, moes_contact
 
 def peak():  # of this program alone: ru_maxrss would start at that of the parent

@@ -10,9 +10,9 @@ from pathlib import Path
 
 from tests.reference import moes_contact
 
+from tehl.api.problem import case_from_tables
+from tehl.api.solvers import solve
 from tehl.contact.options import Options
-from tehl.io.case import case_from_tables
-from tehl.solver import solve
 
 TABLE = Path(__file__).parents[1] / "src" / "tehl" / "estimate" / "starvation.csv"
 LOADS, SPEEDS = (20.0, 50.0, 100.0, 200.0, 500.0), (5.0, 8.0, 12.0)

@@ -11,11 +11,11 @@ from tests.reference import DOMAIN, heated_contact
 
 from benchmarks.measure import attempt
 from benchmarks.table import Cell, Table
+from tehl.api.problem import ContactProblem
+from tehl.api.results import Result
+from tehl.api.solvers import with_work
 from tehl.contact.options import Options
-from tehl.contact.problem import ContactProblem
 from tehl.operators.energy import FilmState
-from tehl.result.result import Result
-from tehl.solver import with_work
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.level import Level
 

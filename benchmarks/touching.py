@@ -7,8 +7,8 @@ from tests.solver.rough import with_roughness
 
 from benchmarks.measure import attempt, fft_unit
 from benchmarks.table import Cell, Table
+from tehl.api.problem import ContactProblem
 from tehl.contact.options import Options
-from tehl.contact.problem import ContactProblem
 from tehl.estimate.film_formulas import expected_film
 from tehl.estimate.scaling import ScaledProblem, scales
 

@@ -15,13 +15,12 @@ from tests.reference import moes_contact
 
 from benchmarks.table import Table
 from tehl import solve_transient
+from tehl.api.problem import ContactProblem
+from tehl.api.results import ConvergenceError, TransientResult
 from tehl.contact.options import Domain, Options
-from tehl.contact.problem import ContactProblem
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.scaling import groups, scales
 from tehl.estimate.wave_theory import amplitude_reduction, nabla_of
-from tehl.result.result import ConvergenceError
-from tehl.result.transient import TransientResult
 
 DOMAIN = Domain(x=(-2.5, 1.5), y=(-2.0, 2.0))
 ENTRANCE = 1.7

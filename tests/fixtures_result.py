@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tehl.api.problem import ContactProblem
+from tehl.api.results import Result
 from tehl.contact.options import Options
-from tehl.contact.problem import ContactProblem
 from tehl.estimate.scaling import groups, scales
 from tehl.post.film import dry_gap, hertz_pressure
 from tehl.result.fields import Fields, FilmSummary
-from tehl.result.result import Result
 from tehl.result.solution import (
     Cost,
     CycleReport,

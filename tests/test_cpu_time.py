@@ -2,12 +2,12 @@
 
 import pytest
 
+from tehl.api.problem import ContactProblem
+from tehl.api.results import Result
+from tehl.api.solvers import solve
 from tehl.contact.options import Options
-from tehl.contact.problem import ContactProblem
 from tehl.estimate.cpu_time import expected_cycles, expected_seconds, seconds_range
 from tehl.estimate.scaling import ScaledProblem
-from tehl.result.result import Result
-from tehl.solver.steady import solve
 from tests.cases import ball_tables, moes_problem
 from tests.reference import heated_contact, moes_contact
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tehl.contact.problem import ContactProblem
+from tehl.api.problem import ContactProblem
 from tehl.estimate.film_formulas import (
     asymptotes,
     expected_central_film,

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tehl.contact.problem import ContactProblem
+from tehl.api.problem import ContactProblem
 from tehl.estimate.inlet_heating import (
     gupta,
     inlet_factors,

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tehl.contact.problem import ContactProblem
+from tehl.api.problem import ContactProblem
 from tehl.estimate.scaling import groups, scales
 from tests.cases import ball_tables, moes_problem
 

@@ -14,8 +14,8 @@ import h5netcdf
 import pytest
 
 from tehl import cli
+from tehl.api.results import load
 from tehl.io import store
-from tehl.io.store import load
 from tehl.result.solution import Hint, Status
 from tests.cli.fixtures_solver import solver
 

@@ -5,10 +5,9 @@ from pathlib import Path
 
 import pytest
 
+from tehl.api.problem import ContactProblem, case_from_tables, read_case_and_options
 from tehl.base.errors import InputError
 from tehl.contact.heat import FilmEnergy
-from tehl.contact.problem import ContactProblem
-from tehl.io.case import case_from_tables, read_case_and_options
 from tehl.io.templates import template_text, templates
 from tehl.report.explain import explain
 

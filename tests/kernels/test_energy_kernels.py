@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from tehl.api.problem import ContactProblem
 from tehl.contact.options import Domain
-from tehl.contact.problem import ContactProblem
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.kernels.energy.march import sweep

@@ -13,7 +13,7 @@ import tehl.kernels
 from tehl.kernels.warmup import warm_up
 from tehl.contact.options import Options
 from tehl.estimate.scaling import scales
-from tehl.solver import solve, solve_transient
+from tehl.api.solvers import solve, solve_transient
 from tehl.contact.transient import Transient
 from tests.cases import moes_problem
 from tests.reference import DOMAIN, heated_contact

@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from tehl.api.problem import ContactProblem
 from tehl.base.typing import Array
 from tehl.contact.options import Domain
-from tehl.contact.problem import ContactProblem
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.operators.energy import FilmState

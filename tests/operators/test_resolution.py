@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from tehl.contact.problem import ContactProblem
+from tehl.api.problem import ContactProblem
 from tehl.operators.resolution import resolution_of
 from tests.cases import ball_tables
 

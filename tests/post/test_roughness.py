@@ -6,9 +6,9 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 
+from tehl.api.problem import ContactProblem
 from tehl.base.errors import InputError
 from tehl.contact.heat import Thermal
-from tehl.contact.problem import ContactProblem
 from tehl.estimate.film_formulas import lubrication
 from tehl.io.store import load_summary, save
 from tehl.io.summary import from_block, roughness_block

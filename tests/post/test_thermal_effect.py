@@ -4,8 +4,8 @@ from dataclasses import asdict, replace
 
 import pytest
 
+from tehl.api.problem import ContactProblem
 from tehl.base.errors import InputError
-from tehl.contact.problem import ContactProblem
 from tehl.io.store import load_summary, save
 from tehl.io.summary import from_block
 from tehl.post.thermal_effect import (

@@ -4,8 +4,8 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+from tehl.api.problem import ContactProblem
 from tehl.contact.options import Domain
-from tehl.contact.problem import ContactProblem
 from tehl.estimate.film_formulas import expected_film
 from tehl.estimate.scaling import ScaledProblem
 

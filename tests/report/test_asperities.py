@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tehl.api.problem import case_from_tables
 from tehl.base.errors import InputError
-from tehl.io.case import case_from_tables
 from tehl.report.explain import Explanation, as_summary, as_text, explain
 from tests.cases import ball_tables
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from tehl.contact.problem import ContactProblem
+from tehl.api.problem import ContactProblem
 from tehl.estimate.film_formulas import expected_film
 from tehl.estimate.inlet_heating import inlet_heating_factor
 from tehl.estimate.scaling import ScaledProblem

@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 
+from tehl.api.problem import case_from_tables
 from tehl.contact.options import Options
 from tehl.estimate.film_formulas import expected_central_film
-from tehl.io.case import case_from_tables
 from tehl.io.templates import template_text
 from tehl.report.explain import Explanation, as_summary, as_text, explain
 from tehl.report.readable import length

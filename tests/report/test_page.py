@@ -8,8 +8,8 @@ from html.parser import HTMLParser
 
 import pytest
 
+from tehl.api.problem import ContactProblem
 from tehl.contact.materials import material
-from tehl.contact.problem import ContactProblem
 from tehl.estimate.inlet_heating import InletFactor
 from tehl.plots import pictures_of
 from tehl.post.micro_film import roughness_effect

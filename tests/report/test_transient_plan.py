@@ -2,8 +2,8 @@
 
 import pytest
 
+from tehl.api.problem import case_from_tables
 from tehl.estimate.scaling import ScaledProblem
-from tehl.io.case import case_from_tables
 from tehl.report.explain import as_summary, as_text, explain
 from tehl.report.readable import seconds
 from tehl.report.transient_plan import transient_plan

@@ -2,13 +2,13 @@
 
 import numpy as np
 
+from tehl.api.problem import ContactProblem
+from tehl.api.results import Result
+from tehl.api.solvers import solve
 from tehl.contact.options import Options
-from tehl.contact.problem import ContactProblem
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import scales
 from tehl.operators.heights import Heights
-from tehl.result.result import Result
-from tehl.solver import solve
 from tests.reference import moes_contact
 
 

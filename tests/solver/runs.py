@@ -2,11 +2,11 @@
 
 from functools import cache
 
+from tehl.api.problem import ContactProblem
+from tehl.api.results import Result
+from tehl.api.solvers import solve
 from tehl.contact.options import Options
-from tehl.contact.problem import ContactProblem
 from tehl.estimate.scaling import ScaledProblem
-from tehl.result.result import Result
-from tehl.solver import solve
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import SMOOTH

@@ -8,15 +8,16 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
+from tehl.api.problem import ContactProblem, case_from_tables
+from tehl.api.results import ConvergenceError, load
+from tehl.api.solvers import certify, solve, solve_transient
 from tehl.base.errors import InputError
 from tehl.cli.text import as_text
 from tehl.contact.options import Options
-from tehl.contact.problem import ContactProblem
 from tehl.contact.summits import channel, gaussian_integral, mean_gap, shear_flow
 from tehl.estimate.film_formulas import expected_film
 from tehl.estimate.scaling import ScaledProblem, scales
-from tehl.io.case import case_from_tables
-from tehl.io.store import load, save
+from tehl.io.store import save
 from tehl.kernels import properties, reynolds, summits
 from tehl.operators.influence import dense_matrix
 from tehl.operators.line_source import line_rise
@@ -25,10 +26,7 @@ from tehl.operators.transient_film import Rubbing
 from tehl.plots import asperity_map, pictures_of
 from tehl.post.heat import work_error
 from tehl.report.page import report_text
-from tehl.result.result import ConvergenceError
 from tehl.result.solution import Status
-from tehl.solver import solve, solve_transient
-from tehl.solver.judging.certify import certify
 from tehl.solver.judging.outputs import asperity_balance
 from tehl.solver.monitor import SILENT
 from tehl.solver.steady import try_strategies

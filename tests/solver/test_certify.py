@@ -7,14 +7,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tehl.api.problem import ContactProblem
+from tehl.api.results import ConvergenceError
+from tehl.api.solvers import certify, solve
 from tehl.base.errors import InputError
 from tehl.contact.options import Options
-from tehl.contact.problem import ContactProblem
 from tehl.estimate.scaling import scales
-from tehl.result.result import ConvergenceError
 from tehl.result.solution import Status
-from tehl.solver import solve
-from tehl.solver.judging.certify import certify, estimate
+from tehl.solver.judging.certify import estimate
 from tehl.solver.judging.convergence import SAFETY, discretisation_bar
 from tests.reference import DOMAIN, moes_contact
 

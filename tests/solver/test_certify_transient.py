@@ -9,12 +9,11 @@ import numpy as np
 import pytest
 
 from tehl import InputError, certify_transient, solve_transient
+from tehl.api.problem import ContactProblem
+from tehl.api.results import ConvergenceError, TransientResult
 from tehl.contact.options import Options
-from tehl.contact.problem import ContactProblem
 from tehl.estimate.scaling import scales
-from tehl.result.result import ConvergenceError
 from tehl.result.solution import Status
-from tehl.result.transient import TransientResult
 from tehl.solver.transient.certify import estimates, grid_bar, history_bars
 from tests.fixtures_result import make_result
 from tests.fixtures_transient import make_transient

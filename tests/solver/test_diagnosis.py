@@ -2,11 +2,11 @@
 
 import pytest
 
+from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.contact.options import Domain, Options
-from tehl.contact.problem import ContactProblem
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
-from tehl.io.case import case_from_tables, tables_of_text
+from tehl.io.case import tables_of_text
 from tehl.io.templates import template_text
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.hierarchy import Hierarchy

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tehl import InputError, solve_transient
-from tehl.contact.problem import ContactProblem
+from tehl.api.problem import ContactProblem
 from tehl.contact.transient import Transient
 from tehl.estimate.duration import duration_of, misplaced
 from tehl.estimate.grid import Grid

@@ -3,10 +3,10 @@
 import pytest
 
 import tehl.solver.judging.verdict as judge
+from tehl.api.problem import ContactProblem
+from tehl.api.results import ConvergenceError, Result
+from tehl.api.solvers import solve
 from tehl.contact.options import Options
-from tehl.contact.problem import ContactProblem
-from tehl.result.result import ConvergenceError, Result
-from tehl.solver import solve
 from tests.reference import heated_contact
 
 

@@ -8,14 +8,15 @@ from types import SimpleNamespace
 import pytest
 from benchmarks.random_contacts import contact
 
+from tehl.api.problem import ContactProblem
+from tehl.api.results import ConvergenceError
+from tehl.api.solvers import solve
 from tehl.base.errors import InputError
 from tehl.contact.options import Options
-from tehl.contact.problem import ContactProblem
 from tehl.estimate.domain import planned
 from tehl.estimate.scaling import ScaledProblem
-from tehl.result.result import ConvergenceError
 from tehl.result.solution import Status
-from tehl.solver import solve, steady
+from tehl.solver import steady
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.judging.diagnosis import error_setting
 from tehl.solver.judging.remedy import working_hint

@@ -3,20 +3,19 @@
 import numpy as np
 import pytest
 
+from tehl.api.problem import ContactProblem, case_from_tables
+from tehl.api.results import ConvergenceError, Result, load
+from tehl.api.solvers import solve, solve_passes, solve_transient
 from tehl.base.errors import InputError
 from tehl.contact.options import Domain, Options
-from tehl.contact.problem import ContactProblem
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.starvation import starved_part
 from tehl.estimate.starvation_table import starved_degree, table
-from tehl.io.case import case_from_tables
-from tehl.io.store import load, save
+from tehl.io.store import save
 from tehl.kernels import properties, relaxation, reynolds
 from tehl.plots.oil import oil_map
 from tehl.post.layer import LayerDecay, layer_decay
 from tehl.post.starvation import meniscus, oil_flux
-from tehl.result.result import ConvergenceError, Result
-from tehl.solver import solve, solve_passes, solve_transient
 from tehl.solver.transient.step import Stepper
 from tests.reference import DOMAIN, moes_contact, read
 

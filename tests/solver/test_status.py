@@ -5,12 +5,12 @@ import pickle
 import numpy as np
 import pytest
 
+from tehl.api.problem import ContactProblem
+from tehl.api.results import ConvergenceError
+from tehl.api.solvers import solve
 from tehl.contact.options import Domain, Options
-from tehl.contact.problem import ContactProblem
 from tehl.estimate.domain import domain_error, far_field_error, recommended_domain
 from tehl.estimate.scaling import groups
-from tehl.result.result import ConvergenceError
-from tehl.solver import solve
 from tehl.solver.judging.certify import estimate, with_growing_spike
 from tehl.solver.judging.convergence import first_order_bar
 

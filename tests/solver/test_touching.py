@@ -5,23 +5,22 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 
+from tehl.api.problem import ContactProblem, case_from_tables
+from tehl.api.results import Result, TransientResult, load
+from tehl.api.solvers import solve, solve_transient
 from tehl.base.errors import InputError
 from tehl.cli.text import as_text
 from tehl.contact.options import Domain, Options
-from tehl.contact.problem import ContactProblem
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.scaling import ScaledProblem, scales
-from tehl.io.case import case_from_tables
-from tehl.io.store import load, save
+from tehl.io.store import save
 from tehl.io.summary import summary
 from tehl.kernels import reynolds
 from tehl.operators.deformation import FftDeformation, FftFlattening
 from tehl.plots import contact_map, pictures_of
 from tehl.post.boundary_contact import largest_patches
 from tehl.report.page import report_text
-from tehl.result.result import Result
-from tehl.result.transient import Frames, TransientResult
-from tehl.solver import solve, solve_transient
+from tehl.result.transient import Frames
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.relaxation import BESIDE_NEWTON
 from tehl.solver.physics.boundary_contact import TouchingNewton

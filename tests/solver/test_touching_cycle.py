@@ -5,13 +5,14 @@ import pytest
 from scipy.linalg import cholesky, solve_triangular
 from scipy.optimize import nnls
 
+from tehl.api.results import Result
+from tehl.api.solvers import solve
 from tehl.contact.options import Domain, Options
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.operators.influence import dense_matrix
-from tehl.result.result import Result
-from tehl.solver import solve, steady
+from tehl.solver import steady
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.ladder import TOUCHING
 from tehl.solver.cycle.relaxation import ROUGH

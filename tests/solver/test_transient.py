@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from tehl import InputError, solve, solve_transient
+from tehl.api.problem import ContactProblem
+from tehl.api.results import TransientResult
 from tehl.contact.options import Domain, Options
-from tehl.contact.problem import ContactProblem
 from tehl.estimate.scaling import scales
-from tehl.result.transient import TransientResult
 from tehl.solver.monitor import SILENT
 from tehl.solver.transient.run import Run
 from tehl.solver.transient.snapshot import pack, unpack

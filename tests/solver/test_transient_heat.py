@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from tehl import InputError, solve_transient
+from tehl.api.problem import ContactProblem
 from tehl.contact.options import Options
-from tehl.contact.problem import ContactProblem
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem, scales
 from tehl.kernels.energy.records import Surfaces

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tehl.api.problem import ContactProblem
 from tehl.contact.options import Options
-from tehl.contact.problem import ContactProblem
 from tehl.studies import Case
 from tehl.studies import case as case_module
 from tests.cases import ball_tables

@@ -5,10 +5,10 @@ from functools import cache
 import numpy as np
 import pytest
 
+from tehl.api.problem import ContactProblem
+from tehl.api.results import Result
+from tehl.api.solvers import solve
 from tehl.contact.options import Domain, Options
-from tehl.contact.problem import ContactProblem
-from tehl.result.result import Result
-from tehl.solver import solve
 from tehl.solver.judging.certify import estimate
 from tests.reference import DOMAIN, moes_contact, read
 

@@ -4,9 +4,9 @@ from functools import cache
 
 import pytest
 
+from tehl.api.results import Result
+from tehl.api.solvers import solve
 from tehl.contact.options import Options
-from tehl.result.result import Result
-from tehl.solver import solve
 from tehl.solver.judging.certify import estimate
 from tests.reference import DOMAIN, heated_contact, read
 

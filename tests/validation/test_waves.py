@@ -5,8 +5,8 @@ import math
 import pytest
 
 from tehl import solve_transient
+from tehl.api.problem import ContactProblem
 from tehl.contact.options import Domain, Options
-from tehl.contact.problem import ContactProblem
 from tehl.estimate.scaling import scales
 from tehl.post.waves import passing_wave
 from tests.reference import CLOSE, DOMAIN, moes_contact

@@ -5,7 +5,7 @@
     TehlError
     ├── InputError         an input is invalid: wrong name, unit or value
     ├── FileFormatError    a file has the wrong format
-    └── ConvergenceError   the solver did not converge; in `tehl.result`, carries one
+    └── ConvergenceError   the solver did not converge; in `tehl.api`, carries a result
 """
 
 

@@ -9,23 +9,11 @@ import math
 import re
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib import import_module
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import (
-    BaseModel,
-    ConfigDict,
-    GetCoreSchemaHandler,
-    GetJsonSchemaHandler,
-    ValidationError,
-)
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
-
-if TYPE_CHECKING:
-    from pydantic._internal._model_construction import ModelMetaclass
-else:
-    ModelMetaclass = type(BaseModel)  # pydantic does not export it
 
 Dimension = tuple[int, int, int, int]
 """Exponents of metre, kilogram, second, kelvin."""
@@ -88,25 +76,6 @@ _FACTOR = re.compile(
     r"(?:\s*(?:\^|\*\*)\s*([+-]?\d*)|(?<=[A-Za-z])([+-]?\d))?"  # m^3, or m3 as data sheets have
 )
 _SUPERSCRIPTS = str.maketrans({"²": "^2", "³": "^3", "⁻": "-", "¹": "1"})
-
-
-class _OneSentence(ModelMetaclass):
-    """Class of tables: a mistake of a call in Python is an InputError of one sentence."""
-
-    def __call__(self, *args: Any, **values: Any) -> Any:
-        try:
-            return super().__call__(*args, **values)
-        except ValidationError as error:
-            # By name, after a mistake: its sentences know all tables.
-            raise import_module("tehl.io.mistakes").of_call(error, values, self) from None
-
-
-class Table(BaseModel, metaclass=_OneSentence):
-    """Base of the tables of a case or study file: constant, without unknown keys."""
-
-    model_config = ConfigDict(
-        frozen=True, extra="forbid", defer_build=True, use_attribute_docstrings=True
-    )
 
 
 @lru_cache(maxsize=256)

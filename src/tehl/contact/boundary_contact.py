@@ -4,12 +4,13 @@ Where the oil would leave less than this thickness, solid contact carries what t
 (docs/theory/contact.md).
 """
 
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from pydantic import Field
 
+from tehl.base.table import Table
 from tehl.base.typing import Array, BoolArray
-from tehl.base.units import BoundaryFilm, Quantity, Table
+from tehl.base.units import BoundaryFilm, Quantity
 
 Friction = Annotated[float, Quantity("a plain number", "-", "0.1", "non-negative")]
 
@@ -21,6 +22,11 @@ MARGIN = 0.05
 
 class ContactFilm(Table):
     """A film that no pressure removes; the surfaces touch where it is all that is left."""
+
+    synonyms: ClassVar = {
+        "thickness": "film h height",
+        "friction": "mu friction_coefficient",
+    }
 
     thickness: BoundaryFilm
     """Least film thickness [m]."""

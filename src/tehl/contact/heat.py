@@ -5,7 +5,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from tehl.base.units import Table, Temperature
+from tehl.base.table import Table
+from tehl.base.units import Temperature
 
 ReynoldsForm = Literal["generalised", "mean", "mean-all"]
 AcrossScheme = Literal["chebyshev", "uniform"]

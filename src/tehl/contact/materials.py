@@ -8,7 +8,8 @@ from pydantic import BeforeValidator, Field, WithJsonSchema
 
 from tehl.base.errors import InputError
 from tehl.base.named import find_table, known_names, read_tables
-from tehl.base.units import Pressure, SolidConductivity, SolidDensity, SolidHeatCapacity, Table
+from tehl.base.table import Table
+from tehl.base.units import Pressure, SolidConductivity, SolidDensity, SolidHeatCapacity
 
 
 class Solid(Table):

@@ -2,12 +2,14 @@
 
 import math
 import re
-from typing import Annotated, Literal, Self
+from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import BeforeValidator, ByteSize, Field, model_validator
 
 from tehl.base.errors import InputError
-from tehl.base.units import Duration, Share, Table
+from tehl.base.mistakes import part_of_case
+from tehl.base.table import Table
+from tehl.base.units import Duration, Share
 
 
 def _not_a_boolean(value: object) -> object:
@@ -26,6 +28,8 @@ def _memory(value: object) -> object:
     return value
 
 
+NUMERICS = "numerics"
+"""Table of a case that holds its options."""
 NO_BOOLEAN = BeforeValidator(_not_a_boolean)
 """Last in an annotation: the JSON schema has the limits of the number inside."""
 Nodes = Annotated[int, Field(ge=17, le=16385), NO_BOOLEAN]
@@ -70,8 +74,16 @@ def _fault_of_edges(low: float, high: float) -> str:
     return ""
 
 
+@part_of_case(NUMERICS, NUMERICS)
 class Options(Table):
     """Numerical options of a run; the defaults suit a smooth isothermal contact."""
+
+    synonyms: ClassVar = {
+        "points": "nodes n grid mesh nx ny",
+        "error": "precision relative_error",
+        "max_cycles": "iterations max_iterations cycles",
+        "max_time": "timeout time_limit",
+    }
 
     error: Annotated[Share, Field(ge=1e-4, le=LARGEST_ERROR)] | None = None
     """Relative error of the central and of the minimum film to reach, such as ``"0.5 %"``;

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
 from pydantic import AfterValidator, model_validator
 
+from tehl.base.table import Table
 from tehl.base.units import (
     Force,
     Height,
@@ -14,7 +15,6 @@ from tehl.base.units import (
     Pressure,
     Radius,
     Speed,
-    Table,
     Temperature,
 )
 from tehl.contact.boundary_contact import ContactFilm
@@ -28,6 +28,8 @@ from tehl.contact.transient import Transient
 from tehl.lubricant import NamedLubricant
 from tehl.roughness import AnyRoughness, Smooth
 from tehl.roughness.model import with_rms
+
+LINE = "line contacts are not computed yet; state an ellipse by radius_x and radius_y"
 
 
 class _WithRadii(Table):
@@ -59,6 +61,25 @@ class _WithRadii(Table):
 
 class Surface(_WithRadii):
     """One of the two bodies."""
+
+    other_words: ClassVar = {"diameter": "did you mean radius, half of it?"}
+    synonyms: ClassVar = {
+        "rms_roughness": "rq sq sigma rms roughness_rms",
+        "ra_roughness": "ra sa roughness_ra",
+        "temperature": "temp bulk_temperature body_temperature",
+        "contact.entrainment_speed": "speed velocity",
+        "material.young_modulus": "e young youngs_modulus elastic_modulus modulus young_modulus",
+        "material.poisson_ratio": "nu poisson poissons_ratio poisson_ratio",
+        "material.conductivity": "conductivity thermal_conductivity",
+        "material.density": "density rho",
+        "material.heat_capacity": "heat_capacity specific_heat",
+    }
+    not_tables: ClassVar = {
+        "roughness": (
+            "must be a table of heights; a number alone, for the ratio lambda, is rms_roughness "
+            "or ra_roughness"
+        )
+    }
 
     FLAT = ' ("inf" is flat)'
 
@@ -96,6 +117,23 @@ class Surface(_WithRadii):
 
 class Contact(_WithRadii):
     """Shape, load and motion of the contact."""
+
+    other_words: ClassVar = {
+        **dict.fromkeys(("type", "width", "length", "line_load", "load_per_length"), LINE),
+        "speed": "did you mean entrainment_speed, the mean speed of both surfaces?",
+        "sliding_speed": "did you mean slide_roll_ratio, (u_1 - u_2) over the mean speed?",
+        "diameter": "did you mean radius, half of it?",
+    }
+    synonyms: ClassVar = {
+        "load": "force normal_load normal_force weight w f",
+        "hertz_pressure": "pressure max_pressure maximum_pressure hertz_stress p_h",
+        "entrainment_speed": "velocity mean_speed rolling_speed rolling_velocity u_m u",
+        "slide_roll_ratio": "srr slip slide_ratio sliding_ratio slide_to_roll",
+        "radius_x": "rx r_x radius_1",
+        "radius_y": "ry r_y radius_2",
+        "radius": "r",
+        "lubricant.temperature": "temperature oil_temperature",
+    }
 
     radius: Length | None = None
     """Reduced radius of a circular contact [m]."""

@@ -5,11 +5,11 @@ right. `tehl.io.case` turns them into `InputError` with the name of the file.
 """
 
 import math
-from importlib import import_module
-from typing import Any, Self
+from typing import Self
 
 from pydantic import BaseModel, model_validator
 
+from tehl.base.mistakes import part_of_case
 from tehl.base.units import (
     Conductivity,
     HeatCapacity,
@@ -38,6 +38,7 @@ LARGEST_RATIO = 1e3
 """Largest ratio of the reduced radii, either way: beyond it the contact is a line contact."""
 
 
+@part_of_case("", "contact", "lubricant", "thermal", "transient")
 class ContactProblem(PointContact):
     """A lubricated point contact.
 
@@ -49,14 +50,6 @@ class ContactProblem(PointContact):
     def _check(self) -> Self:
         check(self)
         return self
-
-    def explain(self, options: Any = None) -> Any:
-        """Return what ``tehl explain`` prints, a :class:`tehl.report.explain.Explanation`.
-
-        ``options`` are the :class:`tehl.Options` of the solve; the defaults if left out.
-        """
-        # By name, when called: the explanation stands on many floors above the problem.
-        return import_module("tehl.report.explain").explain(self, options)
 
 
 def check(problem: PointContact) -> None:

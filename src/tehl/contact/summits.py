@@ -26,12 +26,13 @@ References
 
 import math
 from functools import cache, lru_cache
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
+from tehl.base.table import Table
 from tehl.base.typing import np
-from tehl.base.units import Height, Length, Quantity, Table
+from tehl.base.units import Height, Length, Quantity
 from tehl.roughness.map import Map
 
 if TYPE_CHECKING:
@@ -57,6 +58,8 @@ LEAST_GAP = 0.5
 
 class _Touching(Table):
     """Base of the models of asperities."""
+
+    synonyms: ClassVar = {"friction": "mu friction_coefficient", "rms": "sigma sq rq"}
 
     friction: Annotated[Friction, Field(le=2.0)] = 0.1
     """Friction coefficient of asperities that touch [-]."""

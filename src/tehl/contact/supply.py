@@ -3,11 +3,12 @@
 import re
 from itertools import pairwise
 from pathlib import Path
-from typing import Annotated, Literal, Self
+from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, StrictBool, ValidationInfo, field_validator, model_validator
 
-from tehl.base.units import Height, Length, Place, Quantity, Ratio, Table, quantity
+from tehl.base.table import Table
+from tehl.base.units import Height, Length, Place, Quantity, Ratio, quantity
 
 THINNEST, THICKEST = 1e-9, 1e-2
 """Limits of the thickest layer of a supply [m]."""
@@ -25,6 +26,8 @@ class Supply(Table):
 
     Exactly one of ``layer``, ``profile`` and ``ratio`` is stated.
     """
+
+    synonyms: ClassVar = {"layer": "film oil_film inlet_film film_thickness height"}
 
     layer: Height | None = None
     """Thickness of the oil on both surfaces together [m]."""

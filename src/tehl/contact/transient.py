@@ -2,18 +2,28 @@
 
 from bisect import bisect_right
 from itertools import pairwise
-from typing import Annotated, Literal, Self
+from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
-from tehl.base.units import Instant, PositiveNumber, Table, Time
+from tehl.base.table import Table
+from tehl.base.units import Instant, PositiveNumber, Time
 
+STEADY = "only load and the roughness of the surfaces vary in time; state it under [contact]"
 LARGEST_FACTOR = 10.0
 """Largest load over the stated one."""
 
 
 class Transient(Table):
     """A transient run: surfaces carry their roughness, the load may vary, the film is squeezed."""
+
+    other_words: ClassVar = dict.fromkeys(
+        ("entrainment_speed", "slide_roll_ratio", "radius", "radius_x", "radius_y"), STEADY
+    )
+    synonyms: ClassVar = {
+        "duration": "time end_time t_end end",
+        "stride": "dt step time_step",
+    }
 
     duration: Time | None = None
     """Duration of the run [s]; None is until all moving roughness has passed the contact, of waves

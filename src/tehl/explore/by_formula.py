@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 
-from tehl.contact.problem import ContactProblem
+from tehl.api.problem import ContactProblem
 from tehl.estimate.film_formulas import expected_film, film_estimates
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.starvation import starved_part, supply_ratio

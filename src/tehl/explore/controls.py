@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from tehl.api.problem import ContactProblem
 from tehl.base.named import read_tables
 from tehl.base.units import (
     Angle,
@@ -30,7 +31,7 @@ from tehl.base.units import (
     quantity,
 )
 from tehl.contact.materials import SOLIDS
-from tehl.contact.problem import SURFACES, ContactProblem
+from tehl.contact.problem import SURFACES
 from tehl.estimate.scaling import ScaledProblem
 from tehl.explore.case_text import CaseText, named_table
 from tehl.lubricant.fluid import OILS

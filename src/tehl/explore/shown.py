@@ -4,13 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tehl.api.results import Result
 from tehl.base.typing import Array
 from tehl.explore.numbers import Number, numbers
 from tehl.plots.frame import span_part, stretched, window, window_part
 from tehl.plots.interferogram import Optics, colours
 from tehl.post.film import hertz_pressure
 from tehl.report.explain import Explanation
-from tehl.result.result import Result
 from tehl.result.solution import Settings
 
 _ACROSS = 41

@@ -14,10 +14,10 @@ from tehl.base.atomic import shortened
 from tehl.base.encoding import encoding_of
 from tehl.base.errors import InputError
 from tehl.base.lists import plain_value
+from tehl.base.mistakes import describe, short, shown
 from tehl.base.units import percentage
-from tehl.contact.options import Options
+from tehl.contact.options import NUMERICS, Options
 from tehl.contact.problem import ContactProblem
-from tehl.io.mistakes import NUMERICS, describe, short, shown
 from tehl.roughness import Map, Sum
 
 if TYPE_CHECKING:

@@ -6,16 +6,16 @@ from matplotlib.figure import Figure
 
 from tehl.base.errors import InputError
 from tehl.plots.frame import MAP, colour_axes, figure_of, map_axes, window_part, window_places
-from tehl.post.boundary_contact import touching_nodes
-from tehl.result.result import Result
+from tehl.post.boundary_contact import touching, touching_nodes
+from tehl.result.solution import Solution
 
 
-def contact_map(result: Result, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
+def contact_map(result: Solution, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
     """Draw the pressure of film and contact together [GPa] where the surfaces touch, as a map.
 
     Raises InputError if the case states no boundary film.
     """
-    found, shared = result.contact, result.touching
+    found, shared = result.contact, touching(result)
     if found is None or shared is None:
         raise InputError("the result has no contact to draw: the case states none, or diverged")
     note = f"the surfaces touch on {100 * shared.area_part:.2g} % of the Hertz area"

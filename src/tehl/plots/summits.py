@@ -6,15 +6,16 @@ from matplotlib.figure import Figure
 
 from tehl.base.errors import InputError
 from tehl.plots.frame import MAP, colour_axes, figure_of, map_axes, window_part, window_places
-from tehl.result.result import Result
+from tehl.post.summits import load_sharing
+from tehl.result.solution import Solution
 
 
-def asperity_map(result: Result, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
+def asperity_map(result: Solution, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
     """Draw the pressure of the asperities [MPa] as a map, averaged over many of them.
 
     Raises InputError if the case has none.
     """
-    found, shared = result.asperities, result.load_sharing
+    found, shared = result.asperities, load_sharing(result)
     if found is None or shared is None:
         raise InputError("the result has no asperities to draw: the case states none, or diverged")
     note = (

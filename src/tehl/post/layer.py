@@ -90,7 +90,7 @@ def side_flow_rate(result: Solution, track: float) -> float:
 
     Parameters
     ----------
-    result : Result
+    result : Solution
         A solved contact.
     track : float
         Length of both running tracks together [m].

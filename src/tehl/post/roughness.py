@@ -93,9 +93,9 @@ def rough_film(result: Solution, smooth: Solution | None = None) -> RoughFilm | 
 
     Parameters
     ----------
-    result : Result
+    result : Solution
         What a solve returned or a file held.
-    smooth : Result or None
+    smooth : Solution or None
         The same contact with smooth surfaces on the same grid: without it waves longer than 0.4
         half-widths are separated from the shape of the film to a few per cent only.
 
@@ -232,7 +232,7 @@ def film_histogram(result: Solution, bins: int | Sequence[float] = 60) -> tuple[
 
     Parameters
     ----------
-    result : Result
+    result : Solution
         Where to look.
     bins : int or sequence of float
         How many bins up to the 99.5 % quantile, or their edges [m].

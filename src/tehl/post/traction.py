@@ -78,7 +78,7 @@ def traction(result: Solution) -> Traction | None:
 
     Parameters
     ----------
-    result : Result
+    result : Solution
         Steady, computed or loaded.
     """
     shear = result.shear

@@ -1,10 +1,11 @@
-"""The solution of a steady problem: fields, film numbers, status, error bars, history. Frozen."""
+"""The solution of a steady problem: fields, film numbers, status, error bars; frozen."""
 
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
+from tehl.base.errors import TehlError
 from tehl.base.typing import Array
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
@@ -247,9 +248,9 @@ class Supplied:
     """Largest change of the oil flux over the sections across the flow, relative [-]."""
 
 
-@dataclass(frozen=True, kw_only=True, slots=True)
+@dataclass(frozen=True, kw_only=True, slots=True, repr=False)
 class Solution:
-    """Fields and numbers of one steady solve; `Result` adds what follows from them."""
+    """Fields and numbers of one steady solve; `tehl.Result` adds what follows from them."""
 
     problem: ContactProblem
     """The case, in SI."""
@@ -373,3 +374,15 @@ class Solution:
     def minimum_film_thickness(self) -> float:
         """Smallest film thickness, between the nodes too [m]."""
         return self.film.minimum
+
+
+class ConvergenceError(TehlError):
+    """The solver did not converge; ``result`` is the last finite state, with its history."""
+
+    def __init__(self, message: str, result: Solution) -> None:
+        super().__init__(message)
+        self.result = result
+
+    def __reduce__(self) -> tuple[type["ConvergenceError"], tuple[str, Solution]]:
+        """Pickle with the result, so that worker processes can raise it."""
+        return type(self), (str(self), self.result)

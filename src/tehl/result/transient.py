@@ -1,22 +1,9 @@
-"""Result of a transient solve: a film that changes with time while its surfaces move."""
+"""Solution of a transient solve: a film that changes with time while its surfaces move."""
 
-from contextlib import suppress
 from dataclasses import dataclass, field
 
-from tehl.base.errors import InputError
 from tehl.base.typing import Array, IntArray, SingleArray
-from tehl.estimate.duration import whole_passing
-from tehl.estimate.scaling import ScaledProblem
-from tehl.post.boundary_contact import largest_patches, why_unknown
-from tehl.result.result import Result
-from tehl.result.saved import Saved
-from tehl.result.solution import Cost, Estimate, Provenance, Status
-
-LATE, NOTICED, FEW_STEPS = 0.1, 0.01, 20
-"""Last part of a run in which an extreme is late, by which part of it it must then have grown, and
-fewest steps that show it."""
-LONGER, ROUNDING = 2.0, 1e-9
-"""Duration to try over that of a run whose extremes are late, and equal durations."""
+from tehl.result.solution import Cost, Estimate, Provenance, Solution, Status
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -109,10 +96,10 @@ class HistoryBars:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, repr=False)
-class TransientResult(Saved):
-    """Result of one transient solve."""
+class TransientSolution:
+    """Solution of one transient solve."""
 
-    start: Result
+    start: Solution
     """The steady film at time zero; its problem and options are those of the run."""
     history: History
     """Numbers of each step."""
@@ -134,74 +121,6 @@ class TransientResult(Saved):
     heated or thins and slides."""
     bars: HistoryBars | None = None
     """Error bars along the history of a certified run."""
-
-    @property
-    def friction(self) -> Array | None:
-        """Friction of film and solid contact together over the load at that time, positive [-].
-
-        None without asperities or a boundary film, and where the share of these is not known.
-        """
-        problem = self.start.problem
-        solid = problem.asperities or problem.contact_film
-        if solid is None or (problem.contact_film is not None and self.why_share_unknown):
-            return None
-        slides = problem.slide_roll_ratio != 0.0
-        rubbed = solid.friction * self.history.asperity_load if slides else 0.0
-        return abs(self.history.traction) + rubbed
-
-    @property
-    def late_extremes(self) -> tuple[str, ...]:
-        """Extremes that were reached at the end of a run whose duration is not stated.
-
-        They may grow in a longer one: a periodic or mirrored map goes on to pass the contact.
-        """
-        transient, time = self.start.problem.transient, self.history.time
-        if transient is None or transient.duration is not None or time.size < FEW_STEPS:
-            return ()
-        early = time <= (1.0 - LATE) * time[-1]
-        extremes = (
-            ("minimum film", "film_minimum", -self.history.film_minimum),
-            ("largest pressure", "pressure_max", self.history.pressure_max),
-        )
-        bars = {name: one.uncertainty for name, one in self.uncertainty.items()}
-        return tuple(
-            words
-            for words, name, values in extremes
-            if values.max() - values[early].max()
-            > max(NOTICED * abs(values.max()), bars.get(name, 0.0))
-        )
-
-    @property
-    def longer_duration(self) -> float | None:
-        """Duration to state where the default one ended early [s]; None where it did not.
-
-        It lasts until maps that repeat at their edges have passed whole, or twice as long where
-        extremes changed at the end.
-        """
-        transient, end = self.start.problem.transient, float(self.history.time[-1])
-        if transient is None or transient.duration is not None or not self.status.converged:
-            return None
-        needed = LONGER * end if self.late_extremes else 0.0
-        with suppress(InputError):  # the file of a map that a stored result need not have
-            needed = max(needed, whole_passing(ScaledProblem.of(self.start.problem)))
-        return needed if needed > (1.0 + ROUNDING) * end else None
-
-    @property
-    def patch_cells(self) -> float:
-        """Largest mean diameter, or width, of patches of contact in the frames [mesh widths].
-
-        Zero where surfaces do not touch through a boundary film in any of them.
-        """
-        film, frames = self.start.problem.contact_film, self.frames
-        return (
-            0.0 if film is None else largest_patches(film.thickness, frames.film, frames.pressure)
-        )
-
-    @property
-    def why_share_unknown(self) -> str:
-        """Why the share where surfaces touch means nothing, in words; empty if it is known."""
-        start = self.start.touching
-        return why_unknown(self.patch_cells, start.share_error if start else 0.0)
 
     @property
     def x(self) -> Array:

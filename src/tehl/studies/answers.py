@@ -8,11 +8,11 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
+from tehl.api.problem import ContactProblem
 from tehl.base.atomic import replacing
 from tehl.base.errors import InputError
 from tehl.base.lists import check_package
 from tehl.base.units import percentage
-from tehl.contact.problem import ContactProblem
 from tehl.studies.case import Row, Scalar
 from tehl.studies.contacts import (
     Column,

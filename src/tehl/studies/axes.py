@@ -16,8 +16,8 @@ from pydantic import Field, model_validator
 from tehl.base.atomic import shortened
 from tehl.base.errors import InputError
 from tehl.base.lists import heading, lines_of_file, value_of, values_of_file
+from tehl.base.table import Table
 from tehl.base.typing import Array
-from tehl.base.units import Table
 from tehl.studies.tables import is_reserved
 
 End = float | int | str

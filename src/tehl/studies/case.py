@@ -9,11 +9,11 @@ from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
+from tehl.api.problem import ContactProblem
+from tehl.api.results import Result
 from tehl.base.version import SOLVER_VERSION, __version__
 from tehl.contact.options import Options
-from tehl.contact.problem import ContactProblem
 from tehl.io.case import with_settings
-from tehl.result.result import Result
 from tehl.result.solution import Cost, Hint, Settings
 
 Label = float | str

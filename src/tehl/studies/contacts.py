@@ -13,14 +13,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.base.atomic import shortened
 from tehl.base.errors import InputError
 from tehl.base.lists import check_package, lines_of_sheet, numbered_lines, stripped
+from tehl.base.mistakes import key_paths
 from tehl.base.units import is_unit
 from tehl.contact.options import Options
-from tehl.contact.problem import ContactProblem
-from tehl.io.case import case_from_tables, plain_value, toml_tables
-from tehl.io.mistakes import key_paths
+from tehl.io.case import plain_value, toml_tables
 from tehl.io.templates import template_text
 from tehl.studies.case import Case
 

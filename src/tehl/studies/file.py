@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field, StrictBool, ValidationError
 
+from tehl.api.problem import ContactProblem
 from tehl.base.atomic import shortened
 from tehl.base.errors import InputError
-from tehl.base.units import Table
+from tehl.base.mistakes import describe, short
+from tehl.base.table import Table
 from tehl.contact.options import Options
-from tehl.contact.problem import ContactProblem
 from tehl.io.case import change, toml_tables
-from tehl.io.mistakes import describe, short
 from tehl.studies.axes import (
     Axis,
     Sample,

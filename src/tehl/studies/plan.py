@@ -10,11 +10,11 @@ from typing import Any, get_args
 
 from pydantic import BaseModel
 
+from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.base.errors import InputError
 from tehl.base.units import Quantity
 from tehl.contact.options import Options, check_certifiable
-from tehl.contact.problem import ContactProblem
-from tehl.io.case import case_from_tables, changed
+from tehl.io.case import changed
 from tehl.studies.axes import Block, Setting
 from tehl.studies.case import Case, Label
 from tehl.studies.pictures import Picture

@@ -14,10 +14,9 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Literal, get_args
 
+from tehl.api.results import Result, load_as
 from tehl.base.atomic import check_place
 from tehl.base.errors import FileFormatError, InputError
-from tehl.io.store import load_as
-from tehl.result.result import Result
 from tehl.result.solution import Cost, Hint
 from tehl.studies.case import Case, Row
 

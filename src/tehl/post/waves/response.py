@@ -92,9 +92,9 @@ def wave_responses(result: Solution, smooth: Solution | None = None) -> tuple[Wa
 
     Parameters
     ----------
-    result : Result
+    result : Solution
         Of a rough contact; others have no waves.
-    smooth : Result or None
+    smooth : Solution or None
         The same contact with smooth surfaces on the same grid, which is subtracted first.
 
     Returns

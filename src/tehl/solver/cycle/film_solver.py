@@ -8,8 +8,7 @@ from collections.abc import Sequence
 
 from tehl.estimate.scaling import Groups
 from tehl.operators.heights import Heights, heights_of
-from tehl.result.result import Result
-from tehl.result.solution import ErrorEstimate
+from tehl.result.solution import ErrorEstimate, Solution
 from tehl.solver.cycle.continuation import RAISED, TouchingError
 from tehl.solver.cycle.fmg import full_multigrid
 from tehl.solver.cycle.hierarchy import Hierarchy
@@ -49,7 +48,7 @@ class FilmSolver(GridIteration):
         The error to reach; by default the grid of the hierarchy is the finest.
     monitor : Monitor
         Receives the report of each cycle.
-    guess : Result or None
+    guess : Solution or None
         The film of a similar contact.
     """
 
@@ -61,7 +60,7 @@ class FilmSolver(GridIteration):
         heights: Heights | None = None,
         goal: Goal | None = None,
         monitor: Monitor = SILENT,
-        guess: Result | None = None,
+        guess: Solution | None = None,
     ) -> None:
         goal = goal or Goal(hierarchy.scaled, hierarchy.options)
         super().__init__(hierarchy, strategy, heights, goal, monitor)

@@ -19,7 +19,7 @@ from tehl.operators.far_field import FarField
 from tehl.operators.film import hertz_pressure
 from tehl.operators.load import TARGET
 from tehl.operators.transfer import refine
-from tehl.result.result import Result
+from tehl.result.solution import Solution
 from tehl.solver.cycle.equations import Equations, Sources
 from tehl.solver.cycle.relaxation import Relaxation, make_smoother
 from tehl.solver.judging.film_summary import central_value
@@ -408,7 +408,7 @@ class Level:
         asperity = refine(asperity, self.grid) if asperity.size else asperity
         self.set_state(oil, coarse.rigid_approach, asperity)
 
-    def warm_start(self, guess: Result | None) -> None:
+    def warm_start(self, guess: Solution | None) -> None:
         """Start from the film of a similar contact if its residual is much smaller."""
         if guess is None or self.equations.contact_film is not None:
             return
@@ -568,7 +568,7 @@ class Level:
         self._is_stale = True
 
 
-def values_on(grid: Grid, guess: Result, pressure: Array) -> Array:
+def values_on(grid: Grid, guess: Solution, pressure: Array) -> Array:
     """Return a pressure of a result on ``grid``, bilinear between its nodes [-]."""
     x, y = guess.scaled.x, guess.scaled.y
     if not np.array_equal(grid.x, x):

@@ -12,8 +12,20 @@ from typing import Generic, NoReturn, TypeVar
 from tehl.contact.options import Domain, Options, can_be_halved, check_certifiable
 from tehl.contact.problem import ContactProblem
 from tehl.operators.heights import UnresolvedError
-from tehl.result.result import ConvergenceError, Result
-from tehl.result.solution import NO_COST, ORDERS, Cost, Estimate, Hint, Status
+from tehl.post.boundary_contact import touching
+from tehl.post.heat import temperature
+from tehl.post.summits import load_sharing
+from tehl.post.traction import traction
+from tehl.result.solution import (
+    NO_COST,
+    ORDERS,
+    ConvergenceError,
+    Cost,
+    Estimate,
+    Hint,
+    Solution,
+    Status,
+)
 from tehl.solver.judging.verdict import LARGEST_BAR, too_coarse
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.steady import solve
@@ -47,7 +59,7 @@ class Companion(Generic[AnyResult]):
 
 def certify(
     problem: ContactProblem, options: Options | None = None, *, monitor: Monitor = SILENT
-) -> Result:
+) -> Solution:
     """Solve on three grids and on a larger domain; return the finest result with error bars.
 
     Parameters
@@ -63,7 +75,7 @@ def certify(
 
     Returns
     -------
-    Result
+    Solution
         Of the finest grid, with ``uncertainty``.
 
     Raises
@@ -105,7 +117,10 @@ def certify(
 
 
 def _message(
-    first: Companion[Result], middle: Companion[Result], finest: Result, wide: Companion[Result]
+    first: Companion[Solution],
+    middle: Companion[Solution],
+    finest: Solution,
+    wide: Companion[Solution],
 ) -> str:
     """Return how each run ended, and what follows for the bars."""
     message = message_on([first.ending, middle.ending, _ending(finest)], wide.ending)
@@ -119,7 +134,7 @@ def _message(
     return message
 
 
-def _companion(problem: ContactProblem, options: Options, monitor: Monitor) -> Companion[Result]:
+def _companion(problem: ContactProblem, options: Options, monitor: Monitor) -> Companion[Solution]:
     """Solve on a coarser grid, which need not resolve the film but must converge."""
     try:
         result = solve(problem, options, monitor=monitor)
@@ -133,7 +148,7 @@ def _companion(problem: ContactProblem, options: Options, monitor: Monitor) -> C
     return Companion(ending=_ending(result), result=result if is_used else None, cost=result.cost)
 
 
-def _ending(result: Result) -> str:
+def _ending(result: Solution) -> str:
     """Return the nodes of a run and how it ended."""
     status = result.status
     coarse = status.is_vague or status.cause in ("grid_too_coarse", "film_not_positive")
@@ -142,7 +157,7 @@ def _ending(result: Result) -> str:
     )
 
 
-def _has_converged(result: Result) -> bool:
+def _has_converged(result: Solution) -> bool:
     """Whether the cycles converged and only the grid is too coarse."""
     if result.status.cause != "grid_too_coarse" or result.status.kind == "diverged":
         return False
@@ -151,18 +166,18 @@ def _has_converged(result: Result) -> bool:
     return worst <= result.options.tolerance
 
 
-def _needed(finest: Result, run: Companion[Result], what: str) -> Result:
+def _needed(finest: Solution, run: Companion[Solution], what: str) -> Solution:
     """Return the result of a run that the bars need; raise with the finest one if it failed."""
     if run.result is None:
         _reject(finest, not_certified(finest, f"{what} failed ({run.ending})."))
     return run.result
 
 
-def _reject(result: Result, status: Status) -> NoReturn:
+def _reject(result: Solution, status: Status) -> NoReturn:
     raise ConvergenceError(str(status.message), replace(result, status=status))
 
 
-def not_certified(result: Result, why: str) -> Status:
+def not_certified(result: Solution, why: str) -> Status:
     """Return ``not_certified``: the finest grid converged, but has no error bar."""
     nodes = 2 * max(result.scaled.x.size, result.scaled.y.size) - 1
     return Status(
@@ -173,7 +188,7 @@ def not_certified(result: Result, why: str) -> Status:
     )
 
 
-def too_coarse_to_certify(result: Result, error: float) -> Status:
+def too_coarse_to_certify(result: Solution, error: float) -> Status:
     """Return ``grid_too_coarse`` for a certified result with a relative error bar ``error``."""
     return too_coarse((result.scaled.x.size, result.scaled.y.size), result.scaled_problem, error)
 
@@ -209,7 +224,7 @@ def certifiable(options: Options) -> Options:
     return options
 
 
-def widened(options: Options, finest: Result) -> Options:
+def widened(options: Options, finest: Solution) -> Options:
     """Return options of the larger domain: the nodes of ``finest``, twice its mesh width."""
     x, y = (
         (WIDER * float(edges[0]), WIDER * float(edges[-1]))
@@ -219,7 +234,9 @@ def widened(options: Options, finest: Result) -> Options:
     return options.model_copy(update={"domain": Domain(x=x, y=y), "edges": edges})
 
 
-def _with_bars(finest: Result, first: Result | None, middle: Result, wide: Result) -> Result:
+def _with_bars(
+    finest: Solution, first: Solution | None, middle: Solution, wide: Solution
+) -> Solution:
     """Return the finest result with its error bars; the first grid may be missing."""
     used = [run for run in (first, middle, finest) if run is not None]
     runs, wider = [_quantities(run) for run in used], _quantities(wide)
@@ -237,26 +254,26 @@ def _with_bars(finest: Result, first: Result | None, middle: Result, wide: Resul
     return replace(finest, uncertainty=uncertainty)
 
 
-def _quantities(result: Result) -> dict[str, float]:
+def _quantities(result: Solution) -> dict[str, float]:
     """Return the values that get error bars: of film, pressure, heat, traction and load share."""
     found = {
         "film_central": result.film_scaled.central,
         "film_minimum": result.film_scaled.minimum,
         "pressure_max": float(result.scaled.pressure.max()),
     }
-    if (temperature := result.temperature) is not None:
-        found["mid_film_rise_central"] = temperature.mid_film_rise_central
+    if (heated := temperature(result)) is not None:
+        found["mid_film_rise_central"] = heated.mid_film_rise_central
     coupled = result.problem.is_coupled and result.problem.slide_roll_ratio != 0.0
-    if coupled and (traction := result.traction) is not None:
-        found["traction_mid_film"] = traction.mid_film
-    if (shared := result.load_sharing) is not None:
+    if coupled and (forces := traction(result)) is not None:
+        found["traction_mid_film"] = forces.mid_film
+    if (shared := load_sharing(result)) is not None:
         found["load_share"] = shared.share
-    if (touches := result.touching) is not None:
+    if (touches := touching(result)) is not None:
         found["load_share"] = touches.share
     return found
 
 
-def spike(result: Result) -> float:
+def spike(result: Solution) -> float:
     """Return the largest pressure downstream of X = 0.5 [-]."""
     return float(result.scaled.pressure[:, result.scaled.x > OUTLET_HALF].max())
 

@@ -12,8 +12,7 @@ from tehl.contact.options import Domain, Options
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.domain import FAMILIES, planned
 from tehl.estimate.scaling import ScaledProblem
-from tehl.result.result import Result
-from tehl.result.solution import Hint, Settings, settings_text
+from tehl.result.solution import Hint, Settings, Solution, settings_text
 from tehl.solver.judging.diagnosis import error_setting
 from tehl.solver.monitor import Monitor
 
@@ -25,7 +24,7 @@ LONGER = 3.0
 """Time for the trials over that of the failed solve, up to ``numerics.max_time``."""
 LEAST_SECONDS = 1.0
 """Least time for the trials."""
-Solve = Callable[[ContactProblem, Options], Result]
+Solve = Callable[[ContactProblem, Options], Solution]
 Reached = tuple[tuple[int, int], float]
 """Nodes (nx, ny) and relative error of a film that converged."""
 OTHERS = 2
@@ -33,8 +32,8 @@ OTHERS = 2
 
 
 def solved_on_other_nodes(
-    failed: Result, solve: Solve, monitor: Monitor, end: float
-) -> Result | None:
+    failed: Solution, solve: Solve, monitor: Monitor, end: float
+) -> Solution | None:
     """Return the film on slightly more nodes if it converges there to the error to reach.
 
     On some grids, coarser ones of their hierarchy included, the discrete equations have no
@@ -65,13 +64,13 @@ def solved_on_other_nodes(
 
 
 def working_hint(
-    failed: Result, solve: Solve, monitor: Monitor, end: float, reached: Reached | None = None
+    failed: Solution, solve: Solve, monitor: Monitor, end: float, reached: Reached | None = None
 ) -> Hint:
     """Return a hint to settings with which a failed contact converges; without any if none does.
 
     Parameters
     ----------
-    failed : Result
+    failed : Solution
         The result that did not converge, whose error decides the number of nodes.
     solve : callable
         Returns the result of a contact, converged or not.
@@ -102,7 +101,7 @@ def working_hint(
     return Hint("No setting is known with which this contact converges.")
 
 
-def _tried(settings: Settings, solve: Callable[[], Result]) -> Hint | None:
+def _tried(settings: Settings, solve: Callable[[], Solution]) -> Hint | None:
     """Return a hint to settings, None if they do not converge."""
     try:
         result = solve()
@@ -118,14 +117,14 @@ def _tried(settings: Settings, solve: Callable[[], Result]) -> Hint | None:
 Trial = tuple[Settings, ContactProblem, Options]
 
 
-def _default_domain(failed: Result) -> Iterator[Trial]:
+def _default_domain(failed: Solution) -> Iterator[Trial]:
     """Yield the default domain in place of a stated one."""
     if isinstance(failed.options.domain, Domain):
         options = failed.options.model_copy(update={"domain": "auto", "edges": "auto"})
         yield {"numerics.domain": False, "numerics.edges": False}, failed.problem, options
 
 
-def _errors(failed: Result, least: float) -> Iterator[Trial]:
+def _errors(failed: Solution, least: float) -> Iterator[Trial]:
     """Yield larger errors to reach, up to the one that was reached, ``least``."""
     for error in ERRORS:
         if failed.options.target < error < least:
@@ -133,7 +132,7 @@ def _errors(failed: Result, least: float) -> Iterator[Trial]:
             yield {"numerics.error": percentage(error)}, failed.problem, options
 
 
-def _other_physics(failed: Result) -> Iterator[Trial]:
+def _other_physics(failed: Solution) -> Iterator[Trial]:
     """Yield a Newtonian contact with a usual shear law: Newtonian stresses may have no solution."""
     if failed.problem.lubricant.shear.law != "newtonian" or not failed.problem.is_coupled:
         return

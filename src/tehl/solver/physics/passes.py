@@ -17,8 +17,7 @@ from tehl.contact.supply import Supply
 from tehl.estimate.starvation import Flooded
 from tehl.post.starvation import meniscus
 from tehl.result.fields import PassHistory
-from tehl.result.result import ConvergenceError, Result
-from tehl.result.solution import Cost, Hint, Status
+from tehl.result.solution import ConvergenceError, Cost, Hint, Solution, Status
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.steady import TOO_COARSE, try_strategies
 
@@ -64,7 +63,7 @@ def solve_passes(
     monitor: Monitor = SILENT,
     resume: PassState | None = None,
     keep: Keep = forget,
-) -> Result:
+) -> Solution:
     """Solve the passes of a starved contact; return the film of the last one with their history.
 
     Parameters
@@ -119,7 +118,7 @@ def solve_passes(
 
 def _one_pass(
     problem: ContactProblem, options: Options, state: PassState | None, monitor: Monitor
-) -> Result:
+) -> Solution:
     """Return the film of the next pass, of the first one without a state."""
     if state is None:
         return try_strategies(problem, options, monitor=monitor, rough=True)[1]
@@ -141,7 +140,7 @@ def _one_pass(
 
 
 def _after(
-    result: Result, problem: ContactProblem, supply: Supply, before: PassState | None
+    result: Solution, problem: ContactProblem, supply: Supply, before: PassState | None
 ) -> PassState:
     """Return the state after a pass: oil that leaves, less losses, with what comes back."""
     seconds = supply.pass_seconds(problem.entrainment_speed)
@@ -177,13 +176,13 @@ def _after(
     )
 
 
-def _inlet_distance(result: Result, row: int) -> float:
+def _inlet_distance(result: Solution, row: int) -> float:
     """Return the distance of the meniscus to the Hertz contact on a line [m]."""
     distance = (-meniscus(result)[row] - 1.0) * result.scales.half_width_x
     return float(np.nan_to_num(distance, nan=LONGEST))
 
 
-def _judged(result: Result, history: PassHistory) -> Status:
+def _judged(result: Solution, history: PassHistory) -> Status:
     """Return the status of the last pass, with a warning if the side flow is not resolved."""
     mesh = float(result.x[1] - result.x[0])
     near = np.nonzero(history.inlet_distance < RESOLVED * mesh)[0]

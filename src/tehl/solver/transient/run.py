@@ -16,9 +16,8 @@ from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.kernels.warmup import warm_up
 from tehl.operators.heights import MovingHeights
-from tehl.result.result import ConvergenceError, Result
-from tehl.result.solution import Hint, Status
-from tehl.result.transient import StepReport, TransientResult
+from tehl.result.solution import ConvergenceError, Hint, Solution, Status
+from tehl.result.transient import StepReport, TransientSolution
 from tehl.solver.cost import Clock
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH, Relaxation
@@ -44,7 +43,7 @@ def solve_transient(
     monitor: StepMonitor = SILENT,
     resume: Snapshot | None = None,
     keep: Callable[[Snapshot], None] | None = None,
-) -> TransientResult:
+) -> TransientSolution:
     """Solve a transient contact.
 
     Parameters
@@ -62,7 +61,7 @@ def solve_transient(
 
     Returns
     -------
-    TransientResult
+    TransientSolution
         The transient film; its ``status`` is that of the last step.
 
     Raises
@@ -283,13 +282,13 @@ class Run:
             )
         return Status(kind="not_converged", cause=cause, message=message, hint=hint)
 
-    def result(self, status: Status) -> TransientResult:
+    def result(self, status: Status) -> TransientSolution:
         """Return the result; an open minimum of the steady film is reported in its status."""
         steady = self.start.status
         if status.converged and steady.is_vague:
             status = replace(status, message=f"At time zero: {steady.message}", hint=steady.hint)
         full = (self.level.grid.ny, self.level.grid.nx)
-        return TransientResult(
+        return TransientSolution(
             start=self.start,
             history=self.record.history(self.scales),
             profiles=self.record.lines(self.scales),
@@ -307,7 +306,7 @@ def _shapes(fields: dict[str, Array]) -> dict[str, tuple[tuple[int, ...], np.dty
 
 def _steady_start(
     problem: ContactProblem, options: Options, *, rough: bool, monitor: StepMonitor
-) -> tuple[Attempt, Result]:
+) -> tuple[Attempt, Solution]:
     """Solve for the steady film at time zero, with the load of that time, rough or smooth."""
     tight = options.model_copy(
         update={"accuracy": "tight", "tolerance": min(options.tolerance, START_TOLERANCE)}

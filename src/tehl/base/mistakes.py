@@ -3,8 +3,8 @@
 import difflib
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, Literal, NamedTuple, get_args, get_origin
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, Literal, NamedTuple, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
@@ -12,14 +12,29 @@ from pydantic_core import ErrorDetails
 
 from tehl.base.errors import InputError
 from tehl.base.units import Quantity, percentage
-from tehl.contact.options import Options
-from tehl.contact.problem import ContactProblem
-
-NUMERICS = "numerics"
-"""Table of a case that holds its options."""
 
 Model = type[BaseModel]
+AnyModel = TypeVar("AnyModel", bound=Model)
 KeyPath = tuple[str | int, ...]
+
+_CASE: dict[str, Model] = {}
+"""Models whose keys together make a case file, by the table that holds these; "" is the file."""
+_MISPLACED: list[str] = []
+"""Tables of a case whose keys are stated in others by mistake."""
+
+
+def part_of_case(table: str, *misplaced: str) -> Callable[[AnyModel], AnyModel]:
+    """Return a decorator of a model whose keys stand in a table of the case, in the file for "".
+
+    ``misplaced`` are tables whose keys are stated in others by mistake.
+    """
+
+    def enter(model: AnyModel) -> AnyModel:
+        _CASE[table] = model
+        _MISPLACED.extend(misplaced)
+        return model
+
+    return enter
 
 
 class _Mistake(NamedTuple):
@@ -133,70 +148,6 @@ def _field(models: Sequence[Model], key: str | int) -> FieldInfo | None:
 # ---- one sentence per type of mistake
 
 
-LINE = "line contacts are not computed yet; state an ellipse by radius_x and radius_y"
-STEADY = "only load and the roughness of the surfaces vary in time; state it under [contact]"
-OTHER_WORDS = {
-    "contact": {
-        **dict.fromkeys(("type", "width", "length", "line_load", "load_per_length"), LINE),
-        "speed": "did you mean entrainment_speed, the mean speed of both surfaces?",
-        "sliding_speed": "did you mean slide_roll_ratio, (u_1 - u_2) over the mean speed?",
-        "diameter": "did you mean radius, half of it?",
-    },
-    "surface": {"diameter": "did you mean radius, half of it?"},
-    "transient": dict.fromkeys(
-        ("entrainment_speed", "slide_roll_ratio", "radius", "radius_x", "radius_y"), STEADY
-    ),
-}
-"""What to write for keys of a table that are no misspelling of the right one."""
-SYNONYMS = {
-    "contact": {
-        "load": "force normal_load normal_force weight w f",
-        "hertz_pressure": "pressure max_pressure maximum_pressure hertz_stress p_h",
-        "entrainment_speed": "velocity mean_speed rolling_speed rolling_velocity u_m u",
-        "slide_roll_ratio": "srr slip slide_ratio sliding_ratio slide_to_roll",
-        "radius_x": "rx r_x radius_1",
-        "radius_y": "ry r_y radius_2",
-        "radius": "r",
-        "lubricant.temperature": "temperature oil_temperature",
-    },
-    "surface": {
-        "rms_roughness": "rq sq sigma rms roughness_rms",
-        "ra_roughness": "ra sa roughness_ra",
-        "temperature": "temp bulk_temperature body_temperature",
-        "contact.entrainment_speed": "speed velocity",
-        "material.young_modulus": "e young youngs_modulus elastic_modulus modulus young_modulus",
-        "material.poisson_ratio": "nu poisson poissons_ratio poisson_ratio",
-        "material.conductivity": "conductivity thermal_conductivity",
-        "material.density": "density rho",
-        "material.heat_capacity": "heat_capacity specific_heat",
-    },
-    "lubricant": {
-        "viscosity.eta_0": "eta eta0 eta_0 dynamic_viscosity viscosity_0",
-        "viscosity.alpha": "alpha pressure_coefficient pressure_viscosity_coefficient",
-        "viscosity.nu_40": "nu_40 viscosity_40 kinematic_viscosity",
-        "viscosity.nu_100": "nu_100 viscosity_100",
-        "shear.stress": "eyring_stress shear_stress limiting_shear_stress",
-        "heat_capacity": "cp specific_heat",
-        "temperature": "inlet_temperature oil_temperature",
-        "name": "grade oil",
-    },
-    "numerics": {
-        "points": "nodes n grid mesh nx ny",
-        "error": "precision relative_error",
-        "max_cycles": "iterations max_iterations cycles",
-        "max_time": "timeout time_limit",
-    },
-    "transient": {
-        "duration": "time end_time t_end end",
-        "stride": "dt step time_step",
-    },
-    "supply": {"layer": "film oil_film inlet_film film_thickness height"},
-    "contact_film": {"thickness": "film h height", "friction": "mu friction_coefficient"},
-    "asperities": {"friction": "mu friction_coefficient", "rms": "sigma sq rq"},
-}
-"""By table and right key: other words for it, in lower case."""
-MISPLACED = (NUMERICS, "contact", "lubricant", "thermal", "transient")
-"""Tables whose keys are stated in others by mistake."""
 ALIKE = 0.72
 """Likeness of a misspelled key and the right one."""
 
@@ -207,12 +158,11 @@ def _unknown_key(mistake: _Mistake) -> str:
     if law is not None and any(word in model.model_fields for model in models):
         return _key_of_another_law(mistake, law)
     known = list(dict.fromkeys(key for m in ([law] if law else models) for key in m.model_fields))
-    if len(mistake.path) == 1 and ContactProblem in models:
-        known.append(NUMERICS)
-    table = re.sub("_[12]$", "", mistake.name.rpartition(".")[0])
+    if len(mistake.path) == 1 and any(_is_part(model, "") for model in models):
+        known += filter(None, _CASE)
     suggestion = (
-        OTHER_WORDS.get(table, {}).get(word)
-        or _right_word(table, word)
+        _stated(models, "other_words").get(word)
+        or _right_word(models, word)
         or _close(word, known, ALIKE)
         or _in_another_table(mistake, word)
         or f"known are {', '.join(known)}"
@@ -220,28 +170,47 @@ def _unknown_key(mistake: _Mistake) -> str:
     return f"{mistake.name} is not a known key; {suggestion}"
 
 
-def _right_word(table: str, word: str) -> str:
+def _is_part(model: Model, table: str) -> bool:
+    """Return whether a model is that of a table of the case."""
+    return table in _CASE and issubclass(model, _CASE[table])
+
+
+def _stated(models: Sequence[Model], what: str) -> dict[str, str]:
+    """Return what the models of a table say about its keys: an attribute of all of them."""
+    return {key: words for one in models for key, words in getattr(one, what, {}).items()}
+
+
+def _right_word(models: Sequence[Model], word: str) -> str:
     """Return the question after the right key for another word; empty without one."""
-    right = (key for key, words in SYNONYMS.get(table, {}).items() if word.lower() in words.split())
+    synonyms = _stated(models, "synonyms")
+    right = (key for key, words in synonyms.items() if word.lower() in words.split())
     return "".join(f"did you mean {key}?" for key in right)
 
 
 def _in_another_table(mistake: _Mistake, word: str) -> str:
     """Return the question after the only plausible table that has a key; empty without one.
 
-    That is one within the table of the mistake, or one of the tables of `MISPLACED`.
+    That is one within the table of the mistake, or one of the tables that `part_of_case` names.
     """
-    if mistake.models[0][0] not in (ContactProblem, Options) or len(word) < 2:
+    root = mistake.models[0][0]
+    if not any(_is_part(root, table) for table in _CASE) or len(word) < 2:
         return ""
-    tables = tuple(f"{name}." for name in MISPLACED)
+    tables = tuple(f"{name}." for name in _MISPLACED)
     own = f"{mistake.name.partition('.')[0]}." if "." in mistake.name else "\n"
     paths = [
         path
-        for path in dict.fromkeys((*key_paths(ContactProblem), *key_paths(Options, f"{NUMERICS}.")))
+        for path in _paths_of_case()
         if path.split(".")[-1] == word
         and (path.startswith(own) or (path.startswith(tables) and path.count(".") == 1))
     ]
     return f"did you mean {paths[0]}?" if len(paths) == 1 else ""
+
+
+def _paths_of_case() -> dict[str, None]:
+    """Return the paths of all keys of a case, those of its file first."""
+    parts = sorted(_CASE.items())
+    paths = (key_paths(model, f"{table}." if table else "") for table, model in parts)
+    return dict.fromkeys(path for some in paths for path in some)
 
 
 def _missing(mistake: _Mistake) -> str:
@@ -314,15 +283,10 @@ def _not_a_table(mistake: _Mistake) -> str:
     if str(mistake.value).startswith("{"):
         quoted = '{ law = "eyring", stress = "5 MPa" }'
         return f"not a TOML table; put words and quantities in double quotes, {quoted}"
-    if (
-        mistake.path
-        and mistake.path[-1] == "roughness"
-        and isinstance(mistake.value, int | float | str)
-    ):
-        return (
-            "must be a table of heights; a number alone, for the ratio lambda, is rms_roughness "
-            "or ra_roughness"
-        )
+    if mistake.path and isinstance(mistake.value, int | float | str):
+        own = _stated(mistake.models[-2], "not_tables").get(str(mistake.path[-1]))
+        if own is not None:
+            return own
     models = mistake.models[-1]
     laws = [model for model in models if _tags(model)]
     if laws:
