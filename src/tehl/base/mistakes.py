@@ -1,6 +1,5 @@
 """The first mistake of a case in one sentence: key, value, what is wrong, what is expected."""
 
-import difflib
 import json
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -12,6 +11,7 @@ from pydantic_core import ErrorDetails
 
 from tehl.base.errors import InputError
 from tehl.base.units import Quantity, percentage
+from tehl.base.wording import closest, key_text, shown, suggestion_for
 
 Model = type[BaseModel]
 AnyModel = TypeVar("AnyModel", bound=Model)
@@ -80,7 +80,7 @@ def describe(error: ValidationError, data: object, model: Model, prefix: str = "
     table: Any = data
     for part in path[:-1]:
         table = table[part]
-    name = ".".join(_key(part) for part in ((prefix, *path) if prefix else path))
+    name = ".".join(key_text(part) for part in ((prefix, *path) if prefix else path))
     mistake = _Mistake(name, path, first, _models_at(model, path), table)
     sentence = _SENTENCES.get(first["type"], _pydantic_sentence)
     return _of_heading(mistake) or sentence(mistake)
@@ -163,7 +163,7 @@ def _unknown_key(mistake: _Mistake) -> str:
     suggestion = (
         _stated(models, "other_words").get(word)
         or _right_word(models, word)
-        or _close(word, known, ALIKE)
+        or closest(word, known, ALIKE)
         or _in_another_table(mistake, word)
         or f"known are {', '.join(known)}"
     )
@@ -239,7 +239,7 @@ def _discriminator_unknown(mistake: _Mistake) -> str:
     tag = mistake.error["ctx"]["tag"]
     known = re.findall(r"'([^']+)'", mistake.error["ctx"]["expected_tags"])
     name = f"{mistake.name}.{_discriminator(mistake)}"
-    return f"{name} = {shown(tag)}: unknown; {_suggest(str(tag), known)}"
+    return f"{name} = {shown(tag)}: unknown; {suggestion_for(str(tag), known)}"
 
 
 def _discriminator(mistake: _Mistake) -> str:
@@ -252,7 +252,7 @@ def _word_unknown(mistake: _Mistake) -> str:
     known = [word.strip("'") for word in re.findall(r"'[^']+'|\d+", expected)]
     keys = [key for model in mistake.models[-1] for key in model.model_fields]
     table = f", or a table with {' and '.join(keys)}" if keys else ""
-    suggestion = _suggest(str(mistake.value), known)
+    suggestion = suggestion_for(str(mistake.value), known)
     return f"{mistake.stated}: unknown; {suggestion}{table}"
 
 
@@ -425,38 +425,3 @@ def key_paths(model: Model, prefix: str = "") -> Iterator[str]:
         yield f"{prefix}{key}"
         for deeper in _models(field.annotation):
             yield from key_paths(deeper, f"{prefix}{key}.")
-
-
-def _suggest(word: str, known: list[str]) -> str:
-    return _close(word, known, 0.55) or f"known are {', '.join(known)}"
-
-
-def _close(word: str, known: list[str], alike: float) -> str:
-    """Return the question after the word that is most alike; empty without one."""
-    close = difflib.get_close_matches(word[:100], known, n=1, cutoff=alike)
-    return "".join(f"did you mean {one}?" for one in close)
-
-
-def _key(part: str | int) -> str:
-    """Return a part of a key path as the file would show it, shortened."""
-    text = str(part)
-    bare = re.fullmatch(r"[A-Za-z0-9_-]+", text)
-    return short(text if bare else json.dumps(text), 60)
-
-
-def shown(value: object) -> str:
-    """Return a value as the file would show it, shortened."""
-    try:
-        text = json.dumps(value, ensure_ascii=False)
-    except RecursionError:
-        text = "a deeply nested table or list"
-    except TypeError:  # a type that JSON does not have
-        text = str(value)
-    except ValueError:  # an integer of thousands of digits
-        text = "a number of thousands of digits"
-    return short("".join(c if c.isprintable() else "?" for c in text), 60)
-
-
-def short(text: str, length: int = 40) -> str:
-    """Return a text of at most ``length`` characters."""
-    return text if len(text) <= length else f"{text[: length - 3]}..."

@@ -56,7 +56,7 @@ LEAST_GAP = 0.5
 """Least h/sigma of the flow factor; below it the channel narrows with the mean gap."""
 
 
-class _Touching(Table):
+class _Summits(Table):
     """Base of the models of asperities."""
 
     synonyms: ClassVar = {"friction": "mu friction_coefficient", "rms": "sigma sq rq"}
@@ -65,7 +65,7 @@ class _Touching(Table):
     """Friction coefficient of asperities that touch [-]."""
 
 
-class GreenwoodTripp(_Touching):
+class GreenwoodTripp(_Summits):
     """Spherical summits with Gaussian heights, which carry load where the film is thin."""
 
     model: Literal["greenwood-tripp"]
@@ -138,7 +138,7 @@ class GreenwoodTripp(_Touching):
         return np.minimum(part, 1.0), 4.0 * math.pi * self.summit_density * factor * number
 
 
-class SurfacePatch(_Touching):
+class SurfacePatch(_Summits):
     """Asperities of a measured patch: it is pressed flat, and oil flows through what is left."""
 
     model: Literal["surface"]

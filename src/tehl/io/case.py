@@ -14,8 +14,9 @@ from tehl.base.atomic import shortened
 from tehl.base.encoding import encoding_of
 from tehl.base.errors import InputError
 from tehl.base.lists import plain_value
-from tehl.base.mistakes import describe, short, shown
+from tehl.base.mistakes import describe
 from tehl.base.units import percentage
+from tehl.base.wording import short, shown
 from tehl.contact.options import NUMERICS, Options
 from tehl.contact.problem import ContactProblem
 from tehl.roughness import Map, Sum

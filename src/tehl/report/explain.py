@@ -30,7 +30,7 @@ from tehl.report.expected_heat import BodyEffect, ExpectedHeat, body_effect, exp
 from tehl.report.plausibility import questions
 from tehl.report.readable import UNTITLED
 from tehl.report.rendering import render
-from tehl.report.summits import CONVERGES, RESOLVES, Asperities, asperities
+from tehl.report.roughness import CONVERGES, RESOLVES, Asperities, asperities
 from tehl.report.transient_plan import TransientPlan, transient_plan
 
 LEAST_RISE, LEAST_TRACTION = 0.1, 1e-4

@@ -20,7 +20,7 @@ from tehl.estimate.film_formulas import likely_film
 from tehl.estimate.scaling import ScaledProblem
 from tehl.lubricant import Limiting, Roelands, RoelandsExponential, Walther
 from tehl.report.expected_heat import NOTICEABLE, BodyEffect, ExpectedHeat
-from tehl.report.summits import CONVERGES, LARGEST, RESOLVES, Asperities
+from tehl.report.roughness import CONVERGES, LARGEST, RESOLVES, Asperities
 
 SLIDING = 0.02
 """Slide-roll ratio from which on surfaces count as sliding."""

@@ -14,8 +14,9 @@ from pydantic import Field, StrictBool, ValidationError
 from tehl.api.problem import ContactProblem
 from tehl.base.atomic import shortened
 from tehl.base.errors import InputError
-from tehl.base.mistakes import describe, short
+from tehl.base.mistakes import describe
 from tehl.base.table import Table
+from tehl.base.wording import short
 from tehl.contact.options import Options
 from tehl.io.case import change, toml_tables
 from tehl.studies.axes import (
