@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from tehl.cli.arguments import AsJson, CaseFile, Overrides
-from tehl.cli.lazily import case_files, case_templates, explaining, problems
+from tehl.cli.lazily import case_files, case_templates, explanations, problems
 from tehl.cli.lines import show
 
 
@@ -34,11 +34,11 @@ def new(
 
 def explain(case: CaseFile, *, overrides: Overrides, as_json: AsJson = False) -> None:
     """Show what a case means: Hertz, groups, formulas, unusual values."""
-    explanation = explaining.explain(*problems.read_case_and_options(case, overrides))
+    explanation = explanations.explain(*problems.read_case_and_options(case, overrides))
     if as_json:
-        typer.echo(json.dumps(explaining.as_summary(explanation)))
+        typer.echo(json.dumps(explanations.as_summary(explanation)))
     else:
-        show(explaining.as_text(explanation))
+        show(explanations.as_text(explanation))
 
 
 def schema() -> None:

@@ -14,9 +14,9 @@ from tehl.cli.lazily import kernel_cache, numerics, problems, results, samples, 
 if TYPE_CHECKING:
     from tehl.api.problem import ContactProblem
     from tehl.api.results import Result
-    from tehl.cli import progress as progresses
+    from tehl.cli import progress as live
 else:
-    progresses = lazy("tehl.cli.progress")
+    live = lazy("tehl.cli.progress")
 
 PACKAGES = (
     *("tehl", "numpy", "scipy", "numba", "llvmlite", "pydantic", "typer", "rich", "xarray"),
@@ -96,7 +96,7 @@ def _facts() -> Iterator[tuple[str, str]]:
 
 def _warm() -> None:
     """Compile all kernels, also those that few films need."""
-    progresses.compile_kernels(coupled=True)
+    live.compile_kernels(coupled=True)
     for sample in samples.RARE:
         sample.compile()
 

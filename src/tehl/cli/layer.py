@@ -17,10 +17,10 @@ from tehl.cli.lines import show
 
 if TYPE_CHECKING:
     from tehl.api.problem import ContactProblem
-    from tehl.cli import progress as progresses
+    from tehl.cli import progress as live
     from tehl.post.layer import LayerDecay
 else:
-    progresses = lazy("tehl.cli.progress")
+    live = lazy("tehl.cli.progress")
 
 COLUMNS = ("time_s", "film_m", "film_by_formula_m")
 """Columns of the table: time, and film with F by the solved pressure and by the closed form."""
@@ -54,7 +54,7 @@ def layer(  # noqa: PLR0913 (the options of the command)
     problem = _single(stated, case)
 
     solve = solvers.solve  # loaded before the progress is shown
-    with progresses.progress(problem, quiet=quiet) as monitor:
+    with live.progress(problem, quiet=quiet) as monitor:
         try:
             result = solve(problem, options, monitor=monitor)
         except results.ConvergenceError as error:

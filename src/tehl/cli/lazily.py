@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from tehl.plots import surface as surface_pictures
     from tehl.post import layer as layers
     from tehl.post import micro_film, thermal_effect
-    from tehl.report import explain as explaining
+    from tehl.report import explain as explanations
     from tehl.report import page as pages
     from tehl.report import rendering
     from tehl.roughness import preview as previews
@@ -53,7 +53,7 @@ else:
     layers = lazy("tehl.post.layer")
     micro_film = lazy("tehl.post.micro_film")
     thermal_effect = lazy("tehl.post.thermal_effect")
-    explaining = lazy("tehl.report.explain")
+    explanations = lazy("tehl.report.explain")
     pages = lazy("tehl.report.page")
     rendering = lazy("tehl.report.rendering")
     roughness = lazy("tehl.roughness")

@@ -11,7 +11,7 @@ from tehl.base.errors import InputError
 from tehl.cli.arguments import AsJson
 from tehl.cli.lazily import (
     case_files,
-    explaining,
+    explanations,
     mistakes,
     previews,
     problems,
@@ -125,7 +125,7 @@ def _mesh(contact: Path | None, half_width: str | None, points: int | None) -> "
 def _mesh_of_case(case: Path, points: int | None) -> "Mesh":
     changes = [] if points is None else [f"numerics.points={points}"]
     problem, options = problems.read_case_and_options(case, changes)
-    plan, hertz = explaining.explain(problem, options), problem.hertz
+    plan, hertz = explanations.explain(problem, options), problem.hertz
     domain, (ny, nx) = plan.domain, plan.options.shape
     return previews.Mesh(
         spacing=(

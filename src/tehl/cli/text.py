@@ -3,7 +3,7 @@
 from functools import partial
 
 from tehl.api.results import Result, TransientResult
-from tehl.cli.lazily import explaining
+from tehl.cli.lazily import explanations
 from tehl.cli.reference_runs import Comparisons
 from tehl.io.summary import estimates
 from tehl.post.film import no_film
@@ -48,7 +48,7 @@ def _expected_traction(result: Result) -> float | None:
     if result.traction is None or result.traction.credible:
         return None
 
-    heat = explaining.explain(result.problem).heat
+    heat = explanations.explain(result.problem).heat
     return None if heat is None else min(heat.traction, LARGEST_CREDIBLE)
 
 
