@@ -9,7 +9,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from tehl.api.problem import ContactProblem, case_from_tables
-from tehl.api.results import ConvergenceError, load
+from tehl.api.results import ConvergenceError, Result, load
 from tehl.api.solvers import certify, solve, solve_transient
 from tehl.base.errors import InputError
 from tehl.cli.text import as_text
@@ -202,7 +202,7 @@ def test_the_oil_through_all_sections_of_a_tight_film_is_constant():
     problem = rough(50.0, 8.0, 0.7)
     options = Options(points=65, accuracy="tight", half_domain="never")
     attempt, result = try_strategies(problem, options, monitor=SILENT, rough=False)
-    level = attempt.run.finest
+    result, level = Result.of(result), attempt.run.finest
     film, grid, stencil = level.film, level.grid, level.stencil
     mass = film.rho * film.h
     along = 1.5 * mass[1:-1, 1:-1] - 0.5 * mass[1:-1, :-2]
@@ -388,7 +388,7 @@ def test_asperities_that_rub_heat_the_surfaces():
         tables = case.model_dump(exclude_none=True) | {"asperities": table}
         problem = case_from_tables(tables)[0]
         attempt, result = try_strategies(problem, Options(points=97), monitor=SILENT, rough=False)
-        found.append(result)
+        found.append(Result.of(result))
     cold, warm = found
     assert warm.status.converged
     power = warm.load_sharing.power_boundary

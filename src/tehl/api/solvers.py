@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from functools import update_wrapper
+from inspect import signature
 from typing import ParamSpec, TypeVar
 
 from tehl import solver
@@ -31,8 +32,10 @@ def _giving(result_of: Callable[[Plain], Whole], solve: Callable[P, Plain]) -> C
         with failures_with_results():
             return result_of(solve(*args, **kwargs))
 
-    update_wrapper(solved, solve, assigned=("__name__", "__qualname__", "__annotations__"))
+    update_wrapper(solved, solve, assigned=("__name__", "__qualname__"))
     solved.__doc__ = (solve.__doc__ or "").replace("Solution", "Result")
+    given, kind = signature(solve), signature(result_of).return_annotation
+    solved.__signature__ = given.replace(return_annotation=kind)  # type: ignore[attr-defined]
     return solved
 
 
