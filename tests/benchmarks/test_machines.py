@@ -1,6 +1,9 @@
 """The tables of contacts as machines have them."""
 
+import pytest
 from benchmarks.machines import KINDS, contact, judged, reached, row
+
+import tehl
 
 
 def test_every_contact_is_a_valid_case_and_the_same_each_time():
@@ -24,3 +27,11 @@ def test_contacts_count_by_kind_and_feature_and_failures_are_named():
     assert any("contact 9 (cam, plain; M = 10000" in note for note in table.notes)
     known = [{"off": {"film_central": 0.4}}, {"off": {"film_central": 1.5}}, {}]
     assert judged(known).rows == [("film_central", 2, 50.0, 100.0, 0.95, 1.5)]
+
+
+def test_a_starved_cam_whose_flux_errs_at_the_spike_reaches_its_error():
+    _, features, problem = contact(1, 89)
+    assert features == {"supply"}
+    found = tehl.solve(problem)
+    assert found.film_scaled.central == pytest.approx(0.1794, rel=0.002)  # on 513 nodes
+    assert max(found.errors.central, found.errors.minimum) < 0.01

@@ -58,6 +58,9 @@ MOST_FRONT_CYCLES = 24
 LARGEST_OIL_ERROR, COARSE_OIL_ERROR = 0.005, 0.003
 """Relative change of the oil flux through the contact that is accepted on the finest grid, and on
 coarser ones, where it costs less."""
+DECIDED = 0.5
+"""X up to which sections must pass the same oil: the film upstream decides how much, and at the
+pressure spike a flux of a few percent more or less is local."""
 LARGEST_MADE, ROUNDING = 1e-10, 1e-13
 """Oil made or lost between surfaces that may touch, over what passes, which takes a few more Newton
 steps, and in tight solves with asperities, over what enters, which takes ten more cycles; and
@@ -335,7 +338,7 @@ class GridIteration:
             rests = fine.relax_fronts()
             fine.update()
             largest = LARGEST_OIL_ERROR if fine is self.finest else COARSE_OIL_ERROR
-            self.is_settled = rests and oil_balance(fine) <= largest
+            self.is_settled = rests and oil_balance(fine, until=DECIDED) <= largest
         fine.update()
         heating = self.coupling.update(levels)
         report = self._report(fine, before, number, heating)

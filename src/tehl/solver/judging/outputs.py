@@ -199,10 +199,11 @@ def _unfold_line(grid: Grid, values: Array) -> Array:
     return np.concatenate([values[:0:-1], values]) if grid.mirror else values.copy()
 
 
-def oil_balance(level: Level) -> float:
+def oil_balance(level: Level, *, until: float = np.inf) -> float:
     """Return the largest change of the oil flux between sections across the flow, relative [-].
 
-    The flux through the side edges counts.
+    The flux through the side edges counts. Of the sections downstream of X = ``until`` only the
+    last one does.
     """
     _, passed = level.oil_flow()
     film, stencil, mirror = level.film, level.stencil, level.grid.mirror
@@ -215,7 +216,10 @@ def oil_balance(level: Level) -> float:
         eps = 0.5 * (film.eps_y[edge] + film.eps_y[inner])
         sides += stencil.cy * eps * (film.p[edge] - film.p[inner])
     gained = np.cumsum(sides[1:-1]) / (stencil.w0 - stencil.w2)
-    return float(np.abs(through[1:] - through[0] - gained).max() / through[0])
+    change = np.abs(through[1:] - through[0] - gained) / through[0]
+    counts = level.grid.x[1 : change.size + 1] <= until
+    counts[-1] = True
+    return float(change[counts].max())
 
 
 def _unfold(grid: Grid, field: Array, *, odd: bool = False) -> Array:
