@@ -20,7 +20,7 @@ NAMES = (
     "studies",
     "public interface",
     "pages",
-    "solver, files, pictures",
+    "solver, files, plots",
     "derived quantities",
     "one grid, one result",
     "before the solve",
