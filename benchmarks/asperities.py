@@ -15,10 +15,10 @@ from benchmarks.measure import attempt, fft_unit
 from benchmarks.rough import CONTACTS, wave
 from benchmarks.table import Cell, Table
 from tehl import solve_transient
-from tehl.io.case import case_from_tables
+from tehl.api.problem import case_from_tables
+from tehl.api.results import TransientResult
+from tehl.contact.options import Options
 from tehl.io.templates import template_text
-from tehl.options import Options
-from tehl.transient_result import TransientResult
 
 SHAPE = (0.03, 0.5, 45)
 """Amplitude, wavelength and angle of the standing wave."""

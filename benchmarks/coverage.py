@@ -23,12 +23,13 @@ import numpy as np
 from benchmarks.measure import attempt
 from benchmarks.random_contacts import contact
 from benchmarks.table import Cell, Table
-from tehl.cpu_time import expected_seconds
-from tehl.errors import InputError
-from tehl.io.case import case_from_tables, changed
-from tehl.options import Options
-from tehl.result import Result
-from tehl.scaling import ScaledProblem, groups
+from tehl.api.problem import case_from_tables
+from tehl.api.results import Result
+from tehl.base.errors import InputError
+from tehl.contact.options import Options
+from tehl.estimate.cpu_time import expected_seconds
+from tehl.estimate.scaling import ScaledProblem, groups
+from tehl.io.case import changed
 
 CLASSES = ("isothermal", "thinning", "heated", "rough")
 RANGES = (("M < 7", 0.0, 7.0), ("M 7-500", 7.0, 500.0), ("M > 500", 500.0, np.inf))

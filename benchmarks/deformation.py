@@ -5,7 +5,10 @@ from tests.reference import DOMAIN, moes_contact
 
 from benchmarks.measure import attempt, cpu_seconds
 from benchmarks.table import Cell, Table
-from tehl.grid import Grid
+from tehl.base.typing import Array
+from tehl.contact.options import Options
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import groups
 from tehl.operators.deformation import (
     Deformation,
     DirectDeformation,
@@ -14,9 +17,6 @@ from tehl.operators.deformation import (
 )
 from tehl.operators.influence import influence_of
 from tehl.operators.multilevel import MultilevelDeformation
-from tehl.options import Options
-from tehl.scaling import groups
-from tehl.typing import Array
 
 SIZES = (33, 65, 129, 257, 513, 1025)
 LARGEST_DIRECT = 65

@@ -4,9 +4,9 @@ from tests.reference import DOMAIN, moes_contact
 
 from benchmarks.measure import attempt
 from benchmarks.table import Cell, Table
-from tehl.options import Domain, Options
-from tehl.problem import ContactProblem
-from tehl.result import Result
+from tehl.api.problem import ContactProblem
+from tehl.api.results import Result
+from tehl.contact.options import Domain, Options
 
 LOADS = (5, 7, 10, 15, 20, 40, 57.21, 100, 200, 500, 1000)
 POINTS = 257

@@ -20,13 +20,12 @@ import numpy as np
 from benchmarks.coverage import bars, values
 from benchmarks.measure import attempt
 from benchmarks.table import Cell, Table
-from tehl.cpu_time import expected_seconds
-from tehl.errors import InputError
-from tehl.io.case import case_from_tables
-from tehl.options import Domain, Options
-from tehl.problem import ContactProblem
-from tehl.result import Result
-from tehl.scaling import ScaledProblem
+from tehl.api.problem import ContactProblem, case_from_tables
+from tehl.api.results import Result
+from tehl.base.errors import InputError
+from tehl.contact.options import Domain, Options
+from tehl.estimate.cpu_time import expected_seconds
+from tehl.estimate.scaling import ScaledProblem
 
 BALLS = ((8, 22), (15, 35), (20, 47), (30, 62), (50, 90), (40, 90), (60, 130), (100, 215))
 """Bore and outside diameter of deep groove bearings [mm]: a ball has about 0.3 of the difference,

@@ -12,15 +12,15 @@ from collections.abc import Callable
 import numpy as np
 from scipy import fft
 
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import ConvergenceError, Result
-from tehl.scaling import ScaledProblem
-from tehl.solver import solve
-from tehl.solver.film_solver import FilmSolver
-from tehl.solver.hierarchy import Hierarchy
-from tehl.solver.ladder import Strategy
-from tehl.solver.relaxation import FAST, Relaxation
+from tehl.api.problem import ContactProblem
+from tehl.api.results import ConvergenceError, Result
+from tehl.api.solvers import solve
+from tehl.contact.options import Options
+from tehl.estimate.scaling import ScaledProblem
+from tehl.solver.cycle.film_solver import FilmSolver
+from tehl.solver.cycle.hierarchy import Hierarchy
+from tehl.solver.cycle.ladder import Strategy
+from tehl.solver.cycle.relaxation import FAST, Relaxation
 from tehl.solver.steady import finest_grid
 
 FFT_REPEATS = 20

@@ -12,8 +12,8 @@ from tests.reference import moes_contact, touching_contact
 
 from benchmarks.measure import attempt
 from benchmarks.table import Table
-from tehl.options import Options
-from tehl.problem import ContactProblem
+from tehl.api.problem import ContactProblem
+from tehl.contact.options import Options
 
 CONTACTS = ((20, 10), (75, 11), (100, 8), (200, 8))
 """Moes numbers M and L."""

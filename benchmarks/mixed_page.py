@@ -7,12 +7,12 @@ import numpy as np
 from tests.reference import moes_contact, touching_contact
 
 from benchmarks.markdown import head, row
+from tehl.api.problem import ContactProblem
+from tehl.api.solvers import solve
+from tehl.contact.options import Options
+from tehl.estimate.scaling import ScaledProblem
 from tehl.operators.influence import dense_matrix
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.scaling import ScaledProblem
-from tehl.solver import solve
-from tehl.solver.level import Level
+from tehl.solver.cycle.level import Level
 from tehl.solver.monitor import SILENT
 from tehl.solver.steady import try_strategies
 

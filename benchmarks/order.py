@@ -5,8 +5,8 @@ from tests.reference import heated_contact, moes_contact
 from benchmarks.machines import contact
 from benchmarks.measure import attempt
 from benchmarks.table import Cell, Table
-from tehl.options import Options
-from tehl.problem import ContactProblem
+from tehl.api.problem import ContactProblem
+from tehl.contact.options import Options
 
 NODES, FINE = (65, 129, 257), 513
 LOADS = ((20.0, 10.0), (200.0, 10.0), (1000.0, 10.0))

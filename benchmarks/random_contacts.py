@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from tehl.film_formulas import expected_central_film
-from tehl.problem import ContactProblem
-from tehl.scaling import ScaledProblem
+from tehl.api.problem import ContactProblem
+from tehl.estimate.film_formulas import expected_central_film
+from tehl.estimate.scaling import ScaledProblem
 
 SOLIDS = ("steel", "steel", "steel", "glass", "bronze", "silicon-nitride", "pmma")
 LOADS, SPEEDS, RATIOS, RADII = (2.0, 2000.0), (0.5, 20.0), (0.5, 5.0), (1e-3, 0.1)

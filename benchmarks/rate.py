@@ -7,10 +7,10 @@ from tests.reference import DOMAIN, moes_contact
 
 from benchmarks.measure import multigrid
 from benchmarks.table import Table
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.solver.film_solver import FilmSolver
-from tehl.typing import Array
+from tehl.api.problem import ContactProblem
+from tehl.base.typing import Array
+from tehl.contact.options import Options
+from tehl.solver.cycle.film_solver import FilmSolver
 
 CASES = ((20, 10), (57.21, 10.52), (100, 12.04), (200, 10), (500, 10), (1000, 10))
 SIZES = (129, 257, 513)

@@ -13,10 +13,10 @@ from tests.reference import DOMAIN, moes_contact
 
 from benchmarks.table import Cell, Table
 from tehl import solve
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import ConvergenceError
-from tehl.scaling import Scales, scales
+from tehl.api.problem import ContactProblem
+from tehl.api.results import ConvergenceError
+from tehl.contact.options import Options
+from tehl.estimate.scaling import Scales, scales
 
 CONTACTS = ((57.21, 10.52), (126.0, 12.34), (200.0, 10.0), (500.0, 12.34))
 AMPLITUDES, LENGTHS, ANGLES = (0.03, 0.1, 0.2), (1.0, 0.5, 0.25, 0.125), (0, 45, 90)

@@ -13,9 +13,9 @@ from tests.reference import DOMAIN, moes_contact
 
 from benchmarks.measure import fft_unit
 from benchmarks.table import Table
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.solver import solve
+from tehl.api.problem import ContactProblem
+from tehl.api.solvers import solve
+from tehl.contact.options import Options
 
 ROOT = Path(__file__).parents[1]
 SIZES = (129, 257, 513, 1025)
@@ -23,8 +23,8 @@ REPEATS = {129: 15, 257: 9, 513: 7, 1025: 5}
 MEMORY_SCRIPT = """
 import json, sys
 from pathlib import Path
-from tehl.options import Options
-from tehl.solver import solve
+from tehl.contact.options import Options
+from tehl.api.solvers import solve
 from tests.reference import DOMAIN, moes_contact
 
 def peak():  # of this program alone: ru_maxrss would start at that of the parent

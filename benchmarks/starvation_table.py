@@ -1,7 +1,7 @@
 """Film of starved circular contacts over the supply, as a table.
 
 ``python -m benchmarks.starvation_table`` solves each contact to 0.5 % and writes
-``src/tehl/starvation.csv``, which ``tehl explain`` reads.
+``src/tehl/estimate/starvation.csv``, which ``tehl explain`` reads.
 """
 
 import csv
@@ -10,11 +10,11 @@ from pathlib import Path
 
 from tests.reference import moes_contact
 
-from tehl.io.case import case_from_tables
-from tehl.options import Options
-from tehl.solver import solve
+from tehl.api.problem import case_from_tables
+from tehl.api.solvers import solve
+from tehl.contact.options import Options
 
-TABLE = Path(__file__).parents[1] / "src" / "tehl" / "starvation.csv"
+TABLE = Path(__file__).parents[1] / "src" / "tehl" / "estimate" / "starvation.csv"
 LOADS, SPEEDS = (20.0, 50.0, 100.0, 200.0, 500.0), (5.0, 8.0, 12.0)
 RATIOS = (0.1, 0.2, 0.4, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0)
 OPTIONS = Options(error=0.005)

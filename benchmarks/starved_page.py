@@ -9,15 +9,15 @@ import numpy as np
 from tests.reference import DOMAIN, moes_contact, read
 
 from benchmarks.markdown import head, row
-from tehl.hertz import HertzContact
-from tehl.io.case import case_from_tables
-from tehl.options import Options
+from tehl.api.problem import case_from_tables
+from tehl.api.results import Result
+from tehl.api.solvers import solve, solve_passes
+from tehl.contact.hertz import HertzContact
+from tehl.contact.options import Options
+from tehl.estimate.scaling import ScaledProblem
 from tehl.post.layer import LayerDecay, layer_decay, rate_by_formula
 from tehl.post.starvation import meniscus
-from tehl.result import Result
-from tehl.scaling import ScaledProblem
-from tehl.solver import solve, solve_passes
-from tehl.solver.certify import estimate
+from tehl.solver.judging.certify import estimate
 
 GRIDS = (129, 257, 513)
 FILMS = """

@@ -11,13 +11,13 @@ from tests.reference import DOMAIN, heated_contact
 
 from benchmarks.measure import attempt
 from benchmarks.table import Cell, Table
+from tehl.api.problem import ContactProblem
+from tehl.api.results import Result
+from tehl.api.solvers import with_work
+from tehl.contact.options import Options
 from tehl.operators.energy import FilmState
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import Result
-from tehl.solver import with_work
-from tehl.solver.hierarchy import Hierarchy
-from tehl.solver.level import Level
+from tehl.solver.cycle.hierarchy import Hierarchy
+from tehl.solver.cycle.level import Level
 
 EYRING = {"law": "eyring", "stress": 10e6}
 SPEED_LOAD, SPEED_SLIDE = 100.0, 0.5

@@ -7,10 +7,10 @@ from tests.solver.rough import with_roughness
 
 from benchmarks.measure import attempt, fft_unit
 from benchmarks.table import Cell, Table
-from tehl.film_formulas import expected_film
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.scaling import ScaledProblem, scales
+from tehl.api.problem import ContactProblem
+from tehl.contact.options import Options
+from tehl.estimate.film_formulas import expected_film
+from tehl.estimate.scaling import ScaledProblem, scales
 
 CONTACTS = ((100, 8, 0.3), (300, 5, 0.3), (1000, 4, 0.3), (1000, 4, 0.2))
 """Moes numbers M and L, and correlation length over the half-width."""

@@ -14,11 +14,11 @@ from tests.reference import CLOSE, DOMAIN, heated_contact, moes_contact, read, w
 from benchmarks import mixed_page, starved_page, waves
 from benchmarks.markdown import head, row
 from benchmarks.table import show
-from tehl.options import Options
+from tehl.api.results import Result
+from tehl.api.solvers import solve
+from tehl.contact.options import Options
 from tehl.post.waves import WaveResponse, wave_responses
-from tehl.result import Result
-from tehl.solver import solve
-from tehl.solver.certify import estimate
+from tehl.solver.judging.certify import estimate
 
 PAGE = Path(__file__).parents[1] / "docs" / "validation.md"
 GRIDS = (129, 257, 513)

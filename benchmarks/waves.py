@@ -15,13 +15,12 @@ from tests.reference import moes_contact
 
 from benchmarks.table import Table
 from tehl import solve_transient
-from tehl.film_formulas import expected_central_film
-from tehl.options import Domain, Options
-from tehl.problem import ContactProblem
-from tehl.result import ConvergenceError
-from tehl.scaling import groups, scales
-from tehl.transient_result import TransientResult
-from tehl.wave_theory import amplitude_reduction, nabla_of
+from tehl.api.problem import ContactProblem
+from tehl.api.results import ConvergenceError, TransientResult
+from tehl.contact.options import Domain, Options
+from tehl.estimate.film_formulas import expected_central_film
+from tehl.estimate.scaling import groups, scales
+from tehl.estimate.wave_theory import amplitude_reduction, nabla_of
 
 DOMAIN = Domain(x=(-2.5, 1.5), y=(-2.0, 2.0))
 ENTRANCE = 1.7

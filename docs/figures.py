@@ -8,16 +8,16 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Patch
 
 import tehl
+from tehl.estimate.scaling import ScaledProblem
 from tehl.operators.flow import flow_table
 from tehl.operators.influence import influence_of
 from tehl.operators.reynolds import line_influence
 from tehl.post.waves import WaveResponse, wave_responses
 from tehl.roughness import Wave
-from tehl.scaling import ScaledProblem
-from tehl.solver.equations import Equations
-from tehl.solver.fas import Cycle, cycle
-from tehl.solver.level import Level
-from tehl.solver.relaxation import FAST, LineSmoother
+from tehl.solver.cycle.equations import Equations
+from tehl.solver.cycle.fas import Cycle, cycle
+from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.relaxation import FAST, LineSmoother
 from tehl.solver.steady import finest_grid
 
 POINTS = 129

@@ -17,7 +17,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 import tehl
-from tehl.inlet_heating import thermal_loading
+from tehl.estimate.inlet_heating import thermal_loading
 from tehl.post.thermal_effect import ThermalEffect, isothermal_reference, thermal_effect
 
 SPEEDS = (1.0, 2.0, 4.0, 8.0, 16.0)

@@ -15,7 +15,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 import tehl
-from tehl.film_formulas import film_estimates
+from tehl.estimate.film_formulas import film_estimates
 
 LOADS = (10.0, 20.0, 50.0, 100.0, 200.0, 500.0)
 

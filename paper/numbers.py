@@ -12,7 +12,7 @@ from scipy.ndimage import map_coordinates
 from scipy.signal import find_peaks
 
 from tehl import Result
-from tehl.film_formulas import film_estimates
+from tehl.estimate.film_formulas import film_estimates
 
 OUTLET = 0.3
 """X behind which a maximum of the pressure on the centre line is the spike."""

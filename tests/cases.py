@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from tehl.problem import ContactProblem
+from tehl.api.problem import ContactProblem
 
 Tables = dict[str, Any]
 

@@ -5,13 +5,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tehl.fields import Fields, FilmSummary
-from tehl.options import Options
+from tehl.api.problem import ContactProblem
+from tehl.api.results import Result
+from tehl.contact.options import Options
+from tehl.estimate.scaling import groups, scales
 from tehl.post.film import dry_gap, hertz_pressure
-from tehl.problem import ContactProblem
-from tehl.result import Result
-from tehl.scaling import groups, scales
-from tehl.solution import Cost, CycleReport, ErrorEstimate, Estimate, Hint, Provenance, Status
+from tehl.result.fields import Fields, FilmSummary
+from tehl.result.solution import (
+    Cost,
+    CycleReport,
+    ErrorEstimate,
+    Estimate,
+    Hint,
+    Provenance,
+    Status,
+)
 
 CASE = {
     "title": "Ball on disc",

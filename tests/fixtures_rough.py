@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tehl.fields import Fields, SurfaceHeights
-from tehl.result import Result
+from tehl.api.results import Result
+from tehl.result.fields import Fields, SurfaceHeights
 from tests.fixtures_result import CASE, make_result
 
 WAVELENGTH, ANGLE, AMPLITUDE = 0.25, np.pi / 4, 0.01

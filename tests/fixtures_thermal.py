@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tehl.fields import FilmHeat, FilmShear, HeatBalance
-from tehl.result import Result
+from tehl.api.results import Result
+from tehl.result.fields import FilmHeat, FilmShear, HeatBalance
 
 HOTTEST = 40.0
 """Rise at mid-film over that of the surfaces, where p is the Hertz pressure [K]."""

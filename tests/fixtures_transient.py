@@ -5,9 +5,10 @@ from functools import cache
 
 import numpy as np
 
-from tehl.problem import ContactProblem
-from tehl.solution import Cost, Estimate, Provenance, Status
-from tehl.transient_result import Frames, History, HistoryBars, Profiles, TransientResult
+from tehl.api.problem import ContactProblem
+from tehl.api.results import TransientResult
+from tehl.result.solution import Cost, Estimate, Provenance, Status
+from tehl.result.transient import Frames, History, HistoryBars, Profiles
 from tests.fixtures_result import CASE, make_result
 
 STEPS = 60

@@ -11,21 +11,19 @@ Exports are loaded on first use, so that importing the package costs nothing.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from tehl.version import SOLVER_VERSION, __version__
+from tehl.base.version import SOLVER_VERSION, __version__
 
 if TYPE_CHECKING:
     from tehl import plots, post, studies
-    from tehl.errors import FileFormatError, InputError, TehlError
-    from tehl.io.case import read_case, read_case_and_options
-    from tehl.io.store import load
+    from tehl.api.problem import ContactProblem, read_case, read_case_and_options
+    from tehl.api.results import ConvergenceError, Result, TransientResult, load
+    from tehl.api.solvers import certify, certify_transient, solve, solve_passes, solve_transient
+    from tehl.base.errors import FileFormatError, InputError, TehlError
+    from tehl.contact.materials import Solid, material
+    from tehl.contact.options import Domain, Options
+    from tehl.contact.point_contact import Contact, Surface
     from tehl.lubricant import Lubricant, oil
-    from tehl.materials import Solid, material
-    from tehl.options import Domain, Options
-    from tehl.problem import Contact, ContactProblem, Surface
-    from tehl.result import ConvergenceError, Result
-    from tehl.solver import certify, certify_transient, solve, solve_passes, solve_transient
     from tehl.studies import solve_contacts, study
-    from tehl.transient_result import TransientResult
 
 __all__ = [
     "SOLVER_VERSION",
@@ -63,19 +61,17 @@ __all__ = [
 _HOMES = {
     name: module
     for module, names in {
-        "tehl.errors": ("FileFormatError", "InputError", "TehlError"),
-        "tehl.io.case": ("read_case", "read_case_and_options"),
-        "tehl.io.store": ("load",),
-        "tehl.lubricant": ("Lubricant", "oil"),
-        "tehl.materials": ("Solid", "material"),
-        "tehl.options": ("Domain", "Options"),
-        "tehl.problem": ("Contact", "ContactProblem", "Surface"),
-        "tehl.result": ("ConvergenceError", "Result"),
-        "tehl.solver": (
+        "tehl.api.problem": ("ContactProblem", "read_case", "read_case_and_options"),
+        "tehl.api.results": ("ConvergenceError", "Result", "TransientResult", "load"),
+        "tehl.api.solvers": (
             *("certify", "certify_transient", "solve", "solve_passes", "solve_transient"),
         ),
+        "tehl.base.errors": ("FileFormatError", "InputError", "TehlError"),
+        "tehl.contact.materials": ("Solid", "material"),
+        "tehl.contact.options": ("Domain", "Options"),
+        "tehl.contact.point_contact": ("Contact", "Surface"),
+        "tehl.lubricant": ("Lubricant", "oil"),
         "tehl.studies": ("solve_contacts", "study"),
-        "tehl.transient_result": ("TransientResult",),
     }.items()
     for name in names
 }

@@ -3,8 +3,8 @@
 from benchmarks.measure import attempt
 from benchmarks.thermal import EYRING, speed_contact, timed_parts
 
-from tehl.options import Options
-from tehl.solver.hierarchy import Hierarchy
+from tehl.contact.options import Options
+from tehl.solver.cycle.hierarchy import Hierarchy
 from tests.reference import DOMAIN
 
 

@@ -6,12 +6,12 @@ from types import ModuleType, SimpleNamespace
 
 import pytest
 
-from tehl.result import ConvergenceError
+from tehl.api.results import ConvergenceError
 from tests.fixtures_result import make_result
 
 
 class FakeSolver:
-    """Stands for ``tehl.solver``; ``outcome`` is a status or an exception to raise.
+    """Stands for ``tehl.api.solvers``; ``outcome`` is a status or an exception to raise.
 
     ``cold`` is the outcome of isothermal cases after another one.
     """
@@ -54,11 +54,11 @@ class Silent:
 @pytest.fixture
 def solver(monkeypatch) -> FakeSolver:
     fake = FakeSolver()
-    module = ModuleType("tehl.solver")
+    module = ModuleType("tehl.api.solvers")
     module.solve, module.certify = fake.solve, fake.certify
     module.with_work = lambda result: result
-    monkeypatch.setitem(sys.modules, "tehl.solver", module)
-    monkeypatch.setattr("tehl.solver", module, raising=False)
+    monkeypatch.setitem(sys.modules, "tehl.api.solvers", module)
+    monkeypatch.setattr("tehl.api.solvers", module, raising=False)
     monitor = SimpleNamespace(SILENT=Silent())
     monkeypatch.setitem(sys.modules, "tehl.solver.monitor", monitor)
     monkeypatch.setitem(

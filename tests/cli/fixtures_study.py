@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 
 from tehl import cli
-from tehl.solution import Cost, Hint
+from tehl.result.solution import Cost, Hint
 from tehl.studies import Row, runner
 
 STUDY = """

@@ -4,8 +4,8 @@ import importlib.util
 
 import pytest
 
+from tehl.base.errors import InputError
 from tehl.cli import explore
-from tehl.errors import InputError
 from tehl.io.templates import template_text
 
 

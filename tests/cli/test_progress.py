@@ -16,10 +16,10 @@ from tehl.cli.progress import (
     progress,
     study_progress,
 )
-from tehl.heat import Thermal
+from tehl.contact.heat import Thermal
 from tehl.kernels.warmup import Progress as Compiling
+from tehl.result.transient import StepReport
 from tehl.studies import Row
-from tehl.transient_result import StepReport
 from tests.fixtures_result import make_result
 from tests.fixtures_transient import make_transient
 from tests.study.contacts import cases

@@ -14,9 +14,9 @@ import h5netcdf
 import pytest
 
 from tehl import cli
+from tehl.api.results import load
 from tehl.io import store
-from tehl.io.store import load
-from tehl.solution import Hint, Status
+from tehl.result.solution import Hint, Status
 from tests.cli.fixtures_solver import solver
 
 __all__ = ["solver"]
@@ -275,7 +275,7 @@ def test_bad_input_writes_nothing_and_solves_nothing(folder, solver, run, words,
 
 
 def test_a_grid_beyond_the_memory_is_rejected(folder, solver, run, monkeypatch):
-    monkeypatch.setattr("tehl.memory.available_memory", lambda: 1e9)
+    monkeypatch.setattr("tehl.estimate.memory.available_memory", lambda: 1e9)
     done = run("solve", "ball.toml", "--set", "numerics.points=16385")
     assert done.code == 2
     assert "16385 x 16385: needs about 48 GB" in done.err

@@ -9,7 +9,7 @@ import sys
 import pandas as pd
 import pytest
 
-from tehl.io import atomic
+from tehl.base import atomic
 from tehl.io.templates import template_text, templates
 from tehl.studies import runner
 from tehl.studies.file import read_study

@@ -3,7 +3,7 @@
 
 import pytest
 
-from tehl.solution import Hint
+from tehl.result.solution import Hint
 from tehl.studies import Row, runner
 from tehl.studies.file import read_study
 from tests.cli.fixtures_study import CASE, STUDY, folder, names, run

@@ -5,14 +5,14 @@ from dataclasses import replace
 
 from tehl.cli.reference_runs import Comparisons
 from tehl.cli.text import as_text, failure_text
-from tehl.heat import Thermal
-from tehl.inlet_heating import InletFactor
+from tehl.contact.heat import Thermal
+from tehl.estimate.inlet_heating import InletFactor
 from tehl.post.micro_film import roughness_effect
 from tehl.post.roughness import rough_film
 from tehl.post.thermal_effect import ThermalEffect
 from tehl.report.page import report_text
 from tehl.report.readable import length
-from tehl.solution import Estimate, Hint, Status
+from tehl.result.solution import Estimate, Hint, Status
 from tests.fixtures_rough import make_rough
 
 

@@ -15,11 +15,11 @@ import pytest
 
 import tehl
 from tehl import cli
+from tehl.api.results import ConvergenceError
 from tehl.cli.checkpoint import STEPS, Keeper
 from tehl.io.checkpoint import Fingerprint
 from tehl.plots import animation
-from tehl.result import ConvergenceError
-from tehl.solution import Hint, Status
+from tehl.result.solution import Hint, Status
 from tests.fixtures_result import make_result
 from tests.fixtures_transient import make_certified, make_transient
 
@@ -177,7 +177,7 @@ def solved(monkeypatch):
             assert problem.transient is not None
             return outcome
 
-        monkeypatch.setattr("tehl.solver.solve_transient", solve_transient)
+        monkeypatch.setattr("tehl.api.solvers.solve_transient", solve_transient)
 
     return give
 
@@ -253,7 +253,7 @@ def certified(monkeypatch):
     """Let certified runs have their outcome at once."""
 
     def give(outcome):
-        monkeypatch.setattr("tehl.solver.certify_transient", lambda *_, **__: outcome)
+        monkeypatch.setattr("tehl.api.solvers.certify_transient", lambda *_, **__: outcome)
 
     return give
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from tehl import solve
+from tehl.api.problem import case_from_tables
 from tehl.cli.text import as_text
-from tehl.io.case import case_from_tables
 from tehl.io.templates import template_text
 
 README = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")

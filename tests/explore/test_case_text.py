@@ -6,11 +6,11 @@ import pytest
 
 pytest.importorskip("tomlkit", reason="needs pip install 'tehl[explore]'")
 
-from tehl.errors import InputError
+from tehl.api.problem import case_from_tables
+from tehl.api.solvers import solve
+from tehl.base.errors import InputError
 from tehl.explore.case_text import CaseText, template_case
-from tehl.io.case import case_from_tables
 from tehl.io.templates import template_text, templates
-from tehl.solver import solve
 
 BALL = template_text("ball-on-disc")
 

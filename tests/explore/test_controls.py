@@ -4,10 +4,10 @@ import pytest
 
 pytest.importorskip("tomlkit", reason="needs pip install 'tehl[explore]'")
 
-from tehl.errors import InputError
+from tehl.api.problem import case_from_tables
+from tehl.base.errors import InputError
 from tehl.explore.case_text import CaseText
 from tehl.explore.controls import Choice, Knob, groups
-from tehl.io.case import case_from_tables
 from tehl.io.templates import template_text, templates
 
 

@@ -4,7 +4,7 @@ import pytest
 
 pytest.importorskip("nicegui", reason="needs pip install 'tehl[explore]'")
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.explore.curve_panel import ends
 from tehl.explore.curves import Point, nearest, swept_chart
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.explore.files import LARGEST, Files, named_files
 
 

@@ -7,9 +7,10 @@ import pytest
 pytest.importorskip("nicegui", reason="needs pip install 'tehl[explore]'")
 
 import tehl
+from tehl.api.problem import case_from_tables
 from tehl.explore.number_panel import number_html
 from tehl.explore.numbers import Number, numbers, value_of
-from tehl.io.case import case_from_tables, tables_of_text
+from tehl.io.case import tables_of_text
 from tehl.io.templates import template_text
 from tehl.report.explain import explain
 

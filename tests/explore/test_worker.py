@@ -9,12 +9,12 @@ import pytest
 
 pytest.importorskip("tomlkit", reason="needs pip install 'tehl[explore]'")
 
+from tehl.api.problem import case_from_tables
+from tehl.api.solvers import solve
 from tehl.explore.case_text import CaseText
 from tehl.explore.jobs import Ask, Desk, End, Explained, Failure, Part, TooCoarse
 from tehl.explore.worker import DIED, Solver
-from tehl.io.case import case_from_tables
 from tehl.io.templates import template_text
-from tehl.solver import solve
 
 CASE = CaseText(template_text("ball-on-disc"))
 

@@ -4,10 +4,11 @@ from pathlib import Path
 
 import pytest
 
-from tehl.errors import InputError
-from tehl.io.case import case_from_tables, change, read_case, read_case_and_options
+from tehl.api.problem import case_from_tables, read_case, read_case_and_options
+from tehl.base.errors import InputError
+from tehl.contact.options import Domain, coarsenable, coarsenings
+from tehl.io.case import change
 from tehl.io.templates import template_text
-from tehl.options import Domain, coarsenable, coarsenings
 from tests.cases import ball_tables
 
 

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from tehl.errors import InputError
-from tehl.io.case import read_case
+from tehl.api.problem import read_case
+from tehl.base.errors import InputError
 from tehl.io.templates import template_text
 
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tehl.errors import FileFormatError, InputError
+from tehl.base.errors import FileFormatError, InputError
 from tehl.io.checkpoint import Fingerprint, read_checkpoint, write_checkpoint
 
 OWNER = Fingerprint("0.1.0", "abc")

@@ -8,7 +8,7 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.io.export import ending_of, export
 from tests.fixtures_transient import make_certified, make_transient
 

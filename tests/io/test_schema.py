@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 from pydantic import TypeAdapter
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
+from tehl.base.units import Force, Number, PressureCoefficient, Radius, Speed, quantity
+from tehl.contact.materials import material
 from tehl.io.case import case_schema
-from tehl.materials import material
-from tehl.units import Force, Number, PressureCoefficient, Radius, Speed, quantity
 
 
 def test_the_schema_has_every_table_and_forbids_others():

@@ -11,11 +11,11 @@ import h5py
 import numpy as np
 import pytest
 
-from tehl.errors import FileFormatError, InputError
+from tehl.api.results import Result, load
+from tehl.base.atomic import check_writable
+from tehl.base.errors import FileFormatError, InputError
 from tehl.io import store
-from tehl.io.atomic import check_writable
-from tehl.io.store import load, load_summary, save, to_dataset
-from tehl.result import Result
+from tehl.io.store import load_summary, save, to_dataset
 from tehl.studies import Store
 from tests.fixtures_result import CASE, make_result
 

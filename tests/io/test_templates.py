@@ -5,11 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from tehl.errors import InputError
-from tehl.heat import FilmEnergy
-from tehl.io.case import case_from_tables, read_case_and_options
+from tehl.api.problem import ContactProblem, case_from_tables, read_case_and_options
+from tehl.base.errors import InputError
+from tehl.contact.heat import FilmEnergy
 from tehl.io.templates import template_text, templates
-from tehl.problem import ContactProblem
 from tehl.report.explain import explain
 
 

@@ -8,11 +8,9 @@ import numpy as np
 import pytest
 
 import tehl
-from tehl.errors import FileFormatError
-from tehl.io.store import load_as
-from tehl.result import Result
-from tehl.solution import Status
-from tehl.transient_result import TransientResult
+from tehl.api.results import Result, TransientResult, load_as
+from tehl.base.errors import FileFormatError
+from tehl.result.solution import Status
 from tests.fixtures_transient import make_certified, make_transient
 
 

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial.polynomial import polyder, polyval
 
+from tehl.base.typing import Array
 from tehl.kernels.energy.column import CONDUCTION, TO_WALLS
 from tehl.kernels.energy.march import LARGEST_FALL, LARGEST_GROWTH, LARGEST_STEP
 from tehl.kernels.energy.records import ETA_TERMS, GHOSTS, Across, Fields, Laws, Model, Surfaces
-from tehl.typing import Array
 
 
 @dataclass

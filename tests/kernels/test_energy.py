@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from numba import njit
 
+from tehl.base.typing import Array
+from tehl.estimate.scaling import Scales
 from tehl.kernels.energy import column, flow, laws, records
 from tehl.kernels.raw import lanes, raw
 from tehl.lubricant import (
@@ -16,8 +18,6 @@ from tehl.lubricant import (
 )
 from tehl.operators.across import SCHEMES
 from tehl.operators.law_table import law_table
-from tehl.scaling import Scales
-from tehl.typing import Array
 from tests.kernels import station as twin
 from tests.kernels.from_python import from_python
 

@@ -3,15 +3,15 @@
 import numpy as np
 import pytest
 
-from tehl.grid import Grid
+from tehl.api.problem import ContactProblem
+from tehl.contact.options import Domain
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import ScaledProblem
 from tehl.kernels.energy.march import sweep
 from tehl.kernels.energy.outputs import STRAIGHT
 from tehl.kernels.energy.records import BLOCK
 from tehl.operators.energy import FilmState
 from tehl.operators.heated_film import HeatedFilm
-from tehl.options import Domain
-from tehl.problem import ContactProblem
-from tehl.scaling import ScaledProblem
 from tests.kernels import station
 
 SHEAR = {

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from numba import njit
 
+from tehl.base.typing import Array, Records
 from tehl.kernels.lanes import (
     LANES,
     any_of,
@@ -20,7 +21,6 @@ from tehl.kernels.lanes import (
     where,
 )
 from tehl.kernels.raw import lanes, raw
-from tehl.typing import Array, Records
 
 CELL = np.dtype([("u", float, LANES), ("table", float, (3, LANES))])
 

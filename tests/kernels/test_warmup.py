@@ -11,10 +11,10 @@ SOLVED = """
 import importlib, pkgutil
 import tehl.kernels
 from tehl.kernels.warmup import warm_up
-from tehl.options import Options
-from tehl.scaling import scales
-from tehl.solver import solve, solve_transient
-from tehl.transient import Transient
+from tehl.contact.options import Options
+from tehl.estimate.scaling import scales
+from tehl.api.solvers import solve, solve_transient
+from tehl.contact.transient import Transient
 from tests.cases import moes_problem
 from tests.reference import DOMAIN, heated_contact
 

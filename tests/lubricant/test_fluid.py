@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from pydantic import TypeAdapter
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
+from tehl.base.named import read_tables
 from tehl.lubricant import Lubricant, NamedLubricant, oil
 from tehl.lubricant.fluid import OILS
-from tehl.named import read_tables
 
 
 @pytest.mark.parametrize("name", list(read_tables(OILS)))

@@ -3,7 +3,7 @@
 import pytest
 from pydantic import TypeAdapter
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.lubricant import Barus, Lubricant, Roelands, RoelandsExponential, ViscosityLaw, oil
 from tehl.lubricant.pressure import wooster
 

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.lubricant import (
     Barus,
     ConstantViscosity,

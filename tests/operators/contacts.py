@@ -1,8 +1,8 @@
 """Grids and groups for the tests of the discrete operators."""
 
-from tehl.grid import Grid
-from tehl.options import Domain
-from tehl.scaling import Groups, groups
+from tehl.contact.options import Domain
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import Groups, groups
 from tests.reference import moes_contact
 
 FLAT = Domain(x=(-3.0, 1.8), y=(-2.0, 2.0))

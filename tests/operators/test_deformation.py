@@ -5,7 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tehl.grid import Grid
+from tehl.base.typing import Array
+from tehl.contact.options import Domain
+from tehl.estimate.grid import Grid
 from tehl.operators.deformation import (
     DirectDeformation,
     FftDeformation,
@@ -15,8 +17,6 @@ from tehl.operators.deformation import (
 from tehl.operators.film import gap, hertz_pressure
 from tehl.operators.influence import influence_of
 from tehl.operators.multilevel import MultilevelDeformation
-from tehl.options import Domain
-from tehl.typing import Array
 from tests.operators.contacts import contact_groups, grid_of
 from tests.reference import DOMAIN, read
 

@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from tehl.grid import Grid
+from tehl.api.problem import ContactProblem
+from tehl.base.typing import Array
+from tehl.contact.options import Domain
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import ScaledProblem
 from tehl.operators.energy import FilmState
 from tehl.operators.heated_film import HeatedFilm
-from tehl.options import Domain
-from tehl.problem import ContactProblem
-from tehl.scaling import ScaledProblem
-from tehl.typing import Array
 
 COLD = 313.0
 ROWS = 17

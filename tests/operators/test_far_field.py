@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from tehl.grid import Grid
+from tehl.contact.options import Domain
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import groups
 from tehl.operators.far_field import FarField, angular_pressure
 from tehl.operators.film import gap
-from tehl.options import Domain
-from tehl.scaling import groups
 from tests.reference import moes_contact
 
 GROUPS = groups(moes_contact(2.0, 5.0))

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tehl.estimate.scaling import ScaledProblem
 from tehl.kernels import properties
 from tehl.operators.flow import flow_table
-from tehl.scaling import ScaledProblem
 from tests.reference import moes_contact
 
 PROBLEM = moes_contact(1000.0, 20.0)

@@ -2,6 +2,9 @@ import numpy as np
 import pytest
 from numba import njit
 
+from tehl.base.named import read_tables
+from tehl.base.typing import Array
+from tehl.estimate.scaling import Scales
 from tehl.kernels.energy import records
 from tehl.kernels.energy.laws import evaluate_laws
 from tehl.kernels.raw import raw
@@ -17,11 +20,8 @@ from tehl.lubricant import (
     fluid,
     oil,
 )
-from tehl.named import read_tables
 from tehl.operators.across import uniform
 from tehl.operators.law_table import law_table
-from tehl.scaling import Scales
-from tehl.typing import Array
 
 COLD = 313.15
 HERTZ = 1.5e9

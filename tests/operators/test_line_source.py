@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from tehl.base.typing import Array
 from tehl.operators.line_source import history
-from tehl.typing import Array
 
 SUM = 1.2e-5
 """Relative error of the sum of exponentials, 2 exp(-pi^2 / (2 STEP)) and a little for its ends."""

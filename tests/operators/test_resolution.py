@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
+from tehl.api.problem import ContactProblem
 from tehl.operators.resolution import resolution_of
-from tehl.problem import ContactProblem
 from tests.cases import ball_tables
 
 WIDTH = 219.7e-6

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from tehl.grid import Grid
+from tehl.base.typing import Array
+from tehl.contact.options import Domain
+from tehl.estimate.grid import Grid
 from tehl.kernels import properties, reynolds
 from tehl.operators.influence import influence_of
 from tehl.operators.reynolds import line_influence, steady_stencil
-from tehl.options import Domain
-from tehl.typing import Array
 from tests.kernels.from_python import from_python
 from tests.operators.contacts import contact_groups, grid_of
 

@@ -35,8 +35,9 @@ def test_only_public_names_of_tehl_are_imported(file):
 
 def test_an_internal_name_would_be_found(tmp_path):
     file = tmp_path / "module.py"
-    file.write_text("from tehl.plots.frame import span_part\nimport tehl.grid\n", encoding="utf-8")
+    text = "from tehl.plots.frame import span_part\nimport tehl.estimate.grid\n"
+    file.write_text(text, encoding="utf-8")
     assert [name for name in names_from_tehl(file) if not is_public(name)] == [
         "tehl.plots.frame.span_part",
-        "tehl.grid",
+        "tehl.estimate.grid",
     ]

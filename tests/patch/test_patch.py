@@ -3,16 +3,17 @@
 import numpy as np
 import pytest
 
-from tehl.asperities import shear_flow
-from tehl.errors import InputError
-from tehl.io.case import case_from_tables
-from tehl.io.store import load, save
-from tehl.options import Options
+from tehl.api.problem import case_from_tables
+from tehl.api.results import load
+from tehl.api.solvers import solve
+from tehl.base.errors import InputError
+from tehl.contact.options import Options
+from tehl.contact.summits import shear_flow
+from tehl.io.store import save
 from tehl.patch import contact
 from tehl.patch.contact import pressed
 from tehl.patch.curves import VANISHES, patch_curves, periodic_patch
 from tehl.patch.flow import flow_through
-from tehl.solver import solve
 from tests.reference import moes_contact
 
 

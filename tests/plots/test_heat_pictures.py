@@ -11,7 +11,7 @@ from matplotlib.patches import Ellipse
 from matplotlib.text import Text
 
 from tehl import plots
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.plots import PICTURES, pictures_of
 from tests.fixtures_result import CASE, make_result
 from tests.fixtures_thermal import with_heat, with_shear

@@ -11,11 +11,11 @@ from matplotlib.patches import Ellipse
 from matplotlib.text import Text
 
 from tehl import plots
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.io.store import save
 from tehl.plots import PICTURES
 from tehl.plots.maps import film_levels
-from tehl.solution import Status
+from tehl.result.solution import Status
 from tests.fixtures_result import CASE, make_result
 from tests.fixtures_transient import make_transient
 

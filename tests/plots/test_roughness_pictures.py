@@ -7,7 +7,7 @@ import pytest
 from matplotlib.collections import QuadMesh
 
 from tehl import plots
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.plots import PICTURES, pictures_of
 from tests.fixtures_result import CASE
 from tests.plots.test_pictures import texts

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.plots import contour_map, curves, film_deviations, moes_map
 from tehl.plots.table_columns import find_column, numbers
 from tehl.plots.table_curves import overlay

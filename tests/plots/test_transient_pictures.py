@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.plots import save_all, transient
 from tehl.plots.animation import Movie, animate
-from tehl.solution import Status
+from tehl.result.solution import Status
 from tests.fixtures_transient import make_certified, make_transient
 
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tehl.hertz import elliptic_b_d
+from tehl.contact.hertz import elliptic_b_d
 from tehl.post.film import (
     dry_gap,
     hertz_pressure,

@@ -5,11 +5,11 @@ from functools import cache
 import pytest
 
 from tehl import solve_transient
-from tehl.options import Domain, Options
+from tehl.api.problem import ContactProblem
+from tehl.api.results import TransientResult
+from tehl.contact.options import Domain, Options
+from tehl.estimate.scaling import scales
 from tehl.post.waves import passing_wave
-from tehl.problem import ContactProblem
-from tehl.scaling import scales
-from tehl.transient_result import TransientResult
 from tests.reference import moes_contact
 
 

@@ -6,9 +6,10 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 
-from tehl.errors import InputError
-from tehl.film_formulas import lubrication
-from tehl.heat import Thermal
+from tehl.api.problem import ContactProblem
+from tehl.base.errors import InputError
+from tehl.contact.heat import Thermal
+from tehl.estimate.film_formulas import lubrication
 from tehl.io.store import load_summary, save
 from tehl.io.summary import from_block, roughness_block
 from tehl.post.micro_film import (
@@ -20,7 +21,6 @@ from tehl.post.micro_film import (
 )
 from tehl.post.roughness import area_below, film_histogram, film_in_contact, ripples, rough_film
 from tehl.post.thermal_effect import ThermalEffect
-from tehl.problem import ContactProblem
 from tests.fixtures_result import CASE, make_result
 from tests.fixtures_rough import AMPLITUDE, CARRIED, LEFT, PRESSURE, WAVELENGTH, make_rough
 

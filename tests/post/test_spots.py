@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad
 
-from tehl.post.spots import _flash_rises
+from tehl.post.summit_spots import _flash_rises
 from tests.reference import touching_contact
 
 

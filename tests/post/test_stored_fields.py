@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from tehl import InputError, solve_transient
-from tehl.options import Options
+from tehl.contact.options import Options
+from tehl.estimate.wave_theory import drift_of_heights
 from tehl.post.micro_film import micro_film
 from tehl.post.roughness import area_below, rough_film
 from tehl.post.transient import film_at, smooth_start
-from tehl.wave_theory import drift_of_heights
 from tests.reference import DOMAIN
 from tests.solver.test_transient import in_time, wave
 

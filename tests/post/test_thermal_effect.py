@@ -4,7 +4,8 @@ from dataclasses import asdict, replace
 
 import pytest
 
-from tehl.errors import InputError
+from tehl.api.problem import ContactProblem
+from tehl.base.errors import InputError
 from tehl.io.store import load_summary, save
 from tehl.io.summary import from_block
 from tehl.post.thermal_effect import (
@@ -12,7 +13,6 @@ from tehl.post.thermal_effect import (
     isothermal_reference,
     thermal_effect,
 )
-from tehl.problem import ContactProblem
 from tests.fixtures_result import CASE
 
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import tehl
-from tehl.loaded_zone import zone_part
-from tehl.options import Domain
+from tehl.contact.options import Domain
+from tehl.contact.supply import Supply
+from tehl.operators.loaded_zone import zone_part
 from tehl.post.traction import under_pressure
-from tehl.supply import Supply
 from tests.cases import moes_problem
 from tests.fixtures_result import make_result
 from tests.fixtures_thermal import with_shear

@@ -6,13 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tehl.api.problem import ContactProblem
+from tehl.api.results import TransientResult
+from tehl.base.errors import InputError
 from tehl.cli.text import as_text
-from tehl.duration import BEYOND
-from tehl.errors import InputError
+from tehl.estimate.duration import BEYOND
 from tehl.post.transient import envelope, largest_change, moving_profiles, passing_features
 from tehl.post.waves import passing_wave
-from tehl.problem import ContactProblem
-from tehl.transient_result import TransientResult
 from tests.fixtures_result import CASE, make_result
 from tests.fixtures_transient import make_certified, make_transient, passing
 

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tehl.fields import SurfaceHeights
-from tehl.heat import Thermal
+from tehl.api.problem import ContactProblem
+from tehl.api.results import Result
+from tehl.contact.heat import Thermal
+from tehl.contact.transient import Transient
 from tehl.post.waves import wave_notes, wave_responses
-from tehl.problem import ContactProblem
-from tehl.result import Result
-from tehl.transient import Transient
+from tehl.result.fields import SurfaceHeights
 from tests.fixtures_result import CASE, make_result
 from tests.fixtures_rough import (
     AMPLITUDE,

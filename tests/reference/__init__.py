@@ -4,10 +4,10 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
-from tehl.film_formulas import expected_film
-from tehl.options import Domain
-from tehl.problem import ContactProblem
-from tehl.scaling import ScaledProblem
+from tehl.api.problem import ContactProblem
+from tehl.contact.options import Domain
+from tehl.estimate.film_formulas import expected_film
+from tehl.estimate.scaling import ScaledProblem
 
 DOMAIN = Domain(x=(-4.5, 1.5), y=(-3.0, 3.0))
 """The domain of most published films, in Hertz half-widths."""

@@ -5,11 +5,11 @@ from typing import Any
 
 import pytest
 
-from tehl.film_formulas import expected_film
-from tehl.inlet_heating import inlet_heating_factor
-from tehl.problem import ContactProblem
+from tehl.api.problem import ContactProblem
+from tehl.estimate.film_formulas import expected_film
+from tehl.estimate.inlet_heating import inlet_heating_factor
+from tehl.estimate.scaling import ScaledProblem
 from tehl.report.expected_heat import ASSUMED_TRACTION, ExpectedHeat, body_effect, expected_heat
-from tehl.scaling import ScaledProblem
 from tests.cases import ball_tables
 
 STEEL = {"k": 46.0, "rho": 7850.0, "c": 470.0}

@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 
-from tehl.film_formulas import expected_central_film
-from tehl.io.case import case_from_tables
+from tehl.api.problem import case_from_tables
+from tehl.contact.options import Options
+from tehl.estimate.film_formulas import expected_central_film
 from tehl.io.templates import template_text
-from tehl.options import Options
 from tehl.report.explain import Explanation, as_summary, as_text, explain
 from tehl.report.readable import length
 from tehl.solver.steady import finest_grid

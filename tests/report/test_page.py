@@ -8,18 +8,18 @@ from html.parser import HTMLParser
 
 import pytest
 
-from tehl.inlet_heating import InletFactor
-from tehl.materials import material
+from tehl.api.problem import ContactProblem
+from tehl.contact.materials import material
+from tehl.estimate.inlet_heating import InletFactor
 from tehl.plots import pictures_of
 from tehl.post.micro_film import roughness_effect
 from tehl.post.thermal_effect import ThermalEffect
 from tehl.post.transient import largest_change
 from tehl.post.waves import passing_wave
-from tehl.problem import ContactProblem
 from tehl.report import page as module
 from tehl.report.page import report_text
 from tehl.report.readable import input_rows
-from tehl.solution import Estimate, Hint, Status
+from tehl.result.solution import Estimate, Hint, Status
 from tests.fixtures_result import CASE
 from tests.fixtures_rough import make_rough
 from tests.fixtures_transient import make_certified, make_transient, passing

@@ -2,11 +2,11 @@
 
 import pytest
 
-from tehl.io.case import case_from_tables
+from tehl.api.problem import case_from_tables
+from tehl.estimate.scaling import ScaledProblem
 from tehl.report.explain import as_summary, as_text, explain
 from tehl.report.readable import seconds
 from tehl.report.transient_plan import transient_plan
-from tehl.scaling import ScaledProblem
 from tests.cases import ball_tables
 
 WAVE = {"type": "wave", "amplitude": "20 nm", "wavelength": "200 um"}

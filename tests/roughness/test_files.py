@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.roughness import Map
 from tehl.roughness.files import INSTRUMENTS, read
 from tests.roughness.files import relief, write_metropro, write_x3p, write_xyz

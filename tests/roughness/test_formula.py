@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pydantic import BaseModel, ValidationError
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.roughness import AnyRoughness, Formula, Pocket, Wave
 
 

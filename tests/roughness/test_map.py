@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from pydantic import BaseModel, ValidationError
 from scipy import fft
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.roughness import AnyRoughness, Map, Sum, Wave
 from tests.roughness.files import relief, write_x3p, write_xyz
 from tests.roughness.maps import HEIGHTS, NX, NY, PIXEL, levelled_map, stated

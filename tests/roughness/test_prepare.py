@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.roughness.prepare import filled, gaussian_mean, levelled, without_outliers
 from tests.roughness.files import relief
 from tests.roughness.maps import HEIGHTS, NX, NY, PIXEL, levelled_map, stated

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 from scipy import fft
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.roughness import Random, Sum, Wave
 
 LENGTH = 2e-5

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.roughness import Map
 from tehl.roughness.files import checked, read
 from tests.roughness.files import relief, write_x3p

@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from tehl.grid import Grid
+from tehl.api.problem import ContactProblem
+from tehl.api.results import Result
+from tehl.api.solvers import solve
+from tehl.contact.options import Options
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import scales
 from tehl.operators.heights import Heights
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import Result
-from tehl.scaling import scales
-from tehl.solver import solve
 from tests.reference import moes_contact
 
 

@@ -2,15 +2,15 @@
 
 from functools import cache
 
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import Result
-from tehl.scaling import ScaledProblem
-from tehl.solver import solve
-from tehl.solver.film_solver import FilmSolver
-from tehl.solver.hierarchy import Hierarchy
-from tehl.solver.ladder import SMOOTH
-from tehl.solver.relaxation import FAST
+from tehl.api.problem import ContactProblem
+from tehl.api.results import Result
+from tehl.api.solvers import solve
+from tehl.contact.options import Options
+from tehl.estimate.scaling import ScaledProblem
+from tehl.solver.cycle.film_solver import FilmSolver
+from tehl.solver.cycle.hierarchy import Hierarchy
+from tehl.solver.cycle.ladder import SMOOTH
+from tehl.solver.cycle.relaxation import FAST
 from tehl.solver.steady import finest_grid
 from tests.reference import DOMAIN, moes_contact
 

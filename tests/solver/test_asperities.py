@@ -8,29 +8,27 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from tehl.asperities import channel, gaussian_integral, mean_gap, shear_flow
+from tehl.api.problem import ContactProblem, case_from_tables
+from tehl.api.results import ConvergenceError, Result, load
+from tehl.api.solvers import certify, solve, solve_transient
+from tehl.base.errors import InputError
 from tehl.cli.text import as_text
-from tehl.errors import InputError
-from tehl.film_formulas import expected_film
-from tehl.io.case import case_from_tables
-from tehl.io.store import load, save
-from tehl.kernels import asperities, properties, reynolds
-from tehl.operators.asperities import asperity_table
+from tehl.contact.options import Options
+from tehl.contact.summits import channel, gaussian_integral, mean_gap, shear_flow
+from tehl.estimate.film_formulas import expected_film
+from tehl.estimate.scaling import ScaledProblem, scales
+from tehl.io.store import save
+from tehl.kernels import properties, reynolds, summits
 from tehl.operators.influence import dense_matrix
 from tehl.operators.line_source import line_rise
+from tehl.operators.summits import asperity_table
 from tehl.operators.transient_film import Rubbing
-from tehl.options import Options
 from tehl.plots import asperity_map, pictures_of
 from tehl.post.heat import work_error
-from tehl.problem import ContactProblem
 from tehl.report.page import report_text
-from tehl.result import ConvergenceError
-from tehl.scaling import ScaledProblem, scales
-from tehl.solution import Status
-from tehl.solver import solve, solve_transient
-from tehl.solver.certify import certify
+from tehl.result.solution import Status
+from tehl.solver.judging.outputs import asperity_balance
 from tehl.solver.monitor import SILENT
-from tehl.solver.outputs import asperity_balance
 from tehl.solver.steady import try_strategies
 from tests.reference import CLOSE, heated_contact, moes_contact
 from tests.reference import touching_contact as rough
@@ -204,7 +202,7 @@ def test_the_oil_through_all_sections_of_a_tight_film_is_constant():
     problem = rough(50.0, 8.0, 0.7)
     options = Options(points=65, accuracy="tight", half_domain="never")
     attempt, result = try_strategies(problem, options, monitor=SILENT, rough=False)
-    level = attempt.run.finest
+    result, level = Result.of(result), attempt.run.finest
     film, grid, stencil = level.film, level.grid, level.stencil
     mass = film.rho * film.h
     along = 1.5 * mass[1:-1, 1:-1] - 0.5 * mass[1:-1, :-2]
@@ -390,7 +388,7 @@ def test_asperities_that_rub_heat_the_surfaces():
         tables = case.model_dump(exclude_none=True) | {"asperities": table}
         problem = case_from_tables(tables)[0]
         attempt, result = try_strategies(problem, Options(points=97), monitor=SILENT, rough=False)
-        found.append(result)
+        found.append(Result.of(result))
     cold, warm = found
     assert warm.status.converged
     power = warm.load_sharing.power_boundary
@@ -523,7 +521,7 @@ def test_dry_asperities_follow_the_film_that_they_move():
     )
     frozen = np.zeros(separation.shape, np.uint8)
     oil = properties.FlowTable(np.ones((9, 2)), np.ones((9, 2)), 1.0)
-    asperities.touch(film, separation, laws.laws, oil, frozen, reach)
+    summits.touch(film, separation, laws.laws, oil, frozen, reach)
     scales, sigma = ScaledProblem.of(problem).scales, problem.asperity_rms
 
     def left(more: float, height: float, q: float) -> float:
@@ -615,7 +613,7 @@ def percent(part):
 
 def test_asperities_whose_oil_does_not_balance_fail_by_name(monkeypatch):
     problem, options = rough(100.0, 8.0, 1.0), Options(points=129)
-    monkeypatch.setattr("tehl.solver.verdict.asperity_balance", lambda _: 0.2)
+    monkeypatch.setattr("tehl.solver.judging.verdict.asperity_balance", lambda _: 0.2)
     with pytest.raises(ConvergenceError) as failure:
         solve(problem, options)
     status = failure.value.result.status

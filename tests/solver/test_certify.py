@@ -7,15 +7,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tehl.errors import InputError
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import ConvergenceError
-from tehl.scaling import scales
-from tehl.solution import Status
-from tehl.solver import solve
-from tehl.solver.certify import certify, estimate
-from tehl.solver.convergence import SAFETY, discretisation_bar
+from tehl.api.problem import ContactProblem
+from tehl.api.results import ConvergenceError
+from tehl.api.solvers import certify, solve
+from tehl.base.errors import InputError
+from tehl.contact.options import Options
+from tehl.estimate.scaling import scales
+from tehl.result.solution import Status
+from tehl.solver.judging.certify import estimate
+from tehl.solver.judging.convergence import SAFETY, discretisation_bar
 from tests.reference import DOMAIN, moes_contact
 
 LIMITS = st.floats(0.01, 2.0)
@@ -174,7 +174,7 @@ def wavy(wavelength: float) -> ContactProblem:
 
 
 def test_the_finest_result_has_no_bar_if_the_next_coarser_grid_fails(monkeypatch):
-    module = sys.modules["tehl.solver.certify"]
+    module = sys.modules["tehl.solver.judging.certify"]
 
     def failing(problem, options, **others):
         found = solve(problem, options, **others)

@@ -9,13 +9,12 @@ import numpy as np
 import pytest
 
 from tehl import InputError, certify_transient, solve_transient
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import ConvergenceError
-from tehl.scaling import scales
-from tehl.solution import Status
+from tehl.api.problem import ContactProblem
+from tehl.api.results import ConvergenceError, TransientResult
+from tehl.contact.options import Options
+from tehl.estimate.scaling import scales
+from tehl.result.solution import Status
 from tehl.solver.transient.certify import estimates, grid_bar, history_bars
-from tehl.transient_result import TransientResult
 from tests.fixtures_result import make_result
 from tests.fixtures_transient import make_transient
 from tests.reference import DOMAIN, moes_contact

@@ -2,9 +2,9 @@
 
 import pytest
 
-from tehl.options import Domain, Options
-from tehl.result import ConvergenceError
-from tehl.solver import solve
+from tehl.api.results import ConvergenceError
+from tehl.api.solvers import solve
+from tehl.contact.options import Domain, Options
 from tests.cases import moes_problem
 
 DOMAIN = Domain(x=(-4.5, 1.5), y=(-3.0, 3.0))

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from tehl.kernels.properties import Factors
-from tehl.solution import CycleReport
-from tehl.solver.convergence import (
+from tehl.result.solution import CycleReport
+from tehl.solver.judging.convergence import (
     LEAST_CYCLES,
     LEAST_RATE,
     UNEVEN,
@@ -14,7 +14,7 @@ from tehl.solver.convergence import (
     film_converged,
     further_errors,
 )
-from tehl.solver.thermal import LARGEST_STEP, damped
+from tehl.solver.physics.thermal import LARGEST_STEP, damped
 
 
 @pytest.mark.parametrize("damping", [0.3, 0.5])

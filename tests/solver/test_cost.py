@@ -4,8 +4,9 @@ import time
 
 import pytest
 
-from tehl.options import Options
-from tehl.solver import cost, solve, with_work
+from tehl.api.solvers import solve, with_work
+from tehl.contact.options import Options
+from tehl.solver import cost
 from tehl.solver.cost import fft_seconds
 from tests.cases import moes_problem
 

@@ -2,16 +2,16 @@
 
 import pytest
 
-from tehl.grid import Grid
-from tehl.io.case import case_from_tables, tables_of_text
+from tehl.api.problem import ContactProblem, case_from_tables
+from tehl.contact.options import Domain, Options
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import ScaledProblem
+from tehl.io.case import tables_of_text
 from tehl.io.templates import template_text
-from tehl.options import Domain, Options
-from tehl.problem import ContactProblem
-from tehl.scaling import ScaledProblem
-from tehl.solver.diagnosis import LikelyCause, diverged, grid_hint, likely_cause
-from tehl.solver.film_solver import FilmSolver
-from tehl.solver.hierarchy import Hierarchy
-from tehl.solver.ladder import COUPLED
+from tehl.solver.cycle.film_solver import FilmSolver
+from tehl.solver.cycle.hierarchy import Hierarchy
+from tehl.solver.cycle.ladder import COUPLED
+from tehl.solver.judging.diagnosis import LikelyCause, diverged, grid_hint, likely_cause
 from tehl.solver.steady import finest_grid
 from tests.reference import heated_contact, moes_contact
 

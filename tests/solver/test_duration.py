@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 from tehl import InputError, solve_transient
-from tehl.duration import duration_of, misplaced
-from tehl.grid import Grid
+from tehl.api.problem import ContactProblem
+from tehl.contact.transient import Transient
+from tehl.estimate.duration import duration_of, misplaced
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import ScaledProblem, scales
 from tehl.operators.heights import MovingHeights
-from tehl.problem import ContactProblem
-from tehl.scaling import ScaledProblem, scales
 from tehl.solver.transient.checks import check_load, check_waves
 from tehl.solver.transient.snapshot import kept_steps
-from tehl.transient import Transient
 from tests.reference import DOMAIN, moes_contact
 from tests.solver.test_transient import OPTIONS, in_time, wave
 

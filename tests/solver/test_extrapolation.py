@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from tehl.fields import Fields
-from tehl.options import Options
-from tehl.solver import certify, solve
-from tehl.solver.extrapolation import Outputs, extrapolated
+from tehl.api.solvers import certify, solve
+from tehl.contact.options import Options
+from tehl.result.fields import Fields
+from tehl.solver.judging.extrapolation import Outputs, extrapolated
 from tests.reference import heated_contact, moes_contact
 
 

@@ -5,9 +5,9 @@ import warnings
 import numpy as np
 import pytest
 
-from tehl.options import Domain, Options
-from tehl.result import ConvergenceError
-from tehl.solver import solve
+from tehl.api.results import ConvergenceError
+from tehl.api.solvers import solve
+from tehl.contact.options import Domain, Options
 from tests.reference import DOMAIN, moes_contact
 
 

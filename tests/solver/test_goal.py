@@ -7,11 +7,11 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from tehl.api.problem import ContactProblem
+from tehl.api.results import ConvergenceError
+from tehl.api.solvers import solve, solve_transient
+from tehl.contact.options import Domain, Options
 from tehl.io.templates import template_text
-from tehl.options import Domain, Options
-from tehl.problem import ContactProblem
-from tehl.result import ConvergenceError
-from tehl.solver import solve, solve_transient
 from tests.reference import heated_contact, moes_contact
 from tests.solver.rough import wavy
 

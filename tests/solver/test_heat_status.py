@@ -2,11 +2,11 @@
 
 import pytest
 
-import tehl.solver.verdict as judge
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import ConvergenceError, Result
-from tehl.solver import solve
+import tehl.solver.judging.verdict as judge
+from tehl.api.problem import ContactProblem
+from tehl.api.results import ConvergenceError, Result
+from tehl.api.solvers import solve
+from tehl.contact.options import Options
 from tests.reference import heated_contact
 
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from tehl.options import Options
-from tehl.solver import solve
+from tehl.api.solvers import solve
+from tehl.contact.options import Options
 from tests.reference import DOMAIN, moes_contact
 from tests.solver.runs import film_of, multigrid, tight
 

@@ -7,19 +7,19 @@ import numpy as np
 import pytest
 
 from tehl import ContactProblem, ConvergenceError, Options, Result, solve
-from tehl.grid import Grid
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import ScaledProblem
 from tehl.kernels import reynolds
 from tehl.operators.flow import flow_table
 from tehl.operators.jacobian import interpolation, jacobian, neighbours_of
-from tehl.scaling import ScaledProblem
-from tehl.solution import Status
-from tehl.solver import iteration, steady
-from tehl.solver.continuation import MOST_STEPS, RAISED, raise_by_newton
-from tehl.solver.convergence import DivergedError
-from tehl.solver.equations import Equations
-from tehl.solver.ladder import BETWEEN_ROUGH, Strategy
-from tehl.solver.level import Level
-from tehl.solver.newton import (
+from tehl.result.solution import Status
+from tehl.solver import steady
+from tehl.solver.cycle import iteration
+from tehl.solver.cycle.continuation import MOST_STEPS, RAISED, raise_by_newton
+from tehl.solver.cycle.equations import Equations
+from tehl.solver.cycle.ladder import BETWEEN_ROUGH, Strategy
+from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.newton import (
     ACCURACY,
     EXACT,
     Newton,
@@ -27,7 +27,8 @@ from tehl.solver.newton import (
     System,
     limited,
 )
-from tehl.solver.relaxation import ROUGH
+from tehl.solver.cycle.relaxation import ROUGH
+from tehl.solver.judging.convergence import DivergedError
 from tests.reference import DOMAIN, moes_contact
 from tests.solver.rough import wavy
 

@@ -7,9 +7,9 @@ its equation is  -u'' = b  in two dimensions on the unit square, u = 0 on the ed
 import numpy as np
 import pytest
 
-from tehl.solver.fas import Cycle, cycle
-from tehl.solver.fmg import full_multigrid
-from tehl.typing import Array
+from tehl.base.typing import Array
+from tehl.solver.cycle.fas import Cycle, cycle
+from tehl.solver.cycle.fmg import full_multigrid
 
 V11 = Cycle(kind="V", pre_sweeps=1, post_sweeps=1, extra_sweeps=0)
 

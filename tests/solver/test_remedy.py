@@ -8,18 +8,19 @@ from types import SimpleNamespace
 import pytest
 from benchmarks.random_contacts import contact
 
-from tehl.domain import planned
-from tehl.errors import InputError
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import ConvergenceError
-from tehl.scaling import ScaledProblem
-from tehl.solution import Status
-from tehl.solver import solve, steady
-from tehl.solver.diagnosis import error_setting
-from tehl.solver.film_solver import FilmSolver
+from tehl.api.problem import ContactProblem
+from tehl.api.results import ConvergenceError
+from tehl.api.solvers import solve
+from tehl.base.errors import InputError
+from tehl.contact.options import Options
+from tehl.estimate.domain import planned
+from tehl.estimate.scaling import ScaledProblem
+from tehl.result.solution import Status
+from tehl.solver import steady
+from tehl.solver.cycle.film_solver import FilmSolver
+from tehl.solver.judging.diagnosis import error_setting
+from tehl.solver.judging.remedy import working_hint
 from tehl.solver.monitor import SILENT
-from tehl.solver.remedy import working_hint
 from tests.cases import ball_tables
 from tests.solver.test_status import failure, moes
 

@@ -4,16 +4,17 @@ import numpy as np
 import pytest
 
 from tehl import load
+from tehl.api.problem import ContactProblem
+from tehl.api.results import ConvergenceError
+from tehl.api.solvers import solve
+from tehl.base.errors import InputError
 from tehl.cli.text import as_text
-from tehl.errors import InputError
+from tehl.contact.options import Options
+from tehl.estimate.scaling import ScaledProblem, scales
 from tehl.operators.heights import full_weighting, heights_of
-from tehl.options import Options
-from tehl.problem import ContactProblem
 from tehl.report.page import report_text
-from tehl.result import ConvergenceError
-from tehl.scaling import ScaledProblem, scales
-from tehl.solver.anderson import Anderson
-from tehl.solver.steady import finest_grid, solve
+from tehl.solver.cycle.anderson import Anderson
+from tehl.solver.steady import finest_grid
 from tests.cases import ball_tables
 from tests.reference import DOMAIN, moes_contact
 from tests.solver.rough import bumpy, rough_film, wave_on

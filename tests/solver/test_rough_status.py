@@ -5,14 +5,14 @@ from types import SimpleNamespace
 
 import pytest
 
+from tehl.api.results import Result
 from tehl.cli.text import as_text
-from tehl.grid import Grid
+from tehl.estimate.grid import Grid
 from tehl.io.summary import summary
 from tehl.report.page import report_text
-from tehl.result import Result
-from tehl.solution import ErrorEstimate, Hint, Status
-from tehl.solver.certify import _ending
-from tehl.solver.verdict import is_film, no_film
+from tehl.result.solution import ErrorEstimate, Hint, Status
+from tehl.solver.judging.certify import _ending
+from tehl.solver.judging.verdict import is_film, no_film
 from tests.reference import DOMAIN
 
 FLOOR = 0.01

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
+from tehl.api.problem import ContactProblem
+from tehl.api.results import Result
+from tehl.api.solvers import solve
 from tehl.cli.text import as_text
+from tehl.contact.options import Options
 from tehl.operators.flow import flow_table
 from tehl.operators.load import TARGET
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import Result
-from tehl.solver import solve
 from tests.cases import ball_tables
 from tests.reference import moes_contact
 from tests.solver.runs import film_of, multigrid, tight

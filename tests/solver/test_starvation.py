@@ -3,21 +3,20 @@
 import numpy as np
 import pytest
 
-from tehl.errors import InputError
-from tehl.io.case import case_from_tables
-from tehl.io.store import load, save
+from tehl.api.problem import ContactProblem, case_from_tables
+from tehl.api.results import ConvergenceError, Result, load
+from tehl.api.solvers import solve, solve_passes, solve_transient
+from tehl.base.errors import InputError
+from tehl.contact.options import Domain, Options
+from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.starvation import starved_part
+from tehl.estimate.starvation_table import starved_degree, table
+from tehl.io.store import save
 from tehl.kernels import properties, relaxation, reynolds
-from tehl.options import Domain, Options
 from tehl.plots.oil import oil_map
 from tehl.post.layer import LayerDecay, layer_decay
 from tehl.post.starvation import meniscus, oil_flux
-from tehl.problem import ContactProblem
-from tehl.result import ConvergenceError, Result
-from tehl.scaling import ScaledProblem
-from tehl.solver import solve, solve_passes, solve_transient
 from tehl.solver.transient.step import Stepper
-from tehl.starvation import starved_part
-from tehl.starvation_table import starved_degree, table
 from tests.reference import DOMAIN, moes_contact, read
 
 FILMS, CYLINDERS = (read("starved")[name] for name in ("films", "cylinders"))

@@ -5,14 +5,14 @@ import pickle
 import numpy as np
 import pytest
 
-from tehl.domain import domain_error, far_field_error, recommended_domain
-from tehl.options import Domain, Options
-from tehl.problem import ContactProblem
-from tehl.result import ConvergenceError
-from tehl.scaling import groups
-from tehl.solver import solve
-from tehl.solver.certify import estimate, with_growing_spike
-from tehl.solver.convergence import first_order_bar
+from tehl.api.problem import ContactProblem
+from tehl.api.results import ConvergenceError
+from tehl.api.solvers import solve
+from tehl.contact.options import Domain, Options
+from tehl.estimate.domain import domain_error, far_field_error, recommended_domain
+from tehl.estimate.scaling import groups
+from tehl.solver.judging.certify import estimate, with_growing_spike
+from tehl.solver.judging.convergence import first_order_bar
 
 
 def moes(load: float, speed: float = 10.0) -> ContactProblem:

@@ -7,14 +7,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tehl.fields import FilmHeat
-from tehl.inlet_heating import inlet_factors
-from tehl.io.case import case_from_tables
+from tehl.api.problem import ContactProblem, case_from_tables
+from tehl.api.results import Result
+from tehl.api.solvers import solve
+from tehl.contact.options import Options
+from tehl.estimate.inlet_heating import inlet_factors
 from tehl.io.templates import template_text
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import Result
-from tehl.solver import solve
+from tehl.result.fields import FilmHeat
 from tests.reference import heated_contact
 from tests.solver.runs import tight
 

@@ -5,30 +5,29 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 
+from tehl.api.problem import ContactProblem, case_from_tables
+from tehl.api.results import Result, TransientResult, load
+from tehl.api.solvers import solve, solve_transient
+from tehl.base.errors import InputError
 from tehl.cli.text import as_text
-from tehl.errors import InputError
-from tehl.film_formulas import expected_central_film
-from tehl.io.case import case_from_tables
-from tehl.io.store import load, save
+from tehl.contact.options import Domain, Options
+from tehl.estimate.film_formulas import expected_central_film
+from tehl.estimate.scaling import ScaledProblem, scales
+from tehl.io.store import save
 from tehl.io.summary import summary
 from tehl.kernels import reynolds
 from tehl.operators.deformation import FftDeformation, FftFlattening
-from tehl.options import Domain, Options
 from tehl.plots import contact_map, pictures_of
-from tehl.post.touching import largest_patches
-from tehl.problem import ContactProblem
+from tehl.post.boundary_contact import largest_patches
 from tehl.report.page import report_text
-from tehl.result import Result
-from tehl.scaling import ScaledProblem, scales
-from tehl.solver import solve, solve_transient
-from tehl.solver.hierarchy import Hierarchy
-from tehl.solver.relaxation import BESIDE_NEWTON
+from tehl.result.transient import Frames
+from tehl.solver.cycle.hierarchy import Hierarchy
+from tehl.solver.cycle.relaxation import BESIDE_NEWTON
+from tehl.solver.physics.boundary_contact import TouchingNewton
+from tehl.solver.physics.boundary_system import TouchingSystem
 from tehl.solver.steady import finest_grid
-from tehl.solver.touching import TouchingNewton
-from tehl.solver.touching_system import TouchingSystem
 from tehl.solver.transient.snapshot import Snapshot, pack, unpack
 from tehl.solver.transient.step import Stepper
-from tehl.transient_result import Frames, TransientResult
 from tests.cases import ball_tables
 from tests.reference import moes_contact
 from tests.solver.rough import bumpy, with_roughness

@@ -5,18 +5,19 @@ import pytest
 from scipy.linalg import cholesky, solve_triangular
 from scipy.optimize import nnls
 
-from tehl.film_formulas import expected_central_film
-from tehl.grid import Grid
+from tehl.api.results import Result
+from tehl.api.solvers import solve
+from tehl.contact.options import Domain, Options
+from tehl.estimate.film_formulas import expected_central_film
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import ScaledProblem
 from tehl.operators.influence import dense_matrix
-from tehl.options import Domain, Options
-from tehl.result import Result
-from tehl.scaling import ScaledProblem
-from tehl.solver import solve, steady
-from tehl.solver.convergence import DivergedError
-from tehl.solver.hierarchy import Hierarchy
-from tehl.solver.ladder import TOUCHING
-from tehl.solver.relaxation import ROUGH
-from tehl.solver.touching_cycle import MOST_NODES, TouchingCycle
+from tehl.solver import steady
+from tehl.solver.cycle.hierarchy import Hierarchy
+from tehl.solver.cycle.ladder import TOUCHING
+from tehl.solver.cycle.relaxation import ROUGH
+from tehl.solver.judging.convergence import DivergedError
+from tehl.solver.physics.boundary_cycle import MOST_NODES, TouchingCycle
 from tests.reference import moes_contact
 from tests.solver.rough import wavy
 from tests.solver.test_touching import through_film

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from tehl import InputError, solve, solve_transient
-from tehl.options import Domain, Options
-from tehl.problem import ContactProblem
-from tehl.scaling import scales
+from tehl.api.problem import ContactProblem
+from tehl.api.results import TransientResult
+from tehl.contact.options import Domain, Options
+from tehl.estimate.scaling import scales
 from tehl.solver.monitor import SILENT
 from tehl.solver.transient.run import Run
 from tehl.solver.transient.snapshot import pack, unpack
 from tehl.solver.transient.step import StepError
-from tehl.transient_result import TransientResult
 from tests.reference import DOMAIN, moes_contact
 
 M, L = 50.0, 10.0

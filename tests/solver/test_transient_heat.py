@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from tehl import InputError, solve_transient
-from tehl.grid import Grid
+from tehl.api.problem import ContactProblem
+from tehl.contact.options import Options
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import ScaledProblem, scales
 from tehl.kernels.energy.records import Surfaces
 from tehl.operators.energy import FilmState
 from tehl.operators.heated_film import HeatedFilm
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.scaling import ScaledProblem, scales
 from tehl.solver.monitor import SILENT
 from tehl.solver.transient.run import Run
 from tests.reference import DOMAIN, heated_contact

@@ -2,8 +2,8 @@
 
 import pandas as pd
 
-from tehl.options import Options
-from tehl.problem import ContactProblem
+from tehl.api.problem import ContactProblem
+from tehl.contact.options import Options
 from tehl.studies import Case
 from tests.cases import ball_tables
 

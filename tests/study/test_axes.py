@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from openpyxl import Workbook
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.studies import Axis, Sample, cases_of
 from tehl.studies.axes import block_of, block_of_file
 from tehl.studies.plan import changed

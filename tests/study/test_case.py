@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tehl.options import Options
-from tehl.problem import ContactProblem
+from tehl.api.problem import ContactProblem
+from tehl.contact.options import Options
 from tehl.studies import Case
 from tehl.studies import case as case_module
 from tests.cases import ball_tables

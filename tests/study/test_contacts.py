@@ -8,9 +8,9 @@ from openpyxl import Workbook, load_workbook
 from typer.testing import CliRunner
 
 import tehl
+from tehl.api.problem import read_case
+from tehl.base.errors import InputError
 from tehl.cli import application
-from tehl.errors import InputError
-from tehl.io.case import read_case
 from tehl.studies import Store
 from tehl.studies.answers import answers, values_of
 from tehl.studies.case import Case, Row

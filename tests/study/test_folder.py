@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tehl.errors import FileFormatError, InputError
-from tehl.options import Options
-from tehl.solution import Cost, Hint
+from tehl.base.errors import FileFormatError, InputError
+from tehl.contact.options import Options
+from tehl.result.solution import Cost, Hint
 from tehl.studies import Row, Store
 from tehl.studies.axes import Block, Setting
 from tehl.studies.case import Case

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from tehl.errors import FileFormatError
+from tehl.base.errors import FileFormatError
 from tehl.studies import Store, run, runner, table
 from tehl.studies.engines import WorkerDied, engine_of
 from tests.study import mishaps

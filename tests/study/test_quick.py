@@ -3,7 +3,7 @@
 import pytest
 
 import tehl
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.io.templates import template_text
 from tests.study.contacts import QUICK, problem
 

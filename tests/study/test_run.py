@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tehl import solver
-from tehl.errors import InputError
-from tehl.io.case import case_from_tables
-from tehl.solution import Cost, Hint
+from tehl.api import solvers
+from tehl.api.problem import case_from_tables
+from tehl.base.errors import InputError
+from tehl.result.solution import Cost, Hint
 from tehl.studies import Case, Row, Store, engines, run, runner, study, table
 from tehl.studies.case import flat, retried, row_of, unit_of
 from tehl.studies.tables import is_number
@@ -51,7 +51,7 @@ def test_films_along_an_axis_are_smooth_though_grids_and_domains_differ():
 def test_the_kept_fields_are_those_of_a_solve(finished):
     store, _ = finished
     case = cases()[1]
-    alone = solver.solve(case.problem, case.options)
+    alone = solvers.solve(case.problem, case.options)
     assert store.result(case).scaled.film == pytest.approx(alone.scaled.film, rel=1e-12)
 
 
@@ -164,7 +164,7 @@ def test_a_fault_of_the_program_is_a_row_too(tmp_path, monkeypatch):
     def broken(*_, **__):
         raise ZeroDivisionError("by  zero")
 
-    monkeypatch.setattr(solver, "solve", broken)
+    monkeypatch.setattr(solvers, "solve", broken)
     store = Store(tmp_path)
     outcome = run(cases(1), store)
     row = store.row(cases(1)[0])

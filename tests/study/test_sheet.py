@@ -4,7 +4,7 @@ import pandas as pd
 import pytest
 from openpyxl import Workbook
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.studies import read_study, study_of
 from tehl.studies.sheet import check_sheet, sheet, write_sheet
 

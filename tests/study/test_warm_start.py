@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from tehl import Options, solve
-from tehl.errors import InputError
-from tehl.result import ConvergenceError
+from tehl.api.results import ConvergenceError
+from tehl.base.errors import InputError
 from tehl.studies import Case, Store, cases_of, run, table
 from tehl.studies.runner import Neighbours
 from tests.cases import moes_problem

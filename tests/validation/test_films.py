@@ -5,11 +5,11 @@ from functools import cache
 import numpy as np
 import pytest
 
-from tehl.options import Domain, Options
-from tehl.problem import ContactProblem
-from tehl.result import Result
-from tehl.solver import solve
-from tehl.solver.certify import estimate
+from tehl.api.problem import ContactProblem
+from tehl.api.results import Result
+from tehl.api.solvers import solve
+from tehl.contact.options import Domain, Options
+from tehl.solver.judging.certify import estimate
 from tests.reference import DOMAIN, moes_contact, read
 
 FILMS = read("films")

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from tehl.api.results import ConvergenceError, Result
+from tehl.api.solvers import solve
 from tehl.operators.flow import flow_table
-from tehl.result import ConvergenceError, Result
-from tehl.solver import solve
 from tests.reference import moes_contact
 from tests.solver.rough import rough_film
 from tests.solver.runs import tight

@@ -9,10 +9,10 @@ from functools import cache
 
 import pytest
 
-from tehl.options import Options
+from tehl.api.results import Result
+from tehl.api.solvers import solve
+from tehl.contact.options import Options
 from tehl.post.waves import WaveResponse, wave_responses
-from tehl.result import Result
-from tehl.solver import solve
 from tests.reference import CLOSE, moes_contact, wavy_contact
 
 LOADS = [(200.0, 10.0), (500.0, 12.34)]

@@ -4,10 +4,10 @@ from functools import cache
 
 import pytest
 
-from tehl.options import Options
-from tehl.result import Result
-from tehl.solver import solve
-from tehl.solver.certify import estimate
+from tehl.api.results import Result
+from tehl.api.solvers import solve
+from tehl.contact.options import Options
+from tehl.solver.judging.certify import estimate
 from tests.reference import DOMAIN, heated_contact, read
 
 HEATED = read("thermal")

@@ -5,10 +5,10 @@ import math
 import pytest
 
 from tehl import solve_transient
-from tehl.options import Domain, Options
+from tehl.api.problem import ContactProblem
+from tehl.contact.options import Domain, Options
+from tehl.estimate.scaling import scales
 from tehl.post.waves import passing_wave
-from tehl.problem import ContactProblem
-from tehl.scaling import scales
 from tests.reference import CLOSE, DOMAIN, moes_contact
 
 pytestmark = pytest.mark.slow

@@ -5,6 +5,7 @@ from typing import NoReturn
 
 import typer
 
+from tehl.base.version import __version__
 from tehl.cli.ending import EXPECTED, INTERRUPTED, NO_READER, drop_output, ending, fail, flush
 
 COMMANDS = {
@@ -76,7 +77,5 @@ def _common(
     version: bool = typer.Option(False, "--version", help="Print the version and exit."),
 ) -> None:
     if version:
-        from tehl.version import __version__
-
         typer.echo(f"tehl {__version__}")
         raise typer.Exit

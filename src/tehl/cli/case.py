@@ -6,14 +6,13 @@ from typing import Annotated
 import typer
 
 from tehl.cli.arguments import AsJson, CaseFile, Overrides
+from tehl.cli.lazily import case_files, case_templates, explanations, problems
 from tehl.cli.lines import show
 
 
 def _templates(incomplete: str) -> list[tuple[str, str]]:
     """Return the templates and their titles, of which the shell completes a name."""
-    from tehl.io.templates import templates
-
-    known = templates() | templates("studies")
+    known = case_templates.templates() | case_templates.templates("studies")
     return [(name, title) for name, title in known.items() if name.startswith(incomplete)]
 
 
@@ -24,32 +23,24 @@ def new(
     show_list: Annotated[bool, typer.Option("--list", help="List the templates.")] = False,
 ) -> None:
     """Print a commented case or study file to edit."""
-    from tehl.io.templates import template_text, templates
-
     if not show_list:
-        typer.echo(template_text(template), nl=False)
+        typer.echo(case_templates.template_text(template), nl=False)
         return
-    for name, title in templates().items():
+    for name, title in case_templates.templates().items():
         show(f"{name:<16}  {title}")
-    for name, title in templates("studies").items():
+    for name, title in case_templates.templates("studies").items():
         show(f"{name:<16}  {title} (a study)")
 
 
 def explain(case: CaseFile, *, overrides: Overrides, as_json: AsJson = False) -> None:
     """Show what a case means: Hertz, groups, formulas, unusual values."""
-    from tehl.io.case import read_case_and_options
-    from tehl.report.explain import as_summary, as_text
-    from tehl.report.explain import explain as explained
-
-    explanation = explained(*read_case_and_options(case, overrides))
+    explanation = explanations.explain(*problems.read_case_and_options(case, overrides))
     if as_json:
-        typer.echo(json.dumps(as_summary(explanation)))
+        typer.echo(json.dumps(explanations.as_summary(explanation)))
     else:
-        show(as_text(explanation))
+        show(explanations.as_text(explanation))
 
 
 def schema() -> None:
     """Print the JSON schema of the case file, for editors."""
-    from tehl.io.case import case_schema
-
-    typer.echo(json.dumps(case_schema(), indent=2, ensure_ascii=False))
+    typer.echo(json.dumps(case_files.case_schema(), indent=2, ensure_ascii=False))

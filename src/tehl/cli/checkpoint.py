@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
+from tehl.base.atomic import check_writable
+from tehl.base.errors import InputError
 from tehl.cli.lines import show
-from tehl.errors import InputError
-from tehl.io.atomic import check_writable
 from tehl.io.checkpoint import Fingerprint, read_checkpoint, write_checkpoint
-from tehl.solver import passes
+from tehl.solver.physics import passes
 from tehl.solver.transient import snapshot
 
 CHECKPOINT_SECONDS = 30.0

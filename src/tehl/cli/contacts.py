@@ -1,12 +1,18 @@
 """``tehl contacts``: a spreadsheet of contacts in, the same with films, friction and bars out."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from typer import Argument, Exit, Option
 
+from tehl.base.lazy import lazy
 from tehl.cli.arguments import AsJson, Quiet
 from tehl.cli.ending import NOT_CONVERGED
+
+if TYPE_CHECKING:
+    from tehl.cli import contacts_job
+else:
+    contacts_job = lazy("tehl.cli.contacts_job")
 
 
 def contacts(  # noqa: PLR0913 (the options of the command)
@@ -39,7 +45,5 @@ def contacts(  # noqa: PLR0913 (the options of the command)
     The same command continues a list that was interrupted. Exit code 0: all rows converged; 1: some
     are wrong or failed, and are named; 2: bad input, nothing is solved.
     """
-    from tehl.cli.contacts_job import run
-
-    if not run(table, output, template, jobs, scheduler, as_json=as_json, quiet=quiet):
+    if not contacts_job.run(table, output, template, jobs, scheduler, as_json=as_json, quiet=quiet):
         raise Exit(NOT_CONVERGED)

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import typer
 
+from tehl.base.atomic import check_writable
+from tehl.base.errors import InputError
 from tehl.cli.lines import show
 from tehl.cli.progress import SHOWN, duration, study_progress
 from tehl.cli.study_job import number_of_workers
-from tehl.errors import InputError
-from tehl.io.atomic import check_writable
 from tehl.studies.answers import check_output, solve_list, write_answers
 from tehl.studies.contacts import Contacts, read_contacts
 from tehl.studies.folder import locked

@@ -6,12 +6,17 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
+from tehl.base.lazy import lazy
 from tehl.cli.arguments import AsJson
 from tehl.cli.ending import ENVIRONMENT
+from tehl.cli.lazily import kernel_cache, numerics, problems, results, samples, solvers, store
 
 if TYPE_CHECKING:
-    from tehl.problem import ContactProblem
-    from tehl.result import Result
+    from tehl.api.problem import ContactProblem
+    from tehl.api.results import Result
+    from tehl.cli import progress as live
+else:
+    live = lazy("tehl.cli.progress")
 
 PACKAGES = (
     *("tehl", "numpy", "scipy", "numba", "llvmlite", "pydantic", "typer", "rich", "xarray"),
@@ -76,8 +81,6 @@ def _facts() -> Iterator[tuple[str, str]]:
     import platform
     from importlib.metadata import PackageNotFoundError, version
 
-    from tehl.kernels.cache import folder, is_cold
-
     yield "python", f"{platform.python_version()} ({platform.python_implementation()})"
     yield "platform", platform.platform()
     for name in PACKAGES:
@@ -85,35 +88,29 @@ def _facts() -> Iterator[tuple[str, str]]:
             yield name, version(name)
         except PackageNotFoundError:
             yield name, "missing"
-    yield "kernel cache", str(folder() or "none: no folder can be written")
+    yield "kernel cache", str(kernel_cache.folder() or "none: no folder can be written")
     for name, coupled in (("isothermal", False), ("with heat", True)):
-        cold = is_cold(coupled=coupled)
+        cold = kernel_cache.is_cold(coupled=coupled)
         yield f"kernels, {name}", "compiled by the first solve" if cold else "compiled"
 
 
 def _warm() -> None:
     """Compile all kernels, also those that few films need."""
-    from tehl.cli.progress import compile_kernels
-    from tehl.kernels.samples import RARE
-
-    compile_kernels(coupled=True)
-    for sample in RARE:
+    live.compile_kernels(coupled=True)
+    for sample in samples.RARE:
         sample.compile()
 
 
 def _problem() -> "ContactProblem":
-    from tehl.problem import ContactProblem
-
-    return ContactProblem.model_validate(_CASE)
+    return problems.ContactProblem.model_validate(_CASE)
 
 
 def _solved() -> "Result":
-    from tehl.options import Domain, Options
-    from tehl.solver import solve
-
-    domain = Domain(x=(-4.5, 1.5), y=(-3.0, 3.0))
-    exact = Options(points=129, domain=domain, deformation="fft", accuracy="tight", tolerance=1e-8)
-    return solve(_problem(), exact)
+    domain = numerics.Domain(x=(-4.5, 1.5), y=(-3.0, 3.0))
+    exact = numerics.Options(
+        points=129, domain=domain, deformation="fft", accuracy="tight", tolerance=1e-8
+    )
+    return solvers.solve(_problem(), exact)
 
 
 # ---- checks
@@ -148,13 +145,10 @@ def _storage() -> Check:
 
     import numpy as np
 
-    from tehl.io.store import load_as, save
-    from tehl.result import Result
-
     result = _solved()
     with tempfile.TemporaryDirectory() as folder:
-        save(result, Path(folder) / "check.nc")
-        back = load_as(Result, Path(folder) / "check.nc")
+        store.save(result, Path(folder) / "check.nc")
+        back = results.load_as(results.Result, Path(folder) / "check.nc")
     same = np.array_equal(back.scaled.film, result.scaled.film)
     return Check("bit by bit" if same else "fields differ", passed=same)
 

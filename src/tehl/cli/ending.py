@@ -12,8 +12,8 @@ from typing import Any, NoReturn
 
 import typer
 
+from tehl.base.errors import TehlError
 from tehl.cli.lines import show
-from tehl.errors import TehlError
 
 NOT_CONVERGED, BAD_INPUT, ENVIRONMENT = 1, 2, 3
 """Exit codes; 0 is success."""

@@ -7,6 +7,9 @@ from typing import Annotated
 
 from typer import Argument, Option, echo
 
+from tehl.base.errors import InputError
+from tehl.cli.lazily import case_text, problems, server
+
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 """Variables that limit the threads of linear algebra, read when numpy is loaded."""
 TEMPLATE = "ball-on-disc"
@@ -27,22 +30,16 @@ def explore(
     for name in THREADS:  # small products of matrices are ten times as slow on two threads
         os.environ.setdefault(name, "1")
     if case is not None:
-        from tehl.io.case import read_case_and_options
-
-        read_case_and_options(case)  # for its errors, before a page opens
+        problems.read_case_and_options(case)  # for its errors, before a page opens
     _check_extra()
-    from tehl.explore.case_text import template_case
-    from tehl.explore.server import serve
 
-    text = case.read_text(encoding="utf-8-sig") if case else template_case(TEMPLATE).text
+    text = case.read_text(encoding="utf-8-sig") if case else case_text.template_case(TEMPLATE).text
     with suppress(KeyboardInterrupt):  # the usual end
-        serve(case, text, port, browser=browser, report=_report)
+        server.serve(case, text, port, browser=browser, report=_report)
 
 
 def _check_extra() -> None:
     from importlib.util import find_spec
-
-    from tehl.errors import InputError
 
     missing = [name for name in ("nicegui", "tomlkit") if find_spec(name) is None]
     if missing:

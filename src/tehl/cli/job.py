@@ -3,25 +3,32 @@
 import json
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import typer
 
+from tehl.api.problem import read_case_and_options
+from tehl.api.results import ConvergenceError, Result, TransientResult
+from tehl.base.atomic import check_folder, check_writable, remove_with_parts
+from tehl.base.errors import InputError
+from tehl.base.lazy import lazy
+from tehl.cli.lazily import plots, solvers
 from tehl.cli.lines import show
 from tehl.cli.progress import busy, progress
 from tehl.cli.reference_runs import REFERENCES, Comparisons, compare, smooth_file
 from tehl.cli.text import as_text, failure_text
-from tehl.domain import planned
-from tehl.errors import InputError
-from tehl.io.atomic import check_folder, check_writable, remove_with_parts
-from tehl.io.case import read_case_and_options
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.domain import planned
+from tehl.estimate.memory import check_memory
+from tehl.estimate.scaling import ScaledProblem
 from tehl.io.checkpoint import checkpoint_of, fingerprint
 from tehl.io.store import save
-from tehl.memory import check_memory
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import ConvergenceError, Result
-from tehl.scaling import ScaledProblem
-from tehl.transient_result import TransientResult
+
+if TYPE_CHECKING:
+    from tehl.cli import checkpoint as checkpoints
+else:
+    checkpoints = lazy("tehl.cli.checkpoint")
 
 COMPARED_TO = 1e-4
 """Tolerance of runs that are compared: small differences need tightly converged films."""
@@ -63,9 +70,7 @@ def run(job: Job) -> bool:
         options = options.model_copy(update={"accuracy": "tight", "tolerance": COMPARED_TO})
     result, failure = _solved(problem, options, job)
     if job.as_json and problem.transient is None and isinstance(result, Result):
-        from tehl.solver import with_work
-
-        result = with_work(result)  # takes a moment, so for programs only
+        result = solvers.with_work(result)  # takes a moment, so for programs only
     with busy(f"writing {job.target}", quiet=job.quiet):
         save(result, job.target)
     compared = Comparisons()
@@ -133,7 +138,7 @@ def _solved(
 
 def _steady(problem: ContactProblem, options: Options, job: Job) -> Result | TransientResult:
     with busy("loading the solver", quiet=job.quiet):
-        from tehl.solver import certify, solve
+        from tehl.api.solvers import certify, solve
 
     work = certify if job.certify else solve
     with progress(problem, quiet=job.quiet) as monitor:
@@ -142,12 +147,12 @@ def _steady(problem: ContactProblem, options: Options, job: Job) -> Result | Tra
 
 def _passes(problem: ContactProblem, options: Options, job: Job) -> Result | TransientResult:
     """Solve repeated passes; when they are interrupted, a checkpoint is left beside the target."""
-    from tehl.cli.checkpoint import PASSES, Keeper
-
     with busy("loading the solver", quiet=job.quiet):
-        from tehl.solver import solve_passes
+        from tehl.api.solvers import solve_passes
 
-    keep = Keeper(checkpoint_of(job.target), fingerprint(problem, options), PASSES)
+    keep = checkpoints.Keeper(
+        checkpoint_of(job.target), fingerprint(problem, options), checkpoints.PASSES
+    )
     start = keep.begin(resume=job.resume)
     with keep.on_interrupt(), progress(problem, quiet=job.quiet) as monitor:
         return solve_passes(problem, options, monitor=monitor, resume=start, keep=keep)
@@ -155,12 +160,12 @@ def _passes(problem: ContactProblem, options: Options, job: Job) -> Result | Tra
 
 def _transient(problem: ContactProblem, options: Options, job: Job) -> Result | TransientResult:
     """Solve a transient case; when it is interrupted, a checkpoint is left beside the target."""
-    from tehl.cli.checkpoint import STEPS, Keeper
-
     with busy("loading the solver", quiet=job.quiet):
-        from tehl.solver import certify_transient, solve_transient
+        from tehl.api.solvers import certify_transient, solve_transient
 
-    keep = Keeper(checkpoint_of(job.target), fingerprint(problem, options), STEPS)
+    keep = checkpoints.Keeper(
+        checkpoint_of(job.target), fingerprint(problem, options), checkpoints.STEPS
+    )
     start = keep.begin(resume=job.resume)
     with keep.on_interrupt(), progress(problem, quiet=job.quiet) as monitor:
         if job.certify:
@@ -196,9 +201,9 @@ def _show(result: Result | TransientResult, compared: Comparisons, job: Job) -> 
     if compared.smooth is not None:
         typer.echo(f"written: {smooth_file(job.target)}", err=True)
     if job.plot is not None:
-        from tehl.plots import pictures_of, save_all
-
         with busy("drawing pictures", quiet=job.quiet):
-            files = save_all(result, job.plot, pictures=pictures_of(result, compared.smooth))
+            files = plots.save_all(
+                result, job.plot, pictures=plots.pictures_of(result, compared.smooth)
+            )
         for path in files:
             typer.echo(f"written: {path}", err=True)

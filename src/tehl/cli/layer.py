@@ -7,14 +7,20 @@ from typing import TYPE_CHECKING, Annotated
 
 from typer import Exit, Option, echo
 
+from tehl.base.atomic import check_writable, replacing
+from tehl.base.errors import InputError
+from tehl.base.lazy import lazy
 from tehl.cli.arguments import AsJson, CaseFile, Overrides, Quiet
 from tehl.cli.ending import NOT_CONVERGED
+from tehl.cli.lazily import layers, problems, results, solvers, units
 from tehl.cli.lines import show
-from tehl.errors import InputError
 
 if TYPE_CHECKING:
+    from tehl.api.problem import ContactProblem
+    from tehl.cli import progress as live
     from tehl.post.layer import LayerDecay
-    from tehl.problem import ContactProblem
+else:
+    live = lazy("tehl.cli.progress")
 
 COLUMNS = ("time_s", "film_m", "film_by_formula_m")
 """Columns of the table: time, and film with F by the solved pressure and by the closed form."""
@@ -38,30 +44,23 @@ def layer(  # noqa: PLR0913 (the options of the command)
     """Show how a starved film decays over time by side flow."""
     import numpy as np
 
-    from tehl.cli.progress import progress
-    from tehl.io.atomic import check_writable
-    from tehl.io.case import read_case_and_options
-    from tehl.post.layer import layer_decay
-    from tehl.result import ConvergenceError
-    from tehl.units import Duration, quantity
-
     try:
-        end = quantity(Duration).parse(time)
+        end = units.quantity(units.Duration).parse(time)
     except ValueError as error:
         raise InputError(f'--time = "{time}": {error}') from None
-    stated, options = read_case_and_options(case, overrides)
+    stated, options = problems.read_case_and_options(case, overrides)
     if output is not None:
         check_writable(output, sources=(case,))
     problem = _single(stated, case)
-    from tehl.solver import solve
 
-    with progress(problem, quiet=quiet) as monitor:
+    solve = solvers.solve  # loaded before the progress is shown
+    with live.progress(problem, quiet=quiet) as monitor:
         try:
             result = solve(problem, options, monitor=monitor)
-        except ConvergenceError as error:
+        except results.ConvergenceError as error:
             show(f"tehl: not converged: {error}", err=True)
             raise Exit(NOT_CONVERGED) from None
-    decay, times = layer_decay(result), np.linspace(0.0, end, steps + 1)
+    decay, times = layers.layer_decay(result), np.linspace(0.0, end, steps + 1)
     films = decay.film(times), decay.film(times, by_formula=True)
     rows: Rows = list(zip(times.tolist(), *(film.tolist() for film in films), strict=True))
     starved = result.starvation
@@ -91,8 +90,6 @@ def _single(problem: "ContactProblem", case: Path) -> "ContactProblem":
 
 
 def _write(path: Path, rows: Rows) -> None:
-    from tehl.io.atomic import replacing
-
     with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
         csv.writer(file).writerows([COLUMNS, *rows])
     echo(f"written: {path}", err=True)

@@ -19,13 +19,15 @@ from rich.progress_bar import ProgressBar
 from rich.table import Column, Table
 from rich.text import Text
 
+from tehl.cli.lazily import kernel_cache, monitors, runner, scaling, warmup
+
 if TYPE_CHECKING:
+    from tehl.contact.problem import ContactProblem
+    from tehl.estimate.scaling import Scales
     from tehl.kernels.warmup import Progress as CompileProgress
-    from tehl.problem import ContactProblem
-    from tehl.scaling import Scales
-    from tehl.solution import CycleReport
+    from tehl.result.solution import CycleReport
+    from tehl.result.transient import StepReport
     from tehl.studies import Case, Row, StudyMonitor
-    from tehl.transient_result import StepReport
 
 Columns = dict[str, tuple[int, str]]
 """By heading: the width, and the words, a template for a report and other numbers."""
@@ -69,18 +71,15 @@ SHOWN = 20
 @contextmanager
 def progress(problem: "ContactProblem", *, quiet: bool) -> Iterator[Any]:
     """Yield the monitor of a solve: a row per multigrid cycle, of a transient run per time step."""
-    from tehl.scaling import scales
-    from tehl.solver.monitor import SILENT
-
     if quiet:
-        yield SILENT
+        yield monitors.SILENT
         return
     compile_kernels(coupled=problem.is_coupled)
     shown: Callable[[_Ticking | None], Any]
     if problem.transient is None:
         shown = partial(_CycleProgress, thermal=problem.thermal is not None)
     else:
-        shown = partial(_StepProgress, units=scales(problem))
+        shown = partial(_StepProgress, units=scaling.scales(problem))
     if not _is_terminal():
         yield shown(None)
         return
@@ -108,10 +107,8 @@ def study_progress(
     expected: Mapping[str, float] | None = None, *, quiet: bool
 ) -> Iterator["StudyMonitor"]:
     """Yield the monitor of a study: a bar, or a line now and then; ``expected`` as below."""
-    from tehl.studies.runner import QUIET
-
     if quiet:
-        yield QUIET
+        yield runner.QUIET
     elif not _is_terminal():
         yield StudyProgress(None, expected)
     else:
@@ -128,15 +125,12 @@ def compile_kernels(*, coupled: bool) -> None:
     coupled : bool
         Include the kernels of heated and shear-thinning films.
     """
-    from tehl.kernels.cache import is_cold
-
-    if not is_cold(coupled=coupled):
+    if not kernel_cache.is_cold(coupled=coupled):
         return
-    from tehl.kernels.warmup import warm_up
 
     if not _is_terminal():
         typer.echo("compiling the kernels once, which takes 10 to 60 s", err=True)
-        warm_up(coupled=coupled)
+        warmup.warm_up(coupled=coupled)
         return
     beside = Column(no_wrap=True, overflow="ellipsis", max_width=_BESIDE)
     words = TextColumn("{task.description}", table_column=beside)
@@ -149,7 +143,7 @@ def compile_kernels(*, coupled: bool) -> None:
             end = time.monotonic() + now.seconds_left
             bar.update(task, total=now.total, completed=now.done, description=words, end=end)
 
-        warm_up(coupled=coupled, report=report)
+        warmup.warm_up(coupled=coupled, report=report)
 
 
 class _CountDown(ProgressColumn):

@@ -4,13 +4,11 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-from tehl.errors import FileFormatError
-from tehl.io.store import load_as
+from tehl.api.results import Result, TransientResult, load_as
+from tehl.base.errors import FileFormatError
 from tehl.io.summary import plain, roughness_block
 from tehl.post import micro_film, thermal_effect
 from tehl.post.roughness import RoughFilm, rough_film
-from tehl.result import Result
-from tehl.transient_result import TransientResult
 
 ISOTHERMAL, SMOOTH = "without heat", "with smooth surfaces"
 REFERENCES = {ISOTHERMAL: thermal_effect.isothermal_reference, SMOOTH: micro_film.smooth_reference}

@@ -7,13 +7,28 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from typer import Context, Option, echo
 
+from tehl.base.atomic import check_folder, check_writable, replacing
+from tehl.base.errors import InputError, TehlError
+from tehl.base.lazy import lazy
 from tehl.cli.arguments import Stored
-from tehl.errors import InputError, TehlError
+from tehl.cli.lazily import (
+    animation,
+    exports,
+    micro_film,
+    pages,
+    plots,
+    results,
+    store,
+    summaries,
+    thermal_effect,
+)
 
 if TYPE_CHECKING:
+    from tehl.api.results import Result, TransientResult
+    from tehl.cli import reference_runs
     from tehl.plots import Pictures
-    from tehl.result import Result
-    from tehl.transient_result import TransientResult
+else:
+    reference_runs = lazy("tehl.cli.reference_runs")
 
 Format = StrEnum("Format", ["csv", "vtk", "npz", "mat"])
 Image = StrEnum("Image", ["png", "pdf", "svg"])
@@ -25,14 +40,11 @@ def _pictures(ctx: Context, incomplete: str) -> list[str]:
 
     Without a result that can be read there are none.
     """
-    from tehl.io.store import load
-    from tehl.plots import pictures_of
-
     before, comma, begun = incomplete.rpartition(",")
     words = [ctx.params.get("stored"), *ctx.args]  # what follows an unfinished option is left
     for stored in filter(None, words):
         with suppress(TehlError, OSError):
-            names = pictures_of(load(stored))
+            names = plots.pictures_of(results.load(stored))
             return [f"{before}{comma}{name}" for name in names if name.startswith(begun)]
     return []
 
@@ -66,28 +78,22 @@ def plot(  # noqa: PLR0913 (the options of the command)
     dpi: Annotated[int, Option(min=30, max=1200, help="Dots per inch.")] = 150,
 ) -> None:
     """Draw the pictures of a stored result, steady or transient; nothing is solved."""
-    from tehl.cli.reference_runs import smooth_beside
-    from tehl.io.store import load
-    from tehl.plots import chosen, pictures_of, save_all
-
     file, folder = _destination(stored, output)
-    result = load(stored)
-    found = pictures_of(result, smooth_beside(stored, result))
-    pictures = chosen(found, only.replace(",", " ").split() if only else ())
+    result = results.load(stored)
+    found = plots.pictures_of(result, reference_runs.smooth_beside(stored, result))
+    pictures = plots.chosen(found, only.replace(",", " ").split() if only else ())
     if show_list:
         echo("\n".join(pictures))
     elif file is not None:
         _draw_one(result, pictures, file, title=title, dpi=dpi)
     else:
         style: dict[str, Any] = {"dpi": dpi, "ending": ending.value, "title": title}
-        for path in save_all(result, folder, pictures=pictures, **style):
+        for path in plots.save_all(result, folder, pictures=pictures, **style):
             echo(path)
 
 
 def _destination(stored: Path, output: Path | None) -> tuple[Path | None, Path]:
     """Return file, if the output is one, and folder of the pictures, both checked."""
-    from tehl.io.atomic import check_folder, check_writable
-
     folder = stored.with_name(f"{stored.stem}_plots") if output is None else output
     if output is not None and output.suffix[1:].lower() in tuple(Image) and not output.is_dir():
         check_writable(output, sources=(stored,))
@@ -100,15 +106,13 @@ def _draw_one(
     result: "Result | TransientResult", pictures: "Pictures", path: Path, *, title: bool, dpi: int
 ) -> None:
     """Draw one picture into a file."""
-    from tehl.plots import save_picture
-
     if len(pictures) != 1:
         raise InputError(
             f"output {path}: a file holds one picture, not {len(pictures)}; "
             f"choose one by --only: {', '.join(pictures)}"
         )
     ((_, draw),) = pictures.items()
-    save_picture(draw(result, title=title), path, dpi=dpi)
+    plots.save_picture(draw(result, title=title), path, dpi=dpi)
     echo(path)
 
 
@@ -127,15 +131,12 @@ def animate(
 
     It shows the frames of the result (transient.frames of its case).
     """
-    from tehl.io.atomic import check_writable
-    from tehl.io.store import load_as
-    from tehl.plots import animation
-    from tehl.transient_result import TransientResult
-
     target = stored.with_suffix(".gif") if output is None else output
     animation.check_format(target)
     check_writable(target, sources=(stored,))
-    animation.animate(load_as(TransientResult, stored), target, per_second=per_second, dpi=dpi)
+    animation.animate(
+        results.load_as(results.TransientResult, stored), target, per_second=per_second, dpi=dpi
+    )
     echo(target)
 
 
@@ -160,15 +161,10 @@ def export(
     VTK: of a steady result the ending .vtr gives the plane of the film, .vts the film as a volume
     with its temperatures; of a transient result .pvd gives all frames, one .vtr file each.
     """
-    from tehl.io.atomic import check_writable
-    from tehl.io.export import ending_of
-    from tehl.io.export import export as write
-    from tehl.io.store import load
-
-    result = load(stored)
-    path = stored.with_suffix(ending_of(result, to)) if output is None else output
+    result = results.load(stored)
+    path = stored.with_suffix(exports.ending_of(result, to)) if output is None else output
     check_writable(path, sources=(stored,))
-    for written in write(result, path, to, what or ""):
+    for written in exports.export(result, path, to, what or ""):
         echo(written)
 
 
@@ -182,25 +178,17 @@ def report(
 
     It has numbers, pictures, formulas, inputs, groups, errors and convergence.
     """
-    from tehl.cli.reference_runs import smooth_beside
-    from tehl.io.atomic import check_writable, replacing
-    from tehl.io.store import load, load_summary
-    from tehl.io.summary import from_block
-    from tehl.post.micro_film import RoughnessEffect
-    from tehl.post.thermal_effect import ThermalEffect
-    from tehl.report.page import report_text
-
     path = stored.with_suffix(".html") if output is None else output
     check_writable(path, sources=(stored,))
     if path.suffix.lower() not in (".html", ".htm"):
         raise InputError(f"output {path}: a report ends in .html; print it as PDF in a browser")
-    result = load(stored)
-    summary = load_summary(stored)
-    page = report_text(
+    result = results.load(stored)
+    summary = store.load_summary(stored)
+    page = pages.report_text(
         result,
-        effect=from_block(ThermalEffect, summary.get("thermal_effect")),
-        roughness=from_block(RoughnessEffect, summary.get("roughness_effect")),
-        smooth=smooth_beside(stored, result),
+        effect=summaries.from_block(thermal_effect.ThermalEffect, summary.get("thermal_effect")),
+        roughness=summaries.from_block(micro_film.RoughnessEffect, summary.get("roughness_effect")),
+        smooth=reference_runs.smooth_beside(stored, result),
     )
     with replacing(path) as temporary:
         temporary.write_text(page, encoding="utf-8")

@@ -1,12 +1,18 @@
 """``tehl solve``: from a case file to a stored result, steady or transient."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from typer import Exit, Option
 
+from tehl.base.lazy import lazy
 from tehl.cli.arguments import AsJson, CaseFile, Overrides, Quiet
 from tehl.cli.ending import NOT_CONVERGED
+
+if TYPE_CHECKING:
+    from tehl.cli import job as jobs
+else:
+    jobs = lazy("tehl.cli.job")
 
 
 def solve(  # noqa: PLR0913 (the options of the command)
@@ -41,7 +47,6 @@ def solve(  # noqa: PLR0913 (the options of the command)
     is written; 3: the environment failed.
     """
     arguments = locals()
-    from tehl.cli.job import Job, run
 
-    if not run(Job(**arguments)):
+    if not jobs.run(jobs.Job(**arguments)):
         raise Exit(NOT_CONVERGED)

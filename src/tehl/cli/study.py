@@ -1,12 +1,18 @@
 """``tehl study``: many cases, in parallel, resumable, one table."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from typer import Argument, Exit, Option
 
+from tehl.base.lazy import lazy
 from tehl.cli.arguments import AsJson, Overrides, Quiet
 from tehl.cli.ending import NOT_CONVERGED
+
+if TYPE_CHECKING:
+    from tehl.cli import study_job
+else:
+    study_job = lazy("tehl.cli.study_job")
 
 
 def study(  # noqa: PLR0913 (the options of the command)
@@ -75,7 +81,6 @@ def study(  # noqa: PLR0913 (the options of the command)
     is finished is kept.
     """
     arguments = locals()
-    from tehl.cli.study_job import StudyJob, run
 
-    if not run(StudyJob(**arguments)):
+    if not study_job.run(study_job.StudyJob(**arguments)):
         raise Exit(NOT_CONVERGED)

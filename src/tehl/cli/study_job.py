@@ -17,11 +17,11 @@ from typing import TYPE_CHECKING
 
 import typer
 
+from tehl.base.atomic import check_place, check_writable, shortened
+from tehl.base.errors import InputError
 from tehl.cli.lines import show
 from tehl.cli.progress import SHOWN, duration, study_progress
-from tehl.errors import InputError
-from tehl.io.atomic import check_place, check_writable, shortened
-from tehl.solution import settings_text
+from tehl.result.solution import settings_text
 from tehl.studies.case import Row
 from tehl.studies.file import read_study
 from tehl.studies.folder import (

@@ -6,7 +6,20 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from typer import Argument, Option, echo
 
+from tehl.base.atomic import check_writable, replacing
+from tehl.base.errors import InputError
 from tehl.cli.arguments import AsJson
+from tehl.cli.lazily import (
+    case_files,
+    explanations,
+    mistakes,
+    previews,
+    problems,
+    rendering,
+    roughness,
+    surface_pictures,
+    units,
+)
 from tehl.cli.lines import show
 
 if TYPE_CHECKING:
@@ -57,24 +70,19 @@ def surface(  # noqa: PLR0913, PLR0917 (the options of the command)
     as_json: AsJson = False,
 ) -> None:
     """Show a measured surface: size, unit, roughness, spectrum, and what a grid resolves of it."""
-    from tehl.io.atomic import check_writable, replacing
-    from tehl.roughness.preview import preview
-
     if output is not None:
         check_writable(output, sources=(file,))
     stated = {"unit": unit, "pixel": _pair(pixel), "size": _pair(size), "level": level}
     keys = {key: value for key, value in stated.items() if value is not None}
     mesh = _mesh(contact, half_width, points)
-    found = preview(_map(file, keys, overrides), mesh)
+    found = previews.preview(_map(file, keys, overrides), mesh)
     if as_json:
         echo(json.dumps(as_summary(found)))
     else:
         show(as_text(found))
     if output is not None:
-        from tehl.plots.surface import surface_preview
-
         with replacing(output) as temporary:
-            surface_preview(found).savefig(temporary, dpi=150, format="png")
+            surface_pictures.surface_preview(found).savefig(temporary, dpi=150, format="png")
         echo(output, err=as_json)
 
 
@@ -87,25 +95,16 @@ def _pair(text: str | None) -> list[str] | str | None:
 def _map(file: Path, keys: dict[str, Any], overrides: list[str]) -> "Map":
     from pydantic import ValidationError
 
-    from tehl.errors import InputError
-    from tehl.io.case import change
-    from tehl.io.mistakes import describe
-    from tehl.roughness import Map
-
     stated = {"file": str(file), **keys}
     for override in overrides:
-        change(stated, override)
+        case_files.change(stated, override)
     try:
-        return Map.model_validate(stated)
+        return roughness.Map.model_validate(stated)
     except ValidationError as error:
-        raise InputError(describe(error, stated, Map)) from None
+        raise InputError(mistakes.describe(error, stated, roughness.Map)) from None
 
 
 def _mesh(contact: Path | None, half_width: str | None, points: int | None) -> "Mesh | None":
-    from tehl.errors import InputError
-    from tehl.roughness.preview import Mesh
-    from tehl.units import Length, quantity
-
     if contact is not None:
         if half_width is not None:
             raise InputError("--contact and --half-width both state a contact; expected one")
@@ -115,24 +114,20 @@ def _mesh(contact: Path | None, half_width: str | None, points: int | None) -> "
             raise InputError('--points needs a contact: give --half-width "0.2 mm" or --contact')
         return None
     try:
-        width = quantity(Length).parse(half_width)
+        width = units.quantity(units.Length).parse(half_width)
     except ValueError as error:
         raise InputError(f"--half-width = {half_width!r}: {error}") from None
     count = points or 257
     spacing = _DOMAIN * width / (count - 1)
-    return Mesh(spacing=(spacing,) * 2, half_widths=(width, width), points=(count, count))
+    return previews.Mesh(spacing=(spacing,) * 2, half_widths=(width, width), points=(count, count))
 
 
 def _mesh_of_case(case: Path, points: int | None) -> "Mesh":
-    from tehl.io.case import read_case_and_options
-    from tehl.report.explain import explain
-    from tehl.roughness.preview import Mesh
-
     changes = [] if points is None else [f"numerics.points={points}"]
-    problem, options = read_case_and_options(case, changes)
-    plan, hertz = explain(problem, options), problem.hertz
+    problem, options = problems.read_case_and_options(case, changes)
+    plan, hertz = explanations.explain(problem, options), problem.hertz
     domain, (ny, nx) = plan.domain, plan.options.shape
-    return Mesh(
+    return previews.Mesh(
         spacing=(
             (domain.x[1] - domain.x[0]) * hertz.half_width_x / (nx - 1),
             (domain.y[1] - domain.y[0]) * hertz.half_width_y / (ny - 1),
@@ -144,9 +139,7 @@ def _mesh_of_case(case: Path, points: int | None) -> "Mesh":
 
 def as_text(found: "Preview") -> str:
     """Return a preview in lines for people."""
-    from tehl.report.rendering import render
-
-    return render("surface.txt", found=found, levels=_LEVELS, longest=_LONGEST).rstrip()
+    return rendering.render("surface.txt", found=found, levels=_LEVELS, longest=_LONGEST).rstrip()
 
 
 def as_summary(found: "Preview") -> dict[str, Any]:

@@ -2,16 +2,17 @@
 
 from functools import partial
 
+from tehl.api.results import Result, TransientResult
+from tehl.cli.lazily import explanations
 from tehl.cli.reference_runs import Comparisons
 from tehl.io.summary import estimates
 from tehl.post.film import no_film
 from tehl.post.heat import work_error
 from tehl.post.traction import LARGEST_CREDIBLE
+from tehl.report.following import following
 from tehl.report.readable import UNTITLED, length_unit
 from tehl.report.rendering import render
-from tehl.result import Result
-from tehl.solution import Status
-from tehl.transient_result import TransientResult
+from tehl.result.solution import Status
 
 _UNITS = {
     "pressure_max": (1e-9, "GPa"),
@@ -35,6 +36,7 @@ def as_text(result: Result | TransientResult, compared: Comparisons | None = Non
         expected=_expected_traction(start),
         no_film=no_film(start),
         result=result,
+        following=following(result),
         rough=compared.rough_film or start.roughness,
         title=start.problem.title or UNTITLED,
         work_error=work_error(start),
@@ -45,7 +47,8 @@ def _expected_traction(result: Result) -> float | None:
     """Return the traction that `tehl explain` expects, if the computed one is not credible."""
     if result.traction is None or result.traction.credible:
         return None
-    heat = result.problem.explain().heat
+
+    heat = explanations.explain(result.problem).heat
     return None if heat is None else min(heat.traction, LARGEST_CREDIBLE)
 
 

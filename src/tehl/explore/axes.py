@@ -6,7 +6,7 @@ from html import escape
 
 import numpy as np
 
-from tehl.typing import Array
+from tehl.base.typing import Array
 
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
 _ROUNDING = 1e-9

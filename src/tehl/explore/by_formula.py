@@ -2,12 +2,12 @@
 
 from dataclasses import dataclass, replace
 
+from tehl.api.problem import ContactProblem
+from tehl.estimate.film_formulas import expected_film, film_estimates
+from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.starvation import starved_part, supply_ratio
 from tehl.explore.numbers import KAPPA, Number, film_formulas
 from tehl.explore.shown import Line, Lines, Maps, Shown
-from tehl.film_formulas import expected_film, film_estimates
-from tehl.problem import ContactProblem
-from tehl.scaling import ScaledProblem
-from tehl.starvation import starved_part, supply_ratio
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -7,12 +7,12 @@ from typing import Any
 
 import tomlkit
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
+from tehl.base.named import find_table
+from tehl.contact.materials import SOLIDS
 from tehl.io.case import replaced_by, tables_of_text, text_of
 from tehl.io.templates import template_text
 from tehl.lubricant.fluid import OILS
-from tehl.materials import SOLIDS
-from tehl.named import find_table
 
 _LAWS = ("lubricant.viscosity.", "lubricant.density.")
 LARGEST = 200_000

@@ -13,9 +13,9 @@ from contourpy import LineType, contour_generator
 from matplotlib import colormaps
 from PIL import Image
 
+from tehl.base.typing import Array
 from tehl.explore.axes import Frame, Scale, number_text, svg, text, ticks, turned
 from tehl.explore.shown import Maps, Section, Shown
-from tehl.typing import Array
 
 _LEFT, _RIGHT, _TOP, _BOTTOM, _BARE = 58.0, 84.0, 26.0, 46.0, 14.0
 """Margins in pixels; the last one at the right without a colour bar."""

@@ -5,14 +5,9 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from tehl.explore.case_text import CaseText, named_table
-from tehl.lubricant.fluid import OILS
-from tehl.materials import SOLIDS
-from tehl.named import read_tables
-from tehl.problem import SURFACES, ContactProblem
-from tehl.report.plausibility import Typical, typical_ranges
-from tehl.scaling import ScaledProblem
-from tehl.units import (
+from tehl.api.problem import ContactProblem
+from tehl.base.named import read_tables
+from tehl.base.units import (
     Angle,
     Conductivity,
     Force,
@@ -35,6 +30,12 @@ from tehl.units import (
     Viscosity,
     quantity,
 )
+from tehl.contact.materials import SOLIDS
+from tehl.contact.problem import SURFACES
+from tehl.estimate.scaling import ScaledProblem
+from tehl.explore.case_text import CaseText, named_table
+from tehl.lubricant.fluid import OILS
+from tehl.report.plausibility import Typical, typical_ranges
 
 _DECADE = 10.0
 """A logarithmic slider reaches from a tenth of its value to ten times it."""

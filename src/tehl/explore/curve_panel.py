@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 from nicegui import ui
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.explore.case_text import CaseText
 from tehl.explore.controls import Knob, swept_knobs
 from tehl.explore.curves import Point, nearest, swept_chart

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.roughness.files import ENDINGS
 
 LARGEST = 50_000_000

@@ -4,7 +4,7 @@ from typing import Any
 
 from nicegui import ui
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.explore.case_text import LARGEST, CaseText, template_case
 from tehl.explore.elements import button, main_button
 from tehl.explore.jobs import End, Failure, Note

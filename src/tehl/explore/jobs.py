@@ -8,17 +8,28 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
 from threading import Thread
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from tehl.errors import TehlError
+from tehl.api.problem import ContactProblem, case_from_tables
+from tehl.api.results import ConvergenceError, Result
+from tehl.base.errors import TehlError
+from tehl.base.lazy import lazy
+from tehl.contact.options import Options
 from tehl.explore.shown import Shown, shown
-from tehl.io.case import case_from_tables
-from tehl.options import Options
-from tehl.problem import ContactProblem
 from tehl.report.explain import Explanation, explain
-from tehl.result import ConvergenceError, Result
-from tehl.solution import CycleReport
+from tehl.result.solution import CycleReport
 from tehl.studies.worker import end_with_parent
+
+if TYPE_CHECKING:
+    from tehl.api import solvers
+    from tehl.estimate import film_formulas
+    from tehl.kernels import cache as kernel_cache
+    from tehl.kernels import warmup
+else:
+    solvers = lazy("tehl.api.solvers")
+    film_formulas = lazy("tehl.estimate.film_formulas")
+    kernel_cache = lazy("tehl.kernels.cache")
+    warmup = lazy("tehl.kernels.warmup")
 
 QUICK, MIDDLE = 65, 129
 """Nodes per direction while a slider moves, and on the way to the accuracy of the case."""
@@ -188,13 +199,11 @@ class Desk:
 
     def result(self, problem: ContactProblem, options: Options) -> Result:
         """Return the result of a problem, converged or not; a recent one is not solved again."""
-        from tehl.solver import solve, solve_passes  # noqa: PLC0415 (a second, in the worker only)
-
         key = _key(problem, options)
         if key not in self.kept:
             monitor = Cycles(self.connection, self.send)
             monitor.check()
-            work = solve_passes if problem.has_passes else solve
+            work = solvers.solve_passes if problem.has_passes else solvers.solve
             try:
                 found = work(problem, options, monitor=monitor)
             except ConvergenceError as error:
@@ -217,12 +226,10 @@ class Desk:
         if coupled in self.warm:
             return
         import tehl.solver  # noqa: F401, PLC0415 (a second, in the worker only)
-        from tehl.kernels.cache import is_cold  # noqa: PLC0415
-        from tehl.kernels.warmup import warm_up  # noqa: PLC0415
 
-        if is_cold(coupled=coupled):
+        if kernel_cache.is_cold(coupled=coupled):
             yield Note("compiling the inner loops once, which takes 10 to 60 s")
-        warm_up(coupled=coupled)
+        warmup.warm_up(coupled=coupled)
         self.warm.add(coupled)
 
 
@@ -269,8 +276,6 @@ def _seconds(time: float) -> str:
 
 def _groups(found: Explanation) -> tuple[tuple[str, str], ...]:
     """Return load, Hertz contact, groups and regime in words."""
-    from tehl.film_formulas import regime  # noqa: PLC0415
-
     problem, groups = found.scaled.problem, found.scaled.groups
     hertz = problem.hertz
     return (
@@ -280,5 +285,5 @@ def _groups(found: Explanation) -> tuple[tuple[str, str], ...]:
         ("a_y / a_x", f"{groups.ellipticity:.4g}"),
         ("Moes M", f"{groups.M:.4g}"),
         ("Moes L", f"{groups.L:.4g}"),
-        ("regime", regime(groups)),
+        ("regime", film_formulas.regime(groups)),
     )

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from nicegui import ui
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.explore.axes import Frame, Scale, svg, text
 from tehl.explore.colour_map import film_limits, film_picture
 from tehl.explore.elements import Drawing, button, main_button

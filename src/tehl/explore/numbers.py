@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from tehl.film_formulas import FilmEstimate
+from tehl.api.results import Result
+from tehl.estimate.film_formulas import FilmEstimate
 from tehl.report.explain import Explanation
-from tehl.result import Result
 
 KAPPA = 1.3
 """Exponent of the viscosity ratio kappa of ISO 281 over lambda."""

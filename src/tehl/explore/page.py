@@ -7,7 +7,7 @@ from urllib.parse import parse_qs
 
 from nicegui import Client, ui
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.explore.case_text import CaseText
 from tehl.explore.control_panel import ControlPanel
 from tehl.explore.curve_panel import CurvePanel

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from tehl.base.typing import Array
 from tehl.explore.colour_map import Limits
 from tehl.explore.shown import Maps
-from tehl.typing import Array
 
 _RAYS, _RINGS = 121, 48
 """Rays around the centre on which the film is sampled, and places on each."""

@@ -8,15 +8,21 @@ import socket
 import tempfile
 from http.cookies import SimpleCookie
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from urllib.parse import parse_qs
 
 from nicegui import app, background_tasks, ui
 from starlette.responses import HTMLResponse
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
+from tehl.base.lazy import lazy
 from tehl.explore.case_text import LONGEST, CaseText
 from tehl.explore.files import LARGEST, Files, named_files
+
+if TYPE_CHECKING:
+    from tehl.explore import page as pages
+else:
+    pages = lazy("tehl.explore.page")
 
 ADDRESS = "127.0.0.1"
 USUAL_PORT = 8765
@@ -133,8 +139,6 @@ def serve(case: Path | None, text: str, port: int | None, *, browser: bool, repo
     report : callable
         Receives the address.
     """
-    from tehl.explore.page import Page  # noqa: PLC0415 (the elements of the page)
-
     opened = CaseText(text)
     taken = _port(port)
     token = secrets.token_urlsafe(16)
@@ -142,7 +146,7 @@ def serve(case: Path | None, text: str, port: int | None, *, browser: bool, repo
         beside = None if case is None else case.resolve().parent
         stated = frozenset(name for _, name in named_files(opened.tables))
 
-        page = Page(opened, Files(Path(folder) / "uploads", beside, stated))
+        page = pages.Page(opened, Files(Path(folder) / "uploads", beside, stated))
         app.add_middleware(Guard, token=token, port=taken)
         app.on_startup(page.start)
         app.on_shutdown(page.close)

@@ -4,14 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tehl.api.results import Result
+from tehl.base.typing import Array
 from tehl.explore.numbers import Number, numbers
 from tehl.plots.frame import span_part, stretched, window, window_part
 from tehl.plots.interferogram import Optics, colours
 from tehl.post.film import hertz_pressure
 from tehl.report.explain import Explanation
-from tehl.result import Result
-from tehl.solution import Settings
-from tehl.typing import Array
+from tehl.result.solution import Settings
 
 _ACROSS = 41
 """Places across the film of a temperature section."""

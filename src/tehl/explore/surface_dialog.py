@@ -5,7 +5,7 @@ from typing import Any
 
 from nicegui import ui
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.explore.colour_map import heights_picture
 from tehl.explore.elements import Drawing, button, main_button
 from tehl.explore.files import LARGEST

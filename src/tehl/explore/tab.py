@@ -6,7 +6,9 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from tehl.errors import InputError
+from tehl.api.problem import case_from_tables
+from tehl.base.errors import InputError
+from tehl.contact.options import Options
 from tehl.explore.by_formula import scaled_by_formula
 from tehl.explore.case_text import CaseText
 from tehl.explore.colour_map import film_limits, pressure_limits, section_limits
@@ -16,11 +18,9 @@ from tehl.explore.files import Files
 from tehl.explore.jobs import Ask, End, Explained, Failure, Note, Part, TooCoarse
 from tehl.explore.shown import Shown
 from tehl.explore.worker import Solver
-from tehl.io.case import case_from_tables
-from tehl.options import Options
 
 if TYPE_CHECKING:
-    from tehl.problem import ContactProblem
+    from tehl.api.problem import ContactProblem
 
 VIEWS = {
     "film": "Film",

@@ -5,24 +5,34 @@ import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from tehl.errors import InputError, TehlError
+from tehl.api.problem import ContactProblem, case_from_tables
+from tehl.api.results import Result, TransientResult
+from tehl.base.errors import InputError, TehlError
+from tehl.base.lazy import lazy
+from tehl.base.typing import Array, SingleArray
+from tehl.contact.options import Options
 from tehl.explore.jobs import Cycles, Desk, Note, steady
 from tehl.explore.numbers import Number, numbers
 from tehl.explore.shown import Maps, maps_of
-from tehl.io.case import case_from_tables, changed
-from tehl.options import Options
+from tehl.io.case import changed
 from tehl.plots.frame import window_part
-from tehl.problem import ContactProblem
 from tehl.report.explain import explain
-from tehl.result import Result
+from tehl.result.transient import StepReport
 from tehl.roughness import Map
 from tehl.roughness.preview import preview, view
-from tehl.transient_result import StepReport, TransientResult
-from tehl.typing import Array, SingleArray
+
+if TYPE_CHECKING:
+    from tehl import plots
+    from tehl.api import solvers
+    from tehl.report import page as pages
+else:
+    solvers = lazy("tehl.api.solvers")
+    plots = lazy("tehl.plots")
+    pages = lazy("tehl.report.page")
 
 _PIXELS = 220
 """Points of a preview along an axis."""
@@ -100,10 +110,8 @@ class Transient:
 
 
 def _transient(problem: ContactProblem, options: Options, desk: Desk) -> TransientResult:
-    from tehl.solver import solve_transient  # noqa: PLC0415 (a second, in the worker only)
-
     desk.send(Note("the steady film at time zero"))
-    found = solve_transient(problem, options, monitor=Steps(desk.connection, desk.send))
+    found = solvers.solve_transient(problem, options, monitor=Steps(desk.connection, desk.send))
     if not isinstance(found, TransientResult):
         raise InputError("the film at the start did not converge")
     return found
@@ -161,15 +169,12 @@ def _content(result: Result | TransientResult, kind: str) -> bytes:
             result.save(path)
             return path.read_bytes()
     if kind == "html":
-        from tehl.report.page import report_text  # noqa: PLC0415 (loads matplotlib's 3-D axes)
-
-        return report_text(result).encode("utf-8")
-    from tehl.plots import INTERFEROGRAMS, pictures_of  # noqa: PLC0415
+        return pages.report_text(result).encode("utf-8")
 
     name, _, ending = kind.partition(".")
-    pictures = pictures_of(result)
+    pictures = plots.pictures_of(result)
     if isinstance(result, Result):
-        pictures = pictures | INTERFEROGRAMS
+        pictures = pictures | plots.INTERFEROGRAMS
     draw = pictures.get(name) or next(iter(pictures.values()))
     buffer = io.BytesIO()
     draw(result).savefig(buffer, format=ending, dpi=200)

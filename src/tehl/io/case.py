@@ -10,17 +10,19 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from pydantic import BaseModel, ValidationError, create_model
 
-from tehl.encoding import encoding_of
-from tehl.errors import InputError
-from tehl.io.atomic import shortened
-from tehl.io.mistakes import NUMERICS, describe, short, shown
-from tehl.options import Options
-from tehl.problem import ContactProblem
+from tehl.base.atomic import shortened
+from tehl.base.encoding import encoding_of
+from tehl.base.errors import InputError
+from tehl.base.lists import plain_value
+from tehl.base.mistakes import describe
+from tehl.base.units import percentage
+from tehl.base.wording import short, shown
+from tehl.contact.options import NUMERICS, Options
+from tehl.contact.problem import ContactProblem
 from tehl.roughness import Map, Sum
-from tehl.units import percentage
 
 if TYPE_CHECKING:
-    from tehl.solution import Settings
+    from tehl.result.solution import Settings
 
 _LONG_KEY = re.compile(r"(?m)^[\s\[]*(?:[^\s.,=#]+\s*\.\s*){100}")
 """A key of more than a hundred parts."""
@@ -242,12 +244,3 @@ def change(tables: dict[str, Any], override: str) -> None:
     if value is False and whole:  # a table that is switched off
         del node[names[-1]]
     node.pop(replaced_by(key), None)
-
-
-def plain_value(text: str) -> object:
-    """Return a value as TOML reads it, or the text itself if it is not TOML."""
-    try:
-        tables = tomllib.loads(f"value = {text}")
-    except ValueError:
-        return text
-    return tables["value"] if len(tables) == 1 else text

@@ -9,12 +9,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tehl.errors import FileFormatError, InputError
-from tehl.io.atomic import replacing
-from tehl.options import Options
-from tehl.problem import ContactProblem
+from tehl.base.atomic import replacing
+from tehl.base.errors import FileFormatError, InputError
+from tehl.base.version import SOLVER_VERSION, __version__
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
 from tehl.roughness import Map, Sum
-from tehl.version import SOLVER_VERSION, __version__
 
 _LABEL, _LAYOUT = "tehl_checkpoint", 4
 """Array that marks such a file; version, to be raised when the arrays of a state change."""

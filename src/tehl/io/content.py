@@ -10,7 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, create_model
 
-from tehl.fields import (
+from tehl.base.typing import Array
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
+from tehl.io import tables
+from tehl.io.summary import summary
+from tehl.io.tables import Column
+from tehl.result.fields import (
     Fields,
     FilmAsperities,
     FilmContact,
@@ -20,15 +26,8 @@ from tehl.fields import (
     PassHistory,
     SurfaceHeights,
 )
-from tehl.io import tables
-from tehl.io.summary import summary
-from tehl.io.tables import Column
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import Result
-from tehl.solution import CycleReport
-from tehl.transient_result import Frames, History, HistoryBars, Profiles, TransientResult
-from tehl.typing import Array
+from tehl.result.solution import CycleReport, Solution
+from tehl.result.transient import Frames, History, HistoryBars, Profiles, TransientSolution
 
 FORMAT_VERSION = 4
 STEADY, TRANSIENT = KINDS = ("steady", "transient")
@@ -55,7 +54,7 @@ _AXES = {"x": "X", "y": "Y", "zeta": "zeta", "time": "time"}
 _AXES |= {"frame": "frame_step", "bar": "bar_time", "pass": "pass"}
 """Array that gives the size of each dimension."""
 _NOT_SCALAR = {
-    Result: (
+    Solution: (
         "problem",
         "options",
         "scaled",
@@ -69,7 +68,7 @@ _NOT_SCALAR = {
         "passes",
     ),
     FilmHeat: tuple(column.field for column in tables.HEAT),
-    TransientResult: ("start", "history", "profiles", "frames", "bars"),
+    TransientSolution: ("start", "history", "profiles", "frames", "bars"),
 }
 """Fields of a class that are stored as arrays or attributes of their own; the others as JSON."""
 
@@ -83,8 +82,8 @@ def _scalars(kind: type) -> type[BaseModel]:
     return model
 
 
-def _dumped(part: Any) -> str:
-    model = _scalars(type(part))
+def _dumped(kind: type, part: Any) -> str:
+    model = _scalars(kind)
     return model(**{name: getattr(part, name) for name in model.model_fields}).model_dump_json()
 
 
@@ -92,9 +91,9 @@ def _loaded(kind: type, text: str) -> dict[str, Any]:
     return dict(_scalars(kind).model_validate_json(text))
 
 
-def variables(result: Result | TransientResult) -> Iterator[Variable]:
+def variables(result: Solution | TransientSolution) -> Iterator[Variable]:
     """Yield the arrays of a result; of a transient one those of its start too, by usual names."""
-    if isinstance(result, TransientResult):
+    if isinstance(result, TransientSolution):
         for one in variables(result.start):
             of_start = ", of the steady film at the start" if one.dims[-2:] == ("y", "x") else ""
             yield replace(one, long_name=one.long_name + of_start)
@@ -104,10 +103,10 @@ def variables(result: Result | TransientResult) -> Iterator[Variable]:
             yield Variable(column.name, column.dims, data, column.units, column.text)
 
 
-def _parts(result: Result | TransientResult) -> Iterator[tuple[Table, Any]]:
+def _parts(result: Solution | TransientSolution) -> Iterator[tuple[Table, Any]]:
     """Yield each part that ``result`` has, with the table of its arrays."""
     parts: tuple[tuple[Table, Any], ...]
-    if isinstance(result, Result):
+    if isinstance(result, Solution):
         parts = (
             (tables.FIELDS, result),
             (tables.SCALED, result.scaled),
@@ -143,7 +142,7 @@ def _columns(history: tuple[CycleReport, ...]) -> SimpleNamespace | None:
     return SimpleNamespace(index=index, points_x=points_x, points_y=points_y, **columns)
 
 
-def _frame_columns(result: TransientResult) -> SimpleNamespace | None:
+def _frame_columns(result: TransientSolution) -> SimpleNamespace | None:
     """Return the fields that were kept with their times, None without any."""
     frames = result.frames
     if not frames.step.size:
@@ -152,7 +151,7 @@ def _frame_columns(result: TransientResult) -> SimpleNamespace | None:
     return SimpleNamespace(time=result.history.time[frames.step], **own)
 
 
-def attributes(result: Result | TransientResult) -> Attributes:
+def attributes(result: Solution | TransientSolution) -> Attributes:
     """Return the attributes of a result: kind, case, scalars, definitions, versions.
 
     A transient result has those of its start, with its own kind, status and summary.
@@ -163,10 +162,10 @@ def attributes(result: Result | TransientResult) -> Attributes:
         "converged": int(result.status.converged),
         "summary": json.dumps(summary(result), allow_nan=False),
     }
-    if isinstance(result, TransientResult):
-        own |= {"tehl_kind": TRANSIENT, "transient": _dumped(result)}
+    if isinstance(result, TransientSolution):
+        own |= {"tehl_kind": TRANSIENT, "transient": _dumped(TransientSolution, result)}
         return attributes(result.start) | own
-    heat = {} if result.heat is None else {"heat": _dumped(result.heat)}
+    heat = {} if result.heat is None else {"heat": _dumped(FilmHeat, result.heat)}
     return own | {
         "tehl_format": FORMAT_VERSION,
         "title": result.problem.title,
@@ -176,7 +175,7 @@ def attributes(result: Result | TransientResult) -> Attributes:
         "definitions": tables.DEFINITIONS,
         "problem": _json(result.problem),
         "options": _json(result.options),
-        "state": _dumped(result),
+        "state": _dumped(Solution, result),
         **heat,
     }
 
@@ -185,7 +184,7 @@ def _json(model: BaseModel) -> str:
     return json.dumps(model.model_dump(mode="json"), allow_nan=False)
 
 
-def rebuild(arrays: Arrays, attrs: Attributes) -> Result | TransientResult:
+def rebuild(arrays: Arrays, attrs: Attributes) -> Solution | TransientSolution:
     """Return the result of arrays as :func:`variables` and attributes as :func:`attributes` gives.
 
     Raises
@@ -197,11 +196,11 @@ def rebuild(arrays: Arrays, attrs: Attributes) -> Result | TransientResult:
     return _transient(steady, arrays, attrs) if attrs["tehl_kind"] == TRANSIENT else steady
 
 
-def _steady(arrays: Arrays, attrs: Attributes) -> Result:
-    state = _loaded(Result, attrs["state"])
+def _steady(arrays: Arrays, attrs: Attributes) -> Solution:
+    state = _loaded(Solution, attrs["state"])
     reader = Reader(arrays=arrays, finite=state["status"].converged)
     heat = _loaded(FilmHeat, attrs["heat"]) if "heat" in attrs else None
-    return Result(
+    return Solution(
         **state,
         problem=ContactProblem.model_validate_json(attrs["problem"]),
         options=Options.model_validate_json(attrs["options"]),
@@ -217,12 +216,12 @@ def _steady(arrays: Arrays, attrs: Attributes) -> Result:
     )
 
 
-def _transient(start: Result, arrays: Arrays, attrs: Attributes) -> TransientResult:
-    state = _loaded(TransientResult, attrs["transient"])
+def _transient(start: Solution, arrays: Arrays, attrs: Attributes) -> TransientSolution:
+    state = _loaded(TransientSolution, attrs["transient"])
     reader = Reader(arrays=arrays, finite=state["status"].converged)
     history = reader.columns(tables.HISTORY)
     cycles = history.pop("cycles").astype(np.int64)
-    return TransientResult(
+    return TransientSolution(
         **state,
         start=start,
         history=History(**history, cycles=cycles),

@@ -10,25 +10,30 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tehl.errors import InputError
-from tehl.io.atomic import check_writable, replacing
+from tehl.base.atomic import check_writable, replacing
+from tehl.base.errors import InputError
 from tehl.io.content import Variable, variables
 from tehl.io.summary import summary
 from tehl.io.tables import COORDINATES
 from tehl.io.vtk import collection, rectilinear_grid, structured_grid
-from tehl.result import Result
-from tehl.transient_result import TransientResult
+from tehl.post.heat import temperature
+from tehl.result.solution import Solution
+from tehl.result.transient import TransientSolution
 
 _ENDINGS = {".csv": "csv", ".npz": "npz", ".mat": "mat"}
 _FORMATS = {
-    Result: _ENDINGS | {".vtr": "vtk", ".vts": "vtk"},
-    TransientResult: _ENDINGS | {".pvd": "vtk"},
+    Solution: _ENDINGS | {".vtr": "vtk", ".vts": "vtk"},
+    TransientSolution: _ENDINGS | {".pvd": "vtk"},
 }
 """Format by the ending of a file; programs choose a reader by the ending."""
 _MEANINGS = {".vtr": " (plane)", ".vts": " (volume)", ".pvd": " (collection of frames)"}
 _ROWS = {
-    Result: {"lines": ("y", "x"), "fields": ("y", "x"), "history": ("cycle",)},
-    TransientResult: {"history": ("time",), "lines": ("time", "x"), "fields": ("frame", "y", "x")},
+    Solution: {"lines": ("y", "x"), "fields": ("y", "x"), "history": ("cycle",)},
+    TransientSolution: {
+        "history": ("time",),
+        "lines": ("time", "x"),
+        "fields": ("frame", "y", "x"),
+    },
 }
 """Dimensions over which a CSV table has its rows; the first of each kind is the default."""
 _SUFFIXES = {"m": "_m", "s": "_s", "Pa": "_pa", "K": "_k", "W/m^2": "_w_m2", "1": ""}
@@ -36,7 +41,7 @@ _SUFFIXES = {"m": "_m", "s": "_s", "Pa": "_pa", "K": "_k", "W/m^2": "_w_m2", "1"
 
 
 def export(
-    result: Result | TransientResult, path: str | Path, to: str | None = None, what: str = ""
+    result: Solution | TransientSolution, path: str | Path, to: str | None = None, what: str = ""
 ) -> list[Path]:
     """Write a result in the format of another program.
 
@@ -60,7 +65,7 @@ def export(
 
     Parameters
     ----------
-    result : Result or TransientResult
+    result : Solution or TransientSolution
         What to write.
     path : str or Path
         The file; existing files are replaced.
@@ -91,21 +96,21 @@ def export(
 
         with replacing(path) as temporary, temporary.open("wb") as file:
             savemat(file, _arrays(result), do_compression=True, oned_as="column")
-    elif isinstance(result, TransientResult):
+    elif isinstance(result, TransientSolution):
         return _write_frames(result, path)
     else:
         _write_maps(result, path)
     return [path]
 
 
-def _arrays(result: Result | TransientResult) -> dict[str, NDArray[Any]]:
+def _arrays(result: Solution | TransientSolution) -> dict[str, NDArray[Any]]:
     arrays = {variable.name: variable.data for variable in variables(result)}
     return {**arrays, "summary": np.array(json.dumps(summary(result)))}
 
 
-def ending_of(result: Result | TransientResult, to: str | None) -> str:
+def ending_of(result: Solution | TransientSolution, to: str | None) -> str:
     """Return the usual ending of a file of format ``to``; raise an InputError if it is unknown."""
-    known = _FORMATS[type(result)]
+    known = _FORMATS[_kind(result)]
     for ending, kind in known.items():
         if kind == to:
             return ending
@@ -114,9 +119,9 @@ def ending_of(result: Result | TransientResult, to: str | None) -> str:
     raise InputError(f"{stated}; expected --to {listed}, or -o with the ending {', '.join(known)}")
 
 
-def _format_of(result: Result | TransientResult, path: str | Path, to: str | None) -> str:
+def _format_of(result: Solution | TransientSolution, path: str | Path, to: str | None) -> str:
     """Return the format ``to`` or that of the ending; raise if they do not match."""
-    known = _FORMATS[type(result)]
+    known = _FORMATS[_kind(result)]
     kind = known.get(Path(path).suffix.lower())
     if to is not None:
         ending_of(result, to)
@@ -129,17 +134,21 @@ def _format_of(result: Result | TransientResult, path: str | Path, to: str | Non
     raise InputError(f"output {path}: a file{of_format} ends in {' or '.join(fitting)}")
 
 
+def _kind(result: Solution | TransientSolution) -> type:
+    return TransientSolution if isinstance(result, TransientSolution) else Solution
+
+
 # ---- CSV
 
 
-def _write_csv(result: Result | TransientResult, path: Path, what: str) -> None:
-    known = _ROWS[type(result)]
+def _write_csv(result: Solution | TransientSolution, path: Path, what: str) -> None:
+    known = _ROWS[_kind(result)]
     what = what or next(iter(known))
     columns = {v.name + _SUFFIXES[v.units]: v.data for v in _over(known.get(what, ()), result)}
     if not columns:
         raise InputError(f"the result has no {what} to export; expected {' or '.join(known)}")
     names: Iterable[str] = columns
-    if isinstance(result, Result) and what == "lines":
+    if isinstance(result, Solution) and what == "lines":
         names, rows = ("line", *columns), _line_rows(result, list(columns.values()))
     else:
         rows = _rows(list(columns.values()))
@@ -149,7 +158,7 @@ def _write_csv(result: Result | TransientResult, path: Path, what: str) -> None:
         writer.writerows(rows)
 
 
-def _over(dims: tuple[str, ...], result: Result | TransientResult) -> Iterator[Variable]:
+def _over(dims: tuple[str, ...], result: Solution | TransientSolution) -> Iterator[Variable]:
     """Yield the arrays over ``dims`` and their coordinates, broadcast to the same shape."""
     found = list(variables(result))
     sizes = {dim: size for v in found for dim, size in zip(v.dims, v.data.shape, strict=True)}
@@ -160,20 +169,20 @@ def _over(dims: tuple[str, ...], result: Result | TransientResult) -> Iterator[V
         if v.dims == dims or (v.name in COORDINATES and set(v.dims) < set(dims)):
             axes = [sizes[dim] if dim in v.dims else 1 for dim in dims]
             yield replace(v, dims=dims, data=np.broadcast_to(v.data.reshape(axes), shape))
-        elif v.name == "temperature" and dims == ("y", "x") and isinstance(result, Result):
+        elif v.name == "temperature" and dims == ("y", "x") and isinstance(result, Solution):
             yield from _layers(result, v)
 
 
-def _layers(result: Result, all_layers: Variable) -> Iterator[Variable]:
+def _layers(result: Solution, all_layers: Variable) -> Iterator[Variable]:
     """Yield the temperatures on surface 1, at mid-film, on surface 2, and their mean."""
-    found = result.temperature
+    found = temperature(result)
     if found is not None:
         maps = (all_layers.data[0], found.mid_film, all_layers.data[-1], found.mean)
         for name, data in zip(("1", "mid", "2", "mean"), maps, strict=True):
             yield replace(all_layers, name=f"temperature_{name}", dims=("y", "x"), data=data)
 
 
-def _line_rows(result: Result, columns: list[NDArray[Any]]) -> Iterator[tuple[Any, ...]]:
+def _line_rows(result: Solution, columns: list[NDArray[Any]]) -> Iterator[tuple[Any, ...]]:
     row, column = (int(np.abs(axis).argmin()) for axis in (result.scaled.y, result.scaled.x))
     for name, line in (("x", np.s_[row, :]), ("y", np.s_[:, column])):
         yield from ((name, *numbers) for numbers in _rows([field[line] for field in columns]))
@@ -186,7 +195,7 @@ def _rows(columns: list[NDArray[Any]]) -> Iterator[tuple[Any, ...]]:
 # ---- VTK
 
 
-def _write_maps(result: Result, path: Path) -> None:
+def _write_maps(result: Solution, path: Path) -> None:
     """Write the maps of a steady result over the plane of the film, or over its volume."""
     maps = {v.name: v.data for v in _over(("y", "x"), result) if v.name not in COORDINATES}
     if path.suffix.lower() == ".vts":
@@ -198,7 +207,7 @@ def _write_maps(result: Result, path: Path) -> None:
         temporary.write_text(text, encoding="ascii")
 
 
-def _volume(result: Result, maps: dict[str, NDArray[Any]]) -> str:
+def _volume(result: Solution, maps: dict[str, NDArray[Any]]) -> str:
     """Return the film as a structured grid; maps are the same on each layer."""
     heat, film = result.heat, result.film_thickness
     zeta = np.array([0.0, 1.0]) if heat is None else heat.zeta
@@ -210,7 +219,7 @@ def _volume(result: Result, maps: dict[str, NDArray[Any]]) -> str:
     return structured_grid(points, fields, converged=result.status.converged)
 
 
-def _write_frames(run: TransientResult, target: Path) -> list[Path]:
+def _write_frames(run: TransientSolution, target: Path) -> list[Path]:
     """Write each frame of a transient result as a plane, and a collection that lists them."""
     frames = run.frames
     if not frames.step.size:

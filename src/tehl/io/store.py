@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from tehl.errors import FileFormatError, InputError
-from tehl.io.atomic import replacing, shortened
+from tehl.base.atomic import replacing, shortened
+from tehl.base.errors import FileFormatError, InputError
 from tehl.io.content import (
     FORMAT_VERSION,
     KINDS,
@@ -22,19 +22,19 @@ from tehl.io.content import (
 )
 from tehl.io.summary import plain
 from tehl.io.tables import COORDINATES
-from tehl.result import Result
-from tehl.transient_result import TransientResult
+from tehl.result.solution import Solution
+from tehl.result.transient import TransientSolution
 
 if TYPE_CHECKING:
     import h5netcdf
     import xarray as xr
 
-Kind = TypeVar("Kind", Result, TransientResult)
+Kind = TypeVar("Kind", Solution, TransientSolution)
 
 _HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 
 
-def to_dataset(result: Result | TransientResult) -> "xr.Dataset":
+def to_dataset(result: Solution | TransientSolution) -> "xr.Dataset":
     """Return a result as a dataset.
 
     Fields are over ``(y, x)``, temperature over ``(zeta, y, x)``, multigrid cycles over ``cycle``;
@@ -53,13 +53,13 @@ def to_dataset(result: Result | TransientResult) -> "xr.Dataset":
 
 
 def save(
-    result: Result | TransientResult, path: str | Path, *, extra: dict[str, Any] | None = None
+    result: Solution | TransientSolution, path: str | Path, *, extra: dict[str, Any] | None = None
 ) -> None:
     """Write a result to a NetCDF-4 file; an error leaves no partial file.
 
     Parameters
     ----------
-    result : Result or TransientResult
+    result : Solution or TransientSolution
         Converged or not; the file says which.
     path : str or Path
         The file; an existing one is replaced.
@@ -124,7 +124,7 @@ def _write(file: "h5netcdf.File", variable: Variable) -> None:
     file.create_variable(variable.name, dims, kind, data=data, **packing)
 
 
-def load(path: str | Path) -> Result | TransientResult:
+def load(path: str | Path) -> Solution | TransientSolution:
     """Read a result that :func:`save` wrote, with its fields bit by bit; nothing is compiled.
 
     Raises
@@ -162,7 +162,7 @@ def load_as(kind: type[Kind], path: str | Path) -> Kind:
     result = load(path)
     if isinstance(result, kind):
         return result
-    wanted, found = KINDS if kind is Result else KINDS[::-1]
+    wanted, found = KINDS if kind is Solution else KINDS[::-1]
     raise FileFormatError(f"{path} holds a {found} result; expected a {wanted} one")
 
 

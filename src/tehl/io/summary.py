@@ -9,25 +9,25 @@ from typing import Any, TypeVar
 import numpy as np
 from pydantic import TypeAdapter
 
-from tehl.fields import FilmHeat
-from tehl.post.heat import Temperature, work_error
-from tehl.post.load_sharing import LoadSharing
-from tehl.post.roughness import RoughFilm
-from tehl.post.starvation import Starvation
-from tehl.post.touching import Touching
-from tehl.post.traction import Traction
+from tehl.base.typing import Array
+from tehl.post.boundary_contact import Touching, touching
+from tehl.post.heat import Temperature, temperature, work_error
+from tehl.post.roughness import RoughFilm, rough_film
+from tehl.post.starvation import Starvation, starvation
+from tehl.post.summits import LoadSharing, load_sharing
+from tehl.post.traction import Traction, traction
+from tehl.post.transient_numbers import friction, late_extremes, longer_duration
 from tehl.post.waves.response import WaveResponse
-from tehl.result import Result
-from tehl.solution import ErrorEstimate, Estimate
-from tehl.transient_result import HistoryBars, TransientResult
-from tehl.typing import Array
+from tehl.result.fields import FilmHeat
+from tehl.result.solution import ErrorEstimate, Estimate, Solution
+from tehl.result.transient import HistoryBars, TransientSolution
 
 Block = dict[str, Any]
 Part = TypeVar("Part")
 _UNIT = re.compile("_(m2|m|pa|k|w|rad)$")
 
 
-def summary(result: Result | TransientResult) -> Block:
+def summary(result: Solution | TransientSolution) -> Block:
     """Return the summary of a result as JSON can hold it: null where a number is not finite.
 
     Keys that end in a unit (``_m``, ``_pa``, ``_k``, ``_s``, ``_w``) are SI, the others
@@ -39,7 +39,7 @@ def summary(result: Result | TransientResult) -> Block:
     the summary of the steady film at its start.
     """
     status = result.status
-    if isinstance(result, TransientResult):
+    if isinstance(result, TransientSolution):
         title, kind, content = result.start.problem.title, {"kind": "transient"}, _transient(result)
     else:
         title, kind, content = result.problem.title, {}, _steady(result)
@@ -99,12 +99,12 @@ _TRANSIENT: dict[str, tuple[Path, ...]] = {
 """Keys of the summary that the estimates of a certified result belong to."""
 
 
-def estimates(result: Result | TransientResult) -> dict[str, Estimate]:
+def estimates(result: Solution | TransientSolution) -> dict[str, Estimate]:
     """Return the values of a certified result with their error bars, in SI."""
-    return result.uncertainty if isinstance(result, TransientResult) else result.certified
+    return result.uncertainty if isinstance(result, TransientSolution) else result.certified
 
 
-def _mirrored(result: Result | TransientResult, places: dict[str, tuple[Path, ...]]) -> Block:
+def _mirrored(result: Solution | TransientSolution, places: dict[str, tuple[Path, ...]]) -> Block:
     """Return the estimates of a result under the keys of their values."""
     blocks: Block = {}
     in_si = estimates(result)
@@ -121,10 +121,10 @@ def _mirrored(result: Result | TransientResult, places: dict[str, tuple[Path, ..
 # ---- steady results
 
 
-def _steady(result: Result) -> Block:
-    lubricant, heat, rough = result.problem.lubricant, result.heat, result.roughness
-    temperature, traction, scaled = result.temperature, result.traction, result.scaled
-    starved, shared = result.starvation, result.load_sharing
+def _steady(result: Solution) -> Block:
+    lubricant, heat, rough = result.problem.lubricant, result.heat, rough_film(result)
+    heated, forces, scaled = temperature(result), traction(result), result.scaled
+    starved, shared, touched = starvation(result), load_sharing(result), touching(result)
     content = {
         "laws": {
             "viscosity": lubricant.viscosity.law,
@@ -137,12 +137,12 @@ def _steady(result: Result) -> Block:
         "groups": _groups(result),
         "film": _film(result),
         "pressure": _pressure(result),
-        "temperature": None if temperature is None else _temperature(temperature),
-        "traction": None if traction is None else _traction(traction),
+        "temperature": None if heated is None else _temperature(heated),
+        "traction": None if forces is None else _traction(forces),
         "heat": None if heat is None else _heat(heat),
         "roughness": None if rough is None else roughness_block(rough),
         "load_sharing": None if shared is None else _load_sharing(shared),
-        "touching": None if result.touching is None else _touching(result.touching),
+        "touching": None if touched is None else _touching(touched),
         "starvation": None if starved is None else _starvation(starved),
         "convergence": _convergence(result),
         "errors": None if result.errors is None else _errors(result.errors),
@@ -157,7 +157,7 @@ def _errors(found: ErrorEstimate) -> Block:
     return {"central": found.central, "minimum": found.minimum} | asdict(found)
 
 
-def _groups(result: Result) -> Block:
+def _groups(result: Solution) -> Block:
     groups, scales = asdict(result.groups), result.scales
     del groups["deflection_factor"]
     return groups | {
@@ -167,7 +167,7 @@ def _groups(result: Result) -> Block:
     }
 
 
-def _film(result: Result) -> Block:
+def _film(result: Solution) -> Block:
     film, moes, unit = result.film, moes_film_factor(result), result.scales.film_thickness
     minimum, central = film.minimum / unit, film.central / unit
     numbers = {
@@ -185,7 +185,7 @@ def _film(result: Result) -> Block:
     }
 
 
-def moes_film_factor(result: Result) -> float:
+def moes_film_factor(result: Solution) -> float:
     """Return what turns H into the Moes film ``(h/R_x) (2U)^(-1/2)``.
 
     For a circle this is ``(3M/2)^(2/3)``.
@@ -195,7 +195,7 @@ def moes_film_factor(result: Result) -> float:
     return (scales.film_thickness / scales.half_width_x) ** 2 / math.sqrt(2.0 * groups.U)
 
 
-def _pressure(result: Result) -> Block:
+def _pressure(result: Solution) -> Block:
     highest = float(np.max(result.scaled.pressure))
     return {
         "max_pa": highest * result.scales.hertz_pressure,
@@ -313,7 +313,7 @@ def _wave(wave: WaveResponse) -> Block:
     }
 
 
-def _convergence(result: Result) -> Block:
+def _convergence(result: Solution) -> Block:
     history, names = result.history, ("residual", "change", "load_error")
     finest = [report for report in history if report.points == history[-1].points]
     last = _picked(finest[-1], *names) if finest else dict.fromkeys(names)
@@ -325,7 +325,7 @@ def _convergence(result: Result) -> Block:
 # ---- transient results
 
 
-def _transient(run: TransientResult) -> Block:
+def _transient(run: TransientSolution) -> Block:
     history, times = run.history, run.history.time
     rise = _extreme(history.temperature_rise, times, np.argmax)
     cycles = history.cycles[1:].astype(float) if history.cycles.size > 1 else np.zeros(1)
@@ -335,8 +335,8 @@ def _transient(run: TransientResult) -> Block:
             "step_s": run.time_step,
             "steps": len(times) - 1,
             "frames": len(run.frames.step),
-            "late_extremes": list(run.late_extremes),
-            "longer_duration_s": run.longer_duration,
+            "late_extremes": list(late_extremes(run)),
+            "longer_duration_s": longer_duration(run),
         },
         "film": {
             "h_min_m": _extreme(history.film_minimum, times, np.argmin),
@@ -345,7 +345,7 @@ def _transient(run: TransientResult) -> Block:
         "pressure": {"p_max_pa": _extreme(history.pressure_max, times, np.argmax)},
         "temperature": None if run.start.heat is None else {"film_rise_max_k": rise},
         "traction": _range(history.traction),
-        "friction": None if (friction := run.friction) is None else _range(friction),
+        "friction": None if (rubbed := friction(run)) is None else _range(rubbed),
         "asperity_load": None
         if run.start.asperities is None and run.start.problem.contact_film is None
         else _extreme(history.asperity_load, times, np.argmax),

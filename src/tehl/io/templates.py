@@ -3,7 +3,7 @@
 import difflib
 from pathlib import Path
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 
 _NAMES = {
     "cases": (

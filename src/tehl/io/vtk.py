@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tehl.typing import Array
+from tehl.base.typing import Array
 
 Maps = dict[str, NDArray[Any]]
 

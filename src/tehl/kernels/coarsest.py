@@ -11,10 +11,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tehl.base.typing import Array, FlagArray, IntArray
 from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.raw import raw
 from tehl.kernels.reynolds import STEADILY, Stencil, flux_weights
-from tehl.typing import Array, FlagArray, IntArray
 
 NEGLIGIBLE = 1e-6  # part of a change of the pressure that asperities take by the film it moves
 HERE, EAST, WEST, NORTH, SOUTH, FAR = range(6)

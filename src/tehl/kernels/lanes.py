@@ -21,7 +21,7 @@ from numba.core.cgutils import get_or_insert_function
 from numba.core.typing.templates import AbstractTemplate, infer_global, signature
 from numba.extending import lower_builtin, lower_cast, models, register_model
 
-from tehl.typing import Array, BoolArray
+from tehl.base.typing import Array, BoolArray
 
 LANES = 8
 

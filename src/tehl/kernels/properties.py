@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tehl.base.typing import Array, FlagArray
 from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.lanes import LANES, Lanes, greater, lesser, lookup, truncate, where
 from tehl.kernels.raw import lanes, raw
-from tehl.typing import Array, FlagArray
 
 
 class FlowTable(NamedTuple):

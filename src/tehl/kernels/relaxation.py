@@ -19,6 +19,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tehl.base.typing import Array, FlagArray, IntArray, Records
 from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.lanes import LANES, any_of, where
 from tehl.kernels.properties import Film, FlowTable
@@ -33,7 +34,6 @@ from tehl.kernels.reynolds import (
     line_operator,
     row_below,
 )
-from tehl.typing import Array, FlagArray, IntArray, Records
 
 Span = tuple[int, int]
 

@@ -14,10 +14,10 @@ with p = 0. Fields are those of `tehl.kernels.properties`.
 from math import sqrt
 from typing import NamedTuple
 
+from tehl.base.typing import Array, FlagArray, IntArray
 from tehl.kernels.compiled import helper, kernel, summing_helper
 from tehl.kernels.properties import Film
 from tehl.kernels.raw import raw
-from tehl.typing import Array, FlagArray, IntArray
 
 STEADILY, IN_TIME = 1, 2
 SECOND, THIRD = 1, 2

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, get_args, get_type_hints
 import numpy as np
 from numba import typeof, types
 
-from tehl.kernels import asperities, coarsest, properties, relaxation, reynolds, summation, transfer
+from tehl.kernels import coarsest, properties, relaxation, reynolds, summation, summits, transfer
 from tehl.kernels.energy import march, records, trail
 
 NUMBERS = {int: types.int64, float: types.float64, bool: types.boolean}
@@ -51,7 +51,7 @@ def type_of(hint: Any, name: str, arrays: dict[str, Any]) -> Any:
     given = arrays.get(name, 2)
     if not isinstance(given, int):
         return typeof(given)
-    if hasattr(hint, "__metadata__"):  # an array (`tehl.typing`)
+    if hasattr(hint, "__metadata__"):  # an array (`tehl.base.typing`)
         return types.Array(getattr(types, hint.__metadata__[0]), given, "C")
     if hint in NUMBERS:
         return NUMBERS[hint]
@@ -116,7 +116,7 @@ COUPLED = (
 )
 """Of heated and shear-thinning films, besides."""
 RARE = (
-    _sample(asperities.touch, 0.7, grid=1),
+    _sample(summits.touch, 0.7, grid=1),
     _sample(relaxation.stiffen, 0.4),
     _sample(relaxation.relax_points, 0.4, self_film=1),
     _sample(reynolds.diagonal, 0.3),

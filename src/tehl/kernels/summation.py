@@ -15,10 +15,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tehl.base.typing import Array
 from tehl.kernels.compiled import helper, kernel, summing_helper
 from tehl.kernels.lanes import LANES
 from tehl.kernels.raw import lanes, raw
-from tehl.typing import Array
 
 C1, C3, C5 = 150.0 / 256.0, -25.0 / 256.0, 3.0 / 256.0  # sixth-order midpoint interpolation
 

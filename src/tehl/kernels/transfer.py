@@ -6,10 +6,10 @@ Fine fields are (ny, nx), coarse ones ((ny+1)/2, (nx+1)/2); with ``mirror`` row 
 line and row -1 equals row 1.
 """
 
+from tehl.base.typing import Array, FlagArray
 from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.raw import raw
 from tehl.kernels.reynolds import clear
-from tehl.typing import Array, FlagArray
 
 
 @helper

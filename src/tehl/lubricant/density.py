@@ -5,9 +5,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from tehl.base.units import Density, PressureCoefficient, Temperature, TemperatureCoefficient
 from tehl.lubricant.law import DensityModel, Values, limited
 from tehl.lubricant.tait import TaitDensity
-from tehl.units import Density, PressureCoefficient, Temperature, TemperatureCoefficient
 
 LARGEST_LOSS = 0.9
 """Most of the ambient density that heat may take, far beyond where a law holds."""

@@ -3,7 +3,7 @@
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import (
     BaseModel,
@@ -16,15 +16,16 @@ from pydantic import (
     field_validator,
 )
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
+from tehl.base.named import find_table, known_names, read_tables
+from tehl.base.table import Table
+from tehl.base.typing import Array
+from tehl.base.units import Conductivity, HeatCapacity, PressureCoefficient, Temperature
 from tehl.lubricant.density import DensityLaw
 from tehl.lubricant.law import Law
 from tehl.lubricant.shear import Newtonian, ShearLaw
 from tehl.lubricant.viscosity import ViscosityLaw
 from tehl.lubricant.walther import Walther
-from tehl.named import find_table, known_names, read_tables
-from tehl.typing import Array
-from tehl.units import Conductivity, HeatCapacity, PressureCoefficient, Table, Temperature
 
 
 class ConductivityOfPressure(Law):
@@ -76,6 +77,17 @@ AnyHeatCapacity = Annotated[
 
 class Lubricant(Law):
     """An oil."""
+
+    synonyms: ClassVar = {
+        "viscosity.eta_0": "eta eta0 eta_0 dynamic_viscosity viscosity_0",
+        "viscosity.alpha": "alpha pressure_coefficient pressure_viscosity_coefficient",
+        "viscosity.nu_40": "nu_40 viscosity_40 kinematic_viscosity",
+        "viscosity.nu_100": "nu_100 viscosity_100",
+        "shear.stress": "eyring_stress shear_stress limiting_shear_stress",
+        "heat_capacity": "cp specific_heat",
+        "temperature": "inlet_temperature oil_temperature",
+        "name": "grade oil",
+    }
 
     density: DensityLaw
     """Law with the method ``density(pressure, temperature)``."""

@@ -6,8 +6,8 @@ Laws are formulas for numbers as well as for arrays: a case is explained without
 import math
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
-from tehl.typing import Array, np
-from tehl.units import Table
+from tehl.base.table import Table
+from tehl.base.typing import Array, np
 
 LARGEST_EXPONENT = 600.0
 """``exp`` of more would overflow; so thick a film is a solid for every purpose."""

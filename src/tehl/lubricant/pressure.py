@@ -8,7 +8,7 @@ from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
 
-from tehl.units import Quantity
+from tehl.base.units import Quantity
 
 ESTIMATED: Literal["estimated"] = "estimated"
 UNCERTAINTY = "within 20 % for mineral oils, often 30 to 50 % too high for others"

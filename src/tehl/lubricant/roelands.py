@@ -5,9 +5,9 @@ from typing import Any, Literal, Self
 
 from pydantic import model_validator
 
+from tehl.base.units import Ratio, Temperature, TemperatureCoefficient, Viscosity
 from tehl.lubricant.law import ExponentialFall, Values, ViscosityModel, exponential, limited
 from tehl.lubricant.pressure import NEEDED, Alpha, pressure_coefficient_of
-from tehl.units import Ratio, Temperature, TemperatureCoefficient, Viscosity
 
 ROELANDS_OFFSET = 9.67  # -ln of 6.31e-5 Pa s, the viscosity at Roelands' common point
 ROELANDS_PRESSURE = 1.96e8  # [Pa], in the definition of z

@@ -12,9 +12,9 @@ from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
+from tehl.base.typing import Array, np
+from tehl.base.units import NonNegativeStress, Stress, StressSlope
 from tehl.lubricant.law import Law, Values, functions, limited
-from tehl.typing import Array, np
-from tehl.units import NonNegativeStress, Stress, StressSlope
 
 LEAST_EYRING = 1e4
 """Eyring stress [Pa] below which a unit has been forgotten."""

@@ -17,8 +17,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from tehl.lubricant.law import DensityModel, Values, ViscosityModel, exponential, functions, limited
-from tehl.units import (
+from tehl.base.units import (
     BulkModulus,
     Density,
     SignedTemperatureCoefficient,
@@ -26,6 +25,7 @@ from tehl.units import (
     TemperatureCoefficient,
     Viscosity,
 )
+from tehl.lubricant.law import DensityModel, Values, ViscosityModel, exponential, functions, limited
 
 LEAST_VOLUME = 0.2
 """Least part of a volume that the equations of this module compress or cool to."""

@@ -4,12 +4,12 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
+from tehl.base.units import Temperature, TemperatureCoefficient, Viscosity
 from tehl.lubricant.law import ExponentialFall, Values, ViscosityModel
 from tehl.lubricant.pressure import NEEDED, Alpha, pressure_coefficient_of
 from tehl.lubricant.roelands import Roelands, RoelandsExponential
 from tehl.lubricant.tait import TaitDoolittle
 from tehl.lubricant.walther import Walther
-from tehl.units import Temperature, TemperatureCoefficient, Viscosity
 
 
 class Barus(ExponentialFall):

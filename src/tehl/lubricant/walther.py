@@ -5,17 +5,17 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
-from tehl.errors import InputError
-from tehl.lubricant.law import Values, ViscosityModel, exponential, functions, limited
-from tehl.lubricant.pressure import NEEDED, Alpha, pressure_coefficient_of
-from tehl.lubricant.roelands import PER_ROELANDS_PRESSURE, ROELANDS_OFFSET, ROELANDS_PRESSURE
-from tehl.units import (
+from tehl.base.errors import InputError
+from tehl.base.units import (
     Density,
     KinematicViscosity,
     Ratio,
     Temperature,
     TemperatureCoefficient,
 )
+from tehl.lubricant.law import Values, ViscosityModel, exponential, functions, limited
+from tehl.lubricant.pressure import NEEDED, Alpha, pressure_coefficient_of
+from tehl.lubricant.roelands import PER_ROELANDS_PRESSURE, ROELANDS_OFFSET, ROELANDS_PRESSURE
 
 _FORTY, _HUNDRED = 313.15, 373.15  # [K]
 _SHIFT = 0.7  # [mm^2/s]

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from tehl.base.typing import Array
 from tehl.kernels.energy.records import Across
-from tehl.typing import Array
 
 
 def chebyshev(nodes: int) -> Across:

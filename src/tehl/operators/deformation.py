@@ -7,13 +7,13 @@ from typing import Protocol
 
 import numpy as np
 
-from tehl.grid import Grid
+from tehl.base.typing import Array
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import Groups
 from tehl.kernels.lanes import LANES
 from tehl.kernels.summation import sum_across
 from tehl.operators.influence import dense_matrix, influence_of
 from tehl.operators.multilevel import MultilevelDeformation
-from tehl.scaling import Groups
-from tehl.typing import Array
 
 LINES_UP_TO = {True: 200, False: 160}
 """Intervals of the full domain, in the direction with fewer, up to which the sum by lines is the
@@ -118,7 +118,7 @@ def choose(name: str, grid: Grid, groups: Groups, *, exact: bool = False) -> Def
     Parameters
     ----------
     name : {"auto", "mlmi", "fft", "lines", "direct"}
-        As in `tehl.options.Options`.
+        As in `tehl.contact.options.Options`.
     grid : Grid
         Grid of the pressure.
     groups : Groups

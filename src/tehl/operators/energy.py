@@ -2,16 +2,16 @@
 
 import numpy as np
 
-from tehl.entering import kept_part
-from tehl.grid import Grid
+from tehl.base.typing import Array
+from tehl.estimate.entering import kept_part
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import Groups
 from tehl.kernels.energy.march import sweep
 from tehl.kernels.energy.records import GHOSTS, Fields, Surfaces, Terms, scratch
 from tehl.operators.heated_film import HeatedFilm, padded_rows, stress_unit
 from tehl.operators.surfaces import Solids
 from tehl.operators.transfer import midpoints
 from tehl.operators.transient_film import TransientFilm, without_history
-from tehl.scaling import Groups
-from tehl.typing import Array
 
 FAR_FILM = 1e3
 """Film thickness in the rows that fill up the last block [-]: so thick that it hardly warms."""

@@ -17,9 +17,9 @@ from functools import lru_cache
 import numpy as np
 from scipy.linalg import solve_banded
 
-from tehl.grid import Grid
-from tehl.scaling import Groups
-from tehl.typing import Array, BoolArray
+from tehl.base.typing import Array, BoolArray
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import Groups
 
 ANGLES = 1025
 """Nodes of f over the angle; the error of its values is below 1e-4 of its maximum."""

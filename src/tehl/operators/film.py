@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from tehl.grid import Grid
-from tehl.scaling import Groups
-from tehl.typing import Array
+from tehl.base.typing import Array
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import Groups
 
 
 def gap(grid: Grid, groups: Groups) -> Array:

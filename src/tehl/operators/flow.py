@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 import numpy as np
 
+from tehl.base.typing import Array
+from tehl.estimate.scaling import ScaledProblem
 from tehl.kernels.properties import FlowTable
-from tehl.scaling import ScaledProblem
-from tehl.typing import Array
 
 LARGEST_PRESSURE = 8.0
 """End of the table, in Hertz pressures: rough contacts reach 2 to 5."""

@@ -10,8 +10,8 @@ The line source of `tehl.operators.line_source` is its limit for high solid Pecl
 
 import numpy as np
 
+from tehl.base.typing import Array, IntArray
 from tehl.operators.influence import Influence
-from tehl.typing import Array, IntArray
 
 NEAR = (4, 10)
 """Rows and columns from the source within which a cell is split: there the plume is narrow."""

@@ -2,17 +2,17 @@
 
 import numpy as np
 
-from tehl.entering import film_peclet
-from tehl.grid import Grid
-from tehl.heat import FilmEnergy
+from tehl.contact.heat import FilmEnergy
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.entering import film_peclet
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import ScaledProblem, Scales
 from tehl.kernels.energy.records import BLOCK, GHOSTS, Model, Surface, Terms
 from tehl.operators.across import SCHEMES
 from tehl.operators.law_table import law_table
 from tehl.operators.line_source import history
 from tehl.operators.reynolds import UPSTREAM
 from tehl.operators.surfaces import Side, sides
-from tehl.problem import ContactProblem
-from tehl.scaling import ScaledProblem, Scales
 
 MEANS = {"generalised": 0, "mean": 1, "mean-all": 2}
 

@@ -9,15 +9,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl.duration import components
-from tehl.errors import InputError
-from tehl.grid import Grid
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
+from tehl.estimate.duration import components
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import ScaledProblem
 from tehl.roughness import Roughness, Sum, Superposition
 from tehl.roughness.model import RoughnessModel
 from tehl.roughness.superposition import OneRoughness
 from tehl.roughness.waves import HarmonicModel
-from tehl.scaling import ScaledProblem
-from tehl.typing import Array
 
 LEAST_NODES = 4.0
 """Nodes per wavelength below which a wave is aliased."""

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tehl.grid import Grid
-from tehl.scaling import Groups
-from tehl.typing import Array
+from tehl.base.typing import Array
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import Groups
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

@@ -13,10 +13,10 @@ from typing import NamedTuple
 import numpy as np
 from scipy.sparse import csr_matrix, diags, kron
 
-from tehl.grid import Grid
+from tehl.base.typing import Array, BoolArray
+from tehl.estimate.grid import Grid
 from tehl.kernels.properties import Film
 from tehl.kernels.reynolds import Stencil
-from tehl.typing import Array, BoolArray
 
 
 class Neighbours(NamedTuple):

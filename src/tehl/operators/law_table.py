@@ -11,10 +11,10 @@ from functools import lru_cache
 
 import numpy as np
 
+from tehl.base.typing import Array
+from tehl.estimate.scaling import Scales
 from tehl.kernels.energy.records import ETA_TERMS, RHO_TERMS, Laws
 from tehl.lubricant import Lubricant
-from tehl.scaling import Scales
-from tehl.typing import Array
 
 PER_PRESSURE = 5.1e-9
 LARGEST_PRESSURE = 8.0

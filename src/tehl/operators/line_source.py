@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tehl.typing import Array
+from tehl.base.typing import Array
 
 STEP = 0.4
 """Step of the trapezoidal rule in ln s; its relative error is 2 exp(-pi^2/(2 STEP)) = 1e-5."""

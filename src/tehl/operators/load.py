@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from tehl.grid import Grid
-from tehl.typing import Array
+from tehl.base.typing import Array
+from tehl.estimate.grid import Grid
 
 TARGET = 2.0 * np.pi / 3.0
 """Integral of the Hertz pressure over X, Y, for any ellipticity."""

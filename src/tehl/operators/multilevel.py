@@ -14,11 +14,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl.grid import Grid
+from tehl.base.typing import Array
+from tehl.estimate.grid import Grid
 from tehl.kernels import summation
 from tehl.kernels.summation import Box
 from tehl.operators.influence import Influence, dense_matrix
-from tehl.typing import Array
 
 ALONG, ACROSS = 8, 2
 """Patch half-widths on the finest grid, along the axis that is halved and across it."""

@@ -9,11 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tehl.duration import components
-from tehl.problem import ContactProblem
+from tehl.base.typing import Array
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.duration import components
 from tehl.roughness import AnyRoughness, Roughness
 from tehl.roughness.resolution import Resolution
-from tehl.typing import Array
 
 _COUNT = 513
 _LEAST = 1e-13

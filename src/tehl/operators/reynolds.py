@@ -5,12 +5,12 @@
 
 import numpy as np
 
-from tehl.grid import Grid
+from tehl.base.typing import Array
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import Groups
 from tehl.kernels.properties import Film
 from tehl.kernels.reynolds import IN_TIME, STEADILY, Stencil
 from tehl.operators.influence import Influence
-from tehl.scaling import Groups
-from tehl.typing import Array
 
 UPSTREAM = {1: (1.0, -1.0, 0.0), 2: (1.5, -2.0, 0.5)}
 """Weights of rho H of a node and of its upstream neighbours in the wedge, by its order [1/dx]."""

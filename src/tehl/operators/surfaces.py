@@ -14,14 +14,14 @@ from typing import Literal
 import numpy as np
 from scipy.sparse.linalg import LinearOperator, gmres
 
-from tehl.grid import Grid
-from tehl.heat import FilmEnergy, source_form
-from tehl.materials import Solid
+from tehl.base.typing import Array
+from tehl.contact.heat import FilmEnergy, source_form
+from tehl.contact.materials import Solid
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import ScaledProblem, Scales
 from tehl.operators.full_source import FullSource
 from tehl.operators.line_source import line_rise
 from tehl.operators.transfer import midpoints
-from tehl.scaling import ScaledProblem, Scales
-from tehl.typing import Array
 
 LEAST_LINE = 2.0
 """Solid Peclet number from which a line source is marched: below, it has little of the full one."""

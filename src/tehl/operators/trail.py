@@ -11,9 +11,9 @@ order.
 
 import numpy as np
 
+from tehl.base.typing import Array
 from tehl.kernels.energy import trail
 from tehl.operators.line_source import history
-from tehl.typing import Array
 
 LONGEST_LAG = 2.0
 """Most time steps in which a surface may move by a mesh width: earlier levels are not stored."""

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from tehl.grid import Grid
-from tehl.typing import Array
+from tehl.base.typing import Array
+from tehl.estimate.grid import Grid
 
 
 def refine(pressure: Array, fine: Grid) -> Array:

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from tehl.base.typing import Array
 from tehl.kernels.energy.records import GHOSTS, Fields, Surface, Surfaces
 from tehl.operators.line_source import history
 from tehl.operators.trail import Trail
-from tehl.typing import Array
 
 
 class Rubbing:

@@ -20,7 +20,7 @@ from scipy.ndimage import label
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from tehl.typing import Array
+from tehl.base.typing import Array
 
 TOLERANCE, MOST = 1e-7, 2000
 """Relative change of the pressure at which the iteration ends, and most iterations."""

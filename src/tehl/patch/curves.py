@@ -10,10 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
 from tehl.patch.contact import pressed
 from tehl.patch.flow import flow_through
-from tehl.typing import Array
 
 LARGEST = 192
 """Most points of a patch along x and y: of a larger one the middle is taken."""

@@ -16,7 +16,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import splu
 
-from tehl.typing import Array
+from tehl.base.typing import Array
 
 LEAST = 1e-9
 """Least g^3 over its mean, so that closed pools have a pressure."""

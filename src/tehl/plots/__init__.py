@@ -11,16 +11,16 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from tehl.errors import InputError
-from tehl.io.atomic import check_folder, replacing
+from tehl.base.atomic import check_folder, replacing
+from tehl.base.errors import InputError
 from tehl.plots.animation import animate
-from tehl.plots.asperities import asperity_map
-from tehl.plots.contact import contact_map
+from tehl.plots.boundary_contact import contact_map
 from tehl.plots.convergence import residual_history
 from tehl.plots.interferogram import Optics, interferogram
 from tehl.plots.lines import centre_lines, film_distribution, pressure_surface, rough_centre_line
 from tehl.plots.maps import film_map, heights_map, micro_film_map, pressure_map, shear_stress_map
 from tehl.plots.oil import oil_map, pass_history
+from tehl.plots.summits import asperity_map
 from tehl.plots.surface import surface_preview
 from tehl.plots.table_curves import curves
 from tehl.plots.table_maps import contour_map, film_deviations, moes_map
@@ -32,8 +32,12 @@ from tehl.plots.temperature import (
 )
 from tehl.plots.traction import traction_curve
 from tehl.plots.transient import history, moments, passage, space_time
-from tehl.result import Result
-from tehl.transient_result import TransientResult
+from tehl.post.boundary_contact import touching
+from tehl.post.roughness import rough_film
+from tehl.post.starvation import starvation
+from tehl.post.summits import load_sharing
+from tehl.result.solution import Solution
+from tehl.result.transient import TransientSolution
 
 __all__ = [
     "Optics",
@@ -89,12 +93,12 @@ INTERFEROGRAMS: Pictures = {
 """Pictures of a film under a transparent surface."""
 
 
-def pictures_of(result: Result | TransientResult, smooth: Result | None = None) -> Pictures:
+def pictures_of(result: Solution | TransientSolution, smooth: Solution | None = None) -> Pictures:
     """Return the functions that draw ``result``, by name, in the order of drawing.
 
     ``smooth`` is the smooth reference run on the same grid, for pictures of ripples.
     """
-    if isinstance(result, TransientResult):
+    if isinstance(result, TransientSolution):
         return {
             "history": history,
             "space_time": space_time,
@@ -103,7 +107,7 @@ def pictures_of(result: Result | TransientResult, smooth: Result | None = None) 
         }
     found = dict(PICTURES)
     found |= _of_oil(result)
-    if result.roughness is not None:
+    if rough_film(result) is not None:
         if result.heights is not None:
             found["heights"] = heights_map
             found["micro_film"] = partial(micro_film_map, smooth=smooth)
@@ -122,14 +126,14 @@ def pictures_of(result: Result | TransientResult, smooth: Result | None = None) 
     return found
 
 
-def _of_oil(result: Result) -> Pictures:
+def _of_oil(result: Solution) -> Pictures:
     """Return the functions that draw the oil of a starved contact, by name."""
     found: Pictures = {}
-    if result.load_sharing is not None:  # none if the run diverged
+    if load_sharing(result) is not None:  # none if the run diverged
         found["asperities"] = asperity_map
-    if result.touching is not None:
+    if touching(result) is not None:
         found["contact"] = contact_map
-    if result.starvation is not None:
+    if starvation(result) is not None:
         found["oil"] = oil_map
     if result.passes is not None:
         found["passes"] = pass_history
@@ -149,7 +153,7 @@ def chosen(pictures: Pictures, names: Iterable[str]) -> Pictures:
 
 
 def save_all(
-    result: Result | TransientResult,
+    result: Solution | TransientSolution,
     folder: str | Path,
     *,
     pictures: Pictures | None = None,
@@ -161,7 +165,7 @@ def save_all(
 
     Parameters
     ----------
-    result : Result or TransientResult
+    result : Solution or TransientSolution
         What to draw.
     folder : str or Path
         Where; made if it is missing.

@@ -16,8 +16,8 @@ from matplotlib.image import AxesImage
 from numpy.typing import NDArray
 from PIL import Image
 
-from tehl.errors import InputError
-from tehl.io.atomic import replacing
+from tehl.base.atomic import replacing
+from tehl.base.errors import InputError
 from tehl.plots.frame import (
     ALONG_X,
     MICRO,
@@ -28,7 +28,7 @@ from tehl.plots.frame import (
     window_places,
 )
 from tehl.plots.transient import CentreLines, time_unit
-from tehl.transient_result import TransientResult
+from tehl.result.transient import TransientSolution
 
 FORMATS = (".gif", ".mp4", ".html")
 MOST = 200
@@ -38,7 +38,7 @@ _UPPER, _LOWER = (0.13, 0.41, 0.69, 0.51), (0.13, 0.07, 0.75, 0.255)
 
 
 def animate(
-    run: TransientResult, path: str | Path, *, per_second: int = 10, dpi: int = 100
+    run: TransientSolution, path: str | Path, *, per_second: int = 10, dpi: int = 100
 ) -> None:
     """Write a transient run as an animation; whole, or not at all.
 
@@ -48,7 +48,7 @@ def animate(
 
     Parameters
     ----------
-    run : TransientResult
+    run : TransientSolution
         What to show.
     path : str or Path
         The file; its extension selects the format: ``.gif``, ``.html`` (a self-contained page
@@ -166,7 +166,7 @@ def check_format(path: str | Path) -> str:
 class Movie:
     """One figure that can show each moment of a run, with the map of the film if it is stored."""
 
-    def __init__(self, run: TransientResult, *, dpi: int = 100) -> None:
+    def __init__(self, run: TransientSolution, *, dpi: int = 100) -> None:
         self.run, count = run, len(run.history.time)
         has_fields = run.frames.step.size >= 2
         shown = np.unique(np.linspace(0, count - 1, min(count, MOST)).round().astype(np.int64))
@@ -203,7 +203,7 @@ class Movie:
         return np.asarray(self.canvas.buffer_rgba())[..., :3].copy()
 
 
-def _film_image(axes: Axes, run: TransientResult) -> AxesImage:
+def _film_image(axes: Axes, run: TransientSolution) -> AxesImage:
     """Draw the map of the first stored film, in colours that fit all of them."""
     scaled, (rows, columns) = run.start.scaled, window_part(run.start)
     films = run.frames.film[:, rows, columns]

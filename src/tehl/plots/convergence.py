@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator, NullFormatter
 
 from tehl.plots.frame import BLUE, GREEN, ORANGE, PLAIN, figure_of, single
-from tehl.result import Result
+from tehl.result.solution import Solution
 
 _CURVES = (
     ("residual", "residual, scaled by the diagonal", "o-", BLUE),
@@ -23,7 +23,7 @@ _ROOM = 0.09
 
 
 def residual_history(
-    result: Result, *, ax: Axes | None = None, title: bool | None = True
+    result: Solution, *, ax: Axes | None = None, title: bool | None = True
 ) -> Figure:
     """Draw residual, changes and load error of each cycle, grid after grid.
 
@@ -51,7 +51,7 @@ def residual_history(
     return figure_of(axes)
 
 
-def _draw(axes: Axes, result: Result, curve: tuple[str, str, str, str]) -> Line2D:
+def _draw(axes: Axes, result: Solution, curve: tuple[str, str, str, str]) -> Line2D:
     """Draw one number of all cycles; zeros are left out."""
     name, label, style, colour = curve
     values = np.abs([getattr(report, name) for report in result.history])

@@ -14,10 +14,10 @@ from matplotlib.patches import Ellipse
 from matplotlib.patheffects import AbstractPathEffect, withStroke
 from matplotlib.ticker import MaxNLocator
 
+from tehl.base.typing import Array
 from tehl.post.film import no_film
-from tehl.result import Result
-from tehl.transient_result import TransientResult
-from tehl.typing import Array
+from tehl.result.solution import Solution
+from tehl.result.transient import TransientSolution
 
 MICRO, GIGA = 1e6, 1e-9
 WINDOW = ((-2.2, 1.6), (-1.7, 1.7))
@@ -52,7 +52,7 @@ class Picture(Figure):
 
 
 def figure(
-    result: Result | TransientResult,
+    result: Solution | TransientSolution,
     size: tuple[float, float] = (7.0, 5.6),
     note: str = "",
     *,
@@ -62,14 +62,14 @@ def figure(
 
     Parameters
     ----------
-    result : Result or TransientResult
+    result : Solution or TransientSolution
         Gives title, groups and status.
     size, note : (float, float), str
         Width and height [inch], and the last line of the title.
     title : bool or None
         Whether it has a title.
     """
-    start = result.start if isinstance(result, TransientResult) else result
+    start = result.start if isinstance(result, TransientSolution) else result
     picture = Picture(figsize=size, layout="constrained")
     if title:
         words = fill(start.problem.title, 80).replace("$", r"\$") or "Lubricated point contact"
@@ -79,19 +79,19 @@ def figure(
     return picture
 
 
-def _banner(result: Result | TransientResult) -> str:
+def _banner(result: Solution | TransientSolution) -> str:
     cause = result.status.outcome.removeprefix("not converged").removeprefix(": ")
     return f"NOT CONVERGED: {cause}".rstrip(": ")
 
 
 def single(
-    result: Result, size: tuple[float, float], *, ax: Axes | None, title: bool | None
+    result: Solution, size: tuple[float, float], *, ax: Axes | None, title: bool | None
 ) -> Axes:
     """Return the axes of a picture that has one: ``ax`` itself, or those of a new figure.
 
     Parameters
     ----------
-    result : Result
+    result : Solution
         Gives title, groups and status of a new figure; ``ax`` gets the banner only.
     size : (float, float)
         Width and height of a new figure [inch].
@@ -111,14 +111,14 @@ def empty(ax: Axes | None, size: tuple[float, float] = (7.0, 5.0)) -> Axes:
     return Picture(figsize=size, layout="constrained").add_subplot() if ax is None else ax
 
 
-def _mark_failure(axes: Axes, result: Result) -> None:
+def _mark_failure(axes: Axes, result: Solution) -> None:
     """Put the banner of a result that did not converge into axes of the caller's figure."""
     if not result.status.converged:
         place: dict[str, Any] = {"transform": axes.transAxes, "ha": "center", "zorder": 9}
         axes.text(0.5, 0.03, _banner(result), fontsize=8, **place, **_ALARM)
 
 
-def _subtitle(result: Result | TransientResult, start: Result) -> str:
+def _subtitle(result: Solution | TransientSolution, start: Solution) -> str:
     """Return groups, and the film of a steady result or the sliding of a transient one."""
     groups, film, scaled = start.groups, start.film, start.film_scaled
     about = (
@@ -141,13 +141,13 @@ def length(metres: float) -> str:
 
 
 def map_axes(
-    result: Result, note: str = "", *, ax: Axes | None = None, title: bool | None = True
+    result: Solution, note: str = "", *, ax: Axes | None = None, title: bool | None = True
 ) -> Axes:
     """Return the axes of one map, with arrow and legend: ``ax``, or those of a new figure.
 
     Parameters
     ----------
-    result : Result
+    result : Solution
         Gives title, groups, status and window.
     note : str
         Last line of the title.
@@ -166,7 +166,7 @@ def map_axes(
     return ax
 
 
-def _map_size(result: Result) -> tuple[float, float]:
+def _map_size(result: Solution) -> tuple[float, float]:
     """Return width and height of the figure of a map [inch]."""
     ratio = shape(result)
     longest = 4.9 if 0.5 < ratio < 2.0 else _LONGEST
@@ -181,7 +181,7 @@ def figure_of(axes: Axes) -> Figure:
     return found
 
 
-def window(result: Result) -> tuple[Span, Span]:
+def window(result: Solution) -> tuple[Span, Span]:
     """Return the part of the domain that maps show, x and y in half-widths.
 
     Slender contacts have less room at their tips and more beside them, so that the map does not
@@ -199,13 +199,13 @@ def window(result: Result) -> tuple[Span, Span]:
     return spans[0], spans[1]
 
 
-def stretched(result: Result) -> float:
+def stretched(result: Solution) -> float:
     """Return the scale of y over that of x on maps: one unless the window is slender."""
     true = slenderness(result)
     return float(np.clip(true, 1.0 / _DRAWN, _DRAWN)) / true
 
 
-def shape(result: Result) -> float:
+def shape(result: Solution) -> float:
     """Return the height of a map over its width, as drawn."""
     return slenderness(result) * stretched(result)
 
@@ -214,13 +214,13 @@ def _stretch_in_words(stretch: float) -> str:
     return f"stretched {stretch:.2g}:1" if stretch > 1 else f"compressed 1:{1 / stretch:.2g}"
 
 
-def slenderness(result: Result) -> float:
+def slenderness(result: Solution) -> float:
     """Return the height of the window over its width."""
     x, y = window(result)
     return float(np.ptp(y) / np.ptp(x) * result.groups.ellipticity)
 
 
-def window_part(result: Result) -> tuple[slice, slice]:
+def window_part(result: Solution) -> tuple[slice, slice]:
     """Return the part (rows, columns) of the fields inside the window, and one node around it."""
     x, y = window(result)
     return span_part(result.scaled.y, y), span_part(result.scaled.x, x)
@@ -232,18 +232,18 @@ def span_part(axis: Array, span: Span) -> slice:
     return slice(max(int(inside[0]) - 1, 0), int(inside[-1]) + 2)
 
 
-def window_places(result: Result) -> tuple[Array, Array]:
+def window_places(result: Solution) -> tuple[Array, Array]:
     """Return x and y [um] of the nodes that :func:`window_part` shows."""
     rows, columns = window_part(result)
     return result.x[columns] * MICRO, result.y[rows] * MICRO
 
 
-def centre_row(result: Result) -> int:
+def centre_row(result: Solution) -> int:
     """Return the row of the fields nearest to y = 0."""
     return int(np.argmin(np.abs(result.scaled.y)))
 
 
-def dress_contact(axes: Axes, result: Result) -> None:
+def dress_contact(axes: Axes, result: Solution) -> None:
     """Give axes micrometres, the window and the Hertz ellipse of ``result``.
 
     The aspect is equal, and of a slender contact stretched so that its map can be read.

@@ -16,9 +16,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from tehl.base.typing import Array
 from tehl.plots.frame import MICRO, figure_of, map_axes, window_part
-from tehl.result import Result
-from tehl.typing import Array
+from tehl.result.solution import Solution
 
 Light = Literal["white", "dichromatic", "monochromatic"]
 _PIXELS = 900
@@ -95,7 +95,7 @@ class Optics:
 
 
 def interferogram(
-    result: Result,
+    result: Solution,
     optics: Optics | None = None,
     *,
     ax: Axes | None = None,
@@ -105,7 +105,7 @@ def interferogram(
 
     Parameters
     ----------
-    result : Result
+    result : Solution
         What to draw, as if seen through a transparent surface.
     optics : Optics or None
         Light, layers and oil.

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.plots.frame import (
     ALONG_X,
     FILM,
@@ -31,7 +31,7 @@ from tehl.plots.temperature import Line, rises
 from tehl.post.film import Profile, hertz_pressure, profile_x, profile_y
 from tehl.post.micro_film import micro_film
 from tehl.post.roughness import film_histogram, rough_film
-from tehl.result import Result
+from tehl.result.solution import Solution
 
 _REACH = 1.25
 """Half-widths of the centre line between rough surfaces, on each side."""
@@ -40,7 +40,7 @@ _AROUND = (-1.4, 1.4)
 _PROFILES = 45
 
 
-def centre_lines(result: Result, *, title: bool | None = True) -> Figure:
+def centre_lines(result: Solution, *, title: bool | None = True) -> Figure:
     """Draw pressure and film along x (y = 0) and along y (x = 0), with the dry contact dashed.
 
     Pressure [GPa] and film [um] are on twin axes; a thermal run has two more panels beside them,
@@ -72,7 +72,7 @@ def centre_lines(result: Result, *, title: bool | None = True) -> Figure:
     return picture
 
 
-def _pressure_and_film(axes: Axes, result: Result, profile: Profile) -> list[Any]:
+def _pressure_and_film(axes: Axes, result: Solution, profile: Profile) -> list[Any]:
     """Draw pressure and film along a line; return the curves."""
     place, film = profile.coordinate * MICRO, axes.twinx()
     dry: dict[str, Any] = {"color": "0.45", "lw": 1.0, "ls": "--", "label": "dry Hertz"}
@@ -86,7 +86,7 @@ def _pressure_and_film(axes: Axes, result: Result, profile: Profile) -> list[Any
     return [*axes.lines, *film.lines]
 
 
-def _show_film_behind(axes: Axes, film: Axes, result: Result, most: float) -> None:
+def _show_film_behind(axes: Axes, film: Axes, result: Solution, most: float) -> None:
     """Give drawn axes of the film [um] up to ``most`` central films, behind the pressure's."""
     film.set_ylabel("film h [µm]", color=FILM)
     central = result.film.central * MICRO
@@ -96,7 +96,7 @@ def _show_film_behind(axes: Axes, film: Axes, result: Result, most: float) -> No
 
 
 def rough_centre_line(
-    result: Result, smooth: Result | None = None, *, title: bool | None = True
+    result: Solution, smooth: Solution | None = None, *, title: bool | None = True
 ) -> Figure:
     """Draw pressure, film and the surfaces along y = 0.
 
@@ -132,7 +132,7 @@ def rough_centre_line(
 
 
 def film_distribution(
-    result: Result, *, ax: Axes | None = None, title: bool | None = True
+    result: Solution, *, ax: Axes | None = None, title: bool | None = True
 ) -> Figure:
     """Draw the distribution of the film thickness over the Hertz contact.
 
@@ -161,7 +161,7 @@ def film_distribution(
     return figure_of(axes)
 
 
-def pressure_surface(result: Result, *, title: bool | None = True) -> Figure:
+def pressure_surface(result: Solution, *, title: bool | None = True) -> Figure:
     """Draw the pressure as profiles along x, one behind another, seen from the outlet.
 
     The profiles are rows of the stored field: nothing is interpolated, and the spike stands free.

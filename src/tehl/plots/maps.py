@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator, NullFormatter, NullLocator
 
-from tehl.errors import InputError
-from tehl.fields import SurfaceHeights
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
 from tehl.plots.frame import (
     GIGA,
     MAP,
@@ -33,8 +33,9 @@ from tehl.plots.frame import (
 )
 from tehl.post.micro_film import micro_film
 from tehl.post.roughness import in_contact, rough_film
-from tehl.result import Result
-from tehl.typing import Array
+from tehl.post.traction import traction as traction_of
+from tehl.result.fields import SurfaceHeights
+from tehl.result.solution import Solution
 
 FILTERED = 0.75
 """Half-widths within which filtered ripples are shown: the filter smears the rim of the contact."""
@@ -43,7 +44,7 @@ _SHOWN = (0.5, 99.5)
 _LINES: dict[str, Any] = {"colors": "black", "linewidths": 0.6}
 
 
-def film_map(result: Result, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
+def film_map(result: Solution, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
     """Draw the film thickness with labelled contour lines and the Hertz contact.
 
     Colours are logarithmic, from just below the minimum film to 1.6 times the central film, and
@@ -73,7 +74,7 @@ def film_map(result: Result, *, ax: Axes | None = None, title: bool | None = Tru
     return figure_of(axes)
 
 
-def _film_range(result: Result, film: Array) -> tuple[float, float]:
+def _film_range(result: Solution, film: Array) -> tuple[float, float]:
     """Return the smallest and the central film [um], positive even where there is no film."""
     central = result.film.central * MICRO
     positive = film[film > 0]
@@ -90,7 +91,7 @@ def film_levels(low: float, central: float) -> tuple[Array, Array]:
     return fine[(fine > low) & (fine <= middle)], wide[(wide > middle) & (wide <= top)]
 
 
-def _mark_minimum(axes: Axes, result: Result) -> list[Line2D]:
+def _mark_minimum(axes: Axes, result: Solution) -> list[Line2D]:
     """Mark the minimum film, on both sides of a symmetric contact; return the marks."""
     if not result.film.minimum > 0:
         return []
@@ -102,7 +103,7 @@ def _mark_minimum(axes: Axes, result: Result) -> list[Line2D]:
     return axes.plot(*places, "r+", ms=6, mew=1.3, zorder=7, label="minimum film")
 
 
-def pressure_map(result: Result, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
+def pressure_map(result: Solution, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
     """Draw the pressure [GPa] as a map with contour lines, marked on the colour bar.
 
     Lines follow a slightly smoothed copy of the pressure.
@@ -132,13 +133,13 @@ def _smoothed(field: Array) -> Array:
 
 
 def shear_stress_map(
-    result: Result, *, ax: Axes | None = None, title: bool | None = True
+    result: Solution, *, ax: Axes | None = None, title: bool | None = True
 ) -> Figure:
     """Draw the magnitude of the shear stress at mid-film [MPa] as a map.
 
     Raises InputError if the result has no shear stresses.
     """
-    shear, traction = result.shear, result.traction
+    shear, traction = result.shear, traction_of(result)
     if shear is None or traction is None:
         raise InputError("the result has no shear stresses to draw")
     note = (
@@ -157,14 +158,14 @@ def shear_stress_map(
     return figure_of(axes)
 
 
-def heights_of(result: Result) -> SurfaceHeights:
+def heights_of(result: Solution) -> SurfaceHeights:
     """Return the heights of a rough contact, which the pictures of roughness need."""
     if result.heights is None:
         raise InputError("both surfaces are smooth: there are no heights to draw")
     return result.heights
 
 
-def heights_map(result: Result, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
+def heights_map(result: Solution, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
     """Draw the heights of both surfaces together [nm], as the grid carries them.
 
     Peaks narrow the film. Raises InputError if both surfaces are smooth.
@@ -187,7 +188,7 @@ def heights_map(result: Result, *, ax: Axes | None = None, title: bool | None = 
 
 
 def micro_film_map(
-    result: Result, smooth: Result | None = None, *, title: bool | None = True
+    result: Solution, smooth: Solution | None = None, *, title: bool | None = True
 ) -> Figure:
     """Draw the ripples of film [nm] and pressure [MPa] side by side.
 

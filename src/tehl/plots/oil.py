@@ -19,13 +19,13 @@ from tehl.plots.frame import (
     window_places,
 )
 from tehl.post.starvation import meniscus, oil_flux
-from tehl.result import Result
+from tehl.result.solution import Solution
 
 NANO = 1e9
 _STREAMS: dict[str, Any] = {"color": "0.25", "linewidth": 0.5, "arrowsize": 0.6, "density": 0.9}
 
 
-def oil_map(result: Result, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
+def oil_map(result: Solution, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
     """Draw the part of the gap that is oil, the meniscus, and stream lines of the oil.
 
     Raises ValueError if the oil of cavities was not conserved.
@@ -48,13 +48,13 @@ def oil_map(result: Result, *, ax: Axes | None = None, title: bool | None = True
     return figure_of(axes)
 
 
-def _draw_meniscus(axes: Axes, result: Result) -> list[Line2D]:
+def _draw_meniscus(axes: Axes, result: Solution) -> list[Line2D]:
     scales, at = result.scales, meniscus(result)
     x, y = at * scales.half_width_x * MICRO, result.y * MICRO
     return axes.plot(x, y, color="tab:red", lw=1.4, zorder=6, label="meniscus")
 
 
-def pass_history(result: Result, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
+def pass_history(result: Solution, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
     """Draw the films and the oil that enters, pass after pass, on logarithmic axes.
 
     Raises ValueError for a result of a single pass.

@@ -7,8 +7,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from tehl.errors import InputError
-from tehl.typing import Array
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -7,12 +7,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tehl.errors import InputError
-from tehl.io.lists import lines_of_file
+from tehl.base.errors import InputError
+from tehl.base.lists import lines_of_file
+from tehl.base.typing import Array
+from tehl.base.units import Quantity
 from tehl.plots.frame import BLUE, ORANGE, PLAIN, empty, figure_of
 from tehl.plots.table_columns import Column, certified, converged, dress, find_column, numbers
-from tehl.typing import Array
-from tehl.units import Quantity
 
 if TYPE_CHECKING:
     import pandas as pd

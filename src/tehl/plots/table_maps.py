@@ -9,12 +9,17 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.tri import Triangulation
 
-from tehl.errors import InputError
-from tehl.film_formulas import FilmRatio, chittenden, hamrock_dowson, nijenbanning_venner_moes
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
+from tehl.estimate.film_formulas import (
+    FilmRatio,
+    chittenden,
+    hamrock_dowson,
+    nijenbanning_venner_moes,
+)
+from tehl.estimate.scaling import Groups
 from tehl.plots.frame import Picture, empty, figure_of
 from tehl.plots.table_columns import FAILED, converged, dress, numbers
-from tehl.scaling import Groups
-from tehl.typing import Array
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -14,8 +14,8 @@ from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from tehl.errors import InputError
-from tehl.fields import FilmHeat
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
 from tehl.plots.frame import (
     ALONG_X,
     BLUE,
@@ -42,9 +42,9 @@ from tehl.plots.frame import (
     window_part,
     window_places,
 )
-from tehl.post.heat import Temperature
-from tehl.result import Result
-from tehl.typing import Array
+from tehl.post.heat import Temperature, temperature
+from tehl.result.fields import FilmHeat
+from tehl.result.solution import Solution
 
 Line = tuple[int, slice] | tuple[slice, int]
 """Index of a grid line in the fields."""
@@ -58,7 +58,7 @@ _HIGHEST = 3.0
 
 
 def mid_film_temperature(
-    result: Result, *, ax: Axes | None = None, title: bool | None = True
+    result: Solution, *, ax: Axes | None = None, title: bool | None = True
 ) -> Figure:
     """Draw the temperature rise half-way between the surfaces [K] as a map."""
     found = _heat_of(result)[1]
@@ -75,9 +75,9 @@ def mid_film_temperature(
     return figure_of(axes)
 
 
-def _heat_of(result: Result) -> tuple[FilmHeat, Temperature]:
+def _heat_of(result: Solution) -> tuple[FilmHeat, Temperature]:
     """Return heat and temperatures of a thermal result."""
-    heat, found = result.heat, result.temperature
+    heat, found = result.heat, temperature(result)
     if heat is None or found is None:
         raise InputError("the result is isothermal: it has no temperatures to draw")
     return heat, found
@@ -101,7 +101,7 @@ def _coloured(
     return mesh, axes.contour(*places, np.nan_to_num(rise), levels=levels, **line)
 
 
-def temperature_layers(result: Result, *, title: bool | None = True) -> Figure:
+def temperature_layers(result: Solution, *, title: bool | None = True) -> Figure:
     """Draw the temperature rise on both surfaces and on layers between, in one scale of colours."""
     found = _heat_of(result)[1]
     layers = _layers(result)
@@ -128,7 +128,7 @@ def temperature_layers(result: Result, *, title: bool | None = True) -> Figure:
     return picture
 
 
-def _layers(result: Result) -> dict[str, Array]:
+def _layers(result: Solution) -> dict[str, Array]:
     """Return the temperatures of both surfaces, of three layers and their mean, by name."""
     heat, found = _heat_of(result)
     low, high = (int(np.argmin(np.abs(heat.zeta - place))) for place in (0.25, 0.75))
@@ -142,7 +142,7 @@ def _layers(result: Result) -> dict[str, Array]:
     }
 
 
-def temperature_section(result: Result, *, title: bool | None = True) -> Figure:
+def temperature_section(result: Solution, *, title: bool | None = True) -> Figure:
     """Draw the temperature rise in the plane y = 0, over z/h and over z, in one scale of colours.
 
     Between its nodes across the film the temperature is a cubic spline.
@@ -175,14 +175,14 @@ def temperature_section(result: Result, *, title: bool | None = True) -> Figure:
     return picture
 
 
-def _mark_ends(axes: Axes, result: Result, colour: str, width: float) -> None:
+def _mark_ends(axes: Axes, result: Solution, colour: str, width: float) -> None:
     """Mark where the Hertz contact begins and ends."""
     half = result.scales.half_width_x * MICRO
     for place in (-half, half):
         axes.axvline(place, color=colour, lw=width, ls="--")
 
 
-def surface_heat(result: Result, *, title: bool | None = True) -> Figure:
+def surface_heat(result: Solution, *, title: bool | None = True) -> Figure:
     """Draw temperature rises [K] and heat fluxes into the solids [MW/m^2] along y = 0."""
     heat = _heat_of(result)[0]
     row = centre_row(result)
@@ -205,7 +205,7 @@ def surface_heat(result: Result, *, title: bool | None = True) -> Figure:
     return picture
 
 
-def rises(result: Result, line: Line) -> list[tuple[Array, dict[str, Any]]]:
+def rises(result: Solution, line: Line) -> list[tuple[Array, dict[str, Any]]]:
     """Return the temperature rises along a grid line [K], and the style of the curve of each."""
     heat, found = _heat_of(result)
     return [

@@ -7,17 +7,18 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
 from tehl.plots.frame import BLUE, GIGA, ORANGE, PLAIN, empty, figure_of
-from tehl.result import Result
-from tehl.typing import Array
+from tehl.post.traction import traction as traction_of
+from tehl.result.solution import Solution
 
 _STYLES = {True: ("o-", ORANGE, "thermal"), False: ("s--", BLUE, "isothermal")}
 _FADING = (1.0, 0.55, 0.3)
 
 
 def traction_curve(
-    runs: Sequence[Result] | Mapping[str, Any],
+    runs: Sequence[Solution] | Mapping[str, Any],
     *,
     ax: Axes | None = None,
     title: bool | None = True,
@@ -68,19 +69,19 @@ def _dress(axes: Any, table: dict[str, Array], cases: list[str]) -> None:
     axes.legend(**PLAIN)
 
 
-def _of_results(results: Sequence[Result]) -> dict[str, list[Any]]:
+def _of_results(results: Sequence[Solution]) -> dict[str, list[Any]]:
     """Return the columns of results; those without stresses are left out.
 
     A case has the same groups, pressure and shear law at any sliding.
     """
     rows = []
     for one in results:
-        if one.traction is not None:
+        if (traction := traction_of(one)) is not None:
             groups, law = one.groups, one.problem.lubricant.shear.law
             pressure = f"p_h = {one.scales.hertz_pressure * GIGA:.3g} GPa"
             case = f"M = {groups.M:.4g}, L = {groups.L:.4g}, {pressure}, {law}"
             ratio = one.problem.slide_roll_ratio
-            rows.append((ratio, one.traction.mid_film, one.heat is not None, case))
+            rows.append((ratio, traction.mid_film, one.heat is not None, case))
     names = ("slide_roll_ratio", "traction", "thermal", "case")
     return {name: [row[i] for row in rows] for i, name in enumerate(names)}
 

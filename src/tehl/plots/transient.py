@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from tehl.base.typing import Array
 from tehl.plots.frame import (
     ALONG_X,
     FILM,
@@ -22,8 +23,8 @@ from tehl.plots.frame import (
     span_part,
 )
 from tehl.post.transient import envelope, passing_features
-from tehl.transient_result import HistoryBars, TransientResult
-from tehl.typing import Array
+from tehl.post.transient_numbers import why_share_unknown
+from tehl.result.transient import HistoryBars, TransientSolution
 
 _MOMENTS = 4
 """Moments in one picture."""
@@ -33,12 +34,12 @@ _MILLISECOND = 2e-3
 """Duration from which on times are in milliseconds [s]."""
 
 
-def time_unit(run: TransientResult) -> tuple[float, str]:
+def time_unit(run: TransientSolution) -> tuple[float, str]:
     """Return the factor from seconds to a fitting unit, and that unit."""
     return (1e3, "ms") if run.history.time[-1] >= _MILLISECOND else (1e6, "µs")
 
 
-def history(run: TransientResult, *, title: bool | None = True) -> Figure:
+def history(run: TransientSolution, *, title: bool | None = True) -> Figure:
     """Draw film, largest pressure, traction, and rise and load if they change, over the time.
 
     The upper axis is the distance that the mean of both surfaces has moved. Bands are the error
@@ -76,15 +77,15 @@ def history(run: TransientResult, *, title: bool | None = True) -> Figure:
     return picture
 
 
-def _carried_by(run: TransientResult) -> str:
+def _carried_by(run: TransientSolution) -> str:
     """Return what carries the load beside the film, and whether the grid resolves it."""
     if run.start.problem.contact_film is None:
         return "asperities [of the load]"
-    known = "\n(not resolved)" if run.why_share_unknown else ""
+    known = "\n(not resolved)" if why_share_unknown(run) else ""
     return f"where surfaces touch\n[of the load]{known}"
 
 
-def _add_distance_axis(axes: Axes, run: TransientResult, factor: float) -> None:
+def _add_distance_axis(axes: Axes, run: TransientSolution, factor: float) -> None:
     scale = run.start.scales.speed / run.start.scales.half_width_x / factor
     there_and_back: Any = (lambda time: time * scale, lambda distance: distance / scale)
     distance = axes.secondary_xaxis("top", functions=there_and_back)
@@ -92,7 +93,7 @@ def _add_distance_axis(axes: Axes, run: TransientResult, factor: float) -> None:
     distance.tick_params(labelsize=8)
 
 
-def _draw_error_bars(panels: Sequence[Axes], run: TransientResult, bars: HistoryBars) -> None:
+def _draw_error_bars(panels: Sequence[Axes], run: TransientSolution, bars: HistoryBars) -> None:
     """Fill the error bars around film and largest pressure of a certified run."""
     time = bars.time * time_unit(run)[0]
     for axes, name, unit, colour in (
@@ -105,7 +106,7 @@ def _draw_error_bars(panels: Sequence[Axes], run: TransientResult, bars: History
         axes.fill_between(time, low, high, color=colour, alpha=0.25, lw=0)
 
 
-def space_time(run: TransientResult, *, title: bool | None = True) -> Figure:
+def space_time(run: TransientSolution, *, title: bool | None = True) -> Figure:
     """Draw film and pressure along y = 0 over place and time.
 
     Lines are the paths of points on both surfaces (and of the oil between them, dotted, at the mean
@@ -133,7 +134,7 @@ def space_time(run: TransientResult, *, title: bool | None = True) -> Figure:
     return picture
 
 
-def _draw_paths(axes: Axes, run: TransientResult, factor: float) -> None:
+def _draw_paths(axes: Axes, run: TransientSolution, factor: float) -> None:
     """Draw the paths of points that meet at x = 0 when the first feature is there."""
     motion, time = run.start.problem.motion, run.history.time
     half_way = 0.5 * float(time[-1])
@@ -152,7 +153,7 @@ def _draw_paths(axes: Axes, run: TransientResult, factor: float) -> None:
 
 
 def moments(
-    run: TransientResult, times: Sequence[float] | None = None, *, title: bool | None = True
+    run: TransientSolution, times: Sequence[float] | None = None, *, title: bool | None = True
 ) -> Figure:
     """Draw pressure and film along y = 0 at several moments, above the undeformed rough body.
 
@@ -173,7 +174,7 @@ def moments(
     return picture
 
 
-def moments_of(run: TransientResult) -> list[int]:
+def moments_of(run: TransientSolution) -> list[int]:
     """Return equidistant steps at which there is roughness inside the contact."""
     inside = np.abs(run.start.scaled.x) <= 1.0
     heights = (run.profiles.height_1 + run.profiles.height_2)[:, inside]
@@ -190,7 +191,7 @@ class CentreLines:
     The film is at the left, the pressure at the right; what the steady start has is dotted.
     """
 
-    def __init__(self, run: TransientResult, axes: Axes) -> None:
+    def __init__(self, run: TransientSolution, axes: Axes) -> None:
         self.lines, self.part = run.profiles, _window(run)
         self.x, right = run.x[self.part] * MICRO, axes.twinx()
         self.heights = (self.lines.height_1 + self.lines.height_2)[:, self.part] * MICRO
@@ -225,16 +226,16 @@ class CentreLines:
         self.pressure.set_data(self.x, self.lines.pressure[step, self.part] * GIGA)
 
 
-def _window(run: TransientResult) -> slice:
+def _window(run: TransientSolution) -> slice:
     return span_part(run.start.scaled.x, WINDOW[0])
 
 
-def _largest_inside(run: TransientResult, film: Array) -> float:
+def _largest_inside(run: TransientSolution, film: Array) -> float:
     """Return the largest film [um] well inside the contact, of (steps, x) or (x,) along y = 0."""
     return float(film[..., np.abs(run.start.scaled.x) < 0.8].max()) * MICRO
 
 
-def passage(run: TransientResult, *, title: bool | None = True) -> Figure:
+def passage(run: TransientSolution, *, title: bool | None = True) -> Figure:
     """Draw the range of film and pressure along y = 0 over the run."""
     found, start, part = envelope(run), run.profiles, _window(run)
     x = found.x[part] * MICRO

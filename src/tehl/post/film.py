@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tehl.base.typing import Array, BoolArray
 from tehl.post.traction import cell_widths
-from tehl.solution import Solution
-from tehl.typing import Array, BoolArray
+from tehl.result.solution import Solution
 
 
 def no_film(result: Solution) -> str:

@@ -4,11 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl.fields import FilmHeat
-from tehl.loaded_zone import is_inside, zone_part
+from tehl.base.typing import Array
+from tehl.operators.loaded_zone import is_inside, zone_part
 from tehl.post.traction import traction, under_pressure
-from tehl.solution import Solution
-from tehl.typing import Array
+from tehl.result.fields import FilmHeat
+from tehl.result.solution import Solution
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

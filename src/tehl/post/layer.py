@@ -23,10 +23,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl.errors import InputError
-from tehl.hertz import HertzContact
-from tehl.solution import Solution
-from tehl.typing import Array
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
+from tehl.contact.hertz import HertzContact
+from tehl.result.solution import Solution
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -90,7 +90,7 @@ def side_flow_rate(result: Solution, track: float) -> float:
 
     Parameters
     ----------
-    result : Result
+    result : Solution
         A solved contact.
     track : float
         Length of both running tracks together [m].

@@ -2,20 +2,18 @@
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
+from tehl.contact.problem import ContactProblem
 from tehl.post.roughness import in_contact, middle_film, square
-from tehl.problem import ContactProblem
+from tehl.post.traction import traction as traction_of
+from tehl.result.solution import Solution
 from tehl.roughness import Smooth
 from tehl.roughness.prepare import gaussian_mean
 from tehl.roughness.statistics import statistics
-from tehl.typing import Array
-
-if TYPE_CHECKING:
-    from tehl.result import Result
 
 
 @dataclass(frozen=True, kw_only=True, slots=True, eq=False)
@@ -70,14 +68,14 @@ def smooth_reference(problem: ContactProblem) -> ContactProblem:
     return problem.model_copy(update=surfaces | {"transient": None})
 
 
-def micro_film(rough: "Result", smooth: "Result | None" = None) -> MicroFilm:
+def micro_film(rough: Solution, smooth: Solution | None = None) -> MicroFilm:
     """Return the ripples of film and pressure.
 
     Parameters
     ----------
-    rough : Result
+    rough : Solution
         Of the rough contact.
-    smooth : Result or None
+    smooth : Solution or None
         Of its smooth reference run on the same grid. Without it a Gaussian filter removes all
         waves that are longer than twice those of the surface.
 
@@ -102,7 +100,7 @@ def micro_film(rough: "Result", smooth: "Result | None" = None) -> MicroFilm:
     )
 
 
-def is_reference(rough: "Result", smooth: "Result") -> bool:
+def is_reference(rough: Solution, smooth: Solution) -> bool:
     """Return whether two results differ by nothing but the heights of the surfaces."""
     same_grid = all(
         one.shape == other.shape and np.allclose(one, other)
@@ -111,7 +109,7 @@ def is_reference(rough: "Result", smooth: "Result") -> bool:
     return same_grid and rough.groups == smooth.groups and rough.scales == smooth.scales
 
 
-def typical_wavelength(result: "Result") -> float:
+def typical_wavelength(result: Solution) -> float:
     """Return the wavelength 2 pi Sq/Sdq of the heights in the contact [m]; at most a_x."""
     longest = result.scales.half_width_x
     if result.heights is None:
@@ -120,15 +118,15 @@ def typical_wavelength(result: "Result") -> float:
     return min(2.0 * math.pi * found.sq / found.sdq, longest) if found.sdq > 0 else longest
 
 
-def _pixel(result: "Result") -> tuple[float, float]:
+def _pixel(result: Solution) -> tuple[float, float]:
     return float(np.diff(result.x[:2])[0]), float(np.diff(result.y[:2])[0])
 
 
-def roughness_effect(rough: "Result", smooth: "Result") -> RoughnessEffect:
+def roughness_effect(rough: Solution, smooth: Solution) -> RoughnessEffect:
     """Return what roughness does to the film, from a rough result and its reference run."""
     ripples, contact = micro_film(rough, smooth), in_contact(rough)
     highest, without = float(rough.pressure.max()), float(smooth.pressure.max())
-    here, there, traction = rough.traction, smooth.traction, None
+    here, there, traction = traction_of(rough), traction_of(smooth), None
     if here and there and there.mid_film and rough.problem.slide_roll_ratio != 0:
         traction = here.mid_film / there.mid_film
     return RoughnessEffect(

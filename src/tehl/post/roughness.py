@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl.film_formulas import Lubrication, likely_film, lubrication, lubrication_by_share
+from tehl.base.typing import Array, BoolArray
+from tehl.estimate.film_formulas import Lubrication, likely_film, lubrication, lubrication_by_share
+from tehl.post.boundary_contact import touching
 from tehl.post.film import no_film
-from tehl.post.load_sharing import load_sharing
-from tehl.post.touching import touching
+from tehl.post.summits import load_sharing
 from tehl.post.waves.response import REACH, WaveResponse, wave_notes, wave_responses
+from tehl.result.solution import Solution
 from tehl.roughness.resolution import Resolution
-from tehl.solution import Solution
-from tehl.typing import Array, BoolArray
 
 QUANTILES = (0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
 """Parts of the contact whose films are reported."""
@@ -93,9 +93,9 @@ def rough_film(result: Solution, smooth: Solution | None = None) -> RoughFilm | 
 
     Parameters
     ----------
-    result : Result
+    result : Solution
         What a solve returned or a file held.
-    smooth : Result or None
+    smooth : Solution or None
         The same contact with smooth surfaces on the same grid: without it waves longer than 0.4
         half-widths are separated from the shape of the film to a few per cent only.
 
@@ -232,7 +232,7 @@ def film_histogram(result: Solution, bins: int | Sequence[float] = 60) -> tuple[
 
     Parameters
     ----------
-    result : Result
+    result : Solution
         Where to look.
     bins : int or sequence of float
         How many bins up to the 99.5 % quantile, or their edges [m].

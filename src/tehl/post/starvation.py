@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl.solution import Solution
-from tehl.starvation import flooded_oil, is_starved, starved_part
-from tehl.typing import Array
+from tehl.base.typing import Array
+from tehl.estimate.starvation import flooded_oil, is_starved, starved_part
+from tehl.result.solution import Solution
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -12,10 +12,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tehl.fields import FilmShear
-from tehl.scaling import Groups, ScaledProblem
-from tehl.solution import Solution
-from tehl.typing import Array
+from tehl.base.typing import Array
+from tehl.estimate.scaling import Groups, ScaledProblem
+from tehl.result.fields import FilmShear
+from tehl.result.solution import Solution
 
 LARGEST_GAP = 0.125
 """Gap over R_x up to which the oil counts, x = R_x / 2 on the x axis: the gap of a circle is 7 %

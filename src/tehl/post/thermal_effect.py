@@ -1,14 +1,11 @@
 """Effect of heat on a film: a thermal result beside its isothermal reference run."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from tehl.errors import InputError
-from tehl.inlet_heating import InletFactor, inlet_factors
-from tehl.problem import ContactProblem
-
-if TYPE_CHECKING:
-    from tehl.result import Result
+from tehl.base.errors import InputError
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.inlet_heating import InletFactor, inlet_factors
+from tehl.result.solution import Solution
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -43,7 +40,7 @@ def isothermal_reference(problem: ContactProblem) -> ContactProblem:
     return problem.model_copy(update={"thermal": None, "lubricant": oil, **surfaces})
 
 
-def thermal_effect(thermal: "Result", isothermal: "Result") -> ThermalEffect:
+def thermal_effect(thermal: Solution, isothermal: Solution) -> ThermalEffect:
     """Return the effect of heat, from a thermal result and its isothermal reference run."""
     warm, cold = thermal.film, isothermal.film
     return ThermalEffect(

@@ -1,9 +1,9 @@
 """Traction of a film: shear forces on the surfaces and at mid-film over the load.
 
-They are those of the loaded zone, `tehl.loaded_zone`; the drag of the flooded oil around it stands
-apart, `tehl.post.surroundings`. The stress is ``tau = eta du/dz``, so all coefficients are negative
-where surface 1 is the faster (SRR > 0), which the film brakes. They give the force on surface 1;
-that on surface 2 is opposite.
+They are those of the loaded zone, `tehl.operators.loaded_zone`; the drag of the flooded oil around
+it stands apart, `tehl.post.surroundings`. The stress is ``tau = eta du/dz``, so all coefficients
+are negative where surface 1 is the faster (SRR > 0), which the film brakes. They give the force on
+surface 1; that on surface 2 is opposite.
 """
 
 import math
@@ -11,10 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl.loaded_zone import wet_part, zone_part
+from tehl.base.typing import Array
+from tehl.operators.loaded_zone import wet_part, zone_part
 from tehl.post.surroundings import Surroundings, surroundings
-from tehl.solution import Solution
-from tehl.typing import Array
+from tehl.result.solution import Solution
 
 LARGEST_CREDIBLE = 0.1
 """Largest traction coefficient of oils; a Newtonian film has no such limit."""
@@ -78,7 +78,7 @@ def traction(result: Solution) -> Traction | None:
 
     Parameters
     ----------
-    result : Result
+    result : Solution
         Steady, computed or loaded.
     """
     shear = result.shear

@@ -3,22 +3,19 @@
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tehl.duration import Part, parts_of
-from tehl.errors import InputError
-from tehl.fields import Fields, FilmSummary, SurfaceHeights
-from tehl.grid import Grid
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
+from tehl.contact.options import Domain
+from tehl.estimate.duration import Part, parts_of
+from tehl.estimate.grid import Grid
 from tehl.operators.heights import MovingHeights
-from tehl.options import Domain
 from tehl.post.micro_film import smooth_reference
-from tehl.typing import Array
-
-if TYPE_CHECKING:
-    from tehl.result import Result
-    from tehl.transient_result import TransientResult
+from tehl.result.fields import Fields, FilmSummary, SurfaceHeights
+from tehl.result.solution import Solution
+from tehl.result.transient import TransientSolution
 
 _INSIDE = 0.8
 """Half-widths of y = 0 on each side in which the largest changes are searched."""
@@ -53,13 +50,13 @@ class Envelope:
 
 
 def moving_profiles(
-    run: "TransientResult", surface: int, *, start: float | None = None, reach: float | None = None
+    run: TransientSolution, surface: int, *, start: float | None = None, reach: float | None = None
 ) -> MovingProfiles:
     """Return the profiles along y = 0 around a place that moves with a surface.
 
     Parameters
     ----------
-    run : TransientResult
+    run : TransientSolution
         The run.
     surface : {1, 2}
         Which surface.
@@ -100,7 +97,7 @@ def moving_profiles(
     return MovingProfiles(offset=offset, place=place, pressure=pressure, film=film, height=height)
 
 
-def _place_of_feature(run: "TransientResult", surface: int) -> float:
+def _place_of_feature(run: TransientSolution, surface: int) -> float:
     """Return the place of the feature of a surface at time zero [m].
 
     Raises InputError if it has several, or one away from y = 0.
@@ -122,12 +119,12 @@ def _place_of_feature(run: "TransientResult", surface: int) -> float:
     return float(getattr(feature, "x", 0.0))
 
 
-def envelope(run: "TransientResult", *, since: float = 0.0, until: float = math.inf) -> Envelope:
+def envelope(run: TransientSolution, *, since: float = 0.0, until: float = math.inf) -> Envelope:
     """Return the least and largest film and pressure along y = 0 over time.
 
     Parameters
     ----------
-    run : TransientResult
+    run : TransientSolution
         The run.
     since, until : float
         First and last time [s].
@@ -165,12 +162,12 @@ class LargestChange:
     """Where [m] and when [s]."""
 
 
-def largest_change(run: "TransientResult", name: str, sign: int) -> LargestChange:
+def largest_change(run: TransientSolution, name: str, sign: int) -> LargestChange:
     """Return the largest change of a profile along y = 0 over the run.
 
     Parameters
     ----------
-    run : TransientResult
+    run : TransientSolution
         The run.
     name : {"film", "pressure"}
         Which profile.
@@ -188,14 +185,14 @@ def largest_change(run: "TransientResult", name: str, sign: int) -> LargestChang
     )
 
 
-def passing_features(run: "TransientResult") -> Iterator[tuple[Part, float]]:
+def passing_features(run: TransientSolution) -> Iterator[tuple[Part, float]]:
     """Yield each dent, bump or ridge that moves, and when it is at x = 0 [s]."""
     for part in parts_of(run.start.scaled_problem):
         if not part.is_endless and part.speed != 0:
             yield part, -float(getattr(part.roughness, "x", 0.0)) / part.speed
 
 
-def film_at(run: "TransientResult", frame: int = -1) -> "Result":
+def film_at(run: TransientSolution, frame: int = -1) -> Solution:
     """Return a stored field as a steady result; negative numbers count from the last field.
 
     It has pressure, film and heights at that time in the precision of the fields, with the smallest
@@ -231,7 +228,7 @@ def film_at(run: "TransientResult", frame: int = -1) -> "Result":
     )
 
 
-def smooth_start(run: "TransientResult") -> "Result | None":
+def smooth_start(run: TransientSolution) -> Solution | None:
     """Return the steady film of smooth surfaces at the start of a run, to compare its fields with.
 
     None if the run did not start from smooth surfaces under the load of the contact.
@@ -243,7 +240,7 @@ def smooth_start(run: "TransientResult") -> "Result | None":
     return replace(run.start, problem=smooth_reference(problem))
 
 
-def _heights(run: "TransientResult", frame: int) -> SurfaceHeights | None:
+def _heights(run: TransientSolution, frame: int) -> SurfaceHeights | None:
     """Return the heights of both surfaces at a stored field."""
     problem = run.start.problem
     if not problem.is_rough or problem.transient is None:

@@ -25,12 +25,12 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from tehl.film_formulas import expected_film
-from tehl.heat import FilmEnergy
-from tehl.inlet_heating import inlet_heating_factor
+from tehl.contact.heat import FilmEnergy
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.film_formulas import expected_film
+from tehl.estimate.inlet_heating import inlet_heating_factor
+from tehl.estimate.scaling import Groups, ScaledProblem
 from tehl.post.thermal_effect import isothermal_reference
-from tehl.problem import ContactProblem
-from tehl.scaling import Groups, ScaledProblem
 
 ASSUMED_TRACTION = 0.05
 """Traction coefficient where the viscosity does not depend on temperature."""

@@ -4,9 +4,12 @@ from dataclasses import asdict, dataclass
 from html import escape
 from typing import Any
 
-from tehl.cpu_time import expected_seconds, seconds_range
-from tehl.domain import chosen_domain, domain_of, error_of_domain, planned
-from tehl.film_formulas import (
+from tehl.contact.heat import FilmEnergy, source_form
+from tehl.contact.options import Domain, Options
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.cpu_time import expected_seconds, seconds_range
+from tehl.estimate.domain import chosen_domain, domain_of, error_of_domain, planned
+from tehl.estimate.film_formulas import (
     FilmEstimate,
     Lubrication,
     film_estimates,
@@ -15,23 +18,20 @@ from tehl.film_formulas import (
     lubrication_by_share,
     regime,
 )
-from tehl.grid import Grid
-from tehl.heat import FilmEnergy, source_form
-from tehl.inlet_heating import inlet_factors, inlet_heating_factor, thermal_loading
+from tehl.estimate.grid import Grid
+from tehl.estimate.inlet_heating import inlet_factors, inlet_heating_factor, thermal_loading
+from tehl.estimate.memory import available_memory, needed_memory
+from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.starvation import check_supply, supply_ratio
+from tehl.estimate.starvation_table import starved_degree
+from tehl.estimate.summits import SharedLoad, shared_load
 from tehl.lubricant.pressure import UNCERTAINTY
-from tehl.memory import available_memory, needed_memory
-from tehl.mixed import SharedLoad, shared_load
-from tehl.options import Domain, Options
-from tehl.problem import ContactProblem
-from tehl.report.asperities import CONVERGES, RESOLVES, Asperities, asperities
 from tehl.report.expected_heat import BodyEffect, ExpectedHeat, body_effect, expected_heat
 from tehl.report.plausibility import questions
 from tehl.report.readable import UNTITLED
 from tehl.report.rendering import render
+from tehl.report.roughness import CONVERGES, RESOLVES, Asperities, asperities
 from tehl.report.transient_plan import TransientPlan, transient_plan
-from tehl.scaling import ScaledProblem
-from tehl.starvation import check_supply, supply_ratio
-from tehl.starvation_table import starved_degree
 
 LEAST_RISE, LEAST_TRACTION = 0.1, 1e-4
 """Temperature rise [K] and traction coefficient below which no number is shown."""

@@ -5,24 +5,25 @@ import io
 from html import escape
 from typing import Any
 
-from tehl.headline import headline
+from tehl.io.summary import summary
 from tehl.plots import film_map, history
-from tehl.result import Result
-from tehl.transient_result import TransientResult
+from tehl.report.headline import headline
+from tehl.result.solution import Solution
+from tehl.result.transient import TransientSolution
 
 _DPI = 72
 
 
-def result_html(result: Result | TransientResult) -> str:
+def result_html(result: Solution | TransientSolution) -> str:
     """Return title, numbers and a picture of a result as HTML; each text is escaped."""
-    summary = result.summary()
-    rows = headline(summary) | _others(summary)
+    found = summary(result)
+    rows = headline(found) | _others(found)
     cells = "".join(
         f"<tr><th style='text-align: left'>{escape(name)}</th><td>{escape(value)}</td></tr>"
         for name, value in rows.items()
     )
-    table = f"<table><caption>{escape(summary['title'])}</caption>{cells}</table>"
-    draw: Any = history if isinstance(result, TransientResult) else film_map
+    table = f"<table><caption>{escape(found['title'])}</caption>{cells}</table>"
+    draw: Any = history if isinstance(result, TransientSolution) else film_map
     picture = image_html(draw(result, title=False), "film of the contact")
     style = "display: flex; flex-wrap: wrap; gap: 1.5em; align-items: center"
     return f'<div style="{style}">{table}{picture}</div>'

@@ -7,8 +7,9 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from tehl.errors import InputError
-from tehl.film_formulas import film_estimates
+from tehl.base.errors import InputError
+from tehl.estimate.film_formulas import film_estimates
+from tehl.estimate.wave_theory import waves_of
 from tehl.io.summary import estimates
 from tehl.io.tables import DEFINITIONS
 from tehl.plots import Pictures, pictures_of
@@ -19,12 +20,11 @@ from tehl.post.roughness import rough_film
 from tehl.post.thermal_effect import ThermalEffect
 from tehl.post.transient import largest_change, passing_features
 from tehl.post.waves import PassingWave, passing_wave
+from tehl.report.following import following
 from tehl.report.readable import UNTITLED, input_rows
 from tehl.report.rendering import UNITS, render
-from tehl.result import Result
-from tehl.solution import Estimate
-from tehl.transient_result import TransientResult
-from tehl.wave_theory import waves_of
+from tehl.result.solution import Estimate, Solution
+from tehl.result.transient import TransientSolution
 
 CAPTIONS = {
     "history": "Film, pressure and traction over time.",
@@ -66,18 +66,18 @@ _CERTIFIED = {
 
 
 def report_text(
-    result: Result | TransientResult,
+    result: Solution | TransientSolution,
     *,
     dpi: int = 110,
     effect: ThermalEffect | None = None,
     roughness: RoughnessEffect | None = None,
-    smooth: Result | None = None,
+    smooth: Solution | None = None,
 ) -> str:
     """Return ``result`` as one HTML page with its pictures inside.
 
     Parameters
     ----------
-    result : Result or TransientResult
+    result : Solution or TransientSolution
         Converged or not.
     dpi : int
         Dots per inch of the pictures.
@@ -85,11 +85,11 @@ def report_text(
         Effect of heat on a steady film, from an isothermal reference run.
     roughness : RoughnessEffect or None
         Effect of roughness on a steady film, from a smooth reference run.
-    smooth : Result or None
+    smooth : Solution or None
         That reference run, for the pictures.
     """
     content = _shared(result, pictures_of(result, smooth), dpi)
-    if isinstance(result, TransientResult):
+    if isinstance(result, TransientSolution):
         return render("transient.html", **content, **_transient(result))
     content |= {
         "effect": effect,
@@ -102,9 +102,9 @@ def report_text(
     return render("steady.html", **content)
 
 
-def _shared(result: Result | TransientResult, pictures: Pictures, dpi: int) -> dict[str, Any]:
+def _shared(result: Solution | TransientSolution, pictures: Pictures, dpi: int) -> dict[str, Any]:
     """Return the content of both kinds of page."""
-    start = result.start if isinstance(result, TransientResult) else result
+    start = result.start if isinstance(result, TransientSolution) else result
     bars = estimates(result)
     return {
         "bars": bars,
@@ -113,19 +113,20 @@ def _shared(result: Result | TransientResult, pictures: Pictures, dpi: int) -> d
         "formulas": film_estimates(start.groups, start.scales),
         "inputs": _inputs(start),
         "no_film": no_film(start),
-        "rough": start.roughness,
+        "rough": rough_film(start),
         "pictures": [
             (caption, _embedded(pictures[name](result), dpi))
             for name, caption in CAPTIONS.items()
             if name in pictures
         ],
         "result": result,
+        "following": following(result),
         "start": start,
         "title": start.problem.title or UNTITLED,
     }
 
 
-def _inputs(result: Result) -> dict[str, list[tuple[str, str]]]:
+def _inputs(result: Solution) -> dict[str, list[tuple[str, str]]]:
     """Return key and value of each input, by table of the case file."""
     tables: dict[str, list[tuple[str, str]]] = {}
     for path, value in (*input_rows(result.problem), *input_rows(result.options, "numerics.")):
@@ -157,7 +158,7 @@ def _order(estimate: Estimate) -> str:
     return shown if estimate.is_second_order else f"{shown} (not 2: not extrapolated)"
 
 
-def _transient(run: TransientResult) -> dict[str, Any]:
+def _transient(run: TransientSolution) -> dict[str, Any]:
     """Return the effect of the roughness on a transient film."""
     changes = (
         ("thinning", "nm", "film", -1),
@@ -174,7 +175,7 @@ def _transient(run: TransientResult) -> dict[str, Any]:
     }
 
 
-def _waves(run: TransientResult) -> Iterator[tuple[int, PassingWave | str]]:
+def _waves(run: TransientSolution) -> Iterator[tuple[int, PassingWave | str]]:
     """Yield surface and passing wave of each wavy surface, or why it cannot be evaluated."""
     for number in (1, 2):
         if any(waves_of(getattr(run.start.problem, f"surface_{number}").roughness)):

@@ -3,8 +3,12 @@
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from tehl.asperities import GreenwoodTripp
-from tehl.domain import (
+from tehl.base.units import percentage
+from tehl.contact.heat import FAR_BODY, LAYERS
+from tehl.contact.options import Domain, Options
+from tehl.contact.problem import ContactProblem, Surface
+from tehl.contact.summits import GreenwoodTripp
+from tehl.estimate.domain import (
     chosen_domain,
     domain_error,
     domain_of,
@@ -12,15 +16,11 @@ from tehl.domain import (
     expected_bar,
     planned,
 )
-from tehl.film_formulas import likely_film
-from tehl.heat import FAR_BODY, LAYERS
+from tehl.estimate.film_formulas import likely_film
+from tehl.estimate.scaling import ScaledProblem
 from tehl.lubricant import Limiting, Roelands, RoelandsExponential, Walther
-from tehl.options import Domain, Options
-from tehl.problem import ContactProblem, Surface
-from tehl.report.asperities import CONVERGES, LARGEST, RESOLVES, Asperities
 from tehl.report.expected_heat import NOTICEABLE, BodyEffect, ExpectedHeat
-from tehl.scaling import ScaledProblem
-from tehl.units import percentage
+from tehl.report.roughness import CONVERGES, LARGEST, RESOLVES, Asperities
 
 SLIDING = 0.02
 """Slide-roll ratio from which on surfaces count as sliding."""

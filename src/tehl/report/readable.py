@@ -6,7 +6,7 @@ from typing import Any, get_args
 
 from pydantic import BaseModel
 
-from tehl.units import Quantity
+from tehl.base.units import Quantity
 
 UNTITLED = "Lubricated point contact"
 """Title of a case that states none."""

@@ -9,7 +9,7 @@ from tehl.report.readable import length, seconds
 if TYPE_CHECKING:
     from jinja2 import Environment
 
-    from tehl.solution import Estimate
+    from tehl.result.solution import Estimate
 
 UNITS = {
     "nm": (1e9, " nm"),

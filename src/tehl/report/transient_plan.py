@@ -4,9 +4,9 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from tehl.duration import duration_of, misplaced, number_of_steps
-from tehl.options import Options
-from tehl.scaling import ScaledProblem
+from tehl.contact.options import Options
+from tehl.estimate.duration import duration_of, misplaced, number_of_steps
+from tehl.estimate.scaling import ScaledProblem
 
 SECONDS_PER_STEP = 0.014
 SECONDS_PER_NODE = 1.7e-6

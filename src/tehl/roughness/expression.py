@@ -6,8 +6,8 @@ import re
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from tehl.base.typing import Array, np
 from tehl.roughness.model import metres
-from tehl.typing import Array, np
 
 _LONGEST, _NODES, _LARGEST_POWER = 500, 200, 12
 _NUMBER = re.compile(

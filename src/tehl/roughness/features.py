@@ -5,6 +5,8 @@ from typing import ClassVar, Literal, Self
 
 from pydantic import model_validator
 
+from tehl.base.typing import Array, np
+from tehl.base.units import Angle
 from tehl.roughness.model import (
     ENDLESS,
     Extent,
@@ -15,8 +17,6 @@ from tehl.roughness.model import (
     check_gentle,
     direction,
 )
-from tehl.typing import Array, np
-from tehl.units import Angle
 
 _TEN = math.log(10.0)
 

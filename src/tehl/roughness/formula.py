@@ -6,10 +6,10 @@ from typing import Literal, NamedTuple, Self
 
 from pydantic import model_validator
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
+from tehl.base.typing import Array, np
 from tehl.roughness.expression import Place, read_formula
 from tehl.roughness.model import RoughnessModel, Wavelength, check_gentle
-from tehl.typing import Array, np
 
 _REACH, _STEP, _COUNT = 1e-3, 5e-8, 4096
 """Half-width of the square that is sampled, step of differences [m], and number of samples."""

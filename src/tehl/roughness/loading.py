@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
 from tehl.roughness.files import RawMap, checked, read
 from tehl.roughness.files.raw import shown
 from tehl.roughness.map_settings import MapSettings
@@ -23,7 +24,6 @@ from tehl.roughness.prepare import (
     without_outliers,
 )
 from tehl.roughness.tile import Tile
-from tehl.typing import Array
 
 _LEAST = 4
 _TAPER = 0.1

@@ -3,12 +3,18 @@
 import hashlib
 from typing import TYPE_CHECKING
 
+from tehl.base.lazy import lazy
 from tehl.roughness.map_settings import MapSettings
 from tehl.roughness.model import BEYOND, ENDLESS, Extent, direction
 
 if TYPE_CHECKING:
+    from tehl.roughness import files, loading, prepare
     from tehl.roughness.prepare import Heights
     from tehl.roughness.tile import Tile
+else:
+    files = lazy("tehl.roughness.files")
+    loading = lazy("tehl.roughness.loading")
+    prepare = lazy("tehl.roughness.prepare")
 
 _COARSE = 10.0
 _ALIKE = 1e-6
@@ -50,26 +56,20 @@ class Map(MapSettings):
     @property
     def fingerprint(self) -> str:
         """Return the SHA-256 sum of the file."""
-        from tehl.roughness.files import checked  # noqa: PLC0415 (a case needs no scipy)
-
-        with checked(self.file).open("rb") as file:
+        with files.checked(self.file).open("rb") as file:
             return hashlib.file_digest(file, "sha256").hexdigest()
 
     @property
     def stamp(self) -> tuple[int, int]:
         """Return what changes when the file does: its size, and when it was written."""
-        from tehl.roughness.loading import stamp_of  # noqa: PLC0415
-
-        return stamp_of(self)
+        return loading.stamp_of(self)
 
     def load(self) -> "Heights":
         """Return the prepared heights in metres, read once.
 
         Raises InputError if the file does not hold a map of a surface; the message names the file.
         """
-        from tehl.roughness.loading import heights_of  # noqa: PLC0415
-
-        return heights_of(self)
+        return loading.heights_of(self)
 
     def extent(self, length: float) -> Extent:
         """Return where the map lies at time zero, without limits if it repeats [m]."""
@@ -87,14 +87,10 @@ class Map(MapSettings):
 
     @property
     def _tile(self) -> "Tile":
-        from tehl.roughness.loading import tile_of  # noqa: PLC0415
-
-        return tile_of(self)
+        return loading.tile_of(self)
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
         """Return sentences on what is unusual for a contact of ``width`` by ``length`` [m]."""
-        from tehl.roughness.prepare import note_on_form  # noqa: PLC0415
-
         heights = self.load()
         extent = _turned(heights.size, self.rotate)
         sizes = (
@@ -115,7 +111,7 @@ class Map(MapSettings):
             )
         if abs(self.x) > 0.5 * (extent[0] + width) or abs(self.y) > 0.5 * (extent[1] + length):
             sentences.append(f"{sizes} do not touch at time zero: the map lies beside the contact")
-        return (*sentences, *note_on_form(heights, self.level))
+        return (*sentences, *prepare.note_on_form(heights, self.level))
 
 
 def _turned(size: tuple[float, float], angle: float) -> tuple[float, float]:

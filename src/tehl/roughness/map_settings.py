@@ -5,8 +5,9 @@ from typing import Any, Literal, Self
 
 from pydantic import ValidationInfo, field_validator, model_validator
 
+from tehl.base.table import Table
+from tehl.base.units import Angle, Height, PositiveNumber
 from tehl.roughness.model import Edge, Lengths, LengthUnit, Position, Span, TileModel, Wavelength
-from tehl.units import Angle, Height, PositiveNumber, Table
 
 _First = Literal["al3d", "bcr", "datx", "di", "ezd", "frt", "gwy", "ibw", "jpk", "lext", "mdt"]
 _Rest = Literal["metropro", "mi", "mnt", "nms", "opd", "opdx", "os3d", "plu", "plux", "qep", "sdf"]

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator
 
-from tehl.typing import Array, np
-from tehl.units import Height, Length, Quantity, Table, quantity
+from tehl.base.table import Table
+from tehl.base.typing import Array, np
+from tehl.base.units import Height, Length, Quantity, quantity
 
 _ROUNDING = 1e-12
 _PER_MEAN = math.sqrt(0.5 * math.pi)

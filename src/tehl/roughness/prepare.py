@@ -7,8 +7,8 @@ from typing import Literal, NamedTuple
 import numpy as np
 from scipy import ndimage, sparse
 
-from tehl.errors import InputError
-from tehl.typing import Array, BoolArray
+from tehl.base.errors import InputError
+from tehl.base.typing import Array, BoolArray
 
 Level = Literal["none", "mean", "plane", "quadratic"]
 Fill = Literal["auto", "linear", "nearest", "refuse"]

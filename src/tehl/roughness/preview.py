@@ -4,13 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tehl.base.typing import Array
 from tehl.roughness.files.raw import RawMap, shown
 from tehl.roughness.loading import raw_map
 from tehl.roughness.map import Map
 from tehl.roughness.model import Extent, direction
 from tehl.roughness.prepare import Heights, note_on_form
 from tehl.roughness.statistics import Spectrum, Statistics, share_beyond, spectrum, statistics
-from tehl.typing import Array
 
 _PER_PICTURE = 900
 """Most points of a picture along an axis."""

@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
+from tehl.base.typing import Array, np
+from tehl.base.units import Angle, Height, Number, PositiveNumber
 from tehl.roughness.model import (
     TileModel,
     Wavelength,
@@ -15,8 +17,6 @@ from tehl.roughness.model import (
     wavelength_of,
     with_rms,
 )
-from tehl.typing import Array, np
-from tehl.units import Angle, Height, Number, PositiveNumber
 
 if TYPE_CHECKING:
     from tehl.roughness.tile import Tile

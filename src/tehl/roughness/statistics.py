@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy import fft
 
+from tehl.base.typing import Array, BoolArray
 from tehl.roughness.tile import response
-from tehl.typing import Array, BoolArray
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

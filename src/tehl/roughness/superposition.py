@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
 
+from tehl.base.typing import Array, np
 from tehl.roughness.features import Bump, Dimple, Pocket, Ridge
 from tehl.roughness.formula import Formula
 from tehl.roughness.map import Map
@@ -19,7 +20,6 @@ from tehl.roughness.waves import (
     are_even,
     root_mean_square,
 )
-from tehl.typing import Array, np
 
 
 class _Added(Roughness):

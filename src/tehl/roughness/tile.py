@@ -13,8 +13,8 @@ from functools import cached_property
 import numpy as np
 from scipy import fft, ndimage
 
+from tehl.base.typing import Array, IntArray
 from tehl.roughness.model import Edge, Roughness, direction
-from tehl.typing import Array, IntArray
 
 KEPT, LOST = 0.25, 0.5
 """Waves per mesh width up to which all of a wave passes, and from which nothing does."""

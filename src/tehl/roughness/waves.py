@@ -6,9 +6,9 @@ from typing import Literal, NamedTuple, Self
 
 from pydantic import model_validator
 
+from tehl.base.typing import Array, np
+from tehl.base.units import Angle, Height
 from tehl.roughness.model import RoughnessModel, Wavelength, check_gentle, direction, wavelength_of
-from tehl.typing import Array, np
-from tehl.units import Angle, Height
 
 _ALIKE = 1e-9
 

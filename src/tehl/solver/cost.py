@@ -3,11 +3,13 @@
 import math
 import time
 from dataclasses import replace
+from typing import TypeVar
 
 import numpy as np
 
-from tehl.result import Result
-from tehl.solution import NO_COST, Cost
+from tehl.result.solution import NO_COST, Cost, Solution
+
+Kind = TypeVar("Kind", bound=Solution)
 
 ENOUGH, LONGEST = 0.06, 0.3
 """CPU seconds after which no further transform is timed, a few ticks of any CPU clock, and most
@@ -61,7 +63,7 @@ def fft_seconds(nx: int, ny: int) -> float:
     return (time.process_time() - start) / max(count, 1)
 
 
-def with_work(result: Result) -> Result:
+def with_work(result: Kind) -> Kind:
     """Return ``result`` with ``cost.work``: its CPU seconds in units of `fft_seconds`.
 
     None where the clock is too coarse for that.

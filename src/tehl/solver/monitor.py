@@ -3,9 +3,9 @@
 import time
 from typing import Protocol
 
-from tehl.errors import TehlError
-from tehl.solution import CycleReport
-from tehl.transient_result import StepReport
+from tehl.base.errors import TehlError
+from tehl.result.solution import CycleReport
+from tehl.result.transient import StepReport
 
 
 class Monitor(Protocol):

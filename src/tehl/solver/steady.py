@@ -9,37 +9,44 @@ from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np
 
-from tehl.domain import domain_of, planned, settled
-from tehl.errors import InputError
-from tehl.fields import SurfaceHeights
-from tehl.grid import Grid, can_mirror
+from tehl.base.errors import InputError
+from tehl.base.units import percentage
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.domain import domain_of, planned, settled
+from tehl.estimate.grid import Grid, can_mirror
+from tehl.estimate.memory import check_memory
+from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.starvation import Flooded, check_supply
 from tehl.kernels.warmup import warm_up
-from tehl.memory import check_memory
 from tehl.operators.heights import heights_of
 from tehl.operators.resolution import resolution_of
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import ConvergenceError, Result
-from tehl.scaling import ScaledProblem
-from tehl.solution import Cost, CycleReport, Provenance, Status, Supplied
-from tehl.solver.continuation import TouchingError
+from tehl.result.fields import SurfaceHeights
+from tehl.result.solution import (
+    ConvergenceError,
+    Cost,
+    CycleReport,
+    Provenance,
+    Solution,
+    Status,
+    Supplied,
+)
 from tehl.solver.cost import Clock
-from tehl.solver.diagnosis import diverged
-from tehl.solver.extrapolation import Outputs, extrapolated, outputs_of
-from tehl.solver.film_solver import FilmSolver
-from tehl.solver.film_summary import central_value, film_summary
-from tehl.solver.goal import Goal
-from tehl.solver.hierarchy import Hierarchy
-from tehl.solver.ladder import ladder
-from tehl.solver.level import Level
-from tehl.solver.monitor import SILENT, Deadline, Monitor, Recorder, TimeIsOverError
-from tehl.solver.outputs import (
+from tehl.solver.cycle.continuation import TouchingError
+from tehl.solver.cycle.film_solver import FilmSolver
+from tehl.solver.cycle.hierarchy import Hierarchy
+from tehl.solver.cycle.ladder import ladder
+from tehl.solver.cycle.level import Level
+from tehl.solver.judging.diagnosis import diverged
+from tehl.solver.judging.extrapolation import Outputs, extrapolated, outputs_of
+from tehl.solver.judging.film_summary import central_value, film_summary
+from tehl.solver.judging.goal import Goal
+from tehl.solver.judging.outputs import (
     oil_balance,
 )
-from tehl.solver.remedy import LEAST_SECONDS, Reached, solved_on_other_nodes, working_hint
-from tehl.solver.verdict import TOO_COARSE, touching, verdict
-from tehl.starvation import Flooded, check_supply
-from tehl.units import percentage
+from tehl.solver.judging.remedy import LEAST_SECONDS, Reached, solved_on_other_nodes, working_hint
+from tehl.solver.judging.verdict import TOO_COARSE, touching, verdict
+from tehl.solver.monitor import SILENT, Deadline, Monitor, Recorder, TimeIsOverError
 
 NO_MEMORY = "memory"
 GRID_CAUSES = (
@@ -81,9 +88,9 @@ def solve(
     problem: ContactProblem,
     options: Options | None = None,
     *,
-    guess: Result | None = None,
+    guess: Solution | None = None,
     monitor: Monitor = SILENT,
-) -> Result:
+) -> Solution:
     """Solve a steady contact by full multigrid.
 
     Parameters
@@ -92,7 +99,7 @@ def solve(
         The contact in SI.
     options : Options
         Numerical options; the defaults if left out.
-    guess : Result
+    guess : Solution
         The film of a similar contact. The finest grid starts from it if ``options.accuracy`` is
         "tight" and its residual is much smaller than that of the interpolated coarser film; at
         other accuracies it saves nothing. The result is the same, to the tolerance.
@@ -101,7 +108,7 @@ def solve(
 
     Returns
     -------
-    Result
+    Solution
         Film and pressure with estimated errors.
 
     Raises
@@ -134,7 +141,9 @@ def solve(
     return result
 
 
-def _after_failure(failed: Result, reached: Reached | None, monitor: Monitor, end: float) -> Result:
+def _after_failure(
+    failed: Solution, reached: Reached | None, monitor: Monitor, end: float
+) -> Solution:
     """Return the film on other nodes if it converges there, else the failed one with a hint.
 
     Nothing is tried after ``end`` on the clock of `time.perf_counter`.
@@ -143,7 +152,7 @@ def _after_failure(failed: Result, reached: Reached | None, monitor: Monitor, en
     the place of the failed one.
     """
 
-    def attempt(problem: ContactProblem, options: Options) -> Result:
+    def attempt(problem: ContactProblem, options: Options) -> Solution:
         limited = Deadline(monitor, max(options.max_time, LEAST_SECONDS))
         return try_strategies(problem, options, monitor=limited, rough=True)[1]
 
@@ -178,10 +187,10 @@ def try_strategies(  # noqa: PLR0913 (variants of one solve)
     *,
     monitor: Monitor,
     rough: bool,
-    guess: Result | None = None,
+    guess: Solution | None = None,
     load: float = 1.0,
     flooded: Flooded | None = None,
-) -> tuple[Attempt, Result]:
+) -> tuple[Attempt, Solution]:
     """Try the strategies; return the best attempt at the steady film and its result.
 
     Parameters
@@ -313,12 +322,12 @@ def finest_grid(scaled: ScaledProblem, options: Options) -> Grid:
 
 def _result(
     attempt: Attempt, options: Options, history: tuple[CycleReport, ...], cost: Cost
-) -> Result:
+) -> Solution:
     """Assemble the result of an attempt on the full domain."""
     run = attempt.run
     level, grid, scaled = run.finest, run.finest.grid, run.hierarchy.scaled
     found = _outputs(attempt)
-    return Result(
+    return Solution(
         problem=scaled.problem,
         options=options,
         scales=scaled.scales,

@@ -8,6 +8,7 @@
     table(cases, store)
 """
 
+from tehl.base.version import SOLVER_VERSION
 from tehl.studies.answers import solve_contacts
 from tehl.studies.axes import Axis, Sample
 from tehl.studies.case import Case, Row
@@ -17,7 +18,6 @@ from tehl.studies.plan import Study, study_of
 from tehl.studies.runner import Outcome, StudyMonitor, run
 from tehl.studies.store import Store
 from tehl.studies.tables import table
-from tehl.version import SOLVER_VERSION
 
 __all__ = [
     "SOLVER_VERSION",

@@ -8,10 +8,11 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from tehl.errors import InputError
-from tehl.io.atomic import replacing
-from tehl.io.lists import check_package
-from tehl.problem import ContactProblem
+from tehl.api.problem import ContactProblem
+from tehl.base.atomic import replacing
+from tehl.base.errors import InputError
+from tehl.base.lists import check_package
+from tehl.base.units import percentage
 from tehl.studies.case import Row, Scalar
 from tehl.studies.contacts import (
     Column,
@@ -22,7 +23,6 @@ from tehl.studies.contacts import (
 )
 from tehl.studies.runner import QUIET, Outcome, StudyMonitor, run
 from tehl.studies.store import Store
-from tehl.units import percentage
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -13,12 +13,12 @@ from typing import Annotated, Any, Literal, Self
 import numpy as np
 from pydantic import Field, model_validator
 
-from tehl.errors import InputError
-from tehl.io.atomic import shortened
-from tehl.io.lists import heading, lines_of_file, value_of, values_of_file
+from tehl.base.atomic import shortened
+from tehl.base.errors import InputError
+from tehl.base.lists import heading, lines_of_file, value_of, values_of_file
+from tehl.base.table import Table
+from tehl.base.typing import Array
 from tehl.studies.tables import is_reserved
-from tehl.typing import Array
-from tehl.units import Table
 
 End = float | int | str
 Ends = tuple[End, End]

@@ -9,12 +9,12 @@ from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
+from tehl.api.problem import ContactProblem
+from tehl.api.results import Result
+from tehl.base.version import SOLVER_VERSION, __version__
+from tehl.contact.options import Options
 from tehl.io.case import with_settings
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import Result
-from tehl.solution import Cost, Hint, Settings
-from tehl.version import SOLVER_VERSION, __version__
+from tehl.result.solution import Cost, Hint, Settings
 
 Label = float | str
 Scalar = float | int | str | bool | None

@@ -13,16 +13,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tehl.errors import InputError
-from tehl.io.atomic import shortened
-from tehl.io.case import case_from_tables, plain_value, toml_tables
-from tehl.io.lists import check_package, lines_of_sheet, numbered_lines, stripped
-from tehl.io.mistakes import key_paths
+from tehl.api.problem import ContactProblem, case_from_tables
+from tehl.base.atomic import shortened
+from tehl.base.errors import InputError
+from tehl.base.lists import check_package, lines_of_sheet, numbered_lines, stripped
+from tehl.base.mistakes import key_paths
+from tehl.base.units import is_unit
+from tehl.contact.options import Options
+from tehl.io.case import plain_value, toml_tables
 from tehl.io.templates import template_text
-from tehl.options import Options
-from tehl.problem import ContactProblem
 from tehl.studies.case import Case
-from tehl.units import is_unit
 
 if TYPE_CHECKING:
     import pandas as pd

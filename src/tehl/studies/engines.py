@@ -17,9 +17,9 @@ from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection, wait
 from typing import Any
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
+from tehl.base.version import __version__
 from tehl.studies.worker import attempt, serve
-from tehl.version import __version__
 
 Ticket = Any
 Finished = list[tuple[Ticket, Any]]

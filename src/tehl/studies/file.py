@@ -11,12 +11,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field, StrictBool, ValidationError
 
-from tehl.errors import InputError
-from tehl.io.atomic import shortened
+from tehl.api.problem import ContactProblem
+from tehl.base.atomic import shortened
+from tehl.base.errors import InputError
+from tehl.base.mistakes import describe
+from tehl.base.table import Table
+from tehl.base.wording import short
+from tehl.contact.options import Options
 from tehl.io.case import change, toml_tables
-from tehl.io.mistakes import describe, short
-from tehl.options import Options
-from tehl.problem import ContactProblem
 from tehl.studies.axes import (
     Axis,
     Sample,
@@ -31,7 +33,6 @@ from tehl.studies.plan import Plan, Study, study_of
 from tehl.studies.runner import run
 from tehl.studies.store import Keep, Store
 from tehl.studies.tables import table
-from tehl.units import Table
 
 if TYPE_CHECKING:
     import pandas as pd

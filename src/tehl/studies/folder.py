@@ -10,8 +10,8 @@ from typing import IO, TYPE_CHECKING, Any
 
 from pydantic import TypeAdapter
 
-from tehl.errors import FileFormatError, InputError
-from tehl.io.atomic import check_folder, check_place, replacing
+from tehl.base.atomic import check_folder, check_place, replacing
+from tehl.base.errors import FileFormatError, InputError
 from tehl.studies.plan import Plan
 from tehl.studies.store import Store
 

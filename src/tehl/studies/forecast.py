@@ -4,12 +4,12 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from tehl.cpu_time import expected_seconds
-from tehl.domain import planned
-from tehl.errors import InputError
-from tehl.memory import available_memory, needed_memory
-from tehl.options import Options
-from tehl.scaling import ScaledProblem
+from tehl.base.errors import InputError
+from tehl.contact.options import Options
+from tehl.estimate.cpu_time import expected_seconds
+from tehl.estimate.domain import planned
+from tehl.estimate.memory import available_memory, needed_memory
+from tehl.estimate.scaling import ScaledProblem
 from tehl.studies.case import Case, Row
 
 _CERTIFIED = 3.5

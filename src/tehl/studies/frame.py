@@ -1,9 +1,18 @@
 """The table of a study as a notebook shows it: the main columns with units, and a picture."""
 
 from html import escape
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pandas as pd
+
+from tehl.base.lazy import lazy
+
+if TYPE_CHECKING:
+    from tehl import plots
+    from tehl.report import notebook as notebooks
+else:
+    plots = lazy("tehl.plots")
+    notebooks = lazy("tehl.report.notebook")
 
 _COLUMNS = {
     "film.h_central_m": ("central film [nm]", 1e9),
@@ -58,13 +67,11 @@ class StudyTable(pd.DataFrame):
         converged = self[self["status"] == "converged"]
         if not numbers or converged[numbers[0]].nunique() < _LEAST:
             return ""
-        from tehl.plots import curves  # noqa: PLC0415 (with the first table that is shown)
-        from tehl.report.notebook import image_html  # noqa: PLC0415
 
         values = converged[numbers[0]]
         log = "x" if values.min() > 0 and values.max() > 8 * values.min() else ""
-        figure = curves(self, numbers[0], "film.h_central_m", log=log)
-        return image_html(figure, f"central film over {numbers[0]}")
+        figure = plots.curves(self, numbers[0], "film.h_central_m", log=log)
+        return notebooks.image_html(figure, f"central film over {numbers[0]}")
 
 
 def _head(label: str, unit: str) -> str:

@@ -6,14 +6,20 @@ from typing import TYPE_CHECKING, Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from tehl.errors import InputError
-from tehl.io.atomic import replacing
+from tehl.base.atomic import replacing
+from tehl.base.errors import InputError
+from tehl.base.lazy import lazy
+from tehl.base.table import Table
 from tehl.studies.tables import missing_column
-from tehl.units import Table
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
+
+    from tehl.plots import table_curves, table_maps
+else:
+    table_curves = lazy("tehl.plots.table_curves")
+    table_maps = lazy("tehl.plots.table_maps")
 
 Range = tuple[float, float]
 _DPI = 200
@@ -112,18 +118,15 @@ def checked_pictures(
 
 def draw(picture: Picture, table: "pd.DataFrame") -> "Figure":
     """Draw a table; raise for missing columns and for a table without converged cases."""
-    from tehl.plots.table_curves import curves, overlay  # noqa: PLC0415 (matplotlib)
-    from tehl.plots.table_maps import contour_map, moes_map  # noqa: PLC0415
-
     if picture.map is not None:
-        return moes_map(table)
+        return table_maps.moes_map(table)
     x, y = str(picture.x), str(picture.y)
     title = table.attrs.get("title") if picture.title is None else picture.title
     if picture.z is not None:
-        return contour_map(table, x, y, picture.z, picture.log, title=title)
-    figure = curves(table, x, y, picture.hue, picture.style, picture.log, title=title)
+        return table_maps.contour_map(table, x, y, picture.z, picture.log, title=title)
+    figure = table_curves.curves(table, x, y, picture.hue, picture.style, picture.log, title=title)
     if picture.overlay is not None:
-        overlay(figure, table, x, y, path=Path(picture.overlay))
+        table_curves.overlay(figure, table, x, y, path=Path(picture.overlay))
     figure.axes[0].set(xlim=picture.x_range, ylim=picture.y_range)
     return figure
 

@@ -10,15 +10,15 @@ from typing import Any, get_args
 
 from pydantic import BaseModel
 
-from tehl.errors import InputError
-from tehl.io.case import case_from_tables, changed
-from tehl.options import Options, check_certifiable
-from tehl.problem import ContactProblem
+from tehl.api.problem import ContactProblem, case_from_tables
+from tehl.base.errors import InputError
+from tehl.base.units import Quantity
+from tehl.contact.options import Options, check_certifiable
+from tehl.io.case import changed
 from tehl.studies.axes import Block, Setting
 from tehl.studies.case import Case, Label
 from tehl.studies.pictures import Picture
 from tehl.studies.store import Keep
-from tehl.units import Quantity
 
 _SHOWN = 5
 """Labels in the name of a case."""

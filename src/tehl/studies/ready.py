@@ -8,7 +8,7 @@ import os
 import sys
 from contextlib import suppress
 
-import tehl.solver  # noqa: F401 (loaded for all workers)
+import tehl.api.solvers  # noqa: F401 (loaded for all workers)
 from tehl.kernels.warmup import warm_up
 
 sys.excepthook = lambda *_: None  # the program reports a worker that does not start

@@ -6,14 +6,20 @@ from collections import deque
 from collections.abc import Iterable
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
+from tehl.base.lazy import lazy
 from tehl.kernels.cache import is_cold
 from tehl.studies.case import Case, Row, retried
 from tehl.studies.engines import Engine, WorkerDied, engine_of
 from tehl.studies.store import Store
 from tehl.studies.worker import Files, solve_in_turn, work
+
+if TYPE_CHECKING:
+    from tehl.kernels import warmup
+else:
+    warmup = lazy("tehl.kernels.warmup")
 
 _LARGEST_TASK = 32
 """Cases of a task."""
@@ -279,7 +285,6 @@ def _compile_once(cases: Iterable[Case], monitor: StudyMonitor) -> None:
     coupled = any(case.problem.is_coupled for case in cases)
     if not is_cold(coupled=coupled):
         return
-    from tehl.kernels.warmup import warm_up  # noqa: PLC0415 (not needed once it is compiled)
 
     monitor.message("compiling the kernels once, which takes 10 to 60 s")
-    warm_up(coupled=coupled)
+    warmup.warm_up(coupled=coupled)

@@ -5,12 +5,17 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tehl.errors import InputError
-from tehl.io.atomic import replacing
-from tehl.units import Quantity
+from tehl.base.atomic import replacing
+from tehl.base.errors import InputError
+from tehl.base.lazy import lazy
+from tehl.base.units import Quantity
 
 if TYPE_CHECKING:
     import pandas as pd
+
+    from tehl.plots import table_columns
+else:
+    table_columns = lazy("tehl.plots.table_columns")
 
 FORMATS = (".csv", ".xlsx")
 
@@ -40,12 +45,10 @@ def sheet(table: "pd.DataFrame", columns: Sequence[str]) -> "pd.DataFrame":
     InputError
         If a column is missing or has another kind of unit.
     """
-    from tehl.plots.table_columns import find_column  # noqa: PLC0415 (matplotlib)
-
     units, found = table.attrs.get("units", {}), {}
     for wanted in columns or list(table.columns):
         name, _, bracket = (part.strip() for part in wanted.partition("["))
-        full = find_column(table, name)
+        full = table_columns.find_column(table, name)
         si, unit = units.get(full, "1"), bracket.rstrip("] ")
         factor, offset = _conversion(full, si, unit) if unit else (1.0, 0.0)
         shown = unit or si

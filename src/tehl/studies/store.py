@@ -14,11 +14,10 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Literal, get_args
 
-from tehl.errors import FileFormatError, InputError
-from tehl.io.atomic import check_place
-from tehl.io.store import load_as
-from tehl.result import Result
-from tehl.solution import Cost, Hint
+from tehl.api.results import Result, load_as
+from tehl.base.atomic import check_place
+from tehl.base.errors import FileFormatError, InputError
+from tehl.result.solution import Cost, Hint
 from tehl.studies.case import Case, Row
 
 Keep = Literal["summary", "fields"]

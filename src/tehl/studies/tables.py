@@ -5,12 +5,17 @@ import re
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
-from tehl.solution import settings_text
+from tehl.base.lazy import lazy
+from tehl.result.solution import settings_text
 from tehl.studies.case import Case, Scalar, unit_of
 from tehl.studies.store import Store
 
 if TYPE_CHECKING:
     import pandas as pd
+
+    from tehl.studies import frame as frames
+else:
+    frames = lazy("tehl.studies.frame")
 
 OPEN = "open"
 """Status of a case that is not finished."""
@@ -90,8 +95,6 @@ def table(
         summary by its dotted name: ``film.h_min_m``, and ``key``, under which fields are kept.
         ``attrs["units"]`` has the unit of each column of numbers.
     """
-    from tehl.studies.frame import StudyTable  # noqa: PLC0415 (pandas takes 0.5 s)
-
     cases = list(cases)
     rows = store.rows(cases)
     lines: list[dict[str, Scalar]] = []
@@ -107,7 +110,7 @@ def table(
         lines.append(line | {"key": case.key})
     labels = [label for case in cases for label in case.labels]
     names = dict.fromkeys(["name", *labels, *_OUTCOME, *(name for line in lines for name in line)])
-    frame = StudyTable(lines, columns=[*(name for name in names if name != "key"), "key"])
+    frame = frames.StudyTable(lines, columns=[*(name for name in names if name != "key"), "key"])
     numbers = frame.select_dtypes("number").columns
     known = units or {}
     frame.attrs["units"] = {name: known.get(name) or unit_of(name) for name in numbers}

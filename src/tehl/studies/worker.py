@@ -10,13 +10,18 @@ from multiprocessing import parent_process
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
 from threading import Thread
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from tehl.errors import InputError, TehlError
-from tehl.io.store import load_as
-from tehl.result import ConvergenceError, Result
-from tehl.solution import Cost
+from tehl.api.results import ConvergenceError, Result, load_as
+from tehl.base.errors import InputError, TehlError
+from tehl.base.lazy import lazy
+from tehl.result.solution import Cost
 from tehl.studies.case import Case, Row, row_of
+
+if TYPE_CHECKING:
+    from tehl.api import solvers
+else:
+    solvers = lazy("tehl.api.solvers")
 
 Files = tuple[Path | None, Path | None]
 """Where the fields of a case go, and those of another case to start from."""
@@ -126,12 +131,6 @@ def _failed(case: Case, error: Exception) -> Row:
 
 def _solved(case: Case, guess: Path | None) -> Result:
     """Return the result, converged or not; a guess that cannot be read is ignored."""
-    from tehl.solver import (  # noqa: PLC0415 (reading a store compiles nothing)
-        certify,
-        solve,
-        solve_passes,
-    )
-
     known = None
     if guess is not None:
         with suppress(TehlError):
@@ -139,9 +138,9 @@ def _solved(case: Case, guess: Path | None) -> Result:
     try:
         options = case.solved_options
         if case.certify:
-            return certify(case.problem, options)
+            return solvers.certify(case.problem, options)
         if case.problem.has_passes:
-            return solve_passes(case.problem, options)
-        return solve(case.problem, options, guess=known)
+            return solvers.solve_passes(case.problem, options)
+        return solvers.solve(case.problem, options, guess=known)
     except ConvergenceError as error:
         return error.result

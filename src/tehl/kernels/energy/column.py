@@ -7,6 +7,7 @@ times h^2/k, with the upstream differences and the derivative in time of second 
 along x are known, those along y and downstream are of the last sweep.
 """
 
+from tehl.base.typing import Array, Record, Records
 from tehl.kernels.compiled import helper
 from tehl.kernels.energy.flow import cross_flow, reach
 from tehl.kernels.energy.records import (
@@ -25,7 +26,6 @@ from tehl.kernels.energy.records import (
 from tehl.kernels.energy.shear import TINY, stress_at
 from tehl.kernels.lanes import LANES, Lanes, greater, lesser, where
 from tehl.kernels.raw import lanes
-from tehl.typing import Array, Record, Records
 
 CONDUCTION = 8.0  # a little less than pi^2, the slowest decay across the film
 TO_WALLS = 1.0  # over the squared distance to both walls: a little more than conduction

@@ -8,13 +8,13 @@ mid-film ``I0(zeta) = int phi`` and ``I1(zeta) = int phi (zeta - 1/2)`` from sur
 and the mid-film stress of a film that does not thin follows from u = u2, v = 0 at the other wall.
 """
 
+from tehl.base.typing import Record, Records
 from tehl.kernels.compiled import helper
 from tehl.kernels.energy.laws import exponential
 from tehl.kernels.energy.records import Across, Model, Place, Terms, Work
 from tehl.kernels.energy.shear import set_thinning, thin
 from tehl.kernels.lanes import LANES, Lanes
 from tehl.kernels.raw import lanes
-from tehl.typing import Record, Records
 
 
 @helper

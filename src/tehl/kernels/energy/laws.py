@@ -4,11 +4,11 @@ The tables hold, over pressure, the coefficients of two polynomials in temperatu
 layers get values and slopes (`tehl.operators.law_table`).
 """
 
+from tehl.base.typing import Array, Record, Records
 from tehl.kernels.compiled import helper
 from tehl.kernels.energy.records import BLOCK, ETA_TERMS, TERMS, Across, Laws, Model
 from tehl.kernels.lanes import LANES, Lanes, greater, lesser, log, power_of_two
 from tehl.kernels.raw import lanes
-from tehl.typing import Array, Record, Records
 
 LARGEST_EXPONENT = 690.0
 MAGIC = 6755399441055744.0  # 1.5 2^52: adding it leaves the nearest integer in the low bits

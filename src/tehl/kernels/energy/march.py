@@ -5,6 +5,7 @@ and flow at the new temperatures for the Reynolds equation. `tests.kernels.stati
 in plain numpy.
 """
 
+from tehl.base.typing import Array
 from tehl.kernels.compiled import helper, kernel
 from tehl.kernels.energy.column import carry_sideways, inner_rows, solve_block
 from tehl.kernels.energy.flow import (
@@ -20,7 +21,6 @@ from tehl.kernels.energy.records import BLOCK, GHOSTS, Fields, Model, Place, Sur
 from tehl.kernels.energy.walls import keep_wall, wall_row
 from tehl.kernels.lanes import Lanes, greater, largest, lesser, where
 from tehl.kernels.raw import lanes, raw
-from tehl.typing import Array
 
 LARGEST_STEP = 40.0  # [K] per solution of a column
 LARGEST_FALL = 0.5  # of the stress with it, relative

@@ -3,6 +3,7 @@
 See docs/theory/thermal.md on the generalised Reynolds equation and the heat balance.
 """
 
+from tehl.base.typing import Record, Records
 from tehl.kernels.compiled import helper
 from tehl.kernels.energy.column import heat_sources
 from tehl.kernels.energy.flow import mobility, moments
@@ -10,7 +11,6 @@ from tehl.kernels.energy.laws import exponential, look_up, mean_temperature
 from tehl.kernels.energy.records import BLOCK, Fields, Model, Place, Surfaces, Work
 from tehl.kernels.energy.walls import store_flux
 from tehl.kernels.raw import lanes
-from tehl.typing import Record, Records
 
 STRAIGHT = 0.03  # excess of the tangent along y that does not change convergence
 

@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tehl.base.typing import Array, Records
 from tehl.kernels.lanes import LANES
-from tehl.typing import Array, Records
 
 GHOSTS = 2
 """Ghost stations and rows on each side of the temperature."""

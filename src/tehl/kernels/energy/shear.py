@@ -6,11 +6,11 @@ its scale. Unknown is ``tau_m``, both components, such that the film is sheared 
 speed: ``h int rate_x = u2 - u1`` and ``h int rate_y = 0`` (docs/theory/thermal.md, shear thinning).
 """
 
+from tehl.base.typing import Record, Records
 from tehl.kernels.compiled import helper
 from tehl.kernels.energy.laws import exponential
 from tehl.kernels.energy.records import Laws, Model, Terms
 from tehl.kernels.lanes import Lanes, greater, largest, lesser, log, lookup, root, truncate, where
-from tehl.typing import Record, Records
 
 LARGEST_THINNING = 200.0  # ln F
 BEYOND_LIMIT = 1.02  # of a limiting stress; there ln F is above 20

@@ -5,9 +5,9 @@ Equation and weights in `tehl.operators.trail`.
 
 from typing import NamedTuple
 
+from tehl.base.typing import Array
 from tehl.kernels.compiled import kernel
 from tehl.kernels.raw import raw
-from tehl.typing import Array
 
 
 class Lag(NamedTuple):

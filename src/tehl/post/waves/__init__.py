@@ -1,4 +1,4 @@
-"""Waves of the surfaces in results: found, fitted, and compared with :mod:`tehl.wave_theory`."""
+"""Waves of the surfaces in results: found, fitted, compared with `tehl.estimate.wave_theory`."""
 
 from tehl.post.waves.passing import PassingWave, passing_wave
 from tehl.post.waves.response import WaveResponse, wave_notes, wave_responses

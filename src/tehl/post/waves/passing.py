@@ -1,19 +1,16 @@
-"""Amplitude of a wave that passes a place, fitted in time, beside :mod:`tehl.wave_theory`."""
+"""Amplitude of a wave that passes a place, fitted in time, beside `tehl.estimate.wave_theory`."""
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
+from tehl.estimate.wave_theory import amplitude_reduction, nabla_of, waves_of
 from tehl.post.waves.response import Ripple, ripple
+from tehl.result.transient import TransientSolution
 from tehl.roughness import WaveVector
-from tehl.typing import Array
-from tehl.wave_theory import amplitude_reduction, nabla_of, waves_of
-
-if TYPE_CHECKING:
-    from tehl.transient_result import TransientResult
 
 MOST_PERIODS = 4
 """Periods at the end of a run over which a passing wave is fitted."""
@@ -38,7 +35,7 @@ class PassingWave(Ripple):
     """Amplitude reduction by the fit for pure rolling [-]."""
 
 
-def passing_wave(run: "TransientResult", surface: int, *, x: float = 0.0) -> PassingWave:
+def passing_wave(run: TransientSolution, surface: int, *, x: float = 0.0) -> PassingWave:
     """Return the amplitudes of the wave of a surface at a place that it passes.
 
     A harmonic, its overtone, a mean and a drift are fitted to film, pressure and height at the
@@ -46,7 +43,7 @@ def passing_wave(run: "TransientResult", surface: int, *, x: float = 0.0) -> Pas
 
     Parameters
     ----------
-    run : TransientResult
+    run : TransientSolution
         Of a surface with a ``wave`` or crossed waves.
     surface : {1, 2}
         Which surface.
@@ -83,7 +80,7 @@ def passing_wave(run: "TransientResult", surface: int, *, x: float = 0.0) -> Pas
     )
 
 
-def _wave(run: "TransientResult", surface: int) -> WaveVector:
+def _wave(run: TransientSolution, surface: int) -> WaveVector:
     """Return the wave of a surface, or one of several of equal wavelength along x."""
     roughness = getattr(run.start.problem, f"surface_{surface}").roughness
     waves = list(waves_of(roughness))
@@ -96,7 +93,7 @@ def _wave(run: "TransientResult", surface: int) -> WaveVector:
     return waves[0]
 
 
-def _periods(run: "TransientResult", surface: int, rate: float, x: float) -> tuple[int, float]:
+def _periods(run: TransientSolution, surface: int, rate: float, x: float) -> tuple[int, float]:
     """Return the whole periods to fit, and the time steps in each."""
     if not rate > 0:
         raise InputError(
@@ -118,7 +115,7 @@ def _periods(run: "TransientResult", surface: int, rate: float, x: float) -> tup
     return min(math.floor(left + _WHOLE), MOST_PERIODS), steps
 
 
-def _arrival(run: "TransientResult", surface: int, x: float) -> float:
+def _arrival(run: TransientSolution, surface: int, x: float) -> float:
     """Return when a wave that enters at the inlet has reached ``x`` in full [s]."""
     problem = run.start.problem
     transient, speed = problem.transient, problem.motion.speed_of(surface)

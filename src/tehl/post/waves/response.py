@@ -7,13 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl.post.heat import mean_temperature
-from tehl.post.waves.search import distinct_waves
-from tehl.problem import ContactProblem
-from tehl.roughness import Map, Random, Sum, WaveVector
-from tehl.solution import Solution
-from tehl.typing import Array, BoolArray
-from tehl.wave_theory import (
+from tehl.base.typing import Array, BoolArray
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.wave_theory import (
     FlatFilm,
     LinearTheory,
     bulk_modulus,
@@ -21,6 +17,10 @@ from tehl.wave_theory import (
     drifting_waves,
     why_no_theory,
 )
+from tehl.post.heat import mean_temperature
+from tehl.post.waves.search import distinct_waves
+from tehl.result.solution import Solution
+from tehl.roughness import Map, Random, Sum, WaveVector
 
 REACH = 0.4
 """Half-widths on each side of the centre in which waves are fitted: the pressure is even there."""
@@ -79,7 +79,7 @@ class WaveResponse(Ripple):
     """Of the streaks along x that the film brings from the inlet [m]; zero where crests lie across
     or along the entrainment, or nearly so."""
     theory: LinearTheory
-    """Ripples by linear theory, where it holds (:func:`tehl.wave_theory.why_no_theory`)."""
+    """Ripples by linear theory, where it holds (`tehl.estimate.wave_theory.why_no_theory`)."""
 
 
 def wave_responses(result: Solution, smooth: Solution | None = None) -> tuple[WaveResponse, ...]:
@@ -92,9 +92,9 @@ def wave_responses(result: Solution, smooth: Solution | None = None) -> tuple[Wa
 
     Parameters
     ----------
-    result : Result
+    result : Solution
         Of a rough contact; others have no waves.
-    smooth : Result or None
+    smooth : Solution or None
         The same contact with smooth surfaces on the same grid, which is subtracted first.
 
     Returns

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tehl.base.typing import Array, BoolArray
 from tehl.roughness import WaveVector
-from tehl.typing import Array, BoolArray
 
 REACH = 1.0
 """Half-widths on each side of the centre in which waves are searched."""

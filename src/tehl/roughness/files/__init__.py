@@ -3,7 +3,7 @@
 import stat
 from pathlib import Path
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
 from tehl.roughness.files.libraries import (
     FORMATS,
     METROPRO,

@@ -8,9 +8,9 @@ from typing import IO, Any
 
 import numpy as np
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
 from tehl.roughness.files.raw import HDF5, RawMap, check_bytes, check_count, check_hdf5, shown, step
-from tehl.typing import Array
 
 _READERS = {
     (1, 0): np.lib.format.read_array_header_1_0,

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from tehl.errors import InputError
-from tehl.typing import Array
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
 
 LARGEST_MAP = 36_000_000
 """Points of a map."""

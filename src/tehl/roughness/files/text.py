@@ -8,11 +8,11 @@ from typing import Literal
 
 import numpy as np
 
-from tehl.encoding import encoding_of
-from tehl.errors import InputError
+from tehl.base.encoding import encoding_of
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
 from tehl.roughness.files.header import Header
 from tehl.roughness.files.raw import LARGEST_MAP, RawMap, check_count, shown, step
-from tehl.typing import Array
 
 Layout = Literal["auto", "matrix", "xyz"]
 

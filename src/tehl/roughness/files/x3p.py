@@ -15,9 +15,9 @@ from xml.parsers import expat
 
 import numpy as np
 
-from tehl.errors import InputError
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
 from tehl.roughness.files.raw import RawMap, check_bytes, check_count
-from tehl.typing import Array
 
 _MAIN, _CHECKSUM = "main.xml", "md5checksum.hex"
 _LARGEST_HEADER = 10**7

@@ -10,12 +10,13 @@ from functools import partial
 
 import numpy as np
 
-from tehl.errors import InputError
-from tehl.options import Options, can_be_halved, check_certifiable
-from tehl.problem import ContactProblem
-from tehl.result import ConvergenceError
-from tehl.solution import Estimate
-from tehl.solver.certify import (
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
+from tehl.contact.options import Options, can_be_halved, check_certifiable
+from tehl.contact.problem import ContactProblem
+from tehl.result.solution import ConvergenceError, Estimate
+from tehl.result.transient import HistoryBars, TransientSolution
+from tehl.solver.judging.certify import (
     ORDERS,
     RESIDUE,
     WITHOUT_FIRST,
@@ -31,26 +32,24 @@ from tehl.solver.certify import (
     widest,
     with_growing_spike,
 )
+from tehl.solver.judging.verdict import LARGEST_BAR
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.transient.run import solve_transient
-from tehl.solver.verdict import LARGEST_BAR
-from tehl.transient_result import HistoryBars, TransientResult
-from tehl.typing import Array
 
 JUDGED = ("film_minimum", "film_central_least", "pressure_max")
 """Values whose error bars decide whether the grid is too coarse; temperatures do not."""
 GROWTH = 2.0
 """Further growth of a spike over its last change: it grows to first order."""
 
-Other = Companion[TransientResult]
-Runs = tuple[TransientResult, ...]
+Other = Companion[TransientSolution]
+Runs = tuple[TransientSolution, ...]
 """Two or three runs, coarse to fine, each with twice the steps of the one before. ``wide`` below is
 the run on the larger domain, with mesh and steps of the run before the last."""
 
 
 def certify_transient(
     problem: ContactProblem, options: Options | None = None, *, monitor: StepMonitor = SILENT
-) -> TransientResult:
+) -> TransientSolution:
     """Solve a transient problem on three grids and on a larger domain; return error bars.
 
     The coarser grids have a half and a quarter of the intervals and the same stride. The larger
@@ -67,7 +66,7 @@ def certify_transient(
 
     Returns
     -------
-    TransientResult
+    TransientSolution
         Of the finest grid, with ``uncertainty`` and ``bars``. If it ended early, or if no error bar
         follows from the other runs, ``status`` says so and both are empty. A failed run on a
         quarter of the intervals is left out.
@@ -114,7 +113,7 @@ def certify_transient(
     return result
 
 
-def _message(finest: TransientResult, coarse: Other, middle: Other, wide: Other) -> str:
+def _message(finest: TransientSolution, coarse: Other, middle: Other, wide: Other) -> str:
     """Return how each run ended, and what follows for the bars."""
     last = f"{nodes_of(finest.start.grid_options)} {finest.status.outcome}"
     message = message_on([coarse.ending, middle.ending, last], wide.ending)
@@ -143,13 +142,13 @@ def _companion(problem: ContactProblem, monitor: StepMonitor, options: Options, 
     return found
 
 
-def _not_certified(finest: TransientResult, what: str, failed: Other) -> TransientResult:
+def _not_certified(finest: TransientSolution, what: str, failed: Other) -> TransientSolution:
     """Return the finest run without error bars, because another one failed."""
     status = not_certified(finest.start, f"{what} failed ({failed.ending}).")
     return replace(finest, status=status, cost=finest.cost + failed.cost)
 
 
-def estimates(runs: Runs, wide: TransientResult) -> dict[str, Estimate]:
+def estimates(runs: Runs, wide: TransientSolution) -> dict[str, Estimate]:
     """Return extremes over time with their error bars, in SI."""
     end = float(runs[-1].history.time[-1])
     found, wider = [_extremes(run, end) for run in runs], _extremes(wide, end)
@@ -166,7 +165,7 @@ def estimates(runs: Runs, wide: TransientResult) -> dict[str, Estimate]:
     return bars
 
 
-def _extremes(run: TransientResult, end: float) -> dict[str, float]:
+def _extremes(run: TransientSolution, end: float) -> dict[str, float]:
     """Return the extremes until ``end`` [s], which need not be a step of a coarser run."""
     history, start = run.history, run.start
 
@@ -188,7 +187,7 @@ def _extremes(run: TransientResult, end: float) -> dict[str, float]:
     return {name: float(value) for name, value in found.items()}
 
 
-def history_bars(runs: Runs, wide: TransientResult) -> HistoryBars:
+def history_bars(runs: Runs, wide: TransientSolution) -> HistoryBars:
     """Return error bars along the history, at the times that all runs share."""
     growth = _growth(runs)[:: 2 ** (len(runs) - 2)]
     return HistoryBars(
@@ -209,7 +208,7 @@ def _shared(runs: Runs, name: str) -> list[Array]:
     ]
 
 
-def _bar(runs: Runs, wide: TransientResult, name: str, least: Array | None = None) -> Array:
+def _bar(runs: Runs, wide: TransientSolution, name: str, least: Array | None = None) -> Array:
     """Return the errors of grid, at least ``least``, and domain, added in quadrature."""
     series = _shared(runs, name)
     grid = grid_bar(series)

@@ -6,10 +6,10 @@ Each raises `InputError` with the key, its value, what is wrong, and what is exp
 import math
 from itertools import groupby
 
-from tehl.errors import InputError
-from tehl.grid import Grid
+from tehl.base.errors import InputError
+from tehl.contact.transient import Transient
+from tehl.estimate.grid import Grid
 from tehl.operators.heights import MovingHeights, check_nodes, rounded_up
-from tehl.transient import Transient
 
 LEAST_STEPS = 4.0
 """Time steps per passing wave below which the wave is aliased."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tehl.typing import Array
+from tehl.base.typing import Array
 
 TERMS = ((0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (2, 1), (1, 2), (2, 2), (2, 3))
 """Terms of the prediction, as steps back and strides downstream: parabolas in time of what stands

@@ -5,29 +5,28 @@ from dataclasses import asdict, replace
 
 import numpy as np
 
-from tehl.domain import planned
-from tehl.duration import misplaced, number_of_steps
-from tehl.errors import InputError
-from tehl.grid import Grid
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
+from tehl.contact.transient import Transient
+from tehl.estimate.domain import planned
+from tehl.estimate.duration import misplaced, number_of_steps
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import ScaledProblem
 from tehl.kernels.warmup import warm_up
 from tehl.operators.heights import MovingHeights
-from tehl.options import Options
-from tehl.problem import ContactProblem
-from tehl.result import ConvergenceError, Result
-from tehl.scaling import ScaledProblem
-from tehl.solution import Hint, Status
+from tehl.result.solution import ConvergenceError, Hint, Solution, Status
+from tehl.result.transient import StepReport, TransientSolution
 from tehl.solver.cost import Clock
-from tehl.solver.level import Level
-from tehl.solver.measures import mid_film_traction
+from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH, Relaxation
+from tehl.solver.judging.measures import mid_film_traction
 from tehl.solver.monitor import SILENT, StepMonitor
-from tehl.solver.relaxation import BROAD, CAREFUL, FAST, ROBUST, ROUGH, Relaxation
 from tehl.solver.steady import Attempt, finest_grid, try_strategies
 from tehl.solver.transient.checks import check_load, check_stride, check_waves
 from tehl.solver.transient.snapshot import ANEW, Record, Snapshot, carried, kept_steps
 from tehl.solver.transient.step import StepEnd, StepError, Stepper
-from tehl.transient import Transient
-from tehl.transient_result import StepReport, TransientResult
-from tehl.typing import Array
 
 SETTINGS, COUPLED_SETTINGS = (FAST, ROUGH, CAREFUL), (BROAD, ROBUST, CAREFUL)
 """Relaxations of a step, fastest first; and those for heated or shear-thinning films."""
@@ -44,7 +43,7 @@ def solve_transient(
     monitor: StepMonitor = SILENT,
     resume: Snapshot | None = None,
     keep: Callable[[Snapshot], None] | None = None,
-) -> TransientResult:
+) -> TransientSolution:
     """Solve a transient contact.
 
     Parameters
@@ -62,7 +61,7 @@ def solve_transient(
 
     Returns
     -------
-    TransientResult
+    TransientSolution
         The transient film; its ``status`` is that of the last step.
 
     Raises
@@ -283,13 +282,13 @@ class Run:
             )
         return Status(kind="not_converged", cause=cause, message=message, hint=hint)
 
-    def result(self, status: Status) -> TransientResult:
+    def result(self, status: Status) -> TransientSolution:
         """Return the result; an open minimum of the steady film is reported in its status."""
         steady = self.start.status
         if status.converged and steady.is_vague:
             status = replace(status, message=f"At time zero: {steady.message}", hint=steady.hint)
         full = (self.level.grid.ny, self.level.grid.nx)
-        return TransientResult(
+        return TransientSolution(
             start=self.start,
             history=self.record.history(self.scales),
             profiles=self.record.lines(self.scales),
@@ -307,7 +306,7 @@ def _shapes(fields: dict[str, Array]) -> dict[str, tuple[tuple[int, ...], np.dty
 
 def _steady_start(
     problem: ContactProblem, options: Options, *, rough: bool, monitor: StepMonitor
-) -> tuple[Attempt, Result]:
+) -> tuple[Attempt, Solution]:
     """Solve for the steady film at time zero, with the load of that time, rough or smooth."""
     tight = options.model_copy(
         update={"accuracy": "tight", "tolerance": min(options.tolerance, START_TOLERANCE)}

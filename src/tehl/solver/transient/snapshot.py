@@ -10,15 +10,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tehl.errors import InputError
-from tehl.scaling import Scales
-from tehl.solution import Cost
-from tehl.solver.film_summary import film_summary
-from tehl.solver.level import Level
-from tehl.solver.measures import shared_load
-from tehl.transient import Transient
-from tehl.transient_result import Frames, History, Profiles
-from tehl.typing import Array
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
+from tehl.contact.transient import Transient
+from tehl.estimate.scaling import Scales
+from tehl.result.solution import Cost
+from tehl.result.transient import Frames, History, Profiles
+from tehl.solver.cycle.level import Level
+from tehl.solver.judging.film_summary import film_summary
+from tehl.solver.judging.measures import shared_load
 
 Heights = tuple[Array, Array]
 COLUMNS = tuple(one.name for one in fields(History))
@@ -50,7 +50,7 @@ class Record:
     """Numbers, profiles and fields of the steps so far, scaled."""
 
     rows: list[tuple[float, ...]] = field(default_factory=list)
-    """Per step, the columns of `tehl.transient_result.History`."""
+    """Per step, the columns of `tehl.result.transient.History`."""
     profiles: list[Array] = field(default_factory=list)
     """Per step, pressure, film and both heights along y = 0, (4, nx)."""
     frame_steps: list[int] = field(default_factory=list)

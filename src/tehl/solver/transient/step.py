@@ -16,17 +16,17 @@ from typing import Literal
 
 import numpy as np
 
+from tehl.base.typing import Array
+from tehl.contact.transient import Transient
 from tehl.operators.reynolds import steady_flux, steady_wedge, step_stencil, upstream
-from tehl.solver.convergence import LEAST_KELVIN, RUNAWAY
-from tehl.solver.fas import Cycle, cycle
-from tehl.solver.film_solver import FilmSolver
-from tehl.solver.iteration import COARSE_TOUCHING, coarse_grid
-from tehl.solver.level import Level
-from tehl.solver.relaxation import Relaxation
-from tehl.solver.touching import TouchingNewton
+from tehl.solver.cycle.fas import Cycle, cycle
+from tehl.solver.cycle.film_solver import FilmSolver
+from tehl.solver.cycle.iteration import COARSE_TOUCHING, coarse_grid
+from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.relaxation import Relaxation
+from tehl.solver.judging.convergence import LEAST_KELVIN, RUNAWAY
+from tehl.solver.physics.boundary_contact import TouchingNewton
 from tehl.solver.transient.predictor import Predictor
-from tehl.transient import Transient
-from tehl.typing import Array
 
 LARGEST_LOAD_ERROR = 1e-4
 """Load error accepted in a step."""

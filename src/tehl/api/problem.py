@@ -1,0 +1,77 @@
+"""The problem as users have it, which explains what to expect before the solve."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tehl.base.lazy import lazy
+from tehl.contact import problem as plain
+from tehl.contact.options import Options
+
+if TYPE_CHECKING:
+    from tehl.io import case
+    from tehl.report import explain as explanations
+else:
+    case, explanations = lazy("tehl.io.case"), lazy("tehl.report.explain")
+
+
+class ContactProblem(plain.ContactProblem):
+    """A lubricated point contact.
+
+    Its fields are the tables of the case file, so that reading a case is validating the parsed
+    file.
+    """
+
+    @classmethod
+    def of(cls, problem: plain.ContactProblem) -> "ContactProblem":
+        """Return a checked problem as one that can explain itself."""
+        if isinstance(problem, cls):
+            return problem
+        values = {name: getattr(problem, name) for name in type(problem).model_fields}
+        return cls.model_construct(problem.model_fields_set, **values)
+
+    def explain(self, options: Options | None = None) -> "explanations.Explanation":
+        """Return what ``tehl explain`` prints, a :class:`tehl.report.explain.Explanation`.
+
+        ``options`` are the :class:`tehl.Options` of the solve; the defaults if left out.
+        """
+        return explanations.explain(self, options)
+
+
+def read_case(path: str | Path) -> ContactProblem:
+    """Return the problem of a case file as :func:`read_case_and_options`, without its options."""
+    return read_case_and_options(path)[0]
+
+
+def read_case_and_options(
+    path: str | Path, overrides: Sequence[str] = ()
+) -> tuple[ContactProblem, Options]:
+    """Return problem and numerical options of a case file.
+
+    Parameters
+    ----------
+    path : str or Path
+        TOML file.
+    overrides : sequence of str
+        Overrides such as ``"numerics.points=513"`` or ``"contact.load=100 N"``, applied before
+        anything is checked.
+
+    Raises
+    ------
+    InputError
+        If the file is not a valid case file or an override is invalid; the message names key,
+        value, unit and what is expected.
+    """
+    problem, options = case.read_case_and_options(path, overrides)
+    return ContactProblem.of(problem), options
+
+
+def case_from_tables(
+    tables: Mapping[str, Any], folder: Path | None = None
+) -> tuple[ContactProblem, Options]:
+    """Return problem and options of the parsed tables of a case, checked as those of a file.
+
+    Relative paths of measured surfaces begin in ``folder``, by default the working directory.
+    """
+    problem, options = case.case_from_tables(tables, folder)
+    return ContactProblem.of(problem), options

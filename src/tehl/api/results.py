@@ -1,0 +1,233 @@
+"""Results as users have them: a solution with all that follows from it, saved and shown.
+
+The solver and files give plain solutions. The rooms below take these; nothing below needs a
+`Result`.
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Self, overload
+
+from tehl.api.problem import ContactProblem
+from tehl.base.lazy import lazy
+from tehl.base.typing import Array
+from tehl.post import transient_numbers
+from tehl.post.boundary_contact import Touching, touching
+from tehl.post.heat import Temperature, temperature
+from tehl.post.roughness import RoughFilm, rough_film
+from tehl.post.starvation import Starvation, starvation
+from tehl.post.summits import LoadSharing, load_sharing
+from tehl.post.traction import Traction, traction
+from tehl.report.headline import as_line
+from tehl.result import solution as plain
+from tehl.result.solution import Solution
+from tehl.result.transient import TransientSolution
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from tehl.io import store
+    from tehl.io import summary as summaries
+    from tehl.report import notebook
+else:
+    store, summaries = lazy("tehl.io.store"), lazy("tehl.io.summary")
+    notebook = lazy("tehl.report.notebook")
+
+
+class Saved:
+    """What steady and transient results have in common: they are saved, summarised and shown."""
+
+    __slots__ = ()
+
+    def save(self: Any, path: str | Path) -> None:
+        """Write the result to a NetCDF-4 file; an error leaves no partial file."""
+        store.save(self, path)
+
+    def to_xarray(self: Any) -> "xr.Dataset":
+        """Return a dataset with units and long names, see `tehl.io.store.to_dataset`."""
+        return store.to_dataset(self)
+
+    def summary(self: Any) -> dict[str, Any]:
+        """Return the JSON summary that ``tehl solve --json`` prints."""
+        return summaries.summary(self)
+
+    def __repr__(self: Any) -> str:
+        """Return the main numbers in one line."""
+        return as_line(type(self).__name__, self.summary())
+
+    def _repr_html_(self: Any) -> str:
+        """Return the main numbers beside a picture, for notebooks."""
+        return notebook.result_html(self)
+
+
+class Result(Saved, Solution):
+    """Result of one steady solve."""
+
+    __slots__ = ()
+    if TYPE_CHECKING:
+        problem: ContactProblem
+
+    @classmethod
+    def of(cls, solution: Solution) -> Self:
+        """Return the result of a solution."""
+        if isinstance(solution, cls):
+            return solution
+        return cls(**_values(solution) | {"problem": ContactProblem.of(solution.problem)})
+
+    @property
+    def traction(self) -> Traction | None:
+        """Traction coefficients, None without shear stresses."""
+        return traction(self)
+
+    @property
+    def temperature(self) -> Temperature | None:
+        """Temperatures of the film, None for an isothermal run."""
+        return temperature(self)
+
+    @property
+    def roughness(self) -> RoughFilm | None:
+        """Film numbers of rough surfaces, None if no surface states heights or their Sq."""
+        return rough_film(self)
+
+    @property
+    def load_sharing(self) -> LoadSharing | None:
+        """Load and friction of film and asperities, None without asperities finer than the grid."""
+        return load_sharing(self)
+
+    @property
+    def touching(self) -> Touching | None:
+        """Load and friction of film and contact, None without a boundary film."""
+        return touching(self)
+
+    @property
+    def starvation(self) -> Starvation | None:
+        """How far the film is starved, None if no supply is stated."""
+        return starvation(self)
+
+
+class TransientResult(Saved, TransientSolution):
+    """Result of one transient solve."""
+
+    __slots__ = ()
+    if TYPE_CHECKING:
+        start: Result
+
+    @classmethod
+    def of(cls, solution: TransientSolution) -> Self:
+        """Return the result of a solution."""
+        if isinstance(solution, cls):
+            return solution
+        return cls(**_values(solution) | {"start": Result.of(solution.start)})
+
+    @property
+    def friction(self) -> Array | None:
+        """Friction of film and solid contact together over the load at that time, positive [-].
+
+        None without asperities or a boundary film, and where the share of these is not known.
+        """
+        return transient_numbers.friction(self)
+
+    @property
+    def late_extremes(self) -> tuple[str, ...]:
+        """Extremes that were reached at the end of a run whose duration is not stated.
+
+        They may grow in a longer one: a periodic or mirrored map goes on to pass the contact.
+        """
+        return transient_numbers.late_extremes(self)
+
+    @property
+    def longer_duration(self) -> float | None:
+        """Duration to state where the default one ended early [s]; None where it did not.
+
+        It lasts until maps that repeat at their edges have passed whole, or twice as long where
+        extremes changed at the end.
+        """
+        return transient_numbers.longer_duration(self)
+
+    @property
+    def patch_cells(self) -> float:
+        """Largest mean diameter, or width, of patches of contact in the frames [mesh widths].
+
+        Zero where surfaces do not touch through a boundary film in any of them.
+        """
+        return transient_numbers.patch_cells(self)
+
+    @property
+    def why_share_unknown(self) -> str:
+        """Why the share where surfaces touch means nothing, in words; empty if it is known."""
+        return transient_numbers.why_share_unknown(self)
+
+
+def _values(solution: Solution | TransientSolution) -> dict[str, Any]:
+    return {one.name: getattr(solution, one.name) for one in fields(solution)}
+
+
+@overload
+def result_of(solution: Solution) -> Result: ...
+
+
+@overload
+def result_of(solution: TransientSolution) -> TransientResult: ...
+
+
+def result_of(solution: Solution | TransientSolution) -> Result | TransientResult:
+    """Return the result of a steady or transient solution."""
+    if isinstance(solution, TransientSolution):
+        return TransientResult.of(solution)
+    return Result.of(solution)
+
+
+class ConvergenceError(plain.ConvergenceError):
+    """The solver did not converge; ``result`` is the last finite state, with its history."""
+
+    result: Result
+
+
+@contextmanager
+def failures_with_results() -> Iterator[None]:
+    """Raise failures of the solver with the `Result` of their solution."""
+    try:
+        yield
+    except plain.ConvergenceError as error:
+        whole = ConvergenceError(str(error), Result.of(error.result))
+        raise whole.with_traceback(error.__traceback__) from None
+
+
+def load(path: str | Path) -> Result | TransientResult:
+    """Read a result that ``save`` wrote, with its fields bit by bit; nothing is compiled.
+
+    Raises
+    ------
+    InputError
+        If the file does not exist.
+    FileFormatError
+        If it is truncated, foreign or of an unknown format.
+    """
+    return result_of(store.load(path))
+
+
+@overload
+def load_as(kind: type[Result], path: str | Path) -> Result: ...
+
+
+@overload
+def load_as(kind: type[TransientResult], path: str | Path) -> TransientResult: ...
+
+
+def load_as(
+    kind: type[Result] | type[TransientResult], path: str | Path
+) -> Result | TransientResult:
+    """Read a result of one kind, `Result` or `TransientResult`.
+
+    Raises
+    ------
+    InputError
+        If the file does not exist.
+    FileFormatError
+        If it is not a result, or one of the other kind.
+    """
+    if kind is TransientResult:
+        return TransientResult.of(store.load_as(TransientSolution, path))
+    return Result.of(store.load_as(Solution, path))

@@ -1,0 +1,54 @@
+"""Solvers as users call them: they take the same arguments, and give results with their methods."""
+
+from collections.abc import Callable
+from functools import update_wrapper
+from inspect import signature
+from typing import ParamSpec, TypeVar
+
+from tehl import solver
+from tehl.api.results import Result, TransientResult, failures_with_results
+from tehl.result.solution import Solution
+from tehl.result.transient import TransientSolution
+from tehl.solver import with_work
+
+__all__ = [
+    "certify",
+    "certify_transient",
+    "solve",
+    "solve_passes",
+    "solve_transient",
+    "with_work",
+]
+
+P = ParamSpec("P")
+Plain = TypeVar("Plain")
+Whole = TypeVar("Whole")
+
+
+def _giving(result_of: Callable[[Plain], Whole], solve: Callable[P, Plain]) -> Callable[P, Whole]:
+    """Return a solver whose solutions, those of failures included, are results."""
+
+    def solved(*args: P.args, **kwargs: P.kwargs) -> Whole:
+        with failures_with_results():
+            return result_of(solve(*args, **kwargs))
+
+    update_wrapper(solved, solve, assigned=("__name__", "__qualname__"))
+    solved.__doc__ = (solve.__doc__ or "").replace("Solution", "Result")
+    given, kind = signature(solve), signature(result_of).return_annotation
+    solved.__signature__ = given.replace(return_annotation=kind)  # type: ignore[attr-defined]
+    return solved
+
+
+def _steady(solution: Solution) -> Result:
+    return Result.of(solution)
+
+
+def _transient(solution: TransientSolution) -> TransientResult:
+    return TransientResult.of(solution)
+
+
+solve = _giving(_steady, solver.solve)
+solve_passes = _giving(_steady, solver.solve_passes)
+certify = _giving(_steady, solver.certify)
+solve_transient = _giving(_transient, solver.solve_transient)
+certify_transient = _giving(_transient, solver.certify_transient)

@@ -1,0 +1,1 @@
+"""What all rooms share: units, errors, arrays, files; nothing of lubrication."""

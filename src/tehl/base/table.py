@@ -1,0 +1,39 @@
+"""Tables of case and study files: constant models whose mistakes are one sentence."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from tehl.base.mistakes import of_call
+
+if TYPE_CHECKING:
+    from pydantic._internal._model_construction import ModelMetaclass
+else:
+    ModelMetaclass = type(BaseModel)  # pydantic does not export it
+
+
+class _OneSentence(ModelMetaclass):
+    """Class of tables: a mistake of a call in Python is an InputError of one sentence."""
+
+    def __call__(self, *args: Any, **values: Any) -> Any:
+        try:
+            return super().__call__(*args, **values)
+        except ValidationError as error:
+            model: Any = self
+            raise of_call(error, values, model) from None
+
+
+class Table(BaseModel, metaclass=_OneSentence):
+    """Base of the tables of a case or study file: constant, without unknown keys."""
+
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", defer_build=True, use_attribute_docstrings=True
+    )
+
+    other_words: ClassVar[Mapping[str, str]] = {}
+    """What to write for keys that are no misspelling of the right one."""
+    synonyms: ClassVar[Mapping[str, str]] = {}
+    """Other words for a key, in lower case; a key of another table has its path."""
+    not_tables: ClassVar[Mapping[str, str]] = {}
+    """What to write for keys whose tables are taken for a number or a word."""

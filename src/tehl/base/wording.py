@@ -1,0 +1,41 @@
+"""Keys, values and suggestions as messages have them: shortened, as a file would show them."""
+
+import difflib
+import json
+import re
+
+
+def suggestion_for(word: str, known: list[str]) -> str:
+    """Return the question after the word that is most alike, or all known ones."""
+    return closest(word, known, 0.55) or f"known are {', '.join(known)}"
+
+
+def closest(word: str, known: list[str], alike: float) -> str:
+    """Return the question after the word that is most alike; empty without one."""
+    close = difflib.get_close_matches(word[:100], known, n=1, cutoff=alike)
+    return "".join(f"did you mean {one}?" for one in close)
+
+
+def key_text(part: str | int) -> str:
+    """Return a part of a key path as the file would show it, shortened."""
+    text = str(part)
+    bare = re.fullmatch(r"[A-Za-z0-9_-]+", text)
+    return short(text if bare else json.dumps(text), 60)
+
+
+def shown(value: object) -> str:
+    """Return a value as the file would show it, shortened."""
+    try:
+        text = json.dumps(value, ensure_ascii=False)
+    except RecursionError:
+        text = "a deeply nested table or list"
+    except TypeError:  # a type that JSON does not have
+        text = str(value)
+    except ValueError:  # an integer of thousands of digits
+        text = "a number of thousands of digits"
+    return short("".join(c if c.isprintable() else "?" for c in text), 60)
+
+
+def short(text: str, length: int = 40) -> str:
+    """Return a text of at most ``length`` characters."""
+    return text if len(text) <= length else f"{text[: length - 3]}..."

@@ -1,0 +1,1 @@
+"""What a user states: bodies, motion, supply, heat, numerical options, and the whole problem."""

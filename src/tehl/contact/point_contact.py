@@ -1,0 +1,373 @@
+"""A contact: two surfaces, a lubricant, a load and a motion, and what follows from them in SI."""
+
+import math
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
+
+from pydantic import AfterValidator, model_validator
+
+from tehl.base.table import Table
+from tehl.base.units import (
+    Force,
+    Height,
+    Length,
+    Number,
+    PositiveNumber,
+    Pressure,
+    Radius,
+    Speed,
+    Temperature,
+)
+from tehl.contact.boundary_contact import ContactFilm
+from tehl.contact.heat import FilmEnergy, Thermal
+from tehl.contact.hertz import HertzContact, hertz_contact, load_of_pressure
+from tehl.contact.materials import NamedSolid, reduced_modulus
+from tehl.contact.shape import Motion, Radii, reduced_radii
+from tehl.contact.summits import Asperities
+from tehl.contact.supply import Cavitation, Supply
+from tehl.contact.transient import Transient
+from tehl.lubricant import NamedLubricant
+from tehl.roughness import AnyRoughness, Smooth
+from tehl.roughness.model import with_rms
+
+LINE = "line contacts are not computed yet; state an ellipse by radius_x and radius_y"
+
+
+class _WithRadii(Table):
+    """Base of the tables that state one radius, or two of them."""
+
+    FLAT: ClassVar[str] = ""
+    """Hint of the message on a single one of both radii."""
+
+    if TYPE_CHECKING:
+        radius: float | None
+        radius_x: float | None
+        radius_y: float | None
+
+    @model_validator(mode="after")
+    def _radii_must_agree(self) -> Self:
+        if self.radius is not None and (self.radius_x, self.radius_y) != (None, None):
+            raise ValueError("takes either radius or the pair radius_x and radius_y")
+        if (self.radius_x is None) != (self.radius_y is None):
+            raise ValueError(f"needs both radius_x and radius_y{self.FLAT}")
+        return self
+
+    @property
+    def radii(self) -> Radii | None:
+        """Return the stated radii, None without any."""
+        x = self.radius if self.radius_x is None else self.radius_x
+        y = self.radius if self.radius_y is None else self.radius_y
+        return None if x is None or y is None else Radii(x=x, y=y)
+
+
+class Surface(_WithRadii):
+    """One of the two bodies."""
+
+    other_words: ClassVar = {"diameter": "did you mean radius, half of it?"}
+    synonyms: ClassVar = {
+        "rms_roughness": "rq sq sigma rms roughness_rms",
+        "ra_roughness": "ra sa roughness_ra",
+        "temperature": "temp bulk_temperature body_temperature",
+        "contact.entrainment_speed": "speed velocity",
+        "material.young_modulus": "e young youngs_modulus elastic_modulus modulus young_modulus",
+        "material.poisson_ratio": "nu poisson poissons_ratio poisson_ratio",
+        "material.conductivity": "conductivity thermal_conductivity",
+        "material.density": "density rho",
+        "material.heat_capacity": "heat_capacity specific_heat",
+    }
+    not_tables: ClassVar = {
+        "roughness": (
+            "must be a table of heights; a number alone, for the ratio lambda, is rms_roughness "
+            "or ra_roughness"
+        )
+    }
+
+    FLAT = ' ("inf" is flat)'
+
+    material: NamedSolid
+    """A named material or a table of properties."""
+    radius: Radius | None = None
+    """Radius of a ball [m]."""
+    radius_x: Radius | None = None
+    radius_y: Radius | None = None
+    """Radii along and across entrainment [m]; infinite is flat, negative is hollow."""
+    rms_roughness: Height = 0.0
+    """Rq [m], for lambda of a smooth calculation."""
+    ra_roughness: Height | None = None
+    """Ra [m], instead of Rq: of Gaussian heights, Rq = Ra sqrt(pi/2)."""
+    roughness: AnyRoughness = Smooth()
+    """Heights of the surface; smooth if left out."""
+    temperature: Temperature | None = None
+    """Temperature far from the contact [K], in thermal runs; None is that of the oil at the
+    inlet."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _convert_ra(cls, stated: Any) -> Any:
+        return with_rms(stated, "ra_roughness", "rms_roughness")
+
+    @model_validator(mode="after")
+    def _must_be_rough_once(self) -> Self:
+        if self.rms_roughness > 0 and not self.roughness.is_smooth:
+            raise ValueError(
+                "states rms_roughness, which is that of a surface computed as smooth, and "
+                "roughness: leave one of them out"
+            )
+        return self
+
+
+class Contact(_WithRadii):
+    """Shape, load and motion of the contact."""
+
+    other_words: ClassVar = {
+        **dict.fromkeys(("type", "width", "length", "line_load", "load_per_length"), LINE),
+        "speed": "did you mean entrainment_speed, the mean speed of both surfaces?",
+        "sliding_speed": "did you mean slide_roll_ratio, (u_1 - u_2) over the mean speed?",
+        "diameter": "did you mean radius, half of it?",
+    }
+    synonyms: ClassVar = {
+        "load": "force normal_load normal_force weight w f",
+        "hertz_pressure": "pressure max_pressure maximum_pressure hertz_stress p_h",
+        "entrainment_speed": "velocity mean_speed rolling_speed rolling_velocity u_m u",
+        "slide_roll_ratio": "srr slip slide_ratio sliding_ratio slide_to_roll",
+        "radius_x": "rx r_x radius_1",
+        "radius_y": "ry r_y radius_2",
+        "radius": "r",
+        "lubricant.temperature": "temperature oil_temperature",
+    }
+
+    radius: Length | None = None
+    """Reduced radius of a circular contact [m]."""
+    radius_x: Length | None = None
+    radius_y: Length | None = None
+    """Reduced radii along and across entrainment [m]. Without any radius here both surfaces state
+    theirs."""
+    load: Force | None = None
+    hertz_pressure: Pressure | None = None
+    moes_load: PositiveNumber | None = None
+    """Exactly one: w [N], p_h [Pa] or M [-]."""
+    entrainment_speed: Speed | None = None
+    moes_speed: PositiveNumber | None = None
+    """Exactly one: u_m [m/s] or L [-]."""
+    slide_roll_ratio: Number = 0.0
+    """(u_1 - u_2) / u_m [-]."""
+
+    @model_validator(mode="after")
+    def _must_be_stated_once(self) -> Self:
+        self._exactly_one("load", "hertz_pressure", "moes_load")
+        self._exactly_one("entrainment_speed", "moes_speed")
+        return self
+
+    def _exactly_one(self, *names: str) -> None:
+        stated = [name for name in names if getattr(self, name) is not None]
+        if len(stated) > 1:
+            raise ValueError(f"states {' and '.join(stated)}: only one of them may be given")
+        if not stated:
+            raise ValueError(f"needs one of {', '.join(names)}")
+
+
+def _printable(title: str) -> str:
+    if not title.isprintable():
+        raise ValueError("must be one line without control characters")
+    return title
+
+
+Title = Annotated[str, AfterValidator(_printable)]
+
+
+class PointContact(Table):
+    """A lubricated point contact as its tables state it; `ContactProblem` checks that they agree.
+
+    Derived quantities in SI are properties.
+    """
+
+    title: Title = ""
+    """Shown in reports and pictures."""
+    contact: Contact
+    """Shape, load and motion."""
+    surface_1: Surface
+    surface_2: Surface
+    """The bodies at z = 0 and z = h."""
+    lubricant: NamedLubricant
+    """A named oil or its laws."""
+    thermal: Thermal | None = None
+    """Settings of the heat; None is an isothermal film."""
+    transient: Transient | None = None
+    """Settings of a transient run, in which roughness moves with its surface; None is steady."""
+    supply: Supply | None = None
+    """The oil that reaches the inlet; None is fully flooded."""
+    asperities: Asperities | None = None
+    """Asperities finer than the grid; None has none."""
+    contact_film: ContactFilm | None = None
+    """Boundary film through which the surfaces may touch; None has no contact."""
+    cavitation: Cavitation | None = None
+    """What happens to the oil in cavities; None conserves it in starved contacts only."""
+
+    @property
+    def radii(self) -> Radii:
+        """Return the reduced radii."""
+        first, second = self.surface_1.radii, self.surface_2.radii
+        if self.contact.radii is not None:
+            return self.contact.radii
+        if first is None or second is None:
+            raise ValueError("no radii")
+        return reduced_radii(first, second)
+
+    @property
+    def radius_x(self) -> float:
+        """Return the reduced radius along entrainment R_x [m]."""
+        return self.radii.x
+
+    @property
+    def radius_y(self) -> float:
+        """Return the reduced radius across entrainment R_y [m]."""
+        return self.radii.y
+
+    @property
+    def reduced_modulus(self) -> float:
+        """Return E' with ``2/E' = (1-nu_1^2)/E_1 + (1-nu_2^2)/E_2`` [Pa]."""
+        return reduced_modulus(self.surface_1.material, self.surface_2.material)
+
+    @property
+    def ambient_viscosity(self) -> float:
+        """Return eta_0 at ambient pressure and inlet temperature [Pa s]."""
+        return self.lubricant.viscosity.ambient(self.inlet_temperature)
+
+    @property
+    def ambient_density(self) -> float:
+        """Return rho_0 at ambient pressure and inlet temperature [kg/m^3]."""
+        return self.lubricant.density.ambient(self.inlet_temperature)
+
+    @property
+    def pressure_coefficient(self) -> float:
+        """Return alpha, the slope of ln eta at ambient pressure and inlet temperature [1/Pa]."""
+        return self.lubricant.viscosity.pressure_coefficient_at(self.inlet_temperature)
+
+    @property
+    def temperature_coefficient(self) -> float:
+        """Return -d ln eta / dT at ambient pressure and inlet temperature [1/K]."""
+        return self.lubricant.viscosity.temperature_coefficient_at(self.inlet_temperature)
+
+    @property
+    def inlet_temperature(self) -> float:
+        """Return the temperature of the oil at the inlet [K], stated or that of the viscosity."""
+        in_table = self.thermal.temperature if self.thermal else None
+        for stated in (in_table, self.lubricant.temperature):
+            if stated is not None:
+                return stated
+        return self.lubricant.viscosity.reference_temperature
+
+    @property
+    def heat(self) -> FilmEnergy | None:
+        """Return the heat problem of the film, None if it is isothermal."""
+        if self.thermal is None:
+            return None
+        inlet, first = self.inlet_temperature, self.surface_1.temperature
+        second = self.surface_2.temperature
+        return FilmEnergy(
+            temperature=inlet,
+            bulk_1=inlet if first is None else first,
+            bulk_2=inlet if second is None else second,
+            reynolds=self.thermal.reynolds,
+            layers=self.thermal.nodes,
+            scheme=self.thermal.scheme,
+            sources="line" if self.transient is not None else self.thermal.sources,
+        )
+
+    @property
+    def is_coupled(self) -> bool:
+        """Whether heat or shear thinning affect the flow."""
+        return self.thermal is not None or not self.lubricant.shear.is_newtonian
+
+    @property
+    def speed_group(self) -> float:
+        """Return U = eta_0 u_m / (E' R_x) [-]."""
+        if self.contact.moes_speed is not None:
+            return 0.5 * (self.contact.moes_speed / self.material_group) ** 4
+        speed = self.contact.entrainment_speed or math.nan
+        return self.ambient_viscosity * speed / (self.reduced_modulus * self.radius_x)
+
+    @property
+    def material_group(self) -> float:
+        """Return G = alpha E' [-]."""
+        return self.pressure_coefficient * self.reduced_modulus
+
+    @property
+    def entrainment_speed(self) -> float:
+        """Return u_m = (u_1 + u_2)/2 [m/s], stated or from the Moes L."""
+        if self.contact.entrainment_speed is not None:
+            return self.contact.entrainment_speed
+        return self.speed_group * self.reduced_modulus * self.radius_x / self.ambient_viscosity
+
+    @property
+    def load(self) -> float:
+        """Return the normal load w [N], stated or from the Hertz pressure or the Moes M."""
+        if self.contact.load is not None:
+            return self.contact.load
+        if self.contact.hertz_pressure is not None:
+            pressure = self.contact.hertz_pressure
+            return load_of_pressure(pressure, self.radius_x, self.radius_y, self.reduced_modulus)
+        load_group = (self.contact.moes_load or math.nan) * (2.0 * self.speed_group) ** 0.75
+        return load_group * self.reduced_modulus * self.radius_x**2
+
+    @property
+    def slide_roll_ratio(self) -> float:
+        """Return (u_1 - u_2) / u_m [-]."""
+        return self.contact.slide_roll_ratio
+
+    @property
+    def motion(self) -> Motion:
+        """Return the speeds of both surfaces."""
+        return Motion(
+            entrainment_speed=self.entrainment_speed, slide_roll_ratio=self.slide_roll_ratio
+        )
+
+    @property
+    def hertz(self) -> HertzContact:
+        """Return the dry contact under the same load."""
+        return hertz_contact(self.load, self.radius_x, self.radius_y, self.reduced_modulus)
+
+    @property
+    def solid_peclet(self) -> tuple[float | None, float | None]:
+        """Return ``u_s a_x / (2 diffusivity)`` of both solids [-], signed; None if not stated."""
+        motion, half_width = self.motion, 0.5 * self.hertz.half_width_x
+        first, second = (one.material.diffusivity for one in (self.surface_1, self.surface_2))
+        return (
+            None if first is None else motion.speed_1 * half_width / first,
+            None if second is None else motion.speed_2 * half_width / second,
+        )
+
+    @property
+    def rms_roughness(self) -> float:
+        """Return the stated roughness of both surfaces together, sqrt(Rq_1^2 + Rq_2^2) [m]."""
+        return math.hypot(self.surface_1.rms_roughness, self.surface_2.rms_roughness)
+
+    @property
+    def asperity_rms(self) -> float:
+        """Return sigma of the asperities finer than the grid, zero without [m]."""
+        if self.asperities is None:
+            return 0.0
+        stated = self.asperities.rms
+        return self.rms_roughness if stated is None else stated
+
+    @property
+    def is_rough(self) -> bool:
+        """Whether a surface has heights."""
+        return not (self.surface_1.roughness.is_smooth and self.surface_2.roughness.is_smooth)
+
+    @property
+    def is_even_in_y(self) -> bool:
+        """Whether the problem is symmetric in y, so that half of the domain suffices."""
+        supply = self.supply is None or self.supply.is_even_in_y
+        surfaces = self.surface_1.roughness, self.surface_2.roughness
+        return supply and all(roughness.is_even_in_y for roughness in surfaces)
+
+    @property
+    def has_passes(self) -> bool:
+        """Whether the same surfaces pass the contact repeatedly."""
+        return self.supply is not None and self.supply.passes is not None
+
+    @property
+    def conserves_oil(self) -> bool:
+        """Whether oil is conserved in cavities."""
+        stated = self.cavitation is not None and self.cavitation.model == "conserving"
+        return stated or self.supply is not None

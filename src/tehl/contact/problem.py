@@ -1,0 +1,292 @@
+"""The problem: a contact whose tables state it completely, only once, and within limits.
+
+Each check raises `ValueError` with one sentence: the key, its value, what is wrong, what would be
+right. `tehl.io.case` turns them into `InputError` with the name of the file.
+"""
+
+import math
+from typing import Self
+
+from pydantic import BaseModel, model_validator
+
+from tehl.base.mistakes import part_of_case
+from tehl.base.units import (
+    Conductivity,
+    HeatCapacity,
+    Quantity,
+    SolidConductivity,
+    SolidDensity,
+    SolidHeatCapacity,
+    quantity,
+)
+from tehl.contact.boundary_contact import THICKEST, THINNEST
+from tehl.contact.point_contact import Contact, PointContact, Surface
+from tehl.contact.shape import reduced_radius
+from tehl.contact.summits import GreenwoodTripp
+
+__all__ = ["Contact", "ContactProblem", "Surface"]
+
+SURFACES = ("surface_1", "surface_2")
+THERMAL_PROPERTIES = {
+    "density": quantity(SolidDensity),
+    "heat_capacity": quantity(SolidHeatCapacity),
+    "conductivity": quantity(SolidConductivity),
+}
+COLDEST, HOTTEST = 200.0, 800.0
+"""Limits of the temperature of an oil or a solid [K]."""
+LARGEST_RATIO = 1e3
+"""Largest ratio of the reduced radii, either way: beyond it the contact is a line contact."""
+
+
+@part_of_case("", "contact", "lubricant", "thermal", "transient")
+class ContactProblem(PointContact):
+    """A lubricated point contact.
+
+    Its fields are the tables of the case file, so that reading a case is validating the parsed
+    file.
+    """
+
+    @model_validator(mode="after")
+    def _check(self) -> Self:
+        check(self)
+        return self
+
+
+def check(problem: PointContact) -> None:
+    """Check that the tables of a problem state one contact, completely and only once.
+
+    Raises ValueError with one sentence on the first fault.
+    """
+    check_classes(problem, "")
+    check_radii(problem)
+    check_temperatures(problem)
+    check_heat(problem)
+    check_transient(problem)
+    check_supply(problem)
+    check_asperities(problem)
+    check_contact_film(problem)
+    if problem.contact.moes_speed is not None and not problem.pressure_coefficient > 0:
+        raise ValueError(
+            "contact.moes_speed does not determine a speed: lubricant.viscosity has no pressure "
+            "coefficient; give contact.entrainment_speed"
+        )
+    ratio = problem.radius_y / problem.radius_x
+    if not 1.0 / LARGEST_RATIO <= ratio <= LARGEST_RATIO:
+        raise ValueError(
+            f"radius_y / radius_x = {ratio:.3g} is a line contact, not a point contact: it must "
+            f"be between {1.0 / LARGEST_RATIO:g} and {LARGEST_RATIO:g}"
+        )
+    check_size(problem)
+
+
+def check_classes(table: BaseModel, path: str) -> None:
+    """Check that laws and surfaces are those of this package, which a file can store."""
+    for name in type(table).model_fields:
+        value, key = getattr(table, name), f"{path}{name}"
+        if not isinstance(value, BaseModel):
+            continue
+        kind = type(value)
+        if kind.__module__.partition(".")[0] != __name__.partition(".")[0]:
+            raise ValueError(
+                f"{key} = {kind.__qualname__}: own classes are not supported, as a result file "
+                f"would store its parent {kind.__base__.__name__ if kind.__base__ else ''}; use a "
+                "law of tehl.lubricant or a surface of tehl.roughness"
+            )
+        check_classes(value, f"{key}.")
+
+
+def check_size(problem: PointContact) -> None:
+    """Check that load, speed and pressure are within the range of floating-point arithmetic."""
+    try:
+        sizes = [problem.radius_x, problem.load, problem.entrainment_speed, problem.hertz.pressure]
+        twice_speed = 2.0 * problem.speed_group
+        unit = problem.reduced_modulus * problem.radius_x**2 * twice_speed**0.75
+        load_number, speed_number = problem.load / unit, problem.material_group * twice_speed**0.25
+    except ArithmeticError:
+        sizes, load_number, speed_number = [], math.nan, math.nan
+    is_possible = all(1e-30 < size < 1e30 for size in sizes)
+    if not (is_possible and 1e-6 < load_number < 1e9 and speed_number < 1e6):
+        raise ValueError(
+            "load, speed and Hertz pressure are far outside the physical range (Moes numbers "
+            f"M = {load_number:.3g}, L = {speed_number:.3g}): check the units of contact, "
+            "materials and viscosity"
+        )
+
+
+def check_temperatures(problem: PointContact) -> None:
+    """Check the temperatures of oil and bodies, and that the viscosity is known there."""
+    oil, thermal = problem.lubricant, problem.thermal
+    heated = thermal.temperature if thermal else None
+    stated = {
+        "lubricant.temperature": oil.temperature,
+        "thermal.temperature": heated,
+        "surface_1.temperature": problem.surface_1.temperature,
+        "surface_2.temperature": problem.surface_2.temperature,
+    }
+    for key, value in stated.items():
+        if value is not None and not COLDEST <= value <= HOTTEST:
+            raise ValueError(
+                f"{key} = {value:g} K is not a temperature of a lubricated contact ({COLDEST:g} "
+                f'to {HOTTEST:g} K): a bare number is in kelvin, write "40 degC"'
+            )
+    if oil.temperature is not None and heated is not None and oil.temperature != heated:
+        raise ValueError(
+            f"lubricant.temperature = {oil.temperature:g} K and thermal.temperature = "
+            f"{heated:g} K conflict: both are the temperature of the oil at the inlet; state one"
+        )
+    law, inlet = oil.viscosity, problem.inlet_temperature
+    is_constant = law.law == "constant" or law.temperature_coefficient > 0
+    if inlet != law.reference_temperature and not is_constant:
+        raise ValueError(
+            f"lubricant.viscosity is given at {law.reference_temperature:g} K without a "
+            f"temperature coefficient, but the inlet is at {inlet:g} K: {_remedy(problem)}"
+        )
+
+
+def check_heat(problem: PointContact) -> None:
+    """Check that a thermal run has the properties it needs, and an isothermal one no bodies'."""
+    oil = problem.lubricant
+    for key in SURFACES:
+        surface = getattr(problem, key)
+        if problem.thermal is None and surface.temperature is not None:
+            raise ValueError(
+                f"{key}.temperature has an effect in thermal runs only: add a [thermal] table, or "
+                "state lubricant.temperature for an isothermal film"
+            )
+        for name, wanted in THERMAL_PROPERTIES.items() if problem.thermal else ():
+            _need(f"{key}.material.{name}", getattr(surface.material, name), wanted)
+    if problem.thermal is None:
+        return
+    _need("lubricant.conductivity", oil.conductivity, quantity(Conductivity))
+    _need("lubricant.heat_capacity", oil.heat_capacity, quantity(HeatCapacity))
+    if not oil.viscosity.temperature_coefficient > 0:
+        raise ValueError(
+            "lubricant.viscosity has no temperature coefficient, which a thermal run needs: "
+            f"{_remedy(problem)}"
+        )
+
+
+def _need(key: str, value: object, wanted: Quantity) -> None:
+    """Raise if a property that a thermal run needs is missing."""
+    if value is None:
+        raise ValueError(
+            f"{key} is missing, which a thermal run needs: give {wanted.name} such as "
+            f"{wanted.example}"
+        )
+
+
+def _remedy(problem: PointContact) -> str:
+    """Return the key that makes the viscosity depend on temperature."""
+    keys = type(problem.lubricant.viscosity).model_fields
+    if "gamma" in keys:
+        return 'add gamma, such as "0.04 1/K"'
+    if "expansion" in keys:
+        return 'add expansion, such as "8e-4 1/K"'
+    return 'take a law with gamma, or law = "walther"'
+
+
+def check_transient(problem: PointContact) -> None:
+    """Check that a transient run has something that changes, and heat that it can follow."""
+    transient, thermal = problem.transient, problem.thermal
+    if transient is None:
+        return
+    if thermal is not None and thermal.sources == "full":
+        raise ValueError(
+            'thermal.sources = "full" is for steady films: in a transient run the surfaces are '
+            "heated by line sources that move along with them"
+        )
+    for key in SURFACES if thermal is not None else ():
+        speed = problem.motion.speed_1 if key == "surface_1" else problem.motion.speed_2
+        if not speed * transient.stride >= 0.5 * problem.entrainment_speed * (1.0 - 1e-9):
+            raise ValueError(
+                f"{key} moves at {speed:g} m/s, less than half the entrainment speed over "
+                f"transient.stride = {transient.stride}, too slow for heat in a transient run: "
+                "take a larger stride, or a smaller slide_roll_ratio"
+            )
+    if transient.duration is None and not (problem.is_rough or transient.load):
+        raise ValueError(
+            "transient: nothing changes with time; give a surface roughness, transient.load or "
+            "transient.duration"
+        )
+
+
+def check_supply(problem: PointContact) -> None:
+    """Check that the oil of a starved contact is conserved, and passes have steady films."""
+    supply, cavitation = problem.supply, problem.cavitation
+    if supply is not None and cavitation is not None and cavitation.model == "reynolds":
+        raise ValueError(
+            'cavitation.model = "reynolds" does not know how much oil there is, which [supply] '
+            'states: take "conserving", or leave out [cavitation]'
+        )
+    if problem.has_passes and problem.transient is not None:
+        raise ValueError(
+            "supply.passes and [transient] exclude each other: each pass has a steady film; leave "
+            "out one"
+        )
+
+
+def check_asperities(problem: PointContact) -> None:
+    """Check that the asperities have a height, and that the run can have them."""
+    if problem.asperities is None:
+        return
+    law = problem.asperities
+    if isinstance(law, GreenwoodTripp) and not problem.asperity_rms > 0.0:
+        raise ValueError(
+            "asperities.rms is missing or zero: give the rms roughness of both surfaces together, "
+            'such as "0.3 um", here or as rms_roughness of the surfaces'
+        )
+    if isinstance(law, GreenwoodTripp) and (fault := law.fault(problem.asperity_rms)):
+        raise ValueError(f"asperities: {fault}; check the units")
+
+
+def check_contact_film(problem: PointContact) -> None:
+    """Check that the boundary film is one, and that the run can have contact through it."""
+    film = problem.contact_film
+    if film is None:
+        return
+    if not THINNEST <= film.thickness <= THICKEST:
+        raise ValueError(
+            f"contact_film.thickness = {film.thickness:g} m is not a boundary film: it must be "
+            f'between {THINNEST:g} and {THICKEST:g} m, such as "5 nm"'
+        )
+    excluded = {
+        "asperities": problem.asperities is not None,
+        "supply": problem.supply is not None,
+        "cavitation": problem.conserves_oil,
+        "thermal": problem.thermal is not None,
+        "lubricant.shear": not problem.lubricant.shear.is_newtonian,
+    }
+    for name, is_stated in excluded.items():
+        if is_stated:
+            raise ValueError(
+                f"contact_film and {name} exclude each other: contact through a boundary film is "
+                "computed in isothermal, Newtonian, fully flooded films with the heights "
+                f"of the surfaces; leave out contact_film or {name}"
+            )
+
+
+def check_radii(problem: PointContact) -> None:
+    """Check that the radii are stated once, and make a contact along both axes."""
+    contact, on_surfaces = problem.contact.radii, [getattr(problem, key).radii for key in SURFACES]
+    if contact is not None:
+        if on_surfaces != [None, None]:
+            raise ValueError(
+                "radii are stated twice: leave out those of [contact], which are reduced, or "
+                "those of the surfaces"
+            )
+        return
+    if on_surfaces == [None, None]:
+        raise ValueError("contact.radius is missing: give it, or radii of both surfaces")
+    for key, radii in zip(SURFACES, on_surfaces, strict=True):
+        if radii is None:
+            raise ValueError(f'{key}.radius is missing: give it ("inf" is flat)')
+    for axis in ("x", "y"):
+        try:
+            reduced_radius(*(getattr(radii, axis) for radii in on_surfaces))
+        except ValueError as error:
+            once = (getattr(problem, key).radius is not None for key in SURFACES)
+            pairs = zip(SURFACES, once, strict=True)
+            keys = " and ".join(f"{key}.radius" + ("" if one else f"_{axis}") for key, one in pairs)
+            is_line = axis == "y" and all(math.isinf(radii.y) for radii in on_surfaces)
+            why = "line contacts are not computed yet: " if is_line else ""
+            raise ValueError(f"{keys}: {why}{error}") from None

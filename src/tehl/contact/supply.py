@@ -1,0 +1,149 @@
+"""Supply of oil and cavitation: the ``[supply]`` and ``[cavitation]`` tables of a case."""
+
+import re
+from itertools import pairwise
+from pathlib import Path
+from typing import Annotated, ClassVar, Literal, Self
+
+from pydantic import Field, StrictBool, ValidationInfo, field_validator, model_validator
+
+from tehl.base.table import Table
+from tehl.base.units import Height, Length, Place, Quantity, Ratio, quantity
+
+THINNEST, THICKEST = 1e-9, 1e-2
+"""Limits of the thickest layer of a supply [m]."""
+LARGEST_FILE = 1_000_000
+"""Characters of a profile that are read."""
+
+MOST_PASSES = 100_000
+LEAST_RATIO, LARGEST_RATIO = 1e-3, 1e3
+"""Least and largest supply over what the flooded contact passes on."""
+OilRatio = Annotated[float, Quantity("a plain number", "-", "0.5")]
+
+
+class Supply(Table):
+    """The oil that reaches the inlet: a layer on both surfaces, thinner than the gap far upstream.
+
+    Exactly one of ``layer``, ``profile`` and ``ratio`` is stated.
+    """
+
+    synonyms: ClassVar = {"layer": "film oil_film inlet_film film_thickness height"}
+
+    layer: Height | None = None
+    """Thickness of the oil on both surfaces together [m]."""
+    each: StrictBool = False
+    """Whether ``layer`` and ``profile`` are on each surface, instead of both together."""
+    profile: Annotated[
+        Annotated[tuple[tuple[Place, Height], ...], Field(min_length=2)] | None,
+        Field(json_schema_extra=lambda schema: schema["anyOf"].append({"type": "string"})),
+    ] = None
+    """Places y [m] and layers there [m], linear between; or the name of a CSV file with both in two
+    columns, in metres or with their units in its header: ``y [mm], layer [um]``."""
+    ratio: Annotated[OilRatio, Field(ge=LEAST_RATIO, le=LARGEST_RATIO)] | None = None
+    """Oil that enters, over what the fully flooded contact passes on at its centre [-]."""
+    passes: Annotated[int, Field(ge=2, le=MOST_PASSES)] | None = None
+    """Times that the same surfaces pass the contact: the oil that leaves it comes back."""
+    track: Length | None = None
+    """Length of the running tracks of both surfaces together [m]: a pass takes half of it over the
+    entrainment speed."""
+    loss: Annotated[Ratio, Field(lt=1.0)] = 0.0
+    """Part of the oil that is lost between two passes [-]."""
+    replenishment: Annotated[float, Quantity("a speed", "m/s", '"0.1 nm/s"', "non-negative")] = 0.0
+    """Oil that comes back to both surfaces together, as thickness over time [m/s]."""
+
+    @field_validator("profile", mode="before")
+    @classmethod
+    def _read_file(cls, value: object, info: ValidationInfo) -> object:
+        if not isinstance(value, str):
+            return value
+        folder = (info.context or {}).get("folder") or Path()
+        return _read_profile(Path(folder) / value)
+
+    @model_validator(mode="after")
+    def _once(self) -> Self:
+        stated = [one for one in ("layer", "profile", "ratio") if getattr(self, one) is not None]
+        if not stated:
+            raise ValueError('lacks the oil: give layer = "0.2 um", a profile over y, or a ratio')
+        if len(stated) > 1:
+            raise ValueError(f"states the oil twice: {' and '.join(stated)}; give one")
+        if self.layer is not None:
+            _check_layer("layer", self.layer)
+        if self.each and self.ratio is not None:
+            raise ValueError("each belongs to layer or profile: ratio is of all the oil")
+        self._check_profile(self.profile or ())
+        if self.passes is not None and self.track is None:
+            raise ValueError(
+                'track is missing: passes need the length of both running tracks, such as "250 mm"'
+            )
+        if self.passes is None and (self.loss or self.replenishment):
+            raise ValueError("loss and replenishment act between passes: state passes too")
+        return self
+
+    def pass_seconds(self, speed: float) -> float:
+        """Return the time between two passes at an entrainment speed [s]."""
+        assert self.track is not None
+        return 0.5 * self.track / speed
+
+    def _check_profile(self, profile: tuple[tuple[float, float], ...]) -> None:
+        if any(later <= earlier for (earlier, _), (later, _) in pairwise(profile)):
+            raise ValueError("profile must have places y that increase")
+        if profile:
+            _check_layer("profile", max(layer for _, layer in profile))
+
+    @property
+    def is_even_in_y(self) -> bool:
+        """Whether the oil is symmetric about y = 0."""
+        points = self.profile or ()
+        mirrored = tuple((-y, layer) for y, layer in reversed(points))
+        return all(
+            abs(y - other_y) <= 1e-9 * abs(y) and abs(layer - other) <= 1e-9 * abs(layer)
+            for (y, layer), (other_y, other) in zip(points, mirrored, strict=True)
+        )
+
+
+def _check_layer(key: str, layer: float) -> None:
+    """Raise ValueError if the thickness of a layer is not that of oil between surfaces."""
+    if not THINNEST <= layer <= THICKEST:
+        raise ValueError(
+            f"{key} = {layer:g} m must be between {1e9 * THINNEST:g} nm, the size of a molecule, "
+            f"and {1e3 * THICKEST:g} mm"
+        )
+
+
+def _read_profile(path: Path) -> list[tuple[float, float]]:
+    """Return the places and layers of a CSV file [m]; raise ValueError with one sentence."""
+    try:
+        text = path.read_text(encoding="utf-8-sig")[:LARGEST_FILE]
+    except (OSError, UnicodeDecodeError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or "not a text file"
+        raise ValueError(f"cannot be read ({reason})") from None
+    rows = [
+        re.split(r"[;,\t]|\s+(?!\[)", line.strip()) for line in text.splitlines() if line.strip()
+    ]
+    units = (1.0, 1.0)
+    if rows and "[" in "".join(rows[0]):
+        units = _units(rows.pop(0))
+    try:
+        pairs = [tuple(float(cell) for cell in row if cell) for row in rows]
+    except ValueError:
+        raise ValueError("is not a CSV file of two columns of numbers, y and layer") from None
+    if not pairs or any(len(pair) != len(units) for pair in pairs):
+        raise ValueError("is not a CSV file of two columns of numbers, y and layer")
+    return [(y * units[0], layer * units[1]) for y, layer in pairs]
+
+
+def _units(header: list[str]) -> tuple[float, float]:
+    """Return the factors of the two columns to metres from a header such as ``y [mm]``."""
+    found = re.findall(r"\[([^\]]*)\]", ",".join(header))
+    if len(found) != len(("y", "layer")):
+        raise ValueError("has a header without both units, such as: y [mm], layer [um]")
+    first, second = (quantity(Place).parse(f"1 {unit}") for unit in found)
+    return first, second
+
+
+class Cavitation(Table):
+    """What happens to the oil where the pressure is zero."""
+
+    model: Literal["reynolds", "conserving"] = "reynolds"
+    """``"reynolds"`` does not ask where the oil of a cavity comes from or goes to; ``"conserving"``
+    computes how far the gap is filled. A ``[supply]`` needs the latter, and chooses it."""

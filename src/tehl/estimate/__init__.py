@@ -1,0 +1,1 @@
+"""What is known before any solve: scales, formulas, domain, grids, duration, cost."""

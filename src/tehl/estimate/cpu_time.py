@@ -1,0 +1,127 @@
+"""CPU time that a solve needs, from the cycles of full multigrid on each grid."""
+
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.domain import domain_of, planned
+from tehl.estimate.duration import components
+from tehl.estimate.grid import Grid, can_mirror, halved_grids
+from tehl.estimate.scaling import ScaledProblem
+from tehl.roughness.model import TileModel
+
+START, SAMPLES = 0.011, 0.14
+"""CPU time of any solve, and of random and measured surfaces, beside the cycles [s]."""
+EACH_CYCLE, COARSEST = 0.6e-3, 2.2e-11
+"""CPU time of a cycle beside its nodes, and of its dense coarsest system per cubed node [s]."""
+FIRST_STEPS = 6
+"""Newton steps on the coarsest grid before the first cycle."""
+PER_NODE, THINNING, HEATED = 0.24e-6, 0.35e-6, 0.76e-6
+"""CPU time of a cycle per node of its finest grid [s], and what shear thinning and heat add."""
+TOUCHING, TOUCHING_CYCLE, TOUCHING_STEPS = 14e-6, 1.1e-6, 15
+"""CPU time of a Newton step per node where surfaces may touch [s], that of a cycle, and their
+number on each grid: 26 solves by Newton's method on 129 and 257 nodes took 1.3 to 22 s, half to 1.3
+times the estimate. Rough surfaces take cycles first; if they fail, ten times as long."""
+FIRST_CYCLES, CYCLES, ROUGH_CYCLES = 4, 2, 8
+"""Cycles on the first grid, on each finer one, and on the one where the heights are raised."""
+STARTING = 0.4
+"""Cost of the start of a grid in cycles."""
+WAVE_NODES = 8.0
+"""Nodes on the shortest wave from which a grid has the heights."""
+SURPLUS = 1.5
+"""Factor for the one contact in eight that takes a finer grid than planned, or a fallback, and for
+cores that other programs use too: 1.2 on a quiet machine, 1.9 with both of its cores busy."""
+FINER, THICK, VISCOUS = 1.6, 100.0, 5.5
+"""Factor where half of the thinning and heated contacts take a finer grid, and the largest M and
+least L where they do."""
+SLENDER, WIDE = 0.7, 4.0
+"""a_y/a_x below and above which a contact takes longer."""
+HIGH, HIGHER, HEAVY = 3.0, 10.0, 2000.0
+"""CPU time that eight to nine of ten solves stay below, over the one to expect; that of heated,
+thinning, starved, slender and wide contacts and of those with a Moes load above the last number."""
+
+
+def seconds_range(scaled: ScaledProblem, seconds: float) -> tuple[float, float]:
+    """Return the least and the largest time to expect of a solve that takes about ``seconds``.
+
+    Against 33 contacts of bearings, gears and cams the ratio was 0.5 to 7.2 where the error was
+    reached.
+    """
+    problem, groups = scaled.problem, scaled.entering
+    is_hard = (
+        problem.is_coupled
+        or problem.supply is not None
+        or problem.contact_film is not None
+        or groups.M > HEAVY
+        or not SLENDER <= groups.ellipticity <= WIDE
+    )
+    return 0.5 * seconds, (HIGHER if is_hard else HIGH) * seconds
+
+
+def expected_seconds(scaled: ScaledProblem, options: Options) -> float:
+    """Return the CPU time of a solve to expect on one core of a usual machine [s].
+
+    The constants are a fit to 200 random contacts with M = 2 to 2000 and L = 0.5 to 20
+    (``python -m benchmarks.coverage``). Of others eight to nine of ten take half to twice as
+    long, of heated ones half to three of four: fallbacks, further grids and busy cores take longer.
+    """
+    (coarsest, _), *finer = expected_cycles(scaled, options)
+    newton, each = COARSEST * _nodes(coarsest) ** 3, _seconds_per_node(scaled.problem)
+    work = sum(
+        cycles * (EACH_CYCLE + newton) + (cycles + STARTING) * each * _nodes(grid)
+        for grid, cycles in finer
+    )
+    work *= _surplus(scaled) if options.points == "auto" else 1.0
+    return START + SAMPLES * _sampled(scaled.problem) + FIRST_STEPS * newton + work
+
+
+def expected_cycles(scaled: ScaledProblem, options: Options) -> list[tuple[Grid, int]]:
+    """Return the grids to expect, coarsest first, each with its number of cycles."""
+    coarsest, *grids = _grids(scaled, planned(scaled, options))
+    cycles = [FIRST_CYCLES] + [CYCLES] * (len(grids) - 1)
+    if scaled.problem.is_rough:
+        first = next((k for k, grid in enumerate(grids[:-1]) if _has_heights(scaled, grid)), -1)
+        cycles[first] = ROUGH_CYCLES
+    if scaled.problem.contact_film is not None:
+        cycles = [TOUCHING_STEPS] * len(grids)
+    return [(coarsest, 0), *zip(grids, cycles, strict=True)]
+
+
+def _surplus(scaled: ScaledProblem) -> float:
+    """Return the factor for grids finer than planned, and for fallbacks."""
+    problem, groups = scaled.problem, scaled.entering
+    thick = groups.M < THICK and groups.L > VISCOUS
+    return FINER if problem.is_coupled and thick and not problem.is_rough else SURPLUS
+
+
+def _sampled(problem: ContactProblem) -> int:
+    """Return the number of random and measured surfaces."""
+    surfaces = (problem.surface_1.roughness, problem.surface_2.roughness)
+    return sum(isinstance(part, TileModel) for one in surfaces for part in components(one))
+
+
+def _nodes(grid: Grid) -> int:
+    return grid.shape[0] * grid.shape[1]
+
+
+def _grids(scaled: ScaledProblem, plan: Options) -> list[Grid]:
+    """Return the grids, coarsest first; y >= 0 only if the contact is symmetric."""
+    domain, (ny, nx) = domain_of(scaled, plan), plan.shape
+    halves = plan.half_domain == "auto" and scaled.problem.is_even_in_y
+    mirror = halves and can_mirror(plan.shape, domain)
+    return halved_grids(Grid(nx=nx, ny=ny, domain=domain, mirror=mirror))
+
+
+def _has_heights(scaled: ScaledProblem, grid: Grid) -> bool:
+    """Return whether a grid is fine enough for the heights."""
+    problem, scales = scaled.problem, scaled.scales
+    waves = [one.roughness.shortest_wavelengths for one in (problem.surface_1, problem.surface_2)]
+    along = min(wave[0] for wave in waves) / (grid.dx * scales.half_width_x)
+    across = min(wave[1] for wave in waves) / (grid.dy * scales.half_width_y)
+    return min(along, across) >= WAVE_NODES
+
+
+def _seconds_per_node(problem: ContactProblem) -> float:
+    if problem.contact_film is not None:
+        return TOUCHING_CYCLE if problem.is_rough else TOUCHING
+    if not problem.is_coupled:
+        return PER_NODE
+    return PER_NODE + (THINNING if problem.thermal is None else HEATED)

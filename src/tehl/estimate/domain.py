@@ -1,0 +1,323 @@
+"""Size of the domain and number of nodes, proposed from the dimensionless groups."""
+
+import math
+from dataclasses import replace
+
+from tehl.contact.options import USUAL_PLAIN_ERROR, Domain, Options
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.entering import entry_error
+from tehl.estimate.film_formulas import expected_central_film, moes_film_unit
+from tehl.estimate.scaling import Groups, ScaledProblem
+from tehl.estimate.starvation import is_starved, starved_domain, supplied_film
+from tehl.estimate.summits import shared_load
+
+CAUTION = 2.0
+"""Factor on the slope of the film formula by load, which is half of what wider domains show between
+M = 2 and 5."""
+NEAREST, NEAR = (2.0, 1.6), 0.15
+"""Distances of a stated inlet edge and of side edges below which the far field is not that of the
+gap, and error of the film per half-width less: 4 % measured at 1.2 from the sides (M = 76)."""
+WIDEST = 2.5
+"""Largest factor on the domain because of the temperature of the bodies."""
+ELASTIC = 0.1
+"""Error by zero pressure on the edges over the square of the width of the gap over the distance of
+the sides (0.05 to 0.08 measured for M = 10 to 100)."""
+INLET, SIDES = (3.4, 5.0), (2.3, 3.75)
+"""Least distance of the inlet edge and of the side edges, in Hertz half-widths, and in widths of
+the parabolic gap that is as thick as twice the film."""
+WIDE_INLET = 0.25
+"""Power of the ellipticity by which the inlet of a wide contact is longer: it draws from further
+upstream."""
+OUTLET = 5.0 / 11.0
+"""Outlet over inlet: X = 0 is a node of every grid of 16 intervals or more."""
+APART, AROUND = 4.5, 1.3
+"""Separation over sigma from which asperities carry less than 1e-4 of what they do in touch, and
+margin on the gap at the edges."""
+LEAST_RATIO = 0.3
+"""Film over sigma below which asperities make bars no smaller."""
+FAMILIES = tuple(2**k * n + 1 for k in range(2, 9) for n in (16, 20, 24, 28))
+FAVOURED = tuple(nodes for nodes in FAMILIES if nodes > 80 and (nodes - 1) % 7)
+"""Those of a wedge of third order: their coarsest grids cost least."""
+"""Nodes from which `expected_points` chooses; at least three grids."""
+BAR, BAR_COUPLED, MARGIN = 0.24, 1.16, 1.25
+"""Factors of `expected_bar`: of all contacts, of heated and thinning ones, and the margin with
+which four of five contacts reach the error on the expected grid."""
+THIRD = 0.06
+"""Factor of `third_order_bar`."""
+EXTRAPOLATED, HIGHER = 0.35, (2.5, 1.5)
+"""Error bar of an extrapolated film over that of the film without, where that is large; factor and
+power of that where it is small."""
+EXTRAPOLATED_DOMAIN = 2.0
+"""Error for which the domain is chosen over the one to reach, of extrapolated films: the edges
+leave a seventh of it (0.3 % of 2 %), and the mesh less than without extrapolation."""
+SLENDER = 1.5
+"""a_y/a_x from which half as many nodes along y leave the same error."""
+WAVE_NODES, ROUGH_NODES = 20.0, 1024
+"""Nodes on the shortest wave of the surfaces, and most nodes for that reason."""
+
+
+def gap_widths(groups: Groups) -> tuple[float, float]:
+    """Return the distances along x and y where the undeformed gap is the central film [-].
+
+    In half-widths a_x and a_y: the pressure of a thick film extends over a few of them.
+    """
+    along = math.sqrt(2.0 * expected_central_film(groups))
+    return along, along / math.sqrt(groups.radius_ratio) / groups.ellipticity
+
+
+def recommended_domain(groups: Groups, error: float = USUAL_PLAIN_ERROR) -> Domain:
+    """Return the domain, in Hertz half-widths, for a film with a relative ``error``.
+
+    The far field on its edges leaves an error of the order of the distance to the power -3:
+    0.3 % of the central film on the domain of the usual error, and less above M = 10
+    (``python -m benchmarks domain``).
+
+    Parameters
+    ----------
+    groups : Groups
+        Film, ellipticity and radius ratio.
+    error : float
+        Relative error of the film that is acceptable [-].
+    """
+    along, across = gap_widths(groups)
+    larger = max(USUAL_PLAIN_ERROR / error, 1.0) ** (1.0 / 3.0)
+    wide = max(groups.ellipticity, 1.0) ** WIDE_INLET
+    inlet = larger * max(INLET[0] * wide, INLET[1] * along)
+    width = larger * max(SIDES[0], SIDES[1] * across)
+    inlet, width = (math.ceil(10.0 * edge) / 10.0 for edge in (inlet, width))
+    # not validated: a nearly rigid contact may need more than a stated domain may have
+    return Domain.model_construct(x=(-inlet, OUTLET * inlet), y=(-width, width))
+
+
+def far_field_error(groups: Groups, domain: Domain) -> float:
+    """Estimate the relative error of the film on a domain with the far field on its edges.
+
+    Measured for M = 1 to 500 and R_y/R_x = 0.5 to 5, rounded up.
+    """
+    along, across = gap_widths(groups)
+    inlet, side = -domain.x[0], min(-domain.y[0], domain.y[1])
+    thick = 0.1 * ((along / inlet) ** 3 + (across / side) ** 3)
+    wide = max(groups.ellipticity, 1.0) ** WIDE_INLET
+    near = NEAR * (max(NEAREST[0] - inlet, 0.0) + max(NEAREST[1] - side, 0.0))
+    return thick + 0.04 * (wide / inlet) ** 3 + near
+
+
+def domain_error(groups: Groups, domain: Domain) -> float:
+    """Estimate the relative error of a thick film with zero pressure on the edges of the domain.
+
+    Far from the contact the pressure upstream is that of a rigid parabolic gap,
+    ``P = 4 lambda |X| / ((3 + 2 D) (X^2 + D kappa^2 Y^2)^2)`` (docs/theory/numerics.md). Its load
+    outside the domain is missing, and the film changes with the slope of its formula by load. Wider
+    domains show 3 to 4 % at M = 5, 22 to 34 % at M = 3 and more below; this estimate is 1 to 10 and
+    11 to 33 %. Elastic contacts (M > 10) lose less, by the square of the distance of the sides.
+    """
+    stretch = math.sqrt(groups.radius_ratio) * groups.ellipticity
+    side = stretch * min(-domain.y[0], domain.y[1])
+    inlet = -domain.x[0]
+    # integral of |X| / (X^2 + Y^2)^2 upstream of the contact and outside the rectangle
+    beyond = 1.0 / side + math.atan(side / inlet) / inlet
+    amplitude = 4.0 * groups.lambda_bar / ((3.0 + 2.0 * groups.radius_ratio) * stretch)
+    missing = amplitude * beyond / (2.0 * math.pi / 3.0)
+    heavier = replace(groups, M=1.02 * groups.M)
+    films = [expected_central_film(one) / moes_film_unit(one) for one in (groups, heavier)]
+    slope = math.log(films[0] / films[1]) / math.log(1.02)
+    elastic = ELASTIC * (gap_widths(groups)[1] / min(-domain.y[0], domain.y[1])) ** 2
+    return max(CAUTION * slope * missing, elastic)
+
+
+def expected_bar(
+    groups: Groups,
+    domain: Domain,
+    nodes: float,
+    *,
+    is_coupled: bool = False,
+    film: float | None = None,
+) -> float:
+    """Return the error bar of the film by the mesh to expect, the larger of central and minimum.
+
+    A fit to 215 random smooth contacts with M = 2 to 2000, L = 0.5 to 20 and R_y/R_x = 0.5 to 5
+    (``python -m benchmarks.coverage``), within a factor of 1.5 for nine of ten.
+
+    Parameters
+    ----------
+    groups, domain : Groups, Domain
+        The contact, and the domain of the solve.
+    nodes : float
+        Nodes per direction.
+    is_coupled : bool
+        Whether the film is heated or thins by shear.
+    film : float or None
+        Central film, if another than that of smooth flooded contacts [-]: `film_to_resolve`.
+    """
+    width = (domain.x[1] - domain.x[0]) / (nodes - 1)
+    film = expected_central_film(groups) if film is None else film
+    factor = BAR * (BAR_COUPLED if is_coupled else 1.0)
+    loads = groups.M**0.77 * max(groups.L, 0.1) ** 0.2
+    return float(factor * width**2 * loads / (film**0.59 * groups.ellipticity**1.05))
+
+
+def third_order_bar(groups: Groups, domain: Domain, nodes: float) -> float:
+    """Return the error bar of the film to expect with a wedge of third order.
+
+    A fit to 60 contacts of bearings, gears and cams with M up to 50,000, within a factor of two in
+    the nodes that an error needs: a thinner film is resolved as its inlet is, by M and the width.
+
+    Parameters
+    ----------
+    groups, domain : Groups, Domain
+        The contact, and the domain of the solve.
+    nodes : float
+        Nodes along x.
+    """
+    width = (domain.x[1] - domain.x[0]) / (nodes - 1)
+    return THIRD * width**2 * groups.M / max(groups.ellipticity, 1.0) ** 0.6
+
+
+def expected_points(  # noqa: PLR0913 (one formula)
+    groups: Groups,
+    domain: Domain,
+    error: float,
+    *,
+    is_coupled: bool = False,
+    least: float = 0.0,
+    film: float | None = None,
+    extrapolate: bool = False,
+    order: int = 2,
+) -> int:
+    """Return the nodes per direction on which the error bars of the film will be below an error.
+
+    Parameters
+    ----------
+    groups, domain : Groups, Domain
+        The contact, and the domain of the solve.
+    error : float
+        Relative error of central and minimum film [-].
+    is_coupled : bool
+        Whether the film is heated or thins by shear.
+    least : float
+        Nodes that must be exceeded, for waves of the surfaces.
+    film : float or None
+        Central film, if another than that of smooth flooded contacts [-]: `film_to_resolve`.
+    extrapolate, order : bool, {1, 2, 3}
+        Whether the two finest grids are combined, and the order of the wedge.
+    """
+    left = max(error - far_field_error(groups, domain), 0.5 * error) / MARGIN
+    if order > 2:
+        bars = ((nodes, third_order_bar(groups, domain, nodes)) for nodes in FAVOURED)
+        return next((nodes for nodes, bar in bars if nodes > least and bar <= left), FAVOURED[-1])
+    bars = (
+        (nodes, expected_bar(groups, domain, nodes, is_coupled=is_coupled, film=film))
+        for nodes in FAMILIES
+    )
+    if extrapolate:
+        factor, power = HIGHER
+        bars = ((nodes, min(EXTRAPOLATED * bar, factor * bar**power)) for nodes, bar in bars)
+    return next((nodes for nodes, bar in bars if nodes > least and bar <= left), FAMILIES[-1])
+
+
+def _nodes_of_waves(scaled: ScaledProblem, domain: Domain) -> float:
+    """Return the nodes that put `WAVE_NODES` on the shortest wave, `ROUGH_NODES` at most."""
+    problem, scales = scaled.problem, scaled.scales
+    waves = [one.roughness.shortest_wavelengths for one in (problem.surface_1, problem.surface_2)]
+    along = (domain.x[1] - domain.x[0]) * scales.half_width_x / min(wave[0] for wave in waves)
+    across = (domain.y[1] - domain.y[0]) * scales.half_width_y / min(wave[1] for wave in waves)
+    return min(WAVE_NODES * max(along, across), ROUGH_NODES)
+
+
+def settled(problem: ContactProblem, options: Options) -> Options:
+    """Return ``options`` that say whether the film of a contact is extrapolated.
+
+    Waves of rough surfaces, nodes that touch and time steps do not show one order.
+    """
+    if options.extrapolate is not None:
+        return options
+    smooth = not (problem.is_rough or problem.contact_film is not None)
+    found = options.points == "auto" and smooth and problem.transient is None
+    return options.model_copy(update={"extrapolate": found})
+
+
+def planned(scaled: ScaledProblem, options: Options) -> Options:
+    """Return ``options`` with the nodes on which the error to reach is expected.
+
+    Options that state ``points`` are returned as they are.
+    """
+    options = settled(scaled.problem, options)
+    if options.points != "auto":
+        return options
+    domain = domain_of(scaled, options)
+    nodes = expected_points(
+        scaled.entering,
+        domain,
+        options.target,
+        is_coupled=scaled.problem.is_coupled,
+        least=_nodes_of_waves(scaled, domain),
+        film=film_to_resolve(scaled),
+        extrapolate=bool(options.extrapolate),
+        order=options.order,
+    )
+    is_slender = scaled.groups.ellipticity >= SLENDER and options.order > 2
+    return options.on_points(nodes, (nodes - 1) // 2 + 1 if is_slender else nodes)
+
+
+def film_to_resolve(scaled: ScaledProblem) -> float | None:
+    """Return the film that `expected_bar` takes for another than a smooth flooded one [-].
+
+    None for smooth flooded contacts. Asperities hold the surfaces apart, leave less load to the
+    film and limit its slopes: a fit to 80 random contacts (lambda 0.05 to 3), with bars 0.7 to 3
+    times too large for eight of ten.
+    """
+    if scaled.problem.asperities is None:
+        return supplied_film(scaled) if is_starved(scaled) else None
+    film, shared = expected_central_film(scaled.entering), shared_load(scaled)
+    ratio = film * scaled.scales.film_thickness / scaled.problem.asperity_rms
+    left = (1.0 - shared.share) ** 1.23 * min(max(ratio, LEAST_RATIO), 1.0) ** 1.7
+    return film * max(shared.gap / film, 1.0) ** 2 / left
+
+
+def domain_of(scaled: ScaledProblem, options: Options) -> Domain:
+    """Return the domain of a solve: the stated or the chosen one."""
+    if isinstance(options.domain, Domain):
+        return options.domain
+    return chosen_domain(scaled, error_of_domain(scaled, options))
+
+
+def error_of_domain(scaled: ScaledProblem, options: Options) -> float:
+    """Return the relative error of the film for which the domain is chosen [-]."""
+    options = settled(scaled.problem, options)
+    return options.target * (EXTRAPOLATED_DOMAIN if options.extrapolate else 1.0)
+
+
+def chosen_domain(scaled: ScaledProblem, error: float) -> Domain:
+    """Return the recommended domain, wider where bodies still warm or cool the oil that enters.
+
+    That of a starved contact contains all of its film: the pressure on its edges is zero.
+    Asperities that touch lie within it.
+    """
+    if scaled.problem.asperities is not None:
+        return _around_asperities(scaled, _of_film(scaled, error))
+    return _of_film(scaled, error)
+
+
+def _around_asperities(scaled: ScaledProblem, domain: Domain) -> Domain:
+    """Return a domain on whose edges the asperities are `APART`."""
+    groups, sigma = scaled.groups, scaled.problem.asperity_rms / scaled.scales.film_thickness
+    along = math.sqrt(1.0 + 2.0 * AROUND * APART * sigma)
+    across = along / math.sqrt(groups.radius_ratio) / groups.ellipticity
+    inlet = max(-domain.x[0], along)
+    outlet, side = max(domain.x[1], OUTLET * inlet, along), max(domain.y[1], across)
+    x, side = math.ceil(10.0 * max(inlet, outlet / OUTLET)) / 10.0, math.ceil(10.0 * side) / 10.0
+    return Domain.model_construct(x=(-x, OUTLET * x), y=(-side, side))
+
+
+def _of_film(scaled: ScaledProblem, error: float) -> Domain:
+    """Return the domain of `chosen_domain` without asperities."""
+    if is_starved(scaled):
+        return starved_domain(scaled)
+    domain = recommended_domain(scaled.entering, error)
+    excess = entry_error(scaled, domain) / (0.5 * error)
+    if excess <= 1.0:
+        return domain
+    factor = min(excess ** (1.0 / 3.0), WIDEST)
+    (inlet, outlet), (south, north) = domain.x, domain.y
+    x, y = (factor * inlet, factor * outlet), (factor * south, factor * north)
+    return Domain.model_construct(x=x, y=y)

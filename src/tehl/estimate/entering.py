@@ -1,0 +1,67 @@
+"""Oil that enters between bodies of another temperature: what of its own it has kept."""
+
+import math
+
+import numpy as np
+
+from tehl.base.typing import Array
+from tehl.contact.options import Domain
+from tehl.estimate.film_formulas import expected_central_film
+from tehl.estimate.scaling import ScaledProblem
+
+THIN, THICK = 0.008, 0.8
+"""Error of the film per unit of ln(viscosity) that the oil has still to gain or lose in the domain:
+of a thin film at the least distance of the inlet edge, and of a thick one at three widths s."""
+DISTANCE, WIDTHS = 3.4, 3.0
+"""These distances: in Hertz half-widths, and in widths s."""
+
+
+def film_peclet(scaled: ScaledProblem) -> float:
+    """Return rho c u_m H_unit^2 / (k a_x), convection along over conduction across the film [-]."""
+    lubricant, scales = scaled.problem.lubricant, scaled.scales
+    conductivity = lubricant.ambient_conductivity or 1.0
+    capacity = lubricant.ambient_heat_capacity or 0.0
+    along = scales.speed / scales.half_width_x
+    return scales.density * capacity * along * (scales.film_thickness**2 / conductivity)
+
+
+def kept_part(scaled: ScaledProblem, inlet: float, y: Array) -> Array:
+    """Return which part of T - T_b oil has kept when it enters the domain, of the shape of y [-].
+
+    Upstream the oil passes the parabolic gap  H = (X^2 + s^2)/2,  s^2 = D kappa^2 Y^2 + 2 H_c,  and
+    takes the temperature T_b of the bodies: in plug flow  dT/dX = -pi^2/(Pe H^2) (T - T_b).
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        The contact.
+    inlet : float
+        Distance of the inlet edge [half-widths].
+    y : array
+        Y of rows [half-widths].
+    """
+    groups, peclet = scaled.entering, film_peclet(scaled)
+    if not peclet:
+        return np.ones(y.shape)
+    s = np.sqrt(groups.radius_ratio * (groups.ellipticity * y) ** 2 + 2 * _film(scaled))
+    distance = 2.0 / s**3 * np.arctan2(s, inlet) - 2.0 * inlet / (s**2 * (inlet**2 + s**2))
+    kept: Array = np.exp(-(np.pi**2) / peclet * distance)
+    return kept
+
+
+def entry_error(scaled: ScaledProblem, domain: Domain) -> float:
+    """Estimate the relative error of the film by the oil that bodies have not warmed or cooled yet.
+
+    Measured on wider domains for M = 3, 100 and 500 with bodies 20 to 25 K off: 13, 1.0 and 0.7 %.
+    """
+    contrast = abs(math.log(scaled.entering.lambda_bar / scaled.groups.lambda_bar))
+    if not contrast:
+        return 0.0
+    inlet = -domain.x[0]
+    kept = float(kept_part(scaled, inlet, np.zeros(1))[0])
+    thick = THICK * (WIDTHS * math.sqrt(2.0 * _film(scaled)) / inlet) ** 3
+    return contrast * kept * (THIN * (DISTANCE / inlet) ** 2 + thick)
+
+
+def _film(scaled: ScaledProblem) -> float:
+    return expected_central_film(scaled.entering)

@@ -1,0 +1,88 @@
+"""Uniform grids, axis 0 along y and axis 1 along x, and their hierarchy by halving."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from tehl.base.typing import Array
+from tehl.contact.options import Domain
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Grid:
+    """Uniform nodes on a rectangle, or on its upper half if the contact is symmetric in y."""
+
+    nx: int
+    ny: int
+    """Nodes per direction of the full domain."""
+    domain: Domain
+    """In Hertz half-widths."""
+    mirror: bool
+    """Only y >= 0 is stored; row 0 is the symmetry line."""
+
+    @property
+    def dx(self) -> float:
+        """Mesh width along x, in a_x."""
+        return (self.domain.x[1] - self.domain.x[0]) / (self.nx - 1)
+
+    @property
+    def dy(self) -> float:
+        """Mesh width along y, in a_y."""
+        return (self.domain.y[1] - self.domain.y[0]) / (self.ny - 1)
+
+    @property
+    def points(self) -> tuple[int, int]:
+        """Nodes (nx, ny) of the full domain."""
+        return self.nx, self.ny
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Stored rows and columns."""
+        return (self.ny // 2 + 1 if self.mirror else self.ny), self.nx
+
+    @property
+    def x(self) -> Array:
+        """Coordinates of the columns, (nx,)."""
+        return self.domain.x[0] + self.dx * np.arange(float(self.nx))
+
+    @property
+    def y(self) -> Array:
+        """Coordinates of the stored rows."""
+        start = 0.0 if self.mirror else self.domain.y[0]
+        return start + self.dy * np.arange(float(self.shape[0]))
+
+    def unfold(self, field: Array) -> Array:
+        """Return ``field`` on the full domain, (ny, nx)."""
+        return np.concatenate([field[:0:-1], field]) if self.mirror else field.copy()
+
+    def coarser(self) -> "Grid":
+        """Return the grid of twice the mesh width."""
+        return replace(self, nx=self.nx // 2 + 1, ny=self.ny // 2 + 1)
+
+    def finer(self) -> "Grid":
+        """Return the grid of half the mesh width."""
+        return replace(self, nx=2 * self.nx - 1, ny=2 * self.ny - 1)
+
+    def can_coarsen(self) -> bool:
+        """Whether both directions halve to 16 intervals or more, and the half domain still can."""
+        intervals = (self.nx - 1, self.ny - 1)
+        even = all(n % 2 == 0 and n // 2 >= 16 for n in intervals)
+        return even and not (self.mirror and (self.ny - 1) // 2 % 2)
+
+
+def can_mirror(shape: tuple[int, int], domain: Domain) -> bool:
+    """Whether every grid of the hierarchy can store the upper half of ``domain`` only.
+
+    ``shape`` is (ny, nx) of the finest grid; y = 0 must be a row of the coarsest one too.
+    """
+    ny, nx = shape
+    coarsest = halved_grids(Grid(nx=nx, ny=ny, domain=domain, mirror=False))[0]
+    return (coarsest.ny - 1) % 2 == 0 and domain.y[0] == -domain.y[1]
+
+
+def halved_grids(finest: Grid) -> list[Grid]:
+    """Return the grids by halving, coarsest first."""
+    grids = [finest]
+    while grids[0].can_coarsen():
+        grids.insert(0, grids[0].coarser())
+    return grids

@@ -1,0 +1,93 @@
+"""Memory that a solve needs, and memory that is available."""
+
+import math
+import os
+import re
+from pathlib import Path
+
+from tehl.base.errors import InputError
+from tehl.contact.options import Options, coarsenable
+from tehl.contact.problem import ContactProblem
+
+BYTES_PER_NODE = 180
+"""Measured peak memory of an isothermal Newtonian solve per node of the finest full grid."""
+BYTES_COUPLED, BYTES_PER_LAYER = 270, 10
+"""Added by heat or shear thinning: per node, and per node and layer across the film."""
+PART = 0.5
+"""Part of the free memory that a solve takes unasked."""
+USUAL_LAYERS = 9
+NEGLIGIBLE = 16e6
+"""Need that any machine running Python can satisfy [byte]: available memory is not checked."""
+
+_LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
+"""Memory limit of a container. Its usage is not read: it counts caches that can be dropped."""
+
+
+def needed_memory(options: Options, problem: ContactProblem | None = None) -> float:
+    """Return the estimated peak memory of a solve [byte]."""
+    nodes_y, nodes_x = options.shape
+    return float(_bytes_per_node(problem) * nodes_y * nodes_x)
+
+
+def _bytes_per_node(problem: ContactProblem | None) -> float:
+    if problem is None or not problem.is_coupled:
+        return BYTES_PER_NODE
+    layers = problem.thermal.nodes if problem.thermal else USUAL_LAYERS
+    return BYTES_PER_NODE + BYTES_COUPLED + BYTES_PER_LAYER * layers
+
+
+def available_memory() -> float | None:
+    """Return the memory available to this process [byte], None if unknown."""
+    known = [number for number in (_of_machine(), *map(_of_container, _LIMITS)) if number]
+    return min(known, default=None)
+
+
+def memory_limit(options: Options) -> float:
+    """Return the memory that a solve may take where its error decides the nodes [byte]."""
+    if options.max_memory is not None:
+        return float(options.max_memory)
+    return PART * (available_memory() or math.inf)
+
+
+def check_memory(options: Options, problem: ContactProblem | None = None) -> None:
+    """Check that the finest grid fits into the available memory.
+
+    Raises InputError if the estimated need exceeds the available memory; the message names a grid
+    that fits.
+    """
+    needed = needed_memory(options, problem)
+    available = available_memory() if needed > NEGLIGIBLE else None
+    if available is None or needed <= available:
+        return
+    largest = int((available / _bytes_per_node(problem)) ** 0.5)
+    fitting = f"; take {coarsenable(largest)[0]} or fewer" if largest > 33 else ""
+    nodes_y, nodes_x = options.shape
+    raise InputError(
+        f"numerics.points = {nodes_x} x {nodes_y}: needs about {needed / 1e9:.2g} GB of memory, "
+        f"but {available / 1e9:.2g} GB are available{fitting}"
+    )
+
+
+def _of_machine() -> float | None:
+    """Return the free memory of the machine, caches counted as free [byte]."""
+    try:
+        found = re.search(
+            r"MemAvailable:\s*(\d+)", Path("/proc/meminfo").read_text(encoding="ascii")
+        )
+        if found is not None:
+            return 1024.0 * int(found[1])
+    except (OSError, ValueError):
+        pass
+    try:
+        return float(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))
+    except (OSError, ValueError, AttributeError):
+        return None
+
+
+def _of_container(file: str) -> float | None:
+    """Return the limit of a control group [byte], None without one."""
+    try:
+        limit = int(Path(file).read_text(encoding="ascii"))
+    except (OSError, ValueError):
+        return None
+    return float(limit) if 0 < limit < 2**60 else None

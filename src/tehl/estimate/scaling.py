@@ -1,0 +1,137 @@
+"""Scales of a contact, which make it dimensionless, and its dimensionless groups."""
+
+import math
+from dataclasses import dataclass, replace
+
+from tehl.contact.problem import ContactProblem
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Scales:
+    """One unit of each dimensionless quantity in SI."""
+
+    half_width_x: float
+    half_width_y: float
+    """Hertz half-widths a_x, a_y [m]."""
+    hertz_pressure: float
+    """p_h [Pa]."""
+    film_thickness: float
+    """a_x^2 / R_x [m]."""
+    viscosity: float
+    density: float
+    """eta_0 [Pa s] and rho_0 [kg/m^3] at ambient pressure and inlet temperature."""
+    speed: float
+    """Entrainment speed u_m [m/s]."""
+    load: float
+    """Normal load w [N]."""
+    temperature: float
+    """Inlet temperature [K]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Groups:
+    """Dimensionless groups."""
+
+    M: float
+    L: float
+    """Moes load and speed (lubricant) parameter."""
+    U: float
+    W: float
+    G: float
+    """Hamrock-Dowson groups, with the mean speed and R_x."""
+    lambda_bar: float
+    """12 eta_0 u_m R_x^2 / (a_x^3 p_h)."""
+    alpha_bar: float
+    """alpha p_h."""
+    ellipticity: float
+    """kappa = a_y / a_x."""
+    radius_ratio: float
+    """D = R_x / R_y."""
+    deflection_factor: float
+    """2 Pi / pi with Pi = p_h R_x / (E' a_x): the factor before the kernel sum (circle 2/pi^2)."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class ScaledProblem:
+    """A contact in SI together with its scales and dimensionless groups.
+
+    Made once at the start of a run and passed down, so that nothing is scaled twice.
+    """
+
+    problem: ContactProblem
+    scales: Scales
+    groups: Groups
+    flooded_oil: float | None = None
+    """rho H in the middle of the same contact fully flooded [-]; None is that of the formula."""
+    flooded_error: float = 0.0
+    """Its relative error bar [-]."""
+
+    @classmethod
+    def of(cls, problem: ContactProblem) -> "ScaledProblem":
+        """Scale a problem."""
+        return cls(problem=problem, scales=scales(problem), groups=groups(problem))
+
+    @property
+    def entering(self) -> Groups:
+        """The groups with the viscosity of the oil that enters the contact.
+
+        Along the bodies it has taken their temperature; the film formulas and the far field follow.
+        """
+        return _with_viscosity(self.groups, _body_viscosity(self.problem))
+
+
+def scales(problem: ContactProblem) -> Scales:
+    """Return one unit of each dimensionless quantity of ``problem`` in SI."""
+    hertz = problem.hertz
+    return Scales(
+        half_width_x=hertz.half_width_x,
+        half_width_y=hertz.half_width_y,
+        hertz_pressure=hertz.pressure,
+        film_thickness=hertz.half_width_x**2 / problem.radius_x,
+        viscosity=problem.ambient_viscosity,
+        density=problem.ambient_density,
+        speed=problem.entrainment_speed,
+        load=problem.load,
+        temperature=problem.inlet_temperature,
+    )
+
+
+def groups(problem: ContactProblem) -> Groups:
+    """Return the dimensionless groups of ``problem``."""
+    hertz, modulus, radius = problem.hertz, problem.reduced_modulus, problem.radius_x
+    speed, material = problem.speed_group, problem.material_group
+    load = problem.load / (modulus * radius**2)
+    viscous = 12.0 * problem.ambient_viscosity * problem.entrainment_speed
+    return Groups(
+        M=load * (2.0 * speed) ** -0.75,
+        L=material * (2.0 * speed) ** 0.25,
+        U=speed,
+        W=load,
+        G=material,
+        lambda_bar=viscous * radius**2 / (hertz.half_width_x**3 * hertz.pressure),
+        alpha_bar=problem.pressure_coefficient * hertz.pressure,
+        ellipticity=hertz.ellipticity,
+        radius_ratio=radius / problem.radius_y,
+        deflection_factor=2.0 * hertz.pressure * radius / (math.pi * modulus * hertz.half_width_x),
+    )
+
+
+def _body_viscosity(problem: ContactProblem) -> float:
+    """Return the viscosity of the oil at the temperatures of the bodies, over that at the inlet."""
+    heat = problem.heat
+    if heat is None or heat.bulk_1 == heat.bulk_2 == heat.temperature:
+        return 1.0
+    ambient = problem.lubricant.viscosity.ambient
+    first, second = (float(ambient(bulk)) for bulk in (heat.bulk_1, heat.bulk_2))
+    return math.sqrt(first * second) / problem.ambient_viscosity
+
+
+def _with_viscosity(known: Groups, factor: float) -> Groups:
+    """Return the groups of the same contact with ``factor`` times the viscosity."""
+    return replace(
+        known,
+        M=known.M * factor**-0.75,
+        L=known.L * factor**0.25,
+        U=known.U * factor,
+        lambda_bar=known.lambda_bar * factor,
+    )

@@ -1,0 +1,203 @@
+"""Starved contacts before the solve: the oil that enters, the film to expect, the domain.
+
+The central film of a starved circular contact follows
+
+    H_c = H_cff r / (1 + r^gamma)^(1/gamma),    r = H_oil / (rho_c H_cff),
+
+with the film H_cff and the density rho_c of the fully flooded contact [1]_ [2]_.
+
+References
+----------
+.. [1] F. Chevalier, A. A. Lubrecht, P. M. E. Cann, F. Colin and G. Dalmaz, J. Tribology 120 (1998),
+   126-133.
+.. [2] D. P. Damiens, C. H. Venner, P. M. E. Cann and A. A. Lubrecht, J. Tribology 126 (2004),
+   105-111.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
+from tehl.contact.options import Domain
+from tehl.estimate.film_formulas import expected_central_film
+from tehl.estimate.scaling import ScaledProblem
+
+GAMMA = 3.0
+"""Exponent of the film law for a circular contact."""
+FLOODED, THIN, LEFT = 50.0, 0.5, 0.002
+"""Supply over that of the flooded contact from which a thin film, H up to `THIN`, is flooded, and
+its error: half of the 0.4 % that it lacks at r = 20 (M = 20 and 50). A thick one is 4 % from
+flooded at r = 60 and M = 5, and 22 % at M = 2."""
+MARGIN, MORE, PLENTY = 1.2, 0.4, 3.0
+"""Margin on the gap at the meniscus, more of it per r up to r = 3: near the contact the pressure
+returns more oil than far upstream."""
+BESIDE = 2.5
+"""Gap over layer where the film ends at the sides."""
+LEAST_INLET, LEAST_SIDE = 2.3, 1.7
+"""Least distances of the inlet edge and of the side edges, in Hertz half-widths."""
+WIDER = 1.3
+"""Factor on the sides if the surfaces pass repeatedly."""
+OUTLETS = ((3.0, 0.6), (math.inf, 5.0 / 11.0))
+"""Outlet over inlet, up to these distances of the inlet: X = 0 is a node."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Flooded:
+    """The same contact fully flooded and smooth."""
+
+    film: float
+    oil: float
+    """H and rho H at its centre [-]."""
+    error: float
+    """Relative error bar of both [-]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class EnteringOil:
+    """The oil rho H that enters, over Y: at ``y`` [half-widths] the layers ``oil`` [-].
+
+    A layer that does not depend on Y has one entry.
+    """
+
+    y: Array
+    oil: Array
+
+    def __call__(self, y: Array) -> Array:
+        """Return the oil that enters lines at ``y``, linear between the places [-]."""
+        found: Array = np.interp(y, self.y, self.oil)
+        return found
+
+    @property
+    def largest(self) -> float:
+        """Most oil of all lines [-]."""
+        return float(self.oil.max())
+
+    @property
+    def central(self) -> float:
+        """Oil on the line Y = 0 [-]."""
+        return float(self(np.zeros(1))[0])
+
+
+def flooded_oil(scaled: ScaledProblem) -> float:
+    """Return rho H in the middle of the fully flooded contact, computed or by formula [-]."""
+    if scaled.flooded_oil is not None:
+        return scaled.flooded_oil
+    problem, scales = scaled.problem, scaled.scales
+    density = float(problem.lubricant.density.density(scales.hertz_pressure, scales.temperature))
+    return density / scales.density * expected_central_film(scaled.entering)
+
+
+def entering_oil(scaled: ScaledProblem) -> EnteringOil | None:
+    """Return the oil that enters; None if the contact is flooded, by its supply too."""
+    supply = scaled.problem.supply
+    if supply is None:
+        return None
+    unit = (2.0 if supply.each else 1.0) / scaled.scales.film_thickness
+    if supply.ratio is not None:
+        y, oil = np.zeros(1), np.array([supply.ratio * flooded_oil(scaled)])
+    elif supply.layer is not None:
+        y, oil = np.zeros(1), np.array([supply.layer * unit])
+    else:
+        places, layers = np.array(supply.profile).T
+        y, oil = places / scaled.scales.half_width_y, layers * unit
+    found = EnteringOil(y=y, oil=oil)
+    flooded = flooded_oil(scaled)
+    is_flooded = flooded <= THIN and float(oil.min()) > FLOODED * flooded
+    return None if is_flooded else found
+
+
+def is_starved(scaled: ScaledProblem) -> bool:
+    """Return whether a layer of oil limits the film."""
+    return entering_oil(scaled) is not None
+
+
+def supply_ratio(scaled: ScaledProblem) -> float:
+    """Return r, the oil that enters at Y = 0 over that of the flooded contact [-]."""
+    oil = entering_oil(scaled)
+    return math.inf if oil is None else oil.central / flooded_oil(scaled)
+
+
+def starved_part(ratio: float, gamma: float = GAMMA) -> float:
+    """Return the central film over that of the flooded contact by the film law [-].
+
+    Parameters
+    ----------
+    ratio : float
+        r, the oil that enters over that of the flooded contact [-].
+    gamma : float
+        Exponent of the law.
+    """
+    if math.isinf(ratio):
+        return 1.0
+    return float(ratio / (1.0 + ratio**gamma) ** (1.0 / gamma))
+
+
+def supply_error(scaled: ScaledProblem) -> float:
+    """Return the relative error of the film by what is known of the supply.
+
+    Of a stated ratio by the error of the flooded film; the film law says by how much:
+    1 / (1 + r^gamma), with gamma = 2 at least.
+    """
+    supply = scaled.problem.supply
+    if supply is not None and not is_starved(scaled):
+        return LEFT
+    if supply is None or supply.ratio is None:
+        return 0.0
+    return scaled.flooded_error / (1.0 + supply.ratio**2)
+
+
+def supplied_film(scaled: ScaledProblem) -> float:
+    """Return the central film to expect, of a starved contact by the film law [-]."""
+    flooded = expected_central_film(scaled.entering)
+    oil = entering_oil(scaled)
+    if oil is None:
+        return flooded
+    return flooded * starved_part(max(oil.largest / flooded_oil(scaled), 1e-6))
+
+
+def starved_domain(scaled: ScaledProblem) -> Domain:
+    """Return a domain that contains the film of a starved contact, in Hertz half-widths."""
+    oil, groups = entering_oil(scaled), scaled.groups
+    assert oil is not None
+    across = groups.radius_ratio * groups.ellipticity**2
+    # far upstream the pressure returns 3/(3 + 2 D) of the oil that the surfaces drag in
+    backflow = 1.5 / groups.radius_ratio + 1.0
+    margin = MARGIN + MORE * min(oil.largest / flooded_oil(scaled), PLENTY)
+    # where the rigid gap, less the approach of about one, is the thickest that the oil can fill
+    inlet = max(LEAST_INLET, math.sqrt(2.0 * (margin * backflow * oil.largest + 1.0)))
+    side = max(LEAST_SIDE, math.sqrt(2.0 * (MARGIN * BESIDE * oil.largest + 1.0) / across))
+    if scaled.problem.has_passes:
+        side *= WIDER  # for the ridges of oil beside the track
+    inlet, side = (math.ceil(10.0 * edge) / 10.0 for edge in (inlet, side))
+    part = next(part for limit, part in OUTLETS if inlet <= limit)
+    return Domain.model_construct(x=(-inlet, part * inlet), y=(-side, side))
+
+
+def check_supply(scaled: ScaledProblem, domain: Domain) -> None:
+    """Check that a stated domain can hold the layer, and the profile covers the domain.
+
+    Raises InputError with one sentence.
+    """
+    supply, oil, scales = scaled.problem.supply, entering_oil(scaled), scaled.scales
+    if supply is None or oil is None:
+        return
+    if supply.profile is not None and not (
+        oil.y[0] <= domain.y[0] * (1 - 1e-9) and domain.y[1] * (1 - 1e-9) <= oil.y[-1]
+    ):
+        least, most = (1e3 * edge * scales.half_width_y for edge in domain.y)
+        raise InputError(
+            f"supply.profile: goes from y = {1e3 * supply.profile[0][0]:.4g} to "
+            f"{1e3 * supply.profile[-1][0]:.4g} mm and does not cover the domain, {least:.4g} to "
+            f"{most:.4g} mm: add places there"
+        )
+    gap = 0.5 * domain.x[0] ** 2
+    if oil.central > gap:
+        raise InputError(
+            f"supply: the layer of {1e6 * oil.central * scales.film_thickness:.4g} um is thicker "
+            f"than the gap of about {1e6 * gap * scales.film_thickness:.4g} um at the inlet edge "
+            f"X = {domain.x[0]:.4g}: the contact is flooded there; leave out [supply], or take a "
+            'larger numerics.domain ("auto" is large enough)'
+        )

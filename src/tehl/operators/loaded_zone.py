@@ -1,0 +1,80 @@
+"""The loaded zone, over which friction, powers and largest temperature rises are taken.
+
+Around the contact the gap grows as r^2 / 2 and the shear stress of the oil falls as 1 / r^2: its
+integral grows with the logarithm of the domain and has no limit. That over an ellipse around the
+Hertz contact has one (docs/theory/traction.md).
+"""
+
+from functools import lru_cache
+
+import numpy as np
+
+from tehl.base.typing import Array, BoolArray
+from tehl.estimate.grid import Grid
+
+RADIUS = 2.0
+"""Half-axes of the loaded zone over those of the Hertz contact: X^2 + Y^2 <= 4."""
+STRIPS = 4
+"""Strips per cell across y that the edge of the zone crosses as straight lines along y."""
+
+
+@lru_cache(maxsize=16)
+def zone_of(grid: Grid) -> Array:
+    """Return which part of the cell of each node lies in the loaded zone, ``grid.shape`` [-]."""
+    return zone_part(grid.x, grid.y)
+
+
+def zone_part(x: Array, y: Array) -> Array:
+    """Return which part of the cell of each node lies in the loaded zone, (ny, nx), read-only [-].
+
+    The cells at the ends are half cells. A sum over nodes with these weights is of second order in
+    the mesh width; over whole cells it would jump as nodes enter the zone.
+
+    Parameters
+    ----------
+    x, y : (nx,), (ny,) array
+        Uniform nodes, in Hertz half-widths; of y the upper half is enough if it starts at 0.
+    """
+    edges_x, edges_y = _edges(x), _edges(y)
+    middles = (np.arange(STRIPS) + 0.5) / STRIPS
+    across = edges_y[:-1, None] + np.diff(edges_y)[:, None] * middles
+    chords = np.sqrt(np.maximum(RADIUS**2 - across**2, 0.0))
+    part = sum(np.clip(edges_x, -chord[:, None], chord[:, None]) for chord in chords.T)
+    part = np.diff(part, axis=1) / (STRIPS * np.diff(edges_x))
+    part.flags.writeable = False
+    return np.asarray(part)
+
+
+def is_inside(x: Array, y: Array) -> BoolArray:
+    """Return which nodes lie in the loaded zone, (ny, nx)."""
+    return np.add.outer(y**2, x**2) <= RADIUS**2
+
+
+def _edges(axis: Array) -> Array:
+    """Return the edges of the cells around nodes, (n + 1,)."""
+    return np.concatenate([axis[:1], 0.5 * (axis[1:] + axis[:-1]), axis[-1:]])
+
+
+def wet_part(pressure: Array) -> Array:
+    r"""Return which part of the cell of each node is under pressure, (ny, nx) [-].
+
+    A film ruptures between its last node under pressure and the one after the next. Upstream of
+    the first dry node, j nodes away, the discrete pressure is that of a constant wedge,
+    :math:`P_j = c (j^2 + \beta j)` with :math:`-1 < \beta \le 1`, so
+    :math:`\beta = (4 P_1 - P_2) / (P_2 - 2 P_1)`, and the parabola with this slope has its vertex
+    :math:`\beta / 2` mesh widths downstream of the dry node. Nodes alone would move the front by
+    steps of a mesh width, half of one too far upstream on average.
+
+    Parameters
+    ----------
+    pressure : (ny, nx) array
+        On lines along x.
+    """
+    wet = pressure > 0.0
+    part = wet.astype(np.float64)
+    rows, columns = np.nonzero(wet[:, 1:-1] & ~wet[:, 2:])
+    last, before = pressure[rows, columns + 1], pressure[rows, columns]
+    steep = np.maximum(before - 2.0 * last, 1e-12 * last)
+    beta = np.clip((4.0 * last - before) / steep, -1.0, 1.0)
+    part[rows, columns + 2] = np.where(before > 0.0, 0.5 * (1.0 + beta), 0.0)
+    return part

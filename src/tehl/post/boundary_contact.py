@@ -1,0 +1,230 @@
+"""Load, friction and area of surfaces that touch through a boundary film.
+
+Which part of the pressure at a node is that of the contact follows from the oil that is trapped
+there, and hardly from anything that one can measure. The load is therefore shared by the film:
+what is carried where the film exceeds the boundary film by at most `MARGIN` counts as carried by
+the contact.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl.base.typing import Array, BoolArray, IntArray, SingleArray
+from tehl.contact.boundary_contact import MARGIN, ContactFilm
+from tehl.estimate.domain import domain_of, expected_bar
+from tehl.estimate.film_formulas import expected_central_film
+from tehl.estimate.scaling import ScaledProblem
+from tehl.post.traction import cell_widths, traction
+from tehl.result.solution import Solution
+
+LEAST_CELLS = 8.0
+"""Mesh widths across the patches of contact below which a share of the load is not known: of
+standing roughness that four cells per summit press into contact, eight may leave none."""
+BAR_OF_FILM, LARGEST_BAR = 4.0, 0.2
+"""Error bar of the share over the relative error of the film to expect, and largest one of a share
+that is known. Where the film is as thin as the boundary film, the error of the film decides what
+touches, though its thickness there does not show it (docs/theory/contact.md, resolution)."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Patches:
+    """Patches on which the surfaces touch: nodes that are neighbours along x or y."""
+
+    number: int
+    area_mean: float
+    area_largest: float
+    """Area of a patch [m^2]."""
+    pressure_mean: float
+    pressure_max: float
+    """Pressure of film and contact together on them [Pa]."""
+    cells: float
+    """Mean diameter, or width of long ones, in mesh widths, weighted by their loads [-]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Touching:
+    """How film and contact share load and friction."""
+
+    margin: float
+    """Film above the boundary film up to which surfaces count as touching [m]."""
+    share: float
+    """Load where they touch over the load, as this grid has it [-]."""
+    share_error: float
+    """Its error bar [-]."""
+    is_certified: bool
+    """Whether error bars from three grids belong to the share."""
+    solid_share: float
+    """Load of the contact pressure alone over the load [-]."""
+    area: float
+    """Area on which they touch [m^2]."""
+    area_part: float
+    """The same over the area of the Hertz contact [-]."""
+    contact_pressure_max: float
+    """Largest contact pressure [Pa]."""
+    pressure_max: float
+    """Largest pressure of film and contact together [Pa]."""
+    friction_boundary: float
+    """Friction where they touch over the load, positive; zero in pure rolling [-]."""
+    friction_film: float | None
+    """Friction of the film elsewhere, at mid-film, over the load, positive [-]; None where a
+    Newtonian film would transmit more than an oil can."""
+    power_boundary: float
+    """Heat of the contact that rubs [W]."""
+    patches: Patches | None
+    """None where nothing touches."""
+    balance: float
+    """Oil made or lost in film and contact, over the oil that enters [-]."""
+
+    @property
+    def friction(self) -> float | None:
+        """Friction coefficient of film and contact together [-]."""
+        film = self.friction_film
+        return None if film is None else film + self.friction_boundary
+
+    @property
+    def is_share_known(self) -> bool:
+        """Whether the share means anything: patches and film are resolved, or it is certified."""
+        return not self.why_unknown
+
+    @property
+    def why_unknown(self) -> str:
+        """Why the share means nothing, in words; empty if it is known."""
+        if self.patches is None or self.is_certified:
+            return ""
+        return why_unknown(self.patches.cells, self.share_error)
+
+
+def why_unknown(cells: float, error: float) -> str:
+    """Return why the grid does not know a share of the load, in words; nothing if it does.
+
+    Parameters
+    ----------
+    cells : float
+        Mesh widths across the patches; zero if no stored field has one.
+    error : float
+        Error bar of the share [-].
+    """
+    if not cells:
+        return "surfaces touch in no stored field, so its patches are not known (transient.frames)"
+    if cells < LEAST_CELLS:
+        return f"its patches are {cells:.2g} cells across, {LEAST_CELLS:g} are needed"
+    return f"the grid is too coarse for the oil, +- {error:.0%}" if error > LARGEST_BAR else ""
+
+
+def touching(result: Solution) -> Touching | None:
+    """Return how film and contact share load and friction; None without a boundary film.
+
+    Sums over the nodes; the friction of the contact is the stated coefficient times the load where
+    the surfaces touch.
+    """
+    found, film, scales = result.contact, result.problem.contact_film, result.scales
+    if found is None or film is None or result.status.kind == "diverged":
+        return None
+    cells = np.outer(cell_widths(result.y), cell_widths(result.x))
+    both = result.pressure + found.pressure
+    meet = touching_nodes(result)
+    share = float((cells * both)[meet].sum()) / result.load
+    area, motion = float(cells[meet].sum()), result.problem.motion
+    slides = result.problem.slide_roll_ratio != 0.0
+    return Touching(
+        margin=MARGIN * film.thickness,
+        share=share,
+        share_error=_error_bar(result, film, share),
+        is_certified="load_share" in result.uncertainty,
+        solid_share=float((cells * found.pressure).sum()) / result.load,
+        area=area,
+        area_part=area / (math.pi * scales.half_width_x * scales.half_width_y),
+        contact_pressure_max=float(found.pressure.max()),
+        pressure_max=float(both.max()),
+        friction_boundary=film.friction * share if slides else 0.0,
+        friction_film=_film_friction(result),
+        power_boundary=film.friction * share * result.load * abs(motion.speed_1 - motion.speed_2),
+        patches=_patches(result, meet, cells * both, both),
+        balance=float(found.balance),
+    )
+
+
+def _error_bar(result: Solution, film: ContactFilm, share: float) -> float:
+    """Return the error bar of the share: by grids, or more by the error in the film of the oil [-].
+
+    Nothing depends on a film that is thin beside the boundary film: oil flows as its cube.
+    """
+    scaled = ScaledProblem.of(result.problem)
+    groups, domain = scaled.entering, domain_of(scaled, result.options)
+    alone, least = expected_central_film(groups), film.thickness / scaled.scales.film_thickness
+    error = expected_bar(groups, domain, result.x.size, film=max(alone, least))
+    by_film = BAR_OF_FILM * min(error, 1.0) * min(alone / least, 1.0) ** 3
+    by_grids = None if result.errors is None else result.errors.load_share
+    return max(min(by_film, 1.0), share * (by_grids or 0.0))
+
+
+def touching_nodes(result: Solution) -> BoolArray:
+    """Return the nodes whose film exceeds the boundary film by at most `MARGIN`, (ny, nx)."""
+    film, found = result.problem.contact_film, result.contact
+    if film is None or found is None or not found.pressure.any():  # the oil carries all
+        return np.zeros(result.scaled.film.shape, bool)
+    return film.meets(result.film_thickness)
+
+
+def largest_patches(least: float, films: SingleArray, pressures: SingleArray) -> float:
+    """Return the largest mean diameter of patches of contact in some fields [mesh widths].
+
+    Parameters
+    ----------
+    least : float
+        Thickness of the boundary film [m].
+    films, pressures : array, (n, ny, nx)
+        Thickness [m] and pressure [Pa].
+
+    Returns
+    -------
+    float
+        Zero where nothing touches.
+    """
+    cells = 0.0
+    for film, pressure in zip(films, pressures, strict=True):
+        meet = film <= (1.0 + MARGIN) * least
+        if meet.any():
+            cells = max(cells, _diameters(meet, pressure)[-1])
+    return cells
+
+
+def _film_friction(result: Solution) -> float | None:
+    forces = traction(result)
+    return abs(forces.mid_film) if forces is not None and forces.credible else None
+
+
+def _patches(result: Solution, meet: BoolArray, loads: Array, both: Array) -> Patches | None:
+    if not meet.any():
+        return None
+    nodes, cells = _diameters(meet, loads)
+    cell = float(result.x[1] - result.x[0]) * float(result.y[1] - result.y[0])
+    return Patches(
+        number=nodes.size,
+        area_mean=float(nodes.mean()) * cell,
+        area_largest=float(nodes.max()) * cell,
+        pressure_mean=float(both[meet].mean()),
+        pressure_max=float(both[meet].max()),
+        cells=cells,
+    )
+
+
+def _diameters(meet: BoolArray, loads: Array) -> tuple[IntArray, float]:
+    """Return the nodes of each patch, and the mean diameter weighted by load [mesh widths].
+
+    The diameter is that of a circle of its area, or the width of the patch where it is broadest if
+    that is less: a long patch is resolved if its width is.
+    """
+    # 0.1 s, for contacts that touch only
+    from scipy.ndimage import distance_transform_edt, label, maximum  # noqa: PLC0415
+
+    labels, number = label(meet)
+    depth = distance_transform_edt(np.pad(meet, 1))[1:-1, 1:-1]
+    nodes = np.bincount(labels.ravel())[1:]
+    carried = np.bincount(labels.ravel(), weights=loads.ravel())[1:]
+    widths = 2.0 * np.asarray(maximum(depth, labels, np.arange(1, number + 1)))
+    across = np.minimum(2.0 * np.sqrt(nodes / math.pi), widths)
+    weights = carried if carried.sum() > 0.0 else np.ones(number)
+    return nodes, float((weights * across).sum() / weights.sum())

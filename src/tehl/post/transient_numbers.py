@@ -1,0 +1,82 @@
+"""Numbers of a transient result: friction over time, late extremes, patches of contact."""
+
+from contextlib import suppress
+
+from tehl.base.errors import InputError
+from tehl.base.typing import Array
+from tehl.estimate.duration import whole_passing
+from tehl.estimate.scaling import ScaledProblem
+from tehl.post.boundary_contact import largest_patches, touching, why_unknown
+from tehl.result.transient import TransientSolution
+
+LATE, NOTICED, FEW_STEPS = 0.1, 0.01, 20
+"""Last part of a run in which an extreme is late, by which part of it it must then have grown, and
+fewest steps that show it."""
+LONGER, ROUNDING = 2.0, 1e-9
+"""Duration to try over that of a run whose extremes are late, and equal durations."""
+
+
+def friction(run: TransientSolution) -> Array | None:
+    """Friction of film and solid contact together over the load at that time, positive [-].
+
+    None without asperities or a boundary film, and where the share of these is not known.
+    """
+    problem = run.start.problem
+    solid = problem.asperities or problem.contact_film
+    if solid is None or (problem.contact_film is not None and why_share_unknown(run)):
+        return None
+    slides = problem.slide_roll_ratio != 0.0
+    rubbed = solid.friction * run.history.asperity_load if slides else 0.0
+    return abs(run.history.traction) + rubbed
+
+
+def late_extremes(run: TransientSolution) -> tuple[str, ...]:
+    """Extremes that were reached at the end of a run whose duration is not stated.
+
+    They may grow in a longer one: a periodic or mirrored map goes on to pass the contact.
+    """
+    transient, time = run.start.problem.transient, run.history.time
+    if transient is None or transient.duration is not None or time.size < FEW_STEPS:
+        return ()
+    early = time <= (1.0 - LATE) * time[-1]
+    extremes = (
+        ("minimum film", "film_minimum", -run.history.film_minimum),
+        ("largest pressure", "pressure_max", run.history.pressure_max),
+    )
+    bars = {name: one.uncertainty for name, one in run.uncertainty.items()}
+    return tuple(
+        words
+        for words, name, values in extremes
+        if values.max() - values[early].max()
+        > max(NOTICED * abs(values.max()), bars.get(name, 0.0))
+    )
+
+
+def longer_duration(run: TransientSolution) -> float | None:
+    """Duration to state where the default one ended early [s]; None where it did not.
+
+    It lasts until maps that repeat at their edges have passed whole, or twice as long where
+    extremes changed at the end.
+    """
+    transient, end = run.start.problem.transient, float(run.history.time[-1])
+    if transient is None or transient.duration is not None or not run.status.converged:
+        return None
+    needed = LONGER * end if late_extremes(run) else 0.0
+    with suppress(InputError):  # the file of a map that a stored result need not have
+        needed = max(needed, whole_passing(ScaledProblem.of(run.start.problem)))
+    return needed if needed > (1.0 + ROUNDING) * end else None
+
+
+def patch_cells(run: TransientSolution) -> float:
+    """Largest mean diameter, or width, of patches of contact in the frames [mesh widths].
+
+    Zero where surfaces do not touch through a boundary film in any of them.
+    """
+    film, frames = run.start.problem.contact_film, run.frames
+    return 0.0 if film is None else largest_patches(film.thickness, frames.film, frames.pressure)
+
+
+def why_share_unknown(run: TransientSolution) -> str:
+    """Why the share where surfaces touch means nothing, in words; empty if it is known."""
+    start = touching(run.start)
+    return why_unknown(patch_cells(run), start.share_error if start else 0.0)

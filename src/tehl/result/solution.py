@@ -1,0 +1,388 @@
+"""The solution of a steady problem: fields, film numbers, status, error bars; frozen."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Literal
+
+from tehl.base.errors import TehlError
+from tehl.base.typing import Array
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.scaling import Groups, ScaledProblem, Scales
+from tehl.result.fields import (
+    Fields,
+    FilmAsperities,
+    FilmContact,
+    FilmHeat,
+    FilmOil,
+    FilmShear,
+    FilmSummary,
+    PassHistory,
+    SurfaceHeights,
+)
+from tehl.roughness.resolution import Resolution
+
+StatusKind = Literal["converged", "not_converged", "diverged", "stalled"]
+Settings = Mapping[str, bool | int | float | str | dict[str, str]]
+"""Values to set in a case, by dotted keys: ``{"numerics.points": 257}``; False removes a key."""
+
+
+@dataclass(frozen=True, slots=True)
+class Hint:
+    """What to try after a failure: settings and the reason for them, or advice alone."""
+
+    advice: str = ""
+    settings: Settings = field(default_factory=dict)
+
+    def __str__(self) -> str:
+        text = settings_text(self.settings)
+        text = f"{text[:1].upper()}{text[1:]}"
+        return f"{text}: {self.advice}" if text and self.advice else self.advice or f"{text}."
+
+
+def settings_text(settings: Settings) -> str:
+    """Return settings in words: set numerics.points = 257 and remove numerics.domain."""
+    return " and ".join(
+        f"remove {key}" if value is False else f"set {key} = {_toml(value)}"
+        for key, value in settings.items()
+    )
+
+
+def _toml(value: object) -> str:
+    """Return a word, a number, or a table of words as a case file states it."""
+    if not isinstance(value, dict):
+        return json.dumps(value)
+    return "{ " + ", ".join(f"{key} = {_toml(inner)}" for key, inner in value.items()) + " }"
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Status:
+    """How a solve ended, for programs and for people."""
+
+    kind: StatusKind
+    """The outcome."""
+    cause: str | None = None
+    """Name of the cause when not converged, for programs: ``"grid_too_coarse"``."""
+    message: str | None = None
+    hint: Hint | None = None
+    """The cause and what to try. In a converged certified result ``message`` says how its grids
+    ended; a ``hint`` in a converged result means that its minimum film is uncertain, and names the
+    grid to try."""
+
+    @property
+    def converged(self) -> bool:
+        """Whether the solve converged."""
+        return self.kind == "converged"
+
+    @property
+    def is_vague(self) -> bool:
+        """Whether a film converged but is uncertain: its minimum between peaks, or ``cause``."""
+        return self.converged and self.hint is not None
+
+    @property
+    def outcome(self) -> str:
+        """The outcome in words, with the cause if it adds to the kind."""
+        if self.is_vague:
+            return f"converged, {(self.cause or 'minimum film open').replace('_', ' ')}"
+        kind = self.kind.replace("_", " ")
+        if self.cause in (None, self.kind):
+            return kind
+        return f"{kind}: {self.cause.replace('_', ' ')}"
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class CycleReport:
+    """One multigrid cycle, as shown in the live table and stored in the history."""
+
+    points: tuple[int, int]
+    """Nodes (nx, ny) of the grid, of the full domain."""
+    cycle: int
+    """Number of the cycle on this grid, from 1."""
+    residual: float
+    """Mean of ``|r|`` scaled by the local diagonal, over wet nodes [-]."""
+    change: float
+    """Largest change of pressure in this cycle, in Hertz pressures [-]."""
+    load_error: float
+    """Relative error of the load balance [-]."""
+    film_central: float
+    film_minimum: float
+    """H at X = Y = 0 and smallest nodal H after this cycle [-]."""
+    smoother: str
+    """Setting of the relaxation that was used."""
+    temperature_change: float = 0.0
+    """Largest change of the film temperature in this cycle, where the pressure exceeds a fiftieth
+    of the Hertz pressure [K]; zero in an isothermal run."""
+    temperature_rise: float = 0.0
+    """Largest rise of the film temperature over the inlet, or largest fall, negative, if that is
+    larger [K]; zero in an isothermal run; not stored."""
+    mean_change: float = 0.0
+    """Sum of the changes of pressure in this cycle over the sum of pressures [-]; not stored."""
+
+
+ORDERS = (1.4, 2.8)
+"""Observed orders that count as second order."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Estimate:
+    """A value with its error bar."""
+
+    value: float
+    """Richardson value."""
+    uncertainty: float
+    """Half width of the bar: discretisation and domain parts added in quadrature."""
+    discretisation: float
+    domain: float
+    """The two parts."""
+    observed_order: float | None
+    """Order observed on three grids; None if they do not show one."""
+    values: tuple[float, ...]
+    """Values on the grids, coarse to fine."""
+
+    def scaled(self, unit: float) -> "Estimate":
+        """Return the same in another unit, of which one of its own is ``unit``."""
+        return replace(
+            self,
+            value=self.value * unit,
+            uncertainty=self.uncertainty * unit,
+            discretisation=self.discretisation * unit,
+            domain=self.domain * unit,
+            values=tuple(value * unit for value in self.values),
+        )
+
+    @property
+    def is_second_order(self) -> bool:
+        """Whether the grids show second order, so that the value is extrapolated."""
+        order = self.observed_order
+        return order is not None and ORDERS[0] <= order <= ORDERS[1]
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class ErrorEstimate:
+    """Estimated errors of the film on the finest grid, without extra runs."""
+
+    discretisation_central: float
+    discretisation_minimum: float
+    """From the difference to the next coarser grid of the full multigrid, relative [-]."""
+    iteration_central: float
+    iteration_minimum: float
+    """Change by further cycles, relative [-]."""
+    domain: float = 0.0
+    """From the edges of a domain with the far field, relative [-]."""
+    supply: float = 0.0
+    """From the flooded film to which ``supply.ratio`` is stated, relative [-]."""
+    pressure_max: float | None = None
+    traction_mid_film: float | None = None
+    film_rise_max: float | None = None
+    mid_film_rise_central: float | None = None
+    surface_1_rise_max: float | None = None
+    surface_2_rise_max: float | None = None
+    load_share: float | None = None
+    ripple_film: float | None = None
+    ripple_pressure: float | None = None
+    heat_shear: float | None = None
+    heat_compression: float | None = None
+    heat_surface_1: float | None = None
+    heat_surface_2: float | None = None
+    heat_carried_out: float | None = None
+    """Error bars of further values, all parts together, relative [-]; None if the contact does not
+    have the value, or too few grids do."""
+    extrapolated: bool = False
+    """Whether the values are extrapolated from the two finest grids."""
+    spike_resolved: bool = True
+    """Whether the largest pressure will stay the largest on finer grids: if not, the pressure spike
+    is narrower than the mesh and may exceed it."""
+
+    @property
+    def central(self) -> float:
+        """Error bar of the central film, all parts together [-]."""
+        return self.discretisation_central + self.iteration_central + self.domain + self.supply
+
+    @property
+    def minimum(self) -> float:
+        """Error bar of the minimum film, all parts together [-]."""
+        return self.discretisation_minimum + self.iteration_minimum + self.domain + self.supply
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Cost:
+    """Computing cost of a solve."""
+
+    cpu_seconds: float
+    wall_seconds: float
+    """Of the solve, without compiling and without files."""
+    work: float | None = None
+    """``cpu_seconds`` in units of one FFT deformation on the same full grid, if it was measured."""
+
+    def __add__(self, other: "Cost") -> "Cost":
+        """Return the sum of the seconds of two solves."""
+        return Cost(
+            cpu_seconds=self.cpu_seconds + other.cpu_seconds,
+            wall_seconds=self.wall_seconds + other.wall_seconds,
+        )
+
+
+NO_COST = Cost(cpu_seconds=0.0, wall_seconds=0.0)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Provenance:
+    """Where a result comes from: versions by package name, and when it was made (ISO 8601)."""
+
+    versions: dict[str, str]
+    created: str
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Supplied:
+    """Oil of a contact whose cavities conserve it, beside that of the flooded contact."""
+
+    flooded_film: float | None
+    flooded_oil: float | None
+    """Central film H, and rho H there, of the same contact fully flooded and smooth, on its own
+    grid [-]; None if that did not converge, or is this contact."""
+    flooded_error: float
+    """Relative error bar of both [-]."""
+    balance: float
+    """Largest change of the oil flux over the sections across the flow, relative [-]."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True, repr=False)
+class Solution:
+    """Fields and numbers of one steady solve; `tehl.Result` adds what follows from them."""
+
+    problem: ContactProblem
+    """The case, in SI."""
+    options: Options
+    """Numerical options; ``options.domain`` as stated, the domain used is that of ``scaled``."""
+    scales: Scales
+    groups: Groups
+    """Units removed by the solver, and the dimensionless groups."""
+    scaled: Fields
+    """Dimensionless fields."""
+    rigid_approach: float
+    """H00 [-]."""
+    film_scaled: FilmSummary
+    """Film numbers [-]."""
+    status: Status
+    """How it ended."""
+    history: tuple[CycleReport, ...]
+    """Each cycle on each grid."""
+    errors: ErrorEstimate | None
+    """Estimated errors; None if the solve ended too early for them."""
+    cost: Cost
+    provenance: Provenance
+    """Computing cost and origin."""
+    uncertainty: dict[str, Estimate] = field(default_factory=dict)
+    """Of a certified result, dimensionless as the solver has them, rises in kelvin; ``certified``
+    has them in SI."""
+    shear: FilmShear | None = None
+    """Shear stresses; None without a valid film."""
+    heat: FilmHeat | None = None
+    """Temperatures; None in an isothermal run."""
+    heights: SurfaceHeights | None = None
+    """Heights of rough surfaces; None when both are smooth."""
+    asperities: FilmAsperities | None = None
+    """Asperities finer than the grid; None without."""
+    contact: FilmContact | None = None
+    """Contact through a boundary film; None without."""
+    oil: FilmOil | None = None
+    """Where the oil is; None if cavities do not conserve it."""
+    supplied: Supplied | None = None
+    """Supply over that of the flooded contact, and balance of the oil; None like ``oil``."""
+    passes: PassHistory | None = None
+    """Earlier passes of the same surfaces and this one; None of a single film."""
+    resolution: Resolution | None = None
+    """Which part of the stated heights the grid carries; None when both surfaces are smooth."""
+
+    @property
+    def certified(self) -> dict[str, Estimate]:
+        """Values of a certified result with their error bars: films [m], pressure [Pa], rises [K].
+
+        ``film_central``, ``film_minimum``, ``pressure_max``; ``traction_mid_film``, ``load_share``,
+        ``film_rise_max`` and ``mid_film_rise_central`` where the contact has them.
+        """
+        film, pressure = self.scales.film_thickness, self.scales.hertz_pressure
+        units = {"film_central": film, "film_minimum": film, "pressure_max": pressure}
+        return {name: one.scaled(units.get(name, 1.0)) for name, one in self.uncertainty.items()}
+
+    @property
+    def load(self) -> float:
+        """Return the load of the film; at the start of a transient run that of t = 0 [N]."""
+        transient = self.problem.transient
+        return self.scales.load * (1.0 if transient is None else transient.load_at(0.0))
+
+    @property
+    def scaled_problem(self) -> ScaledProblem:
+        """The problem with its scales and dimensionless groups."""
+        scaled = ScaledProblem(problem=self.problem, scales=self.scales, groups=self.groups)
+        known = self.supplied
+        if known is None:
+            return scaled
+        return replace(scaled, flooded_oil=known.flooded_oil, flooded_error=known.flooded_error)
+
+    @property
+    def x(self) -> Array:
+        """Coordinates along entrainment [m], shape (nx,)."""
+        return self.scaled.x * self.scales.half_width_x
+
+    @property
+    def y(self) -> Array:
+        """Coordinates across entrainment [m], shape (ny,)."""
+        return self.scaled.y * self.scales.half_width_y
+
+    @property
+    def pressure(self) -> Array:
+        """Film pressure, without that of asperities [Pa], shape (ny, nx)."""
+        return self.scaled.pressure * self.scales.hertz_pressure
+
+    @property
+    def film_thickness(self) -> Array:
+        """Film thickness [m], shape (ny, nx)."""
+        return self.scaled.film * self.scales.film_thickness
+
+    @property
+    def grid_options(self) -> Options:
+        """The options of the solve, with the nodes of this result stated."""
+        return self.options.on_points(self.scaled.x.size, self.scaled.y.size)
+
+    @property
+    def film(self) -> FilmSummary:
+        """Central and minimum film thickness, and place of the minimum [m].
+
+        Those of a certified result are its extrapolated values, ``film_scaled`` those of its grid.
+        """
+        scales, film, known = self.scales, self.film_scaled, self.certified
+        certain = {name.removeprefix("film_"): one.value for name, one in known.items()}
+        return FilmSummary(
+            central=certain.get("central", film.central * scales.film_thickness),
+            minimum=certain.get("minimum", film.minimum * scales.film_thickness),
+            minimum_node=film.minimum_node * scales.film_thickness,
+            minimum_at=(
+                film.minimum_at[0] * scales.half_width_x,
+                film.minimum_at[1] * scales.half_width_y,
+            ),
+        )
+
+    @property
+    def central_film_thickness(self) -> float:
+        """Film thickness at the centre of the contact [m]."""
+        return self.film.central
+
+    @property
+    def minimum_film_thickness(self) -> float:
+        """Smallest film thickness, between the nodes too [m]."""
+        return self.film.minimum
+
+
+class ConvergenceError(TehlError):
+    """The solver did not converge; ``result`` is the last finite state, with its history."""
+
+    def __init__(self, message: str, result: Solution) -> None:
+        super().__init__(message)
+        self.result = result
+
+    def __reduce__(self) -> tuple[type["ConvergenceError"], tuple[str, Solution]]:
+        """Pickle with the result, so that worker processes can raise it."""
+        return type(self), (str(self), self.result)

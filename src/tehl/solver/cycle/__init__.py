@@ -1,0 +1,1 @@
+"""Full multigrid of one film: levels, relaxation, cycles, and what accelerates them."""

@@ -1,0 +1,150 @@
+"""The discrete equations on one grid: operators and right-hand sides.
+
+    L(P, H) = f                       Reynolds: (eps P_x)_x + (eps P_y)_y/kappa^2 - (rho H)_x,
+    H - H00 - K P = g                 film, K the elastic deflection of the half-spaces,
+    sum(P) dx dy = w                  load balance
+
+(docs/theory/model.md), with P >= 0 and complementarity where the film is cavitated.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tehl.base.typing import Array
+from tehl.contact.options import Options
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import Groups, ScaledProblem
+from tehl.estimate.starvation import EnteringOil, entering_oil, supplied_film
+from tehl.kernels import reynolds
+from tehl.operators.deformation import Deformation, choose
+from tehl.operators.far_field import FarField
+from tehl.operators.film import gap
+from tehl.operators.flow import FlowTable
+from tehl.operators.influence import Influence, influence_of
+from tehl.operators.load import TARGET, Load
+from tehl.operators.reynolds import steady_stencil
+from tehl.operators.summits import AsperityTable, asperity_table
+
+FLOOR = 0.02
+"""Least film in the conductance, over the expected central film."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Equations:
+    """The operators on one grid, which do not change while the equations are solved."""
+
+    grid: Grid
+    groups: Groups
+    flow: FlowTable
+    """Mobility and density of the lubricant over pressure."""
+    stencil: reynolds.Stencil
+    """Weights of the Reynolds operator on the finest grid of a cycle."""
+    influence: Influence
+    """Deflection per unit pressure on one cell."""
+    deformation: Deformation
+    """The sum K P over all cells."""
+    load: Load
+    """Integral of the pressure."""
+    target: float
+    """Integral of P over the domain [-]."""
+    gap: Array
+    """Undeformed gap [-], ``grid.shape``."""
+    far_field: FarField | None
+    """Pressure on the edges and load outside; None if the pressure is zero there."""
+    layer: Array | None
+    """Oil that enters each line, ``rho H``, (ny,), infinite if flooded; None if oil is not
+    conserved in cavities."""
+    asperities: AsperityTable | None
+    """Laws of asperities finer than the grid; None without."""
+    contact_film: float | None
+    """Boundary film through which the surfaces may touch [-]; None has no contact."""
+    floor: float
+    """Least film in the conductance [-]: the discrete film of coarse grids may not be positive."""
+
+    @property
+    def robust(self) -> reynolds.Stencil:
+        """Weights on the coarser grids of a cycle: a wedge of second order at most."""
+        return self.stencil._replace(third=0.0)
+
+    @classmethod
+    def on(
+        cls,
+        grid: Grid,
+        scaled: ScaledProblem,
+        flow: FlowTable,
+        options: Options,
+        load: float = 1.0,
+    ) -> "Equations":
+        """Discretise a contact.
+
+        Parameters
+        ----------
+        grid, scaled : Grid, ScaledProblem
+            The nodes, and the contact.
+        flow : FlowTable
+            Mobility and density of the lubricant, the same on all grids.
+        options : Options
+            Order of the wedge, and method of the deflection.
+        load : float
+            Load that the film carries, over that of the contact [-].
+        """
+        groups, oil = scaled.groups, entering_oil(scaled)
+        conserves = scaled.problem.conserves_oil
+        starved = oil is not None
+        return cls(
+            grid=grid,
+            groups=groups,
+            flow=flow,
+            stencil=steady_stencil(grid, groups, options.order, conserves=conserves),
+            influence=influence_of(grid, groups),
+            deformation=choose(
+                options.deformation, grid, groups, exact=options.accuracy == "tight"
+            ),
+            load=Load(grid),
+            target=load * TARGET,
+            gap=gap(grid, groups),
+            far_field=(
+                FarField(grid, scaled.entering) if options.has_far_field and not starved else None
+            ),
+            layer=_layer(scaled, oil, grid),
+            asperities=asperity_table(scaled),
+            contact_film=boundary_film(scaled),
+            floor=_floor(scaled),
+        )
+
+
+def boundary_film(scaled: ScaledProblem) -> float | None:
+    """Return the boundary film through which the surfaces may touch [-]; None has no contact."""
+    film = scaled.problem.contact_film
+    return None if film is None else film.thickness / scaled.scales.film_thickness
+
+
+def _floor(scaled: ScaledProblem) -> float:
+    """Return the least film in the conductance [-]."""
+    contact = boundary_film(scaled)
+    if contact is not None:
+        return contact
+    return FLOOR * supplied_film(scaled) if scaled.problem.asperities is None else 0.0
+
+
+def _layer(scaled: ScaledProblem, oil: EnteringOil | None, grid: Grid) -> Array | None:
+    """Return the oil that enters each line of a grid; None if its cavities do not conserve it."""
+    if not scaled.problem.conserves_oil:
+        return None
+    return np.full(grid.shape[0], np.inf) if oil is None else oil(grid.y)
+
+
+@dataclass(slots=True)
+class Sources:
+    """Right-hand sides: f of the Reynolds equation, g of the film equation, w of the load balance.
+
+    ``history`` is the contribution of previous films to wedge and squeeze in a time step; f is
+    less by it. ``outside`` is the load beyond the edges, part of w.
+    """
+
+    reynolds: Array
+    film: Array
+    load: float
+    history: Array | None = None
+    outside: float = 0.0

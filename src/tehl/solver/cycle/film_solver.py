@@ -1,0 +1,287 @@
+"""The steady film of a contact by full multigrid.
+
+`FilmSolver` supplies the steps of `tehl.solver.cycle.fmg.full_multigrid`: how a grid starts if the
+coarser one has no acceptable solution, and whether a finer one follows.
+"""
+
+from collections.abc import Sequence
+
+from tehl.estimate.scaling import Groups
+from tehl.operators.heights import Heights, heights_of
+from tehl.result.solution import ErrorEstimate, Solution
+from tehl.solver.cycle.continuation import RAISED, TouchingError
+from tehl.solver.cycle.fmg import full_multigrid
+from tehl.solver.cycle.hierarchy import Hierarchy
+from tehl.solver.cycle.iteration import MOST_CYCLES, GridIteration
+from tehl.solver.cycle.ladder import Strategy
+from tehl.solver.cycle.level import Level
+from tehl.solver.judging.convergence import (
+    LARGEST_CHANGE,
+    DivergedError,
+    GridTrace,
+    converged,
+    film_converged,
+)
+from tehl.solver.judging.goal import Goal, estimated_errors
+from tehl.solver.monitor import SILENT, Monitor
+from tehl.solver.physics.boundary_contact import TouchingNewton
+
+FIRST_STEPS, TOUCHING_STEPS = 6, 20
+"""Newton steps on the coarsest grid at the start, and where surfaces may touch; that they may not
+converge does no harm."""
+TOO_COARSE = 0.5
+"""Error bar of the film beyond which the grid may be why the cycles do not converge."""
+LEAST_GRIDS = 2
+"""Most grids that give no error bars: the coarsest one does not resolve the contact."""
+
+
+class FilmSolver(GridIteration):
+    """Full multigrid for the film of a contact.
+
+    Parameters
+    ----------
+    hierarchy, strategy : Hierarchy, Strategy
+        The levels; method and settings.
+    heights : Heights or None
+        Heights of the surfaces on the finest grid; None for smooth surfaces.
+    goal : Goal
+        The error to reach; by default the grid of the hierarchy is the finest.
+    monitor : Monitor
+        Receives the report of each cycle.
+    guess : Solution or None
+        The film of a similar contact.
+    """
+
+    def __init__(
+        self,
+        hierarchy: Hierarchy,
+        strategy: Strategy,
+        *,
+        heights: Heights | None = None,
+        goal: Goal | None = None,
+        monitor: Monitor = SILENT,
+        guess: Solution | None = None,
+    ) -> None:
+        goal = goal or Goal(hierarchy.scaled, hierarchy.options)
+        super().__init__(hierarchy, strategy, heights, goal, monitor)
+        self.guess = guess
+        self.accepted = True  # the next coarser grid has an acceptable solution
+
+    @property
+    def groups(self) -> Groups:
+        """Dimensionless groups of the contact."""
+        return self.hierarchy.scaled.groups
+
+    def solve(self, *, force: bool) -> bool:
+        """Run full multigrid; return whether the finest grid converged.
+
+        If the goal is open, finer grids follow until the error estimate of the film is below it.
+        ``force`` continues on the finest grid even if the next coarser one has no acceptable
+        solution, and on one finer grid if the finest one diverges.
+
+        Raises
+        ------
+        DivergedError
+            When the unknowns on the finest grid grow without bound or are not finite, no Newton
+            step reduces the residual, or, unless forced, the coarser grid was not accepted.
+        """
+
+        def improve(levels: Sequence[Level]) -> None:
+            self.goal.begin_grid()
+            if levels[-1] is self.finest:
+                if not (self.accepted or force):
+                    raise DivergedError
+                self._improve_finest(force=force)
+            else:
+                self.accepted = self._approximate(levels)
+                if self._is_last(levels):
+                    self._finish(levels)
+                    self._measure(levels)
+                    if self._needs_finer_grid(force=force):
+                        self._refine()
+
+        full_multigrid(self.levels, self._solve_coarsest, self._start, improve)
+        return self._has_converged()
+
+    def _improve_finest(self, *, force: bool) -> None:
+        """Solve on the finest grid, and append a finer one if the goal is not reached."""
+        try:
+            self._solve_finest()
+            self._measure(self.levels)
+        except TouchingError:
+            raise
+        except DivergedError:
+            self.traces[-1].diverged = True
+            if not (force and self.goal.may_try(self.finest)):
+                raise
+            self._discard(self.levels)
+            self._refine()
+        else:
+            if self._needs_finer_grid(force=force):
+                self._refine()
+
+    def _has_converged(self) -> bool:
+        """Return whether the last grid converged, and its oil flux is constant."""
+        return self.is_settled and converged(self.traces[-1], self._coarser_trace(), self.options)
+
+    def errors(self) -> ErrorEstimate | None:
+        """Return estimated errors of the film on the last grid; None before its first cycle."""
+        level = self.levels[len(self.traces) - 1]
+        return estimated_errors(level, self.traces, self.roughness, self.hierarchy)
+
+    def reached_before(self, *, last: bool = False) -> tuple[tuple[int, int], float] | None:
+        """Return nodes and error bar of the finest grid that converged before the last one.
+
+        The ``last`` one counts too if the solve ended before the next grid.
+        """
+        for number in range(len(self.traces) - (1 if last else 2), LEAST_GRIDS - 1, -1):
+            trace, level = self.traces[number], self.levels[number]
+            if not trace.reports or not self._is_acceptable(trace):
+                continue
+            known = self.traces[: number + 1]
+            errors = estimated_errors(level, known, self.roughness, self.hierarchy)
+            if errors is not None and max(errors.central, errors.minimum) < TOO_COARSE:
+                return level.grid.points, max(errors.central, errors.minimum)
+        return None
+
+    def minimum_part(self) -> float:
+        """Return the minimum film over the film to which its error is relative [-].
+
+        Itself between smooth surfaces, the central film of the smooth contact between rough ones.
+        """
+        if not self.roughness.is_rough:
+            return 1.0
+        part = max(float(self.finest.film.h.min()), 0.0) / self.hierarchy.expected_film
+        # a boundary film may be thicker than any that the oil would form
+        return part if self.finest.equations.contact_film is None else min(part, 1.0)
+
+    def _needs_finer_grid(self, *, force: bool) -> bool:
+        """Return whether a finer grid follows: the film is not accurate, or does not converge.
+
+        A grid too coarse explains cycles that do not converge; else another strategy may help.
+        """
+        if not self.goal.is_open:
+            return False
+        errors, part = self.errors(), self.minimum_part()
+        resolved = self.finest.is_resolved
+        if not self._has_converged():
+            resolved = resolved and self.goal.is_met(errors, part, TOO_COARSE)
+            return (force or not resolved) and self.goal.may_try(self.finest)
+        if resolved and self.goal.is_met(errors, part):
+            return False
+        return self.goal.may_refine(self.finest, errors)
+
+    def _is_last(self, levels: Sequence[Level]) -> bool:
+        """Return whether a grid is accurate enough, or no finer one may follow."""
+        if not (self.goal.is_open and self.accepted and len(levels) > LEAST_GRIDS):
+            return False
+        # roughness, also such that moves in later, needs the planned grid
+        if self.hierarchy.scaled.problem.is_rough or self.coupling.is_pending:
+            return False
+        if not levels[-1].is_resolved:
+            return False
+        return self.goal.is_met(self.errors()) or not self.goal.may_refine(levels[-1])
+
+    def _refine(self) -> None:
+        """Append a grid of half the mesh width."""
+        self.hierarchy.refine(self.strategy.first_relaxation)
+        if self.roughness.heights is not None:
+            self.roughness.refine(heights_of(self.hierarchy.scaled, self.finest.grid))
+        else:
+            self.roughness.refine(None)
+
+    # steps of full multigrid
+
+    def _solve_coarsest(self) -> None:
+        """Solve on the coarsest grid by Newton's method, from the Hertz pressure."""
+        coarsest = self.levels[0]
+        coarsest.start_from_hertz(self.hierarchy.expected_film)
+        if coarsest.equations.contact_film is None or not self.strategy.newton:
+            for _ in range(FIRST_STEPS):
+                self.hierarchy.coarsest.step()
+        else:
+            newton = TouchingNewton(coarsest, coarsest.grid, order=1)
+            for _ in range(TOUCHING_STEPS):
+                newton.step()
+        coarsest.update()
+        self.traces.append(GridTrace())
+        self.traces[0].note(*coarsest.nodal_film())
+
+    def _start(self, coarse: Level, fine: Level) -> None:
+        """Interpolate the coarser solution, or restart from the smooth film or the Hertz pressure.
+
+        A grid that does not resolve the film may have no acceptable discrete solution.
+        """
+        number, film = self.levels.index(fine), self.hierarchy.expected_film
+        self.from_hertz = False
+        if self.accepted:
+            fine.interpolate_from(coarse)
+        elif number > self.roughness.first:
+            self.from_hertz = not self.roughness.restart(number, film)
+        else:
+            fine.start_from_hertz(film)
+            self.from_hertz = True
+
+    def _approximate(self, levels: Sequence[Level]) -> bool:
+        """Iterate on a coarser grid; return whether its solution is a start for the next grid."""
+        try:
+            self._iterate(levels)
+            self._measure(levels)
+        except DivergedError:
+            accepted, self.traces[-1].diverged = False, True
+        else:
+            accepted = self._is_acceptable(self.traces[-1])
+        if not accepted:
+            self._discard(levels)
+        return accepted
+
+    def _discard(self, levels: Sequence[Level]) -> None:
+        """Let the next grid start without film, heat and relaxation of ``levels``."""
+        self.accepted = False
+        self.coupling.reset(levels)
+        for level in levels:
+            level.set_relaxation(self.strategy.first_relaxation)
+
+    def _is_acceptable(self, trace: GridTrace) -> bool:
+        """Return whether a coarser grid was converging, so that the next one may start from it."""
+        first, last = trace.reports[0], trace.reports[-1]
+        # fewer cycles than MOST_CYCLES: it converged before
+        falling = last.cycle < MOST_CYCLES or last.residual < self.options.tolerance
+        if self.strategy.newton or self.coupling.damping < 1.0:
+            # it may start so close that its residual cannot halve; heat comes step by step
+            falling = falling or film_converged(trace, self._coarser_trace())
+        falling = falling or last.residual < 0.5 * first.residual
+        change = last.mean_change if trace.steady else last.change  # single nodes may part
+        return falling and change < LARGEST_CHANGE and abs(last.load_error) < LARGEST_CHANGE
+
+    def _solve_finest(self) -> None:
+        """Iterate on the finest grid; if Newton's method fails, raise the heights on this grid.
+
+        Not if the next coarser grid has no positive film with all heights: raising them takes ten
+        times as long as all before, and fails alike.
+        """
+        self.finest.warm_start(self.guess)
+        last, roughness = len(self.levels) - 1, self.roughness
+        try:
+            self._iterate(self.levels)
+        except DivergedError:
+            raised_before = self.strategy.newton and roughness.first < last
+            if not raised_before or self.coarser_film_is_negative:
+                raise
+            self.monitor.message("Newton's method failed: raising the heights on the finest grid")
+            self.traces.pop()
+            comparable = roughness.first_comparable
+            self.from_hertz = not roughness.restart(last, self.hierarchy.expected_film)
+            roughness.first_comparable = comparable  # the film of the coarser grid is valid
+            self._iterate(self.levels)
+
+    @property
+    def coarser_film_is_negative(self) -> bool:
+        """Whether Newton's method converged on the next coarser grid to a film that is negative."""
+        last = len(self.levels) - 1
+        if not (self.strategy.newton and self.roughness.first < last <= len(self.traces)):
+            return False
+        level, reports = self.levels[-2], self.traces[last - 1].reports
+        solved = bool(reports) and reports[-1].residual < RAISED
+        # below -floor: negative beyond doubt
+        return solved and float(level.film.h.min()) < -level.equations.floor

@@ -1,0 +1,204 @@
+"""The grids of a contact, coarsest first, the cycle on them, and the solver of the coarsest one."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from tehl.base.typing import Array
+from tehl.contact.options import Options
+from tehl.estimate.grid import Grid, halved_grids
+from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.summits import shared_load
+from tehl.kernels import reynolds
+from tehl.kernels.coarsest import Coarse, CoarseSystem, newton_step
+from tehl.operators.flow import flow_table
+from tehl.operators.influence import dense_matrix
+from tehl.solver.cycle.equations import Equations
+from tehl.solver.cycle.fas import Cycle, cycle
+from tehl.solver.cycle.level import Level
+from tehl.solver.cycle.relaxation import Relaxation
+from tehl.solver.judging.convergence import RUNAWAY
+
+UNRESOLVED = 0.5
+"""Mesh width of the coarsest grid, in Hertz half-widths, beyond which it does not resolve the
+contact. One visit then overshoots the load balance (by 100 % at M = 5); a second one, through the
+next finer level, corrects this at negligible cost."""
+LEAST_GRIDS, LARGEST_DENSE = 3, 65
+"""Grids that are kept, and most nodes along x of the coarsest, whose matrix is dense, where a wide
+domain makes the coarsest grid too coarse for the pressure: its load then depends on the rigid
+approach in another way, and the cycles diverge."""
+THICK = 0.25
+"""Expected central film above which two visits help: for a thinner film such a grid has no valid
+discrete solution, and more visits do harm (M = 200 and more on wide domains)."""
+MOST_CARRIED, MOST_HALVINGS = 1.5, 8
+"""Pressure of the asperities beyond which a Newton step is halved, over that of Hertz, which they
+exceed by little even when dry; and most times."""
+LONGEST_STEP = 0.3
+"""Largest change of pressure in a Newton step on the coarsest grid, in Hertz pressures."""
+
+
+class CoarsestSolver:
+    """Newton's method for pressure and rigid approach together on the coarsest level.
+
+    The equations are L(P, H00 + K P + g) = f at the wet nodes and sum(P) dx dy = w, with the dense
+    matrix K and the derivatives of the conductance by pressure and film. The rigid approach moves
+    all pressures at once, so no local relaxation finds it; here it costs one more unknown.
+    """
+
+    def __init__(self, level: Level) -> None:
+        self.level = level
+        equations = level.equations
+        grid = equations.grid
+        self.influence = dense_matrix(grid.shape, grid.mirror, equations.influence)
+
+    def step(self) -> None:
+        """Perform a Newton step of limited length in place."""
+        level = self.level
+        level.update()
+        # unlike evaluate_residual, not zero at cavitated nodes: the Newton step may wet them
+        residual = np.empty_like(level.residual)
+        stencil = level.equations.robust
+        reynolds.operator(level.film, stencil, residual)
+        np.subtract(level.sources.reynolds, residual, out=residual)
+        laws = level.equations.asperities
+        system = CoarseSystem(
+            residual=residual,
+            influence=self.influence,
+            frozen=level.smoother.frozen,
+            area=level.equations.load.area,
+            missing_load=level.missing_load(),
+            nearest=np.inf if laws is None else laws.sigma + 0.5 * float(level.film.h.min()),
+        )
+        before = level.film.p.copy(), level.film.asperity.copy()
+        change = newton_step(self._linearised(), stencil, system, LONGEST_STEP)
+        level.move(change)
+        if laws is not None:
+            self._shorten(before, change)
+
+    def _shorten(self, before: tuple[Array, Array], change: float) -> None:
+        """Halve a step until the asperities, steep as they are, carry no more than is likely."""
+        level, film = self.level, self.level.film
+        after = film.p.copy(), film.asperity.copy()
+        largest = max(MOST_CARRIED, 2.0 * before[1].max())
+        for _ in range(MOST_HALVINGS):
+            level.update()
+            if film.asperity.max() <= largest:
+                return
+            change *= 0.5
+            level.move(-change)
+            for field, old, new in zip((film.p, film.asperity), before, after, strict=True):
+                new[:] = 0.5 * (old + new)
+                field[:] = new
+
+    def _linearised(self) -> Coarse:
+        """Return film and conductance with the derivatives of the conductance."""
+        film, factors = self.level.film, self.level.factors
+        by_pressure, by_film = self.level.conductance_slopes()
+        ones = np.ones_like(film.p)
+        stretch_x, stretch_y = (
+            (ones, ones) if factors is None else (factors.stretch_x, factors.stretch_y)
+        )
+        if film.across.size:
+            stretch_y = stretch_y * film.across
+        rho = film.rho if self.level.equations.asperities is None else film.rho * film.opening
+        return Coarse(
+            *film[:3],
+            rho=rho,
+            drho=film.drho,
+            eps_p=by_pressure,
+            eps_h=by_film,
+            stretch_x=stretch_x,
+            stretch_y=stretch_y,
+            partial=film.partial,
+            second=film.second,
+            stiffness=film.stiffness,
+            asperity=film.asperity,
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Hierarchy:
+    """The levels of a contact, coarsest first, and the solver of the coarsest.
+
+    ``expected_film`` is the central film by formula [-], and ``load`` that of the film over that of
+    the contact [-].
+    """
+
+    scaled: ScaledProblem
+    options: Options
+    levels: list[Level]
+    coarsest: CoarsestSolver
+    expected_film: float
+    load: float = 1.0
+
+    @classmethod
+    def on(
+        cls,
+        finest: Grid,
+        scaled: ScaledProblem,
+        options: Options,
+        relaxation: Relaxation,
+        load: float = 1.0,
+    ) -> "Hierarchy":
+        """Discretise a contact on ``finest`` and its coarser grids.
+
+        Parameters
+        ----------
+        finest, scaled : Grid, ScaledProblem
+            The grid of the result, and the contact.
+        options, relaxation : Options, Relaxation
+            Wedge order and deformation; settings of the smoother.
+        load : float
+            Load that the film carries, over that of the contact [-].
+        """
+        flow, film = flow_table(scaled), shared_load(scaled).gap
+        grids = halved_grids(finest)
+        high = scaled.problem.asperity_rms / scaled.scales.film_thickness
+        # of the parabolic gap, where film or asperities are thick
+        widest = max(1.0, (2.0 * max(film, high)) ** 0.5)
+        while grids[0].dx > widest and len(grids) > LEAST_GRIDS and grids[1].nx <= LARGEST_DENSE:
+            del grids[0]
+        levels = [Level(Equations.on(g, scaled, flow, options, load), relaxation) for g in grids]
+        return cls(scaled, options, levels, CoarsestSolver(levels[0]), film, load)
+
+    def refine(self, relaxation: Relaxation) -> None:
+        """Append a level of half the mesh width."""
+        grid, flow = self.finest.grid.finer(), self.finest.equations.flow
+        equations = Equations.on(grid, self.scaled, flow, self.options, self.load)
+        self.levels.append(Level(equations, relaxation))
+
+    @property
+    def finest(self) -> Level:
+        """The level of the result."""
+        return self.levels[-1]
+
+    def cycle(self, levels: Sequence[Level]) -> None:
+        """Perform one multigrid cycle on ``levels``."""
+        options, mesh_width = self.options, levels[0].grid.dx
+        conserves = bool(levels[0].stencil.conserves)
+        shape = Cycle(
+            kind=options.cycle,
+            pre_sweeps=options.pre_sweeps,
+            post_sweeps=options.post_sweeps,
+            # where oil is conserved the second visit would undo the first
+            twice=mesh_width > UNRESOLVED and self.expected_film > THICK and not conserves,
+        )
+        # cheap on coarser grids; with 2 + 2 sweeps the film of M = 200, r = 0.2 goes to and fro
+        extra = int(conserves and levels[-1] is not self.finest)
+        cycle(levels, self.coarsest.step, shape, extra)
+
+    def salvage(self) -> None:
+        """Interpolate the finest valid state of a coarser grid to the finest grid."""
+        start = -1
+        for number, level in enumerate(self.levels):
+            if 0.0 < level.film.p.max() < RUNAWAY and np.isfinite(level.rigid_approach):
+                start = number
+        if start < 0:
+            start = 0
+            self.levels[0].start_from_hertz(self.expected_film)
+        for coarse, fine in pairwise(self.levels[start:]):
+            fine.interpolate_from(coarse)
+        self.finest.pose_problem()
+        self.finest.update()

@@ -1,0 +1,160 @@
+"""The ladder of strategies: which method is tried first, and its fallbacks.
+
+A strategy is a relaxation with the settings of everything around it. Smooth isothermal films need
+the first rung only, up to M = 1000 and more; later rungs trade speed for robustness.
+"""
+
+from dataclasses import dataclass, field, replace
+
+from tehl.contact.options import Options
+from tehl.contact.problem import ContactProblem
+from tehl.solver.cycle.continuation import Continuation
+from tehl.solver.cycle.relaxation import (
+    BESIDE_NEWTON,
+    BROAD,
+    CAREFUL,
+    FAST,
+    GAUSS_SEIDEL,
+    GENTLE,
+    ROBUST,
+    ROUGH,
+    STEEP,
+    STEEPER,
+    Relaxation,
+)
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Strategy:
+    """How a contact is solved."""
+
+    relaxation: Relaxation
+    continuation: Continuation = field(default_factory=Continuation)
+    memory: int = 0
+    """Earlier cycles combined by Anderson acceleration between asperities; 0 is none."""
+    patience: int = 1
+    """Factor on the largest number of cycles."""
+    damping: float = 1.0
+    """Damping factor of the logarithms of mobility and density of a rough film, per sweep of the
+    energy equation; 1 is undamped [-]."""
+    newton: bool = False
+    """Use Newton's method instead of cycles on the grids that have the heights."""
+    wedge_order: int | None = None
+    """Order of the wedge on this rung, if it is another than that of the options."""
+    slide_in_steps: bool = False
+    """Raise the sliding speed from zero over the first sweeps of the energy equation."""
+
+    @property
+    def name(self) -> str:
+        """Name of the relaxation."""
+        return self.relaxation.name
+
+    @property
+    def first_relaxation(self) -> Relaxation:
+        """Relaxation of the coarse grids on which the film is isothermal and conducts less."""
+        return FAST if self.relaxation is BROAD else self.relaxation
+
+    @property
+    def description(self) -> str:
+        """The strategy in words."""
+        if self.newton:
+            return "Newton's method (slow)"
+        steps = ", with continuation in the sliding speed" if self.slide_in_steps else ""
+        order = "" if self.wedge_order is None else ", with a wedge of second order"
+        return f"the {self.name} smoother{steps}{order}"
+
+
+SMOOTH = (
+    Strategy(relaxation=FAST),
+    Strategy(relaxation=STEEP),
+    Strategy(relaxation=ROBUST),
+    Strategy(relaxation=STEEPER),
+)
+BETWEEN_ASPERITIES = (
+    Strategy(relaxation=FAST),
+    # asperities that carry half the load behind a steep spike: the cycles alone go to and fro
+    Strategy(relaxation=ROBUST, memory=5, patience=2),
+    Strategy(relaxation=STEEP),
+    Strategy(relaxation=GENTLE, patience=3),
+)
+COUPLED = (
+    Strategy(relaxation=BROAD),
+    Strategy(relaxation=STEEP, damping=0.3, patience=3),
+    # heavily loaded and starved or heated: on fine grids the rim of the film is wide and steep
+    Strategy(relaxation=STEEPER, damping=0.3, patience=4),
+    Strategy(relaxation=ROBUST, patience=3),
+    Strategy(relaxation=ROBUST, damping=0.3, patience=3),
+    Strategy(relaxation=ROBUST, slide_in_steps=True),
+)
+BETWEEN_ROUGH = (
+    Strategy(relaxation=ROUGH, memory=5),
+    Strategy(
+        relaxation=CAREFUL,
+        continuation=Continuation(correction=0.5, limit=0.3, ramp=8),
+        memory=8,
+        patience=2,
+        damping=0.3,
+    ),
+    Strategy(
+        relaxation=GENTLE,
+        continuation=Continuation(correction=0.15, limit=0.15, ramp=48, points=12.0),
+        memory=10,
+        patience=3,
+        damping=0.3,
+    ),
+    Strategy(relaxation=BESIDE_NEWTON, continuation=Continuation(points=5.0), newton=True),
+)
+TOUCHING = (
+    # Anderson acceleration combines states that touch at other nodes: it takes more cycles
+    Strategy(
+        relaxation=CAREFUL,
+        continuation=Continuation(correction=0.7, limit=0.3, ramp=8),
+        patience=3,
+    ),
+    Strategy(
+        relaxation=BESIDE_NEWTON,
+        continuation=Continuation(points=5.0),
+        newton=True,
+        patience=2,
+    ),
+)
+FIRST = 2
+"""Strategies that are tried with a wedge of third order before one of second order."""
+STATED = {one.name: Strategy(relaxation=one) for one in (FAST, BROAD, ROBUST, GAUSS_SEIDEL)}
+
+
+def ladder(problem: ContactProblem, options: Options, *, rough: bool) -> tuple[Strategy, ...]:
+    """Return the strategies to try, fastest first.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        The contact.
+    options : Options
+        A stated ``smoother`` is the only rung.
+    rough : bool
+        Whether the surfaces have heights.
+    """
+    if problem.contact_film is not None:
+        return TOUCHING if rough else TOUCHING[-1:]  # a smooth contact touches all over
+    if options.smoother != "auto":
+        return (STATED[options.smoother],)
+    if rough:
+        # with heat, Newton steps converge no better than cycles, at ten times the cost
+        cycles = tuple(one for one in BETWEEN_ROUGH if not one.newton)
+        # and their Jacobian does not know partly filled cavities
+        return cycles if problem.is_coupled or problem.conserves_oil else BETWEEN_ROUGH
+    rungs = _rungs(problem)
+    if options.order < 3 or options.wedge_order is not None:
+        return rungs
+    # behind steep pressure spikes some contacts converge with second order only
+    second = tuple(replace(one, wedge_order=2) for one in rungs)
+    return (*rungs[:FIRST], *second[:FIRST], *second[FIRST:])
+
+
+def _rungs(problem: ContactProblem) -> tuple[Strategy, ...]:
+    """Return the strategies for smooth surfaces."""
+    if not problem.is_coupled:
+        return SMOOTH if problem.asperities is None else BETWEEN_ASPERITIES
+    last = () if problem.asperities is None else BETWEEN_ASPERITIES[-1:]
+    return (*(COUPLED if problem.slide_roll_ratio else COUPLED[:-1]), *last)

@@ -1,0 +1,587 @@
+"""One grid of the hierarchy: its unknowns, its right-hand sides, and the transfers to other grids.
+
+The unknowns are the pressure P and the rigid approach H00; the film H follows from them. On the
+finest grid the right-hand sides f, g, w of `tehl.solver.cycle.equations` are those of the problem.
+On a coarser one they carry the full approximation scheme (FAS: Brandt 1977; Venner and Lubrecht
+2000, chapters 4 and 6): each equation A(u) = b becomes
+
+    A_c(u_c) = A_c(I u) + R (b - A(u)),
+
+with I u the injected or weighted fine solution and R full weighting.
+"""
+
+import numpy as np
+
+from tehl.base.typing import Array
+from tehl.estimate.grid import Grid
+from tehl.kernels import properties, reynolds, summits, transfer
+from tehl.operators.far_field import FarField
+from tehl.operators.film import hertz_pressure
+from tehl.operators.load import TARGET
+from tehl.operators.transfer import refine
+from tehl.result.solution import Solution
+from tehl.solver.cycle.equations import Equations, Sources
+from tehl.solver.cycle.relaxation import Relaxation, make_smoother
+from tehl.solver.judging.film_summary import central_value
+
+PRESSURE_STEP = 1e-6
+"""Step of the derivative of the conductance by pressure; its error is of this relative size."""
+FROZEN_BELOW = 1e-3
+"""Pressure below which a coarse node beside a cavity keeps its pressure: where the film ends is
+decided on the finest grid alone."""
+NEARER = 0.1
+"""Residual of a guess over that of the interpolated coarser film, below which the guess is taken.
+Full multigrid starts near the solution, which few neighbours of a study beat."""
+FRONT_SWEEPS, FRONT_WIDTH, FRONT_RESTS = (4, 16), 6, 0.03
+"""Least and most sweeps where a starved film begins, nodes to both sides, and nodes that fill or
+empty over the number of lines from which the meniscus rests. Least CPU time of 20 contacts (M 20 to
+200, r 0.2 to 4, 257 nodes) that all converge."""
+REACH = 1.5
+"""Film of a smooth change of the pressure in the contact, over that change [-]: 4/pi in the middle
+of a uniform one over the Hertz circle, and somewhat more, as too little only takes longer."""
+DRY_STEPS, DRY_PART, DRY_ERROR = 20, 0.5, 0.01
+"""Most steps to a dry contact, change of the rigid approach over the missing part of the load, and
+the part that ends them: it is only a start."""
+APPROACH_WEIGHT = 10.0
+"""Weight of the rigid approach among the pressures in the vector of unknowns."""
+
+
+class Level:
+    """One grid with its unknowns.
+
+    `set_state`, `relax`, `correct_from`, `apply_heights` and `uncouple` mark the film as stale;
+    `update` evaluates film, density and conductance again.
+    """
+
+    def __init__(self, equations: Equations, relaxation: Relaxation) -> None:
+        shape = equations.grid.shape
+        self.equations = equations
+        self.smoother = make_smoother(equations, relaxation)
+        p, h, eps, rho, drho, f, g = (np.zeros(shape) for _ in range(7))
+        self.is_finest = True  # of those in use: its equations are those of the problem
+        self.film = properties.Film(p, h, eps, rho, drho, eps_x=eps, eps_y=eps)
+        if equations.layer is not None:
+            partial, second = np.zeros(shape, np.uint8), np.zeros(shape, np.uint8)
+            self.film = self.film._replace(partial=partial, second=second, layer=equations.layer)
+        self.separation = h  # of the mean planes: the film but for asperities finer than the grid
+        if equations.asperities is not None:
+            self.separation = np.zeros(shape)
+            q, s, opening, channel = (np.zeros(shape) for _ in range(4))
+            self.film = self.film._replace(
+                asperity=q, stiffness=s, opening=opening, channel=channel
+            )
+            if equations.asperities.is_anisotropic:
+                self.film = self.film._replace(across=np.ones(shape), eps_y=np.zeros(shape))
+            if equations.asperities.slides:
+                self.film = self.film._replace(carried=np.ones(shape))
+        self.touching = np.zeros((0, 0), bool)  # nodes in contact through a boundary film
+        if equations.contact_film is not None:
+            self.separation, self.touching = np.zeros(shape), np.zeros(shape, bool)
+            partial, second = np.zeros(shape, np.uint8), np.zeros(shape, np.uint8)
+            self.film = self.film._replace(partial=partial, second=second, asperity=np.zeros(shape))
+        self.keeps_orders = False  # the nodes of second order stay as they are
+        self.keeps_contact = False  # and those that touch
+        self.rigid_approach = 0.0
+        self.sources = Sources(f, g, equations.target)
+        self.residual = np.zeros(shape)
+        self.restricted = (np.zeros(shape), 0.0)
+        self.total = np.zeros(shape)  # pressure of oil and asperities
+        self.kept = np.zeros(shape)  # asperity pressure of that state
+        self.heights: Array | None = None
+        # of the correction of the next finer grid: factor, and limit of its relative change of P
+        self.correction = (1.0, np.inf)
+        self.factors: properties.Factors | None = None
+        self._is_stale = True
+
+    @property
+    def grid(self) -> Grid:
+        """The nodes."""
+        return self.equations.grid
+
+    @property
+    def far_field(self) -> FarField | None:
+        """Pressure on the edges and load outside of the finest level; None if it is zero."""
+        return self.equations.far_field if self.is_finest else None
+
+    @property
+    def stencil(self) -> reynolds.Stencil:
+        """Weights of the Reynolds operator.
+
+        Coarser levels of a cycle, and the coarsest, have a wedge of second order (double
+        discretisation: Brandt 1982): it is more robust where the mesh does not resolve the film.
+        """
+        return self.equations.stencil if self.is_finest else self.equations.robust
+
+    @property
+    def balance(self) -> reynolds.Stencil:
+        """The same by fluxes through the faces of cells where surfaces may touch.
+
+        The order of each flux is then chosen by `Film.second`, and oil is conserved all the same.
+        In a time step there are none: what moves with the film stays in it. Coarser grids of a
+        cycle correct the finest one by the usual wedge.
+        """
+        touches = self.equations.contact_film is not None and self.is_finest
+        if not touches or self.stencil.w1 == 0.0:
+            return self.stencil
+        return self.stencil._replace(conserves=reynolds.STEADILY)
+
+    @property
+    def is_resolved(self) -> bool:
+        """Whether the film exceeds the floor of the conductance, or is the boundary film."""
+        touches = self.equations.contact_film is not None
+        return touches or float(self.film.h.min()) > self.equations.floor
+
+    # state
+
+    def set_state(
+        self, pressure: Array, rigid_approach: float, asperity: Array | float = 0.0
+    ) -> None:
+        """Set the pressures of oil and asperities, and the rigid approach; the film is stale.
+
+        Parameters
+        ----------
+        pressure : array of ``grid.shape``
+            Of the oil; it is cavitated where this is zero.
+        rigid_approach : float
+            H00 [-].
+        asperity : array of ``grid.shape``
+            Of the asperities: where oil and they share a pressure, its parts follow with the film.
+        """
+        self.film.p[:] = pressure
+        self.film.asperity[:] = asperity
+        self.rigid_approach = rigid_approach
+        self._is_stale = True
+
+    def set_pressure(self, pressure: Array) -> None:
+        """Set the pressure of oil and asperities together; the film is stale.
+
+        With asperities the oil stays cavitated where it is.
+        """
+        if self.equations.asperities is None:
+            self.set_state(pressure, self.rigid_approach)
+        else:
+            oil = np.where(self.film.p == 0.0, 0.0, pressure - self.film.asperity)
+            self.set_state(oil, self.rigid_approach, pressure - oil)
+
+    def state(self) -> tuple[Array, float, Array]:
+        """Return a copy of what `set_state` sets."""
+        return self.film.p.copy(), self.rigid_approach, self.film.asperity.copy()
+
+    def move(self, change: float) -> None:
+        """Change the rigid approach."""
+        self.rigid_approach += change
+        self._is_stale = True
+
+    @property
+    def pressure(self) -> Array:
+        """Pressure of oil and asperities together, written anew at each access [-]."""
+        film = self.film
+        return np.add(film.p, film.asperity, out=self.total) if film.asperity.size else film.p
+
+    def asperity_load(self) -> float:
+        """Return the load on asperities over the load of the contact, zero without [-]."""
+        asperity = self.film.asperity
+        return self.equations.load.integral(asperity) / self.sources.load if asperity.size else 0.0
+
+    def unknowns(self) -> Array:
+        """Return pressure and weighted rigid approach as one vector, (n + 1,)."""
+        return np.append(self.pressure.ravel(), APPROACH_WEIGHT * self.rigid_approach)
+
+    def set_unknowns(self, vector: Array) -> None:
+        """Set pressure and rigid approach from a vector; negative pressures are clipped."""
+        self.set_pressure(np.maximum(vector[:-1].reshape(self.grid.shape), 0.0))
+        self.rigid_approach = float(vector[-1]) / APPROACH_WEIGHT
+
+    def update(self) -> None:
+        """Evaluate film H = H00 + K P + g, conductance and density if they are stale."""
+        if not self._is_stale:
+            return
+        h = self.separation
+        # the deflection is the largest part of the cost: once per change of the pressure
+        self.equations.deformation.deflect(self.pressure, h)
+        np.add(h, self.sources.film, out=h)
+        np.add(h, self.rigid_approach, out=h)
+        if self.far_field is not None:
+            self.far_field.set_edges(self.film.p, h)
+            self.sources.outside = self.far_field.load(h, self.equations.gap)
+        self._meet()
+        self._share(REACH)
+        self._is_stale = False
+        if self.stencil.conserves == reynolds.STEADILY and self.is_finest:
+            self._mark_cavities()
+
+    def _share(self, reach: float) -> None:
+        """Evaluate the asperities at the present separation, and conductance and density.
+
+        ``reach`` as for `summits.touch`.
+        """
+        table, flow, frozen = self.equations.asperities, self.equations.flow, self.smoother.frozen
+        if table is not None:
+            summits.touch(self.film, self.separation, table.laws, flow, frozen, reach)
+        if table is None or self.factors is not None:
+            self.update_properties()
+
+    def _meet(self) -> None:
+        """Find where the surfaces touch: the film is the boundary film there.
+
+        Complementarity of contact pressure and gap by the sign of P_c - (H - H_c)/K_00 (primal-dual
+        active set: Hintermüller, Ito and Kunisch 2002). In a cycle the nodes that touch stay.
+        """
+        least, film, inner = self.equations.contact_film, self.film, (slice(None, -1), slice(1, -1))
+        if least is None:
+            return
+        if self.keeps_contact:
+            film.h[:] = self.separation
+        else:
+            gap = (self.separation - least) / self.equations.influence.self_film
+            self.touching[inner] = (film.asperity > gap)[inner]
+            if not self.grid.mirror:
+                self.touching[0] = False
+            np.maximum(self.separation, least, out=film.h)
+        if self.is_finest:
+            film.h[self.touching] = least
+
+    def missing_gap(self) -> float:
+        """Return the mean error of H = H_c where surfaces touch, as a pressure [-]."""
+        least = self.equations.contact_film
+        if least is None:
+            return 0.0
+        errors = np.where(self.touching, np.abs(self.separation - least), 0.0)
+        return float(errors.mean()) / self.equations.influence.self_film
+
+    def _mark_cavities(self) -> None:
+        """Mark partly filled nodes, and those that pass on oil with second order."""
+        film, stencil = self.film, self.stencil
+        scratch = np.empty((1, film.p.shape[1]))
+        reynolds.mark_partial(film, stencil, self.sources.reynolds, scratch, self.smoother.ends)
+        if not self.keeps_orders:
+            reynolds.mark_second_order(film, stencil)
+
+    def held_oil(self) -> Array:
+        """Return the oil at each node after a time step, ``grid.shape`` [-].
+
+        A node without pressure is not full if less oil has come than a full one holds.
+        """
+        film, rest = self.film, np.empty(self.grid.shape)
+        held: Array = film.rho * film.h
+        if self.stencil.conserves:
+            reynolds.operator(film, self.stencil, rest)
+            np.subtract(self.sources.reynolds, rest, out=rest)
+            missing = np.maximum(rest, 0.0) / self.stencil.w0
+            missing[[0, -1] if not self.grid.mirror else [-1]] = 0.0
+            missing[:, [0, -1]] = 0.0
+            held = np.where(film.p > 0.0, held, np.maximum(held - missing, 0.0))
+        return held
+
+    def oil_flow(self) -> tuple[Array, Array]:
+        """Return the oil at each node, rho H or less, and the flux to the east, ``grid.shape``."""
+        held, passed = np.empty(self.grid.shape), np.empty(self.grid.shape)
+        reynolds.oil_flow(self.film, self.stencil, held, passed)
+        return held, passed
+
+    def update_properties(self) -> None:
+        """Evaluate conductance and density for the present pressure and film."""
+        self._evaluate(self.film)
+
+    def _evaluate(self, film: properties.Film) -> None:
+        flow, floor = self.equations.flow, self.equations.floor
+        if self.factors is None:
+            properties.properties(film, flow, floor)
+        else:
+            properties.heated_properties(film, self.factors, flow, floor)
+
+    def nodal_film(self) -> tuple[float, float]:
+        """Return central and smallest nodal film [-]."""
+        return central_value(self.grid, self.film.h), float(self.film.h.min())
+
+    def conductance_slopes(self) -> tuple[Array, Array]:
+        """Return d eps/dP and d eps/dH at the present pressure and film, each ``grid.shape``."""
+        film, floor = self.film, self.equations.floor
+        eps, rho, drho, eps_x, eps_y = (np.empty_like(film.p) for _ in range(5))
+        shifted = properties.Film(
+            film.p + PRESSURE_STEP, film.h, eps, rho, drho, eps_x, eps_y
+        )._replace(channel=film.channel, across=film.across, carried=film.carried)
+        self._evaluate(shifted)
+        by_pressure = (shifted.eps - film.eps) / PRESSURE_STEP
+        laws = self.equations.asperities
+        if laws is not None:
+            return by_pressure, 3.0 * film.eps * laws.widening(self.separation) / film.channel
+        # eps grows as H^3 above the floor and is constant below it
+        by_film = np.where(film.h > floor, 3.0 * film.eps / np.maximum(film.h, floor), 0.0)
+        return by_pressure, by_film
+
+    def couple(self, factors: properties.Factors) -> None:
+        """Set the factors of heat and shear thinning on mobility and density."""
+        if self.factors is None:
+            eps_x, eps_y = np.empty(self.grid.shape), np.empty(self.grid.shape)
+            self.film = self.film._replace(eps_x=eps_x, eps_y=eps_y)
+        self.factors = factors
+
+    def uncouple(self) -> None:
+        """Reset to an isothermal Newtonian film."""
+        self.factors = None
+        eps_y = self.film.eps_y if self.film.across.size else self.film.eps
+        self.film = self.film._replace(eps_x=self.film.eps, eps_y=eps_y)
+        self._is_stale = True
+
+    # the problem of the finest level
+
+    def pose_problem(self) -> None:
+        """Set the right-hand sides of a steady problem: f = 0, g = gap - heights, w the load."""
+        self.sources.reynolds[:] = 0.0
+        self.sources.load = self.equations.target
+        self.is_finest, self.keeps_contact = True, False
+        self.apply_heights(1.0)
+        self.smoother.frozen[:] = 0  # the finest grid decides where the film ends
+
+    def pose_step(self, history: Array, heights: Array, load: float) -> None:
+        """Set the right-hand sides of a time step: f contains the history.
+
+        Parameters
+        ----------
+        history : array of ``grid.shape``
+            Contribution of previous films to wedge and squeeze [-].
+        heights : array of ``grid.shape``
+            Heights of both surfaces at the new time [-].
+        load : float
+            Load over that of the contact [-].
+        """
+        self.sources.history, self.heights = history, heights
+        self.sources.load = load * TARGET
+        self.is_finest = True
+        self.apply_heights(1.0)
+        self.smoother.frozen[:] = 0
+        self.update()
+        self.write_source()
+
+    def apply_heights(self, part: float) -> None:
+        """Set g = gap - ``part`` * heights."""
+        self.sources.film[:] = self.equations.gap
+        if self.heights is not None:
+            self.sources.film -= part * self.heights
+        self._is_stale = True
+
+    def write_source(self) -> None:
+        """Set f of the finest level for the present film.
+
+        A shear-thinning film relaxes with tangent conductances, those of a small change of the
+        pressure gradient along x or y. With P0 the present pressure, that of the last energy sweep,
+        L_tan(P) = f = L_tan(P0) - L_sec(P0) - history  has the solution of the secant operator
+        where P = P0 (docs/theory/numerics-thermal.md).
+        """
+        reynolds.tangent_source(self.film, self.stencil, self.sources.reynolds)
+        if self.sources.history is not None:
+            self.sources.reynolds -= self.sources.history
+
+    def start_from_hertz(self, expected_film: float) -> None:
+        """Start from the Hertz pressure, with the rigid approach of the expected central film.
+
+        With asperities, from the pressure of the dry contact, at the separation of that film.
+        """
+        self.pose_problem()
+        self.set_state(hertz_pressure(self.grid), 0.0)
+        laws, middle = self.equations.asperities, expected_film
+        if laws is None:
+            self.update()
+        else:
+            self._press_dry()
+            self.set_state(self.film.asperity, self.rigid_approach)  # of oil, shared in the update
+            middle = laws.separation(expected_film)
+        self.move(middle - central_value(self.grid, self.separation))
+
+    def _press_dry(self) -> None:
+        """Let dry asperities carry the load, from the present pressure on.
+
+        Where oil is cavitated they follow their law; the rigid approach follows the load, which
+        grows as its power 3/2 (Hertz).
+        """
+        pressure, h = self.film.p.copy(), self.separation
+        self.equations.deformation.deflect(pressure, h)
+        self.set_state(np.zeros_like(pressure), -central_value(self.grid, h), pressure)
+        missing = -self.load_error()
+        for _ in range(DRY_STEPS):
+            self.move(-DRY_PART * min(max(missing, -1.0), 1.0))
+            self.update()
+            missing = -self.load_error()
+            if abs(missing) <= DRY_ERROR:
+                return
+
+    def interpolate_from(self, coarse: "Level") -> None:
+        """Start from the solution of the next coarser grid, by cubic interpolation."""
+        oil, asperity = refine(coarse.film.p, self.grid), coarse.film.asperity
+        asperity = refine(asperity, self.grid) if asperity.size else asperity
+        self.set_state(oil, coarse.rigid_approach, asperity)
+
+    def warm_start(self, guess: Solution | None) -> None:
+        """Start from the film of a similar contact if its residual is much smaller."""
+        if guess is None or self.equations.contact_film is not None:
+            return
+        self.pose_problem()
+        here, before = self.state(), self._distance()
+        self.set_state(values_on(self.grid, guess, guess.scaled.pressure), guess.rigid_approach)
+        if guess.asperities is not None:
+            pressure = guess.asperities.pressure / guess.scales.hertz_pressure
+            self.film.asperity[:] = values_on(self.grid, guess, pressure)
+        if not self._distance() < NEARER * before:
+            self.set_state(*here)
+
+    def _distance(self) -> float:
+        """Return residual plus load error of the present state [-]."""
+        self.update()
+        return self.evaluate_residual() + abs(self.load_error())
+
+    # relaxation and residual
+
+    def set_relaxation(self, relaxation: Relaxation) -> None:
+        """Change the settings of the smoother; frozen nodes stay frozen."""
+        frozen = self.smoother.frozen
+        self.smoother = make_smoother(self.equations, relaxation)
+        self.smoother.frozen[:] = frozen
+
+    def relax(self, sweeps: int) -> None:
+        """Smooth the error of the pressure by ``sweeps`` relaxation sweeps."""
+        for _ in range(sweeps):
+            self.update()
+            self.smoother.sweep(self.film, self.balance, self.sources.reynolds, self.equations.flow)
+            self._is_stale = True
+
+    def relax_fronts(self) -> bool:
+        """Relax where films begin until these places rest; return whether they do.
+
+        A cycle moves them by some nodes only: coarse grids keep them. The pressure there hardly
+        changes the film, which is not evaluated between the sweeps.
+        """
+        (least, most), smoother, mirror = FRONT_SWEEPS, self.smoother, self.stencil.mirror
+        self.update()
+        for number in range(most):
+            before = self.film.partial.copy()
+            front = FRONT_WIDTH, smoother.frozen, smoother.ends
+            reynolds.keep_to_fronts(self.film, mirror, *front)
+            smoother.sweep(self.film, self.stencil, self.sources.reynolds, self.equations.flow)
+            self._mark_cavities()
+            moved = np.count_nonzero(self.film.partial != before)
+            rests = bool(moved <= FRONT_RESTS * self.grid.shape[0])
+            if rests and number >= least:
+                break
+        smoother.frozen[:], smoother.ends[:] = 0, self.grid.nx - 1
+        self._is_stale = True
+        return rests
+
+    def evaluate_residual(self) -> float:
+        """Evaluate f - L(P), zero where cavitated; return its mean over the local diagonal.
+
+        Where surfaces touch the error of their gap is added.
+        """
+        self_film = self.equations.influence.self_film
+        flow = reynolds.residual(
+            self.film, self.balance, self.sources.reynolds, self_film, self.residual
+        )
+        return flow + self.missing_gap()
+
+    def missing_load(self) -> float:
+        """Return w less the integral of P, inside and outside the domain [-]."""
+        inside = self.equations.load.integral(self.pressure)
+        return self.sources.load - self.sources.outside - inside
+
+    def load_error(self) -> float:
+        """Return the relative error of the load balance."""
+        return -self.missing_load() / self.sources.load
+
+    # full approximation scheme
+
+    def restrict_to(self, coarse: "Level") -> None:
+        """Pose the FAS problem of this level's error on ``coarse``."""
+        self.update()
+        self.evaluate_residual()
+        self.restrict_solution(coarse)
+        self.restrict_film(coarse)
+        self.restrict_reynolds(coarse)
+        self.restrict_load(coarse)
+        coarse._is_stale = False  # its film is the injected one, not that of K_c P_c
+
+    def restrict_solution(self, coarse: "Level") -> None:
+        """Restrict P by full weighting, beside cavities and on edges by injection, and H00.
+
+        Coarse nodes of low pressure beside a cavity are frozen: the coarse grid would cavitate them
+        in every cycle (Venner and Lubrecht 2000, chapter 6, restrict there by injection).
+        """
+        mirror, frozen = self.stencil.mirror, coarse.smoother.frozen
+        limit = 0.0 if self.stencil.conserves else FROZEN_BELOW
+        transfer.restrict_pressure(self.film.p, mirror, coarse.film.p)
+        transfer.freeze(self.film.p, self.smoother.frozen, coarse.film.p, mirror, limit, frozen)
+        coarse.is_finest, coarse.sources.outside = False, 0.0
+        if self.stencil.conserves == reynolds.STEADILY:  # the finest grid decides where films begin
+            coarse.film.partial[:] = self.film.partial[::2, ::2]
+            reynolds.mark_second_order(coarse.film, coarse.stencil)
+        # I P and H00: `correct_from` interpolates the change since
+        before, _ = coarse.restricted
+        before[:] = coarse.film.p
+        coarse.restricted = (before, self.rigid_approach)
+        coarse.rigid_approach = self.rigid_approach
+
+    def restrict_film(self, coarse: "Level") -> None:
+        """Pose the film equation:  g_c = I H - K_c P_c - H00,  I injection.
+
+        The fine film satisfies its equation exactly, so there is no residual to add. Density and
+        conductance of the coarse grid follow from the injected film.
+        """
+        g, film = coarse.sources.film, self.separation
+        if self.equations.contact_film is not None:  # where surfaces touch, H_c
+            film = self.film.h
+            coarse.keeps_contact, coarse.film.asperity[:] = True, 0.0
+            coarse.film.h[:] = film[::2, ::2]
+        coarse.separation[:] = film[::2, ::2]
+        coarse._share(-1.0)
+        coarse.kept = coarse.film.asperity.copy()
+        coarse.equations.deformation.deflect(coarse.pressure, g)
+        np.subtract(coarse.separation, g, out=g)
+        g -= coarse.rigid_approach
+
+    def restrict_reynolds(self, coarse: "Level") -> None:
+        """Pose the Reynolds equation:  f_c = L_c(P_c, H_c) + R (f - L(P, H)),  R full weighting.
+
+        The residual is zero where the fine grid is cavitated: complementarity holds there.
+        """
+        mirror = self.stencil.mirror
+        if self.stencil.conserves:
+            transfer.keep_residual(self.residual, coarse.film.p, mirror)
+        transfer.restrict_residual(self.residual, mirror, coarse.residual)
+        reynolds.operator(coarse.film, coarse.stencil, coarse.sources.reynolds)
+        coarse.sources.reynolds += coarse.residual
+
+    def restrict_load(self, coarse: "Level") -> None:
+        """Pose the load balance:  w_c = sum(P_c) dx_c dy_c + (w - sum(P) dx dy)."""
+        carried = coarse.equations.load.integral(coarse.pressure)
+        coarse.sources.load = self.missing_load() + carried
+
+    def correct_from(self, coarse: "Level") -> None:
+        """Add the interpolated change  u_c - I u  of the coarse grid, u the pressure and H00.
+
+        By bilinear interpolation, never across the cavitation front: two grids would move the front
+        back and forth.
+        """
+        (before, approach), (part, limit) = coarse.restricted, coarse.correction
+        mirror, now = self.stencil.mirror, coarse.film.p
+        if coarse.equations.asperities is not None:  # the change of both together
+            now = coarse.pressure - coarse.kept
+        least = 0.0 if self.equations.asperities is None else -np.inf
+        transfer.correct(self.film.p, now, before, mirror, (part, limit, least))
+        if self.stencil.conserves:
+            transfer.correct_fronts(self.film.p, coarse.film.p, before, mirror, part, limit)
+        self.rigid_approach += part * (coarse.rigid_approach - approach)
+        self._is_stale = True
+
+
+def values_on(grid: Grid, guess: Solution, pressure: Array) -> Array:
+    """Return a pressure of a result on ``grid``, bilinear between its nodes [-]."""
+    x, y = guess.scaled.x, guess.scaled.y
+    if not np.array_equal(grid.x, x):
+        pressure = np.array([np.interp(grid.x, x, row, left=0.0, right=0.0) for row in pressure])
+    if not np.array_equal(grid.y, y):
+        columns = [np.interp(grid.y, y, column, left=0.0, right=0.0) for column in pressure.T]
+        pressure = np.array(columns).T
+    found = np.maximum(pressure, 0.0)
+    found[-1] = found[:, 0] = found[:, -1] = 0.0
+    if not grid.mirror:
+        found[0] = 0.0
+    return found

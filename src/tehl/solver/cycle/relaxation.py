@@ -1,0 +1,159 @@
+"""Relaxation of the pressure on one grid: hybrid line relaxation, and point Gauss-Seidel.
+
+Where the film conducts, the Poiseuille term dominates, and Gauss-Seidel by lines along x smooths
+the error. In the contact the equation is (rho H)_x = 0 and a change at one node moves the film
+everywhere, so nodes change there as dipoles: one up, its four neighbours down by a quarter each
+(Venner and Lubrecht 2000, chapter 6; docs/theory/relaxation.md).
+"""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from tehl.base.typing import Array, FlagArray, IntArray
+from tehl.estimate.grid import Grid
+from tehl.kernels import relaxation as kernels
+from tehl.kernels.properties import Film
+from tehl.kernels.reynolds import Stencil
+from tehl.operators.flow import FlowTable
+from tehl.operators.influence import Influence
+from tehl.operators.reynolds import line_influence
+from tehl.solver.cycle.equations import Equations
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Relaxation:
+    """Settings of the hybrid line relaxation."""
+
+    name: str
+    """As in `tehl.contact.options.Options` and in the reports of the cycles."""
+    threshold: float
+    """Conductance over mesh width squared below which a node relaxes as a dipole [-]."""
+    point: float
+    dipole: float
+    """Under-relaxation of points (Gauss-Seidel) and of dipoles (Jacobi) [-]."""
+    lines: int = 0
+    """Lines to each side that are assumed to change with a line while it is solved. At a ridge
+    across the flow neighbouring lines change alike, and their films add."""
+    stiff: bool = False
+    """Add the change of conductance with pressure to the diagonal."""
+
+
+FAST = Relaxation(name="fast", threshold=1.0, point=0.7, dipole=0.6)
+BROAD = Relaxation(name="broad", threshold=10.0, point=0.7, dipole=0.6)
+ROBUST = Relaxation(name="robust", threshold=1.0, point=0.4, dipole=0.3, lines=4, stiff=True)
+STEEP = Relaxation(name="steep", threshold=3.0, point=0.25, dipole=0.2, stiff=True)
+STEEPER = Relaxation(name="steeper", threshold=10.0, point=0.25, dipole=0.1, stiff=True)
+ROUGH = Relaxation(name="rough", threshold=1.0, point=0.6, dipole=0.4, lines=4)
+CAREFUL = Relaxation(name="careful", threshold=1.0, point=0.5, dipole=0.35, lines=4, stiff=True)
+GENTLE = Relaxation(name="gentle", threshold=1.0, point=0.3, dipole=0.2, lines=4, stiff=True)
+BESIDE_NEWTON = Relaxation(name="newton", threshold=1.0, point=0.5, dipole=0.35)
+GAUSS_SEIDEL = Relaxation(name="gauss-seidel", threshold=0.0, point=0.5, dipole=0.0)
+
+
+class Smoother(Protocol):
+    """Relaxation of the pressure of one level."""
+
+    frozen: FlagArray
+    """Nodes that keep their pressure on this level, (ny, nx) of 0 and 1."""
+    ends: IntArray
+    """Nodes from which on all of a line keeps its pressure, (ny,)."""
+
+    def sweep(self, film: Film, stencil: Stencil, rhs: Array, flow: FlowTable) -> None:
+        """Relax ``film.p`` in place by one sweep; the rest of ``film`` stays as evaluated last.
+
+        Parameters
+        ----------
+        film, stencil : Film, Stencil
+            Pressure, film, conductance and density; weights of the Reynolds operator.
+        rhs, flow : (ny, nx) array, FlowTable
+            Right-hand side f; mobility and density of the lubricant.
+        """
+
+
+def dipole_parts(influence: Influence, stencil: Stencil) -> tuple[float, float]:
+    """Return the parts by which a dipole lowers each of its neighbours along x and along y.
+
+    A quarter each (Venner and Lubrecht 2000) on square cells. On cells longer along one direction
+    the neighbours there are too far to cancel the film of the node: each part is in proportion to
+    the inverse square of the distance. Wedges of second order keep the quarters.
+    """
+    if stencil.third == 0.0:
+        return 0.25, 0.25
+    ratio = (influence.dx / influence.dy) ** 2
+    return 0.5 / (1.0 + ratio), 0.5 * ratio / (1.0 + ratio)
+
+
+class LineSmoother:
+    """Lines along x in two colours; nodes are points where the film conducts, else dipoles.
+
+    Each line is a linear complementarity problem, solved by policy iteration
+    (`tehl.kernels.relaxation.relax_lines`).
+    """
+
+    def __init__(
+        self,
+        grid: Grid,
+        influence: Influence,
+        relaxation: Relaxation,
+        *,
+        touches: bool = False,
+        parts: tuple[float, float] = (0.25, 0.25),
+    ) -> None:
+        point, dipole = line_influence(influence, parts)
+        others = (influence(line + 1, slice(0, point.size)) for line in range(relaxation.lines))
+        point += 2.0 * sum(others, np.zeros(point.size))  # lines on both sides move along
+        self.frozen = np.zeros(grid.shape, np.uint8)
+        self.ends = np.full(grid.shape[0], grid.nx - 1)
+        self.stiffness = np.zeros(grid.shape)
+        rest, nodes, cells = kernels.workspace(grid.nx)
+        self.workspace = kernels.LineRelaxation(
+            xi=relaxation.threshold,
+            omega_point=relaxation.point,
+            omega_dipole=relaxation.dipole,
+            point=point,
+            dipole=dipole,
+            kind=np.zeros(grid.shape, np.uint8),
+            delta=np.zeros(grid.shape),
+            frozen=self.frozen,
+            stiffness=self.stiffness,
+            rest=rest,
+            nodes=nodes,
+            cells=cells,
+            ends=self.ends,
+            along=parts[0],
+            aside=parts[1],
+            touches=int(touches),
+        )
+        self.is_stiff = relaxation.stiff
+
+    def sweep(self, film: Film, stencil: Stencil, rhs: Array, flow: FlowTable) -> None:
+        """Relax ``film.p`` in place."""
+        if self.is_stiff:
+            kernels.stiffen(film, stencil, flow, self.stiffness)
+        kernels.relax_lines(film, stencil, rhs, self.workspace)
+
+
+class PointSmoother:
+    """Plain Gauss-Seidel, node by node: for teaching, as it diverges in loaded contacts."""
+
+    def __init__(self, grid: Grid, influence: Influence, relaxation: Relaxation) -> None:
+        self.frozen = np.zeros(grid.shape, np.uint8)
+        self.ends = np.full(grid.shape[0], grid.nx - 1)
+        self.point, _ = line_influence(influence)
+        self.omega = relaxation.point
+
+    def sweep(self, film: Film, stencil: Stencil, rhs: Array, flow: FlowTable) -> None:
+        """Relax ``film.p`` in place."""
+        del flow
+        kernels.relax_points(film, stencil, rhs, self.point, self.omega)
+
+
+def make_smoother(equations: Equations, relaxation: Relaxation) -> Smoother:
+    """Return the smoother of one grid: plain Gauss-Seidel if so named, else by lines."""
+    if relaxation is GAUSS_SEIDEL:
+        return PointSmoother(equations.grid, equations.influence, relaxation)
+    influence, touches = equations.influence, equations.asperities is not None
+    parts = dipole_parts(influence, equations.stencil)
+    return LineSmoother(equations.grid, influence, relaxation, touches=touches, parts=parts)

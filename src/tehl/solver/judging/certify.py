@@ -1,0 +1,341 @@
+"""Error bars of a steady result, from three grids and one larger domain.
+
+Values of a second-order scheme on grids halved each time extrapolate to
+h = h_3 + (h_3 - h_2)/3 (docs/theory/numerics.md on stopping and errors).
+"""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Generic, NoReturn, TypeVar
+
+from tehl.contact.options import Domain, Options, can_be_halved, check_certifiable
+from tehl.contact.problem import ContactProblem
+from tehl.operators.heights import UnresolvedError
+from tehl.post.boundary_contact import touching
+from tehl.post.heat import temperature
+from tehl.post.summits import load_sharing
+from tehl.post.traction import traction
+from tehl.result.solution import (
+    NO_COST,
+    ORDERS,
+    ConvergenceError,
+    Cost,
+    Estimate,
+    Hint,
+    Solution,
+    Status,
+)
+from tehl.solver.judging.verdict import LARGEST_BAR, too_coarse
+from tehl.solver.monitor import SILENT, Monitor
+from tehl.solver.steady import solve
+
+WIDER = 2
+"""Size of the larger domain over that of the result."""
+OUTLET_HALF = 0.5
+"""X downstream of which the pressure spike is searched, in Hertz half-widths."""
+JUDGED = ("film_central", "film_minimum", "pressure_max")
+"""Values whose error bars decide whether the grid is too coarse; small temperatures do not."""
+RESIDUE, LESS_REGULAR = 0.25, 1.0
+"""Least error bar over the extrapolated change, of the film, and of what follows from it less
+regularly: three grids may show second order by chance."""
+FOLLOWING = ("traction_mid_film", "load_share", "mid_film_rise_central")
+"""Values that converge less regularly than the film."""
+GROWING = 2.0
+"""Error bar over a change that is not smaller than the one before."""
+WITHOUT_FIRST = "The first grid is left out: each bar is the full change between the other two."
+
+AnyResult = TypeVar("AnyResult")
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Companion(Generic[AnyResult]):
+    """A run beside the finest one: how it ended, and its result if the error bars use it."""
+
+    ending: str
+    result: AnyResult | None = None
+    cost: Cost = NO_COST
+
+
+def certify(
+    problem: ContactProblem, options: Options | None = None, *, monitor: Monitor = SILENT
+) -> Solution:
+    """Solve on three grids and on a larger domain; return the finest result with error bars.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        The contact in SI.
+    options : Options
+        Of the finest grid, which a first solve finds if ``points`` is left out; the two others have
+        a half and a quarter of its intervals. All converge to ``options.tolerance``, so that only
+        the discretisation differs.
+    monitor : Monitor
+        Receives the report of each cycle.
+
+    Returns
+    -------
+    Solution
+        Of the finest grid, with ``uncertainty``.
+
+    Raises
+    ------
+    ConvergenceError
+        When the finest grid or one that its error bars need did not converge, or when the bars are
+        too wide. Its ``result`` is that of the finest grid.
+    InputError
+        When the grid cannot be halved twice.
+    """
+    options, known = options or Options(), None
+    if options.points == "auto":
+        monitor.message("certify: number of nodes")
+        known = solve(problem, options, monitor=monitor)
+        options = certifiable(known.grid_options)
+    options = options.model_copy(update={"accuracy": "tight", "extrapolate": False})
+    check_certifiable(options)
+    monitor.message("certify: grid 1 of 3")
+    first = _companion(problem, halved(options, 2), monitor)
+    monitor.message("certify: grid 2 of 3")
+    middle = _companion(problem, halved(options, 1), monitor)
+    monitor.message("certify: grid 3 of 3")
+    finest = solve(problem, options, guess=known, monitor=monitor)
+    monitor.message("certify: larger domain")
+    wide = _companion(problem, widened(options, finest), monitor)
+    finest = replace(finest, cost=finest.cost + first.cost + middle.cost + wide.cost)
+    result = _with_bars(
+        finest,
+        first.result,
+        _needed(finest, middle, "the next coarser grid"),
+        _needed(finest, wide, "the larger domain"),
+    )
+    message = _message(first, middle, finest, wide)
+    result = replace(result, status=replace(finest.status, message=message, hint=None))
+    worst = widest(result.uncertainty, JUDGED)
+    if worst > LARGEST_BAR:
+        _reject(result, too_coarse_to_certify(result, worst))
+    return result
+
+
+def _message(
+    first: Companion[Solution],
+    middle: Companion[Solution],
+    finest: Solution,
+    wide: Companion[Solution],
+) -> str:
+    """Return how each run ended, and what follows for the bars."""
+    message = message_on([first.ending, middle.ending, _ending(finest)], wide.ending)
+    if first.result is None:
+        return f"{message} {WITHOUT_FIRST}"
+    if first.result.status.is_vague or not first.result.status.converged:
+        message += (
+            " Where the first grid hides the order of the scheme, a bar is the full change between "
+            "the other two."
+        )
+    return message
+
+
+def _companion(problem: ContactProblem, options: Options, monitor: Monitor) -> Companion[Solution]:
+    """Solve on a coarser grid, which need not resolve the film but must converge."""
+    try:
+        result = solve(problem, options, monitor=monitor)
+    except UnresolvedError as error:
+        monitor.message(f"certify: {error}")
+        return Companion(ending=f"{nodes_of(options)} too coarse for the roughness")
+    except ConvergenceError as error:
+        result = error.result
+        monitor.message(f"certify: {result.status.message}")
+    is_used = result.status.converged or (result.film_scaled.minimum > 0 and _has_converged(result))
+    return Companion(ending=_ending(result), result=result if is_used else None, cost=result.cost)
+
+
+def _ending(result: Solution) -> str:
+    """Return the nodes of a run and how it ended."""
+    status = result.status
+    coarse = status.is_vague or status.cause in ("grid_too_coarse", "film_not_positive")
+    return (
+        f"{nodes_of(result.grid_options)} {'too coarse for the film' if coarse else status.outcome}"
+    )
+
+
+def _has_converged(result: Solution) -> bool:
+    """Whether the cycles converged and only the grid is too coarse."""
+    if result.status.cause != "grid_too_coarse" or result.status.kind == "diverged":
+        return False
+    last = result.history[-1]
+    worst = max(last.residual, last.change, abs(last.load_error))
+    return worst <= result.options.tolerance
+
+
+def _needed(finest: Solution, run: Companion[Solution], what: str) -> Solution:
+    """Return the result of a run that the bars need; raise with the finest one if it failed."""
+    if run.result is None:
+        _reject(finest, not_certified(finest, f"{what} failed ({run.ending})."))
+    return run.result
+
+
+def _reject(result: Solution, status: Status) -> NoReturn:
+    raise ConvergenceError(str(status.message), replace(result, status=status))
+
+
+def not_certified(result: Solution, why: str) -> Status:
+    """Return ``not_certified``: the finest grid converged, but has no error bar."""
+    nodes = 2 * max(result.scaled.x.size, result.scaled.y.size) - 1
+    return Status(
+        kind="not_converged",
+        cause="not_certified",
+        message=f"The finest grid converged, but has no error bar: {why}",
+        hint=Hint("or solve without --certify.", {"numerics.points": nodes}),
+    )
+
+
+def too_coarse_to_certify(result: Solution, error: float) -> Status:
+    """Return ``grid_too_coarse`` for a certified result with a relative error bar ``error``."""
+    return too_coarse((result.scaled.x.size, result.scaled.y.size), result.scaled_problem, error)
+
+
+def widest(uncertainty: dict[str, Estimate], names: Iterable[str]) -> float:
+    """Return the largest relative error bar; a value extrapolated to zero has an infinite one."""
+    bars = (uncertainty[name] for name in names)
+    return max(abs(bar.uncertainty / bar.value) if bar.value else math.inf for bar in bars)
+
+
+def message_on(grids: list[str], wide: str) -> str:
+    """Return how the runs ended, given for each grid and for the larger domain."""
+    return f"Grids of the error bars: {', '.join(grids)}; larger domain: {wide}."
+
+
+def nodes_of(options: Options) -> str:
+    """Return the nodes of the finest grid as text."""
+    ny, nx = options.shape
+    return f"{nx} x {ny}"
+
+
+def halved(options: Options, times: int) -> Options:
+    """Return options of the grid with its intervals halved ``times`` times."""
+    ny, nx = ((n - 1) // 2**times + 1 for n in options.shape)
+    return options.on_points(nx, ny)
+
+
+def certifiable(options: Options) -> Options:
+    """Return options of a grid that can be halved twice, of twice the intervals where necessary."""
+    while not can_be_halved(options, 2):
+        ny, nx = options.shape
+        options = options.on_points(2 * nx - 1, 2 * ny - 1)
+    return options
+
+
+def widened(options: Options, finest: Solution) -> Options:
+    """Return options of the larger domain: the nodes of ``finest``, twice its mesh width."""
+    x, y = (
+        (WIDER * float(edges[0]), WIDER * float(edges[-1]))
+        for edges in (finest.scaled.x, finest.scaled.y)
+    )
+    edges = "far_field" if options.has_far_field else "zero"
+    return options.model_copy(update={"domain": Domain(x=x, y=y), "edges": edges})
+
+
+def _with_bars(
+    finest: Solution, first: Solution | None, middle: Solution, wide: Solution
+) -> Solution:
+    """Return the finest result with its error bars; the first grid may be missing."""
+    used = [run for run in (first, middle, finest) if run is not None]
+    runs, wider = [_quantities(run) for run in used], _quantities(wide)
+    # the larger domain has the mesh of the middle grid: their difference is due to the domain
+    uncertainty = {
+        name: estimate(
+            tuple(run[name] for run in runs),
+            domain=abs(wider[name] - runs[-2][name]),
+            residue=LESS_REGULAR if name in FOLLOWING else RESIDUE,
+        )
+        for name in wider
+    }
+    highest = uncertainty["pressure_max"]
+    uncertainty["pressure_max"] = with_growing_spike(highest, spike(middle), spike(finest))
+    return replace(finest, uncertainty=uncertainty)
+
+
+def _quantities(result: Solution) -> dict[str, float]:
+    """Return the values that get error bars: of film, pressure, heat, traction and load share."""
+    found = {
+        "film_central": result.film_scaled.central,
+        "film_minimum": result.film_scaled.minimum,
+        "pressure_max": float(result.scaled.pressure.max()),
+    }
+    if (heated := temperature(result)) is not None:
+        found["mid_film_rise_central"] = heated.mid_film_rise_central
+    coupled = result.problem.is_coupled and result.problem.slide_roll_ratio != 0.0
+    if coupled and (forces := traction(result)) is not None:
+        found["traction_mid_film"] = forces.mid_film
+    if (shared := load_sharing(result)) is not None:
+        found["load_share"] = shared.share
+    if (touches := touching(result)) is not None:
+        found["load_share"] = touches.share
+    return found
+
+
+def spike(result: Solution) -> float:
+    """Return the largest pressure downstream of X = 0.5 [-]."""
+    return float(result.scaled.pressure[:, result.scaled.x > OUTLET_HALF].max())
+
+
+def with_growing_spike(highest: Estimate, middle: float, finest: float) -> Estimate:
+    """Widen the error bar of the largest pressure by the growth of the spike.
+
+    The spike grows with each finer grid, to first order, and may exceed the central pressure on
+    finer grids only: it may still grow by twice its last change.
+
+    Parameters
+    ----------
+    highest : Estimate
+        Estimate of the largest pressure [-].
+    middle, finest : float
+        Pressure of the spike on the last two grids [-].
+    """
+    reach = finest + 2.0 * max(finest - middle, 0.0) - highest.value
+    bar = max(highest.discretisation, reach)
+    return replace(highest, discretisation=bar, uncertainty=math.hypot(bar, highest.domain))
+
+
+def _without_order(first: float, last: float) -> float:
+    """Return the error bar of a value whose two last changes do not show second order.
+
+    Of lower order, the change before covers all further ones from order 0.7 on; changes that grow
+    or alternate may go on so, and a last change much smaller than the one before is chance.
+    """
+    alternates, first, last = first * last < 0.0, abs(first), abs(last)
+    if first == 0.0:  # of two grids
+        return last
+    if alternates or last >= first:
+        return GROWING * max(first, last) if last >= first else max(last, 0.25 * first)
+    is_faster = last < first / 2.0 ** ORDERS[1]
+    return max(last, 0.25 * first) if is_faster else first
+
+
+def estimate(values: tuple[float, ...], domain: float, residue: float = RESIDUE) -> Estimate:
+    """Return the Richardson extrapolation of two or three grids with its error bar.
+
+    If the grids show second order, the extrapolated value is h_3 + (h_3 - h_2)/3, and the bar its
+    difference to that with the observed order, at least ``residue`` of (h_3 - h_2)/3. If not, the
+    value is h_3, and the bar that of `_without_order`; of two grids |h_3 - h_2|. ``values`` are
+    h_1, h_2, h_3 or h_2, h_3 on grids halved each time, and ``domain`` is the change by the larger
+    domain.
+    """
+    last = values[-1] - values[-2]
+    first = values[1] - values[0] if len(values) == 3 else 0.0
+    order = math.log2(first / last) if first * last > 0 else None
+    if last == 0.0:
+        value, bar = values[-1], 0.0
+    elif order is not None and ORDERS[0] <= order <= ORDERS[1]:
+        value = values[-1] + last / 3.0
+        observed = values[-1] + last / (2.0**order - 1.0)
+        bar = max(abs(observed - value), residue * abs(last) / 3.0)
+    else:
+        value, bar = values[-1], _without_order(first, last)
+    return Estimate(
+        value=value,
+        uncertainty=math.hypot(bar, domain),
+        discretisation=bar,
+        domain=domain,
+        observed_order=order,
+        values=values,
+    )

@@ -1,0 +1,256 @@
+"""Why an iteration failed: the status of a run that diverged or stalled, with its likely cause."""
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from tehl.base.units import percentage
+from tehl.contact.heat import FAR_BODY, FilmEnergy
+from tehl.contact.options import LARGEST_ERROR, USUAL_PLAIN_ERROR
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.domain import chosen_domain, expected_points, film_to_resolve
+from tehl.estimate.film_formulas import expected_film
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.summits import shared_load
+from tehl.result.solution import Hint, Settings, Status
+from tehl.solver.cycle.film_solver import FilmSolver
+from tehl.solver.cycle.level import Level
+from tehl.solver.judging.film_summary import film_summary
+
+LARGEST_TRACTION = 0.1
+"""Largest shear stress of oils over pressure."""
+
+RESOLVED = 0.1
+"""Expected error of the film from which on a grid does not resolve it."""
+MOST_LOAD = 0.5
+"""Part of the load on solids from which on the film decides no number of nodes."""
+LESS_ROUGH = Hint(
+    "Take lower or longer asperities, a higher speed, or more nodes (numerics.points)."
+)
+
+
+MORE_CYCLES = 4
+"""Factor on ``numerics.max_cycles`` in the hint of a run that was still converging."""
+
+
+class LikelyCause(NamedTuple):
+    """A likely cause of failure: its name for programs, message and hint."""
+
+    cause: str
+    message: str
+    hint: Hint
+
+
+def diverged(run: FilmSolver) -> Status:
+    """Return the status of a run that diverged, with its likely cause."""
+    (nx, ny), groups = run.finest.grid.points, run.groups
+    what = f"The iteration diverged on {nx} x {ny} nodes at M = {groups.M:.4g}, L = {groups.L:.4g}."
+    found, other = _likely_cause(run), _smoother_hint(run) or _error_hint(run)
+    if found is None:
+        hint = LESS_ROUGH if run.roughness.is_rough else grid_hint((nx, ny), run.hierarchy.scaled)
+        return Status(kind="diverged", cause="diverged", message=what, hint=other or hint)
+    message = f"{what} Likely cause: {found.message}"
+    return Status(kind="diverged", cause=found.cause, message=message, hint=other or found.hint)
+
+
+def not_reached(run: FilmSolver) -> Status:
+    """Return the status of a run whose cycles stalled, or ended before they converged."""
+    options, reports = run.options, run.traces[-1].reports
+    last = reports[-1]
+    numbers = {
+        "residual": last.residual,
+        "change per cycle": last.change,
+        "load error": abs(last.load_error),
+    }
+    worst = max(numbers, key=lambda name: numbers[name])
+    wanted = (
+        f"the tolerance is {options.tolerance:.1e}"
+        if options.accuracy == "tight"
+        else "the film still changes by more than a third of its discretisation error"
+    )
+    message = (
+        f"After {len(reports)} cycles on {last.points[0]} x {last.points[1]} nodes the "
+        f"{worst} is {numbers[worst]:.1e}; {wanted}."
+    )
+    hint = Hint(
+        "it was still converging.", {"numerics.max_cycles": MORE_CYCLES * options.max_cycles}
+    )
+    if options.accuracy == "change":
+        advice = "a small change per cycle is not an error estimate."
+        hint = Hint(advice, {"numerics.accuracy": False})
+    if options.accuracy == "change" or len(reports) >= options.max_cycles * run.strategy.patience:
+        return Status(kind="not_converged", cause="too_few_cycles", message=message, hint=hint)
+    found, hint = _likely_cause(run), grid_hint(run.finest.grid.points, run.hierarchy.scaled)
+    if found is not None:
+        message, hint = f"{message} Likely cause: {found.message}", found.hint
+    return Status(
+        kind="stalled",
+        cause="stalled",
+        message=message,
+        hint=_smoother_hint(run) or _error_hint(run) or hint,
+    )
+
+
+def _likely_cause(run: FilmSolver) -> LikelyCause | None:
+    """Return the likely cause of a failed run: the coarser film, or the contact."""
+    if not run.coarser_film_is_negative:
+        return likely_cause(run.finest.grid, run.hierarchy.scaled)
+    level = run.levels[-2]
+    smallest, x, y = thinnest(level)
+    return LikelyCause(
+        cause="grid_too_coarse",
+        message=(
+            f"The film of the next coarser grid, of {level.grid.nx} x {level.grid.ny} nodes, is "
+            f"not positive (smallest H = {smallest:.3g} at X = {x:.3g}, Y = {y:.3g} half-widths), "
+            "so it is not a start for this one."
+        ),
+        hint=LESS_ROUGH,
+    )
+
+
+def thinnest(level: Level) -> tuple[float, float, float]:
+    """Return the smallest film of a level, between its nodes too, and its X and Y."""
+    found = film_summary(level.grid, level.film.h)
+    node = float(level.film.h.min())
+    return (min(found.minimum, node), *found.minimum_at)
+
+
+def _error_hint(run: FilmSolver) -> Hint | None:
+    """Return the hint to the error that a coarser grid reached, None if there is none."""
+    if not run.goal.is_open or run.roughness.is_rough:
+        return None
+    reached = run.reached_before()
+    if reached is None:
+        return None
+    (nx, ny), error = reached
+    advice = f"{nx} x {ny} nodes converged to an error of {percentage(error)}."
+    return Hint(advice, error_setting(error))
+
+
+def error_setting(reached: float) -> Settings:
+    """Return the setting of an error just above one that was reached; none above the largest."""
+    error = math.ceil(110.0 * reached)
+    return {"numerics.error": f"{error} %"} if error <= 100.0 * LARGEST_ERROR else {}
+
+
+def _smoother_hint(run: FilmSolver) -> Hint | None:
+    """Return the hint to remove a stated smoother, None if the default was used."""
+    if run.options.smoother in ("auto", "robust"):
+        return None
+    advice = "the default falls back to more robust settings."
+    if run.options.smoother == "gauss-seidel":
+        advice = "plain Gauss-Seidel diverges on any grid where the elastic deflection dominates."
+    return Hint(advice, {"numerics.smoother": False})
+
+
+def likely_cause(grid: Grid, scaled: ScaledProblem) -> LikelyCause | None:
+    """Return all likely causes as one, named by the first; None without any.
+
+    Temperatures and sliding do not affect an isothermal Newtonian film.
+    """
+    found = [*_film_below_grid(grid, scaled)]
+    if scaled.problem.is_coupled:
+        found = [*_body_temperature(scaled.problem), *_shear_stress(scaled), *found]
+    if not found:
+        return None
+    return LikelyCause(
+        cause=found[0].cause,
+        message=" ".join(one.message for one in found),
+        hint=found[0].hint,
+    )
+
+
+def _body_temperature(problem: ContactProblem) -> Iterator[LikelyCause]:
+    """Yield the body whose temperature is furthest from that of the oil, if it is far."""
+    heat = problem.heat
+    if not isinstance(heat, FilmEnergy):
+        return
+    bodies = (("surface_1", heat.bulk_1), ("surface_2", heat.bulk_2))
+    name, bulk = max(bodies, key=lambda body: abs(body[1] - heat.temperature))
+    offset = bulk - heat.temperature
+    if not abs(offset) > FAR_BODY:
+        return
+    ratio = problem.lubricant.viscosity.ambient(bulk) / problem.ambient_viscosity
+    yield LikelyCause(
+        cause="body_temperature",
+        message=(
+            f"{name}.temperature = {bulk - 273.15:.4g} degC: {abs(offset):.3g} K "
+            f"{'above' if offset > 0 else 'below'} the oil at the inlet, whose viscosity changes "
+            f"by a factor of {_round(ratio)}."
+        ),
+        hint=Hint(
+            f"Take a temperature of {name} within {FAR_BODY:g} K of the oil, or an inlet "
+            "temperature nearer to it (thermal.temperature): oil takes the temperature of the "
+            "body that it wets."
+        ),
+    )
+
+
+def _shear_stress(scaled: ScaledProblem) -> Iterator[LikelyCause]:
+    """Yield the shear law if the stress at the inlet temperature exceeds that of oils."""
+    problem, scales = scaled.problem, scaled.scales
+    pressure = problem.hertz.mean_pressure
+    rate = abs(problem.motion.sliding_speed) / expected_film(scaled)
+    oil = problem.lubricant
+    viscosity = oil.viscosity.viscosity(pressure, scales.temperature)
+    stress = oil.shear.thinned(viscosity * rate, pressure)
+    if not stress > LARGEST_TRACTION * pressure:
+        return
+    yield LikelyCause(
+        cause="shear_stress",
+        message=(
+            f"lubricant.shear.law = {oil.shear.law} with slide_roll_ratio = "
+            f"{problem.slide_roll_ratio:g}: the shear stress at the inlet temperature is "
+            f"{_round(stress / pressure)} times the mean pressure of {pressure / 1e9:.2g} GPa; "
+            f"oils reach at most {LARGEST_TRACTION:g} times."
+        ),
+        hint=Hint(
+            "oils shear at such stresses.",
+            {"lubricant.shear": {"law": "eyring", "stress": "5 MPa"}},
+        ),
+    )
+
+
+def _film_below_grid(grid: Grid, scaled: ScaledProblem) -> Iterator[LikelyCause]:
+    """Yield the grid if it cannot resolve the film, unless solids carry most of the load."""
+    if solids_carry(scaled):
+        return
+    groups, film, here = scaled.groups, film_to_resolve(scaled), min(grid.nx, grid.ny)
+    needed = expected_points(groups, grid.domain, RESOLVED, film=film)
+    if not needed > here:
+        return
+    yield LikelyCause(
+        cause="film_below_grid",
+        message=(
+            f"The expected film is H = {shared_load(scaled).gap:.2g}, which takes about "
+            f"{needed} nodes per direction for an error of {percentage(RESOLVED)}; the grid has "
+            f"{here}."
+        ),
+        hint=grid_hint(grid.points, scaled),
+    )
+
+
+def _round(value: float) -> str:
+    """Return two digits of a number, without an exponent where it reads well."""
+    return f"{float(f'{value:.2g}'):g}"
+
+
+def grid_hint(points: tuple[int, int], scaled: ScaledProblem) -> Hint:
+    """Return the hint to the recommended grid, at least twice as fine as ``points``.
+
+    Where solids carry most of the load no film recommends one.
+    """
+    nodes = 2 * max(points) - 1
+    if not solids_carry(scaled):
+        domain, film = chosen_domain(scaled, USUAL_PLAIN_ERROR), film_to_resolve(scaled)
+        nodes = max(nodes, expected_points(scaled.groups, domain, RESOLVED, film=film))
+    return Hint(settings={"numerics.points": nodes})
+
+
+def solids_carry(scaled: ScaledProblem) -> bool:
+    """Return whether asperities or a boundary film carry most of the load, by formulas."""
+    boundary = scaled.problem.contact_film
+    if boundary is not None and expected_film(scaled) < boundary.thickness:
+        return True
+    return scaled.problem.asperities is not None and shared_load(scaled).share > MOST_LOAD

@@ -1,0 +1,119 @@
+"""Richardson extrapolation of fields on two grids: f + (f_h - f_2h) / 3 of second-order values."""
+
+from dataclasses import dataclass, fields, is_dataclass, replace
+from typing import TypeVar
+
+import numpy as np
+
+from tehl.base.typing import Array
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import ScaledProblem
+from tehl.operators.energy import FilmState
+from tehl.result.fields import (
+    Fields,
+    FilmAsperities,
+    FilmContact,
+    FilmHeat,
+    FilmOil,
+    FilmShear,
+    HeatBalance,
+)
+from tehl.solver.cycle.level import Level
+from tehl.solver.judging.outputs import (
+    film_asperities,
+    film_contact,
+    film_heat,
+    film_oil,
+    film_shear,
+    newtonian_shear,
+)
+
+WEIGHT = 1.0 / 3.0
+"""Of the difference of two grids of second order: 1 / (2^2 - 1)."""
+
+AnyFields = TypeVar("AnyFields")
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Outputs:
+    """Fields of a film on one grid, on its full domain; None where the contact has none."""
+
+    fields: Fields
+    shear: FilmShear | None = None
+    heat: FilmHeat | None = None
+    asperities: FilmAsperities | None = None
+    contact: FilmContact | None = None
+    oil: FilmOil | None = None
+
+
+def outputs_of(
+    level: Level, scaled: ScaledProblem, state: FilmState | None, *, valid: bool = True
+) -> Outputs:
+    """Return the fields of a level.
+
+    Parameters
+    ----------
+    level, scaled : Level, ScaledProblem
+        The grid with its film up to date, and the contact.
+    state : FilmState or None
+        Temperature and stress of a heated or thinning film.
+    valid : bool
+        Whether the film is one that has stresses and temperatures.
+    """
+    grid, shear, heat = level.grid, None, None
+    if valid and level.film.h.min() > 0.0:
+        if not scaled.problem.is_coupled:
+            shear = newtonian_shear(level, scaled)
+        elif state is not None and state.grid == grid:
+            shear, heat = film_shear(state), film_heat(state)
+    full = Grid(nx=grid.nx, ny=grid.ny, domain=grid.domain, mirror=False)
+    return Outputs(
+        fields=Fields(
+            x=full.x,
+            y=full.y,
+            pressure=grid.unfold(np.maximum(level.film.p, 0.0)),
+            film=grid.unfold(level.film.h),
+        ),
+        shear=shear,
+        heat=heat,
+        asperities=film_asperities(level, scaled),
+        contact=film_contact(level, scaled),
+        oil=film_oil(level, scaled),
+    )
+
+
+def extrapolated(fine: Outputs, coarse: Outputs) -> Outputs:
+    """Return the fields of the finer of two grids plus a third of their difference.
+
+    The difference at the nodes of the coarser grid is interpolated linearly: it is of second order,
+    so that the error is of fourth. Where the oil is stays that of the finer grid: its edge moves.
+    """
+    return replace(_combined(fine, coarse), oil=fine.oil)
+
+
+def _combined(fine: AnyFields, coarse: AnyFields) -> AnyFields:
+    """Return the fields, all arrays with the nodes of a grid on their last axes, of a dataclass."""
+    changes = {}
+    for one in fields(fine):  # type: ignore[arg-type]
+        value, before = getattr(fine, one.name), getattr(coarse, one.name)
+        if is_dataclass(value) and before is not None:
+            changes[one.name] = _combined(value, before)
+        elif isinstance(value, np.ndarray) and value.ndim > 1:
+            changes[one.name] = _of_fields(value, before)
+        elif isinstance(fine, HeatBalance):
+            changes[one.name] = value + WEIGHT * (value - before)
+    return replace(fine, **changes)  # type: ignore[type-var]
+
+
+def _of_fields(fine: Array, coarse: Array) -> Array:
+    """Return an extrapolated field, (..., ny, nx); zeros remain, and what is never negative."""
+    shared = fine[..., ::2, ::2] - coarse
+    change = np.empty_like(fine)
+    change[..., ::2, ::2] = shared
+    change[..., ::2, 1::2] = 0.5 * (shared[..., 1:] + shared[..., :-1])
+    change[..., 1::2, :] = 0.5 * (change[..., 2::2, :] + change[..., :-1:2, :])
+    found = fine + WEIGHT * change
+    if fine.min() >= 0.0:
+        np.maximum(found, 0.0, out=found)
+        found[fine == 0.0] = 0.0
+    return np.asarray(found)

@@ -1,0 +1,187 @@
+"""The accuracy to reach: error estimates of a run so far, and whether a finer grid follows."""
+
+import time
+from dataclasses import dataclass, field, replace
+
+from tehl.base.units import percentage
+from tehl.contact.options import Domain, Options, can_be_halved
+from tehl.estimate.domain import far_field_error
+from tehl.estimate.entering import entry_error
+from tehl.estimate.memory import memory_limit, needed_memory
+from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.starvation import supply_error
+from tehl.result.solution import ErrorEstimate
+from tehl.solver.cycle.continuation import Roughness
+from tehl.solver.cycle.hierarchy import Hierarchy
+from tehl.solver.cycle.level import Level
+from tehl.solver.judging.convergence import GridTrace, error_estimate, single_grid_estimate
+
+FACTOR = 5.0
+"""Expected time on a grid over that on the next coarser one, which has a quarter of its nodes."""
+MOST_TRIES = 2
+"""Finer grids that follow grids on which the cycles do not converge."""
+LEAST_HALVINGS = 3
+"""Halvings of the smallest grid that is planned."""
+NEGLIGIBLE = 0.05
+"""Iteration error that is accepted, over the error to reach: the error bars contain it."""
+LARGEST = 16385
+"""Most nodes along one direction."""
+
+
+def estimated_errors(
+    level: Level, traces: list[GridTrace], roughness: Roughness, hierarchy: Hierarchy
+) -> ErrorEstimate | None:
+    """Return estimated errors of the film on the last grid; None before its first cycle.
+
+    Parameters
+    ----------
+    level : Level
+        The last level that was solved.
+    traces : list of GridTrace
+        Film over the cycles of its grid and of the coarser ones, coarsest first.
+    roughness : Roughness
+        Heights on the levels.
+    hierarchy : Hierarchy
+        The contact, and the order of the wedge.
+    """
+    found = _by_grids(level, traces, roughness, hierarchy)
+    return found and replace(found, supply=supply_error(hierarchy.scaled))
+
+
+def _by_grids(
+    level: Level, traces: list[GridTrace], roughness: Roughness, hierarchy: Hierarchy
+) -> ErrorEstimate | None:
+    """Return the errors of `estimated_errors` without that of the supply."""
+    scaled, order = hierarchy.scaled, hierarchy.options.order
+    if len(traces) < 2 or not traces[-1].reports or traces[-1].diverged:
+        return None
+    edges, domain, newtonian = level.grid.domain, 0.0, not scaled.problem.is_coupled
+    if level.equations.far_field is not None:
+        domain = far_field_error(scaled.entering, edges) + entry_error(scaled, edges)
+    if not roughness.is_rough:
+        comparable = [trace for trace in traces if not trace.diverged]
+        if len(comparable) < 2:
+            return None
+        return error_estimate(
+            comparable,
+            order,
+            domain,
+            newtonian=newtonian,
+            extrapolate=bool(hierarchy.options.extrapolate) and traces[-2:] == comparable[-2:],
+        )
+    # grids that resolve the same heights
+    comparable = [trace for trace in traces[roughness.first_comparable :] if not trace.diverged]
+    if len(comparable) < 2:
+        points, amplitude = roughness.points, roughness.amplitude
+        return single_grid_estimate(traces[-1], level.grid.dx, points, amplitude, domain)
+    return error_estimate(comparable, order, domain, rough=True, newtonian=newtonian)
+
+
+@dataclass(slots=True)
+class Goal:
+    """The relative error of the film to reach, and the limits of memory and time.
+
+    Parameters
+    ----------
+    scaled, options : ScaledProblem, Options
+        The contact, and the options of the user.
+    """
+
+    scaled: ScaledProblem
+    options: Options
+    obstacle: str = ""
+    """Why no finer grid follows."""
+    _tries: int = 0
+    _started: float = field(default_factory=time.perf_counter)
+    _last: float = field(default_factory=time.perf_counter)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the error decides the number of nodes."""
+        return self.options.points == "auto"
+
+    @property
+    def negligible(self) -> float:
+        """Relative iteration error of the film that is always accepted [-]."""
+        return NEGLIGIBLE * self.options.target if self.is_open else 0.0
+
+    def fitting(self, plan: Options) -> Options:
+        """Return options of the planned grid, halved until it fits into the memory."""
+        available = memory_limit(self.options)
+        while self.is_open and can_be_halved(plan, LEAST_HALVINGS):
+            if needed_memory(plan, self.scaled.problem) <= available:
+                break
+            ny, nx = ((n - 1) // 2 + 1 for n in plan.shape)
+            plan = plan.on_points(nx, ny)
+        return plan
+
+    def begin_grid(self) -> None:
+        """Note the time at which the work on a grid begins."""
+        self._last = time.perf_counter()
+
+    def is_met(
+        self, errors: ErrorEstimate | None, part: float = 1.0, error: float | None = None
+    ) -> bool:
+        """Return whether the error estimates are below the error to reach, or ``error``.
+
+        Parameters
+        ----------
+        errors : ErrorEstimate or None
+            Estimates on a grid.
+        part : float
+            Minimum film over the film to which its error is relative [-].
+        error : float
+            Another relative error [-].
+        """
+        if errors is None:
+            return False
+        return max(errors.central, part * errors.minimum) <= (error or self.options.target)
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the time is over, so that no other strategy is tried."""
+        return self.is_open and time.perf_counter() - self._started > self.options.max_time
+
+    def may_try(self, level: Level) -> bool:
+        """Return whether a finer grid may follow one that did not converge."""
+        if not self.is_open or self._tries == MOST_TRIES:
+            return False
+        self._tries += 1
+        return self.may_refine(level)
+
+    def may_refine(self, level: Level, errors: ErrorEstimate | None = None) -> bool:
+        """Return whether a grid of twice the intervals may follow ``level``; else say why.
+
+        It would not reduce the part of the domain in the ``errors``.
+        """
+        nx, ny = (2 * (n - 1) + 1 for n in level.grid.points)
+        now, limit = time.perf_counter(), self.options.max_time
+        expected = FACTOR * (now - self._last)
+        needed = needed_memory(self.options.on_points(nx, ny), self.scaled.problem)
+        available = memory_limit(self.options)
+        self.obstacle = ""
+        if errors is not None and errors.domain > self.options.target:
+            cause = "the domain, upstream of which the bodies warm or cool the oil"
+            if isinstance(self.options.domain, Domain):
+                cause = "numerics.domain"
+            self.obstacle = f"{percentage(errors.domain)} are due to {cause}"
+        elif max(nx, ny) > LARGEST:
+            self.obstacle = f"grids have at most {LARGEST} nodes along one direction"
+        elif needed > available:
+            self.obstacle = (
+                f"{nx} x {ny} nodes need {needed / 1e9:.2g} GB of memory, and "
+                f"{_named_limit(self.options, available)}"
+            )
+        elif now - self._started + expected > limit:
+            self.obstacle = (
+                f"{nx} x {ny} nodes would take {expected:.3g} s more, and numerics.max_time is "
+                f"{limit:g} s"
+            )
+        return not self.obstacle
+
+
+def _named_limit(options: Options, limit: float) -> str:
+    """Return the limit of the memory in words."""
+    if options.max_memory is not None:
+        return f"numerics.max_memory is {limit / 1e9:.2g} GB"
+    return f"half of what is free is {limit / 1e9:.2g} GB (numerics.max_memory)"

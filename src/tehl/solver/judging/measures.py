@@ -1,0 +1,125 @@
+"""Values beside the film that get error bars: pressure, traction and temperatures on each grid."""
+
+from dataclasses import asdict
+
+import numpy as np
+
+from tehl.contact.boundary_contact import MARGIN
+from tehl.estimate.scaling import ScaledProblem
+from tehl.operators.energy import FilmState
+from tehl.operators.film import hertz_pressure
+from tehl.operators.heated_film import stress_unit
+from tehl.operators.loaded_zone import is_inside, wet_part, zone_of
+from tehl.post.heat import lagrange_weights
+from tehl.post.roughness import ripples
+from tehl.solver.cycle.level import Level
+from tehl.solver.judging.film_summary import central_value, film_summary
+from tehl.solver.judging.outputs import heat_balance, newtonian_sliding
+
+SPIKE_FROM = 0.5
+"""X downstream of which the pressure spike is searched, in Hertz half-widths."""
+
+
+def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> dict[str, float]:
+    """Return the values of a converged grid by name.
+
+    ``pressure_max``, ``spike`` and its ``excess`` over Hertz [-]; with asperities below the mesh
+    ``load_share``, their part of the load, or that where surfaces touch [-]; of a rough contact
+    ``ripple_film`` and ``ripple_pressure`` [-]; of a sliding one ``traction_mid_film`` [-]; of a
+    heated film the rises that `tehl.post.heat.Temperature` has [K], and ``heat_`` with the names
+    of the powers in `tehl.result.fields.HeatBalance` [W].
+
+    Parameters
+    ----------
+    level, scaled : Level, ScaledProblem
+        The grid, and the contact.
+    state : FilmState or None
+        Temperature and stress on that grid; None for an isothermal Newtonian film.
+    """
+    pressure, least = level.film.p, level.equations.contact_film
+    found = {
+        "pressure_max": float(pressure.max()),
+        **_spike(level),
+    }
+    if least is not None or level.equations.asperities is not None:
+        found["load_share"] = shared_load(level)
+    if level.heights is not None:
+        ripple_film, ripple_pressure = ripples(level.grid.x, level.grid.y, level.film.h, pressure)
+        found |= {"ripple_film": ripple_film, "ripple_pressure": ripple_pressure}
+    if state is not None and state.grid != level.grid:
+        return found
+    if scaled.problem.slide_roll_ratio:
+        found["traction_mid_film"] = mid_film_traction(level, scaled, state)
+    if state is not None and state.model.terms.heat:
+        powers = asdict(heat_balance(state))
+        found |= _rises(state) | {f"heat_{name}": power for name, power in powers.items()}
+    return found
+
+
+def film_numbers(level: Level) -> dict[str, float]:
+    """Return ``film_central`` and ``film_minimum`` between the nodes [-]."""
+    film = film_summary(level.grid, level.film.h, level.equations.contact_film)
+    return {"film_central": film.central, "film_minimum": film.minimum}
+
+
+def shared_load(level: Level) -> float:
+    """Return the load on asperities below the mesh, or where surfaces touch, over all [-].
+
+    They touch where the film exceeds the boundary film by at most `MARGIN`.
+    """
+    least = level.equations.contact_film
+    if least is None:
+        return level.asperity_load()
+    if not level.film.asperity.any():  # the oil carries all
+        return 0.0
+    meets = level.film.h <= (1.0 + MARGIN) * least
+    return level.equations.load.integral(np.where(meets, level.pressure, 0.0)) / level.sources.load
+
+
+def _spike(level: Level) -> dict[str, float]:
+    """Return the pressure where it exceeds that of Hertz most, downstream, and its excess [-]."""
+    behind = level.grid.x > SPIKE_FROM
+    pressure = level.film.p[:, behind]
+    excess = pressure - hertz_pressure(level.grid)[:, behind]
+    return {"spike": float(pressure.flat[excess.argmax()]), "excess": float(excess.max())}
+
+
+def mid_film_traction(
+    level: Level, scaled: ScaledProblem, state: FilmState | None, load: float = 1.0
+) -> float:
+    """Return the mid-film traction coefficient, the integral of the stress over the load [-].
+
+    That of the film in the loaded zone: nodes where surfaces touch through a boundary film are left
+    out.
+
+    Parameters
+    ----------
+    level, scaled : Level, ScaledProblem
+        The grid, and the contact.
+    state : FilmState or None
+        Stress of a heated or shear-thinning film.
+    load : float
+        Load over that of the contact [-].
+    """
+    stress = newtonian_sliding(level, scaled) if state is None else state.view("tau_x").T
+    wet, scales = stress * zone_of(level.grid) * wet_part(level.film.p), scaled.scales
+    if level.film.asperity.any():
+        wet[level.film.h <= (1.0 + MARGIN) * (level.equations.contact_film or 0.0)] = 0.0
+    area = scales.half_width_x * scales.half_width_y
+    unit = stress_unit(scales) * area / (scales.load * load)
+    return level.equations.load.integral(wet) * unit
+
+
+def _rises(state: FilmState) -> dict[str, float]:
+    """Return the rises over the oil at the inlet, the largest ones of the loaded zone [K]."""
+    temperature, inlet = state.temperature, state.film.scaled.scales.temperature
+    inside = is_inside(state.grid.x, state.grid.y).T
+    first, second = (float(temperature[:, side][inside].max()) - inlet for side in (0, -1))
+    weights = lagrange_weights(state.film.across.zeta, 0.5)
+    middle = np.ascontiguousarray(np.einsum("k,xky->yx", weights, temperature))
+    return {
+        "film_rise_max": float(temperature.max(axis=1)[inside].max()) - inlet,
+        "mid_film_rise_central": central_value(state.grid, middle) - inlet,
+        "surface_1_rise_max": first,
+        "surface_2_rise_max": second,
+    }

@@ -1,0 +1,231 @@
+"""Shear stress, temperature and heat balance of a finished run, in SI and on the full domain.
+
+Equations in docs/theory/thermal.md; the isothermal Newtonian stress is eta du/dz of Couette and
+Poiseuille flow.
+"""
+
+import numpy as np
+
+from tehl.base.typing import Array
+from tehl.estimate.grid import Grid
+from tehl.estimate.scaling import ScaledProblem
+from tehl.operators.energy import FilmState, pressure_slopes
+from tehl.operators.heated_film import stress_unit
+from tehl.operators.loaded_zone import wet_part, zone_of
+from tehl.operators.reynolds import conductance
+from tehl.result.fields import (
+    FilmAsperities,
+    FilmContact,
+    FilmHeat,
+    FilmOil,
+    FilmShear,
+    HeatBalance,
+)
+from tehl.solver.cycle.level import Level
+
+
+def newtonian_shear(level: Level, scaled: ScaledProblem) -> FilmShear:
+    """Return the shear stress of an isothermal Newtonian film, from pressure and film."""
+    grid, groups = level.grid, scaled.groups
+    slope_x, _ = pressure_slopes(grid, groups, level.film.p)
+    sliding = newtonian_sliding(level, scaled)
+    rolling = 6.0 / groups.lambda_bar * level.film.h * slope_x
+    unit = stress_unit(scaled.scales)
+    return FilmShear(
+        surface_1=grid.unfold(unit * (sliding - rolling)),
+        mid_film=grid.unfold(unit * sliding),
+        surface_2=grid.unfold(unit * (sliding + rolling)),
+        across=np.zeros((grid.ny, grid.nx)),
+        thinning=np.ones((grid.ny, grid.nx)),
+    )
+
+
+def newtonian_sliding(level: Level, scaled: ScaledProblem) -> Array:
+    """Return the mid-film stress -SRR eta/h of an isothermal Newtonian film, ``grid.shape`` [-]."""
+    problem, scales = scaled.problem, scaled.scales
+    if problem.slide_roll_ratio == 0:
+        return np.zeros(level.grid.shape)
+    film = np.maximum(level.film.h, level.equations.floor)
+    lubricant = problem.lubricant
+    eta = lubricant.viscosity.viscosity(scales.hertz_pressure * level.film.p, scales.temperature)
+    return np.asarray(-problem.slide_roll_ratio * eta / scales.viscosity / film)
+
+
+def film_shear(state: FilmState) -> FilmShear:
+    """Return the shear stress of a heated or shear-thinning film."""
+    grid, sliding = state.grid, state.view("tau_x")
+    unit = stress_unit(state.film.scaled.scales)
+    # the force on the gap, whatever asperities leave of its flow
+    slope_x, _ = pressure_slopes(grid, state.film.scaled.groups, state.view("p").T)
+    rolling = 0.5 * state.model.terms.poiseuille * state.view("h") * slope_x.T
+    return FilmShear(
+        surface_1=_unfold(grid, unit * (sliding - rolling)),
+        mid_film=_unfold(grid, unit * sliding),
+        surface_2=_unfold(grid, unit * (sliding + rolling)),
+        across=_unfold(grid, unit * state.view("tau_y"), odd=True),
+        thinning=_unfold(grid, state.view("effective")),
+    )
+
+
+def film_heat(state: FilmState) -> FilmHeat | None:
+    """Return the temperatures of a heated film, None for an isothermal one."""
+    if not state.model.terms.heat:
+        return None
+    grid, temperature = state.grid, state.temperature
+    layers = [_unfold(grid, temperature[:, k]) for k in range(temperature.shape[1])]
+    unit = state.film.flux_unit
+    flux_1, flux_2 = (unit * flux for flux in state.fluxes)
+    return FilmHeat(
+        zeta=state.film.across.zeta.copy(),
+        weights=state.film.across.weights.copy(),
+        temperature=np.stack(layers),
+        flux_1=_unfold(grid, flux_1),
+        flux_2=_unfold(grid, flux_2),
+        balance=heat_balance(state),
+        solid_peclet=state.film.solid_peclet,
+        sources=state.solids.forms,
+    )
+
+
+def heat_balance(state: FilmState) -> HeatBalance:
+    """Return the heat balance of the film under pressure in the loaded zone [W].
+
+    The enthalpy carried out is the divergence of its flux by central differences, which the solver
+    does not use: the error of the balance measures the discretisation error.
+    """
+    grid, view, terms = state.grid, state.view, state.model.terms
+    inner = (slice(1, -1), slice(1, -1))
+    pressure, along, sideways = view("p"), view("enthalpy_x"), view("enthalpy_y")
+    carried = np.zeros_like(pressure)
+    carried[1:-1] += 0.5 * terms.over_x * (along[2:] - along[:-2])
+    carried[:, 1:-1] += 0.5 * terms.over_y * (sideways[:, 2:] - sideways[:, :-2])
+    if terms.mirror:
+        carried[:, 0] += terms.over_y * sideways[:, 1]
+    area = np.zeros_like(pressure)
+    area[inner] = 2.0 if terms.mirror else 1.0
+    if terms.mirror:
+        area[1:-1, 0] = 1.0
+    area *= (wet_part(pressure.T) * zone_of(grid)).T  # of the film under pressure in the zone
+    scales = state.film.scaled.scales
+    area *= grid.dx * grid.dy * scales.half_width_x * scales.half_width_y * state.film.flux_unit
+    powers = (view("shear"), view("work"), *state.fluxes, carried)
+    shear, compression, first, second, out = (float((area * power).sum()) for power in powers)
+    return HeatBalance(
+        shear=shear, compression=compression, surface_1=first, surface_2=second, carried_out=out
+    )
+
+
+def film_asperities(level: Level, scaled: ScaledProblem) -> FilmAsperities | None:
+    """Return pressure, area and separation of asperities; None without."""
+    problem, scales, grid = scaled.problem, scaled.scales, level.grid
+    if problem.asperities is None:
+        return None
+    separation, sigma = level.separation * scales.film_thickness, problem.asperity_rms
+    area, spots = problem.asperities.spots(separation / sigma, sigma)
+    return FilmAsperities(
+        pressure=grid.unfold(level.film.asperity * scales.hertz_pressure),
+        area=grid.unfold(area),
+        spots=grid.unfold(spots),
+        separation=grid.unfold(separation),
+        rms=np.array(sigma),
+        balance=np.array(asperity_balance(level)),
+    )
+
+
+def film_contact(level: Level, scaled: ScaledProblem) -> FilmContact | None:
+    """Return the pressure of contact through a boundary film; None without."""
+    if level.equations.contact_film is None:
+        return None
+    pressure = level.grid.unfold(level.film.asperity * scaled.scales.hertz_pressure)
+    return FilmContact(pressure=pressure, balance=np.array(contact_balance(level)))
+
+
+def contact_balance(level: Level) -> float:
+    """Return the largest oil made or lost upstream of any section, in film and contact [-].
+
+    Relative to the oil that passes through |Y| < 1 at X = 0. Cavities do not count.
+    """
+    grid, film = level.grid, level.film
+    middle, inside = int(np.argmin(np.abs(grid.x))), np.abs(grid.y) < 1.0
+    through = float(_line_weights(grid)[inside] @ (film.rho * film.h)[inside, middle])
+    return _largest_made(level) / through
+
+
+def asperity_balance(level: Level) -> float:
+    """Return the largest oil made or lost upstream of any section of a film with asperities [-].
+
+    Relative to the oil that the surfaces bring; what leaves through the side edges counts as
+    passed. Cavities do not count unless they conserve oil.
+    """
+    if level.stencil.conserves:
+        return oil_balance(level)
+    entering = _line_weights(level.grid) @ (level.film.rho * level.film.h)[:, 0]
+    return _largest_made(level) / float(entering)
+
+
+def _largest_made(level: Level) -> float:
+    """Return the largest oil made or lost in the film upstream of any section, as rho H [-]."""
+    level.evaluate_residual()
+    made = np.cumsum(_line_weights(level.grid) @ level.residual) * level.grid.dx
+    return float(np.abs(made).max())
+
+
+def _line_weights(grid: Grid) -> Array:
+    """Return of how many lines of the full domain each line is an image, (ny,)."""
+    weights = np.ones(grid.shape[0])
+    if grid.mirror:
+        weights[1:] = 2.0
+    return weights
+
+
+def film_oil(level: Level, scaled: ScaledProblem) -> FilmOil | None:
+    """Return where the oil is; None if cavities do not conserve it."""
+    if not level.stencil.conserves:
+        return None
+    (held, passed), grid, unit = level.oil_flow(), level.grid, scaled.scales.film_thickness
+    film = level.film
+    full = film.rho * np.maximum(film.h, level.equations.floor)
+    fill = np.where(film.partial > 0, np.minimum(held / full, 1.0), 1.0)
+    fill[-1] = fill[-2]  # nothing is solved on the edges
+    if not grid.mirror:
+        fill[0] = fill[1]
+    return FilmOil(
+        fill=grid.unfold(fill),
+        entering=_unfold_line(grid, passed[:, 0] * unit),
+        leaving=_unfold_line(grid, passed[:, -2] * unit),
+    )
+
+
+def _unfold_line(grid: Grid, values: Array) -> Array:
+    return np.concatenate([values[:0:-1], values]) if grid.mirror else values.copy()
+
+
+def oil_balance(level: Level, *, until: float = np.inf) -> float:
+    """Return the largest change of the oil flux between sections across the flow, relative [-].
+
+    The flux through the side edges counts. Of the sections downstream of X = ``until`` only the
+    last one does.
+    """
+    _, passed = level.oil_flow()
+    film, stencil, mirror = level.film, level.stencil, level.grid.mirror
+    weights = np.ones(passed.shape[0])
+    weights[0] = 0.5 if mirror else 0.0
+    weights[-1] = 0.0
+    through = weights @ passed[:, :-1]
+    sides = np.zeros(passed.shape[1])
+    for edge, inner in ((-1, -2), (0, 1))[: 1 if mirror else 2]:
+        eps = conductance(stencil, film.eps_y[edge], film.eps_y[inner])
+        sides += stencil.cy * eps * (film.p[edge] - film.p[inner])
+    gained = np.cumsum(sides[1:-1]) / (stencil.w0 - stencil.w2)
+    change = np.abs(through[1:] - through[0] - gained) / through[0]
+    counts = level.grid.x[1 : change.size + 1] <= until
+    counts[-1] = True
+    return float(change[counts].max())
+
+
+def _unfold(grid: Grid, field: Array, *, odd: bool = False) -> Array:
+    """Return a field stored with y last on the full domain, (ny, nx); ``odd`` in y or even."""
+    field = np.ascontiguousarray(field.T)
+    if odd and grid.mirror:
+        return np.concatenate([-field[:0:-1], field])
+    return grid.unfold(field)

@@ -1,0 +1,141 @@
+"""Settings that work where a solve failed: they are tried before a hint names them."""
+
+import math
+import time
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from functools import partial
+
+from tehl.base.errors import TehlError
+from tehl.base.units import percentage
+from tehl.contact.options import Domain, Options
+from tehl.contact.problem import ContactProblem
+from tehl.estimate.domain import FAMILIES, planned
+from tehl.estimate.scaling import ScaledProblem
+from tehl.result.solution import Hint, Settings, Solution, settings_text
+from tehl.solver.judging.diagnosis import error_setting
+from tehl.solver.monitor import Monitor
+
+ERRORS = (0.5, 0.2, 0.05)
+"""Relative errors of the film that are tried, coarsest first; the smallest that works is named."""
+THINNING = {"law": "eyring", "stress": "5 MPa"}
+"""The shear law of a usual oil."""
+LONGER = 3.0
+"""Time for the trials over that of the failed solve, up to ``numerics.max_time``."""
+LEAST_SECONDS = 1.0
+"""Least time for the trials."""
+Solve = Callable[[ContactProblem, Options], Solution]
+Reached = tuple[tuple[int, int], float]
+"""Nodes (nx, ny) and relative error of a film that converged."""
+OTHERS = 2
+"""Other numbers of nodes that are tried."""
+
+
+def solved_on_other_nodes(
+    failed: Solution, solve: Solve, monitor: Monitor, end: float
+) -> Solution | None:
+    """Return the film on slightly more nodes if it converges there to the error to reach.
+
+    On some grids, coarser ones of their hierarchy included, the discrete equations have no
+    solution, or one that the cycles do not find, and on others of nearly the same mesh width they
+    have one.
+
+    Parameters
+    ----------
+    failed, solve, monitor, end
+        As in `working_hint`.
+    """
+    if failed.status.kind not in ("diverged", "stalled") or not failed.history:
+        return None
+    nodes = max(planned(ScaledProblem.of(failed.problem), failed.options).shape)
+    for more in [one for one in sorted(FAMILIES) if one > nodes][:OTHERS]:
+        left = end - time.perf_counter()
+        if left <= 0.0:
+            break
+        monitor.message(f"trying {more} x {more} nodes")
+        options = failed.options.on_points(more, more).model_copy(update={"max_time": left})
+        with suppress(TehlError):
+            found = solve(failed.problem, options)
+            errors = found.errors
+            error = math.inf if errors is None else max(errors.central, errors.minimum)
+            if found.status.converged and error <= failed.options.target:
+                return found
+    return None
+
+
+def working_hint(
+    failed: Solution, solve: Solve, monitor: Monitor, end: float, reached: Reached | None = None
+) -> Hint:
+    """Return a hint to settings with which a failed contact converges; without any if none does.
+
+    Parameters
+    ----------
+    failed : Solution
+        The result that did not converge, whose error decides the number of nodes.
+    solve : callable
+        Returns the result of a contact, converged or not.
+    monitor : Monitor
+        Receives what is tried.
+    end : float
+        When ``numerics.max_time`` is over, on the clock of `time.perf_counter` [s].
+    reached : Reached or None
+        The film that converged on the way: nothing worse is named.
+    """
+    now = time.perf_counter()
+    end = max(min(now + LONGER * failed.cost.wall_seconds, end), now + LEAST_SECONDS)
+    found = None
+    least = math.inf if reached is None else reached[1]
+    for trials in (_default_domain(failed), _errors(failed, least), _other_physics(failed)):
+        for settings, problem, options in trials:
+            left = end - time.perf_counter()
+            if left <= 0.0:
+                break
+            monitor.message(f"trying a hint: {settings_text(settings)}")
+            limited = options.model_copy(update={"max_time": min(left, options.max_time)})
+            found = _tried(settings, partial(solve, problem, limited)) or found
+        if found is not None:
+            return found
+    if reached is not None:
+        (nx, ny), error = reached
+        return Hint(f"{nx} x {ny} nodes converged.", error_setting(error))
+    return Hint("No setting is known with which this contact converges.")
+
+
+def _tried(settings: Settings, solve: Callable[[], Solution]) -> Hint | None:
+    """Return a hint to settings, None if they do not converge."""
+    try:
+        result = solve()
+    except TehlError:
+        return None
+    if not result.status.converged or result.errors is None:
+        return None
+    (ny, nx), error = result.scaled.film.shape, max(result.errors.central, result.errors.minimum)
+    advice = f"{nx} x {ny} nodes then converge to an error of {percentage(error)}."
+    return Hint(advice, settings)
+
+
+Trial = tuple[Settings, ContactProblem, Options]
+
+
+def _default_domain(failed: Solution) -> Iterator[Trial]:
+    """Yield the default domain in place of a stated one."""
+    if isinstance(failed.options.domain, Domain):
+        options = failed.options.model_copy(update={"domain": "auto", "edges": "auto"})
+        yield {"numerics.domain": False, "numerics.edges": False}, failed.problem, options
+
+
+def _errors(failed: Solution, least: float) -> Iterator[Trial]:
+    """Yield larger errors to reach, up to the one that was reached, ``least``."""
+    for error in ERRORS:
+        if failed.options.target < error < least:
+            options = failed.options.model_copy(update={"error": error})
+            yield {"numerics.error": percentage(error)}, failed.problem, options
+
+
+def _other_physics(failed: Solution) -> Iterator[Trial]:
+    """Yield a Newtonian contact with a usual shear law: Newtonian stresses may have no solution."""
+    if failed.problem.lubricant.shear.law != "newtonian" or not failed.problem.is_coupled:
+        return
+    tables = failed.problem.model_dump(exclude_none=True)
+    tables["lubricant"]["shear"] = THINNING
+    yield {"lubricant.shear": THINNING}, ContactProblem.model_validate(tables), failed.options

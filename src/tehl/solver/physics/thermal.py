@@ -1,0 +1,303 @@
+"""Coupling of temperature and shear stress with the film: energy sweeps after each cycle.
+
+Heat and shear thinning enter the Reynolds equation as factors on the isothermal Newtonian mobility
+and density, which are constant during a cycle and injected to the coarser grids
+(docs/theory/numerics-thermal.md on the coupling with the film).
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from tehl.base.typing import Array
+from tehl.contact.options import Options
+from tehl.estimate.scaling import ScaledProblem
+from tehl.kernels import properties
+from tehl.operators.energy import FilmState
+from tehl.operators.heated_film import HeatedFilm
+from tehl.operators.transfer import midpoints
+from tehl.solver.cycle.level import Level
+
+COUPLED_FROM = 64
+"""Intervals of the coarsest grid that is heated; coarser ones keep the inlet temperature."""
+RESOLVED = 5.0
+"""Least film on a heated coarser grid, over the floor of the conductance."""
+FIRST_SWEEPS = 10
+"""Energy sweeps on the first heated grid before its first cycle."""
+MOST_SWEEPS, LARGE_CHANGE = 4, 5.0
+"""Most energy sweeps after a cycle, and change of temperature [K] after which another follows."""
+SMALL_CHANGE, SMALL_RISE_CHANGE = 0.05, 0.0015
+"""Largest change of temperature in a sweep, and change of the largest rise since the last sweep,
+both over that rise, below which the sweep of the next cycle is skipped."""
+LEAST_SWEEPS = 2
+"""Sweeps on a grid before one may be skipped."""
+FIRST_STEPS, STEPS = 40, 3
+"""Newton steps for the shear stress in the first sweeps and later."""
+RAMP = 24
+"""Sweeps over which the sliding speed is raised from zero in `Strategy.slide_in_steps`."""
+UNFINISHED = 100.0
+"""Change of temperature [K] reported for a sweep below the full sliding speed."""
+CARRIED = ("temperature", "tau_x", "tau_y")
+"""Fields of the film that a sweep starts from."""
+LARGEST_STEP = 0.5
+"""Largest change of the logarithms of mobility and density per sweep. On a steep front the gradient
+of a pressure not yet converged may increase the mobility by orders of magnitude."""
+FIRST_CHANGE = 8.0
+"""Change of temperature [K] at which the first sweeps end."""
+
+
+class Coupling:
+    """Effects of heat and shear thinning on the film; none if it is isothermal and Newtonian.
+
+    Parameters
+    ----------
+    scaled, options : ScaledProblem, Options
+        The contact; order of the upstream differences, and accuracy.
+    slide_in_steps : bool
+        Raise the sliding speed from zero over the first sweeps.
+    damping : float
+        Damping factor of the logarithms of mobility and density per sweep, 1 is undamped [-]. On
+        rough flanks the pressure gradient may cause nearly all heat and thinning; undamped, the
+        flow increases both before the pressure can fall, and the iteration diverges.
+    """
+
+    def __init__(
+        self,
+        scaled: ScaledProblem,
+        options: Options,
+        *,
+        slide_in_steps: bool = False,
+        damping: float = 1.0,
+    ) -> None:
+        self.scaled, is_coupled = scaled, scaled.problem.is_coupled
+        self.film = HeatedFilm(scaled) if is_coupled else None
+        self.wedge_order = options.order
+        motion = scaled.problem.motion
+        counter_moving = min(motion.speed_1, motion.speed_2) <= 0.0
+        # without counter-moving surfaces the backflow of the coarser grids is accurate enough
+        self.thorough = options.accuracy == "tight" or counter_moving
+        self.sweeps_left = RAMP if slide_in_steps else 0
+        self.damping = damping if is_coupled else 1.0
+        self.state: FilmState | None = None  # on the last level that was started
+        self.factors: properties.Factors | None = None
+        self.change, self.rise, self.skip = 0.0, 0.0, False
+
+    def begin(self, levels: Sequence[Level], *, finest: bool, full: bool) -> bool:
+        """Heat the last of ``levels``; return whether it is heated or thinned.
+
+        It starts from the temperatures of the next coarser grid, if there are any. A coarser grid
+        that does not resolve the film stays isothermal.
+
+        Parameters
+        ----------
+        levels : sequence of Level
+            Coarsest first.
+        finest, full : bool
+            Whether the last one is the level of the result, and whether it has the full sources: so
+            do those whose temperatures are compared.
+        """
+        if self.film is None:
+            return False
+        fine, coarser = levels[-1], self.state
+        large = min(fine.grid.nx, fine.grid.ny) > COUPLED_FROM
+        resolved = float(fine.film.h.min()) > RESOLVED * fine.equations.floor
+        if not (finest or coarser is not None or (large and resolved)):
+            return False
+        self.skip = False
+        state = FilmState(
+            fine.grid, self.film, self.wedge_order, finest=full, thorough=self.thorough
+        )
+        state.is_first_grid = not finest
+        self.state = state
+        if coarser is not None:
+            state.refine_from(coarser)
+            _set_film(state, fine)
+            # line sources march with the sweep
+            if not all(side.marches for side in self.film.sides):
+                state.update_surfaces()
+            assert levels[-2].factors is not None  # that grid is heated
+            self._set_factors(levels, properties.Factors(*map(midpoints, levels[-2].factors)))
+            return True
+        # the first heated grid starts from the inlet temperature everywhere
+        for _ in range(FIRST_SWEEPS):
+            if self._sweep(state, levels, FIRST_STEPS) < FIRST_CHANGE or self.damping < 1.0:
+                break
+        return True
+
+    @property
+    def is_pending(self) -> bool:
+        """Whether heat or thinning are still to begin."""
+        return self.film is not None and self.state is None
+
+    def update(self, levels: Sequence[Level]) -> tuple[float, float]:
+        """Sweep; return the largest change, and the largest rise or fall of the temperature [K].
+
+        One sweep per cycle; more while the temperature changes by more than `LARGE_CHANGE`. When it
+        hardly changes, the sweep of the next cycle is skipped, unless the accuracy is tight.
+        """
+        if self.state is None:
+            return 0.0, 0.0
+        if self.skip:
+            self.skip = False
+            return self.change, self.rise
+        for _ in range(MOST_SWEEPS):
+            self.change = self._sweep(self.state, levels, STEPS)
+            if self.change < LARGE_CHANGE or self.sweeps_left or self.damping < 1.0:
+                break
+        before, self.rise = self.rise, self._deviation()
+        steady = abs(self.rise - before) < SMALL_RISE_CHANGE * abs(self.rise)
+        may_skip = self.state.sweeps >= LEAST_SWEEPS and not self.thorough and self.damping == 1.0
+        self.skip = may_skip and steady and self.change < SMALL_CHANGE * abs(self.rise)
+        return self.change, self.rise
+
+    def _deviation(self) -> float:
+        """Return the largest rise over the inlet, or the largest fall if that is larger [K]."""
+        if self.state is None:
+            return 0.0
+        inlet, temperature = self.scaled.scales.temperature, self.state.temperature
+        rise, fall = float(temperature.max()) - inlet, float(temperature.min()) - inlet
+        return rise if rise >= -fall else fall
+
+    def temperature_rise(self) -> float:
+        """Return the largest temperature rise over the inlet [K]."""
+        if self.state is None:
+            return 0.0
+        return float(self.state.temperature.max()) - self.scaled.scales.temperature
+
+    def reset(self, levels: Sequence[Level]) -> None:
+        """Make ``levels`` isothermal again: their film is not a start for the next grid."""
+        if self.film is None:
+            return
+        self.state = None
+        for level in levels:
+            level.uncouple()
+
+    def pack(self, levels: Sequence[Level]) -> dict[str, Array]:
+        """Return temperature, stress, fluxes and factors as arrays by name, for a checkpoint."""
+        state, factors = self.state, levels[-1].factors
+        if state is None or factors is None:
+            return {}
+        known = {f"factor_{name}": getattr(factors, name) for name in factors._fields}
+        known |= {f"film_{name}": getattr(state.fields, name) for name in CARRIED}
+        known["film_back"] = state.work.back  # extent of the next march against the flow
+        return known | (state.transient.pack() if state.transient is not None else {})
+
+    def unpack(self, levels: Sequence[Level], fields: dict[str, Array]) -> None:
+        """Restore the state that `pack` returned."""
+        if self.state is None or not fields:
+            return
+        for name in CARRIED:
+            getattr(self.state.fields, name)[:] = fields[f"film_{name}"]
+        self.state.work.back[:] = fields["film_back"]
+        if self.state.transient is not None:
+            self.state.transient.unpack(fields)
+        names = properties.Factors._fields
+        self._set_factors(levels, properties.Factors(*(fields[f"factor_{name}"] for name in names)))
+        self.factors = levels[-1].factors
+
+    def begin_transient(self, levels: Sequence[Level], time_step: float) -> None:
+        """Make the energy equation transient, in steps of ``time_step`` [a_x / u_m]."""
+        self.factors = levels[-1].factors
+        if self.state is not None and self.state.model.terms.heat:
+            self.state.begin_transient(time_step)
+
+    def excess(self) -> Array | None:
+        """Return 1 - rho_e/rho* at the temperatures of the last sweep, (ny, nx); None if zero.
+
+        Oil that is stiffer on the fast side of the film carries more mass than the mean speed: the
+        wedge has the density rho* of that flux, the squeeze the mean density rho_e
+        (docs/theory/numerics-thermal.md on transient runs).
+        """
+        if self.state is None:
+            return None
+        part = self.state.view("mean_density") / self.state.view("density")
+        return np.ascontiguousarray(1.0 - part.T)
+
+    def advance(self, levels: Sequence[Level]) -> None:
+        """Accept temperatures, stresses and factors as those of the last time step."""
+        self.factors = levels[-1].factors
+        if self.state is not None and self.state.transient is not None:
+            self.state.transient.advance()
+
+    def revert(self, levels: Sequence[Level]) -> None:
+        """Restore those of the last time step."""
+        if self.state is not None and self.state.transient is not None:
+            self.state.transient.go_back()
+        if self.factors is not None:
+            self._set_factors(levels, self.factors)
+
+    def _sweep(self, state: FilmState, levels: Sequence[Level], steps: int) -> float:
+        """Sweep the energy equation and update the flow; return the change of temperature [K]."""
+        fine = levels[-1]
+        self.sweeps_left = max(self.sweeps_left - 1, 0)
+        state.slide(1.0 - self.sweeps_left / RAMP)
+        _set_film(state, fine)
+        change = state.sweep(steps)
+        if self.sweeps_left:
+            change = max(change, UNFINISHED)
+        self._couple(state, levels)
+        return change
+
+    def _couple(self, state: FilmState, levels: Sequence[Level]) -> None:
+        """Compute the factors of heat and thinning and set them on all of ``levels``."""
+        fine, names = levels[-1], properties.Heated._fields
+        shape = fine.grid.shape
+        heated = properties.Heated(*(np.ascontiguousarray(state.view(name).T) for name in names))
+        heated.mobility[:] /= self.scaled.groups.lambda_bar
+        factors = properties.Factors(*np.empty((5, *shape)))
+        # at H = 1 the conductance is the mobility: factors do not depend on the film
+        isothermal = properties.Film(fine.film.p, np.ones(shape), *np.empty((5, *shape)))
+        properties.factors_of(heated, isothermal, fine.equations.flow, factors)
+        before = fine.factors
+        if before is None and self.damping < 1.0:
+            before = properties.Factors(np.zeros(shape), *np.ones((4, *shape)))  # isothermal
+        if before is not None:
+            factors = damped(before, factors, isothermal.eps, self.damping)
+        self._set_factors(levels, factors)
+
+    @staticmethod
+    def _set_factors(levels: Sequence[Level], factors: properties.Factors) -> None:
+        """Set the factors of the last of ``levels``, and inject them to the coarser ones."""
+        fine = levels[-1]
+        for level in reversed(levels):
+            level.couple(factors)
+            factors = properties.Factors(*(array[::2, ::2].copy() for array in factors))  # injected
+        fine.update_properties()
+        fine.write_source()
+
+
+def damped(
+    old: properties.Factors, new: properties.Factors, isothermal: Array, damping: float
+) -> properties.Factors:
+    """Return factors between old and new ones, in logarithms, at most `LARGEST_STEP` away.
+
+    Parameters
+    ----------
+    old, new : Factors
+        Of the last sweep and of this one.
+    isothermal : array (ny, nx)
+        Isothermal Newtonian mobility at the pressure of this sweep [-].
+    damping : float
+        Part of the way [-].
+    """
+
+    def step(before: Array, after: Array) -> Array:
+        change = damping * np.log(after / before)
+        return before * np.exp(np.clip(change, -LARGEST_STEP, LARGEST_STEP))
+
+    before, after = (one.rest + one.mobility * isothermal for one in (old, new))
+    part = step(before, after) / after
+    others = (step(a, b) for a, b in zip(old[2:], new[2:], strict=True))
+    return properties.Factors(part * new.rest, part * new.mobility, *others)
+
+
+def _set_film(state: FilmState, level: Level) -> None:
+    """Set pressure and film of a level, and the heat of its asperities."""
+    film, floor = level.film, level.equations.floor
+    if level.equations.asperities is None:
+        state.set_film(film.p, film.h, floor)
+        return
+    along = (film.channel / np.maximum(film.h, floor)) ** 3
+    across = along * film.across if film.across.size else along
+    state.set_film(np.maximum(film.p, 0.0), film.h, floor, (along, across))
+    state.rub(film.asperity)

@@ -1,0 +1,78 @@
+"""Domain and grid: proposed values, and invalid ones."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tehl.base.errors import InputError
+from tehl.contact.options import Domain, Options, coarsenable, coarsenings
+from tehl.estimate.domain import expected_points, recommended_domain
+from tehl.estimate.scaling import groups
+from tests.reference import moes_contact
+
+
+@pytest.mark.parametrize(
+    ("x", "y"),
+    [
+        ((-0.9, 1.5), (-3.0, 3.0)),
+        ((-4.5, 1.0), (-3.0, 3.0)),
+        ((-4.5, 1.5), (-3.0, 0.5)),
+    ],
+)
+def test_a_domain_that_cuts_the_contact_is_rejected(x, y):
+    with pytest.raises(InputError, match="cuts the contact"):
+        Domain(x=x, y=y)
+
+
+@pytest.mark.parametrize("edge", [float("nan"), float("inf")])
+def test_an_infinite_domain_is_rejected(edge):
+    with pytest.raises(InputError, match="two finite numbers"):
+        Domain(x=(-4.5, edge), y=(-3.0, 3.0))
+
+
+@pytest.mark.parametrize("points", [67, 130, 200, (129, 131)])
+def test_points_that_cannot_be_coarsened_are_rejected_with_two_that_can(points):
+    with pytest.raises(InputError, match=r"such as (\d+) or (\d+) nodes"):
+        Options(points=points)
+
+
+@pytest.mark.parametrize("points", [0, -129, 16, 100_001])
+def test_points_out_of_range_are_rejected(points):
+    with pytest.raises(InputError):
+        Options(points=points)
+
+
+@given(st.integers(17, 5000))
+def test_the_proposed_nodes_can_be_coarsened(nodes):
+    fewer, more = coarsenable(nodes)
+    assert fewer <= max(nodes, 33) < more
+    assert coarsenings(fewer) >= 1
+    assert coarsenings(more) >= 1
+
+
+@pytest.mark.parametrize("load", [0.5, 5.0, 20.0, 200.0, 2000.0])
+def test_the_centre_is_a_node_of_every_grid_of_the_proposed_domain(load):
+    domain = recommended_domain(groups(moes_contact(load, 10.0)))
+    (left, right), (south, north) = domain.x, domain.y
+    assert -left / (right - left) * 16 == pytest.approx(round(-left / (right - left) * 16))
+    assert south == -north
+
+
+def test_the_proposed_domain_shrinks_with_load_to_the_smallest_one():
+    widths = [-recommended_domain(groups(moes_contact(m, 10.0))).x[0] for m in (3, 20, 80, 500)]
+    assert widths == sorted(widths, reverse=True)
+    domain = recommended_domain(groups(moes_contact(200, 10.0)))
+    assert (domain.x[0], domain.y) == (-3.4, (-2.3, 2.3))
+
+
+def test_the_proposed_domain_grows_with_the_accuracy():
+    wide, usual = (recommended_domain(groups(moes_contact(200, 10.0)), e) for e in (0.0025, 0.02))
+    assert wide.x[0] == pytest.approx(2.0 * usual.x[0])
+
+
+def test_heavier_loads_need_more_points():
+    contacts = [groups(moes_contact(m, 10.0)) for m in (20, 200, 2000)]
+    points = [expected_points(one, recommended_domain(one), 0.02) for one in contacts]
+    assert points == sorted(points)
+    assert points[0] < points[-1]
+    assert all(coarsenings(n) >= 1 for n in points)

@@ -1,0 +1,70 @@
+"""Grids and their halved_grids."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tehl.contact.options import Domain
+from tehl.estimate.grid import Grid, can_mirror, halved_grids
+from tests.reference import DOMAIN
+
+COARSENABLE = st.builds(lambda n, k: n * 2**k + 1, st.integers(16, 31), st.integers(1, 4))
+
+
+def grid(nx: int, ny: int, *, mirror: bool = True, domain: Domain = DOMAIN) -> Grid:
+    return Grid(nx=nx, ny=ny, domain=domain, mirror=mirror)
+
+
+def test_nodes_span_the_domain_and_the_mirrored_half_starts_on_the_axis():
+    half, full = grid(129, 65), grid(129, 65, mirror=False)
+    assert (full.x[0], full.x[-1]) == pytest.approx((-4.5, 1.5))
+    assert (full.y[0], full.y[-1]) == pytest.approx((-3.0, 3.0))
+    assert half.y[0] == 0.0
+    np.testing.assert_allclose(half.y, full.y[32:], atol=1e-14)
+    assert half.shape == (33, 129)
+
+
+@given(COARSENABLE, COARSENABLE)
+def test_each_grid_keeps_every_second_node_of_the_finer_one(nx, ny):
+    full = grid(nx, ny, mirror=False)
+    levels = halved_grids(full)
+    assert levels[-1] is full
+    for coarse, fine in pairwise(levels):
+        np.testing.assert_allclose(coarse.x, fine.x[::2], atol=1e-12)
+        np.testing.assert_allclose(coarse.y, fine.y[::2], atol=1e-12)
+
+
+@given(COARSENABLE, COARSENABLE)
+def test_every_mirrored_grid_has_a_row_on_the_axis(nx, ny):
+    for level in halved_grids(grid(nx, ny)):
+        assert (level.ny - 1) % 2 == 0
+        assert level.shape[0] == (level.ny - 1) // 2 + 1
+
+
+@given(COARSENABLE)
+def test_unfolding_a_half_gives_a_symmetric_field(points):
+    half = grid(points, points)
+    field = np.random.default_rng(points).random(half.shape)
+    full = half.unfold(field)
+    np.testing.assert_array_equal(full, full[::-1])
+    np.testing.assert_array_equal(full[half.shape[0] - 1 :], field)
+
+
+def test_a_field_of_the_full_domain_unfolds_to_a_copy_of_itself():
+    full = grid(17, 17, mirror=False)
+    field = np.ones(full.shape)
+    assert full.unfold(field) is not field
+    np.testing.assert_array_equal(full.unfold(field), field)
+
+
+def test_only_a_symmetric_domain_is_mirrored():
+    assert can_mirror((129, 129), DOMAIN)
+    assert not can_mirror((129, 129), Domain(x=(-4.5, 1.5), y=(-3.0, 2.5)))
+
+
+def test_the_coarsest_grid_has_sixteen_to_thirty_one_intervals():
+    assert [g.nx for g in halved_grids(grid(513, 513))] == [17, 33, 65, 129, 257, 513]
+    assert halved_grids(grid(49 * 4 - 3, 193))[0].nx == 25

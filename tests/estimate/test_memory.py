@@ -1,0 +1,51 @@
+"""Memory that a solve needs against memory that is available."""
+
+import pytest
+
+from tehl.base.errors import InputError
+from tehl.contact.options import Options
+from tehl.estimate.memory import available_memory, check_memory, needed_memory
+
+
+def test_the_memory_of_the_machine_is_found():
+    available = available_memory()
+    assert available is not None
+    assert 1e7 < available < 1e15
+
+
+def test_needed_memory_grows_with_the_nodes():
+    small, large = needed_memory(Options(points=129)), needed_memory(Options(points=(257, 129)))
+    assert large / small == pytest.approx(257 / 129)
+
+
+@pytest.mark.parametrize("available", [None, 1e12])
+def test_a_grid_that_fits_or_may_fit_is_accepted(monkeypatch, available):
+    monkeypatch.setattr("tehl.estimate.memory.available_memory", lambda: available)
+    check_memory(Options(points=16385))
+
+
+def test_a_grid_that_does_not_fit_is_rejected_with_one_that_does(monkeypatch):
+    monkeypatch.setattr("tehl.estimate.memory.available_memory", lambda: 2e9)
+    with pytest.raises(InputError, match=r"points = 16385 x 16385: .* 48 GB .* take 3329 or fewer"):
+        check_memory(Options(points=16385))
+    check_memory(Options(points=3329))
+
+
+def test_no_grid_is_proposed_if_none_fits(monkeypatch):
+    monkeypatch.setattr("tehl.estimate.memory.available_memory", lambda: 1e4)
+    with pytest.raises(InputError, match=r"are available$"):
+        check_memory(Options(points=513))
+
+
+def test_small_grids_are_not_checked(monkeypatch):
+    monkeypatch.setattr("tehl.estimate.memory.available_memory", lambda: pytest.fail("checked"))
+    check_memory(Options(points=257))
+
+
+def test_the_limit_of_a_container_counts(monkeypatch, tmp_path):
+    (tmp_path / "max").write_text("1000000\n")
+    limits = (str(tmp_path / "max"), str(tmp_path / "none"))
+    monkeypatch.setattr("tehl.estimate.memory._LIMITS", limits)
+    assert available_memory() == 1e6
+    (tmp_path / "max").write_text("max\n")
+    assert available_memory() != 1e6

@@ -1,0 +1,52 @@
+"""The loaded zone: its area, its symmetry, and the order of sums over it."""
+
+import numpy as np
+import pytest
+
+from tehl.contact.options import Domain
+from tehl.estimate.grid import Grid
+from tehl.operators.loaded_zone import RADIUS, is_inside, wet_part, zone_of, zone_part
+
+
+def disc(points: int, edge: float = 3.1) -> float:
+    """Return the integral of 1 + x over the zone by the sum on a grid that is not aligned to it."""
+    x, y = np.linspace(-edge, 2.7, points), np.linspace(-2.9, edge, points)
+    area = (x[1] - x[0]) * (y[1] - y[0])
+    return float(area * (zone_part(x, y) * (1.0 + 0.3 * x)).sum())
+
+
+def test_the_sum_over_the_zone_is_of_second_order():
+    exact = np.pi * RADIUS**2
+    coarse, fine = abs(disc(41) - exact), abs(disc(161) - exact)
+    assert coarse < 2e-3 * exact
+    assert fine < coarse / 4.0
+
+
+def test_half_a_symmetric_domain_has_the_same_parts():
+    grid = Grid(nx=65, ny=65, domain=Domain(x=(-4.5, 2.0), y=(-3.0, 3.0)), mirror=True)
+    whole = zone_part(grid.x, np.linspace(-3.0, 3.0, 65))
+    difference = np.abs(grid.unfold(zone_of(grid)) - whole)
+    assert difference[:32].max() < 1e-12
+    assert difference[32].max() < 0.01  # the strips of a half cell are half as wide
+
+
+def test_nodes_within_the_zone_count_fully_and_those_outside_not():
+    axis = np.linspace(-4.0, 4.0, 81)
+    part, radius = zone_part(axis, axis), np.hypot.outer(axis, axis)
+    assert np.abs(part[radius < RADIUS - 0.15] - 1.0).max() < 1e-12
+    assert (part[radius > RADIUS + 0.15] == 0.0).all()
+    assert is_inside(axis, axis).sum() == (radius <= RADIUS).sum()
+
+
+@pytest.mark.parametrize("front", [0.5, 0.63, 0.99, 1.2, 1.49])
+def test_the_front_of_a_discrete_film_is_found_between_nodes(front):
+    """Nodal values of the discrete equation P'' = 2 with complementarity; front in mesh widths."""
+    beta = 2.0 * (front - 1.0)
+    nodes = np.arange(6.0, -1.0, -1.0)
+    pressure = np.append(nodes**2 + beta * nodes, 0.0)[None, :]
+    # cells reach half a mesh width beyond the last wet node, node 5; the front lies `front` beyond
+    assert wet_part(pressure)[0].sum() == pytest.approx(6.0 + front - 0.5)
+
+
+def test_a_single_wet_node_is_not_widened():
+    assert wet_part(np.array([[0.0, 1.0, 0.0, 0.0]])).sum() == 1.0
