@@ -225,8 +225,8 @@ def try_strategies(  # noqa: PLR0913 (variants of one solve)
         if number:
             monitor.message(f"falling back to {strategy.description}")
         if strategy.wedge_order is not None and strategy.wedge_order != plan.order:
-            same = options.model_copy(update={"wedge_order": strategy.wedge_order})
-            plan = goal.fitting(planned(scaled, same))
+            plan = plan.model_copy(update={"wedge_order": strategy.wedge_order})
+            plan = goal.fitting(plan.on_points(grid.nx, grid.nx))
             grid = finest_grid(scaled, plan)
         hierarchy = Hierarchy.on(grid, scaled, plan, strategy.first_relaxation, load)
         run = FilmSolver(

@@ -16,6 +16,7 @@ from tehl.solver.cycle.relaxation import (
     FAST,
     GAUSS_SEIDEL,
     GENTLE,
+    LIMITED,
     ROBUST,
     ROUGH,
     STEEP,
@@ -72,9 +73,11 @@ SMOOTH = (
 )
 BETWEEN_ASPERITIES = (
     Strategy(relaxation=FAST),
-    # asperities that carry half the load behind a steep spike: the cycles alone go to and fro
-    Strategy(relaxation=ROBUST, memory=5, patience=2),
     Strategy(relaxation=STEEP),
+    # on coarse grids a small correction of the film moves much load to the asperities
+    Strategy(relaxation=LIMITED),
+    # asperities that carry half the load behind a steep spike: the cycles alone oscillate
+    Strategy(relaxation=ROBUST, memory=5, patience=2),
     Strategy(relaxation=GENTLE, patience=3),
 )
 COUPLED = (
@@ -148,13 +151,16 @@ def ladder(problem: ContactProblem, options: Options, *, rough: bool) -> tuple[S
     if options.order < 3 or options.wedge_order is not None:
         return rungs
     # behind steep pressure spikes some contacts converge with second order only
-    second = tuple(replace(one, wedge_order=2) for one in rungs)
-    return (*rungs[:FIRST], *second[:FIRST], *second[FIRST:])
+    first = FIRST if problem.asperities is None else FIRST + 1
+    return (*rungs[:first], *(replace(one, wedge_order=2) for one in rungs))
 
 
 def _rungs(problem: ContactProblem) -> tuple[Strategy, ...]:
     """Return the strategies for smooth surfaces."""
     if not problem.is_coupled:
         return SMOOTH if problem.asperities is None else BETWEEN_ASPERITIES
-    last = () if problem.asperities is None else BETWEEN_ASPERITIES[-1:]
-    return (*(COUPLED if problem.slide_roll_ratio else COUPLED[:-1]), *last)
+    coupled = COUPLED if problem.slide_roll_ratio else COUPLED[:-1]
+    if problem.asperities is None:
+        return coupled
+    limited = replace(COUPLED[1], relaxation=LIMITED)
+    return (*coupled[:FIRST], limited, *coupled[FIRST:], BETWEEN_ASPERITIES[-1])
