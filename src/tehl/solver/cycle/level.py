@@ -89,7 +89,7 @@ class Level:
         self.kept = np.zeros(shape)  # asperity pressure of that state
         self.heights: Array | None = None
         # of the correction of the next finer grid: factor, and limit of its relative change of P
-        self.correction = self._correction(relaxation)
+        self.correction = relaxation.correction
         self.factors: properties.Factors | None = None
         self._is_stale = True
 
@@ -435,13 +435,10 @@ class Level:
     def set_relaxation(self, relaxation: Relaxation) -> None:
         """Change the settings of the smoother; frozen nodes stay frozen."""
         frozen = self.smoother.frozen
-        self.correction = self._correction(relaxation)
+        if self.equations.asperities is not None:
+            self.correction = relaxation.correction
         self.smoother = make_smoother(self.equations, relaxation)
         self.smoother.frozen[:] = frozen
-
-    def _correction(self, relaxation: Relaxation) -> tuple[float, float]:
-        """Return factor and limit of the correction of the next finer grid."""
-        return (1.0, np.inf) if self.equations.asperities is None else relaxation.correction
 
     def relax(self, sweeps: int) -> None:
         """Smooth the error of the pressure by ``sweeps`` relaxation sweeps."""
