@@ -30,6 +30,8 @@ from tehl.contact.options import Options
 from tehl.estimate.cpu_time import expected_seconds
 from tehl.estimate.scaling import ScaledProblem, groups
 from tehl.io.case import changed
+from tehl.post.following import Following
+from tehl.result.registry import named
 
 CLASSES = ("isothermal", "thinning", "heated", "rough")
 RANGES = (("M < 7", 0.0, 7.0), ("M 7-500", 7.0, 500.0), ("M > 500", 500.0, np.inf))
@@ -45,22 +47,9 @@ FACTOR = 2.0
 
 def values(result: Result) -> dict[str, float]:
     """Return the values of a result that have error bars."""
-    film, traction, heat = result.film_scaled, result.traction, result.temperature
-    found = {
-        "film_central": film.central,
-        "film_minimum": film.minimum,
-        "pressure_max": float(result.scaled.pressure.max()),
-    }
-    if traction is not None:
-        found["traction_mid_film"] = traction.mid_film
-    if heat is not None and result.heat is not None:
-        found["film_rise_max"] = heat.film_rise_max
-        balance = result.heat.balance
-        found |= {"heat_shear": balance.shear, "heat_surface_2": balance.surface_2}
-    if result.heights is not None and result.roughness is not None:
-        rough = result.roughness
-        found |= {"ripple_film": rough.ripple_film, "ripple_pressure": rough.ripple_pressure}
-    return found
+    numbers = Following(result).numbers
+    found = {name: numbers.get(named(name).path) for name in NAMES}
+    return {name: value for name, value in found.items() if value is not None}
 
 
 def bars(result: Result) -> dict[str, float]:
@@ -68,11 +57,10 @@ def bars(result: Result) -> dict[str, float]:
     errors = result.errors
     if errors is None:
         return {}
-    found = {"film_central": errors.central, "film_minimum": errors.minimum}
-    further = {name: getattr(errors, name) for name in NAMES[2:]}
+    found = {name: errors.of(name) for name in NAMES}
     if not errors.spike_resolved:  # stated instead of a bar
-        del further["pressure_max"]
-    return found | {name: bar for name, bar in further.items() if bar is not None}
+        del found["pressure_max"]
+    return {name: bar for name, bar in found.items() if bar is not None}
 
 
 def row(task: tuple[int, int, float, bool, bool]) -> dict[str, Any]:

@@ -10,16 +10,9 @@ from tehl.api.results import Result
 from tehl.contact.options import Options
 from tehl.estimate.scaling import groups, scales
 from tehl.post.film import dry_gap, hertz_pressure
+from tehl.result.bars import ErrorEstimate, Estimate
 from tehl.result.fields import Fields, FilmSummary
-from tehl.result.solution import (
-    Cost,
-    CycleReport,
-    ErrorEstimate,
-    Estimate,
-    Hint,
-    Provenance,
-    Status,
-)
+from tehl.result.solution import Cost, CycleReport, Hint, Provenance, Status
 
 CASE = {
     "title": "Ball on disc",

@@ -7,7 +7,8 @@ import numpy as np
 
 from tehl.api.problem import ContactProblem
 from tehl.api.results import TransientResult
-from tehl.result.solution import Cost, Estimate, Provenance, Status
+from tehl.result.bars import Estimate
+from tehl.result.solution import Cost, Provenance, Status
 from tehl.result.transient import Frames, History, HistoryBars, Profiles
 from tests.fixtures_result import CASE, make_result
 

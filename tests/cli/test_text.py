@@ -12,7 +12,8 @@ from tehl.post.roughness import rough_film
 from tehl.post.thermal_effect import ThermalEffect
 from tehl.report.page import report_text
 from tehl.report.readable import length
-from tehl.result.solution import Estimate, Hint, Status
+from tehl.result.bars import Estimate
+from tehl.result.solution import Hint, Status
 from tests.fixtures_rough import make_rough
 
 

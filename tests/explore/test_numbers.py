@@ -29,16 +29,30 @@ def test_a_number_by_formula_is_marked_and_keeps_its_height():
     assert "error-bar" in number_html(one, None)
 
 
-def test_surfaces_that_touch_add_to_friction_and_power():
+def touching(points):
+    """Return a contact through a boundary film on a grid."""
     tables = tables_of_text(template_text("boundary-film"))
     tables["contact"]["slide_roll_ratio"] = 1e-5
-    tables["numerics"] = {"points": 65}
-    problem, options = case_from_tables(tables)
+    tables["numerics"] = {"points": points}
+    return case_from_tables(tables)
+
+
+def test_a_share_that_a_coarse_grid_does_not_know_is_not_shown():
+    problem, options = touching(65)
     with pytest.raises(tehl.ConvergenceError) as coarse:  # its numbers are shown all the same
         tehl.solve(problem, options)
-    result = coarse.value.result
+    found = numbers(coarse.value.result, explain(problem, options))
+    assert value_of(found, "film_central").value > 0.0
+    for key in ("share", "friction", "power"):
+        assert value_of(found, key).value is None
+        assert value_of(found, key).remark.startswith("not known: ")
+
+
+def test_surfaces_that_touch_add_to_friction_and_power():
+    problem, options = touching(129)
+    result = tehl.solve(problem, options)
     found = numbers(result, explain(problem, options))
-    share = value_of(found, "load_share").value
+    share = value_of(found, "share").value
     assert share == pytest.approx(100.0 * result.touching.share)
     assert share > 0.0
     assert value_of(found, "friction").value == result.touching.friction is not None

@@ -19,7 +19,8 @@ from tehl.post.waves import passing_wave
 from tehl.report import page as module
 from tehl.report.page import report_text
 from tehl.report.readable import input_rows
-from tehl.result.solution import Estimate, Hint, Status
+from tehl.result.bars import Estimate
+from tehl.result.solution import Hint, Status
 from tests.fixtures_result import CASE
 from tests.fixtures_rough import make_rough
 from tests.fixtures_transient import make_certified, make_transient, passing
@@ -204,7 +205,7 @@ def test_a_failure_is_shown_with_its_hint(stalled):
 
 @pytest.mark.usefixtures("one_picture")
 def test_the_error_of_the_largest_pressure_is_shown(result):
-    errors = replace(result.errors, pressure_max=0.099)
+    errors = replace(result.errors, bars={"pressure_max": 0.099})
     words = " ".join(Page(report_text(replace(result, errors=errors), dpi=40)).words)
     assert "about 9.9 %" in words
 

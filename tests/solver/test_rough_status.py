@@ -10,7 +10,8 @@ from tehl.cli.text import as_text
 from tehl.estimate.grid import Grid
 from tehl.io.summary import summary
 from tehl.report.page import report_text
-from tehl.result.solution import ErrorEstimate, Hint, Status
+from tehl.result.bars import ErrorEstimate
+from tehl.result.solution import Hint, Status
 from tehl.solver.judging.certify import _ending
 from tehl.solver.judging.verdict import is_film, no_film
 from tests.reference import DOMAIN

@@ -13,7 +13,7 @@ from tehl.base.errors import InputError
 from tehl.cli import application
 from tehl.studies import Store
 from tehl.studies.answers import answers, values_of
-from tehl.studies.case import Case, Row
+from tehl.studies.case import Case
 from tehl.studies.contacts import _column, _tables_of, read_contacts
 
 COARSE = """
@@ -198,27 +198,21 @@ def test_a_frame_is_solved_from_python(template):
 
 
 def test_friction_and_loss_contain_those_of_asperities():
-    row = Row(
-        key="",
-        status="converged",
-        summary={
-            "traction.mid_film": -0.02,
-            "traction.friction_power_w": 3.0,
-            "load_sharing.share": 0.5,
-            "load_sharing.friction": 0.06,
-            "load_sharing.power_boundary_w": 2.0,
-            "roughness.lambda_central": 2.0,
-        },
-    )
-    values = values_of(row)
+    summary = {
+        "traction.mid_film": -0.02,
+        "traction.friction_power_w": 3.0,
+        "load_sharing.share": 0.5,
+        "load_sharing.friction": 0.06,
+        "load_sharing.power_boundary_w": 2.0,
+        "roughness.lambda_central": 2.0,
+    }
+    values = values_of(summary)
     assert values["friction"] == 0.06
-    assert values["loss"] == 5.0
-    assert values["share"] == 0.5
-    assert values["kappa"] == pytest.approx(2.0**1.3)
-    oil = Row(
-        key="", status="converged", summary={"traction.mid_film": -3.0, "traction.credible": False}
-    )
-    assert values_of(oil)["friction"] is None
+    assert values["friction loss [W]"] == 5.0
+    assert values["load on asperities [%]"] == 50.0
+    assert values["kappa, as lambda^1.3"] == pytest.approx(2.0**1.3)
+    oil = {"traction.mid_film": -3.0, "traction.credible": False}
+    assert "friction" not in values_of(oil)
 
 
 def test_answers_are_taken_in_parts(tmp_path, template, monkeypatch):

@@ -12,16 +12,10 @@ from tehl.post.traction import LARGEST_CREDIBLE
 from tehl.report.following import following
 from tehl.report.readable import UNTITLED, length_unit
 from tehl.report.rendering import render
+from tehl.report.rows import rows_of
+from tehl.result.quantity import UNITS
+from tehl.result.registry import at, named, shown_in
 from tehl.result.solution import Status
-
-_UNITS = {
-    "pressure_max": (1e-9, "GPa"),
-    "film_rise_max": (1.0, "K"),
-    "traction_mid_film": (1.0, "at mid-film"),
-    "load_share": (1.0, "of the load"),
-    "traction_extreme": (1.0, "at the extreme"),
-}
-"""Factor from SI and unit of certified values; the others are films."""
 
 
 def as_text(result: Result | TransientResult, compared: Comparisons | None = None) -> str:
@@ -37,6 +31,10 @@ def as_text(result: Result | TransientResult, compared: Comparisons | None = Non
         no_film=no_film(start),
         result=result,
         following=following(result),
+        main_rows=() if transient else list(rows_of(start, "text")),
+        rises=() if transient else list(rows_of(start, "rises")),
+        quantities=shown_in("text"),
+        share=at("load_sharing.share"),
         rough=compared.rough_film or start.roughness,
         title=start.problem.title or UNTITLED,
         work_error=work_error(start),
@@ -62,15 +60,18 @@ def _bar(result: Result | TransientResult, name: str) -> str:
     """Return the error bar of a certified value, else the estimated error if known."""
     estimate = estimates(result).get(name)
     if estimate is not None:
-        factor, unit = _UNITS.get(name) or length_unit(estimate.value)
+        one = named(name)
+        words = one.words.get("bar")
+        factor, unit = (1.0, words) if words else (UNITS[one.unit][0], one.unit)
+        if unit == "nm":
+            factor, unit = length_unit(estimate.value)
         parts = (
             f"grid {estimate.discretisation * factor:.2g}, domain {estimate.domain * factor:.2g}"
         )
         bar = f"{estimate.value * factor:.5g} +- {estimate.uncertainty * factor:.2g} {unit}"
         return f"   certified {bar} ({parts})"
     errors = None if isinstance(result, TransientResult) else result.errors
-    film = {"film_central": "central", "film_minimum": "minimum"}
-    error = getattr(errors, film.get(name, name), None)
+    error = None if errors is None else errors.of(name)
     if error is None:
         return ""
     percent = 100.0 * abs(error)

@@ -6,8 +6,9 @@ from tehl.api.problem import ContactProblem
 from tehl.estimate.film_formulas import expected_film, film_estimates
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.starvation import starved_part, supply_ratio
-from tehl.explore.numbers import KAPPA, Number, film_formulas
+from tehl.explore.numbers import Number, film_formulas
 from tehl.explore.shown import Line, Lines, Maps, Shown
+from tehl.result.derived import KAPPA
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -89,16 +90,16 @@ def _numbers(
     part = starved_part(supply_ratio(scaled))
     over_roughness = ratios.film / ratios.roughness
     factors = {
-        "h_central": ratios.film,
-        "h_min": ratios.film,
-        "lambda": over_roughness,
+        "film_central": ratios.film,
+        "film_minimum": ratios.film,
+        "lambda_central": over_roughness,
         "kappa": over_roughness**KAPPA,
-        "p_max": ratios.pressure,
+        "pressure_max": ratios.pressure,
     }
     formulas = {
-        "h_central": film_formulas(films, part, central=True),
-        "h_min": film_formulas(films, part, central=False),
-        "p_max": (("Hertz", wanted.hertz.pressure * 1e-9),),
+        "film_central": film_formulas(films, part, central=True),
+        "film_minimum": film_formulas(films, part, central=False),
+        "pressure_max": (("Hertz", wanted.hertz.pressure * 1e-9),),
     }
     return tuple(
         replace(

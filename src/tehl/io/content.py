@@ -4,11 +4,11 @@ import json
 from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
 from types import SimpleNamespace
-from typing import Any, TypeVar
+from typing import Annotated, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict, create_model
+from pydantic import BaseModel, BeforeValidator, ConfigDict, PlainSerializer, create_model
 
 from tehl.base.typing import Array
 from tehl.contact.options import Options
@@ -16,6 +16,7 @@ from tehl.contact.problem import ContactProblem
 from tehl.io import tables
 from tehl.io.summary import summary
 from tehl.io.tables import Column
+from tehl.result.bars import ErrorEstimate
 from tehl.result.fields import (
     Fields,
     FilmAsperities,
@@ -26,7 +27,8 @@ from tehl.result.fields import (
     PassHistory,
     SurfaceHeights,
 )
-from tehl.result.solution import CycleReport, Solution
+from tehl.result.registry import bar_names
+from tehl.result.solution import Account, CycleReport, Extras, Solution
 from tehl.result.transient import Frames, History, HistoryBars, Profiles, TransientSolution
 
 FORMAT_VERSION = 4
@@ -55,17 +57,8 @@ _AXES |= {"frame": "frame_step", "bar": "bar_time", "pass": "pass"}
 """Array that gives the size of each dimension."""
 _NOT_SCALAR = {
     Solution: (
-        "problem",
-        "options",
-        "scaled",
-        "history",
-        "shear",
-        "heat",
-        "heights",
-        "asperities",
-        "contact",
-        "oil",
-        "passes",
+        *("problem", "options", "scaled", "history"),
+        *("shear", "heat", "heights", "asperities", "contact", "oil", "passes"),
     ),
     FilmHeat: tuple(column.field for column in tables.HEAT),
     TransientSolution: ("start", "history", "profiles", "frames", "bars"),
@@ -73,9 +66,49 @@ _NOT_SCALAR = {
 """Fields of a class that are stored as arrays or attributes of their own; the others as JSON."""
 
 
+def _flat_errors(errors: ErrorEstimate) -> dict[str, Any]:
+    """Return error bars as files have them: each bar beside the other numbers, in its order."""
+    found = {one.name: getattr(errors, one.name) for one in fields(ErrorEstimate)}
+    names = dict.fromkeys((*bar_names(), *errors.bars))
+    bars = {name: errors.bars.get(name) for name in names}
+    return {
+        key: number
+        for name, value in found.items()
+        for key, number in (bars if name == "bars" else {name: value}).items()
+    }
+
+
+def _bars_apart(errors: Any) -> Any:
+    """Return the error bars of a file as `ErrorEstimate` takes them."""
+    if not isinstance(errors, dict):
+        return errors
+    own = {one.name for one in fields(ErrorEstimate)} - {"bars"}
+    bars = {name: bar for name, bar in errors.items() if name not in own and bar is not None}
+    return {name: value for name, value in errors.items() if name in own} | {"bars": bars}
+
+
+_StoredErrors = Annotated[
+    ErrorEstimate, PlainSerializer(_flat_errors), BeforeValidator(_bars_apart)
+]
+
+
+def _fields(kind: type) -> Iterator[tuple[str, Any]]:
+    """Yield the fields of a class with their types, those of `Account` and `Extras` one by one."""
+    for one in fields(kind):
+        if one.type in (Account, Extras):
+            yield from _fields(one.type)
+        elif one.name == "errors":
+            yield one.name, _StoredErrors | None
+        else:
+            yield one.name, one.type
+
+
 def _scalars(kind: type) -> type[BaseModel]:
-    scalar = (field for field in fields(kind) if field.name not in _NOT_SCALAR[kind])
-    found: dict[str, Any] = {field.name: (field.type, ...) for field in scalar}
+    found: dict[str, Any] = {
+        name: (annotation, ...)
+        for name, annotation in _fields(kind)
+        if name not in _NOT_SCALAR[kind]
+    }
     # Infinities and NaN become strings, which pydantic reads back as floats.
     config = ConfigDict(ser_json_inf_nan="strings")
     model: type[BaseModel] = create_model(kind.__name__, __config__=config, **found)

@@ -9,36 +9,15 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
+from tehl.result.quantities import QUANTITIES
+from tehl.result.registry import shown_in
 
 if TYPE_CHECKING:
     import pandas as pd
 
 FAILED = "#b3001b"
 """Colour of notes on cases that did not converge."""
-_TITLES = {
-    "film.h_central_m": "central film thickness $h_c$",
-    "film.h_min_m": "minimum film thickness $h_{min}$",
-    "film.H_central_moes": "central film $H_c$ (Moes)",
-    "film.H_min_moes": "minimum film $H_{min}$ (Moes)",
-    "film.H_central": "central film $H_c$",
-    "film.H_min": "minimum film $H_{min}$",
-    "pressure.max_pa": "largest pressure",
-    "groups.M": "M",
-    "groups.L": "L",
-    "groups.hertz_pressure_pa": "Hertz pressure $p_h$",
-    "traction.mid_film": "traction coefficient",
-    "temperature.film_rise_max_k": "largest temperature rise of the film",
-    "temperature.mid_film_rise_central_k": "central temperature rise at mid-film",
-    "roughness.lambda_central": "central film over roughness λ",
-    "roughness.lambda_minimum": "minimum film over roughness λ",
-    "load_sharing.share": "load on asperities over the load",
-    "load_sharing.friction": "friction coefficient",
-    "load_sharing.friction_film": "friction coefficient of the film",
-    "load_sharing.friction_boundary": "friction coefficient of asperities",
-    "load_sharing.separation_ratio": "separation of the mean planes over σ",
-    "starvation.inlet_distance_m": "distance of the meniscus ahead of the contact",
-    "starvation.degree": "film over flooded film",
-    "starvation.ratio": "supply over that of the flooded contact r",
+_KEYS = {
     "supply.ratio": "supply over that of the flooded contact r",
     "supply.layer": "layer of oil",
     "contact.slide_roll_ratio": "slide-to-roll ratio $(u_1 - u_2)/u_m$",
@@ -48,18 +27,7 @@ _TITLES = {
     "contact.moes_load": "M",
     "contact.moes_speed": "L",
 }
-_ERRORS = {
-    **dict.fromkeys(("film.h_central_m", "film.H_central", "film.H_central_moes"), "central"),
-    **dict.fromkeys(("film.h_min_m", "film.H_min", "film.H_min_moes"), "minimum"),
-    **dict.fromkeys(("pressure.max_pa", "pressure.P_max"), "pressure_max"),
-    "traction.mid_film": "traction_mid_film",
-    "load_sharing.share": "load_share",
-    "temperature.film_rise_max_k": "film_rise_max",
-    "temperature.mid_film_rise_central_k": "mid_film_rise_central",
-    "temperature.surface_1_rise_max_k": "surface_1_rise_max",
-    "temperature.surface_2_rise_max_k": "surface_2_rise_max",
-}
-"""Names of the error bars of columns."""
+"""Labels of axes along keys of the case; those of numbers are in `tehl.result.quantities`."""
 _SUITABLE: dict[str, tuple[tuple[float, float, str], ...]] = {
     "m": ((1e-7, 1e9, "nm"), (1e-3, 1e6, "µm"), (1.0, 1e3, "mm")),
     "Pa": ((1e4, 1.0, "Pa"), (3e8, 1e-6, "MPa"), (np.inf, 1e-9, "GPa")),
@@ -83,7 +51,8 @@ class Column:
     @property
     def title(self) -> str:
         """Label of an axis."""
-        words = _TITLES.get(self.name, self.name.replace("_", " "))
+        labels = {one.path: one.words["axis"] for one in shown_in("axis")} | _KEYS
+        words = labels.get(self.name, self.name.replace("_", " "))
         return words if self.unit == "1" else f"{words} [{self.unit}]"
 
 
@@ -143,7 +112,8 @@ def certified(rows: "pd.DataFrame", column: Column) -> tuple[Column, Array | Non
 
 def _estimated(rows: "pd.DataFrame", column: Column) -> Array | None:
     """Return the estimated errors of a column, None where there are none."""
-    error = f"errors.{_ERRORS.get(column.name)}"
+    known = (one.error_path for one in QUANTITIES if one.path == column.name)
+    error = next(known, "")
     if error not in rows:
         return None
     relative = rows[error].to_numpy(np.float64, na_value=np.nan)

@@ -17,6 +17,7 @@ from tehl.estimate.domain import domain_of, expected_bar
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.scaling import ScaledProblem
 from tehl.post.traction import cell_widths, traction
+from tehl.result import registry
 from tehl.result.solution import Solution
 
 LEAST_CELLS = 8.0
@@ -132,7 +133,7 @@ def touching(result: Solution) -> Touching | None:
         margin=MARGIN * film.thickness,
         share=share,
         share_error=_error_bar(result, film, share),
-        is_certified="load_share" in result.uncertainty,
+        is_certified=registry.at("touching.share").name in result.uncertainty,
         solid_share=float((cells * found.pressure).sum()) / result.load,
         area=area,
         area_part=area / (math.pi * scales.half_width_x * scales.half_width_y),
@@ -156,7 +157,7 @@ def _error_bar(result: Solution, film: ContactFilm, share: float) -> float:
     alone, least = expected_central_film(groups), film.thickness / scaled.scales.film_thickness
     error = expected_bar(groups, domain, result.x.size, film=max(alone, least))
     by_film = BAR_OF_FILM * min(error, 1.0) * min(alone / least, 1.0) ** 3
-    by_grids = None if result.errors is None else result.errors.load_share
+    by_grids = None if result.errors is None else result.errors.at("touching.share")
     return max(min(by_film, 1.0), share * (by_grids or 0.0))
 
 

@@ -1,6 +1,7 @@
 """Temperatures of a film."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -30,6 +31,15 @@ class Temperature:
     mid_film: Array
     mean: Array
     """(ny, nx): T at mid-film and T averaged across the film [K]."""
+
+
+class Rises(NamedTuple):
+    """Rises of a film that get error bars, as in `Temperature` [K]."""
+
+    film_rise_max: float
+    mid_film_rise_central: float
+    surface_1_rise_max: float
+    surface_2_rise_max: float
 
 
 def temperature(result: Solution) -> Temperature | None:

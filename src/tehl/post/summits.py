@@ -63,14 +63,13 @@ def load_sharing(result: Solution) -> LoadSharing | None:
     share = float((cells * found.pressure).sum()) / result.load
     share = share if share > NOTHING else 0.0
     hertz = math.pi * scales.half_width_x * scales.half_width_y
-    area, error = float((cells * real_area(result, found)).sum()), None
-    if result.errors is not None and result.errors.load_share is not None:
-        error = share * result.errors.load_share
+    area = float((cells * real_area(result, found)).sum())
+    bar = None if result.errors is None else result.errors.at("load_sharing.share")
     motion = result.problem.motion
     forces, middle = traction(result), result.scaled.at_origin(found.separation)
     return LoadSharing(
         share=share,
-        share_error=error,
+        share_error=None if bar is None else share * bar,
         area=area,
         area_part=area / hertz,
         asperity_pressure_max=float(found.pressure.max()),

@@ -209,8 +209,7 @@ def film_at(run: TransientSolution, frame: int = -1) -> Solution:
     pressure = np.asarray(frames.pressure[frame], np.float64) / units.hertz_pressure
     scaled = Fields(x=x, y=y, pressure=pressure, film=film)
     row, column = np.unravel_index(int(np.argmin(film)), film.shape)
-    return replace(
-        start,
+    return start.but(
         scaled=scaled,
         rigid_approach=float(run.history.rigid_approach[frames.step[frame]]),
         film_scaled=FilmSummary(

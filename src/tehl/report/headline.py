@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from typing import Any
 
+from tehl.result.registry import shown_in
+
 Summary = Mapping[str, Any]
 
 
@@ -26,12 +28,12 @@ def headline(summary: Summary) -> dict[str, str]:
 
 
 def _steady(summary: Summary) -> dict[str, str]:
-    film = summary["film"]
-    return {
-        "central film": _nm(film["h_central_m"]),
-        "minimum film": _nm(film["h_min_m"]),
-        "largest pressure": _gpa(summary["pressure"]["max_pa"]),
-    }
+    found = {}
+    for one in shown_in("line"):
+        value = (summary[one.block] or {}).get(one.key)
+        shown = "none" if value is None else f"{one.shown(value):.4g} {one.unit}".rstrip()
+        found[one.words["line"]] = shown
+    return found
 
 
 def _transient(summary: Summary) -> dict[str, str]:

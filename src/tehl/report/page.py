@@ -22,8 +22,11 @@ from tehl.post.transient import largest_change, passing_features
 from tehl.post.waves import PassingWave, passing_wave
 from tehl.report.following import following
 from tehl.report.readable import UNTITLED, input_rows
-from tehl.report.rendering import UNITS, render
-from tehl.result.solution import Estimate, Solution
+from tehl.report.rendering import FILTERS, UNITS, render
+from tehl.report.rows import rows_of
+from tehl.result.bars import Estimate
+from tehl.result.registry import named
+from tehl.result.solution import Solution
 from tehl.result.transient import TransientSolution
 
 CAPTIONS = {
@@ -55,14 +58,6 @@ CAPTIONS = {
 """Pictures of a report, in its order."""
 LONGEST = 12
 """Cycles that a report lists."""
-_CERTIFIED = {
-    "pressure_max": "gpa",
-    "film_rise_max": "kelvin",
-    "mid_film_rise_central": "kelvin",
-    "traction_mid_film": "plain",
-    "traction_extreme": "plain",
-}
-"""Units of certified values; the others are films, in nanometres."""
 
 
 def report_text(
@@ -95,6 +90,8 @@ def report_text(
         "effect": effect,
         "heat": result.heat,
         "longest": LONGEST,
+        "main_rows": list(rows_of(result, "report")),
+        "rises": list(rows_of(result, "rises")),
         "rough": rough_film(result, smooth),
         "roughness_effect": roughness,
         "work_error": work_error(result),
@@ -138,7 +135,7 @@ def _inputs(result: Solution) -> dict[str, list[tuple[str, str]]]:
 def _certified(certified: dict[str, Estimate]) -> Iterator[tuple[str, ...]]:
     """Yield a row for each value with an error bar."""
     for name, one in certified.items():
-        factor, word = UNITS[_CERTIFIED.get(name, "nm")]
+        factor, word = UNITS[FILTERS[named(name).unit]]
         parts = (one.uncertainty, one.discretisation, one.domain)
         yield (
             name.replace("_", " "),

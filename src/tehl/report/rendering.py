@@ -9,7 +9,7 @@ from tehl.report.readable import length, seconds
 if TYPE_CHECKING:
     from jinja2 import Environment
 
-    from tehl.result.solution import Estimate
+    from tehl.result.bars import Estimate
 
 UNITS = {
     "nm": (1e9, " nm"),
@@ -19,9 +19,21 @@ UNITS = {
     "kelvin": (1.0, " K"),
     "newton": (1.0, " N"),
     "watt": (1.0, " W"),
+    "share": (100.0, " %"),
     "plain": (1.0, ""),
 }
 """Factor from SI and unit, by name of the filter."""
+FILTERS = {
+    "": "plain",
+    "nm": "nm",
+    "um": "um",
+    "GPa": "gpa",
+    "K": "kelvin",
+    "°C": "celsius",
+    "W": "watt",
+    "%": "share",
+}
+"""Names of the filters by the units of `tehl.result.quantities`."""
 
 
 def render(template: str, **content: Any) -> str:
@@ -57,6 +69,7 @@ def _environment() -> "Environment":
         "size": length,
         "time": seconds,
         "unit": lambda value, name: _in_unit(name, value),
+        "filter": lambda one: FILTERS[one.unit],
     }
     found.tests["numeral"] = _is_numeral
     found.globals["zip"] = zip

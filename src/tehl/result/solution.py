@@ -2,14 +2,15 @@
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
-from typing import Literal
+from dataclasses import dataclass, field, fields, replace
+from typing import Any, Literal, Self
 
 from tehl.base.errors import TehlError
 from tehl.base.typing import Array
 from tehl.contact.options import Options
 from tehl.contact.problem import ContactProblem
 from tehl.estimate.scaling import Groups, ScaledProblem, Scales
+from tehl.result.bars import ErrorEstimate, Estimate
 from tehl.result.fields import (
     Fields,
     FilmAsperities,
@@ -120,91 +121,6 @@ class CycleReport:
     """Sum of the changes of pressure in this cycle over the sum of pressures [-]; not stored."""
 
 
-ORDERS = (1.4, 2.8)
-"""Observed orders that count as second order."""
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class Estimate:
-    """A value with its error bar."""
-
-    value: float
-    """Richardson value."""
-    uncertainty: float
-    """Half width of the bar: discretisation and domain parts added in quadrature."""
-    discretisation: float
-    domain: float
-    """The two parts."""
-    observed_order: float | None
-    """Order observed on three grids; None if they do not show one."""
-    values: tuple[float, ...]
-    """Values on the grids, coarse to fine."""
-
-    def scaled(self, unit: float) -> "Estimate":
-        """Return the same in another unit, of which one of its own is ``unit``."""
-        return replace(
-            self,
-            value=self.value * unit,
-            uncertainty=self.uncertainty * unit,
-            discretisation=self.discretisation * unit,
-            domain=self.domain * unit,
-            values=tuple(value * unit for value in self.values),
-        )
-
-    @property
-    def is_second_order(self) -> bool:
-        """Whether the grids show second order, so that the value is extrapolated."""
-        order = self.observed_order
-        return order is not None and ORDERS[0] <= order <= ORDERS[1]
-
-
-@dataclass(frozen=True, kw_only=True, slots=True)
-class ErrorEstimate:
-    """Estimated errors of the film on the finest grid, without extra runs."""
-
-    discretisation_central: float
-    discretisation_minimum: float
-    """From the difference to the next coarser grid of the full multigrid, relative [-]."""
-    iteration_central: float
-    iteration_minimum: float
-    """Change by further cycles, relative [-]."""
-    domain: float = 0.0
-    """From the edges of a domain with the far field, relative [-]."""
-    supply: float = 0.0
-    """From the flooded film to which ``supply.ratio`` is stated, relative [-]."""
-    pressure_max: float | None = None
-    traction_mid_film: float | None = None
-    film_rise_max: float | None = None
-    mid_film_rise_central: float | None = None
-    surface_1_rise_max: float | None = None
-    surface_2_rise_max: float | None = None
-    load_share: float | None = None
-    ripple_film: float | None = None
-    ripple_pressure: float | None = None
-    heat_shear: float | None = None
-    heat_compression: float | None = None
-    heat_surface_1: float | None = None
-    heat_surface_2: float | None = None
-    heat_carried_out: float | None = None
-    """Error bars of further values, all parts together, relative [-]; None if the contact does not
-    have the value, or too few grids do."""
-    extrapolated: bool = False
-    """Whether the values are extrapolated from the two finest grids."""
-    spike_resolved: bool = True
-    """Whether the largest pressure will stay the largest on finer grids: if not, the pressure spike
-    is narrower than the mesh and may exceed it."""
-
-    @property
-    def central(self) -> float:
-        """Error bar of the central film, all parts together [-]."""
-        return self.discretisation_central + self.iteration_central + self.domain + self.supply
-
-    @property
-    def minimum(self) -> float:
-        """Error bar of the minimum film, all parts together [-]."""
-        return self.discretisation_minimum + self.iteration_minimum + self.domain + self.supply
-
-
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Cost:
     """Computing cost of a solve."""
@@ -248,23 +164,10 @@ class Supplied:
     """Largest change of the oil flux over the sections across the flow, relative [-]."""
 
 
-@dataclass(frozen=True, kw_only=True, slots=True, repr=False)
-class Solution:
-    """Fields and numbers of one steady solve; `tehl.Result` adds what follows from them."""
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Account:
+    """How a solve went: outcome, cycles, errors, cost."""
 
-    problem: ContactProblem
-    """The case, in SI."""
-    options: Options
-    """Numerical options; ``options.domain`` as stated, the domain used is that of ``scaled``."""
-    scales: Scales
-    groups: Groups
-    """Units removed by the solver, and the dimensionless groups."""
-    scaled: Fields
-    """Dimensionless fields."""
-    rigid_approach: float
-    """H00 [-]."""
-    film_scaled: FilmSummary
-    """Film numbers [-]."""
     status: Status
     """How it ended."""
     history: tuple[CycleReport, ...]
@@ -277,6 +180,12 @@ class Solution:
     uncertainty: dict[str, Estimate] = field(default_factory=dict)
     """Of a certified result, dimensionless as the solver has them, rises in kelvin; ``certified``
     has them in SI."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Extras:
+    """What only some contacts have beside pressure and film; None without."""
+
     shear: FilmShear | None = None
     """Shear stresses; None without a valid film."""
     heat: FilmHeat | None = None
@@ -296,12 +205,130 @@ class Solution:
     resolution: Resolution | None = None
     """Which part of the stated heights the grid carries; None when both surfaces are smooth."""
 
+
+@dataclass(frozen=True, kw_only=True, slots=True, repr=False)
+class Solution:
+    """Fields and numbers of one steady solve; `tehl.Result` adds what follows from them.
+
+    The parts of ``account`` and ``extras`` are attributes of the solution too, and may be given by
+    their own names, also to `dataclasses.replace`.
+    """
+
+    problem: ContactProblem
+    """The case, in SI."""
+    options: Options
+    """Numerical options; ``options.domain`` as stated, the domain used is that of ``scaled``."""
+    scales: Scales
+    groups: Groups
+    """Units removed by the solver, and the dimensionless groups."""
+    scaled: Fields
+    """Dimensionless fields."""
+    rigid_approach: float
+    """H00 [-]."""
+    film_scaled: FilmSummary
+    """Film numbers [-]."""
+    account: Account
+    """How the solve went."""
+    extras: Extras
+    """What only some contacts have."""
+
+    def __init__(self, **given: Any) -> None:
+        for name, kind in (("account", Account), ("extras", Extras)):
+            own = {one.name: given.pop(one.name) for one in fields(kind) if one.name in given}
+            whole = given.get(name)
+            given[name] = kind(**own) if whole is None else replace(whole, **own)
+        names = [one.name for one in fields(Solution)]
+        if set(names) != given.keys():
+            odd = ", ".join(sorted(set(names) ^ given.keys()))
+            raise TypeError(f"a solution has missing or unexpected fields: {odd}")
+        for name in names:
+            object.__setattr__(self, name, given[name])
+
+    def but(self, **changes: Any) -> Self:
+        """Return the same solution with other fields, also of ``account`` and ``extras``."""
+        return type(self)(**{one.name: getattr(self, one.name) for one in fields(self)} | changes)
+
+    @property
+    def status(self) -> Status:
+        """How the solve ended."""
+        return self.account.status
+
+    @property
+    def history(self) -> tuple[CycleReport, ...]:
+        """Each cycle on each grid."""
+        return self.account.history
+
+    @property
+    def errors(self) -> ErrorEstimate | None:
+        """Estimated errors; None if the solve ended too early for them."""
+        return self.account.errors
+
+    @property
+    def cost(self) -> Cost:
+        """Computing cost."""
+        return self.account.cost
+
+    @property
+    def provenance(self) -> Provenance:
+        """Versions, and when the result was made."""
+        return self.account.provenance
+
+    @property
+    def uncertainty(self) -> dict[str, Estimate]:
+        """Values of a certified result with their error bars, dimensionless, rises in kelvin."""
+        return self.account.uncertainty
+
+    @property
+    def shear(self) -> FilmShear | None:
+        """Shear stresses; None without a valid film."""
+        return self.extras.shear
+
+    @property
+    def heat(self) -> FilmHeat | None:
+        """Temperatures; None in an isothermal run."""
+        return self.extras.heat
+
+    @property
+    def heights(self) -> SurfaceHeights | None:
+        """Heights of rough surfaces; None when both are smooth."""
+        return self.extras.heights
+
+    @property
+    def asperities(self) -> FilmAsperities | None:
+        """Asperities finer than the grid; None without."""
+        return self.extras.asperities
+
+    @property
+    def contact(self) -> FilmContact | None:
+        """Contact through a boundary film; None without."""
+        return self.extras.contact
+
+    @property
+    def oil(self) -> FilmOil | None:
+        """Where the oil is; None if cavities do not conserve it."""
+        return self.extras.oil
+
+    @property
+    def supplied(self) -> Supplied | None:
+        """Supply over that of the flooded contact, and balance of the oil; None like ``oil``."""
+        return self.extras.supplied
+
+    @property
+    def passes(self) -> PassHistory | None:
+        """Earlier passes of the same surfaces and this one; None of a single film."""
+        return self.extras.passes
+
+    @property
+    def resolution(self) -> Resolution | None:
+        """Which part of the stated heights the grid carries; None when both are smooth."""
+        return self.extras.resolution
+
     @property
     def certified(self) -> dict[str, Estimate]:
         """Values of a certified result with their error bars: films [m], pressure [Pa], rises [K].
 
-        ``film_central``, ``film_minimum``, ``pressure_max``; ``traction_mid_film``, ``load_share``,
-        ``film_rise_max`` and ``mid_film_rise_central`` where the contact has them.
+        ``film_central``, ``film_minimum``, ``pressure_max``, and what the table of
+        `tehl.result.quantities` marks as certified, where the contact has it.
         """
         film, pressure = self.scales.film_thickness, self.scales.hertz_pressure
         units = {"film_central": film, "film_minimum": film, "pressure_max": pressure}

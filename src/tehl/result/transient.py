@@ -1,9 +1,11 @@
 """Solution of a transient solve: a film that changes with time while its surfaces move."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import Any, Self
 
 from tehl.base.typing import Array, IntArray, SingleArray
-from tehl.result.solution import Cost, Estimate, Provenance, Solution, Status
+from tehl.result.bars import Estimate
+from tehl.result.solution import Cost, Provenance, Solution, Status
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -121,6 +123,10 @@ class TransientSolution:
     heated or thins and slides."""
     bars: HistoryBars | None = None
     """Error bars along the history of a certified run."""
+
+    def but(self, **changes: Any) -> Self:
+        """Return the same solution with other fields."""
+        return replace(self, **changes)
 
     @property
     def x(self) -> Array:

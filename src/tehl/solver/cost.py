@@ -71,4 +71,4 @@ def with_work(result: Kind) -> Kind:
     ny, nx = result.scaled.pressure.shape
     unit = fft_seconds(nx, ny)
     work = result.cost.cpu_seconds / unit if unit > 0.0 else None
-    return replace(result, cost=replace(result.cost, work=work))
+    return result.but(cost=replace(result.cost, work=work))

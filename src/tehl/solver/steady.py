@@ -158,9 +158,9 @@ def _after_failure(
 
     on_others = solved_on_other_nodes(failed, attempt, monitor, end)
     if on_others is not None:
-        return replace(on_others, options=failed.options)
+        return on_others.but(options=failed.options)
     hint = working_hint(failed, attempt, monitor, end, reached)
-    failed = replace(failed, status=replace(failed.status, hint=hint))
+    failed = failed.but(status=replace(failed.status, hint=hint))
     if reached is None or failed.status.cause == "error_not_reached":  # its film is the best
         return failed
     (nx, ny), error = reached
@@ -172,8 +172,7 @@ def _after_failure(
         return failed
     text = f"The film on {nx} x {ny} nodes is kept; its error is about {percentage(error)}."
     status = replace(failed.status, kind="not_converged", message=f"{failed.status.message} {text}")
-    return replace(
-        kept,
+    return kept.but(
         options=failed.options,
         status=status,
         history=failed.history + kept.history,
@@ -243,7 +242,7 @@ def try_strategies(  # noqa: PLR0913 (variants of one solve)
         films = [film for film in known if film is not None]
         best = replace(best, reached_before=min(films, key=lambda film: film[1], default=None))
     result = _result(best, options, tuple(history.reports), clock.cost())
-    return best, replace(result, supplied=_supplied(best.run.finest, flooded))
+    return best, result.but(supplied=_supplied(best.run.finest, flooded))
 
 
 def flooded_film(

@@ -3,7 +3,6 @@
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import closing, nullcontext
-from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
@@ -13,7 +12,9 @@ from tehl.base.atomic import replacing
 from tehl.base.errors import InputError
 from tehl.base.lists import check_package
 from tehl.base.units import percentage
-from tehl.studies.case import Row, Scalar
+from tehl.result.quantity import Quantity
+from tehl.result.registry import shown_in
+from tehl.studies.case import Row
 from tehl.studies.contacts import (
     Column,
     Contacts,
@@ -32,83 +33,28 @@ _CHUNK = 500
 """Rows whose outcome is in memory at a time."""
 
 
-@dataclass(frozen=True, slots=True)
-class Answer:
-    """A column of the answers: heading, unit, number of the summary, and its relative bar."""
-
-    heading: str
-    unit: str
-    path: str
-    factor: float = 1.0
-    bar: str = ""
-    digits: str = "0.000"
+def heading_of(one: Quantity) -> str:
+    """Return the heading of a quantity in a list, with its unit."""
+    return f"{one.words['list']} [{one.unit}]" if one.unit else one.words["list"]
 
 
-ANSWERS = (
-    Answer("Hertz pressure", "GPa", "groups.hertz_pressure_pa", 1e-9),
-    Answer("a_x", "um", "groups.hertz_half_width_m", 1e6, digits="0.0"),
-    Answer("a_y", "um", "groups.hertz_half_width_y_m", 1e6, digits="0.0"),
-    Answer("Moes M", "-", "groups.M", digits="0.0"),
-    Answer("Moes L", "-", "groups.L", digits="0.00"),
-    Answer("central film", "nm", "film.h_central_m", 1e9, "errors.central", "0.0"),
-    Answer("minimum film", "nm", "film.h_min_m", 1e9, "errors.minimum", "0.0"),
-    Answer("largest pressure", "GPa", "pressure.max_pa", 1e-9, "errors.pressure_max"),
-    Answer("lambda", "-", "roughness.lambda_central", digits="0.00"),
-    Answer("kappa, as lambda^1.3", "-", "kappa", digits="0.00"),
-    Answer("friction", "-", "friction", 1.0, "friction_bar", "0.0000"),
-    Answer("friction loss", "W", "loss", digits="0.000"),
-    Answer("film rise", "K", "temperature.film_rise_max_k", 1.0, "errors.film_rise_max", "0.0"),
-    Answer(
-        "rise of surface 1",
-        "K",
-        "temperature.surface_1_rise_max_k",
-        1.0,
-        "errors.surface_1_rise_max",
-        "0.0",
-    ),
-    Answer(
-        "rise of surface 2",
-        "K",
-        "temperature.surface_2_rise_max_k",
-        1.0,
-        "errors.surface_2_rise_max",
-        "0.0",
-    ),
-    Answer("load on asperities", "%", "share", 100.0, "share_bar", "0.0"),
-    Answer("degree of starvation", "-", "starvation.degree"),
-)
-"""What a list gives back, in this order; columns without any value are left out."""
-_KAPPA = 1.3
-"""kappa over lambda: ISO 281:2007, 9.3.3.1, takes kappa = lambda^1.3."""
+def values_of(numbers: Mapping[str, Any]) -> dict[str, float]:
+    """Return the answers of a converged row by their headings, each followed by its bar.
 
-
-def values_of(row: Row) -> dict[str, Scalar]:
-    """Return the numbers of a converged row by the names of `ANSWERS`, SI, and their bars."""
-    found = dict(row.summary)
-
-    def number(name: str) -> float | None:
-        value = found.get(name)
-        return float(value) if isinstance(value, int | float) else None
-
-    ratio = number("roughness.lambda_central")
-    found["kappa"] = None if ratio is None or ratio <= 0 else ratio**_KAPPA
-    sliding = number("traction.mid_film")
-    found["friction"] = None if sliding is None else abs(sliding)
-    found["friction_bar"] = number("errors.traction_mid_film")
-    loss = number("traction.friction_power_w")
-    for block in ("load_sharing", "touching"):
-        if number(f"{block}.share") is not None:
-            found["share"], found["share_bar"] = (
-                number(f"{block}.share"),
-                number("errors.load_share"),
-            )
-        if (both := number(f"{block}.friction")) is not None:
-            found["friction"], found["friction_bar"] = both, None
-        if (rubbed := number(f"{block}.power_boundary_w")) is not None and loss is not None:
-            loss += rubbed
-    if found.get("traction.credible") is False:
-        found["friction"] = loss = None
-    found["loss"] = loss
+    Parameters
+    ----------
+    numbers : mapping of str to number
+        Those of the summary of the row.
+    """
+    found: dict[str, float] = {}
+    for one in shown_in("list"):
+        value = numbers.get(one.path) if one.block else one.of(numbers)
+        if not isinstance(value, int | float):
+            continue
+        found[heading_of(one)] = shown = one.shown(value)
+        bar = one.error_in(numbers)
+        if isinstance(bar, int | float):
+            found[f"± {heading_of(one)}"] = abs(shown * bar)
     return found
 
 
@@ -130,22 +76,11 @@ def _line(row: Listed, columns: Sequence[Column], found: Row | None) -> dict[str
         one.heading: cell for one, cell in zip(columns, row.cells, strict=True) if one.heading
     }
     if found is not None and found.converged:
-        values = values_of(found)
-        for one in ANSWERS:
-            value, bar = values.get(one.path), values.get(one.bar)
-            if isinstance(value, int | float):
-                name = _named(one.heading, one.unit)
-                line[name] = value * one.factor
-                if isinstance(bar, int | float):
-                    line[f"± {name}"] = abs(value * one.factor * bar)
-        line["regime"] = values.get("roughness.lubrication")
+        line |= values_of(found.summary)
+        line["regime"] = found.summary.get("roughness.lubrication")
     line["status"] = "wrong row" if row.case is None else found.status if found else "open"
     line["obtained"] = row.message if row.case is None else _obtained(found)
     return line
-
-
-def _named(heading: str, unit: str) -> str:
-    return heading if unit == "-" else f"{heading} [{unit}]"
 
 
 def _obtained(row: Row | None) -> str:
@@ -168,8 +103,8 @@ def headings_of(lines: Iterable[Mapping[str, Any]], contacts: Contacts) -> list[
     stated = [one.heading for one in contacts.columns if one.heading]
     ordered = [
         name
-        for one in ANSWERS
-        for name in (_named(one.heading, one.unit), f"± {_named(one.heading, one.unit)}")
+        for one in shown_in("list")
+        for name in (heading_of(one), f"± {heading_of(one)}")
         if name in seen
     ]
     rest = [name for name in ("regime", "status", "obtained") if name in seen]
@@ -233,7 +168,7 @@ def _write_sheet(headings: Sequence[str], lines: Iterable[Mapping[str, Any]], pa
     names = [match[1] if match else name for match, name in zip(split, headings, strict=True)]
     page.append(names)
     page.append([(match[2] or "") if match else "" for match in split])
-    formats = {_named(one.heading, one.unit): one.digits for one in ANSWERS}
+    formats = {heading_of(one): one.digits for one in shown_in("list")}
     formats |= {f"± {name}": f"{digits}0" for name, digits in formats.items()}
     widest = [len(name) for name in names]
     for number, line in enumerate(lines, 3):
@@ -284,8 +219,8 @@ def solve_contacts(
     Returns
     -------
     pandas.DataFrame
-        The columns of ``frame``, those of `ANSWERS` with units and bars, ``regime``, ``status`` and
-        ``obtained``, with the index of ``frame``.
+        The columns of ``frame``, the quantities that a list shows (`tehl.result.quantities`) with
+        units and bars, ``regime``, ``status`` and ``obtained``, with the index of ``frame``.
 
     Raises
     ------

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 import pandas as pd
 
 from tehl.base.lazy import lazy
+from tehl.result.quantity import UNITS
+from tehl.result.registry import shown_in
 
 if TYPE_CHECKING:
     from tehl import plots
@@ -14,17 +16,6 @@ else:
     plots = lazy("tehl.plots")
     notebooks = lazy("tehl.report.notebook")
 
-_COLUMNS = {
-    "film.h_central_m": ("central film [nm]", 1e9),
-    "errors.central": ("± [%]", 100.0),
-    "film.h_min_m": ("minimum film [nm]", 1e9),
-    "errors.minimum": ("± [%]", 100.0),
-    "pressure.max_pa": ("largest pressure [GPa]", 1e-9),
-    "traction.mid_film": ("traction", 1.0),
-    "temperature.film_rise_max_k": ("temperature rise [K]", 1.0),
-    "load_sharing.share": ("load on asperities", 1.0),
-}
-"""Columns that are shown, their headings, and factors from SI."""
 _ROWS = 30
 _LEAST = 3
 """Rows that are shown, and converged cases from which on a curve is drawn."""
@@ -42,23 +33,25 @@ class StudyTable(pd.DataFrame):
         if not {"status", "name", "film.h_central_m"} <= set(self.columns):
             return str(super()._repr_html_())
         labels = list(self.columns[1 : list(self.columns).index("status")])
-        shown = [key for key in _COLUMNS if key in self.columns and self[key].notna().any()]
+        known = _columns()
+        shown = [key for key in known if key in self.columns and self[key].notna().any()]
         units = self.attrs.get("units", {})
         heads = [_head(label, units.get(label, "1")) for label in labels]
-        heads += ["status", *(_COLUMNS[key][0] for key in shown)]
-        rows = "".join(self._row(number, labels, shown) for number in range(min(len(self), _ROWS)))
+        heads += ["status", *(known[key][0] for key in shown)]
+        factors = {key: known[key][1] for key in shown}
+        rows = "".join(self._row(row, labels, factors) for row in range(min(len(self), _ROWS)))
         rest = f"<p>{len(self) - _ROWS} more cases</p>" if len(self) > _ROWS else ""
         head = "".join(f"<th>{escape(word)}</th>" for word in heads)
         page = f"<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>{rest}"
         return page + self._curve(labels)
 
-    def _row(self, number: int, labels: list[str], shown: list[str]) -> str:
+    def _row(self, number: int, labels: list[str], factors: dict[str, float]) -> str:
         line = self.iloc[number]
         cells = [_cell(line[label]) for label in labels]
         status = str(line["status"]).replace("_", " ")
         cause = line.get("cause")
         cells.append(status if not isinstance(cause, str) else f"{status}: {cause}")
-        cells += [_cell(_COLUMNS[key][1] * line[key]) for key in shown]
+        cells += [_cell(factor * line[key]) for key, factor in factors.items()]
         return "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>"
 
     def _curve(self, labels: list[str]) -> str:
@@ -72,6 +65,16 @@ class StudyTable(pd.DataFrame):
         log = "x" if values.min() > 0 and values.max() > 8 * values.min() else ""
         figure = plots.curves(self, numbers[0], "film.h_central_m", log=log)
         return notebooks.image_html(figure, f"central film over {numbers[0]}")
+
+
+def _columns() -> dict[str, tuple[str, float]]:
+    """Return heading and factor from SI of the columns that are shown, films with their bars."""
+    found: dict[str, tuple[str, float]] = {}
+    for one in shown_in("notebook"):
+        found[one.path] = (_head(one.words["notebook"], one.unit or "1"), UNITS[one.unit][0])
+        if one.block == "film":
+            found[one.error_path] = ("± [%]", 100.0)
+    return found
 
 
 def _head(label: str, unit: str) -> str:

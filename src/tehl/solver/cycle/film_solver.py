@@ -8,7 +8,8 @@ from collections.abc import Sequence
 
 from tehl.estimate.scaling import Groups
 from tehl.operators.heights import Heights, heights_of
-from tehl.result.solution import ErrorEstimate, Solution
+from tehl.result.bars import ErrorEstimate
+from tehl.result.solution import Solution
 from tehl.solver.cycle.continuation import RAISED, TouchingError
 from tehl.solver.cycle.fmg import full_multigrid
 from tehl.solver.cycle.hierarchy import Hierarchy

@@ -12,20 +12,10 @@ from typing import Generic, NoReturn, TypeVar
 from tehl.contact.options import Domain, Options, can_be_halved, check_certifiable
 from tehl.contact.problem import ContactProblem
 from tehl.operators.heights import UnresolvedError
-from tehl.post.boundary_contact import touching
-from tehl.post.heat import temperature
-from tehl.post.summits import load_sharing
-from tehl.post.traction import traction
-from tehl.result.solution import (
-    NO_COST,
-    ORDERS,
-    ConvergenceError,
-    Cost,
-    Estimate,
-    Hint,
-    Solution,
-    Status,
-)
+from tehl.post.following import Following
+from tehl.result import registry
+from tehl.result.bars import ORDERS, Estimate
+from tehl.result.solution import NO_COST, ConvergenceError, Cost, Hint, Solution, Status
 from tehl.solver.judging.verdict import LARGEST_BAR, too_coarse
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.steady import solve
@@ -39,8 +29,6 @@ JUDGED = ("film_central", "film_minimum", "pressure_max")
 RESIDUE, LESS_REGULAR = 0.25, 1.0
 """Least error bar over the extrapolated change, of the film, and of what follows from it less
 regularly: three grids may show second order by chance."""
-FOLLOWING = ("traction_mid_film", "load_share", "mid_film_rise_central")
-"""Values that converge less regularly than the film."""
 GROWING = 2.0
 """Error bar over a change that is not smaller than the one before."""
 WITHOUT_FIRST = "The first grid is left out: each bar is the full change between the other two."
@@ -101,7 +89,7 @@ def certify(
     finest = solve(problem, options, guess=known, monitor=monitor)
     monitor.message("certify: larger domain")
     wide = _companion(problem, widened(options, finest), monitor)
-    finest = replace(finest, cost=finest.cost + first.cost + middle.cost + wide.cost)
+    finest = finest.but(cost=finest.cost + first.cost + middle.cost + wide.cost)
     result = _with_bars(
         finest,
         first.result,
@@ -109,7 +97,7 @@ def certify(
         _needed(finest, wide, "the larger domain"),
     )
     message = _message(first, middle, finest, wide)
-    result = replace(result, status=replace(finest.status, message=message, hint=None))
+    result = result.but(status=replace(finest.status, message=message, hint=None))
     worst = widest(result.uncertainty, JUDGED)
     if worst > LARGEST_BAR:
         _reject(result, too_coarse_to_certify(result, worst))
@@ -174,7 +162,7 @@ def _needed(finest: Solution, run: Companion[Solution], what: str) -> Solution:
 
 
 def _reject(result: Solution, status: Status) -> NoReturn:
-    raise ConvergenceError(str(status.message), replace(result, status=status))
+    raise ConvergenceError(str(status.message), result.but(status=status))
 
 
 def not_certified(result: Solution, why: str) -> Status:
@@ -240,18 +228,19 @@ def _with_bars(
     """Return the finest result with its error bars; the first grid may be missing."""
     used = [run for run in (first, middle, finest) if run is not None]
     runs, wider = [_quantities(run) for run in used], _quantities(wide)
+    following = {one.name for one in registry.certified("following")}
     # the larger domain has the mesh of the middle grid: their difference is due to the domain
     uncertainty = {
         name: estimate(
             tuple(run[name] for run in runs),
             domain=abs(wider[name] - runs[-2][name]),
-            residue=LESS_REGULAR if name in FOLLOWING else RESIDUE,
+            residue=LESS_REGULAR if name in following else RESIDUE,
         )
         for name in wider
     }
     highest = uncertainty["pressure_max"]
     uncertainty["pressure_max"] = with_growing_spike(highest, spike(middle), spike(finest))
-    return replace(finest, uncertainty=uncertainty)
+    return finest.but(uncertainty=uncertainty)
 
 
 def _quantities(result: Solution) -> dict[str, float]:
@@ -261,15 +250,15 @@ def _quantities(result: Solution) -> dict[str, float]:
         "film_minimum": result.film_scaled.minimum,
         "pressure_max": float(result.scaled.pressure.max()),
     }
-    if (heated := temperature(result)) is not None:
-        found["mid_film_rise_central"] = heated.mid_film_rise_central
+    following = Following(result)
     coupled = result.problem.is_coupled and result.problem.slide_roll_ratio != 0.0
-    if coupled and (forces := traction(result)) is not None:
-        found["traction_mid_film"] = forces.mid_film
-    if (shared := load_sharing(result)) is not None:
-        found["load_share"] = shared.share
-    if (touches := touching(result)) is not None:
-        found["load_share"] = touches.share
+    for one in registry.certified("following"):
+        value = following.numbers.get(one.path)
+        # the traction of a Newtonian film follows from the spike, which no grid resolves
+        if value is not None and (coupled or one.block != "traction"):
+            found[one.name] = value
+    if following.touching is not None:  # known or not: with its bar it is
+        found[registry.at("touching.share").name] = following.touching.share
     return found
 
 

@@ -15,7 +15,8 @@ import numpy as np
 
 from tehl.contact.options import Options
 from tehl.post.traction import LARGEST_CREDIBLE
-from tehl.result.solution import CycleReport, ErrorEstimate
+from tehl.result.bars import ErrorEstimate
+from tehl.result.solution import CycleReport
 from tehl.solver.judging.extrapolation import Outputs
 
 LEAST_CYCLES = 2
@@ -315,8 +316,7 @@ def error_estimate(
     elif _is_hottest_inside(traces[-1]) and not (resolved and _slows(_excess(traces))):
         # without sliding that is where the oil flows through the spike
         found["film_rise_max"] = max(found.get("film_rise_max", 1.0), 1.0)
-    others: dict[str, Any] = found | {"spike_resolved": resolved}
-    return replace(estimate, **others)
+    return replace(estimate, bars=found, spike_resolved=resolved)
 
 
 def _films(traces: list[GridTrace], name: str) -> list[float]:

@@ -10,7 +10,7 @@ from tehl.estimate.entering import entry_error
 from tehl.estimate.memory import memory_limit, needed_memory
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.starvation import supply_error
-from tehl.result.solution import ErrorEstimate
+from tehl.result.bars import ErrorEstimate
 from tehl.solver.cycle.continuation import Roughness
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.level import Level

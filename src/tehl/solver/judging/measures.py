@@ -10,7 +10,7 @@ from tehl.operators.energy import FilmState
 from tehl.operators.film import hertz_pressure
 from tehl.operators.heated_film import stress_unit
 from tehl.operators.loaded_zone import is_inside, wet_part, zone_of
-from tehl.post.heat import lagrange_weights
+from tehl.post.heat import Rises, lagrange_weights
 from tehl.post.roughness import ripples
 from tehl.solver.cycle.level import Level
 from tehl.solver.judging.film_summary import central_value, film_summary
@@ -117,9 +117,5 @@ def _rises(state: FilmState) -> dict[str, float]:
     first, second = (float(temperature[:, side][inside].max()) - inlet for side in (0, -1))
     weights = lagrange_weights(state.film.across.zeta, 0.5)
     middle = np.ascontiguousarray(np.einsum("k,xky->yx", weights, temperature))
-    return {
-        "film_rise_max": float(temperature.max(axis=1)[inside].max()) - inlet,
-        "mid_film_rise_central": central_value(state.grid, middle) - inlet,
-        "surface_1_rise_max": first,
-        "surface_2_rise_max": second,
-    }
+    largest = float(temperature.max(axis=1)[inside].max()) - inlet
+    return Rises(largest, central_value(state.grid, middle) - inlet, first, second)._asdict()

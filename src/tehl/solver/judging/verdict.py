@@ -14,7 +14,8 @@ from tehl.estimate.domain import domain_error
 from tehl.estimate.scaling import ScaledProblem
 from tehl.estimate.starvation import is_starved
 from tehl.operators.energy import FilmState
-from tehl.result.solution import ErrorEstimate, Hint, Status
+from tehl.result.bars import ErrorEstimate
+from tehl.result.solution import Hint, Status
 from tehl.solver.cycle.film_solver import FilmSolver
 from tehl.solver.cycle.level import Level
 from tehl.solver.judging.convergence import LARGEST_LOAD_ERROR

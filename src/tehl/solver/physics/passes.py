@@ -5,7 +5,7 @@ lost, and oil flows back or is supplied (docs/theory/starvation.md).
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -97,7 +97,7 @@ def solve_passes(
         if not result.status.converged:
             raise ConvergenceError(
                 f"pass {number + 1}: {result.status.message or 'not converged'}",
-                replace(result, problem=problem, passes=_history(state)),
+                result.but(problem=problem, passes=_history(state)),
             )
         if number + 1 < supply.passes:
             keep(state)
@@ -107,8 +107,7 @@ def solve_passes(
     assert result is not None
     assert state is not None
     history = _history(state)
-    return replace(
-        result,
+    return result.but(
         problem=problem,
         passes=history,
         cost=state.cost,

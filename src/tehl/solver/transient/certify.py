@@ -14,7 +14,8 @@ from tehl.base.errors import InputError
 from tehl.base.typing import Array
 from tehl.contact.options import Options, can_be_halved, check_certifiable
 from tehl.contact.problem import ContactProblem
-from tehl.result.solution import ConvergenceError, Estimate
+from tehl.result.bars import Estimate
+from tehl.result.solution import ConvergenceError
 from tehl.result.transient import HistoryBars, TransientSolution
 from tehl.solver.judging.certify import (
     ORDERS,

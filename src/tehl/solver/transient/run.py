@@ -313,9 +313,9 @@ def _steady_start(
     )
     load = problem.transient.load_at(0.0) if problem.transient else 1.0
     attempt, result = try_strategies(problem, tight, monitor=monitor, rough=rough, load=load)
-    result = replace(result, options=options)
+    result = result.but(options=options)
     if not result.status.converged:
         message = f"The steady film at time zero did not converge: {result.status.message}"
         status = replace(result.status, message=message)
-        raise ConvergenceError(message, replace(result, status=status))
+        raise ConvergenceError(message, result.but(status=status))
     return attempt, result

@@ -1,0 +1,42 @@
+"""Rows of a text or page: the quantities of the registry that it shows, with their numbers."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from tehl.post.following import Following
+from tehl.result.quantity import Quantity
+from tehl.result.registry import dimensionless, shown_in
+from tehl.result.solution import Solution
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Row:
+    """A quantity of a result as a text or page shows it."""
+
+    name: str
+    quantity: Quantity
+    value: float
+    on_grid: float
+    """In SI, the certified value if there is one, and that of the grid."""
+    scaled: float | None
+    """Dimensionless, on the grid; None where the summary has it in SI only."""
+    error: float | None
+    """Relative error bar [-]."""
+
+
+def rows_of(result: Solution, place: str) -> Iterator[Row]:
+    """Yield a row for each quantity that ``result`` has and that a place shows."""
+    numbers, on_grid = Following(result).numbers, Following(result.but(uncertainty={})).numbers
+    for one in shown_in(place):
+        rolls = one.block == "traction" and not result.problem.slide_roll_ratio
+        value = None if rolls else numbers.get(one.path)
+        if value is not None:
+            twin = dimensionless(one)
+            yield Row(
+                name=one.words[place],
+                quantity=one,
+                value=value,
+                on_grid=on_grid.get(one.path),
+                scaled=None if twin is None else on_grid.get(twin.path),
+                error=one.error_in(numbers),
+            )

@@ -1,0 +1,98 @@
+"""Quantities that follow from the numbers of a summary: of a result, or of a stored row."""
+
+from collections.abc import Callable
+from typing import Any
+
+from tehl.result.quantity import UNITS, Numbers
+
+KAPPA = 1.3
+"""kappa over lambda: ISO 281:2007, 9.3.3.1, takes kappa = lambda^1.3."""
+
+
+def lambda_error(power: float) -> Callable[[Numbers], float | None]:
+    """Return the bar of a power of lambda: that of the central film."""
+
+    def error(numbers: Numbers) -> float | None:
+        known = numbers.get("errors.central")
+        return None if known is None else power * known
+
+    return error
+
+
+def kappa(numbers: Numbers) -> float | None:
+    """Return the viscosity ratio of ISO 281 [-]; None without roughness."""
+    ratio = numbers.get("roughness.lambda_central")
+    return None if ratio is None or ratio <= 0 else float(ratio**KAPPA)
+
+
+_SOLIDS = ("load_sharing", "touching")
+"""Blocks of what carries load beside the film, of which a contact has one at most."""
+
+
+def _has(numbers: Numbers, block: str) -> bool:
+    return any(numbers.get(f"{block}.{key}") is not None for key in ("area_m2", "share"))
+
+
+def _of_solids(numbers: Numbers, key: str) -> Any:
+    """Return a number of asperities or of touching surfaces; None where it is not known."""
+    return next((numbers.get(f"{one}.{key}") for one in _SOLIDS if _has(numbers, one)), None)
+
+
+def has_solids(numbers: Numbers) -> bool:
+    """Return whether asperities or a boundary film are computed."""
+    return any(_has(numbers, one) for one in _SOLIDS)
+
+
+def share(numbers: Numbers) -> float | None:
+    """Return the load on solids over the load [-]; None without them, or if it is not known."""
+    known: float | None = _of_solids(numbers, "share")
+    return known
+
+
+def share_error(numbers: Numbers) -> float | None:
+    """Return the relative error bar of `share`; None where it is zero or not known."""
+    carried, error = share(numbers), _of_solids(numbers, "share_error")
+    return error / carried if carried and error is not None else None
+
+
+def friction(numbers: Numbers) -> float | None:
+    """Return the friction of film and solids; None if unknown, or more than an oil transmits."""
+    if numbers.get("traction.credible") is False:
+        return None
+    if has_solids(numbers):
+        known: float | None = _of_solids(numbers, "friction")
+        return known
+    sliding = numbers.get("traction.mid_film")
+    return None if sliding is None else abs(sliding)
+
+
+def friction_error(numbers: Numbers) -> float | None:
+    """Return the bar of friction and loss: that of the traction if only the film has friction."""
+    known: float | None = numbers.get("errors.traction_mid_film")
+    return None if has_solids(numbers) else known
+
+
+def largest_temperature(numbers: Numbers) -> float | None:
+    """Return the largest temperature of the film [K]; None for an isothermal run."""
+    inlet, rise = (numbers.get(f"temperature.{key}") for key in ("inlet_k", "film_rise_max_k"))
+    return None if inlet is None or rise is None else float(inlet + rise)
+
+
+def largest_temperature_error(numbers: Numbers) -> float | None:
+    """Return the bar of the largest temperature, that of the rise, over its degrees Celsius."""
+    known, hottest = numbers.get("errors.film_rise_max"), largest_temperature(numbers)
+    if known is None or hottest is None:
+        return None
+    celsius = hottest + UNITS["°C"][1]
+    return abs(known * numbers.get("temperature.film_rise_max_k") / (celsius or 1.0))
+
+
+def power_loss(numbers: Numbers) -> float | None:
+    """Return the loss in film and solids [W]; None where `friction` is."""
+    film = numbers.get("traction.friction_power_w")
+    if film is None or numbers.get("traction.credible") is False:
+        return None
+    if not has_solids(numbers):
+        return float(film)
+    rubbed = _of_solids(numbers, "power_boundary_w")
+    return None if rubbed is None else float(film + rubbed)

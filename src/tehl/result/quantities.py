@@ -1,0 +1,459 @@
+"""The table of all quantities of a result: a new one is a line here.
+
+Summary, JSON, tables of studies, lists of contacts, reports, pictures and the live page read it by
+`tehl.result.registry` (docs/dev/adding-a-quantity.md).
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from tehl.result.derived import (
+    KAPPA,
+    friction,
+    friction_error,
+    kappa,
+    lambda_error,
+    largest_temperature,
+    largest_temperature_error,
+    power_loss,
+    share,
+    share_error,
+)
+from tehl.result.quantity import Quantity
+
+LISTS = ("roughness.waves", "roughness.film_quantiles")
+"""Blocks that are lists of blocks."""
+OWNERS: dict[str, Callable[[Any], Any]] = {
+    "laws": lambda found: found.solution.problem,
+    "domain": lambda found: found.solution.scaled,
+    "groups": lambda found: found.solution,
+    "film": lambda found: found,
+    "pressure": lambda found: found.solution,
+    "temperature": lambda found: found.temperature,
+    "traction": lambda found: found.traction,
+    "traction.surroundings": lambda found: found.traction and found.traction.surroundings,
+    "heat": lambda found: found.solution.heat,
+    "roughness": lambda found: found.rough,
+    "roughness.film_quantiles": lambda found: found.rough and found.rough.quantiles,
+    "roughness.ripples_x": lambda found: found.rough and found.rough.ripples_x,
+    "roughness.ripples_y": lambda found: found.rough and found.rough.ripples_y,
+    "roughness.waves": lambda found: found.rough and found.rough.waves,
+    "load_sharing": lambda found: found.load_sharing,
+    "load_sharing.spots": lambda found: found.load_sharing and found.load_sharing.spots,
+    "touching": lambda found: found.touching,
+    "touching.patches": lambda found: (
+        found.touching.patches if found.touching and found.touching.is_share_known else None
+    ),
+    "starvation": lambda found: found.starvation,
+    "convergence": lambda found: found,
+    "errors": lambda found: found.solution.errors,
+    "cost": lambda found: found.solution,
+}
+"""Owner of each block, from a result with what follows from it; a block without one is null. A
+list of owners gives a list of blocks."""
+
+
+def _words(name: str, places: str, **others: str) -> dict[str, str]:
+    """Return the words of a quantity that has one name in several places."""
+    return dict.fromkeys(places.split(), name) | others
+
+
+def _plain(block: str, keys: str) -> Iterator[Quantity]:
+    """Yield quantities that are attributes of the owner of a block, and shown nowhere else."""
+    for key in keys.split():
+        yield Quantity(f"{block}.{key}")
+
+
+def _lists(block: str, keys: str) -> Iterator[Quantity]:
+    for key in keys.split():
+        yield Quantity(f"{block}.{key}.0")
+
+
+def _positive(value: float) -> float | None:
+    """Return a film, None where it is not positive."""
+    return value if value > 0 else None
+
+
+def moes_film_factor(solution: Any) -> float:
+    """Return what turns H into the Moes film ``(h/R_x) (2U)^(-1/2)``.
+
+    For a circle this is ``(3M/2)^(2/3)``.
+    """
+    scales, groups = solution.scales, solution.groups
+    # h = H a_x^2/R_x with R_x = a_x^2 / (a_x^2/R_x), so h/R_x = H (film_thickness/a_x)^2.
+    return float((scales.film_thickness / scales.half_width_x) ** 2 / math.sqrt(2.0 * groups.U))
+
+
+def _scaled(solution: Any, which: str) -> float:
+    return float(getattr(solution.film, which) / solution.scales.film_thickness)
+
+
+def _if_known(name: str) -> Callable[[Any], Any]:
+    """Return what follows from the share where surfaces touch: nothing if that is not known."""
+    return lambda found: getattr(found, name) if found.is_share_known else None
+
+
+def _last(name: str) -> Callable[[Any], Any]:
+    """Return a number of the last cycle."""
+    return lambda found: getattr(found.solution.history[-1], name) if found.finest else None
+
+
+QUANTITIES: tuple[Quantity, ...] = (
+    Quantity("laws.viscosity", lambda problem: problem.lubricant.viscosity.law),
+    Quantity(
+        "laws.viscosity_temperature",
+        lambda problem: getattr(problem.lubricant.viscosity, "temperature_law", None),
+    ),
+    Quantity("laws.density", lambda problem: problem.lubricant.density.law),
+    Quantity("laws.shear", lambda problem: problem.lubricant.shear.law),
+    Quantity("laws.reynolds", lambda problem: getattr(problem.heat, "reynolds", "isothermal")),
+    Quantity("domain.x.0", lambda scaled: scaled.x[[0, -1]].tolist()),
+    Quantity("domain.y.0", lambda scaled: scaled.y[[0, -1]].tolist()),
+    Quantity(
+        "groups.M",
+        lambda result: result.groups.M,
+        digits="0.0",
+        words={"axis": "M", "list": "Moes M"},
+    ),
+    Quantity(
+        "groups.L",
+        lambda result: result.groups.L,
+        digits="0.00",
+        words={"axis": "L", "list": "Moes L"},
+    ),
+    Quantity("groups.U", lambda result: result.groups.U),
+    Quantity("groups.W", lambda result: result.groups.W),
+    Quantity("groups.G", lambda result: result.groups.G),
+    Quantity("groups.lambda_bar", lambda result: result.groups.lambda_bar),
+    Quantity("groups.alpha_bar", lambda result: result.groups.alpha_bar),
+    Quantity("groups.ellipticity", lambda result: result.groups.ellipticity),
+    Quantity("groups.radius_ratio", lambda result: result.groups.radius_ratio),
+    Quantity(
+        "groups.hertz_pressure_pa",
+        lambda result: result.scales.hertz_pressure,
+        unit="GPa",
+        words={"axis": "Hertz pressure $p_h$", "list": "Hertz pressure"},
+    ),
+    Quantity(
+        "groups.hertz_half_width_m",
+        lambda result: result.scales.half_width_x,
+        unit="um",
+        digits="0.0",
+        words={"list": "a_x"},
+    ),
+    Quantity(
+        "groups.hertz_half_width_y_m",
+        lambda result: result.scales.half_width_y,
+        unit="um",
+        digits="0.0",
+        words={"list": "a_y"},
+    ),
+    Quantity(
+        "film.h_min_m",
+        lambda found: _positive(found.solution.film.minimum),
+        name="film_minimum",
+        certified="film",
+        symbol="h_min",
+        unit="nm",
+        digits="0.0",
+        words=_words(
+            "minimum film",
+            "list notebook line text report page",
+            axis="minimum film thickness $h_{min}$",
+        ),
+    ),
+    Quantity(
+        "film.h_central_m",
+        lambda found: _positive(found.solution.film.central),
+        name="film_central",
+        certified="film",
+        symbol="h_c",
+        unit="nm",
+        digits="0.0",
+        words=_words(
+            "central film",
+            "list notebook line text report page",
+            axis="central film thickness $h_c$",
+        ),
+    ),
+    Quantity(
+        "film.H_min",
+        lambda found: _positive(_scaled(found.solution, "minimum")),
+        name="film_minimum",
+        certified="film",
+        words={"axis": "minimum film $H_{min}$"},
+    ),
+    Quantity("film.H_min_node", lambda found: _positive(found.solution.film_scaled.minimum_node)),
+    Quantity(
+        "film.H_central",
+        lambda found: _positive(_scaled(found.solution, "central")),
+        name="film_central",
+        certified="film",
+        words={"axis": "central film $H_c$"},
+    ),
+    Quantity(
+        "film.H_min_moes",
+        lambda found: _positive(
+            _scaled(found.solution, "minimum") * moes_film_factor(found.solution)
+        ),
+        name="film_minimum",
+        words={"axis": "minimum film $H_{min}$ (Moes)"},
+    ),
+    Quantity(
+        "film.H_central_moes",
+        lambda found: _positive(
+            _scaled(found.solution, "central") * moes_film_factor(found.solution)
+        ),
+        name="film_central",
+        words={"axis": "central film $H_c$ (Moes)"},
+    ),
+    Quantity("film.minimum_at.0", lambda found: found.solution.film_scaled.minimum_at),
+    Quantity("film.rigid_approach", lambda found: found.solution.rigid_approach),
+    Quantity(
+        "pressure.max_pa",
+        lambda result: float(result.scaled.pressure.max()) * result.scales.hertz_pressure,
+        name="pressure_max",
+        certified="film",
+        symbol="p_max",
+        unit="GPa",
+        words=_words("largest pressure", "axis list notebook line report page"),
+    ),
+    Quantity(
+        "pressure.P_max",
+        lambda result: float(result.scaled.pressure.max()),
+        name="pressure_max",
+        certified="film",
+    ),
+    Quantity("pressure.P_central", lambda result: result.scaled.at_origin(result.scaled.pressure)),
+    Quantity("temperature.film_rise_max_at.0"),
+    Quantity(
+        "temperature.film_rise_max_k",
+        name="film_rise_max",
+        certified="shown",
+        unit="K",
+        digits="0.0",
+        words={
+            "axis": "largest temperature rise of the film",
+            "list": "film rise",
+            "notebook": "temperature rise",
+            "report": "film temperature rise, largest",
+            "rises": "film, at most",
+        },
+    ),
+    Quantity(
+        "temperature.mid_film_rise_central_k",
+        name="mid_film_rise_central",
+        certified="following",
+        unit="K",
+        words={
+            "axis": "central temperature rise at mid-film",
+            "report": "mid-film temperature rise, central",
+            "rises": "mid-film, at X = Y = 0",
+        },
+    ),
+    Quantity(
+        "temperature.mean_rise_central_k",
+        words={"rises": "mean across the film, at X = Y = 0"},
+    ),
+    Quantity(
+        "temperature.surface_1_rise_max_k",
+        name="surface_1_rise_max",
+        unit="K",
+        digits="0.0",
+        words={"list": "rise of surface 1", "rises": "surface 1, at most"},
+    ),
+    Quantity(
+        "temperature.surface_2_rise_max_k",
+        name="surface_2_rise_max",
+        unit="K",
+        digits="0.0",
+        words={"list": "rise of surface 2", "rises": "surface 2, at most"},
+    ),
+    Quantity("temperature.inlet_k"),
+    Quantity("traction.sliding", lambda found: found.mid_film),
+    *_plain("traction", "surface_1"),
+    Quantity(
+        "traction.mid_film",
+        name="traction_mid_film",
+        certified="following",
+        words={
+            "axis": "traction coefficient",
+            "notebook": "traction",
+            "report": "traction at mid-film",
+            "bar": "at mid-film",
+        },
+    ),
+    *_plain("traction", "surface_2 rolling rolling_by_film closure_error credible"),
+    *_plain("traction", "friction_power_w"),
+    *_plain("traction.surroundings", "surface_1 mid_film surface_2 friction_power_w radius_m"),
+    Quantity("heat.shear_w", lambda heat: heat.balance.shear, name="heat_shear"),
+    Quantity("heat.compression_w", lambda heat: heat.balance.compression, name="heat_compression"),
+    Quantity("heat.surface_1_w", lambda heat: heat.balance.surface_1, name="heat_surface_1"),
+    Quantity("heat.surface_2_w", lambda heat: heat.balance.surface_2, name="heat_surface_2"),
+    Quantity("heat.carried_out_w", lambda heat: heat.balance.carried_out, name="heat_carried_out"),
+    *_lists("heat", "solid_peclet sources"),
+    Quantity("roughness.surface_1_sq_m", lambda rough: rough.sq[0]),
+    Quantity("roughness.surface_2_sq_m", lambda rough: rough.sq[1]),
+    Quantity("roughness.composite_sq_m", lambda rough: rough.composite),
+    Quantity("roughness.surface_1_sa_m", lambda rough: rough.resolution and rough.resolution.sa[0]),
+    Quantity("roughness.surface_2_sa_m", lambda rough: rough.resolution and rough.resolution.sa[1]),
+    Quantity("roughness.surface_1_sq_on_grid_m", lambda rough: rough.sq_on_grid[0]),
+    Quantity("roughness.surface_2_sq_on_grid_m", lambda rough: rough.sq_on_grid[1]),
+    Quantity("roughness.composite_sq_on_grid_m", lambda rough: math.hypot(*rough.sq_on_grid)),
+    Quantity(
+        "roughness.lost_share",
+        lambda rough: rough.resolution.lost_share if rough.resolution else 0.0,
+    ),
+    Quantity("roughness.warning", lambda rough: rough.resolution and rough.resolution.warning),
+    Quantity(
+        "roughness.lambda_central",
+        error=lambda_error(1.0),
+        symbol="λ",
+        digits="0.00",
+        words={
+            "axis": "central film over roughness λ",
+            "list": "lambda",
+            "page": "film over roughness",
+        },
+    ),
+    Quantity("roughness.lambda_minimum", words={"axis": "minimum film over roughness λ"}),
+    *_plain("roughness", "lambda_by_formula lubrication"),
+    Quantity("roughness.film_quantiles.part", lambda pair: pair[0]),
+    Quantity("roughness.film_quantiles.h_m", lambda pair: pair[1]),
+    Quantity("roughness.area_below_composite_sq", lambda rough: rough.below_composite),
+    Quantity("roughness.area_below_half_median", lambda rough: rough.below_half),
+    *_lists("roughness", "minimum_at"),
+    Quantity("roughness.P_max", lambda rough: rough.largest_pressure),
+    Quantity("roughness.ripple_film_m", name="ripple_film"),
+    Quantity("roughness.ripple_pressure_pa", name="ripple_pressure"),
+    *_plain("roughness.ripples_x", "count depth_m"),
+    *_plain("roughness.ripples_y", "count depth_m"),
+    *_plain("roughness.waves", "wavelength_m angle_rad amplitude_m points_per_wave"),
+    *_plain("roughness.waves", "film_amplitude_m film_phase_rad film_ratio"),
+    *_plain("roughness.waves", "pressure_amplitude_pa pressure_phase_rad carried_amplitude_m"),
+    Quantity("roughness.waves.theory_film_ratio", lambda wave: wave.theory.film_ratio),
+    Quantity("roughness.waves.theory_pressure_pa", lambda wave: wave.theory.pressure),
+    Quantity("roughness.waves.elastic_pressure_pa", lambda wave: wave.theory.elastic_pressure),
+    Quantity("roughness.waves.compressibility", lambda wave: wave.theory.compressibility),
+    Quantity("roughness.wave_notes.0", lambda rough: list(rough.wave_notes)),
+    Quantity(
+        "load_sharing.share",
+        name="load_share",
+        certified="following",
+        unit="%",
+        words={
+            "axis": "load on asperities over the load",
+            "notebook": "load on asperities",
+            "bar": "of the load",
+        },
+    ),
+    *_plain("load_sharing", "share_error"),
+    Quantity("load_sharing.friction", words={"axis": "friction coefficient"}),
+    Quantity("load_sharing.friction_film", words={"axis": "friction coefficient of the film"}),
+    Quantity(
+        "load_sharing.friction_boundary", words={"axis": "friction coefficient of asperities"}
+    ),
+    *_plain("load_sharing", "area_m2 area_part asperity_pressure_max_pa pressure_max_pa"),
+    *_plain("load_sharing", "separation_central_m"),
+    Quantity(
+        "load_sharing.separation_ratio",
+        words={"axis": "separation of the mean planes over σ"},
+    ),
+    *_plain("load_sharing", "power_boundary_w balance"),
+    *_plain("load_sharing.spots", "number radius_m pressure_pa elastic_pressure_pa flash_rise_k"),
+    Quantity(
+        "touching.share",
+        _if_known("share"),
+        name="load_share",
+        certified="following",
+        unit="%",
+    ),
+    Quantity("touching.share_error", _if_known("share_error")),
+    *_plain("touching", "margin_m"),
+    Quantity("touching.friction", _if_known("friction")),
+    *_plain("touching", "friction_film"),
+    Quantity("touching.friction_boundary", _if_known("friction_boundary")),
+    *_plain("touching", "area_m2 area_part contact_pressure_max_pa pressure_max_pa"),
+    Quantity("touching.power_boundary_w", _if_known("power_boundary")),
+    *_plain("touching", "balance"),
+    *_plain("touching.patches", "number area_mean_m2 area_largest_m2 pressure_mean_pa"),
+    *_plain("touching.patches", "pressure_max_pa cells"),
+    Quantity(
+        "kappa",
+        kappa,
+        error=lambda_error(KAPPA),
+        symbol="κ",
+        digits="0.00",
+        words={"list": "kappa, as lambda^1.3", "page": "viscosity ratio (ISO 281), from λ"},
+    ),
+    Quantity(
+        "temperature_max",
+        largest_temperature,
+        error=largest_temperature_error,
+        symbol="T_max",
+        unit="°C",
+        words={"page": "largest temperature"},
+    ),
+    Quantity(
+        "friction",
+        friction,
+        error=friction_error,
+        symbol="μ",
+        digits="0.0000",
+        words={"list": "friction", "page": "friction coefficient"},
+    ),
+    Quantity(
+        "power",
+        power_loss,
+        error=friction_error,
+        symbol="P",
+        unit="W",
+        words={"list": "friction loss", "page": "power loss"},
+    ),
+    Quantity(
+        "share",
+        share,
+        error=share_error,
+        unit="%",
+        digits="0.0",
+        symbol="w_a/w",
+        words={"list": "load on asperities", "page": "load on asperities"},
+    ),
+    Quantity("starvation.ratio", words={"axis": "supply over that of the flooded contact r"}),
+    Quantity(
+        "starvation.degree",
+        words={"axis": "film over flooded film", "list": "degree of starvation"},
+    ),
+    *_plain("starvation", "degree_error degree_by_law flooded_film_m meniscus_m"),
+    Quantity(
+        "starvation.inlet_distance_m",
+        words={"axis": "distance of the meniscus ahead of the contact"},
+    ),
+    *_plain("starvation", "entering_m leaving_m leaving_each_m balance"),
+    Quantity("convergence.cycles", lambda found: len(found.finest)),
+    Quantity("convergence.residual", _last("residual")),
+    Quantity("convergence.change", _last("change")),
+    Quantity("convergence.load_error", _last("load_error")),
+    Quantity(
+        "convergence.heat_balance_error",
+        lambda found: found.solution.heat and found.solution.heat.balance.error,
+    ),
+    Quantity("convergence.work_balance_error", lambda found: found.work_error),
+    *_plain("errors", "central minimum discretisation_central discretisation_minimum"),
+    *_plain("errors", "iteration_central iteration_minimum domain supply"),
+    *_plain("errors", "extrapolated spike_resolved"),
+    Quantity("cost.points.0", lambda result: [result.scaled.x.size, result.scaled.y.size]),
+    Quantity("cost.cpu_seconds", lambda result: result.cost.cpu_seconds),
+    Quantity("cost.wall_seconds", lambda result: result.cost.wall_seconds),
+    Quantity("cost.work", lambda result: result.cost.work),
+)
+TRANSIENT: tuple[Quantity, ...] = (
+    Quantity("film.h_min_m.value", name="film_minimum", unit="nm"),
+    Quantity("film.h_central_m.least", name="film_central_least", unit="nm"),
+    Quantity("film.h_central_m.largest", name="film_central_largest", unit="nm"),
+    Quantity("pressure.p_max_pa.value", name="pressure_max", unit="GPa"),
+    Quantity("temperature.film_rise_max_k.value", name="film_rise_max", unit="K"),
+    Quantity("traction.extreme", name="traction_extreme", words={"bar": "at the extreme"}),
+)
+"""Extremes of a transient result that have error bars when it is certified."""

@@ -1,0 +1,118 @@
+"""How the table of quantities is read: what a place shows, error bars, columns, numbers."""
+
+from collections.abc import Iterator
+from functools import partial
+from typing import Any
+
+from tehl.result import quantities
+from tehl.result.quantity import FILMS, Certified, Quantity
+
+_FIRST: dict[str, tuple[str, ...]] = {
+    "list": (
+        *("groups.hertz_pressure_pa", "groups.hertz_half_width_m", "groups.hertz_half_width_y_m"),
+        *("groups.M", "groups.L", "film.h_central_m", "film.h_min_m", "pressure.max_pa"),
+        *("roughness.lambda_central", "kappa", "friction", "power"),
+    ),
+    "notebook": ("film.h_central_m", "film.h_min_m", "pressure.max_pa", "traction.mid_film"),
+    "line": ("film.h_central_m",),
+    "report": ("film.h_min_m", "film.h_central_m", "pressure.max_pa", "traction.mid_film"),
+    "page": (
+        *("film.h_central_m", "film.h_min_m", "roughness.lambda_central", "kappa"),
+        "pressure.max_pa",
+    ),
+}
+"""Quantities that stand first in a place, in this order; the others follow in that of the table."""
+_BARS_OF = ("pressure", "traction", "temperature", "load_sharing", "touching", "roughness", "heat")
+"""Blocks in the order of their error bars in the summary."""
+
+
+def bar_names() -> tuple[str, ...]:
+    """Return the names of the error bars beside those of the film, in their order."""
+    found = {
+        one.name: _BARS_OF.index(block) if (block := one.block) in _BARS_OF else len(_BARS_OF)
+        for one in reversed(quantities.QUANTITIES)
+        if one.name and one.name not in FILMS
+    }
+    names = dict.fromkeys(one.name for one in quantities.QUANTITIES if one.name in found)
+    return tuple(sorted(names, key=found.__getitem__))
+
+
+def in_summary() -> Iterator[Quantity]:
+    """Yield the quantities of the summary in its order, with all error bars."""
+    for one in quantities.QUANTITIES:
+        if one.path == "errors.extrapolated":
+            for name in bar_names():
+                yield Quantity(f"errors.{name}", partial(_bar, name))
+        if one.block:
+            yield one
+
+
+def _bar(name: str, errors: Any) -> float | None:
+    known: float | None = errors.bars.get(name)
+    return known
+
+
+def columns() -> tuple[str, ...]:
+    """Return the names that the numbers of a summary may have in a table; ``.0`` is any index."""
+    lists = [f"{block}." for block in quantities.LISTS]
+    return tuple(
+        next((f"{block}0.{one.key}" for block in lists if one.path.startswith(block)), one.path)
+        for one in in_summary()
+    )
+
+
+def shown_in(place: str) -> tuple[Quantity, ...]:
+    """Return the quantities that a place shows, in its order."""
+    known, first = (
+        {one.path: one for one in quantities.QUANTITIES if place in one.words},
+        _FIRST.get(place, ()),
+    )
+    ordered = [path for path in first if path in known]
+    return tuple(known[path] for path in (*ordered, *(path for path in known if path not in first)))
+
+
+def at(path: str) -> Quantity:
+    """Return the quantity at a place of the summary, or one that follows from others."""
+    return next(one for one in quantities.QUANTITIES if one.path == path)
+
+
+def named(name: str) -> Quantity:
+    """Return the quantity in SI of an estimate of a certified result, steady or transient."""
+    known = [one for one in (*quantities.QUANTITIES, *quantities.TRANSIENT) if one.name == name]
+    return next((one for one in known if one.unit), known[0])
+
+
+def dimensionless(one: Quantity) -> Quantity | None:
+    """Return the same quantity over its scale, None where the summary does not have it."""
+    if not (one.name and one.unit):
+        return None
+    twins = (
+        twin for twin in quantities.QUANTITIES if (twin.name, twin.block) == (one.name, one.block)
+    )
+    return next((twin for twin in twins if twin.certified and not twin.unit), None)
+
+
+def certified(*kinds: Certified) -> tuple[Quantity, ...]:
+    """Return the quantities with a bar in a certified result, all or those of some kinds."""
+    return tuple(
+        one
+        for one in quantities.QUANTITIES
+        if one.certified and (one.certified in kinds or not kinds)
+    )
+
+
+class NumbersOf:
+    """Numbers of a result by path, each computed when it is asked for."""
+
+    def __init__(self, found: Any) -> None:
+        """Take a result with what follows from it (`tehl.post.following.Following`)."""
+        self._found = found
+        self._known = {one.path: one for one in in_summary()}
+        self._known |= {one.path: one for one in quantities.QUANTITIES if not one.block}
+
+    def get(self, path: str, /) -> Any:
+        """Return a number in SI, None where the result does not have it."""
+        one = self._known.get(path)
+        if one is None:
+            return None
+        return one.of(quantities.OWNERS[one.block](self._found) if one.block else self)
