@@ -28,7 +28,7 @@ from tehl.studies.axes import (
     count_of,
     groups_of,
 )
-from tehl.studies.pictures import Picture, checked_pictures
+from tehl.studies.output import Picture, checked_pictures
 from tehl.studies.plan import Plan, Study, study_of
 from tehl.studies.runner import run
 from tehl.studies.store import Keep, Store
