@@ -18,7 +18,7 @@ from dataclasses import replace
 from multiprocessing import parent_process, resource_tracker
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
-from threading import Thread
+from threading import Lock, Thread
 from typing import TYPE_CHECKING, Any
 
 from tehl.api.results import ConvergenceError, Result, load_as
@@ -43,6 +43,8 @@ _STARTS, _PAUSE = 3, 0.1
 """Attempts to start workers, and seconds between them, for a dying fork server to end."""
 _GRACE = 10.0
 """Seconds for a terminated worker to end."""
+_STARTING = Lock()
+"""Held while the environment of the program is that of workers."""
 _CONNECT = 30.0
 """Seconds to find a scheduler."""
 _NO_WORKER = (
@@ -54,6 +56,10 @@ _NO_WORKER = (
 
 class WorkerDied(Exception):  # noqa: N818 (an event)
     """The process ended while it solved."""
+
+
+class Stopped(Exception):  # noqa: N818 (an event)
+    """A pool was stopped by another thread."""
 
 
 class Engine:
@@ -107,11 +113,11 @@ def engine_of(
         return
     if not jobs >= 1:
         raise InputError(f"jobs = {jobs} must be at least 1")
-    with closing(Engine() if jobs == 1 else _Pool(min(jobs, cases), forked=forked)) as engine:
+    with closing(Engine() if jobs == 1 else Pool(min(jobs, cases), forked=forked)) as engine:
         yield engine
 
 
-class _Pool(Engine):
+class Pool(Engine):
     """Processes of this machine.
 
     Each has its own connection and one task at a time, so a crash loses one task only. Each loads
@@ -124,15 +130,18 @@ class _Pool(Engine):
     def __init__(self, jobs: int, *, forked: bool = False) -> None:
         self._jobs, self._idle = jobs, list[WorkerProcess]()
         self._busy: dict[Connection, tuple[WorkerProcess, Ticket]] = {}
+        self._stopped, self._stopper = multiprocessing.Pipe(duplex=False)
         forked = forked and sys.platform == "linux"  # elsewhere libraries do not survive a fork
         self._context: Any = multiprocessing.get_context("forkserver" if forked else "spawn")
         if forked:
             self._context.set_forkserver_preload(["tehl.studies.ready"])
 
     def workers(self) -> int:
+        """Return the number of processes."""
         return self._jobs
 
     def submit(self, ticket: Ticket, function: Callable[..., Any], *arguments: Any) -> None:
+        """Send a task to an idle process."""
         if not self._idle:
             self._idle = self._started(self._jobs - len(self._busy))
         worker = self._idle.pop()
@@ -141,9 +150,11 @@ class _Pool(Engine):
         self._busy[worker.connection] = worker, ticket
 
     def take(self) -> Finished:
-        """Wait until some workers have finished or died; return their tasks."""
+        """Wait until some workers have finished or died; return their tasks, or raise `Stopped`."""
         finished: Finished = []
-        for connection in wait(self._busy):
+        for connection in wait([*self._busy, self._stopped]):
+            if connection is self._stopped:
+                raise Stopped
             assert isinstance(connection, Connection)
             worker, ticket = self._busy.pop(connection)
             try:
@@ -154,8 +165,19 @@ class _Pool(Engine):
                 finished.append((ticket, WorkerDied()))
         return finished
 
+    def stop(self) -> None:
+        """End a run from another thread; the pool can only be closed then."""
+        self._stopper.send(None)
+
+    @property
+    def is_stopped(self) -> bool:
+        """Whether :meth:`stop` was called."""
+        return self._stopped.poll()
+
     def close(self) -> None:
+        """End the processes."""
         end([*self._idle, *(worker for worker, _ in self._busy.values())])
+        self._idle, self._busy = [], {}
 
     def _started(self, count: int) -> list["WorkerProcess"]:
         """Start workers side by side; return them when each has reported that it is ready."""
@@ -196,6 +218,11 @@ def end(workers: list[WorkerProcess]) -> None:
 @contextmanager
 def undisturbed() -> Iterator[None]:
     """Give the environment of workers to what is started, and keep Ctrl-C from it."""
+    with _STARTING:
+        yield from _undisturbed()
+
+
+def _undisturbed() -> Iterator[None]:
     before = {name: os.environ[name] for name in _ENVIRONMENT if name in os.environ}
     os.environ.update(_ENVIRONMENT)
     if sys.platform != "win32":
@@ -271,6 +298,8 @@ def _version() -> str:
 Files = tuple[Path | None, Path | None]
 """Where the fields of a case go, and those of another case to start from."""
 Solve = Callable[[Case, Path | None, Path | None], Row]
+Make = Callable[[Case, Result], Row]
+"""Makes the row of a result."""
 
 
 def serve(connection: Connection) -> None:
@@ -329,7 +358,7 @@ def solve_in_turn(solve: Solve, task: list[tuple[Case, Files]], seconds: float) 
     return rows
 
 
-def work(case: Case, fields: Path | None, guess: Path | None = None) -> Row:
+def work(case: Case, fields: Path | None, guess: Path | None = None, *, make: Make = row_of) -> Row:
     """Return the row of a case; an error of the case is in the row.
 
     Parameters
@@ -340,6 +369,8 @@ def work(case: Case, fields: Path | None, guess: Path | None = None) -> Row:
         File for the result, converged or not; None if only the row is wanted.
     guess : Path or None
         File with the result of a neighbour to start from.
+    make : callable
+        Makes the row of a result.
 
     Raises
     ------
@@ -349,7 +380,7 @@ def work(case: Case, fields: Path | None, guess: Path | None = None) -> Row:
     wall, cpu = time.perf_counter(), time.process_time()
     try:
         result = _solved(case, guess)
-        row = row_of(case, result)
+        row = make(case, result)
     except Exception as error:  # an error in one case must not end a thousand
         cost = Cost(cpu_seconds=time.process_time() - cpu, wall_seconds=time.perf_counter() - wall)
         return replace(_failed(case, error), cost=cost)

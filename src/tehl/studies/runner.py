@@ -4,8 +4,9 @@ import math
 import time
 from collections import deque
 from collections.abc import Iterable, Mapping, Sequence
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Protocol
 
 from tehl.base.errors import InputError
@@ -17,7 +18,16 @@ from tehl.estimate.memory import available_memory, needed_memory
 from tehl.estimate.scaling import ScaledProblem
 from tehl.kernels.cache import is_cold
 from tehl.studies.case import Case, Row, retried
-from tehl.studies.engines import Engine, Files, WorkerDied, engine_of, solve_in_turn, work
+from tehl.studies.engines import (
+    Engine,
+    Files,
+    Make,
+    Solve,
+    WorkerDied,
+    engine_of,
+    solve_in_turn,
+    work,
+)
 from tehl.studies.store import Store
 
 if TYPE_CHECKING:
@@ -91,6 +101,8 @@ def run(  # noqa: PLR0913 (keywords with defaults)
     retry_failed: bool = False,
     warm_start: bool = False,
     forked: bool = False,
+    engine: Engine | None = None,
+    make: Make | None = None,
     monitor: StudyMonitor = QUIET,
 ) -> Outcome:
     """Solve the cases that the store does not have yet; keep them as tasks are finished.
@@ -119,6 +131,10 @@ def run(  # noqa: PLR0913 (keywords with defaults)
         On Linux, fork the processes from one that has loaded the solver, which saves two seconds of
         a core for each. It is Python's ``forkserver``, which stays until the program ends and
         serves all of it: for programs that have no other use for it.
+    engine : Engine or None
+        An engine to solve on, which stays open, instead of ``jobs`` or a ``scheduler``.
+    make : callable or None
+        Makes the row of a result in the worker; :func:`~tehl.studies.case.row_of` if left out.
     monitor : StudyMonitor
         Takes the reports.
 
@@ -144,8 +160,11 @@ def run(  # noqa: PLR0913 (keywords with defaults)
         if store.keep != "fields":
             raise InputError('a warm start takes a store that keeps the fields: keep = "fields"')
         neighbours = Neighbours(every[key] for key, row in done.items() if row.converged)
-    engine = engine_of(jobs, len(waiting), scheduler, forked=forked)
-    solved = _Run(waiting, store, neighbours, monitor).solve(engine) if waiting else {}
+    place = (
+        nullcontext(engine) if engine else engine_of(jobs, len(waiting), scheduler, forked=forked)
+    )
+    solve = work if make is None else partial(work, make=make)
+    solved = _Run(waiting, store, neighbours, monitor, solve).solve(place) if waiting else {}
     rows = done | solved
     return Outcome(
         total=len(every),
@@ -203,10 +222,16 @@ class _Run:
     """
 
     def __init__(
-        self, cases: list[Case], store: Store, neighbours: Neighbours | None, monitor: StudyMonitor
+        self,
+        cases: list[Case],
+        store: Store,
+        neighbours: Neighbours | None,
+        monitor: StudyMonitor,
+        solve_case: Solve,
     ) -> None:
         self.waiting, self.suspects = deque(cases), deque[Case]()
         self.store, self.neighbours, self.monitor = store, neighbours, monitor
+        self.solve_case = solve_case
         self.submitted, self.alone = 0, False
         self.seconds, self.solved = 0.0, 0
         self.rows: dict[str, Row] = {}
@@ -234,7 +259,7 @@ class _Run:
         while queue and self.submitted < window:
             cases = [queue.popleft() for _ in range(self._task_size(engine, workers))]
             task = [(case, self._files(case)) for case in cases]
-            engine.submit(cases, solve_in_turn, work, task, engine.task_seconds)
+            engine.submit(cases, solve_in_turn, self.solve_case, task, engine.task_seconds)
             self.submitted += 1
 
     def _task_size(self, engine: Engine, workers: int) -> int:
