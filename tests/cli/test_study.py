@@ -13,8 +13,7 @@ from tehl.base import atomic
 from tehl.io.templates import template_text, templates
 from tehl.studies import runner
 from tehl.studies.file import read_study
-from tehl.studies.folder import locked
-from tehl.studies.plan import study_of
+from tehl.studies.plan import locked, study_of
 from tests.cli.fixtures_study import CASE, STUDY, folder, names, run, solved
 
 __all__ = ["folder", "run"]
@@ -157,7 +156,7 @@ def test_a_folder_takes_one_run_at_a_time(folder, run):
 def test_a_lock_goes_with_the_program_that_held_it(folder, run):
     (folder / "out").mkdir()
     code = (
-        "import time, pathlib\nfrom tehl.studies.folder import locked\n"
+        "import time, pathlib\nfrom tehl.studies.plan import locked\n"
         "with locked(pathlib.Path('out')):\n    print('held', flush=True)\n    time.sleep(60)"
     )
     with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) as process:

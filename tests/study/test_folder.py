@@ -13,10 +13,9 @@ from tehl.result.solution import Cost, Hint
 from tehl.studies import Row, Store
 from tehl.studies.axes import Block, Setting
 from tehl.studies.case import Case
-from tehl.studies.folder import load_plan, save_plan
-from tehl.studies.forecast import Forecast, check_memory_of, forecast
-from tehl.studies.pictures import picture_of
-from tehl.studies.plan import Plan, study_of
+from tehl.studies.output import picture_of
+from tehl.studies.plan import Plan, load_plan, save_plan, study_of
+from tehl.studies.runner import Forecast, check_memory_of, forecast
 from tests.cases import ball_tables
 from tests.study.contacts import QUICK, cases, problem
 

@@ -12,8 +12,8 @@ from tehl.base.errors import InputError
 from tehl.result.solution import Cost, Hint
 from tehl.studies import Case, Row, Store, engines, run, runner, study, table
 from tehl.studies.case import flat, retried, row_of, unit_of
+from tehl.studies.engines import solve_in_turn
 from tehl.studies.tables import is_number
-from tehl.studies.worker import solve_in_turn
 from tests.cases import ball_tables
 from tests.study.contacts import Notes, assert_same_numbers, cases, failing
 

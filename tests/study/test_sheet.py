@@ -6,7 +6,7 @@ from openpyxl import Workbook
 
 from tehl.base.errors import InputError
 from tehl.studies import read_study, study_of
-from tehl.studies.sheet import check_sheet, sheet, write_sheet
+from tehl.studies.output import check_sheet, sheet, write_sheet
 
 STUDY = """
 case = "case.toml"

@@ -13,9 +13,8 @@ from tehl.cli.progress import SHOWN, duration, study_progress
 from tehl.cli.study_job import number_of_workers
 from tehl.studies.answers import check_output, solve_list, write_answers
 from tehl.studies.contacts import Contacts, read_contacts
-from tehl.studies.folder import locked
-from tehl.studies.forecast import expected_times
-from tehl.studies.runner import Outcome
+from tehl.studies.plan import locked
+from tehl.studies.runner import Outcome, expected_times
 from tehl.studies.store import Store
 
 

@@ -24,9 +24,12 @@ from tehl.cli.progress import SHOWN, duration, study_progress
 from tehl.result.solution import settings_text
 from tehl.studies.case import Row
 from tehl.studies.file import read_study
-from tehl.studies.folder import (
+from tehl.studies.output import Picture, check_sheet, picture_of, save, write_sheet
+from tehl.studies.plan import (
     PLAN,
     TABLE,
+    Plan,
+    Study,
     check_can_write,
     check_same,
     load_plan,
@@ -34,14 +37,11 @@ from tehl.studies.folder import (
     remove_outcome,
     save_plan,
     store_of,
+    study_of,
     write_table,
 )
-from tehl.studies.forecast import check_memory_of, expected_times, forecast
-from tehl.studies.pictures import Picture, picture_of, save
-from tehl.studies.plan import Plan, Study, study_of
-from tehl.studies.runner import Outcome
+from tehl.studies.runner import Outcome, check_memory_of, expected_times, forecast
 from tehl.studies.runner import run as solve
-from tehl.studies.sheet import check_sheet, write_sheet
 from tehl.studies.tables import OPEN, table
 
 if TYPE_CHECKING:

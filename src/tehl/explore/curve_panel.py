@@ -12,9 +12,8 @@ from tehl.explore.curves import Point, nearest, swept_chart
 from tehl.explore.elements import button, main_button, read_at_pointer
 from tehl.explore.jobs import End, Failure
 from tehl.explore.numbers import value_of
+from tehl.explore.sweeps import Sweep, Sweeps, Swept
 from tehl.explore.tab import Tab
-from tehl.explore.tasks import Sweep, Swept
-from tehl.explore.worker import Solver
 
 if TYPE_CHECKING:
     from tehl.explore.axes import Frame
@@ -33,10 +32,10 @@ _SLIDING = (0.003, 1.0)
 
 
 class CurvePanel:
-    """Curves of a tab, in a worker of their own."""
+    """Curves of a tab, solved in the background."""
 
-    def __init__(self, tab: Tab, background: Solver) -> None:
-        self.tab, self.background = tab, background
+    def __init__(self, tab: Tab, sweeps: Sweeps) -> None:
+        self.tab, self.sweeps = tab, sweeps
         self.points: list[Swept] = []
         self.knob: Knob | None = None
         self.span, self.wanted, self.size = (1.0, 10.0), 0, (720.0, 480.0)
@@ -144,7 +143,7 @@ class CurvePanel:
         self._number += 1
         number = self._number
         job = Sweep(tables, knob.path, values)
-        self.background.submit(
+        self.sweeps.submit(
             f"{self.tab.owner} sweep", job, lambda message: self._receive(number, message)
         )
         self.halt.set_visibility(True)
@@ -161,7 +160,7 @@ class CurvePanel:
 
     def cancel(self) -> None:
         """Leave the rest of the sweep."""
-        self.background.cancel(f"{self.tab.owner} sweep")
+        self.sweeps.cancel(f"{self.tab.owner} sweep")
 
     def _receive(self, number: int, message: Any) -> None:
         if number != self._number:

@@ -18,7 +18,7 @@ from tehl.contact.options import Options
 from tehl.explore.shown import Shown, shown
 from tehl.report.explain import Explanation, explain
 from tehl.result.solution import CycleReport
-from tehl.studies.worker import end_with_parent
+from tehl.studies.engines import end_with_parent
 
 if TYPE_CHECKING:
     from tehl.api import solvers

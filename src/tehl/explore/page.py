@@ -20,6 +20,7 @@ from tehl.explore.number_panel import Explanation, MainNumbers, NumberPanel
 from tehl.explore.picture_panel import PicturePanel
 from tehl.explore.status import StatusLine
 from tehl.explore.surface_dialog import SurfaceDialog
+from tehl.explore.sweeps import Sweeps
 from tehl.explore.tab import VIEWS, Tab
 from tehl.explore.worker import Solver
 
@@ -33,17 +34,18 @@ _ABOVE = 250.0
 
 
 class Page:
-    """Makes the page of each tab; they share one worker that solves, and one for longer jobs."""
+    """Makes the page of each tab; they share the processes that solve."""
 
     def __init__(self, opened: CaseText, files: Files) -> None:
         self.opened, self.files = opened, files
         self.live: Solver | None = None
         self.background: Solver | None = None
+        self.sweeps: Sweeps | None = None
 
     def start(self) -> None:
         """Start the worker before the first tab."""
         loop = asyncio.get_running_loop()
-        self.live, self.background = Solver(loop), Solver(loop)
+        self.live, self.background, self.sweeps = Solver(loop), Solver(loop), Sweeps(loop)
         self.live.submit("warm", Warm(), self._warmed)
 
     def _warmed(self, message: Any) -> None:
@@ -54,7 +56,7 @@ class Page:
 
     def close(self) -> None:
         """End the workers."""
-        for solver in (self.live, self.background):
+        for solver in (self.live, self.background, self.sweeps):
             if solver is not None:
                 solver.close()
 
@@ -62,6 +64,7 @@ class Page:
         """Make the page of a tab, with the case of its address or the one opened."""
         assert self.live is not None
         assert self.background is not None
+        assert self.sweeps is not None
         owner = client.id
         opened, fault = self.opened, ""
         if case:
@@ -70,7 +73,7 @@ class Page:
             except InputError as error:
                 fault = str(error)
         tab = Tab(owner, CaseText(opened.text), self.files, self.live)
-        TabPage(tab, client, self.background).build()
+        TabPage(tab, client, self.background, self.sweeps).build()
         tab.open(tab.case)
         if fault:
             ui.notify(fault, type="negative", timeout=0, close_button="close")
@@ -78,10 +81,12 @@ class Page:
         def leave() -> None:
             assert self.live is not None
             assert self.background is not None
+            assert self.sweeps is not None
             tab.listeners.clear()
             self.live.cancel(owner)
             self.live.cancel(f"{owner} pinned")
-            for job in ("sweep", "run", "file", "surface"):
+            self.sweeps.cancel(f"{owner} sweep")
+            for job in ("run", "file", "surface"):
                 self.background.cancel(f"{owner} {job}")
 
         client.on_delete(leave)
@@ -95,8 +100,8 @@ def _ignore(message: Any) -> None:
 class TabPage:
     """The elements of a tab."""
 
-    def __init__(self, tab: Tab, client: Client, background: Solver) -> None:
-        self.tab, self.client, self.background = tab, client, background
+    def __init__(self, tab: Tab, client: Client, background: Solver, sweeps: Sweeps) -> None:
+        self.tab, self.client, self.background, self.sweeps = tab, client, background, sweeps
         self._address = ""
 
     def build(self) -> None:
@@ -134,7 +139,7 @@ class TabPage:
             self.tabs = tabs
         with ui.element("div").classes("pictures"):
             self.pictures = PicturePanel(tab)
-            self.curves = CurvePanel(tab, self.background)
+            self.curves = CurvePanel(tab, self.sweeps)
             self.movie = MoviePanel(tab, self.background)
             watcher = ui.element("q-resize-observer")
             watcher.on("resize", self._resized, js_handler=_MEASURE)

@@ -1,4 +1,4 @@
-"""Longer jobs of the page: sweeps, transient runs, files to download, measured surfaces."""
+"""Longer jobs of the page: transient runs, files to download, measured surfaces."""
 
 import io
 import tempfile
@@ -11,16 +11,13 @@ import numpy as np
 
 from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.api.results import Result, TransientResult
-from tehl.base.errors import InputError, TehlError
+from tehl.base.errors import InputError
 from tehl.base.lazy import lazy
 from tehl.base.typing import Array, SingleArray
 from tehl.contact.options import Options
-from tehl.explore.jobs import Cycles, Desk, Note, steady
-from tehl.explore.numbers import Number, numbers
+from tehl.explore.jobs import Cycles, Desk, Note
 from tehl.explore.shown import Maps, maps_of
-from tehl.io.case import changed
 from tehl.plots.frame import window_part
-from tehl.report.explain import explain
 from tehl.result.transient import StepReport
 from tehl.roughness import Map
 from tehl.roughness.preview import preview, view
@@ -36,40 +33,6 @@ else:
 
 _PIXELS = 220
 """Points of a preview along an axis."""
-
-
-@dataclass(frozen=True, slots=True)
-class Swept:
-    """One case of a sweep; without numbers if it did not converge."""
-
-    x: float
-    numbers: tuple[Number, ...]
-    words: str
-
-
-@dataclass(frozen=True, slots=True)
-class Sweep:
-    """Solve a case for each value of a key."""
-
-    tables: dict[str, Any]
-    path: str
-    values: tuple[tuple[float, str | float], ...]
-    """Places of the values, and what the case states for each."""
-
-    def __call__(self, desk: Desk) -> Iterator[Swept]:
-        """Yield each case as it is solved."""
-        for x, stated in self.values:
-            problem, options = case_from_tables(changed(self.tables, self.path, stated))
-            problem = steady(problem)
-            found = explain(problem, options)
-            try:
-                result = desk.result(problem, options)
-            except TehlError as error:
-                yield Swept(x, (), str(error))
-                continue
-            status = result.status
-            values = numbers(result, found) if status.converged else ()
-            yield Swept(x, values, status.message or status.outcome)
 
 
 @dataclass(frozen=True, slots=True)

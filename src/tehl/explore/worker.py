@@ -1,4 +1,4 @@
-"""The process that solves for the page: the newest request wins, and a new process replaces it."""
+"""Work for the page in a thread of its own: the newest request wins; a process that solves."""
 
 import asyncio
 import multiprocessing
@@ -32,6 +32,7 @@ class Request:
     receive: Receive
     is_busy: bool = False
     """Whether it must not be killed: it compiles."""
+    is_cancelled: bool = False
 
     @property
     def is_quick(self) -> bool:
@@ -39,27 +40,97 @@ class Request:
         return isinstance(self.job, Ask) and self.job.quick
 
 
-class Solver:
-    """One warm worker process, and a queue in which only the newest request of an owner waits.
+class Queue:
+    """A thread that performs jobs, of which only the newest of an owner waits.
 
-    A thread talks to the process, so that the page never waits. Messages reach the page through
-    ``loop``.
+    Messages reach the page through ``loop``. A kind of queue says how a job is performed and
+    stopped.
     """
 
     def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
         self._loop = loop
         self._waiting: OrderedDict[str, Request] = OrderedDict()
         self._running: Request | None = None
-        self._worker: WorkerProcess | None = None
         self._changed = Condition()
         self._closed = False
-        self._context: Any = multiprocessing.get_context("spawn")
         self._thread = Thread(target=self._work, daemon=True)
 
     def start(self) -> None:
-        """Start the process before the first request."""
+        """Start the thread before the first request."""
         if not self._thread.is_alive():
             self._thread.start()
+
+    def submit(self, owner: str, job: Any, receive: Receive) -> None:
+        """Perform a job as soon as the thread is free; an older one of the owner is dropped.
+
+        A running job of the owner is stopped, unless it is a quick one: while a slider moves its
+        result is shown, and then that of the newest place.
+        """
+        self.start()
+        with self._changed:
+            self._waiting[owner] = Request(owner, job, receive)
+            running = self._running
+            if running is not None and running.owner == owner and not running.is_quick:
+                self._stop(running)
+            self._changed.notify()
+
+    def cancel(self, owner: str) -> None:
+        """Drop the waiting job of an owner, and stop the running one."""
+        with self._changed:
+            self._waiting.pop(owner, None)
+            running = self._running
+            if running is not None and running.owner == owner:
+                self._stop(running)
+
+    def close(self) -> None:
+        """End the work, also while a job is performed."""
+        with self._changed:
+            self._closed = True
+            self._waiting.clear()
+            self._changed.notify()
+        self._end()
+
+    def pass_on(self, request: Request, message: Any) -> None:
+        """Give a message to the page."""
+        with suppress(RuntimeError):  # the loop has ended
+            self._loop.call_soon_threadsafe(request.receive, message)
+
+    def _work(self) -> None:
+        while (request := self._next()) is not None:
+            try:
+                self._perform(request)
+            except Exception as error:  # such as no process; the thread goes on
+                self.pass_on(request, Failure(str(error), again=True))
+                self.pass_on(request, End())
+            with self._changed:
+                self._running = None
+
+    def _next(self) -> Request | None:
+        with self._changed:
+            while not (self._waiting or self._closed):
+                self._changed.wait()
+            if self._closed:
+                return None
+            _, self._running = self._waiting.popitem(last=False)
+            return self._running
+
+    def _perform(self, request: Request) -> None:
+        """Perform a job in the thread; its last message is an `End`."""
+
+    def _stop(self, request: Request) -> None:
+        """Stop a running job, from another thread."""
+
+    def _end(self) -> None:
+        """End the processes, busy or idle."""
+
+
+class Solver(Queue):
+    """One warm worker process."""
+
+    def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
+        super().__init__(loop)
+        self._worker: WorkerProcess | None = None
+        self._context: Any = multiprocessing.get_context("spawn")
 
     @property
     def pid(self) -> int | None:
@@ -67,39 +138,7 @@ class Solver:
         worker = self._worker
         return None if worker is None else worker.process.pid
 
-    def submit(self, owner: str, job: Any, receive: Receive) -> None:
-        """Perform a job as soon as the process is free; an older one of the owner is dropped.
-
-        A running job of the owner is cancelled, unless it is a quick one: while a slider moves its
-        result is shown, and then that of the newest place.
-        """
-        self.start()
-        with self._changed:
-            self._waiting[owner] = Request(owner, job, receive)
-            running = self._running
-            self._changed.notify()
-        if running is not None and running.owner == owner and not running.is_quick:
-            self._cancel(running)
-
-    def cancel(self, owner: str) -> None:
-        """Drop the waiting job of an owner, and cancel the running one."""
-        with self._changed:
-            self._waiting.pop(owner, None)
-            running = self._running
-        if running is not None and running.owner == owner:
-            self._cancel(running)
-
-    def close(self) -> None:
-        """End the process, busy or idle."""
-        with self._changed:
-            self._closed = True
-            self._waiting.clear()
-            self._changed.notify()
-            worker = self._worker
-        if worker is not None:
-            end([worker])
-
-    def _cancel(self, running: Request) -> None:
+    def _stop(self, request: Request) -> None:
         """Ask the process to end a job between two cycles; kill it if it does not."""
         worker = self._worker
         if worker is None:
@@ -107,29 +146,23 @@ class Solver:
         with suppress(OSError, ValueError):
             worker.connection.send(None)
         self._loop.call_soon_threadsafe(
-            lambda: self._loop.call_later(_GRACE, self._kill, running, worker)
+            lambda: self._loop.call_later(_GRACE, self._kill, request, worker)
         )
 
     def _kill(self, request: Request, worker: WorkerProcess) -> None:
         if self._running is request and not request.is_busy:
             worker.process.kill()
 
+    def _end(self) -> None:
+        if self._worker is not None:
+            end([self._worker])
+
     # ---- in the thread
 
     def _work(self) -> None:
         with suppress(OSError):  # so that the first job finds it compiled; it is tried again then
             self._alive()
-        while not self._closed:
-            request = self._next()
-            if request is None:
-                return
-            try:
-                self._perform(request, self._alive())
-            except OSError as error:  # no process can be started
-                self._pass_on(request, Failure(str(error), again=True))
-                self._pass_on(request, End())
-            with self._changed:
-                self._running = None
+        super()._work()
 
     def _alive(self) -> WorkerProcess:
         """Return the process, started again if it has ended."""
@@ -143,31 +176,19 @@ class Solver:
                 worker.connection.recv()
         return worker
 
-    def _next(self) -> Request | None:
-        with self._changed:
-            while not (self._waiting or self._closed):
-                self._changed.wait()
-            if self._closed:
-                return None
-            _, self._running = self._waiting.popitem(last=False)
-            return self._running
-
-    def _perform(self, request: Request, worker: WorkerProcess) -> None:
+    def _perform(self, request: Request) -> None:
         """Send a job; pass its messages on until it ends or the process does."""
+        worker = self._alive()
         try:
             worker.connection.send(request.job)
             while True:
                 message = worker.connection.recv()
                 request.is_busy = isinstance(message, Note) and message.text.startswith(_COMPILING)
-                self._pass_on(request, message)
+                self.pass_on(request, message)
                 if isinstance(message, End):
                     return
         except (EOFError, OSError):
             worker.process.join(_GRACE)  # the connection may end before the process
             if not self._closed:
-                self._pass_on(request, Failure(DIED, again=True))
-                self._pass_on(request, End())
-
-    def _pass_on(self, request: Request, message: Any) -> None:
-        with suppress(RuntimeError):  # the loop has ended
-            self._loop.call_soon_threadsafe(request.receive, message)
+                self.pass_on(request, Failure(DIED, again=True))
+                self.pass_on(request, End())

@@ -2,9 +2,8 @@
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import closing, nullcontext
+from contextlib import closing
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from tehl.api.problem import ContactProblem
@@ -23,7 +22,7 @@ from tehl.studies.contacts import (
     template_tables,
 )
 from tehl.studies.runner import QUIET, Outcome, StudyMonitor, run
-from tehl.studies.store import Store
+from tehl.studies.store import Store, opened
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -233,10 +232,7 @@ def solve_contacts(
     else:
         base, folder = template_tables(None if template is None else Path(template))
     contacts = contacts_of(frame, base, folder)
-    with (
-        TemporaryDirectory() if store is None else nullcontext(store) as place,
-        closing(Store(place)) as kept,
-    ):
+    with closing(opened(store)) as kept:
         solve_list(contacts, kept, jobs=jobs, monitor=monitor)
         lines = list(answers(contacts, kept))
     found = frame_of(headings_of(lines, contacts), lines)

@@ -1,7 +1,8 @@
 """Where cases are solved: in this process, in processes of this machine, or on a dask cluster.
 
 An engine takes functions, each under a ticket, and returns in any order each ticket with what its
-function gave: a value, the error that it raised, or :class:`WorkerDied`.
+function gave: a value, the error that it raised, or :class:`WorkerDied`. What runs in a worker
+stands at the end.
 """
 
 import multiprocessing
@@ -13,13 +14,24 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future
 from concurrent.futures import wait as wait_for
 from contextlib import closing, contextmanager, suppress
-from multiprocessing import resource_tracker
+from dataclasses import replace
+from multiprocessing import parent_process, resource_tracker
 from multiprocessing.connection import Connection, wait
-from typing import Any
+from pathlib import Path
+from threading import Lock, Thread
+from typing import TYPE_CHECKING, Any
 
-from tehl.base.errors import InputError
+from tehl.api.results import ConvergenceError, Result, load_as
+from tehl.base.errors import InputError, TehlError
+from tehl.base.lazy import lazy
 from tehl.base.version import __version__
-from tehl.studies.worker import attempt, serve
+from tehl.result.solution import Cost
+from tehl.studies.case import Case, Row, row_of
+
+if TYPE_CHECKING:
+    from tehl.api import solvers
+else:
+    solvers = lazy("tehl.api.solvers")
 
 Ticket = Any
 Finished = list[tuple[Ticket, Any]]
@@ -31,6 +43,8 @@ _STARTS, _PAUSE = 3, 0.1
 """Attempts to start workers, and seconds between them, for a dying fork server to end."""
 _GRACE = 10.0
 """Seconds for a terminated worker to end."""
+_STARTING = Lock()
+"""Held while the environment of the program is that of workers."""
 _CONNECT = 30.0
 """Seconds to find a scheduler."""
 _NO_WORKER = (
@@ -42,6 +56,10 @@ _NO_WORKER = (
 
 class WorkerDied(Exception):  # noqa: N818 (an event)
     """The process ended while it solved."""
+
+
+class Stopped(Exception):  # noqa: N818 (an event)
+    """A pool was stopped by another thread."""
 
 
 class Engine:
@@ -95,11 +113,11 @@ def engine_of(
         return
     if not jobs >= 1:
         raise InputError(f"jobs = {jobs} must be at least 1")
-    with closing(Engine() if jobs == 1 else _Pool(min(jobs, cases), forked=forked)) as engine:
+    with closing(Engine() if jobs == 1 else Pool(min(jobs, cases), forked=forked)) as engine:
         yield engine
 
 
-class _Pool(Engine):
+class Pool(Engine):
     """Processes of this machine.
 
     Each has its own connection and one task at a time, so a crash loses one task only. Each loads
@@ -112,15 +130,18 @@ class _Pool(Engine):
     def __init__(self, jobs: int, *, forked: bool = False) -> None:
         self._jobs, self._idle = jobs, list[WorkerProcess]()
         self._busy: dict[Connection, tuple[WorkerProcess, Ticket]] = {}
+        self._stopped, self._stopper = multiprocessing.Pipe(duplex=False)
         forked = forked and sys.platform == "linux"  # elsewhere libraries do not survive a fork
         self._context: Any = multiprocessing.get_context("forkserver" if forked else "spawn")
         if forked:
             self._context.set_forkserver_preload(["tehl.studies.ready"])
 
     def workers(self) -> int:
+        """Return the number of processes."""
         return self._jobs
 
     def submit(self, ticket: Ticket, function: Callable[..., Any], *arguments: Any) -> None:
+        """Send a task to an idle process."""
         if not self._idle:
             self._idle = self._started(self._jobs - len(self._busy))
         worker = self._idle.pop()
@@ -129,9 +150,11 @@ class _Pool(Engine):
         self._busy[worker.connection] = worker, ticket
 
     def take(self) -> Finished:
-        """Wait until some workers have finished or died; return their tasks."""
+        """Wait until some workers have finished or died; return their tasks, or raise `Stopped`."""
         finished: Finished = []
-        for connection in wait(self._busy):
+        for connection in wait([*self._busy, self._stopped]):
+            if connection is self._stopped:
+                raise Stopped
             assert isinstance(connection, Connection)
             worker, ticket = self._busy.pop(connection)
             try:
@@ -142,8 +165,19 @@ class _Pool(Engine):
                 finished.append((ticket, WorkerDied()))
         return finished
 
+    def stop(self) -> None:
+        """End a run from another thread; the pool can only be closed then."""
+        self._stopper.send(None)
+
+    @property
+    def is_stopped(self) -> bool:
+        """Whether :meth:`stop` was called."""
+        return self._stopped.poll()
+
     def close(self) -> None:
+        """End the processes."""
         end([*self._idle, *(worker for worker, _ in self._busy.values())])
+        self._idle, self._busy = [], {}
 
     def _started(self, count: int) -> list["WorkerProcess"]:
         """Start workers side by side; return them when each has reported that it is ready."""
@@ -184,6 +218,11 @@ def end(workers: list[WorkerProcess]) -> None:
 @contextmanager
 def undisturbed() -> Iterator[None]:
     """Give the environment of workers to what is started, and keep Ctrl-C from it."""
+    with _STARTING:
+        yield from _undisturbed()
+
+
+def _undisturbed() -> Iterator[None]:
     before = {name: os.environ[name] for name in _ENVIRONMENT if name in os.environ}
     os.environ.update(_ENVIRONMENT)
     if sys.platform != "win32":
@@ -252,3 +291,132 @@ def _client(address: str) -> Iterator[Any]:
 
 def _version() -> str:
     return __version__
+
+
+# ---- in a worker
+
+Files = tuple[Path | None, Path | None]
+"""Where the fields of a case go, and those of another case to start from."""
+Solve = Callable[[Case, Path | None, Path | None], Row]
+Make = Callable[[Case, Result], Row]
+"""Makes the row of a result."""
+
+
+def serve(connection: Connection) -> None:
+    """Report that the process is ready; then call each function received and return its outcome."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the parent, which ends this one
+    Thread(target=end_with_parent, daemon=True).start()
+    with suppress(EOFError, ConnectionError):  # the parent is gone or has closed
+        connection.send("ready")
+        while True:
+            connection.send(attempt(*connection.recv()))
+
+
+def attempt(function: Callable[..., Any], *arguments: Any) -> Any:
+    """Return what a function returns, or the error that it raises."""
+    try:
+        return function(*arguments)
+    except Exception as error:
+        return error
+
+
+def end_with_parent() -> None:
+    """End this process when its parent has ended, even during a solve."""
+    parent = parent_process()
+    if parent is not None:
+        wait([parent.sentinel])
+        os._exit(0)
+
+
+def solve_in_turn(solve: Solve, task: list[tuple[Case, Files]], seconds: float) -> list[Row]:
+    """Return the rows of the first cases of a task, of one at least.
+
+    Parameters
+    ----------
+    solve : callable
+        As :func:`work`.
+    task : list of (Case, Files)
+        The cases, and the files of their fields.
+    seconds : float
+        Time after which the remaining cases are left.
+
+    Raises
+    ------
+    OSError, InputError
+        If the fields of the first case cannot be written; a later one is left with those after it.
+    """
+    start, rows = time.perf_counter(), list[Row]()
+    for case, files in task:
+        if rows and time.perf_counter() - start > seconds:
+            break
+        try:
+            rows.append(solve(case, *files))
+        except (OSError, InputError):
+            if not rows:
+                raise
+            break
+    return rows
+
+
+def work(case: Case, fields: Path | None, guess: Path | None = None, *, make: Make = row_of) -> Row:
+    """Return the row of a case; an error of the case is in the row.
+
+    Parameters
+    ----------
+    case : Case
+        What to solve.
+    fields : Path or None
+        File for the result, converged or not; None if only the row is wanted.
+    guess : Path or None
+        File with the result of a neighbour to start from.
+    make : callable
+        Makes the row of a result.
+
+    Raises
+    ------
+    OSError, InputError
+        If the fields cannot be written, which is not an error of the case.
+    """
+    wall, cpu = time.perf_counter(), time.process_time()
+    try:
+        result = _solved(case, guess)
+        row = make(case, result)
+    except Exception as error:  # an error in one case must not end a thousand
+        cost = Cost(cpu_seconds=time.process_time() - cpu, wall_seconds=time.perf_counter() - wall)
+        return replace(_failed(case, error), cost=cost)
+    if fields is not None:
+        result.save(fields)
+    return row
+
+
+def _failed(case: Case, error: Exception) -> Row:
+    status, cause, message = "failed", "error", f"{type(error).__name__}: {error}"
+    if isinstance(error, InputError):
+        status, cause, message = "bad_input", "bad_input", str(error)
+    elif isinstance(error, MemoryError):
+        cause, message = "out_of_memory", "not enough memory: take fewer points or fewer jobs"
+    message = " ".join(message.split())
+    return Row(
+        key=case.key,
+        status=status,
+        cause=cause,
+        message=message,
+        retry_settings=case.retry_settings,
+    )
+
+
+def _solved(case: Case, guess: Path | None) -> Result:
+    """Return the result, converged or not; a guess that cannot be read is ignored."""
+    known = None
+    if guess is not None:
+        with suppress(TehlError):
+            known = load_as(Result, guess)
+    try:
+        options = case.solved_options
+        if case.certify:
+            return solvers.certify(case.problem, options)
+        if case.problem.has_passes:
+            return solvers.solve_passes(case.problem, options)
+        return solvers.solve(case.problem, options, guess=known)
+    except ConvergenceError as error:
+        return error.result

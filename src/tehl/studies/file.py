@@ -4,9 +4,8 @@ import copy
 import math
 import re
 from collections.abc import Mapping, Sequence
-from contextlib import closing, nullcontext
+from contextlib import closing
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field, StrictBool, ValidationError
@@ -28,10 +27,10 @@ from tehl.studies.axes import (
     count_of,
     groups_of,
 )
-from tehl.studies.pictures import Picture, checked_pictures
+from tehl.studies.output import Picture, checked_pictures
 from tehl.studies.plan import Plan, Study, study_of
 from tehl.studies.runner import run
-from tehl.studies.store import Keep, Store
+from tehl.studies.store import Keep, Store, opened
 from tehl.studies.tables import table
 
 if TYPE_CHECKING:
@@ -276,8 +275,6 @@ def study(
         If an axis is not valid; the message names it.
     """
     found = cases_of(problem, axes, options, certify=certify)
-    with TemporaryDirectory() if store is None else nullcontext(store) as place:
-        kept = place if isinstance(place, Store) else Store(place)
-        with closing(kept):
-            run(found.cases, kept, jobs=jobs)
-            return table(found.cases, kept, found.units)
+    with closing(opened(store)) as kept:
+        run(found.cases, kept, jobs=jobs)
+        return table(found.cases, kept, found.units)

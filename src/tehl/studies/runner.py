@@ -1,20 +1,34 @@
-"""Run the cases of a study that are not finished yet."""
+"""Run the cases of a study that are not finished yet; expect their time, memory and disk."""
 
 import math
 import time
 from collections import deque
-from collections.abc import Iterable
-from contextlib import AbstractContextManager
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Protocol
 
 from tehl.base.errors import InputError
 from tehl.base.lazy import lazy
+from tehl.contact.options import Options
+from tehl.estimate.cpu_time import expected_seconds
+from tehl.estimate.domain import planned
+from tehl.estimate.memory import available_memory, needed_memory
+from tehl.estimate.scaling import ScaledProblem
 from tehl.kernels.cache import is_cold
 from tehl.studies.case import Case, Row, retried
-from tehl.studies.engines import Engine, WorkerDied, engine_of
+from tehl.studies.engines import (
+    Engine,
+    Files,
+    Make,
+    Solve,
+    WorkerDied,
+    engine_of,
+    solve_in_turn,
+    work,
+)
 from tehl.studies.store import Store
-from tehl.studies.worker import Files, solve_in_turn, work
 
 if TYPE_CHECKING:
     from tehl.kernels import warmup
@@ -87,6 +101,8 @@ def run(  # noqa: PLR0913 (keywords with defaults)
     retry_failed: bool = False,
     warm_start: bool = False,
     forked: bool = False,
+    engine: Engine | None = None,
+    make: Make | None = None,
     monitor: StudyMonitor = QUIET,
 ) -> Outcome:
     """Solve the cases that the store does not have yet; keep them as tasks are finished.
@@ -115,6 +131,10 @@ def run(  # noqa: PLR0913 (keywords with defaults)
         On Linux, fork the processes from one that has loaded the solver, which saves two seconds of
         a core for each. It is Python's ``forkserver``, which stays until the program ends and
         serves all of it: for programs that have no other use for it.
+    engine : Engine or None
+        An engine to solve on, which stays open, instead of ``jobs`` or a ``scheduler``.
+    make : callable or None
+        Makes the row of a result in the worker; :func:`~tehl.studies.case.row_of` if left out.
     monitor : StudyMonitor
         Takes the reports.
 
@@ -140,8 +160,11 @@ def run(  # noqa: PLR0913 (keywords with defaults)
         if store.keep != "fields":
             raise InputError('a warm start takes a store that keeps the fields: keep = "fields"')
         neighbours = Neighbours(every[key] for key, row in done.items() if row.converged)
-    engine = engine_of(jobs, len(waiting), scheduler, forked=forked)
-    solved = _Run(waiting, store, neighbours, monitor).solve(engine) if waiting else {}
+    place = (
+        nullcontext(engine) if engine else engine_of(jobs, len(waiting), scheduler, forked=forked)
+    )
+    solve = work if make is None else partial(work, make=make)
+    solved = _Run(waiting, store, neighbours, monitor, solve).solve(place) if waiting else {}
     rows = done | solved
     return Outcome(
         total=len(every),
@@ -199,10 +222,16 @@ class _Run:
     """
 
     def __init__(
-        self, cases: list[Case], store: Store, neighbours: Neighbours | None, monitor: StudyMonitor
+        self,
+        cases: list[Case],
+        store: Store,
+        neighbours: Neighbours | None,
+        monitor: StudyMonitor,
+        solve_case: Solve,
     ) -> None:
         self.waiting, self.suspects = deque(cases), deque[Case]()
         self.store, self.neighbours, self.monitor = store, neighbours, monitor
+        self.solve_case = solve_case
         self.submitted, self.alone = 0, False
         self.seconds, self.solved = 0.0, 0
         self.rows: dict[str, Row] = {}
@@ -230,7 +259,7 @@ class _Run:
         while queue and self.submitted < window:
             cases = [queue.popleft() for _ in range(self._task_size(engine, workers))]
             task = [(case, self._files(case)) for case in cases]
-            engine.submit(cases, solve_in_turn, work, task, engine.task_seconds)
+            engine.submit(cases, solve_in_turn, self.solve_case, task, engine.task_seconds)
             self.submitted += 1
 
     def _task_size(self, engine: Engine, workers: int) -> int:
@@ -288,3 +317,99 @@ def _compile_once(cases: Iterable[Case], monitor: StudyMonitor) -> None:
 
     monitor.message("compiling the kernels once, which takes 10 to 60 s")
     warmup.warm_up(coupled=coupled)
+
+
+# ---- forecast
+
+_CERTIFIED = 3.5
+"""Work of a certified solve over that of its finest grid, to tight tolerances."""
+_BASE_SECONDS, _START_SECONDS = 0.025, 3.0
+"""Of a case, beside its solve; until workers solve."""
+_ROW_BYTES, _FILE_BYTES = 3_500, 25_000
+"""Of a finished case: its row; its file of fields, beside those by node."""
+_FIELD_BYTES, _LAYER_BYTES = 37, 8
+"""Compressed, per node: pressure, film and shear stresses; each layer of temperature."""
+_ENOUGH = 3
+"""Finished cases that show how fast this machine is."""
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class Forecast:
+    """Estimates of a study: times of the open cases, disk of all, memory of all workers at most."""
+
+    cases: int
+    open: int
+    cpu_seconds: float
+    wall_seconds: float
+    disk_bytes: float
+    memory_bytes: float
+    is_calibrated: bool
+    """Whether finished cases show how fast this machine solves these contacts."""
+
+
+def forecast(
+    cases: Sequence[Case], finished: Mapping[str, Row], *, jobs: int, fields: bool
+) -> Forecast:
+    """Return the estimates for a study.
+
+    Parameters
+    ----------
+    cases : sequence of Case
+        All cases of the study.
+    finished : mapping of str to Row
+        Finished cases by key; their times calibrate the estimate for the others.
+    jobs, fields : int, bool
+        Number of workers, and whether fields are kept.
+    """
+    every = {case.key: case for case in cases}
+    waiting = [case for key, case in every.items() if key not in finished]
+    known = {key: row.cost.cpu_seconds for key, row in finished.items() if row.cost.cpu_seconds > 0}
+    estimated = sum(_seconds(every[key]) for key in known)
+    slowness = sum(known.values()) / estimated if len(known) >= _ENOUGH else 1.0
+    seconds = [slowness * _seconds(case) for case in waiting]
+    workers = max(1, min(jobs, len(waiting)))
+    disk = sum(_ROW_BYTES + (_field_bytes(case) if fields else 0) for case in every.values())
+    needs = sorted((needed_memory(_plan(case), case.problem) for case in waiting), reverse=True)
+    longest = max(sum(seconds) / workers, max(seconds, default=0.0))
+    return Forecast(
+        cases=len(every),
+        open=len(waiting),
+        cpu_seconds=sum(seconds),
+        wall_seconds=longest + (_START_SECONDS if waiting else 0.0),
+        disk_bytes=disk,
+        memory_bytes=sum(needs[:workers]),
+        is_calibrated=len(known) >= _ENOUGH,
+    )
+
+
+def expected_times(cases: Sequence[Case], finished: Mapping[str, Row]) -> dict[str, float]:
+    """Return the CPU seconds to expect of the cases that are not finished, by their keys."""
+    every = {case.key: case for case in cases}
+    return {key: _seconds(case) for key, case in every.items() if key not in finished}
+
+
+def check_memory_of(forecast: Forecast, jobs: int) -> None:
+    """Raise an InputError if all workers together need more memory than is available."""
+    available = available_memory()
+    if available is None or forecast.memory_bytes <= available or jobs < 2:
+        return
+    raise InputError(
+        f"{jobs} workers take about {forecast.memory_bytes / 1e9:.2g} GB of memory together, and "
+        f"{available / 1e9:.2g} GB are available: take fewer --jobs or fewer points"
+    )
+
+
+def _plan(case: Case) -> Options:
+    """Return the options of a case with the number of nodes to expect."""
+    return planned(ScaledProblem.of(case.problem), case.options)
+
+
+def _seconds(case: Case) -> float:
+    seconds = expected_seconds(ScaledProblem.of(case.problem), case.options) + _BASE_SECONDS
+    return seconds * (_CERTIFIED if case.certify else 1.0)
+
+
+def _field_bytes(case: Case) -> int:
+    thermal = case.problem.thermal
+    layers = 0 if thermal is None else thermal.nodes + 2
+    return (_FIELD_BYTES + _LAYER_BYTES * layers) * math.prod(_plan(case).shape) + _FILE_BYTES

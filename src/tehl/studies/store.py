@@ -197,6 +197,53 @@ class Store:
             raise FileFormatError(message) from None
 
 
+class Memory(Store):
+    """Finished cases in memory, without fields."""
+
+    def __init__(self) -> None:
+        self.keep, self._known = "summary", dict[str, Row]()
+
+    @property
+    def exists(self) -> bool:
+        """Whether any case is known."""
+        return bool(self._known)
+
+    def rows(self, cases: Iterable[Case], *, summaries: bool = True) -> dict[str, Row]:
+        """Return the rows of the finished cases by key."""
+        del summaries
+        keys = dict.fromkeys(case.key for case in cases)
+        return {key: self._known[key] for key in keys if key in self._known}
+
+    def result(self, case: Case) -> None:
+        """Return None: fields are not kept."""
+        del case
+
+    def put(self, *rows: Row) -> None:
+        """Keep rows; they replace older ones of the same keys."""
+        self._known |= {row.key: row for row in rows}
+
+    def forget_failed(self) -> None:
+        """Forget the cases that did not converge, so that they are solved again."""
+        self._known = {key: row for key, row in self._known.items() if row.converged}
+
+    def prepare(self) -> None:
+        """Do nothing: there are no files."""
+
+    def sweep(self, cases: Collection[Case]) -> None:
+        """Do nothing: there are no files."""
+        del cases
+
+    def close(self) -> None:
+        """Do nothing: the rows stay."""
+
+
+def opened(place: Store | str | Path | None) -> Store:
+    """Return a store, that of a folder, or one in memory if there is no place."""
+    if place is None:
+        return Memory()
+    return place if isinstance(place, Store) else Store(place)
+
+
 def _line(row: Row) -> tuple[str | float | None, ...]:
     hint = json.dumps(asdict(row.hint)) if row.hint else None
     words = (row.cause, row.message, hint)
