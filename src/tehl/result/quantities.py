@@ -89,6 +89,12 @@ def _scaled(solution: Any, which: str) -> float:
     return float(getattr(solution.film, which) / solution.scales.film_thickness)
 
 
+def _mean_film(solution: Any) -> float:
+    """Return the mean film inside the Hertz ellipse [m], which sets its electric capacitance."""
+    fields = solution.scaled
+    return float(fields.mean_inside(fields.film) * solution.scales.film_thickness)
+
+
 def _if_known(name: str) -> Callable[[Any], Any]:
     """Return what follows from the share where surfaces touch: nothing if that is not known."""
     return lambda found: getattr(found, name) if found.is_share_known else None
@@ -176,6 +182,15 @@ QUANTITIES: tuple[Quantity, ...] = (
             "list notebook line text report page",
             axis="central film thickness $h_c$",
         ),
+    ),
+    Quantity(
+        "film.h_mean_m",
+        lambda found: _positive(_mean_film(found.solution)),
+        error=lambda numbers: numbers.get("errors.central"),
+        symbol="h_m",
+        unit="nm",
+        digits="0.0",
+        words=_words("mean film inside the contact", "list report", axis="mean film $h_m$"),
     ),
     Quantity(
         "film.H_min",
