@@ -5,6 +5,7 @@ coarser one has no acceptable solution, and whether a finer one follows.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from tehl.estimate.scaling import Groups
 from tehl.operators.heights import Heights, heights_of
@@ -13,7 +14,7 @@ from tehl.result.solution import Solution
 from tehl.solver.cycle.continuation import RAISED, TouchingError
 from tehl.solver.cycle.fmg import full_multigrid
 from tehl.solver.cycle.hierarchy import Hierarchy
-from tehl.solver.cycle.iteration import MOST_CYCLES, GridIteration
+from tehl.solver.cycle.iteration import LARGEST_OIL_ERROR, MOST_CYCLES, GridIteration
 from tehl.solver.cycle.ladder import Strategy
 from tehl.solver.cycle.level import Level
 from tehl.solver.judging.convergence import (
@@ -128,7 +129,11 @@ class FilmSolver(GridIteration):
     def errors(self) -> ErrorEstimate | None:
         """Return estimated errors of the film on the last grid; None before its first cycle."""
         level = self.levels[len(self.traces) - 1]
-        return estimated_errors(level, self.traces, self.roughness, self.hierarchy)
+        found = estimated_errors(level, self.traces, self.roughness, self.hierarchy)
+        if found is None or self.oil_error <= LARGEST_OIL_ERROR:
+            return found
+        # each section should pass the same oil, and the film is in proportion to what passes
+        return replace(found, supply=found.supply + self.oil_error)
 
     def reached_before(self, *, last: bool = False) -> tuple[tuple[int, int], float] | None:
         """Return nodes and error bar of the finest grid that converged before the last one.
