@@ -6,6 +6,7 @@ Summary, JSON, tables of studies, lists of contacts, reports, pictures and the l
 
 import math
 from collections.abc import Callable, Iterator
+from operator import attrgetter
 from typing import Any
 
 from tehl.result.derived import (
@@ -54,6 +55,9 @@ OWNERS: dict[str, Callable[[Any], Any]] = {
 list of owners gives a list of blocks."""
 
 
+_EVERYWHERE = "list notebook line text report page"
+
+
 def _words(name: str, places: str, **others: str) -> dict[str, str]:
     """Return the words of a quantity that has one name in several places."""
     return dict.fromkeys(places.split(), name) | others
@@ -63,6 +67,12 @@ def _plain(block: str, keys: str) -> Iterator[Quantity]:
     """Yield quantities that are attributes of the owner of a block, and shown nowhere else."""
     for key in keys.split():
         yield Quantity(f"{block}.{key}")
+
+
+def _of_part(block: str, part: str, keys: str) -> Iterator[Quantity]:
+    """Yield quantities that are attributes of a part of the owner of a block."""
+    for key in keys.split():
+        yield Quantity(f"{block}.{key}", attrgetter(f"{part}.{key}"))
 
 
 def _lists(block: str, keys: str) -> Iterator[Quantity]:
@@ -85,8 +95,14 @@ def moes_film_factor(solution: Any) -> float:
     return float((scales.film_thickness / scales.half_width_x) ** 2 / math.sqrt(2.0 * groups.U))
 
 
-def _scaled(solution: Any, which: str) -> float:
-    return float(getattr(solution.film, which) / solution.scales.film_thickness)
+def _scaled(which: str, *, moes: bool = False) -> Callable[[Any], Any]:
+    """Return a film over its scale, or as Moes has it."""
+
+    def value(found: Any) -> float | None:
+        film = getattr(found.solution.film, which) / found.solution.scales.film_thickness
+        return _positive(film * moes_film_factor(found.solution) if moes else film)
+
+    return value
 
 
 def _if_known(name: str) -> Callable[[Any], Any]:
@@ -122,13 +138,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         digits="0.00",
         words={"axis": "L", "list": "Moes L"},
     ),
-    Quantity("groups.U", lambda result: result.groups.U),
-    Quantity("groups.W", lambda result: result.groups.W),
-    Quantity("groups.G", lambda result: result.groups.G),
-    Quantity("groups.lambda_bar", lambda result: result.groups.lambda_bar),
-    Quantity("groups.alpha_bar", lambda result: result.groups.alpha_bar),
-    Quantity("groups.ellipticity", lambda result: result.groups.ellipticity),
-    Quantity("groups.radius_ratio", lambda result: result.groups.radius_ratio),
+    *_of_part("groups", "groups", "U W G lambda_bar alpha_bar ellipticity radius_ratio"),
     Quantity(
         "groups.hertz_pressure_pa",
         lambda result: result.scales.hertz_pressure,
@@ -157,11 +167,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         symbol="h_min",
         unit="nm",
         digits="0.0",
-        words=_words(
-            "minimum film",
-            "list notebook line text report page",
-            axis="minimum film thickness $h_{min}$",
-        ),
+        words=_words("minimum film", _EVERYWHERE, axis="minimum film thickness $h_{min}$"),
     ),
     Quantity(
         "film.h_central_m",
@@ -171,15 +177,11 @@ QUANTITIES: tuple[Quantity, ...] = (
         symbol="h_c",
         unit="nm",
         digits="0.0",
-        words=_words(
-            "central film",
-            "list notebook line text report page",
-            axis="central film thickness $h_c$",
-        ),
+        words=_words("central film", _EVERYWHERE, axis="central film thickness $h_c$"),
     ),
     Quantity(
         "film.H_min",
-        lambda found: _positive(_scaled(found.solution, "minimum")),
+        _scaled("minimum"),
         name="film_minimum",
         certified="film",
         words={"axis": "minimum film $H_{min}$"},
@@ -187,24 +189,20 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity("film.H_min_node", lambda found: _positive(found.solution.film_scaled.minimum_node)),
     Quantity(
         "film.H_central",
-        lambda found: _positive(_scaled(found.solution, "central")),
+        _scaled("central"),
         name="film_central",
         certified="film",
         words={"axis": "central film $H_c$"},
     ),
     Quantity(
         "film.H_min_moes",
-        lambda found: _positive(
-            _scaled(found.solution, "minimum") * moes_film_factor(found.solution)
-        ),
+        _scaled("minimum", moes=True),
         name="film_minimum",
         words={"axis": "minimum film $H_{min}$ (Moes)"},
     ),
     Quantity(
         "film.H_central_moes",
-        lambda found: _positive(
-            _scaled(found.solution, "central") * moes_film_factor(found.solution)
-        ),
+        _scaled("central", moes=True),
         name="film_central",
         words={"axis": "central film $H_c$ (Moes)"},
     ),
@@ -444,9 +442,7 @@ QUANTITIES: tuple[Quantity, ...] = (
     *_plain("errors", "iteration_central iteration_minimum domain supply"),
     *_plain("errors", "extrapolated spike_resolved"),
     Quantity("cost.points.0", lambda result: [result.scaled.x.size, result.scaled.y.size]),
-    Quantity("cost.cpu_seconds", lambda result: result.cost.cpu_seconds),
-    Quantity("cost.wall_seconds", lambda result: result.cost.wall_seconds),
-    Quantity("cost.work", lambda result: result.cost.work),
+    *_of_part("cost", "cost", "cpu_seconds wall_seconds work"),
 )
 TRANSIENT: tuple[Quantity, ...] = (
     Quantity("film.h_min_m.value", name="film_minimum", unit="nm"),

@@ -19,7 +19,7 @@ UNITS = {
     "%": (100.0, 0.0),
 }
 """Units in which people read quantities: factor from SI, and what is added."""
-_SI = {"m2": "m^2", "m": "m", "pa": "Pa", "k": "K", "w": "W", "rad": "rad"}
+SI = {"m2": "m^2", "m": "m", "pa": "Pa", "k": "K", "w": "W", "rad": "rad"}
 """SI units by the endings of keys."""
 
 
@@ -93,7 +93,7 @@ class Quantity:
 def without_unit(key: str) -> str:
     """Return a key without the SI unit that it ends in."""
     stem, underscore, ending = key.rpartition("_")
-    return stem if underscore and ending in _SI else key
+    return stem if underscore and ending in SI else key
 
 
 FILMS = {"film_central": "central", "film_minimum": "minimum"}
