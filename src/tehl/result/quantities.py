@@ -23,38 +23,6 @@ from tehl.result.derived import (
 )
 from tehl.result.quantity import Quantity
 
-LISTS = ("roughness.waves", "roughness.film_quantiles")
-"""Blocks that are lists of blocks."""
-OWNERS: dict[str, Callable[[Any], Any]] = {
-    "laws": lambda found: found.solution.problem,
-    "domain": lambda found: found.solution.scaled,
-    "groups": lambda found: found.solution,
-    "film": lambda found: found,
-    "pressure": lambda found: found.solution,
-    "temperature": lambda found: found.temperature,
-    "traction": lambda found: found.traction,
-    "traction.surroundings": lambda found: found.traction and found.traction.surroundings,
-    "heat": lambda found: found.solution.heat,
-    "roughness": lambda found: found.rough,
-    "roughness.film_quantiles": lambda found: found.rough and found.rough.quantiles,
-    "roughness.ripples_x": lambda found: found.rough and found.rough.ripples_x,
-    "roughness.ripples_y": lambda found: found.rough and found.rough.ripples_y,
-    "roughness.waves": lambda found: found.rough and found.rough.waves,
-    "load_sharing": lambda found: found.load_sharing,
-    "load_sharing.spots": lambda found: found.load_sharing and found.load_sharing.spots,
-    "touching": lambda found: found.touching,
-    "touching.patches": lambda found: (
-        found.touching.patches if found.touching and found.touching.is_share_known else None
-    ),
-    "starvation": lambda found: found.starvation,
-    "convergence": lambda found: found,
-    "errors": lambda found: found.solution.errors,
-    "cost": lambda found: found.solution,
-}
-"""Owner of each block, from a result with what follows from it; a block without one is null. A
-list of owners gives a list of blocks."""
-
-
 _EVERYWHERE = "list notebook line text report page"
 
 

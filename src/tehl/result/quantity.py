@@ -38,7 +38,7 @@ class Quantity:
     """Place in the summary, block and key: ``"film.h_central_m"``. The key ends in its SI unit. A
     quantity without a block follows from others and is not in the summary; ``.0`` marks a list."""
     value: Callable[[Any], Any] | None = None
-    """Value in SI from the owner of the block (`tehl.result.quantities.OWNERS`), or from `Numbers`
+    """Value in SI from the owner of the block (`tehl.result.registry.OWNERS`), or from `Numbers`
     where there is no block; by default the attribute of the owner that is called as the key without
     its unit."""
     name: str = ""
