@@ -51,7 +51,8 @@ _FIRST: dict[str, tuple[str, ...]] = {
         "pressure.max_pa",
     ),
 }
-"""Quantities that stand first in a place, in this order; the others follow in that of the table."""
+"""Quantities that stand first in a place, in this order; the others follow their block, or all, in
+the order of the table."""
 _BARS_OF = ("pressure", "traction", "temperature", "load_sharing", "touching", "roughness", "heat")
 """Blocks in the order of their error bars in the summary."""
 
@@ -93,12 +94,14 @@ def columns() -> tuple[str, ...]:
 
 def shown_in(place: str) -> tuple[Quantity, ...]:
     """Return the quantities that a place shows, in its order."""
-    known, first = (
-        {one.path: one for one in quantities.QUANTITIES if place in one.words},
-        _FIRST.get(place, ()),
-    )
-    ordered = [path for path in first if path in known]
-    return tuple(known[path] for path in (*ordered, *(path for path in known if path not in first)))
+    known = {one.path: one for one in quantities.QUANTITIES if place in one.words}
+    ordered = [known.pop(path) for path in _FIRST.get(place, ()) if path in known]
+    for one in known.values():
+        of_block = [
+            k for k, other in enumerate(ordered, 1) if one.block and other.block == one.block
+        ]
+        ordered.insert(of_block[-1] if of_block else len(ordered), one)
+    return tuple(ordered)
 
 
 def at(path: str) -> Quantity:
