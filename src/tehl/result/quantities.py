@@ -174,6 +174,15 @@ QUANTITIES: tuple[Quantity, ...] = (
         name="film_central",
         words={"axis": "central film $H_c$ (Moes)"},
     ),
+    Quantity(
+        "film.h_mean_m",
+        lambda found: found.mean_film,
+        name="film_mean",
+        symbol="h_m",
+        unit="nm",
+        digits="0.0",
+        words=_words("mean film in the Hertz contact", "axis report page", list="mean film"),
+    ),
     Quantity("film.minimum_at.0", lambda found: found.solution.film_scaled.minimum_at),
     Quantity("film.rigid_approach", lambda found: found.solution.rigid_approach),
     Quantity(
