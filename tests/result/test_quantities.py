@@ -21,7 +21,7 @@ from tehl.studies.answers import heading_of, values_of
 from tehl.studies.case import Case, flat, row_of
 from tehl.studies.tables import missing_column, table
 
-PLACES = {"axis", "bar", "line", "list", "notebook", "page", "report", "rises", "text"}
+PLACES = {"axis", "bar", "key", "line", "list", "notebook", "page", "report", "rises", "text"}
 NEW = Quantity(
     "film.h_edge_m",
     lambda found: 2.0 * found.solution.film.central,
@@ -29,7 +29,7 @@ NEW = Quantity(
     symbol="h_e",
     unit="nm",
     digits="0.0",
-    words=dict.fromkeys(PLACES - {"bar", "rises"}, "film at the edge"),
+    words=dict.fromkeys(PLACES - {"bar", "key", "rises"}, "film at the edge"),
 )
 
 
@@ -82,7 +82,7 @@ def test_a_new_quantity_is_in_texts_reports_and_on_the_page(extended):
     assert f"film at the edge {edge:.4g} nm" in repr(extended)
     page = report_text(extended, dpi=20)
     assert f'film at the edge</td><td class="number">{edge:.4g} nm</td>' in page
-    shown = value_of(numbers(extended, explain(extended.problem)), "film_edge")
+    shown = value_of(numbers(extended, explain(extended.problem)), "h_edge")
     assert (shown.name, shown.symbol, shown.unit) == ("film at the edge", "h_e", "nm")
     assert shown.value == pytest.approx(edge)
     assert shown.error == 0.05

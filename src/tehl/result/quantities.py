@@ -192,7 +192,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         certified="film",
         symbol="p_max",
         unit="GPa",
-        words=_words("largest pressure", "axis list notebook line report page"),
+        words=_words("largest pressure", "axis list notebook line report page", key="p_max"),
     ),
     Quantity(
         "pressure.P_max",
@@ -290,6 +290,7 @@ QUANTITIES: tuple[Quantity, ...] = (
             "axis": "central film over roughness λ",
             "list": "lambda",
             "page": "film over roughness",
+            "key": "lambda",
         },
     ),
     Quantity("roughness.lambda_minimum", words={"axis": "minimum film over roughness λ"}),
@@ -368,7 +369,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         error=largest_temperature_error,
         symbol="T_max",
         unit="°C",
-        words={"page": "largest temperature"},
+        words={"page": "largest temperature", "key": "t_max"},
     ),
     Quantity(
         "friction",
@@ -393,7 +394,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         unit="%",
         digits="0.0",
         symbol="w_a/w",
-        words={"list": "load on asperities", "page": "load on asperities"},
+        words=_words("load on asperities", "list page", key="load_share"),
     ),
     Quantity("starvation.ratio", words={"axis": "supply over that of the flooded contact r"}),
     Quantity(

@@ -55,7 +55,8 @@ class Quantity:
     words: Mapping[str, str] = field(default_factory=dict)
     """What it is called where it is shown: ``axis`` of a picture, ``list`` of contacts, table of a
     study in a ``notebook``, ``line`` in Python, ``text`` of a terminal, ``report``, its table of
-    ``rises``, live ``page``; and ``bar``, what follows a certified value in a text."""
+    ``rises``, live ``page``. Further ``key``, its key there if it is not that of the summary, and
+    ``bar``, what follows a certified value in a text."""
 
     @property
     def block(self) -> str:
