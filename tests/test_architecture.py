@@ -54,6 +54,8 @@ def test_the_house_is_seen_in_a_minute():
     assert found["floors"] <= 13
     assert found["arrows between rooms"] <= 120
     assert found["imports inside functions"] < 60
+    assert found["files that name load_share"] <= 2
+    assert found["files that name mid_film_rise_central"] <= 2
 
 
 def test_a_circle_is_found():

@@ -24,25 +24,25 @@ def printed_by_solve(case, folder):
 
 
 def test_another_load_gives_the_film_that_tehl_solve_prints(page, tmp_path):
-    before = number(page, "film_central")
+    before = number(page, "h_central")
     type_into(page, "load", "120")
-    until(lambda: number(page, "film_central") != before and page.locator(".light.good").count())
+    until(lambda: number(page, "h_central") != before and page.locator(".light.good").count())
     solved(page)
     expected = printed_by_solve(BALL.replace('"80 N"', '"120 N"'), tmp_path)
     film = expected["film"]["h_central_m"] * 1e9
-    until(lambda: number(page, "film_central") == f"{film:.1f}")
-    assert number(page, "film_minimum") == f"{expected['film']['h_min_m'] * 1e9:.1f}"
+    until(lambda: number(page, "h_central") == f"{film:.1f}")
+    assert number(page, "h_min") == f"{expected['film']['h_min_m'] * 1e9:.1f}"
 
 
 def test_the_slider_moves_the_film_and_the_exact_entry_with_it(page):
-    before = number(page, "film_central")
+    before = number(page, "h_central")
     box = page.get_by_role("slider", name="entrainment speed").bounding_box()
     middle = box["y"] + 0.5 * box["height"]
     page.mouse.move(box["x"] + 0.5 * box["width"], middle)
     page.mouse.down()
     page.mouse.move(box["x"] + 0.6 * box["width"], middle, steps=5)
     page.locator(".status-words", has_text="65 × 65").wait_for()
-    until(lambda: number(page, "film_central") != before)
+    until(lambda: number(page, "h_central") != before)
     page.mouse.up()
     solved(page, "converged on 1")
     entry = page.get_by_role("textbox", name="entrainment speed", exact=True)

@@ -70,11 +70,11 @@ def test_no_request_leaves_the_machine(page, context):
 
 def test_two_tabs_are_independent(page, context, served):
     other = opened(context, served.address)
-    first = number(page, "film_central")
+    first = number(page, "h_central")
     type_into(other, "load", "300")
-    until(lambda: number(other, "film_central") != first)
+    until(lambda: number(other, "h_central") != first)
     solved(other)
-    assert number(page, "film_central") == first
+    assert number(page, "h_central") == first
     assert page.get_by_role("textbox", name="load", exact=True).input_value() == "80"
 
 

@@ -69,7 +69,7 @@ def test_the_screenshots_of_the_guide(page):
     store(page, "explore")
     page.get_by_role("button", name="Pin", exact=True).click()
     type_into(page, "Hertz pressure", "0.6")
-    until(lambda: "−2" in page.locator('[data-key="pressure_max"] .change').inner_text())
+    until(lambda: "−2" in page.locator('[data-key="p_max"] .change').inner_text())
     solved(page)
     store(page, "explore-compare")
     page.get_by_role("button", name="Unpin").click()

@@ -42,8 +42,8 @@ def test_a_share_that_a_coarse_grid_does_not_know_is_not_shown():
     with pytest.raises(tehl.ConvergenceError) as coarse:  # its numbers are shown all the same
         tehl.solve(problem, options)
     found = numbers(coarse.value.result, explain(problem, options))
-    assert value_of(found, "film_central").value > 0.0
-    for key in ("share", "friction", "power"):
+    assert value_of(found, "h_central").value > 0.0
+    for key in ("load_share", "friction", "power"):
         assert value_of(found, key).value is None
         assert value_of(found, key).remark.startswith("not known: ")
 
@@ -52,7 +52,7 @@ def test_surfaces_that_touch_add_to_friction_and_power():
     problem, options = touching(129)
     result = tehl.solve(problem, options)
     found = numbers(result, explain(problem, options))
-    share = value_of(found, "share").value
+    share = value_of(found, "load_share").value
     assert share == pytest.approx(100.0 * result.touching.share)
     assert share > 0.0
     assert value_of(found, "friction").value == result.touching.friction is not None

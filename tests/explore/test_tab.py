@@ -169,10 +169,10 @@ def test_while_a_new_contact_is_solved_the_film_before_is_old_and_follows_the_fo
     before = tab.shown
     tab.turn(knob(tab, "contact.entrainment_speed"), 3.0, "m/s", moving=True)
     assert tab.is_old
-    film = value_of(tab.shown.numbers, "film_central")
+    film = value_of(tab.shown.numbers, "h_central")
     assert film.by_formula
     assert film.value == pytest.approx(
-        2.0**0.67 * value_of(before.numbers, "film_central").value, rel=0.03
+        2.0**0.67 * value_of(before.numbers, "h_central").value, rel=0.03
     )
     assert tab.shown.maps.film.max() == pytest.approx(
         before.maps.film.max() * tab.shown.maps.central / before.maps.central
@@ -211,7 +211,7 @@ def test_a_film_that_did_not_converge_is_never_shown(tab, part):
     tab.solver.receivers[-1](unconverged(part))
     tab.solver.receivers[-1](End())
     assert tab.is_old
-    assert value_of(tab.shown.numbers, "film_central").by_formula
+    assert value_of(tab.shown.numbers, "h_central").by_formula
     assert not tab.latest.outcome.converged
 
 

@@ -90,16 +90,15 @@ def _numbers(
     part = starved_part(supply_ratio(scaled))
     over_roughness = ratios.film / ratios.roughness
     factors = {
-        "film_central": ratios.film,
-        "film_minimum": ratios.film,
-        "lambda_central": over_roughness,
+        **{one.key: ratios.film for one in found if one.unit == "nm"},
+        "lambda": over_roughness,
         "kappa": over_roughness**KAPPA,
-        "pressure_max": ratios.pressure,
+        "p_max": ratios.pressure,
     }
     formulas = {
-        "film_central": film_formulas(films, part, central=True),
-        "film_minimum": film_formulas(films, part, central=False),
-        "pressure_max": (("Hertz", wanted.hertz.pressure * 1e-9),),
+        "h_central": film_formulas(films, part, central=True),
+        "h_min": film_formulas(films, part, central=False),
+        "p_max": (("Hertz", wanted.hertz.pressure * 1e-9),),
     }
     return tuple(
         replace(

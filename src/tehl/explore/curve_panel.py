@@ -23,8 +23,8 @@ _MOST = 101
 _ABOVE = {
     "friction": "contact.slide_roll_ratio",
     "power": "contact.slide_roll_ratio",
-    "temperature_max": "contact.slide_roll_ratio",
-    "pressure_max": "contact.load",
+    "t_max": "contact.slide_roll_ratio",
+    "p_max": "contact.load",
 }
 """What a quantity is swept over at first; the others over speed."""
 _SPEED = "contact.entrainment_speed"
@@ -92,9 +92,9 @@ class CurvePanel:
         if shown is None:
             return
         names = {one.key: one.name for one in shown.numbers}
-        chosen = key or self.quantity.value or "film_central"
+        chosen = key or self.quantity.value or "h_central"
         if names != self.quantity.options or chosen != self.quantity.value:
-            self.quantity.set_options(names, value=chosen if chosen in names else "film_central")
+            self.quantity.set_options(names, value=chosen if chosen in names else "h_central")
         if key is not None:
             wanted = _ABOVE.get(key, _SPEED)
             if wanted in self.over.options:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 _REACH = 0.3
 """Relative deviation at the ends of the drawn error bar."""
-_MAIN = ("film_central", "film_minimum", "pressure_max", "friction")
+_MAIN = ("h_central", "h_min", "p_max", "friction")
 """Numbers that stay in sight on a narrow screen."""
 
 

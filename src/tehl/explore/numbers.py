@@ -8,7 +8,7 @@ from tehl.estimate.film_formulas import FilmEstimate
 from tehl.post.following import Following
 from tehl.report.explain import Explanation
 from tehl.result.derived import KAPPA, has_solids
-from tehl.result.quantity import Quantity
+from tehl.result.quantity import Quantity, without_unit
 from tehl.result.registry import NumbersOf, shown_in
 
 Formulas = tuple[tuple[str, float], ...]
@@ -71,8 +71,8 @@ def _numbers(
 
 
 def key_of(one: Quantity) -> str:
-    """Return the key of a quantity on the page."""
-    return one.name or one.key
+    """Return the key of a quantity on the page, its heading in tables of sweeps."""
+    return one.words.get("key", without_unit(one.key))
 
 
 def value_of(found: tuple[Number, ...], key: str) -> Number | None:

@@ -122,7 +122,7 @@ def blocks_of(found: Any, only: str = "") -> Block:
     content: Block = {}
     for path, rows in groupby(registry.in_summary(), key=lambda one: one.block):
         if not only or f"{path}.".startswith(f"{only}."):
-            _add(content, path, quantities.OWNERS[path](found), list(rows))
+            _add(content, path, registry.OWNERS[path](found), list(rows))
     return content
 
 
@@ -135,7 +135,7 @@ def _add(content: Block, path: str, owner: Any, rows: list[Quantity]) -> None:
             return
     if owner is None:
         content[key] = None
-    elif path in quantities.LISTS:
+    elif path in registry.LISTS:
         content[key] = [{row.key: row.of(one) for row in rows} for one in owner]
     else:
         content.setdefault(key, {}).update({row.key: row.of(owner) for row in rows})

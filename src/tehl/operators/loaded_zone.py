@@ -24,7 +24,7 @@ def zone_of(grid: Grid) -> Array:
     return zone_part(grid.x, grid.y)
 
 
-def zone_part(x: Array, y: Array) -> Array:
+def zone_part(x: Array, y: Array, radius: float = RADIUS) -> Array:
     """Return which part of the cell of each node lies in the loaded zone, (ny, nx), read-only [-].
 
     The cells at the ends are half cells. A sum over nodes with these weights is of second order in
@@ -34,15 +34,31 @@ def zone_part(x: Array, y: Array) -> Array:
     ----------
     x, y : (nx,), (ny,) array
         Uniform nodes, in Hertz half-widths; of y the upper half is enough if it starts at 0.
+    radius : float
+        Half-axes of the zone over those of the Hertz contact.
     """
     edges_x, edges_y = _edges(x), _edges(y)
     middles = (np.arange(STRIPS) + 0.5) / STRIPS
     across = edges_y[:-1, None] + np.diff(edges_y)[:, None] * middles
-    chords = np.sqrt(np.maximum(RADIUS**2 - across**2, 0.0))
+    chords = np.sqrt(np.maximum(radius**2 - across**2, 0.0))
     part = sum(np.clip(edges_x, -chord[:, None], chord[:, None]) for chord in chords.T)
     part = np.diff(part, axis=1) / (STRIPS * np.diff(edges_x))
     part.flags.writeable = False
     return np.asarray(part)
+
+
+def contact_mean(x: Array, y: Array, field: Array) -> float:
+    """Return the mean of a field over the Hertz contact, of second order in the mesh width.
+
+    Parameters
+    ----------
+    x, y : (nx,), (ny,) array
+        As in `zone_part`.
+    field : (ny, nx) array
+        Values at the nodes.
+    """
+    cells = np.outer(np.diff(_edges(y)), np.diff(_edges(x))) * zone_part(x, y, radius=1.0)
+    return float((cells * field).sum() / cells.sum())
 
 
 def is_inside(x: Array, y: Array) -> BoolArray:

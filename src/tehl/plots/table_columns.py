@@ -9,8 +9,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from tehl.base.errors import InputError
 from tehl.base.typing import Array
-from tehl.result.quantities import QUANTITIES
-from tehl.result.registry import shown_in
+from tehl.result.registry import in_summary, shown_in
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -112,7 +111,7 @@ def certified(rows: "pd.DataFrame", column: Column) -> tuple[Column, Array | Non
 
 def _estimated(rows: "pd.DataFrame", column: Column) -> Array | None:
     """Return the estimated errors of a column, None where there are none."""
-    known = (one.error_path for one in QUANTITIES if one.path == column.name)
+    known = (one.error_path for one in in_summary() if one.path == column.name)
     error = next(known, "")
     if error not in rows:
         return None

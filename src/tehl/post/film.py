@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl.base.typing import Array, BoolArray
+from tehl.operators.loaded_zone import contact_mean
 from tehl.post.traction import cell_widths
 from tehl.result.solution import Solution
 
@@ -14,6 +15,13 @@ def no_film(result: Solution) -> str:
     if result.status.kind == "diverged":
         return "the iteration diverged"
     return "" if result.film.minimum > 0 else "the last iterate is not positive"
+
+
+def mean_film(result: Solution) -> float | None:
+    """Return the mean film over the Hertz contact [m]; None where there is no film."""
+    if no_film(result):
+        return None
+    return contact_mean(result.scaled.x, result.scaled.y, result.film_thickness)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

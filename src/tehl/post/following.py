@@ -3,6 +3,7 @@
 from functools import cached_property
 
 from tehl.post.boundary_contact import Touching, touching
+from tehl.post.film import mean_film
 from tehl.post.heat import Temperature, temperature, work_error
 from tehl.post.roughness import RoughFilm, rough_film
 from tehl.post.starvation import Starvation, starvation
@@ -52,6 +53,11 @@ class Following:
     def starvation(self) -> Starvation | None:
         """Numbers of a starved film, None for a flooded one."""
         return starvation(self.solution)
+
+    @cached_property
+    def mean_film(self) -> float | None:
+        """Mean film over the Hertz contact [m], None where there is no film."""
+        return mean_film(self.solution)
 
     @cached_property
     def work_error(self) -> float | None:

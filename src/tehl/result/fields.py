@@ -38,10 +38,6 @@ class Fields(_ReadOnly):
         columns, column_weights = _parabola(self.x)
         return float(row_weights @ values[rows, columns] @ column_weights)
 
-    def mean_inside(self, values: Array) -> float:
-        """Return the mean of ``values`` at the nodes inside the Hertz ellipse X^2 + Y^2 = 1."""
-        return float(values[self.y[:, None] ** 2 + self.x**2 <= 1.0].mean())
-
 
 def _parabola(axis: Array) -> tuple[slice, Array]:
     """Return three nodes near 0 and the weights of their values at 0."""

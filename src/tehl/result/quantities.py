@@ -6,6 +6,7 @@ Summary, JSON, tables of studies, lists of contacts, reports, pictures and the l
 
 import math
 from collections.abc import Callable, Iterator
+from operator import attrgetter
 from typing import Any
 
 from tehl.result.derived import (
@@ -22,36 +23,7 @@ from tehl.result.derived import (
 )
 from tehl.result.quantity import Quantity
 
-LISTS = ("roughness.waves", "roughness.film_quantiles")
-"""Blocks that are lists of blocks."""
-OWNERS: dict[str, Callable[[Any], Any]] = {
-    "laws": lambda found: found.solution.problem,
-    "domain": lambda found: found.solution.scaled,
-    "groups": lambda found: found.solution,
-    "film": lambda found: found,
-    "pressure": lambda found: found.solution,
-    "temperature": lambda found: found.temperature,
-    "traction": lambda found: found.traction,
-    "traction.surroundings": lambda found: found.traction and found.traction.surroundings,
-    "heat": lambda found: found.solution.heat,
-    "roughness": lambda found: found.rough,
-    "roughness.film_quantiles": lambda found: found.rough and found.rough.quantiles,
-    "roughness.ripples_x": lambda found: found.rough and found.rough.ripples_x,
-    "roughness.ripples_y": lambda found: found.rough and found.rough.ripples_y,
-    "roughness.waves": lambda found: found.rough and found.rough.waves,
-    "load_sharing": lambda found: found.load_sharing,
-    "load_sharing.spots": lambda found: found.load_sharing and found.load_sharing.spots,
-    "touching": lambda found: found.touching,
-    "touching.patches": lambda found: (
-        found.touching.patches if found.touching and found.touching.is_share_known else None
-    ),
-    "starvation": lambda found: found.starvation,
-    "convergence": lambda found: found,
-    "errors": lambda found: found.solution.errors,
-    "cost": lambda found: found.solution,
-}
-"""Owner of each block, from a result with what follows from it; a block without one is null. A
-list of owners gives a list of blocks."""
+_EVERYWHERE = "list notebook line text report page"
 
 
 def _words(name: str, places: str, **others: str) -> dict[str, str]:
@@ -63,6 +35,12 @@ def _plain(block: str, keys: str) -> Iterator[Quantity]:
     """Yield quantities that are attributes of the owner of a block, and shown nowhere else."""
     for key in keys.split():
         yield Quantity(f"{block}.{key}")
+
+
+def _of_part(block: str, part: str, keys: str) -> Iterator[Quantity]:
+    """Yield quantities that are attributes of a part of the owner of a block."""
+    for key in keys.split():
+        yield Quantity(f"{block}.{key}", attrgetter(f"{part}.{key}"))
 
 
 def _lists(block: str, keys: str) -> Iterator[Quantity]:
@@ -85,14 +63,14 @@ def moes_film_factor(solution: Any) -> float:
     return float((scales.film_thickness / scales.half_width_x) ** 2 / math.sqrt(2.0 * groups.U))
 
 
-def _scaled(solution: Any, which: str) -> float:
-    return float(getattr(solution.film, which) / solution.scales.film_thickness)
+def _scaled(which: str, *, moes: bool = False) -> Callable[[Any], Any]:
+    """Return a film over its scale, or as Moes has it."""
 
+    def value(found: Any) -> float | None:
+        film = getattr(found.solution.film, which) / found.solution.scales.film_thickness
+        return _positive(film * moes_film_factor(found.solution) if moes else film)
 
-def _mean_film(solution: Any) -> float:
-    """Return the mean film inside the Hertz ellipse [m], which sets its electric capacitance."""
-    fields = solution.scaled
-    return float(fields.mean_inside(fields.film) * solution.scales.film_thickness)
+    return value
 
 
 def _if_known(name: str) -> Callable[[Any], Any]:
@@ -128,13 +106,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         digits="0.00",
         words={"axis": "L", "list": "Moes L"},
     ),
-    Quantity("groups.U", lambda result: result.groups.U),
-    Quantity("groups.W", lambda result: result.groups.W),
-    Quantity("groups.G", lambda result: result.groups.G),
-    Quantity("groups.lambda_bar", lambda result: result.groups.lambda_bar),
-    Quantity("groups.alpha_bar", lambda result: result.groups.alpha_bar),
-    Quantity("groups.ellipticity", lambda result: result.groups.ellipticity),
-    Quantity("groups.radius_ratio", lambda result: result.groups.radius_ratio),
+    *_of_part("groups", "groups", "U W G lambda_bar alpha_bar ellipticity radius_ratio"),
     Quantity(
         "groups.hertz_pressure_pa",
         lambda result: result.scales.hertz_pressure,
@@ -163,11 +135,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         symbol="h_min",
         unit="nm",
         digits="0.0",
-        words=_words(
-            "minimum film",
-            "list notebook line text report page",
-            axis="minimum film thickness $h_{min}$",
-        ),
+        words=_words("minimum film", _EVERYWHERE, axis="minimum film thickness $h_{min}$"),
     ),
     Quantity(
         "film.h_central_m",
@@ -177,24 +145,11 @@ QUANTITIES: tuple[Quantity, ...] = (
         symbol="h_c",
         unit="nm",
         digits="0.0",
-        words=_words(
-            "central film",
-            "list notebook line text report page",
-            axis="central film thickness $h_c$",
-        ),
-    ),
-    Quantity(
-        "film.h_mean_m",
-        lambda found: _positive(_mean_film(found.solution)),
-        error=lambda numbers: numbers.get("errors.central"),
-        symbol="h_m",
-        unit="nm",
-        digits="0.0",
-        words=_words("mean film inside the contact", "list report", axis="mean film $h_m$"),
+        words=_words("central film", _EVERYWHERE, axis="central film thickness $h_c$"),
     ),
     Quantity(
         "film.H_min",
-        lambda found: _positive(_scaled(found.solution, "minimum")),
+        _scaled("minimum"),
         name="film_minimum",
         certified="film",
         words={"axis": "minimum film $H_{min}$"},
@@ -202,26 +157,31 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity("film.H_min_node", lambda found: _positive(found.solution.film_scaled.minimum_node)),
     Quantity(
         "film.H_central",
-        lambda found: _positive(_scaled(found.solution, "central")),
+        _scaled("central"),
         name="film_central",
         certified="film",
         words={"axis": "central film $H_c$"},
     ),
     Quantity(
         "film.H_min_moes",
-        lambda found: _positive(
-            _scaled(found.solution, "minimum") * moes_film_factor(found.solution)
-        ),
+        _scaled("minimum", moes=True),
         name="film_minimum",
         words={"axis": "minimum film $H_{min}$ (Moes)"},
     ),
     Quantity(
         "film.H_central_moes",
-        lambda found: _positive(
-            _scaled(found.solution, "central") * moes_film_factor(found.solution)
-        ),
+        _scaled("central", moes=True),
         name="film_central",
         words={"axis": "central film $H_c$ (Moes)"},
+    ),
+    Quantity(
+        "film.h_mean_m",
+        lambda found: found.mean_film,
+        name="film_mean",
+        symbol="h_m",
+        unit="nm",
+        digits="0.0",
+        words=_words("mean film in the Hertz contact", "axis report page", list="mean film"),
     ),
     Quantity("film.minimum_at.0", lambda found: found.solution.film_scaled.minimum_at),
     Quantity("film.rigid_approach", lambda found: found.solution.rigid_approach),
@@ -232,7 +192,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         certified="film",
         symbol="p_max",
         unit="GPa",
-        words=_words("largest pressure", "axis list notebook line report page"),
+        words=_words("largest pressure", "axis list notebook line report page", key="p_max"),
     ),
     Quantity(
         "pressure.P_max",
@@ -330,6 +290,7 @@ QUANTITIES: tuple[Quantity, ...] = (
             "axis": "central film over roughness λ",
             "list": "lambda",
             "page": "film over roughness",
+            "key": "lambda",
         },
     ),
     Quantity("roughness.lambda_minimum", words={"axis": "minimum film over roughness λ"}),
@@ -408,7 +369,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         error=largest_temperature_error,
         symbol="T_max",
         unit="°C",
-        words={"page": "largest temperature"},
+        words={"page": "largest temperature", "key": "t_max"},
     ),
     Quantity(
         "friction",
@@ -433,7 +394,7 @@ QUANTITIES: tuple[Quantity, ...] = (
         unit="%",
         digits="0.0",
         symbol="w_a/w",
-        words={"list": "load on asperities", "page": "load on asperities"},
+        words=_words("load on asperities", "list page", key="load_share"),
     ),
     Quantity("starvation.ratio", words={"axis": "supply over that of the flooded contact r"}),
     Quantity(
@@ -459,9 +420,7 @@ QUANTITIES: tuple[Quantity, ...] = (
     *_plain("errors", "iteration_central iteration_minimum domain supply"),
     *_plain("errors", "extrapolated spike_resolved"),
     Quantity("cost.points.0", lambda result: [result.scaled.x.size, result.scaled.y.size]),
-    Quantity("cost.cpu_seconds", lambda result: result.cost.cpu_seconds),
-    Quantity("cost.wall_seconds", lambda result: result.cost.wall_seconds),
-    Quantity("cost.work", lambda result: result.cost.work),
+    *_of_part("cost", "cost", "cpu_seconds wall_seconds work"),
 )
 TRANSIENT: tuple[Quantity, ...] = (
     Quantity("film.h_min_m.value", name="film_minimum", unit="nm"),

@@ -19,7 +19,7 @@ UNITS = {
     "%": (100.0, 0.0),
 }
 """Units in which people read quantities: factor from SI, and what is added."""
-_SI = {"m2": "m^2", "m": "m", "pa": "Pa", "k": "K", "w": "W", "rad": "rad"}
+SI = {"m2": "m^2", "m": "m", "pa": "Pa", "k": "K", "w": "W", "rad": "rad"}
 """SI units by the endings of keys."""
 
 
@@ -38,7 +38,7 @@ class Quantity:
     """Place in the summary, block and key: ``"film.h_central_m"``. The key ends in its SI unit. A
     quantity without a block follows from others and is not in the summary; ``.0`` marks a list."""
     value: Callable[[Any], Any] | None = None
-    """Value in SI from the owner of the block (`tehl.result.quantities.OWNERS`), or from `Numbers`
+    """Value in SI from the owner of the block (`tehl.result.registry.OWNERS`), or from `Numbers`
     where there is no block; by default the attribute of the owner that is called as the key without
     its unit."""
     name: str = ""
@@ -55,7 +55,8 @@ class Quantity:
     words: Mapping[str, str] = field(default_factory=dict)
     """What it is called where it is shown: ``axis`` of a picture, ``list`` of contacts, table of a
     study in a ``notebook``, ``line`` in Python, ``text`` of a terminal, ``report``, its table of
-    ``rises``, live ``page``; and ``bar``, what follows a certified value in a text."""
+    ``rises``, live ``page``. Further ``key``, its key there if it is not that of the summary, and
+    ``bar``, what follows a certified value in a text."""
 
     @property
     def block(self) -> str:
@@ -93,7 +94,7 @@ class Quantity:
 def without_unit(key: str) -> str:
     """Return a key without the SI unit that it ends in."""
     stem, underscore, ending = key.rpartition("_")
-    return stem if underscore and ending in _SI else key
+    return stem if underscore and ending in SI else key
 
 
 FILMS = {"film_central": "central", "film_minimum": "minimum"}

@@ -1,12 +1,42 @@
 """How the table of quantities is read: what a place shows, error bars, columns, numbers."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any
 
 from tehl.result import quantities
 from tehl.result.quantity import FILMS, Certified, Quantity
 
+LISTS = ("roughness.waves", "roughness.film_quantiles")
+"""Blocks that are lists of blocks."""
+OWNERS: dict[str, Callable[[Any], Any]] = {
+    "laws": lambda found: found.solution.problem,
+    "domain": lambda found: found.solution.scaled,
+    "groups": lambda found: found.solution,
+    "film": lambda found: found,
+    "pressure": lambda found: found.solution,
+    "temperature": lambda found: found.temperature,
+    "traction": lambda found: found.traction,
+    "traction.surroundings": lambda found: found.traction and found.traction.surroundings,
+    "heat": lambda found: found.solution.heat,
+    "roughness": lambda found: found.rough,
+    "roughness.film_quantiles": lambda found: found.rough and found.rough.quantiles,
+    "roughness.ripples_x": lambda found: found.rough and found.rough.ripples_x,
+    "roughness.ripples_y": lambda found: found.rough and found.rough.ripples_y,
+    "roughness.waves": lambda found: found.rough and found.rough.waves,
+    "load_sharing": lambda found: found.load_sharing,
+    "load_sharing.spots": lambda found: found.load_sharing and found.load_sharing.spots,
+    "touching": lambda found: found.touching,
+    "touching.patches": lambda found: (
+        found.touching.patches if found.touching and found.touching.is_share_known else None
+    ),
+    "starvation": lambda found: found.starvation,
+    "convergence": lambda found: found,
+    "errors": lambda found: found.solution.errors,
+    "cost": lambda found: found.solution,
+}
+"""Owner of each block, from a result with what follows from it; a block without one is null. A
+list of owners gives a list of blocks."""
 _FIRST: dict[str, tuple[str, ...]] = {
     "list": (
         *("groups.hertz_pressure_pa", "groups.hertz_half_width_m", "groups.hertz_half_width_y_m"),
@@ -21,7 +51,8 @@ _FIRST: dict[str, tuple[str, ...]] = {
         "pressure.max_pa",
     ),
 }
-"""Quantities that stand first in a place, in this order; the others follow in that of the table."""
+"""Quantities that stand first in a place, in this order; the others follow their block, or all, in
+the order of the table."""
 _BARS_OF = ("pressure", "traction", "temperature", "load_sharing", "touching", "roughness", "heat")
 """Blocks in the order of their error bars in the summary."""
 
@@ -54,7 +85,7 @@ def _bar(name: str, errors: Any) -> float | None:
 
 def columns() -> tuple[str, ...]:
     """Return the names that the numbers of a summary may have in a table; ``.0`` is any index."""
-    lists = [f"{block}." for block in quantities.LISTS]
+    lists = [f"{block}." for block in LISTS]
     return tuple(
         next((f"{block}0.{one.key}" for block in lists if one.path.startswith(block)), one.path)
         for one in in_summary()
@@ -63,12 +94,14 @@ def columns() -> tuple[str, ...]:
 
 def shown_in(place: str) -> tuple[Quantity, ...]:
     """Return the quantities that a place shows, in its order."""
-    known, first = (
-        {one.path: one for one in quantities.QUANTITIES if place in one.words},
-        _FIRST.get(place, ()),
-    )
-    ordered = [path for path in first if path in known]
-    return tuple(known[path] for path in (*ordered, *(path for path in known if path not in first)))
+    known = {one.path: one for one in quantities.QUANTITIES if place in one.words}
+    ordered = [known.pop(path) for path in _FIRST.get(place, ()) if path in known]
+    for one in known.values():
+        of_block = [
+            k for k, other in enumerate(ordered, 1) if one.block and other.block == one.block
+        ]
+        ordered.insert(of_block[-1] if of_block else len(ordered), one)
+    return tuple(ordered)
 
 
 def at(path: str) -> Quantity:
@@ -115,4 +148,4 @@ class NumbersOf:
         one = self._known.get(path)
         if one is None:
             return None
-        return one.of(quantities.OWNERS[one.block](self._found) if one.block else self)
+        return one.of(OWNERS[one.block](self._found) if one.block else self)

@@ -14,6 +14,7 @@ from tehl.api.results import Result
 from tehl.base.version import SOLVER_VERSION, __version__
 from tehl.contact.options import Options
 from tehl.io.case import with_settings
+from tehl.result.quantity import SI
 from tehl.result.solution import Cost, Hint, Settings
 
 Label = float | str
@@ -21,7 +22,7 @@ Scalar = float | int | str | bool | None
 
 _SOLVED = ("converged", "not_converged", "diverged", "stalled")
 """Statuses that come with fields."""
-_UNITS = {"m": "m", "pa": "Pa", "k": "K", "w": "W", "rad": "rad", "seconds": "s"}
+_UNITS = SI | {"seconds": "s"}
 """Unit by the last part of the name of a number."""
 _NOT_NUMBERS = ("title", "status", "cause", "message", "hint", "settings")
 """Keys of a summary that a row holds elsewhere."""

@@ -6,8 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from tehl.base.lazy import lazy
-from tehl.result.quantities import OWNERS
-from tehl.result.registry import columns
+from tehl.result.registry import OWNERS, columns
 from tehl.result.solution import settings_text
 from tehl.studies.case import Case, Scalar, unit_of
 from tehl.studies.store import Store

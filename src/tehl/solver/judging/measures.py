@@ -9,7 +9,7 @@ from tehl.estimate.scaling import ScaledProblem
 from tehl.operators.energy import FilmState
 from tehl.operators.film import hertz_pressure
 from tehl.operators.heated_film import stress_unit
-from tehl.operators.loaded_zone import is_inside, wet_part, zone_of
+from tehl.operators.loaded_zone import contact_mean, is_inside, wet_part, zone_of
 from tehl.post.heat import Rises, lagrange_weights
 from tehl.post.roughness import ripples
 from tehl.solver.cycle.level import Level
@@ -23,11 +23,11 @@ SPIKE_FROM = 0.5
 def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> dict[str, float]:
     """Return the values of a converged grid by name.
 
-    ``pressure_max``, ``spike`` and its ``excess`` over Hertz [-]; with asperities below the mesh
-    ``load_share``, their part of the load, or that where surfaces touch [-]; of a rough contact
-    ``ripple_film`` and ``ripple_pressure`` [-]; of a sliding one ``traction_mid_film`` [-]; of a
-    heated film the rises that `tehl.post.heat.Temperature` has [K], and ``heat_`` with the names
-    of the powers in `tehl.result.fields.HeatBalance` [W].
+    ``pressure_max``, ``film_mean`` over the Hertz contact, ``spike`` and its ``excess`` over Hertz
+    [-]; with asperities below the mesh ``load_share``, their part of the load, or that where
+    surfaces touch [-]; of a rough contact ``ripple_film`` and ``ripple_pressure`` [-]; of a sliding
+    one ``traction_mid_film`` [-]; of a heated film the rises that `tehl.post.heat.Temperature` has
+    [K], and ``heat_`` with the names of the powers in `tehl.result.fields.HeatBalance` [W].
 
     Parameters
     ----------
@@ -39,6 +39,7 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
     pressure, least = level.film.p, level.equations.contact_film
     found = {
         "pressure_max": float(pressure.max()),
+        "film_mean": contact_mean(level.grid.x, level.grid.y, level.film.h),
         **_spike(level),
     }
     if least is not None or level.equations.asperities is not None:
