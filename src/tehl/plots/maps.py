@@ -3,6 +3,7 @@
 from typing import Any
 
 import numpy as np
+from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
@@ -41,13 +42,18 @@ FILTERED = 0.75
 """Half-widths within which filtered ripples are shown: the filter smears the rim of the contact."""
 _SHOWN = (0.5, 99.5)
 """Percentiles of the heights between which colours change."""
+_OUTSIDE = "#e8e8e4"
+"""Colour of films beyond the scale: most of a map is the gap around the contact."""
+_LEAST_SHOWN = 400
+"""Least places of colours along one direction of a map of the film."""
 _LINES: dict[str, Any] = {"colors": "black", "linewidths": 0.6}
 
 
 def film_map(result: Solution, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
     """Draw the film thickness with labelled contour lines and the Hertz contact.
 
-    Colours are logarithmic, from just below the minimum film to 1.6 times the central film, and
+    Colours are logarithmic, from just below the minimum film to 1.6 times the central film; the gap
+    around the contact, where the film is thicker, is grey, and
     contour lines lie close below 1.1 times the central film, so that the horseshoe and the side
     lobes show.
     """
@@ -56,7 +62,9 @@ def film_map(result: Solution, *, ax: Axes | None = None, title: bool | None = T
     low, central = _film_range(result, film)
     bottom, top = 0.95 * low, 1.6 * central
     norm = LogNorm(bottom, top)
-    mesh = axes.pcolormesh(*places, film.clip(bottom, top), norm=norm, **MAP)
+    colours = colormaps["viridis"].with_extremes(over=_OUTSIDE)
+    shown = _finer(*places, np.log(film.clip(min=bottom)))
+    mesh = axes.pcolormesh(*shown[:2], np.exp(shown[2]), norm=norm, cmap=colours, **MAP)
     inner, outer = film_levels(low, central)
     lines = axes.contour(*places, film, levels=inner, colors="white", linewidths=0.7)
     outside = axes.contour(*places, film, levels=outer, colors="black", linewidths=0.5, alpha=0.6)
@@ -72,6 +80,19 @@ def film_map(result: Solution, *, ax: Axes | None = None, title: bool | None = T
     ticks = ticks[(ticks >= bottom) & (ticks <= top)]
     bar.ax.set_yticks(ticks, [f"{tick:.4g}" for tick in ticks], fontsize=8)
     return figure_of(axes)
+
+
+def _finer(x: Array, y: Array, field: Array) -> tuple[Array, Array, Array]:
+    """Return a field at `_LEAST_SHOWN` places or more along x and y, linear between its nodes.
+
+    Colours of coarse grids would fade from node to node where the scale ends.
+    """
+    fine = []
+    for axis in (x, y):
+        times = -(-_LEAST_SHOWN // axis.size)
+        fine.append(np.linspace(axis[0], axis[-1], times * (axis.size - 1) + 1))
+    rows = np.array([np.interp(fine[0], x, row) for row in field])
+    return *fine, np.array([np.interp(fine[1], y, column) for column in rows.T]).T  # type: ignore[return-value]
 
 
 def _film_range(result: Solution, film: Array) -> tuple[float, float]:
