@@ -44,7 +44,7 @@ def test_the_slider_moves_the_film_and_the_exact_entry_with_it(page):
     page.locator(".status-words", has_text="65 × 65").wait_for()
     until(lambda: number(page, "h_central") != before)
     page.mouse.up()
-    solved(page, "converged on 1")
+    solved(page)
     entry = page.get_by_role("textbox", name="entrainment speed", exact=True)
     assert float(entry.input_value()) > 1.5
 
