@@ -548,6 +548,53 @@ def test_cycles_are_combined_where_asperities_share_the_load_with_a_steep_spike(
     assert abs(difference) < coarser.errors.central
 
 
+def test_soft_summits_of_a_bearing_do_not_press_the_start_into_each_other():
+    """Their dry contact lies 10 sigma deep, where the oil carries all: no start for its cycles."""
+    tables = {
+        "contact": {
+            "hertz_pressure": "0.837 GPa",
+            "entrainment_speed": "1.515 m/s",
+            "slide_roll_ratio": -0.046,
+        },
+        "surface_1": {"material": "steel", "radius": "10.5 mm", "ra_roughness": "0.0125 um"},
+        "surface_2": {
+            "material": "steel",
+            "radius_x": "37 mm",
+            "radius_y": "-10.7363 mm",
+            "ra_roughness": "0.012 um",
+        },
+        "lubricant": {
+            "viscosity": {
+                "law": "walther",
+                "nu_40": "10 mm^2/s",
+                "nu_100": "2.6 mm^2/s",
+                "alpha": "19.4 1/GPa",
+            },
+            "density": {"law": "dowson-higginson", "rho_0": 880.0},
+            "temperature": "84 degC",
+        },
+        "asperities": {
+            "model": "greenwood-tripp",
+            "summit_radius": "8.3 um",
+            "summit_density": 3e9,
+        },
+    }
+    found = solve(case_from_tables(tables)[0])  # M = 6,900, L = 5.0, a_y/a_x = 13
+    assert max(found.errors.central, found.errors.minimum) < 0.01
+    assert found.load_sharing.share < 1e-4
+
+
+def test_the_mean_gap_determines_the_separation_however_far_the_planes_cross():
+    laws = asperity_table(ScaledProblem.of(rough(100.0, 8.0, 0.5))).laws
+    slopes = np.diff(laws.gap[:, 0]) / laws.grid[1]
+    assert slopes.min() == pytest.approx(0.01, rel=1e-9)
+    linear = laws.gap[:, 0] < 0.004 * laws.grid[1] / 0.02  # of sigma
+    exact = mean_gap(np.arange(-6.0, 0.0, 0.02)) * laws.grid[1] / 0.02
+    assert laws.gap[: exact.size, 0][~linear[: exact.size]] == pytest.approx(
+        exact[~linear[: exact.size]], rel=1e-12
+    )
+
+
 def test_a_contact_that_runs_dry_rests_on_its_asperities():
     tables = rough(50.0, 8.0, 0.7).model_dump(exclude_none=True)
     problem = case_from_tables(tables | {"supply": {"layer": 1e-9}})[0]

@@ -22,6 +22,10 @@ from tehl.kernels.summits import AsperityLaws
 
 STEP = 0.02
 """Difference of the separations at which the laws are tabulated, over sigma."""
+LEAST_OPENING = 0.01
+"""Least slope of the mean gap by the separation. Between planes that cross, below a gap of 0.003
+sigma, it is constant: else the film would not determine the separation, and cycles diverge where a
+coarse grid lets the planes cross far."""
 LEAST_CARRIED = 0.01
 """Least oil that is carried over that of the gap: pools of a rough surface at rest carry none."""
 
@@ -67,6 +71,10 @@ class AsperityTable:
         found: Array = np.interp(separation, self.separations, slopes, right=1.0)
         return found
 
+    def pressure(self, separation: float) -> float:
+        """Return the pressure of the asperities at a separation of the mean planes [-]."""
+        return float(np.interp(separation, self.separations, self.laws.pressure[:, 0], right=0.0))
+
     def separation(self, gap: float) -> float:
         """Return the separation of the mean planes at a mean gap [-]."""
         return float(np.interp(gap, self.laws.gap[:, 0], self.separations, right=gap))
@@ -110,7 +118,7 @@ def _of_summits() -> Tables:
     """Return the laws of Greenwood and Tripp, the same for all summits."""
     return {
         "pressure": _tabulated(lambda gap: gaussian_integral(2.5, gap)),
-        "gap": _tabulated(mean_gap),
+        "gap": _opening(_tabulated(mean_gap)),
         "channel": _tabulated(channel),
     }
 
@@ -144,10 +152,19 @@ def _of_patch(law: SurfacePatch, stamp: object) -> Tables:
     del stamp
     return {
         "pressure": _tabulated(law.load),
-        "gap": _tabulated(law.mean_gap),
+        "gap": _opening(_tabulated(law.mean_gap)),
         "channel": _tabulated(law.channel),
         "across": _tabulated(law.across),
     }
+
+
+def _opening(gap: Array) -> Array:
+    """Return a table of the mean gap that is linear where its slope would be too small."""
+    least = LEAST_OPENING * STEP
+    first = int(np.argmax(gap[:, 1] >= least))
+    gap[:first, 0] = gap[first, 0] - least * np.arange(first, 0, -1)
+    gap[:first, 1] = least
+    return gap
 
 
 def _tabulated(curve: Callable[[Array], Array]) -> Array:

@@ -39,6 +39,8 @@ empty over the number of lines from which the meniscus rests. Least CPU time of 
 REACH = 1.5
 """Film of a smooth change of the pressure in the contact, over that change [-]: 4/pi in the middle
 of a uniform one over the Hertz circle, and somewhat more, as too little only takes longer."""
+LARGEST_OILY = 0.1
+"""Part of the pressure on asperities up to which the Hertz pressure is the better start."""
 DRY_STEPS, DRY_PART, DRY_ERROR = 20, 0.5, 0.01
 """Most steps to a dry contact, change of the rigid approach over the missing part of the load, and
 the part that ends them: it is only a start."""
@@ -376,17 +378,19 @@ class Level:
     def start_from_hertz(self, expected_film: float) -> None:
         """Start from the Hertz pressure, with the rigid approach of the expected central film.
 
-        With asperities, from the pressure of the dry contact, at the separation of that film.
+        With asperities, at the separation of that film; where they carry much there, from the
+        pressure of the dry contact. Soft ones would be pressed far into each other in it.
         """
         self.pose_problem()
         self.set_state(hertz_pressure(self.grid), 0.0)
         laws, middle = self.equations.asperities, expected_film
-        if laws is None:
-            self.update()
-        else:
+        if laws is not None:
+            middle = laws.separation(expected_film)
+        if laws is not None and laws.pressure(middle) > LARGEST_OILY:
             self._press_dry()
             self.set_state(self.film.asperity, self.rigid_approach)  # of oil, shared in the update
-            middle = laws.separation(expected_film)
+        else:
+            self.update()
         self.move(middle - central_value(self.grid, self.separation))
 
     def _press_dry(self) -> None:
