@@ -7,7 +7,8 @@ pytest.importorskip("tomlkit", reason="needs pip install 'tehl[explore]'")
 from tehl.api.problem import case_from_tables
 from tehl.base.errors import InputError
 from tehl.explore.case_text import CaseText
-from tehl.explore.controls import Choice, Knob, groups
+from tehl.explore.controls import groups, swept_knobs
+from tehl.explore.knobs import Choice, Knob
 from tehl.io.templates import template_text, templates
 
 
@@ -92,3 +93,11 @@ def test_temperatures_are_shown_in_degrees_and_stated_so():
     assert knob.number(knob.value, "degC") == pytest.approx(40.0)
     assert knob.stated(45.0, "degC") == "45 degC"
     assert knob.si(45.0, "degC") == pytest.approx(318.15)
+
+
+def test_an_estimated_pressure_coefficient_is_shown_as_its_value():
+    case = CaseText(template_text("ball-on-disc"))
+    case.set("lubricant.viscosity.alpha", "estimated")
+    problem = case_from_tables(case.tables)[0]
+    knob = swept_knobs(groups(case, problem))["lubricant.viscosity.alpha"]
+    assert knob.value == problem.pressure_coefficient

@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, Any
 
 from nicegui import ui
 
-from tehl.explore.controls import Choice, Group, Knob
 from tehl.explore.elements import button, plain
+from tehl.explore.knobs import Choice, Group, Knob
 from tehl.explore.tab import Tab
 
 if TYPE_CHECKING:

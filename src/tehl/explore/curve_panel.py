@@ -7,10 +7,11 @@ from nicegui import ui
 
 from tehl.base.errors import InputError
 from tehl.explore.case_text import CaseText
-from tehl.explore.controls import Knob, swept_knobs
+from tehl.explore.controls import swept_knobs
 from tehl.explore.curves import Point, nearest, swept_chart
 from tehl.explore.elements import button, main_button, read_at_pointer
 from tehl.explore.jobs import End, Failure
+from tehl.explore.knobs import Knob
 from tehl.explore.numbers import value_of
 from tehl.explore.sweeps import Sweep, Sweeps, Swept
 from tehl.explore.tab import Tab

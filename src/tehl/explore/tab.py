@@ -12,10 +12,11 @@ from tehl.contact.options import Options
 from tehl.explore.by_formula import scaled_by_formula
 from tehl.explore.case_text import CaseText
 from tehl.explore.colour_map import film_limits, pressure_limits, section_limits
-from tehl.explore.controls import Choice, Group, Knob, groups
+from tehl.explore.controls import groups
 from tehl.explore.curves import line_tops
 from tehl.explore.files import Files
 from tehl.explore.jobs import Ask, End, Explained, Failure, Note, Part, TooCoarse
+from tehl.explore.knobs import Choice, Group, Knob
 from tehl.explore.shown import Shown
 from tehl.explore.worker import Solver
 
