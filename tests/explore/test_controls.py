@@ -18,6 +18,11 @@ def controls_of(name):
     return case, problem, [item for group in groups(case, problem) for item in group.items]
 
 
+def choose(case, choice, option):
+    for path, value in choice.options[option][1].items():
+        case.set(path, value)
+
+
 def fault_of(case):
     try:
         case_from_tables(case.tables)
@@ -46,14 +51,14 @@ def test_a_choice_gives_a_valid_case_or_a_sentence(name):
         assert choice.value in choice.options
         for option in choice.options:
             again = CaseText(case.text)
-            choice.change(again, option)
+            choose(again, choice, option)
             assert len(fault_of(again).splitlines()) <= 1
 
 
 def test_load_and_hertz_pressure_are_the_same_contact():
     case, problem, items = controls_of("ball-on-disc")
     choice = next(item for item in items if item.path.startswith("contact.load|"))
-    choice.change(case, "hertz_pressure")
+    choose(case, choice, "hertz_pressure")
     assert case.get("contact.load") is None
     assert case_from_tables(case.tables)[0].load == pytest.approx(problem.load, rel=1e-4)
 
@@ -61,7 +66,7 @@ def test_load_and_hertz_pressure_are_the_same_contact():
 def test_radii_of_both_bodies_become_the_reduced_radius():
     case, problem, items = controls_of("ball-on-disc")
     choice = next(item for item in items if item.path == "contact.radius|")
-    choice.change(case, "circle")
+    choose(case, choice, "circle")
     assert case.get("surface_1.radius") is None
     assert case_from_tables(case.tables)[0].radius_x == pytest.approx(problem.radius_x)
 
@@ -69,9 +74,9 @@ def test_radii_of_both_bodies_become_the_reduced_radius():
 def test_heat_can_be_switched_on_and_off():
     case, _, items = controls_of("gear-ellipse")
     choice = next(item for item in items if item.path == "thermal")
-    choice.change(case, "on")
+    choose(case, choice, "on")
     assert case_from_tables(case.tables)[0].thermal is not None
-    choice.change(case, "off")
+    choose(case, choice, "off")
     assert case_from_tables(case.tables)[0].thermal is None
 
 

@@ -62,10 +62,6 @@ class ControlPanel:
         for path, row in self.rows.items():
             row.blame(fault.text if fault is not None and fault.path == path else "")
 
-    def owns(self, path: str) -> bool:
-        """Return whether a fault of a key is shown beside its control."""
-        return path in self.rows
-
 
 class KnobRow:
     """Label, exact entry, unit and slider of a number."""
@@ -178,9 +174,9 @@ class ChoiceRow:
         with ui.element("div").classes("choice"):
             ui.label(choice.label).classes("knob-label")
             self.selector = ui.select(
-                dict(choice.options),
+                {option: name for option, (name, _) in choice.options.items()},
                 value=choice.value,
-                on_change=lambda event: tab.choose(choice, event.value),
+                on_change=lambda event: tab.choose(choice.path, event.value),
             )
             self.selector.props(f'dense outlined options-dense aria-label="{choice.label}"')
             self.selector.classes("choice-selector")

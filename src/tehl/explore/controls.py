@@ -7,7 +7,7 @@ What a number is, and which units it may have, is that of the field of the model
 import math
 from collections.abc import Callable, Iterator, Mapping
 from functools import partial
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tehl.api.problem import ContactProblem
 from tehl.base.units import Number, quantity
@@ -17,16 +17,13 @@ from tehl.explore.case_text import CaseText
 from tehl.explore.choices import State
 from tehl.explore.knobs import Choice, Group, Knob, Span
 from tehl.io.case import found_at
-
-_LOW = "₀₁₂"
-"""Digits set low."""
+from tehl.report.plausibility import typical_ranges
 
 
 class Row(NamedTuple):
     """A number of the case as a row of the table of controls.
 
-    It is shown where ``when`` holds and the case has a finite number. ``#`` in path and label is
-    the number of a surface, ``₀`` in the label its number set low.
+    It is shown where ``when`` holds and the case has a finite number.
     """
 
     path: str
@@ -37,21 +34,16 @@ class Row(NamedTuple):
     """Sane range in SI, or the name of a typical range."""
     when: Callable[[State, str], bool] | None = None
     """Takes the case and the path."""
-    value: Callable[[State], float] | None = None
-    """The value where the text states none, if it is not that of the checked case."""
+    otherwise: str = ""
+    """Property of the contact that has the value where the text states none."""
     is_log: bool = True
     per_half_width: bool = False
     """Whether the range is in half-widths of the contact."""
 
-    def of_surface(self, number: int) -> "Row":
-        """Return the row of a surface."""
-        path, label = (text.replace("#", str(number)) for text in (self.path, self.label))
-        return self._replace(path=path, label=label.replace("₀", _LOW[number]))
-
     def knobs(self, state: State) -> Iterator[Knob]:
         """Yield the control, if the case has the number."""
-        stated = state.case.get(self.path)
-        value, kind = found_at(state.problem, Options(), self.path)
+        problem, stated = state.problem, state.case.get(self.path)
+        value, kind = found_at(problem, Options(), self.path)
         if isinstance(value, float) and kind is None:
             kind = quantity(Number)
         if kind is None or (self.when is not None and not self.when(state, self.path)):
@@ -61,27 +53,23 @@ class Row(NamedTuple):
         if isinstance(stated, str):
             words = stated.strip().lstrip("+-0123456789.eE").strip()
             unit = next((name for name in names if name == words.replace("°C", "degC")), unit)
-        if stated is not None and not isinstance(value, str):  # alpha = "estimated"
-            value = kind.parse(stated)
-        elif self.value is not None:
-            value = self.value(state)
-        if value is not None and math.isfinite(value):
+        if self.otherwise and (stated is None or not isinstance(value, float)):
+            value = getattr(problem, self.otherwise)
+        if isinstance(value, float) and math.isfinite(value):
             span = self._span(state)
             yield Knob(self.path, self.label, kind, names, span, value, unit, self.is_log)
 
     def _span(self, state: State) -> Span:
-        if isinstance(self.span, str):
-            typical = state.typical[self.span]
-            factor = {"GPa": 1e9, "1/GPa": 1e-9}.get(typical.unit, 1.0)
-            return typical.low * factor, typical.high * factor
-        factor = state.problem.hertz.half_width_x if self.per_half_width else 1.0
-        return self.span[0] * factor, self.span[1] * factor
+        if not isinstance(self.span, str):
+            factor = state.problem.hertz.half_width_x if self.per_half_width else 1.0
+            return self.span[0] * factor, self.span[1] * factor
+        typical = next(one for one in typical_ranges(state.scaled) if one.name == self.span)
+        factor = {"GPa": 1e9, "1/GPa": 1e-9}.get(typical.unit, 1.0)
+        return typical.low * factor, typical.high * factor
 
 
 _even = partial(Row, is_log=False)
 """A row whose slider is not logarithmic."""
-_wide = partial(Row, per_half_width=True)
-"""A row whose range is in half-widths."""
 Item = Row | Callable[[State], Choice | None]
 
 
@@ -107,80 +95,91 @@ def swept_knobs(found: tuple[Group, ...]) -> dict[str, Knob]:
     return {item.path: item for group in found for item in group.items if isinstance(item, Knob)}
 
 
-# ---- when a number is shown, and its value where the text states none
-
-
-def _is_stated(state: State, path: str) -> bool:
-    return state.has(path)
+# ---- when a number is shown
 
 
 def _in_own_table(state: State, path: str) -> bool:
-    return state.has(path.rpartition(".")[0], Mapping)
+    return isinstance(state.case.get(path.rpartition(".")[0]), Mapping)
 
 
-def _is_heated(state: State, path: str) -> bool:
-    """Return whether there is heat, and the number is not a law of pressure and temperature."""
-    return state.problem.thermal is not None and not state.has(path, Mapping)
+def _is_heated(state: State, _: str) -> bool:
+    return state.problem.thermal is not None
 
 
 def _is_at_inlet(state: State, path: str) -> bool:
     """Return whether the oil depends on temperature, and that of the inlet stands at this path."""
-    in_heat = state.has("thermal.temperature")
-    return state.law.temperature_coefficient > 0 and in_heat == path.startswith("thermal.")
+    in_heat = state.case.get("thermal.temperature") is not None
+    coefficient = state.problem.lubricant.viscosity.temperature_coefficient
+    return coefficient > 0 and in_heat == path.startswith("thermal.")
 
 
 def _has_slope(state: State, path: str) -> bool:
-    laws = ("roelands", "roelands-exponential", "barus", "walther")
-    return state.law.law in laws and not state.has(path.replace(".alpha", ".z"))
+    return state.case.get(path.replace(".alpha", ".z")) is None
 
 
 def _is_eyring(state: State, _: str) -> bool:
-    return state.oil.shear.law == "eyring"
+    return state.problem.lubricant.shear.law == "eyring"
 
 
 def _is_smooth(state: State, path: str) -> bool:
     table = path.partition(".")[0]
-    return state.roughness_of(table) == "smooth" and not state.has(f"{table}.ra_roughness")
-
-
-def _is_rough(state: State, path: str, *, kind: str) -> bool:
-    return state.roughness_of(path.partition(".")[0]) == kind
-
-
-def _zero(_: State) -> float:
-    return 0.0
-
-
-def _inlet(state: State) -> float:
-    return state.problem.inlet_temperature
-
-
-def _slope(state: State) -> float:
-    return state.problem.pressure_coefficient
+    return state.roughness_of(table) == "smooth" and not state.case.get(f"{table}.ra_roughness")
 
 
 # ---- the table
 
 
-def _both(*items: Any) -> tuple[Item, ...]:
-    """Return rows and choices of surface 1, then those of surface 2."""
-    return tuple(
-        item.of_surface(n) if isinstance(item, Row) else partial(item, number=n)
-        for n in (1, 2)
-        for item in items
+def _rough(table: str, kind: str, *rows: Row) -> Iterator[Row]:
+    """Yield the rows of a type of roughness, whose paths begin at its table."""
+    for row in rows:
+        yield row._replace(
+            path=f"{table}.roughness.{row.path}",
+            when=lambda state, _: state.roughness_of(table) == kind,
+        )
+
+
+def _solid(number: int) -> tuple[Item, ...]:
+    table = f"surface_{number}.material"
+    modulus, ratio = f"modulus E{'₀₁₂'[number]}", f"Poisson ratio ν{'₀₁₂'[number]}"
+    return (
+        partial(choices.material, number=number),
+        Row(f"{table}.young_modulus", modulus, "GPa;MPa", (1e9, 1.2e12), _in_own_table),
+        _even(f"{table}.poisson_ratio", ratio, "", (0.0, 0.5), _in_own_table),
     )
 
 
-def _rough(kind: str, *rows: Row) -> tuple[Row, ...]:
-    """Return the rows of a type of roughness, with paths from the table of the surface on."""
-    when = partial(_is_rough, kind=kind)
-    return tuple(
-        row._replace(path=f"surface_#.roughness.{row.path}", when=when, value=_zero) for row in rows
+def _surface(number: int) -> tuple[Item, ...]:
+    table, label = f"surface_{number}", f"Rq of surface {number}, for λ"
+    wide = partial(Row, units="um;mm", per_half_width=True)
+    return (
+        partial(choices.surface, number=number),
+        _even(f"{table}.rms_roughness", label, "um;nm", (0.0, 1e-6), _is_smooth),
+        *_rough(
+            table,
+            "wave",
+            Row("amplitude", "amplitude", "um;nm", (1e-9, 1e-6)),
+            wide("wavelength", "wavelength", span=(0.15, 4.0)),
+            _even("angle", "angle of the crests", "deg", (0.0, 0.5 * math.pi)),
+        ),
+        *_rough(
+            table,
+            "bump",
+            _even("amplitude", "height, negative is a dent", "um;nm", (-1e-6, 1e-6)),
+            wide("radius", "radius", span=(0.1, 1.5)),
+            wide("x", "place x", span=(-4.0, 2.0), is_log=False),
+        ),
+        *_rough(
+            table,
+            "random",
+            Row("rms", "Rq", "nm;um", (1e-9, 2e-7)),
+            wide("correlation_length", "correlation length", span=(0.08, 1.0)),
+        ),
     )
 
 
-_LENGTHS, _WARM, _RADII = "mm;m", (253.15, 433.15), (1e-4, 5.0)
-_LAW, _SOLID, _SHEAR = "lubricant.viscosity", "surface_#.material", "lubricant.shear"
+_LAW, _SHEAR = "lubricant.viscosity", "lubricant.shear"
+_radius = partial(Row, units="mm;m", span=(1e-4, 5.0))
+_inlet = partial(_even, units="degC;K", span=(253.15, 433.15), otherwise="inlet_temperature")
 _OPEN = ("Load and speed", "Bodies and geometry", "Oil")
 _GROUPS: dict[str, tuple[Item, ...]] = {
     "Load and speed": (
@@ -194,19 +193,18 @@ _GROUPS: dict[str, tuple[Item, ...]] = {
         _even("contact.slide_roll_ratio", "slide-to-roll ratio", "", (-2.0, 2.0)),
     ),
     "Bodies and geometry": (
-        *_both(
-            choices.material,
-            Row(f"{_SOLID}.young_modulus", "modulus E₀", "GPa;MPa", (1e9, 1.2e12), _in_own_table),
-            _even(f"{_SOLID}.poisson_ratio", "Poisson ratio ν₀", "", (0.0, 0.5), _in_own_table),
-        ),
+        *_solid(1),
+        *_solid(2),
         choices.shape,
-        Row("contact.radius", "reduced radius R", _LENGTHS, _RADII),
-        Row("contact.radius_x", "reduced radius R_x, along entrainment", _LENGTHS, _RADII),
-        Row("contact.radius_y", "reduced radius R_y, across entrainment", _LENGTHS, _RADII),
-        *_both(
-            Row("surface_#.radius", "radius of body #", _LENGTHS, _RADII),
-            Row("surface_#.radius_x", "radius x of body #", _LENGTHS, _RADII),
-            Row("surface_#.radius_y", "radius y of body #", _LENGTHS, _RADII),
+        _radius("contact.radius", "reduced radius R"),
+        _radius("contact.radius_x", "reduced radius R_x, along entrainment"),
+        _radius("contact.radius_y", "reduced radius R_y, across entrainment"),
+        *(
+            _radius(
+                f"surface_{number}.radius{axis}", f"radius{axis.replace('_', ' ')} of body {number}"
+            )
+            for number in (1, 2)
+            for axis in ("", "_x", "_y")
         ),
     ),
     "Oil": (
@@ -215,11 +213,16 @@ _GROUPS: dict[str, tuple[Item, ...]] = {
         Row(f"{_LAW}.nu_100", "viscosity at 100 °C", "mm^2/s", (1e-6, 2e-3)),
         Row(f"{_LAW}.eta_0", "viscosity η₀", "Pa s;mPa s", "viscosity eta_0"),
         _even(
-            f"{_LAW}.alpha", "pressure coefficient α", "1/GPa", (5e-9, 40e-9), _has_slope, _slope
+            f"{_LAW}.alpha",
+            "pressure coefficient α",
+            "1/GPa",
+            (5e-9, 40e-9),
+            _has_slope,
+            "pressure_coefficient",
         ),
         _even(f"{_LAW}.gamma", "temperature coefficient γ", "1/K", (0.005, 0.12)),
-        _even("lubricant.temperature", "oil at the inlet", "degC;K", _WARM, _is_at_inlet, _inlet),
-        _even("thermal.temperature", "oil at the inlet", "degC;K", _WARM, _is_at_inlet, _inlet),
+        _inlet("lubricant.temperature", "oil at the inlet", when=_is_at_inlet),
+        _inlet("thermal.temperature", "oil at the inlet", when=_is_at_inlet),
         choices.shear,
         Row(f"{_SHEAR}.stress", "Eyring stress τ₀", "MPa", (1e5, 5e7), _is_eyring),
         Row(f"{_SHEAR}.modulus", "Carreau modulus", "MPa", (1e4, 1e8)),
@@ -227,9 +230,8 @@ _GROUPS: dict[str, tuple[Item, ...]] = {
     ),
     "Heat": (
         choices.heat,
-        *_both(
-            _even("surface_#.temperature", "bulk of body #", "degC;K", _WARM, _is_heated, _inlet)
-        ),
+        _inlet("surface_1.temperature", "bulk of body 1", when=_is_heated),
+        _inlet("surface_2.temperature", "bulk of body 2", when=_is_heated),
         _even(
             "lubricant.conductivity", "conductivity of the oil", "W/m/K", (0.05, 0.7), _is_heated
         ),
@@ -242,34 +244,8 @@ _GROUPS: dict[str, tuple[Item, ...]] = {
         ),
     ),
     "Surfaces": (
-        *_both(
-            choices.surface,
-            _even(
-                "surface_#.rms_roughness",
-                "Rq of surface #, for λ",
-                "um;nm",
-                (0.0, 1e-6),
-                _is_smooth,
-                _zero,
-            ),
-            *_rough(
-                "wave",
-                Row("amplitude", "amplitude", "um;nm", (1e-9, 1e-6)),
-                _wide("wavelength", "wavelength", "um;mm", (0.15, 4.0)),
-                _even("angle", "angle of the crests", "deg", (0.0, 0.5 * math.pi)),
-            ),
-            *_rough(
-                "bump",
-                _even("amplitude", "height, negative is a dent", "um;nm", (-1e-6, 1e-6)),
-                _wide("radius", "radius", "um;mm", (0.1, 1.5)),
-                _wide("x", "place x", "um;mm", (-4.0, 2.0), is_log=False),
-            ),
-            *_rough(
-                "random",
-                Row("rms", "Rq", "nm;um", (1e-9, 2e-7)),
-                _wide("correlation_length", "correlation length", "um;mm", (0.08, 1.0)),
-            ),
-        ),
+        *_surface(1),
+        *_surface(2),
         choices.moves,
     ),
     "Supply and asperities": (
@@ -277,7 +253,7 @@ _GROUPS: dict[str, tuple[Item, ...]] = {
         Row("supply.layer", "layer", "um;nm", (1e-8, 1e-5)),
         _even("supply.ratio", "oil over that of the flooded one", "", (0.05, 2.0)),
         choices.asperities,
-        Row("asperities.rms", "Rq of both", "um;nm", (1e-8, 2e-6), _is_stated),
+        Row("asperities.rms", "Rq of both", "um;nm", (1e-8, 2e-6)),
         Row("asperities.summit_radius", "summit radius β", "um", (1e-6, 1e-4)),
         _even("asperities.friction", "friction of asperities", "", (0.0, 0.3)),
     ),

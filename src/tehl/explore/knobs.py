@@ -1,15 +1,16 @@
 """Kinds of controls: a number with its unit, one of several words, groups of both."""
 
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
 
 from tehl.base.units import Quantity
-from tehl.explore.case_text import CaseText
 
 _DECADE = 10.0
 """A logarithmic slider reaches from a tenth of its value to ten times it."""
-Change = Callable[[CaseText, str], None]
+Settings = dict[str, Any]
+"""Values by their paths; None and False remove a key."""
 Span = tuple[float, float]
 
 
@@ -82,11 +83,9 @@ class Choice:
 
     path: str
     label: str
-    options: Mapping[str, str]
-    """What is shown, by what is chosen."""
     value: str
-    change: Change
-    """Applies a choice to the text."""
+    options: Mapping[str, tuple[str, Settings]]
+    """What is shown, and the keys of the case that it sets, by what is chosen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,4 +94,4 @@ class Group:
 
     name: str
     items: tuple[Knob | Choice, ...]
-    is_open: bool = field(default=False)
+    is_open: bool = False

@@ -119,4 +119,4 @@ class StatusLine:
     def _apply(self) -> None:
         latest = self.tab.latest
         if latest is not None and latest.outcome.settings:
-            self.tab.apply(dict(latest.outcome.settings))
+            self.tab.apply(latest.outcome.settings)

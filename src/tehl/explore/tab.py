@@ -1,7 +1,7 @@
 """One tab of the page without its elements: the case, what is solved of it, what is compared."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -125,20 +125,21 @@ class Tab:
             return self._edit(knob.path, change, rebuild=math.isinf(number))
         return self._edit(knob.path, lambda case: case.set(knob.path, knob.stated(number, unit)))
 
-    def choose(self, choice: Choice, option: str) -> None:
-        """Choose one of several words; the controls are made again."""
-        self._remember()
-        self._edit(choice.path, lambda case: choice.change(case, option), rebuild=True)
+    def choose(self, path: str, option: str) -> None:
+        """Choose one of several words, for the values that the case has now."""
+        items = (item for group in self.groups for item in group.items)
+        choice = next(one for one in items if isinstance(one, Choice) and one.path == path)
+        self.apply(choice.options[option][1], path)
 
-    def apply(self, settings: dict[str, Any]) -> None:
-        """Set what a hint names."""
+    def apply(self, settings: Mapping[str, Any], path: str = "") -> None:
+        """Set what a hint or a choice names; the controls are made again."""
         self._remember()
 
         def change(case: CaseText) -> None:
-            for path, value in settings.items():
-                case.set(path, None if value is False else value)
+            for key, value in settings.items():
+                case.set(key, None if value is False else value)
 
-        self._edit("", change, rebuild=True)
+        self._edit(path, change, rebuild=True)
 
     def undo(self) -> None:
         """Take the case before the last change."""
@@ -194,15 +195,15 @@ class Tab:
                 raise InputError("this is a study, not a case: solve it with tehl study")
             tables = self.files.resolved(self.case.tables)
             self.problem, self.options = case_from_tables(tables)
-            made = groups(self.case, self.problem) if rebuild or not self.groups else self.groups
+            made = groups(self.case, self.problem)
         except InputError as error:
             self._is_valid = False
             self._blame(self.files.hidden(str(error)), path)
             return False
         self._is_valid = True
         had_fault, self.fault = self.fault is not None, None
-        if made is not self.groups:
-            self.groups = made
+        others, self.groups = rebuild or not self.groups, made
+        if others:
             self.tell("controls")
         if had_fault:
             self.tell("fault")
