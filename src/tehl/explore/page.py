@@ -65,31 +65,19 @@ class Page:
         assert self.live is not None
         assert self.background is not None
         assert self.sweeps is not None
-        owner = client.id
         opened, fault = self.opened, ""
         if case:
             try:
                 opened = CaseText.unpacked(case)
             except InputError as error:
                 fault = str(error)
-        tab = Tab(owner, CaseText(opened.text), self.files, self.live)
+        tab = Tab(client.id, CaseText(opened.text), self.files, self.live)
         TabPage(tab, client, self.background, self.sweeps).build()
         tab.open(tab.case)
         if fault:
             ui.notify(fault, type="negative", timeout=0, close_button="close")
 
-        def leave() -> None:
-            assert self.live is not None
-            assert self.background is not None
-            assert self.sweeps is not None
-            tab.listeners.clear()
-            self.live.cancel(owner)
-            self.live.cancel(f"{owner} pinned")
-            self.sweeps.cancel(f"{owner} sweep")
-            for job in ("run", "file", "surface"):
-                self.background.cancel(f"{owner} {job}")
-
-        client.on_delete(leave)
+        client.on_delete(tab.close)
 
 
 def _ignore(message: Any) -> None:

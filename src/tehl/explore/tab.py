@@ -99,6 +99,11 @@ class Tab:
 
     # ---- the case
 
+    @property
+    def tables(self) -> dict[str, Any]:
+        """Tables of the case with the paths of its files; an InputError if one is not known."""
+        return self.files.resolved(self.case.tables)
+
     def open(self, case: CaseText) -> None:
         """Take another case."""
         self._remember()
@@ -193,8 +198,7 @@ class Tab:
         try:
             if "axes" in self.case.tables:
                 raise InputError("this is a study, not a case: solve it with tehl study")
-            tables = self.files.resolved(self.case.tables)
-            self.problem, self.options = case_from_tables(tables)
+            self.problem, self.options = case_from_tables(self.tables)
             made = groups(self.case, self.problem)
         except InputError as error:
             self._is_valid = False
@@ -227,7 +231,7 @@ class Tab:
     def solve(self) -> None:
         """Solve the case: on the coarse grid while a slider moves, then as the case asks."""
         try:
-            tables = self.files.resolved(self.case.tables)
+            tables = self.tables
         except InputError as error:
             self._blame(self.files.hidden(str(error)), "")
             return
@@ -242,6 +246,12 @@ class Tab:
             self.latest = None
             self._look()
         self.tell("status")
+
+    def close(self) -> None:
+        """Cancel all solves, and report no more changes."""
+        self.listeners.clear()
+        self.solver.cancel(self.owner)
+        self.solver.cancel(f"{self.owner} pinned")
 
     def stop(self) -> None:
         """Cancel what is being solved."""
