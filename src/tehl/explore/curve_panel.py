@@ -185,7 +185,7 @@ class CurvePanel(JobPanel):
         labels = (f"{knob.label}{x_unit}", f"{named.name if named else key}{unit}")
         points = [self._point(one, key) for one in self.points]
         chart = swept_chart(points, labels, self.size, self.span, self._here(knob, key))
-        self.drawing.set_content(chart.drawing)
+        self.drawing.set_content(chart.overlay)
         self._drawn = chart.frame, points, labels
 
     def _value_at(self, right: float, down: float) -> str:

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 from nicegui import ui
 
-from tehl.explore.axes import Frame, Scale, svg, text
+from tehl.explore.axes import Frame, Scale, keys, svg
 from tehl.explore.colour_map import film_limits, film_picture
 from tehl.explore.elements import Drawing, button, main_button
 from tehl.explore.job_panel import JobPanel
@@ -152,10 +152,5 @@ def history_drawing(movie: Movie, frame: int, size: tuple[float, float]) -> str:
     parts += axes.path(time, central, "line film") + axes.path(time, minimum, "line pressure")
     at = axes.x(float(movie.times[frame]))
     parts += f'<path d="M{at:.1f} {axes.y.start}V{axes.y.end}" class="now"/>'
-    for number, (name, style) in enumerate(
-        (("central film", "film"), ("minimum film", "pressure"))
-    ):
-        left = 62 + 130 * number
-        parts += f'<path d="M{left} 12h22" class="line {style}"/>'
-        parts += text(left + 28, 16, name, "small", "start")
+    parts += keys(62, 130, ("central film", "film"), ("minimum film", "pressure"))
     return svg(*size, parts, "central and minimum film over time")
