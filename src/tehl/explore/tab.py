@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 from tehl.api.problem import case_from_tables
 from tehl.base.errors import InputError
-from tehl.contact.options import Options
 from tehl.explore.by_formula import scaled_by_formula
 from tehl.explore.case_text import CaseText
 from tehl.explore.colour_map import film_limits, pressure_limits, section_limits
@@ -74,7 +73,6 @@ class Tab:
         self.owner, self.case, self.files, self.solver = owner, case, files, solver
         self.listeners: list[Listener] = []
         self.problem: ContactProblem | None = None
-        self.options = Options()
         self.groups: tuple[Group, ...] = ()
         self.fault: Fault | None = None
         self.shown: Shown | None = None
@@ -198,7 +196,7 @@ class Tab:
         try:
             if "axes" in self.case.tables:
                 raise InputError("this is a study, not a case: solve it with tehl study")
-            self.problem, self.options = case_from_tables(self.tables)
+            self.problem, _ = case_from_tables(self.tables)
             made = groups(self.case, self.problem)
         except InputError as error:
             self._is_valid = False
