@@ -4,9 +4,9 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from tehl.api.problem import case_from_tables
+from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.base.errors import InputError
 from tehl.explore.by_formula import scaled_by_formula
 from tehl.explore.case_text import CaseText
@@ -18,9 +18,6 @@ from tehl.explore.jobs import Ask, End, Explained, Failure, Note, Part, TooCoars
 from tehl.explore.knobs import Choice, Group, Knob
 from tehl.explore.shown import Shown
 from tehl.explore.worker import Solver
-
-if TYPE_CHECKING:
-    from tehl.api.problem import ContactProblem
 
 VIEWS = {
     "film": "Film",
@@ -257,7 +254,7 @@ class Tab:
         self.is_busy, self.note = False, "stopped"
         self.tell("status")
 
-    def _receive(self, number: int, problem: "ContactProblem", message: Any) -> None:
+    def _receive(self, number: int, problem: ContactProblem, message: Any) -> None:
         """Take a message of the worker; results of an older place of the slider are shown too."""
         newest = number == self._request
         if isinstance(message, Part):
@@ -267,7 +264,7 @@ class Tab:
             self._read(message)
         self.tell("status")
 
-    def _take(self, problem: "ContactProblem", found: Shown) -> None:
+    def _take(self, problem: ContactProblem, found: Shown) -> None:
         """Take a result; a film that did not converge is not shown."""
         self.latest = found
         if found.outcome.converged:
