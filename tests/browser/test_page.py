@@ -216,6 +216,7 @@ def test_an_uploaded_surface_is_shown_levelled_and_used(page):
 
 def test_the_buttons_of_a_measured_surface_stay_where_they_are(page):
     use = measured(page)
+    use.hover(trial=True)  # once the dialog has opened
     before = use.bounding_box()
     type_into(page, "distance of points", "0 um")
     until(use.is_disabled)

@@ -7,7 +7,8 @@ pytest.importorskip("tomlkit", reason="needs pip install 'tehl[explore]'")
 from tehl.api.problem import case_from_tables
 from tehl.base.errors import InputError
 from tehl.explore.case_text import CaseText
-from tehl.explore.controls import Choice, Knob, groups
+from tehl.explore.controls import groups, swept_knobs
+from tehl.explore.knobs import Choice, Knob
 from tehl.io.templates import template_text, templates
 
 
@@ -15,6 +16,11 @@ def controls_of(name):
     case = CaseText(template_text(name))
     problem = case_from_tables(case.tables)[0]
     return case, problem, [item for group in groups(case, problem) for item in group.items]
+
+
+def choose(case, choice, option):
+    for path, value in choice.options[option][1].items():
+        case.set(path, value)
 
 
 def fault_of(case):
@@ -45,14 +51,14 @@ def test_a_choice_gives_a_valid_case_or_a_sentence(name):
         assert choice.value in choice.options
         for option in choice.options:
             again = CaseText(case.text)
-            choice.change(again, option)
+            choose(again, choice, option)
             assert len(fault_of(again).splitlines()) <= 1
 
 
 def test_load_and_hertz_pressure_are_the_same_contact():
     case, problem, items = controls_of("ball-on-disc")
     choice = next(item for item in items if item.path.startswith("contact.load|"))
-    choice.change(case, "hertz_pressure")
+    choose(case, choice, "hertz_pressure")
     assert case.get("contact.load") is None
     assert case_from_tables(case.tables)[0].load == pytest.approx(problem.load, rel=1e-4)
 
@@ -60,7 +66,7 @@ def test_load_and_hertz_pressure_are_the_same_contact():
 def test_radii_of_both_bodies_become_the_reduced_radius():
     case, problem, items = controls_of("ball-on-disc")
     choice = next(item for item in items if item.path == "contact.radius|")
-    choice.change(case, "circle")
+    choose(case, choice, "circle")
     assert case.get("surface_1.radius") is None
     assert case_from_tables(case.tables)[0].radius_x == pytest.approx(problem.radius_x)
 
@@ -68,9 +74,9 @@ def test_radii_of_both_bodies_become_the_reduced_radius():
 def test_heat_can_be_switched_on_and_off():
     case, _, items = controls_of("gear-ellipse")
     choice = next(item for item in items if item.path == "thermal")
-    choice.change(case, "on")
+    choose(case, choice, "on")
     assert case_from_tables(case.tables)[0].thermal is not None
-    choice.change(case, "off")
+    choose(case, choice, "off")
     assert case_from_tables(case.tables)[0].thermal is None
 
 
@@ -92,3 +98,11 @@ def test_temperatures_are_shown_in_degrees_and_stated_so():
     assert knob.number(knob.value, "degC") == pytest.approx(40.0)
     assert knob.stated(45.0, "degC") == "45 degC"
     assert knob.si(45.0, "degC") == pytest.approx(318.15)
+
+
+def test_an_estimated_pressure_coefficient_is_shown_as_its_value():
+    case = CaseText(template_text("ball-on-disc"))
+    case.set("lubricant.viscosity.alpha", "estimated")
+    problem = case_from_tables(case.tables)[0]
+    knob = swept_knobs(groups(case, problem))["lubricant.viscosity.alpha"]
+    assert knob.value == problem.pressure_coefficient

@@ -48,8 +48,8 @@ def test_the_image_has_the_film_in_its_colours(seen):
     image = Image.open(io.BytesIO(base64.b64decode(picture.image.partition(",")[2])))
     indices = np.asarray(image)
     frame = picture.frame
-    row = round((frame.y(0.0) - frame.y.end) / picture.place[3] * (indices.shape[0] - 1))
-    column = round((frame.x(0.0) - frame.x.start) / picture.place[2] * (indices.shape[1] - 1))
+    row = round((frame.y(0.0) - frame.y.end) / frame.place[3] * (indices.shape[0] - 1))
+    column = round((frame.x(0.0) - frame.x.start) / frame.place[2] * (indices.shape[1] - 1))
     film = limits.low * (limits.high / limits.low) ** (indices[row, column] / 255.0)
     assert film == pytest.approx(seen.maps.central, rel=0.01)  # one of 256 colours
 
@@ -60,8 +60,8 @@ def test_the_ground_around_the_contact_has_no_colour(seen):
     alpha = np.asarray(image.convert("RGBA"))[..., 3]
     rows, columns = alpha.shape
     frame = picture.frame
-    row = round((frame.y(0.0) - frame.y.end) / picture.place[3] * (rows - 1))
-    column = round((frame.x(0.0) - frame.x.start) / picture.place[2] * (columns - 1))
+    row = round((frame.y(0.0) - frame.y.end) / frame.place[3] * (rows - 1))
+    column = round((frame.x(0.0) - frame.x.start) / frame.place[2] * (columns - 1))
     assert alpha[row, column] == 255
     assert alpha[0, 0] == alpha[-1, -1] == 0
     assert 0.4 < (alpha == 0).mean() < 0.9
@@ -91,9 +91,9 @@ def test_the_interferogram_is_an_image_of_bytes(seen):
 
 def test_centre_lines_and_sweeps_are_drawings(seen):
     charts = line_charts(seen, SIZE, line_tops(seen.lines))
-    assert [chart.drawing.count("<svg") for chart in charts] == [1, 1]
+    assert [chart.overlay.count("<svg") for chart in charts] == [1, 1]
     points = [Point(1.0, 2.0, 0.1), Point(10.0, None), Point(100.0, 3.0)]
-    drawing = swept_chart(points, ("speed", "film"), SIZE, (1.0, 100.0)).drawing
+    drawing = swept_chart(points, ("speed", "film"), SIZE, (1.0, 100.0)).overlay
     assert drawing.count('class="point"') == 2
     assert drawing.count('class="whisker"') == 1
     assert drawing.count('class="minimum"') == 1

@@ -189,8 +189,8 @@ def test_the_result_of_an_older_place_of_the_slider_is_scaled_to_the_present_one
     tab.turn(load, 160, "N", moving=True)
     tab.solver.receivers[-2](part)
     assert tab.is_old
-    ratio = tab.shown.maps.hertz_pressure / part.shown.maps.hertz_pressure
-    assert ratio == pytest.approx((160 / 90) ** (1 / 3))
+    ratio = tab.shown.maps.pressure.max() / part.shown.maps.pressure.max()
+    assert ratio == pytest.approx((160 / 90) ** (1 / 3), rel=1e-5)
     assert tab.shown.maps.half_widths[0] > part.shown.maps.half_widths[0]
 
 
@@ -273,8 +273,14 @@ def test_a_film_that_outgrows_held_colours_gets_a_wider_range(tab, part):
     assert tab.limits["film"].low == before.low
 
 
+def test_a_choice_is_made_for_the_values_that_the_sliders_have_now(tab):
+    tab.turn(knob(tab, "contact.load"), 120, "N", moving=False)
+    tab.choose("contact.load|hertz_pressure|moes_load", "hertz_pressure")
+    assert tab.problem.load == pytest.approx(120.0, rel=1e-3)
+
+
 def test_a_radius_becomes_that_of_a_flat(tab):
-    tab.choose(knob(tab, "contact.radius|"), "bodies")
+    tab.choose("contact.radius|", "bodies")
     assert not tab.type(knob(tab, "surface_1.radius"), "0", "mm")
     assert '"inf"' in tab.fault.text
     tab.type(knob(tab, "surface_1.radius"), "20", "mm")

@@ -89,13 +89,16 @@ class Frame:
     width: float
     height: float
 
+    @property
+    def place(self) -> tuple[float, float, float, float]:
+        """Left, top, width and height of the plot in pixels."""
+        return self.x.start, self.y.end, self.x.end - self.x.start, self.y.start - self.y.end
+
     def svg(self, x_label: str, y_label: str, *, grid: bool = False, colour: str = "ink") -> str:
         """Return ticks and labels below and at the left; ``colour`` is that of the y axis."""
         left, right, bottom, top = self.x.start, self.x.end, self.y.start, self.y.end
-        parts = [
-            f'<rect x="{left:.1f}" y="{top:.1f}" width="{right - left:.1f}" '
-            f'height="{bottom - top:.1f}" class="frame"/>'
-        ]
+        rectangle = 'x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}"'.format(*self.place)
+        parts = [f'<rect {rectangle} class="frame"/>']
         for value in self.x.ticks(max(3, int((right - left) / 75))):
             at = self.x(value)
             if grid:
@@ -131,6 +134,15 @@ class Frame:
         return f'<path d="{"".join(pieces)}" class="{style}"/>'
 
 
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A drawing and its scales, over a PNG of colours in their place where it is a map."""
+
+    frame: Frame
+    overlay: str
+    image: str = ""
+
+
 def _line(x1: float, y1: float, x2: float, y2: float, style: str) -> str:
     return f'<line x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}" class="{style}"/>'
 
@@ -149,6 +161,16 @@ def turned(x: float, y: float, words: str, style: str) -> str:
         f'<text transform="translate({x:.1f} {y:.1f}) rotate(-90)" text-anchor="middle" '
         f'class="{style}">{escape(words)}</text>'
     )
+
+
+def keys(left: float, step: float, *names: tuple[str, str]) -> str:
+    """Return the names of lines of some styles in a row at the top, ``step`` pixels apart."""
+    parts = []
+    for number, (name, style) in enumerate(names):
+        at = left + step * number
+        parts.append(f'<path d="M{at} 12h22" class="line {style}"/>')
+        parts.append(text(at + 28, 16, name, "small", "start"))
+    return "".join(parts)
 
 
 def svg(width: float, height: float, parts: str, title: str) -> str:

@@ -73,7 +73,6 @@ def _maps(maps: Maps, ratios: Ratios) -> Maps:
         pressure=maps.pressure * ratios.pressure,
         central=maps.central * ratios.film,
         minimum=tuple((x * ratios.x, y * ratios.y) for x, y in maps.minimum),
-        hertz_pressure=maps.hertz_pressure * ratios.pressure,
     )
 
 

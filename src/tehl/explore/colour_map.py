@@ -2,7 +2,6 @@
 
 import base64
 import io
-import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import count
@@ -14,11 +13,12 @@ from matplotlib import colormaps
 from PIL import Image
 
 from tehl.base.typing import Array
-from tehl.explore.axes import Frame, Scale, number_text, svg, text, ticks, turned
-from tehl.explore.shown import Maps, Section, Shown
+from tehl.explore.axes import Frame, Picture, Scale, number_text, svg, text, ticks, turned
+from tehl.explore.shown import Maps, Section, Shown, Span
 
 _LEFT, _RIGHT, _TOP, _BOTTOM, _BARE = 58.0, 84.0, 26.0, 46.0, 14.0
 """Margins in pixels; the last one at the right without a colour bar."""
+_X_LABEL = "x along entrainment [µm]"
 _WIDEST = 400.0
 """Pixels of an image; the browser draws it wider, smoothly."""
 _NUMBERS = count()
@@ -56,17 +56,6 @@ class Look:
     """Whether a colour bar stands at its right."""
     opens: bool = False
     """Whether what is larger than the limits has no colour: the ground of the page."""
-
-
-@dataclass(frozen=True, slots=True)
-class Picture:
-    """A map: the PNG of its colours, where it lies, and the SVG over it."""
-
-    image: str
-    place: tuple[float, float, float, float]
-    """Left, top, width and height of the image in pixels."""
-    overlay: str
-    frame: Frame
 
 
 def film_limits(maps: Maps) -> Limits:
@@ -114,13 +103,12 @@ def fringes_picture(shown: Shown, size: tuple[float, float]) -> Picture:
     """Draw the interferogram, which has no colour bar."""
     maps, fringes = shown.maps, shown.fringes
     assert fringes is not None
-    frame = _frame(maps, size, _BARE)
-    place = _place(frame)
+    frame = _frame(maps.window, maps.stretch, size, _BARE)
     buffer = io.BytesIO()
     Image.fromarray(fringes).save(buffer, "PNG", compress_level=1)
-    parts = frame.svg("x along entrainment [µm]", "y [µm]") + _contact(frame, maps)
+    parts = frame.svg(_X_LABEL, "y [µm]") + _contact(frame, maps)
     overlay = svg(frame.width, frame.height, parts, "interferogram in white light")
-    return Picture(_uri(buffer), place, overlay, frame)
+    return Picture(frame, overlay, _uri(buffer))
 
 
 def section_picture(
@@ -128,72 +116,72 @@ def section_picture(
 ) -> Picture:
     """Draw the temperature rise in the plane y = 0, across the film."""
     width, height = size[0], min(size[1], 0.55 * size[0] + 60.0)
-    (left, right), _ = maps.window
-    frame = Frame(
-        Scale(left, right, _LEFT, width - _RIGHT),
-        Scale(0.0, 1.0, height - _BOTTOM, _TOP),
-        width,
-        height,
-    )
-    place = _place(frame)
-    across = np.linspace(0.0, 1.0, len(section.rise))
-    axes = (section.x, across)
-    pixels = _resampled(section.rise, axes, frame, place)
+    x = Scale(*maps.window[0], _LEFT, width - _RIGHT)
+    frame = Frame(x, Scale(0.0, 1.0, height - _BOTTOM, _TOP), width, height)
+    axes = (section.x, np.linspace(0.0, 1.0, len(section.rise)))
     look = Look(limits, ticks(limits.low, limits.high, 9), "inferno", "rise over the inlet [K]")
     parts = _contours(section.rise, axes, frame, look.levels)
     for edge in (-maps.half_widths[0], maps.half_widths[0]):
         at = frame.x(edge)
         parts += f'<path d="M{at:.1f} {frame.y.start}V{frame.y.end}" class="hertz"/>'
-    parts += frame.svg("x along entrainment [µm]", "z / h, from surface 1 to 2")
-    parts += _colour_bar(frame, look)
-    overlay = svg(width, height, parts, "temperature rise across the film")
-    return Picture(_png(pixels, look), place, overlay, frame)
+    parts += frame.svg(_X_LABEL, "z / h, from surface 1 to 2")
+    return _coloured(section.rise, axes, frame, look, parts, "temperature rise across the film")
+
+
+def heights_picture(
+    axes: tuple[Array, Array], heights: Array, size: tuple[float, float]
+) -> Picture:
+    """Draw the heights of a measured surface [nm] over x and y [um]."""
+    low, high = (float(value) for value in np.percentile(heights, (0.5, 99.5)))
+    look = Look(
+        Limits(low, high if high > low else low + 1.0), [], "viridis", "height outwards [nm]"
+    )
+    x, y = ((float(axis[0]), float(axis[-1])) for axis in axes)
+    frame = _frame((x, y), 1.0, size, _RIGHT)
+    parts = frame.svg(_X_LABEL, "y [µm]")
+    return _coloured(heights, axes, frame, look, parts, "map of the heights")
 
 
 def value_at(x_axis: Array, y_axis: Array, field: Array, x: float, y: float) -> float | None:
     """Return a field at a place between its nodes, None outside."""
     if not (x_axis[0] <= x <= x_axis[-1] and y_axis[0] <= y <= y_axis[-1]):
         return None
-    row = [float(np.interp(x, x_axis, line)) for line in _around(field, y_axis, y)]
-    k = int(np.clip(np.searchsorted(y_axis, y), 1, len(y_axis) - 1))
-    part = (y - y_axis[k - 1]) / (y_axis[k] - y_axis[k - 1])
-    return float((1.0 - part) * row[0] + part * row[1])
-
-
-def _around(field: Array, axis: Array, at: float) -> Array:
-    k = int(np.clip(np.searchsorted(axis, at), 1, len(axis) - 1))
-    return field[k - 1 : k + 1]
+    return float(np.interp(y, y_axis, [np.interp(x, x_axis, row) for row in field]))
 
 
 def _map(maps: Maps, field: Array, look: Look, size: tuple[float, float]) -> Picture:
-    frame = _frame(maps, size, _RIGHT if look.bar else _BARE)
-    place = _place(frame)
-    pixels = _resampled(field, (maps.x, maps.y), frame, place)
-    parts = _contours(field, (maps.x, maps.y), frame, look.levels)
-    parts += _contact(frame, maps) + frame.svg("x along entrainment [µm]", _y_label(maps))
-    parts += (_colour_bar(frame, look) if look.bar else "") + _legend(frame, maps)
-    overlay = svg(frame.width, frame.height, parts, f"map of the {look.label}")
-    return Picture(_png(pixels, look), place, overlay, frame)
+    frame = _frame(maps.window, maps.stretch, size, _RIGHT if look.bar else _BARE)
+    axes = (maps.x, maps.y)
+    parts = _contours(field, axes, frame, look.levels) + _contact(frame, maps)
+    parts += frame.svg(_X_LABEL, _y_label(maps)) + _legend(frame, maps)
+    return _coloured(field, axes, frame, look, parts, f"map of the {look.label}")
+
+
+def _coloured(
+    field: Array, axes: tuple[Array, Array], frame: Frame, look: Look, parts: str, title: str
+) -> Picture:
+    """Return a field in colours below a drawing, with its colour bar."""
+    parts += _colour_bar(frame, look) if look.bar else ""
+    overlay = svg(frame.width, frame.height, parts, title)
+    return Picture(frame, overlay, _png(_resampled(field, axes, frame), look))
 
 
 def _y_label(maps: Maps) -> str:
     if maps.stretch == 1.0:
         return "y [µm]"
-    stretched = maps.stretch > 1.0
-    return (
-        f"y [µm], stretched {maps.stretch:.2g}:1"
-        if stretched
-        else (f"y [µm], compressed 1:{1.0 / maps.stretch:.2g}")
-    )
+    if maps.stretch > 1.0:
+        return f"y [µm], stretched {maps.stretch:.2g}:1"
+    return f"y [µm], compressed 1:{1.0 / maps.stretch:.2g}"
 
 
-def _frame(maps: Maps, size: tuple[float, float], right_margin: float) -> Frame:
+def _frame(
+    window: tuple[Span, Span], stretch: float, size: tuple[float, float], right_margin: float
+) -> Frame:
     """Return the scales of a map as large as fits."""
-    (left, right), (bottom, top) = maps.window
-    shape = (top - bottom) / (right - left) * maps.stretch
+    (left, right), (bottom, top) = window
+    shape = (top - bottom) / (right - left) * stretch
     width = min(size[0] - _LEFT - right_margin, (size[1] - _TOP - _BOTTOM) / shape)
-    height = width * shape
-    full = _TOP + height + _BOTTOM
+    full = _TOP + width * shape + _BOTTOM
     return Frame(
         Scale(left, right, _LEFT, _LEFT + width),
         Scale(bottom, top, full - _BOTTOM, _TOP),
@@ -202,21 +190,11 @@ def _frame(maps: Maps, size: tuple[float, float], right_margin: float) -> Frame:
     )
 
 
-def _place(frame: Frame) -> tuple[float, float, float, float]:
-    return (
-        frame.x.start,
-        frame.y.end,
-        frame.x.end - frame.x.start,
-        frame.y.start - frame.y.end,
-    )
-
-
-def _resampled(
-    field: Array, axes: tuple[Array, Array], frame: Frame, place: tuple[float, float, float, float]
-) -> Array:
+def _resampled(field: Array, axes: tuple[Array, Array], frame: Frame) -> Array:
     """Return a field at the pixels of its image, from the top down."""
-    fewer = max(1.0, place[2] / _WIDEST)
-    columns, rows = max(2, round(place[2] / fewer)), max(2, round(place[3] / fewer))
+    *_, width, height = frame.place
+    fewer = max(1.0, width / _WIDEST)
+    columns, rows = max(2, round(width / fewer)), max(2, round(height / fewer))
     along = np.linspace(frame.x.low, frame.x.high, columns)
     down = np.linspace(frame.y.high, frame.y.low, rows)
     return np.asarray(_weights(axes[1], down) @ field @ _weights(axes[0], along).T)
@@ -245,14 +223,11 @@ def _cached_weights(nodes: bytes, places: bytes, kind: str) -> Array:
 def _png(pixels: Array, look: Look) -> str:
     """Return an image of 256 colours as the address of its data."""
     limits = look.limits
-    if limits.is_log:
-        part = np.log(np.maximum(pixels, 1e-9) / limits.low) / math.log(limits.high / limits.low)
-    else:
-        part = (pixels - limits.low) / (limits.high - limits.low)
-    indices = (_CLEAR * np.clip(part, 0.0, 1.0)).astype(np.uint8)
+    scale = Scale(limits.low, limits.high, 0.0, _CLEAR, limits.is_log)
+    indices = np.clip(scale.pixels(pixels), 0.0, _CLEAR)
     if look.opens:
-        indices = np.where(part > 1.0, _CLEAR, np.minimum(indices, _CLEAR - 1)).astype(np.uint8)
-    image = Image.fromarray(indices, "P")
+        indices = np.where(pixels > limits.high, _CLEAR, np.minimum(indices, _CLEAR - 1))
+    image = Image.fromarray(indices.astype(np.uint8), "P")
     image.putpalette(_palette(look.colours))
     buffer = io.BytesIO()
     clear = {"transparency": _CLEAR} if look.opens else {}
@@ -348,24 +323,3 @@ def _colour_bar(frame: Frame, look: Look) -> str:
             "<title>more has no colour</title></path>"
         )
     return "".join(parts)
-
-
-def heights_picture(
-    axes: tuple[Array, Array], heights: Array, size: tuple[float, float]
-) -> Picture:
-    """Draw the heights of a measured surface [nm] over x and y [um]."""
-    low, high = (float(value) for value in np.percentile(heights, (0.5, 99.5)))
-    limits = Limits(low, high if high > low else low + 1.0)
-    shape = float(np.ptp(axes[1]) / np.ptp(axes[0]))
-    width = min(size[0] - _LEFT - _RIGHT, (size[1] - _TOP - _BOTTOM) / shape)
-    full = _TOP + width * shape + _BOTTOM
-    frame = Frame(
-        Scale(float(axes[0][0]), float(axes[0][-1]), _LEFT, _LEFT + width),
-        Scale(float(axes[1][0]), float(axes[1][-1]), full - _BOTTOM, _TOP),
-        _LEFT + width + _RIGHT,
-        full,
-    )
-    place, look = _place(frame), Look(limits, [], "viridis", "height outwards [nm]")
-    parts = frame.svg("x along entrainment [µm]", "y [µm]") + _colour_bar(frame, look)
-    overlay = svg(frame.width, frame.height, parts, "map of the heights")
-    return Picture(_png(_resampled(heights, axes, frame, place), look), place, overlay, frame)

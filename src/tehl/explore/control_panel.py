@@ -1,16 +1,14 @@
 """The left side of the page: a row for each control, made again when others are needed."""
 
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 from nicegui import ui
 
-from tehl.explore.controls import Choice, Group, Knob
 from tehl.explore.elements import button, plain
+from tehl.explore.knobs import Choice, Group, Knob
 from tehl.explore.tab import Tab
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 _STEPS, _EDGE = 200, 2
 """Places of a slider, and those at either end from which its range moves on."""
@@ -21,9 +19,9 @@ _THROTTLE = 0.03
 class ControlPanel:
     """The controls of a tab; ``measured`` asks for a measured surface."""
 
-    def __init__(self, tab: Tab, measured: "Callable[[], None]") -> None:
+    def __init__(self, tab: Tab, measured: Callable[[], None]) -> None:
         self.tab, self.measured = tab, measured
-        self.rows: dict[str, KnobRow | ChoiceRow] = {}
+        self.rows: dict[str, Row] = {}
         self.opened = dict[str, bool]()
         self.place = ui.column().classes("controls")
         tab.listeners.append(self._hear)
@@ -49,10 +47,10 @@ class ControlPanel:
             part.props("dense header-class=group-head")
             part.on_value_change(lambda event: self.opened.update({group.name: event.value}))
             for item in group.items:
-                row = (
-                    KnobRow(self.tab, item) if isinstance(item, Knob) else ChoiceRow(self.tab, item)
-                )
-                self.rows[item.path] = row
+                if isinstance(item, Knob):
+                    self.rows[item.path] = KnobRow(self.tab, item)
+                else:
+                    self.rows[item.path] = ChoiceRow(self.tab, item)
             if group.name == "Surfaces":
                 button("Measured surface", self.measured, icon="upload")
 
@@ -62,12 +60,21 @@ class ControlPanel:
         for path, row in self.rows.items():
             row.blame(fault.text if fault is not None and fault.path == path else "")
 
-    def owns(self, path: str) -> bool:
-        """Return whether a fault of a key is shown beside its control."""
-        return path in self.rows
+
+class Row:
+    """A control with a place for what is wrong with it."""
+
+    def __init__(self) -> None:
+        self.fault = ui.label("").classes("fault").props('role="alert"')
+        self.fault.set_visibility(False)
+
+    def blame(self, text: str) -> None:
+        """Show a sentence below the control, none if it is empty."""
+        self.fault.set_text(text)
+        self.fault.set_visibility(bool(text))
 
 
-class KnobRow:
+class KnobRow(Row):
     """Label, exact entry, unit and slider of a number."""
 
     def __init__(self, tab: Tab, knob: Knob) -> None:
@@ -88,8 +95,7 @@ class KnobRow:
                 "update:model-value", self._moved, [None], throttle=_THROTTLE, leading_events=True
             )
             self.slider.on("change", self._released, [None])
-            self.fault = ui.label("").classes("fault").props('role="alert"')
-            self.fault.set_visibility(False)
+            super().__init__()
 
     def _unit_selector(self) -> None:
         if len(self.knob.units) > 1:
@@ -164,13 +170,8 @@ class KnobRow:
         self.unit = event.value
         self.entry.set_value(self._words())
 
-    def blame(self, text: str) -> None:
-        """Show a sentence below the slider, none if it is empty."""
-        self.fault.set_text(text)
-        self.fault.set_visibility(bool(text))
 
-
-class ChoiceRow:
+class ChoiceRow(Row):
     """Label and selector of one of several words."""
 
     def __init__(self, tab: Tab, choice: Choice) -> None:
@@ -178,16 +179,10 @@ class ChoiceRow:
         with ui.element("div").classes("choice"):
             ui.label(choice.label).classes("knob-label")
             self.selector = ui.select(
-                dict(choice.options),
+                {option: name for option, (name, _) in choice.options.items()},
                 value=choice.value,
-                on_change=lambda event: tab.choose(choice, event.value),
+                on_change=lambda event: tab.choose(choice.path, event.value),
             )
             self.selector.props(f'dense outlined options-dense aria-label="{choice.label}"')
             self.selector.classes("choice-selector")
-            self.fault = ui.label("").classes("fault").props('role="alert"')
-            self.fault.set_visibility(False)
-
-    def blame(self, text: str) -> None:
-        """Show a sentence below the selector, none if it is empty."""
-        self.fault.set_text(text)
-        self.fault.set_visibility(bool(text))
+            super().__init__()

@@ -7,10 +7,11 @@ from nicegui import ui
 
 from tehl.base.errors import InputError
 from tehl.explore.case_text import CaseText
-from tehl.explore.controls import Knob, swept_knobs
+from tehl.explore.controls import swept_knobs
 from tehl.explore.curves import Point, nearest, swept_chart
 from tehl.explore.elements import button, main_button, read_at_pointer
-from tehl.explore.jobs import End, Failure
+from tehl.explore.job_panel import JobPanel
+from tehl.explore.knobs import Knob
 from tehl.explore.numbers import value_of
 from tehl.explore.sweeps import Sweep, Sweeps, Swept
 from tehl.explore.tab import Tab
@@ -31,15 +32,14 @@ _SPEED = "contact.entrainment_speed"
 _SLIDING = (0.003, 1.0)
 
 
-class CurvePanel:
+class CurvePanel(JobPanel):
     """Curves of a tab, solved in the background."""
 
     def __init__(self, tab: Tab, sweeps: Sweeps) -> None:
-        self.tab, self.sweeps = tab, sweeps
+        super().__init__(tab, sweeps, "sweep")
         self.points: list[Swept] = []
         self.knob: Knob | None = None
         self.span, self.wanted, self.size = (1.0, 10.0), 0, (720.0, 480.0)
-        self._number = 0
         self._drawn: tuple[Frame | None, list[Point], tuple[str, str]] = None, [], ("", "")
         self._around: Any = None  # the case of the curve, without what is swept
         with ui.element("div").classes("curves") as self.place:
@@ -104,10 +104,6 @@ class CurvePanel:
             self._take_range()
         self.draw()
 
-    def hide(self) -> None:
-        """Hide the panel."""
-        self.place.set_visibility(False)
-
     def _take_range(self) -> None:
         """Propose the range around the present value."""
         knob = swept_knobs(self.tab.groups).get(str(self.over.value))
@@ -127,28 +123,19 @@ class CurvePanel:
     def start(self) -> None:
         """Solve the curve in the background."""
         knob = swept_knobs(self.tab.groups).get(str(self.over.value))
-        if knob is None:
-            return
-        try:
-            low, high = ends(str(self.low.value), str(self.high.value))
-            tables = self.tab.files.resolved(self.tab.case.tables)
-        except InputError as error:
-            self.state.set_text(self.tab.files.hidden(str(error)))
-            return
+        if knob is not None and self.submit(lambda: self._sweep(knob)):
+            self._around = self._others()
+            self.halt.set_visibility(True)
+            self._progress()
+            self.draw()
+
+    def _sweep(self, knob: Knob) -> Sweep:
+        """Return the sweep that is asked for, of which no point is solved yet."""
+        tables, (low, high) = self.tab.tables, ends(str(self.low.value), str(self.high.value))
         count = int(min(max(self.count.value or _POINTS, 3), _MOST))
-        places = spread(low, high, count)
-        values = tuple((x, knob.stated(x, knob.unit)) for x in places)
         self.points, self.knob, self.span, self.wanted = [], knob, (low, high), count
-        self._around = self._others()
-        self._number += 1
-        number = self._number
-        job = Sweep(tables, knob.path, values)
-        self.sweeps.submit(
-            f"{self.tab.owner} sweep", job, lambda message: self._receive(number, message)
-        )
-        self.halt.set_visibility(True)
-        self._progress()
-        self.draw()
+        values = ((x, knob.stated(x, knob.unit)) for x in spread(low, high, count))
+        return Sweep(tables, knob.path, tuple(values))
 
     def _others(self) -> dict[str, Any] | None:
         """Return the tables of the contact without the key that is swept."""
@@ -158,23 +145,15 @@ class CurvePanel:
         case.set(self.knob.path, None)
         return {name: table for name, table in case.tables.items() if name != "numerics"}
 
-    def cancel(self) -> None:
-        """Leave the rest of the sweep."""
-        self.sweeps.cancel(f"{self.tab.owner} sweep")
+    def _take(self, swept: Swept) -> None:
+        self.points.append(swept)
+        self._progress()
+        self.draw()
 
-    def _receive(self, number: int, message: Any) -> None:
-        if number != self._number:
-            return
-        if isinstance(message, Swept):
-            self.points.append(message)
-            self._progress()
-            self.draw()
-        elif isinstance(message, Failure):
-            self.state.set_text(self.tab.files.hidden(message.text))
-        elif isinstance(message, End):
-            self.halt.set_visibility(False)
-            if message.cancelled:
-                self.state.set_text(f"cancelled after {len(self.points)} of {self.wanted} points")
+    def _end(self, *, cancelled: bool) -> None:
+        self.halt.set_visibility(False)
+        if cancelled:
+            self.state.set_text(f"cancelled after {len(self.points)} of {self.wanted} points")
 
     def _progress(self) -> None:
         failed = [point for point in self.points if not point.numbers]
@@ -206,7 +185,7 @@ class CurvePanel:
         labels = (f"{knob.label}{x_unit}", f"{named.name if named else key}{unit}")
         points = [self._point(one, key) for one in self.points]
         chart = swept_chart(points, labels, self.size, self.span, self._here(knob, key))
-        self.drawing.set_content(chart.drawing)
+        self.drawing.set_content(chart.overlay)
         self._drawn = chart.frame, points, labels
 
     def _value_at(self, right: float, down: float) -> str:

@@ -6,20 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl.explore.axes import Frame, Scale, svg, text, turned
+from tehl.explore.axes import Frame, Picture, Scale, keys, svg, turned
 from tehl.explore.shown import Line, Lines, Shown
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 62.0, 62.0, 28.0, 46.0
 _NEAR = 30.0
 """Pixels from the pointer within which a swept value is read."""
-
-
-@dataclass(frozen=True, slots=True)
-class Chart:
-    """A drawing and its scales."""
-
-    drawing: str
-    frame: Frame
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +26,7 @@ class Point:
 
 def line_charts(
     shown: Shown, size: tuple[float, float], top: tuple[float, float], other: Shown | None = None
-) -> list[Chart]:
+) -> list[Picture]:
     """Draw film and pressure along x and along y, those of another state fainter.
 
     ``top`` are the ends of the scales of film and pressure.
@@ -56,7 +48,7 @@ def line_tops(lines: Lines) -> tuple[float, float]:
     return 3.0 * max(middle, 1e-3), 1.12 * max(float(pressure.max()), float(hertz.max()), 1e-6)
 
 
-def values_on_line(lines: Lines, charts: Sequence[Chart], right: float, down: float) -> str:
+def values_on_line(lines: Lines, charts: Sequence[Picture], right: float, down: float) -> str:
     """Return film and pressure on a centre line at a pixel of its charts, one below the other."""
     for name, line, chart in zip("xy", (lines.x, lines.y), charts, strict=True):
         if down < chart.frame.height:
@@ -79,14 +71,14 @@ def nearest(points: Sequence[Point], frame: Frame, right: float) -> Point | None
 
 def _centre_line(
     lines: tuple[Line, Line | None], label: str, x: Scale, height: float, top: tuple[float, float]
-) -> Chart:
+) -> Picture:
     size, low = (x.end + _RIGHT, height), height - _BOTTOM
     of_film = Frame(x, Scale(0.0, top[0], low, _TOP), *size)
     of_pressure = Frame(x, Scale(0.0, top[1], low, _TOP), *size)
     parts = of_film.svg(label, "film [nm]", grid=True, colour="film")
     parts += "".join(of_pressure.y_ticks(x.end, 1, grid=False, colour="pressure"))
     parts += turned(x.end + 48, 0.5 * (low + _TOP), "pressure [GPa]", "label pressure")
-    keys = [("film", "film"), ("pressure", "pressure"), ("Hertz", "dashed pressure")]
+    names = [("film", "film"), ("pressure", "pressure"), ("Hertz", "dashed pressure")]
     for line, style in ((lines[1], "faint "), (lines[0], "")):
         if line is None:
             continue
@@ -97,18 +89,9 @@ def _centre_line(
         clipped = np.where(film <= top[0], film, np.nan)
         parts += of_film.path(place, clipped, f"line {style}film")
     if lines[1] is not None:
-        keys.append(("pinned, fainter", "faint film"))
-    parts += _keys(x.start, keys)
-    return Chart(svg(*size, parts, f"film and pressure over {label}"), of_film)
-
-
-def _keys(left: float, names: Sequence[tuple[str, str]]) -> str:
-    parts = []
-    for number, (name, style) in enumerate(names):
-        at = left + 82 * number
-        parts.append(f'<path d="M{at} 12h22" class="line {style}"/>')
-        parts.append(text(at + 28, 16, name, "small", "start"))
-    return "".join(parts)
+        names.append(("pinned, fainter", "faint film"))
+    parts += keys(x.start, 82, *names)
+    return Picture(of_film, svg(*size, parts, f"film and pressure over {label}"))
 
 
 def swept_chart(
@@ -117,7 +100,7 @@ def swept_chart(
     size: tuple[float, float],
     span: tuple[float, float],
     here: Point | None = None,
-) -> Chart:
+) -> Picture:
     """Draw a swept quantity with error bars, and the present state; ``span`` is the x axis."""
     known = [point for point in points if point.y is not None]
     wide = span[0] > 0 and span[1] / span[0] > 8.0
@@ -138,7 +121,7 @@ def swept_chart(
         parts += (
             f'<circle cx="{frame.x(here.x):.1f}" cy="{frame.y(here.y):.1f}" r="7" class="here"/>'
         )
-    return Chart(svg(*size, parts, f"{labels[1]} over {labels[0]}"), frame)
+    return Picture(frame, svg(*size, parts, f"{labels[1]} over {labels[0]}"))
 
 
 def _y_scale(values: list[float], size: tuple[float, float]) -> Scale:

@@ -5,7 +5,7 @@ from typing import Any
 
 from nicegui import ui
 
-from tehl.explore.colour_map import Picture
+from tehl.explore.axes import Picture
 
 
 def button(
@@ -64,7 +64,7 @@ class Drawing:
 
     def show(self, picture: Picture) -> None:
         """Show a map."""
-        left, top, width, height = picture.place
+        left, top, width, height = picture.frame.place
         self._image.props["src"] = picture.image
         self._image.style(
             f"display:block;left:{left:.1f}px;top:{top:.1f}px;"

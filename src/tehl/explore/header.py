@@ -7,7 +7,7 @@ from nicegui import ui
 from tehl.base.errors import InputError
 from tehl.explore.case_text import LARGEST, CaseText, template_case
 from tehl.explore.elements import button, main_button
-from tehl.explore.jobs import End, Failure, Note
+from tehl.explore.job_panel import JobPanel
 from tehl.explore.tab import Tab
 from tehl.explore.tasks import Export, Saved
 from tehl.explore.worker import Solver
@@ -33,11 +33,12 @@ PICTURES = {
 """Pictures of the package that show a view."""
 
 
-class Header:
+class Header(JobPanel):
     """Title and actions of a tab."""
 
     def __init__(self, tab: Tab, background: Solver) -> None:
-        self.tab, self.background = tab, background
+        super().__init__(tab, background, "file")
+        self.client = ui.context.client
         tab.listeners.append(self._hear)
 
     def build(self, theme: str) -> None:
@@ -56,8 +57,8 @@ class Header:
             button("", self.tab.redo, icon="redo", name="redo, Ctrl+Y")
             self.dark = ui.dark_mode(value={"dark": True, "light": False}.get(theme))
             button("", self._shade, icon="contrast", name="dark or light")
-        self.progress = ui.label("").classes("progress-note")
-        self.progress.set_visibility(False)
+        self.state = ui.label("").classes("progress-note")
+        self.state.bind_visibility_from(self.state, "text", bool)
         ui.keyboard(on_key=self._key, ignore=["input", "textarea", "select"])
 
     def _templates(self) -> None:
@@ -165,33 +166,20 @@ class Header:
         tab = self.tab
         if kind.startswith("film."):
             kind = kind.replace("film", PICTURES.get(tab.view, "film"))
-        try:
-            tables = tab.files.resolved(tab.case.tables)
-        except InputError as error:
-            ui.notify(tab.files.hidden(str(error)), type="negative")
-            return
-        self._note("solving for the file")
-        job = Export(tables, kind, self._stem())
-        client = ui.context.client
-        self.background.submit(
-            f"{tab.owner} file", job, lambda message: self._receive(client, message)
-        )
+        if self.submit(lambda: Export(tab.tables, kind, self._stem())):
+            self._say("solving for the file")
 
-    def _receive(self, client: Any, message: Any) -> None:
-        with client:
-            if isinstance(message, Saved):
-                ui.download.content(message.content, message.name)
-            elif isinstance(message, Failure):
-                text = self.tab.files.hidden(message.text)
-                ui.notify(text, type="negative", timeout=0, close_button="close")
-            elif isinstance(message, Note):
-                self._note(message.text)
-            elif isinstance(message, End):
-                self._note("")
+    def _take(self, saved: Saved) -> None:
+        with self.client:
+            ui.download.content(saved.content, saved.name)
 
-    def _note(self, text: str) -> None:
-        self.progress.set_text(text)
-        self.progress.set_visibility(bool(text))
+    def _fail(self, words: str) -> None:
+        with self.client:
+            ui.notify(words, type="negative", timeout=0, close_button="close")
+
+    def _end(self, *, cancelled: bool) -> None:
+        del cancelled
+        self._say("")
 
 
 def python_of(text: str, stem: str) -> str:

@@ -2,16 +2,14 @@
 
 import math
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 from nicegui import ui
 
-from tehl.base.errors import InputError
-from tehl.explore.axes import Frame, Scale, svg, text
+from tehl.explore.axes import Frame, Scale, keys, svg
 from tehl.explore.colour_map import film_limits, film_picture
 from tehl.explore.elements import Drawing, button, main_button
-from tehl.explore.jobs import End, Failure, Note
+from tehl.explore.job_panel import JobPanel
 from tehl.explore.tab import Tab
 from tehl.explore.tasks import Movie, Transient
 from tehl.explore.worker import Solver
@@ -20,13 +18,13 @@ _PERIOD = 0.12
 """Seconds between two frames."""
 
 
-class MoviePanel:
+class MoviePanel(JobPanel):
     """The movie of a tab, solved in the background."""
 
     def __init__(self, tab: Tab, background: Solver) -> None:
-        self.tab, self.background = tab, background
+        super().__init__(tab, background, "run")
         self.movie: Movie | None = None
-        self.text, self._number, self.size = "", 0, (720.0, 560.0)
+        self.text, self.size = "", (720.0, 560.0)
         with ui.element("div").classes("movie") as self.place:
             with ui.element("div").classes("movie-bar"):
                 self.run = main_button("Solve the run", self.start, icon="play_arrow")
@@ -73,43 +71,25 @@ class MoviePanel:
 
     def start(self) -> None:
         """Solve the run in the background."""
-        try:
-            tables = self.tab.files.resolved(self.tab.case.tables)
-        except InputError as error:
-            self.state.set_text(self.tab.files.hidden(str(error)))
-            return
-        self._number += 1
-        number, self.text = self._number, self.tab.case.text
-        self.background.submit(
-            f"{self.tab.owner} run",
-            Transient(tables),
-            lambda message: self._receive(number, message),
-        )
-        self.halt.set_visibility(True)
-        self.run.set_visibility(False)
-        self.state.set_text("starting")
+        if self.submit(lambda: Transient(self.tab.tables)):
+            self.text = self.tab.case.text
+            self.halt.set_visibility(True)
+            self.run.set_visibility(False)
+            self._say("starting")
 
-    def cancel(self) -> None:
-        """Leave the run."""
-        self.background.cancel(f"{self.tab.owner} run")
+    def _take(self, movie: Movie) -> None:
+        self.movie = movie
+        self.slider.props(f"max={len(movie.times) - 1}")
+        self.state.set_text(movie.words)
+        self.slider.set_value(0)
+        self.player.set_visibility(True)
+        self.draw()
 
-    def _receive(self, number: int, message: Any) -> None:
-        if number != self._number:
-            return
-        if isinstance(message, Movie):
-            self.movie = message
-            self.slider.props(f"max={len(message.times) - 1}")
-            self.state.set_text(message.words)
-            self.slider.set_value(0)
-            self.player.set_visibility(True)
-            self.draw()
-        elif isinstance(message, Note | Failure):
-            self.state.set_text(self.tab.files.hidden(message.text))
-        elif isinstance(message, End):
-            self.halt.set_visibility(False)
-            self.run.set_visibility(True)
-            if message.cancelled:
-                self.state.set_text("cancelled")
+    def _end(self, *, cancelled: bool) -> None:
+        self.halt.set_visibility(False)
+        self.run.set_visibility(True)
+        if cancelled:
+            self.state.set_text("cancelled")
 
     # ---- playing
 
@@ -172,10 +152,5 @@ def history_drawing(movie: Movie, frame: int, size: tuple[float, float]) -> str:
     parts += axes.path(time, central, "line film") + axes.path(time, minimum, "line pressure")
     at = axes.x(float(movie.times[frame]))
     parts += f'<path d="M{at:.1f} {axes.y.start}V{axes.y.end}" class="now"/>'
-    for number, (name, style) in enumerate(
-        (("central film", "film"), ("minimum film", "pressure"))
-    ):
-        left = 62 + 130 * number
-        parts += f'<path d="M{left} 12h22" class="line {style}"/>'
-        parts += text(left + 28, 16, name, "small", "start")
+    parts += keys(62, 130, ("central film", "film"), ("minimum film", "pressure"))
     return svg(*size, parts, "central and minimum film over time")

@@ -2,18 +2,15 @@
 
 import math
 import re
+from collections.abc import Callable
 from functools import partial
 from html import escape
-from typing import TYPE_CHECKING
 
 from nicegui import ui
 
 from tehl.explore.elements import button, mark
 from tehl.explore.numbers import Number, value_of
 from tehl.explore.tab import Tab
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 _REACH = 0.3
 """Relative deviation at the ends of the drawn error bar."""
@@ -24,7 +21,7 @@ _MAIN = ("h_central", "h_min", "p_max", "friction")
 class NumberPanel:
     """The numbers of a tab; ``sweep`` is called with a quantity whose curve is wanted."""
 
-    def __init__(self, tab: Tab, sweep: "Callable[[str], None]") -> None:
+    def __init__(self, tab: Tab, sweep: Callable[[str], None]) -> None:
         self.tab, self.sweep = tab, sweep
         self.rows: dict[str, ui.html] = {}
         self.place = ui.column().classes("numbers")

@@ -38,63 +38,41 @@ class Page:
 
     def __init__(self, opened: CaseText, files: Files) -> None:
         self.opened, self.files = opened, files
-        self.live: Solver | None = None
-        self.background: Solver | None = None
-        self.sweeps: Sweeps | None = None
+        self.workers: tuple[Solver, Solver, Sweeps] | None = None
 
     def start(self) -> None:
         """Start the worker before the first tab."""
         loop = asyncio.get_running_loop()
-        self.live, self.background, self.sweeps = Solver(loop), Solver(loop), Sweeps(loop)
-        self.live.submit("warm", Warm(), self._warmed)
+        live, background, _ = self.workers = Solver(loop), Solver(loop), Sweeps(loop)
 
-    def _warmed(self, message: Any) -> None:
-        """Start the second worker once the first one is warm."""
-        if isinstance(message, End) and self.background is not None:
-            loop = asyncio.get_running_loop()
-            loop.call_later(_LATER, self.background.submit, "warm", Warm(), _ignore)
+        def warmed(message: Any) -> None:
+            if isinstance(message, End):  # the second worker starts once the first one is warm
+                loop.call_later(_LATER, background.submit, "warm", Warm(), lambda _: None)
+
+        live.submit("warm", Warm(), warmed)
 
     def close(self) -> None:
         """End the workers."""
-        for solver in (self.live, self.background, self.sweeps):
-            if solver is not None:
-                solver.close()
+        for worker in self.workers or ():
+            worker.close()
 
     def build(self, client: Client, case: str = "") -> None:
         """Make the page of a tab, with the case of its address or the one opened."""
-        assert self.live is not None
-        assert self.background is not None
-        assert self.sweeps is not None
-        owner = client.id
+        assert self.workers is not None
+        live, background, sweeps = self.workers
         opened, fault = self.opened, ""
         if case:
             try:
                 opened = CaseText.unpacked(case)
             except InputError as error:
                 fault = str(error)
-        tab = Tab(owner, CaseText(opened.text), self.files, self.live)
-        TabPage(tab, client, self.background, self.sweeps).build()
+        tab = Tab(client.id, CaseText(opened.text), self.files, live)
+        TabPage(tab, client, background, sweeps).build()
         tab.open(tab.case)
         if fault:
             ui.notify(fault, type="negative", timeout=0, close_button="close")
 
-        def leave() -> None:
-            assert self.live is not None
-            assert self.background is not None
-            assert self.sweeps is not None
-            tab.listeners.clear()
-            self.live.cancel(owner)
-            self.live.cancel(f"{owner} pinned")
-            self.sweeps.cancel(f"{owner} sweep")
-            for job in ("run", "file", "surface"):
-                self.background.cancel(f"{owner} {job}")
-
-        client.on_delete(leave)
-
-
-def _ignore(message: Any) -> None:
-    """Discard a message."""
-    del message
+        client.on_delete(tab.close)
 
 
 class TabPage:

@@ -6,15 +6,15 @@ from typing import Any
 import numpy as np
 from nicegui import ui
 
+from tehl.explore.axes import Picture
 from tehl.explore.colour_map import (
-    Picture,
     film_picture,
     fringes_picture,
     pressure_picture,
     section_picture,
     value_at,
 )
-from tehl.explore.curves import Chart, line_charts, values_on_line
+from tehl.explore.curves import line_charts, values_on_line
 from tehl.explore.elements import Drawing, mark, read_at_pointer
 from tehl.explore.relief import relief_figure
 from tehl.explore.shown import Shown
@@ -32,7 +32,7 @@ class Slot:
         self.bar, self.view = bar, ""
         self.shown: Shown | None = None
         self.picture: Picture | None = None
-        self.charts: list[Chart] = []
+        self.charts: list[Picture] = []
         with ui.element("div").classes("slot") as self.place:
             self.title = ui.label(name).classes("slot-title")
             self.drawing = Drawing()
@@ -59,7 +59,7 @@ class Slot:
             self.relief = None
         if view == "lines":
             self.charts = line_charts(shown, size, limits["lines"], other)
-            self.drawing.show_lines("".join(chart.drawing for chart in self.charts))
+            self.drawing.show_lines("".join(chart.overlay for chart in self.charts))
             return
         picture = _picture(view, shown, limits, size, bar=self.bar)
         if picture is None:
@@ -190,7 +190,7 @@ class PicturePanel:
         self.present.draw(view, present, limits, (width + more, height))
         if wide:
             chart = line_charts(present, (self.size[0], _LINES), limits["lines"], other)[0]
-            self.below.set_content(chart.drawing)
+            self.below.set_content(chart.overlay)
 
 
 def _seen_in(shown: Shown, other: Shown) -> Shown:

@@ -1,10 +1,11 @@
 """The film in three dimensions, as a figure that can be turned."""
 
 import base64
-import math
 from typing import Any
 
 import numpy as np
+from matplotlib import colormaps
+from matplotlib.colors import to_hex
 
 from tehl.base.typing import Array
 from tehl.explore.colour_map import Limits
@@ -98,14 +99,6 @@ def _packed(values: Array) -> dict[str, Any]:
 
 def _log_colours(limits: Limits) -> list[list[Any]]:
     """Return the colours of the map, which are logarithmic, over a linear scale."""
-    from matplotlib import colormaps  # noqa: PLC0415 (with the first relief)
-
-    found = []
-    for k in range(_SHADES + 1):
-        part = k / _SHADES
-        value = limits.low * (limits.high / limits.low) ** part
-        at = (value - limits.low) / (limits.high - limits.low)
-        red, green, blue, _ = (round(255 * c) for c in colormaps["viridis"](part))
-        found.append([min(max(at, 0.0), 1.0), f"rgb({red},{green},{blue})"])
-    assert math.isclose(found[-1][0], 1.0, abs_tol=1e-9)
-    return found
+    ratio, parts = limits.high / limits.low, np.linspace(0.0, 1.0, _SHADES + 1).tolist()
+    places = [(ratio**part - 1.0) / (ratio - 1.0) for part in parts]
+    return [[at, to_hex(colormaps["viridis"](k))] for at, k in zip(places, parts, strict=True)]

@@ -43,8 +43,6 @@ class Maps:
     """Central film [nm]."""
     minimum: tuple[tuple[float, float], ...] = ()
     """Places of the minimum film [um]."""
-    hertz_pressure: float = 0.0
-    """[GPa]."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -140,7 +138,6 @@ def maps_of(result: Result) -> Maps:
         pressure=_single(result.pressure[rows, columns] * 1e-9),
         central=result.film.central * 1e9,
         minimum=_minimum(result, half),
-        hertz_pressure=result.scales.hertz_pressure * 1e-9,
     )
 
 

@@ -55,21 +55,19 @@ class StatusLine:
     def _show(self) -> None:
         tab, latest = self.tab, self.tab.latest
         self.stop.set_visibility(tab.is_busy and bool(tab.note))
-        outcome = latest.outcome if latest is not None else None
         waits = tab.is_busy or tab.is_moving  # a coarse grid may fail where the fine one converges
-        failed = outcome is not None and not outcome.converged and not waits
+        failed = latest.outcome if latest and not (waits or latest.outcome.converged) else None
         state = "busy" if tab.is_busy else "bad" if failed or tab.fault else "good"
         self.light.classes(replace=f"light {state}")
         self.words.set_text(self._sentence())
         fault = tab.fault
-        text = fault.text if fault is not None else ""
-        if not text and failed and outcome is not None:
-            text = f"{outcome.words}: {outcome.message}" if outcome.message else outcome.words
+        words = (failed.words, failed.message) if failed else ()
+        text = fault.text if fault is not None else ": ".join(filter(None, words))
         self.card.set_visibility(bool(text))
         self.what.set_text(text)
-        has_hint = fault is None and failed and outcome is not None
-        self.hint.set_text(f"hint: {outcome.hint}" if has_hint and outcome and outcome.hint else "")
-        self.apply.set_visibility(bool(has_hint and outcome and outcome.settings))
+        tried = failed if fault is None else None
+        self.hint.set_text(f"hint: {tried.hint}" if tried and tried.hint else "")
+        self.apply.set_visibility(bool(tried and tried.settings))
         self.again.set_visibility(fault is not None and fault.again)
 
     def _sentence(self) -> str:
@@ -119,4 +117,4 @@ class StatusLine:
     def _apply(self) -> None:
         latest = self.tab.latest
         if latest is not None and latest.outcome.settings:
-            self.tab.apply(dict(latest.outcome.settings))
+            self.tab.apply(latest.outcome.settings)

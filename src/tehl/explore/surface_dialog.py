@@ -9,7 +9,7 @@ from tehl.base.errors import InputError
 from tehl.explore.colour_map import heights_picture
 from tehl.explore.elements import Drawing, button, main_button
 from tehl.explore.files import LARGEST
-from tehl.explore.jobs import Failure
+from tehl.explore.job_panel import JobPanel
 from tehl.explore.tab import Tab
 from tehl.explore.tasks import Heights, Look
 from tehl.explore.worker import Solver
@@ -18,11 +18,11 @@ LEVELS = {"plane": "plane", "quadratic": "quadratic form", "mean": "mean", "none
 _SIZE = (420.0, 340.0)
 
 
-class SurfaceDialog:
+class SurfaceDialog(JobPanel):
     """A dialog that adds a measured surface to the case of a tab."""
 
     def __init__(self, tab: Tab, background: Solver) -> None:
-        self.tab, self.background = tab, background
+        super().__init__(tab, background, "surface")
         self.name, self.place = "", ui.element()  # not in the controls, which are made again
 
     def open(self) -> None:
@@ -38,7 +38,7 @@ class SurfaceDialog:
             upload.props("flat bordered").classes("w-full").on_upload(self._uploaded)
             self._build_settings()
             with ui.element("div").classes("preview"):
-                self.words = ui.label("").classes("preview-words")
+                self.state = ui.label("").classes("preview-words")
                 self.drawing = Drawing()
             with ui.row().classes("w-full justify-end"):
                 button("Cancel", self.dialog.close)
@@ -85,23 +85,22 @@ class SurfaceDialog:
             return
         settings = self.settings() | {"file": str(self.tab.files.uploads / self.name)}
         self._say("reading")
-        self.background.submit(f"{self.tab.owner} surface", Look(settings), self._receive)
+        self.submit(lambda: Look(settings))
 
-    def _receive(self, message: Any) -> None:
-        if self.dialog.is_deleted:
-            return
-        if isinstance(message, Heights):
-            self._show(message)
-        elif isinstance(message, Failure):
-            self._say(self.tab.files.hidden(message.text))
-            for use in self.uses:
-                use.disable()
+    def _receive(self, job: Any, message: Any) -> None:
+        if not self.dialog.is_deleted:
+            super()._receive(job, message)
 
-    def _show(self, found: Heights) -> None:
+    def _take(self, found: Heights) -> None:
         self.drawing.show(heights_picture((found.x, found.y), found.values, _SIZE))
         self._say("\n".join(found.words))
         for use in self.uses:
             use.enable()
+
+    def _fail(self, words: str) -> None:
+        self._say(words)
+        for use in self.uses:
+            use.disable()
 
     def _use(self, number: int) -> None:
         settings, key = self.settings(), f"surface_{number}"
@@ -113,6 +112,3 @@ class SurfaceDialog:
                 f"{key}.roughness": settings,
             }
         )
-
-    def _say(self, words: str) -> None:
-        self.words.set_text(words)

@@ -48,18 +48,18 @@ class Sweep:
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class Point(Row):
+class NumbersRow(Row):
     """The outcome of a case as the page shows it."""
 
     numbers: tuple[Number, ...] = ()
     words: str = ""
 
 
-def point_of(case: Case, result: Result) -> Point:
+def point_of(case: Case, result: Result) -> NumbersRow:
     """Return the numbers of a result, none if it did not converge."""
     status = result.status
     found = explain(case.problem, case.options)
-    return Point(
+    return NumbersRow(
         key=case.key,
         status=status.kind,
         numbers=numbers(result, found) if status.converged else (),
@@ -158,7 +158,7 @@ class _Points(StudyMonitor):
     def show(self, row: Row) -> None:
         """Pass the row of a case on, at each of its places."""
         for x in self.places[row.key]:
-            if isinstance(row, Point):
+            if isinstance(row, NumbersRow):
                 swept = Swept(x, row.numbers, row.words)
             else:
                 swept = Swept(x, (), row.message or row.status)

@@ -1,26 +1,23 @@
 """One tab of the page without its elements: the case, what is solved of it, what is compared."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from tehl.api.problem import case_from_tables
+from tehl.api.problem import ContactProblem, case_from_tables
 from tehl.base.errors import InputError
-from tehl.contact.options import Options
 from tehl.explore.by_formula import scaled_by_formula
 from tehl.explore.case_text import CaseText
 from tehl.explore.colour_map import film_limits, pressure_limits, section_limits
-from tehl.explore.controls import Choice, Group, Knob, groups
+from tehl.explore.controls import groups
 from tehl.explore.curves import line_tops
 from tehl.explore.files import Files
 from tehl.explore.jobs import Ask, End, Explained, Failure, Note, Part, TooCoarse
+from tehl.explore.knobs import Choice, Group, Knob
 from tehl.explore.shown import Shown
 from tehl.explore.worker import Solver
-
-if TYPE_CHECKING:
-    from tehl.api.problem import ContactProblem
 
 VIEWS = {
     "film": "Film",
@@ -73,7 +70,6 @@ class Tab:
         self.owner, self.case, self.files, self.solver = owner, case, files, solver
         self.listeners: list[Listener] = []
         self.problem: ContactProblem | None = None
-        self.options = Options()
         self.groups: tuple[Group, ...] = ()
         self.fault: Fault | None = None
         self.shown: Shown | None = None
@@ -97,6 +93,11 @@ class Tab:
             listener(topic)
 
     # ---- the case
+
+    @property
+    def tables(self) -> dict[str, Any]:
+        """Tables of the case with the paths of its files; an InputError if one is not known."""
+        return self.files.resolved(self.case.tables)
 
     def open(self, case: CaseText) -> None:
         """Take another case."""
@@ -124,20 +125,21 @@ class Tab:
             return self._edit(knob.path, change, rebuild=math.isinf(number))
         return self._edit(knob.path, lambda case: case.set(knob.path, knob.stated(number, unit)))
 
-    def choose(self, choice: Choice, option: str) -> None:
-        """Choose one of several words; the controls are made again."""
-        self._remember()
-        self._edit(choice.path, lambda case: choice.change(case, option), rebuild=True)
+    def choose(self, path: str, option: str) -> None:
+        """Choose one of several words, for the values that the case has now."""
+        items = (item for group in self.groups for item in group.items)
+        choice = next(one for one in items if isinstance(one, Choice) and one.path == path)
+        self.apply(choice.options[option][1], path)
 
-    def apply(self, settings: dict[str, Any]) -> None:
-        """Set what a hint names."""
+    def apply(self, settings: Mapping[str, Any], path: str = "") -> None:
+        """Set what a hint or a choice names; the controls are made again."""
         self._remember()
 
         def change(case: CaseText) -> None:
-            for path, value in settings.items():
-                case.set(path, None if value is False else value)
+            for key, value in settings.items():
+                case.set(key, None if value is False else value)
 
-        self._edit("", change, rebuild=True)
+        self._edit(path, change, rebuild=True)
 
     def undo(self) -> None:
         """Take the case before the last change."""
@@ -191,17 +193,16 @@ class Tab:
         try:
             if "axes" in self.case.tables:
                 raise InputError("this is a study, not a case: solve it with tehl study")
-            tables = self.files.resolved(self.case.tables)
-            self.problem, self.options = case_from_tables(tables)
-            made = groups(self.case, self.problem) if rebuild or not self.groups else self.groups
+            self.problem, _ = case_from_tables(self.tables)
+            made = groups(self.case, self.problem)
         except InputError as error:
             self._is_valid = False
             self._blame(self.files.hidden(str(error)), path)
             return False
         self._is_valid = True
         had_fault, self.fault = self.fault is not None, None
-        if made is not self.groups:
-            self.groups = made
+        others, self.groups = rebuild or not self.groups, made
+        if others:
             self.tell("controls")
         if had_fault:
             self.tell("fault")
@@ -225,7 +226,7 @@ class Tab:
     def solve(self) -> None:
         """Solve the case: on the coarse grid while a slider moves, then as the case asks."""
         try:
-            tables = self.files.resolved(self.case.tables)
+            tables = self.tables
         except InputError as error:
             self._blame(self.files.hidden(str(error)), "")
             return
@@ -241,13 +242,19 @@ class Tab:
             self._look()
         self.tell("status")
 
+    def close(self) -> None:
+        """Cancel all solves, and report no more changes."""
+        self.listeners.clear()
+        self.solver.cancel(self.owner)
+        self.solver.cancel(f"{self.owner} pinned")
+
     def stop(self) -> None:
         """Cancel what is being solved."""
         self.solver.cancel(self.owner)
         self.is_busy, self.note = False, "stopped"
         self.tell("status")
 
-    def _receive(self, number: int, problem: "ContactProblem", message: Any) -> None:
+    def _receive(self, number: int, problem: ContactProblem, message: Any) -> None:
         """Take a message of the worker; results of an older place of the slider are shown too."""
         newest = number == self._request
         if isinstance(message, Part):
@@ -257,7 +264,7 @@ class Tab:
             self._read(message)
         self.tell("status")
 
-    def _take(self, problem: "ContactProblem", found: Shown) -> None:
+    def _take(self, problem: ContactProblem, found: Shown) -> None:
         """Take a result; a film that did not converge is not shown."""
         self.latest = found
         if found.outcome.converged:

@@ -4,9 +4,9 @@ import os
 import re
 import stat
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar, get_args
 
 from pydantic import BaseModel, ValidationError, create_model
 
@@ -15,7 +15,7 @@ from tehl.base.encoding import encoding_of
 from tehl.base.errors import InputError
 from tehl.base.lists import plain_value
 from tehl.base.mistakes import describe
-from tehl.base.units import percentage
+from tehl.base.units import Quantity, percentage
 from tehl.base.wording import short, shown
 from tehl.contact.options import NUMERICS, Options
 from tehl.contact.problem import ContactProblem
@@ -203,6 +203,34 @@ def changed(tables: Mapping[str, Any], path: str, value: Any) -> dict[str, Any]:
     else:
         after[key] = value
     return after
+
+
+def found_at(problem: ContactProblem, options: Options, path: str) -> tuple[Any, Quantity | None]:
+    """Return the validated value at a path of a case, and its kind if it is a quantity.
+
+    Both are None where the case has no such place, as another law was chosen.
+    """
+    keys = [part.strip() for part in path.split(".")]
+    node: Any = problem
+    if keys[0] == NUMERICS:
+        node, keys = options, keys[1:]
+    kind = None
+    for key in keys:
+        if not isinstance(node, BaseModel) or key not in type(node).model_fields:
+            return None, None
+        field = type(node).model_fields[key]
+        kind = next(_kinds([*field.metadata, field.annotation]), None)
+        node = getattr(node, key)
+    return node, kind
+
+
+def _kinds(notes: Iterable[Any]) -> Iterator[Quantity]:
+    """Yield the quantities among the metadata of a field and in its annotation."""
+    for note in notes:
+        if isinstance(note, Quantity):
+            yield note
+        else:
+            yield from _kinds(get_args(note))
 
 
 def with_settings(options: Options, settings: "Settings") -> Options:

@@ -3,22 +3,21 @@
 import errno
 import json
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from itertools import islice, product
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any, get_args
+from typing import IO, TYPE_CHECKING, Any
 
-from pydantic import BaseModel, TypeAdapter
+from pydantic import TypeAdapter
 
-from tehl.api.problem import ContactProblem, case_from_tables
+from tehl.api.problem import case_from_tables
 from tehl.base.atomic import check_folder, check_place, replacing
 from tehl.base.errors import FileFormatError, InputError
-from tehl.base.units import Quantity
-from tehl.contact.options import Options, check_certifiable
-from tehl.io.case import changed
+from tehl.contact.options import check_certifiable
+from tehl.io.case import changed, found_at
 from tehl.studies.axes import Block, Setting
 from tehl.studies.case import Case, Label
 from tehl.studies.output import Picture
@@ -100,10 +99,10 @@ def _case(plan: Plan, rows: tuple[int, ...], units: dict[str, str]) -> Case:
         check_certifiable(options)
     labels: dict[str, Label] = {}
     for path, name, setting in settings:
-        found, unit = _found_at(problem, options, path)
+        found, kind = found_at(problem, options, path)
         labels[name] = setting.name or _label(setting.value, found)
-        if unit and not setting.name:
-            units[name] = unit
+        if kind is not None and not setting.name:
+            units[name] = "1" if kind.unit == "-" else kind.unit
     titles = [b.titles[row] for b, row in zip(plan.blocks, rows, strict=True) if b.titles]
     name = ", ".join(titles or _phrases(labels, units)) or problem.title or "base case"
     return Case(name, problem, options, labels, plan.certify)
@@ -115,34 +114,6 @@ def _settings(plan: Plan, rows: tuple[int, ...]) -> Iterator[tuple[str, str, Set
         for path, name, setting in zip(block.paths, block.names, block.rows[row], strict=True):
             if setting is not None:
                 yield path, name, setting
-
-
-def _found_at(problem: ContactProblem, options: Options, path: str) -> tuple[Any, str | None]:
-    """Return the validated value at a path of a case, and its SI unit if it is a quantity.
-
-    Both are None where the case no longer has such a place, as another law was chosen.
-    """
-    keys = [part.strip() for part in path.split(".")]
-    node: Any = problem
-    if keys[0] == "numerics":
-        node, keys = options, keys[1:]
-    unit = None
-    for key in keys:
-        if not isinstance(node, BaseModel) or key not in type(node).model_fields:
-            return None, None
-        field = type(node).model_fields[key]
-        unit = next(_units([*field.metadata, field.annotation]), None)
-        node = getattr(node, key)
-    return node, unit
-
-
-def _units(notes: Iterable[Any]) -> Iterator[str]:
-    """Yield the units among the metadata of a field and in its annotation."""
-    for note in notes:
-        if isinstance(note, Quantity):
-            yield "1" if note.unit == "-" else note.unit
-        else:
-            yield from _units(get_args(note))
 
 
 def _label(stated: Any, found: Any) -> Label:
