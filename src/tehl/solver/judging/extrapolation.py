@@ -5,7 +5,6 @@ from typing import TypeVar
 
 import numpy as np
 
-from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.operators.energy import FilmState
@@ -27,9 +26,7 @@ from tehl.solver.judging.outputs import (
     film_shear,
     newtonian_shear,
 )
-
-WEIGHT = 1.0 / 3.0
-"""Of the difference of two grids of second order: 1 / (2^2 - 1)."""
+from tehl.solver.judging.richardson import WEIGHT, extrapolated_field
 
 AnyFields = TypeVar("AnyFields")
 
@@ -99,21 +96,7 @@ def _combined(fine: AnyFields, coarse: AnyFields) -> AnyFields:
         if is_dataclass(value) and before is not None:
             changes[one.name] = _combined(value, before)
         elif isinstance(value, np.ndarray) and value.ndim > 1:
-            changes[one.name] = _of_fields(value, before)
+            changes[one.name] = extrapolated_field(value, before)
         elif isinstance(fine, HeatBalance):
             changes[one.name] = value + WEIGHT * (value - before)
     return replace(fine, **changes)  # type: ignore[type-var]
-
-
-def _of_fields(fine: Array, coarse: Array) -> Array:
-    """Return an extrapolated field, (..., ny, nx); zeros remain, and what is never negative."""
-    shared = fine[..., ::2, ::2] - coarse
-    change = np.empty_like(fine)
-    change[..., ::2, ::2] = shared
-    change[..., ::2, 1::2] = 0.5 * (shared[..., 1:] + shared[..., :-1])
-    change[..., 1::2, :] = 0.5 * (change[..., 2::2, :] + change[..., :-1:2, :])
-    found = fine + WEIGHT * change
-    if fine.min() >= 0.0:
-        np.maximum(found, 0.0, out=found)
-        found[fine == 0.0] = 0.0
-    return np.asarray(found)
