@@ -169,9 +169,7 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
         central_film=film,
         formula=likely.formula,
         films=film_estimates(scaled.groups, scaled.scales),
-        composite=problem.asperity_rms or problem.rms_roughness
-        if heights is None
-        else heights.composite,
+        composite=heights.composite if heights else problem.asperity_rms or problem.rms_roughness,
         roughness=heights,
         peclet=tuple(None if one is None else abs(one) for one in problem.solid_peclet),
         sources=_sources(problem),
@@ -212,11 +210,6 @@ def as_text(case: Explanation) -> str:
         stated=isinstance(case.options.domain, Domain),
         untitled=UNTITLED,
     ).rstrip()
-
-
-def _composite(problem: ContactProblem) -> float:
-    """Return the stated roughness of both surfaces together [m]."""
-    return problem.asperity_rms or problem.rms_roughness
 
 
 def as_summary(case: Explanation) -> dict[str, Any]:
