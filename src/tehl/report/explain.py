@@ -22,8 +22,7 @@ from tehl.estimate.grid import Grid
 from tehl.estimate.inlet_heating import inlet_factors, inlet_heating_factor, thermal_loading
 from tehl.estimate.memory import available_memory, needed_memory
 from tehl.estimate.scaling import ScaledProblem
-from tehl.estimate.starvation import check_supply, supply_ratio
-from tehl.estimate.starvation_table import starved_degree
+from tehl.estimate.starvation import check_supply, starved_degree, supply_ratio
 from tehl.estimate.summits import SharedLoad, shared_load
 from tehl.lubricant.pressure import UNCERTAINTY
 from tehl.report.expected_heat import BodyEffect, ExpectedHeat, body_effect, expected_heat

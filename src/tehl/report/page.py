@@ -20,10 +20,9 @@ from tehl.post.roughness import rough_film
 from tehl.post.thermal_effect import ThermalEffect
 from tehl.post.transient import largest_change, passing_features
 from tehl.post.waves import PassingWave, passing_wave
-from tehl.report.following import following
 from tehl.report.readable import UNTITLED, input_rows
 from tehl.report.rendering import FILTERS, UNITS, render
-from tehl.report.rows import rows_of
+from tehl.report.rows import following, rows_of
 from tehl.result.bars import Estimate
 from tehl.result.registry import named
 from tehl.result.solution import Solution
