@@ -8,15 +8,8 @@ import numpy as np
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.operators.energy import FilmState
-from tehl.result.fields import (
-    Fields,
-    FilmAsperities,
-    FilmContact,
-    FilmHeat,
-    FilmOil,
-    FilmShear,
-    HeatBalance,
-)
+from tehl.result.fields import Fields, HeatBalance
+from tehl.result.solution import Extras
 from tehl.solver.cycle.level import Level
 from tehl.solver.judging.outputs import (
     film_asperities,
@@ -33,14 +26,10 @@ AnyFields = TypeVar("AnyFields")
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Outputs:
-    """Fields of a film on one grid, on its full domain; None where the contact has none."""
+    """Fields of a film on one grid, on its full domain."""
 
     fields: Fields
-    shear: FilmShear | None = None
-    heat: FilmHeat | None = None
-    asperities: FilmAsperities | None = None
-    contact: FilmContact | None = None
-    oil: FilmOil | None = None
+    extras: Extras = Extras()  # noqa: RUF009 (frozen)
 
 
 def outputs_of(
@@ -71,11 +60,13 @@ def outputs_of(
             pressure=grid.unfold(np.maximum(level.film.p, 0.0)),
             film=grid.unfold(level.film.h),
         ),
-        shear=shear,
-        heat=heat,
-        asperities=film_asperities(level, scaled),
-        contact=film_contact(level, scaled),
-        oil=film_oil(level, scaled),
+        extras=Extras(
+            shear=shear,
+            heat=heat,
+            asperities=film_asperities(level, scaled),
+            contact=film_contact(level, scaled),
+            oil=film_oil(level, scaled),
+        ),
     )
 
 
@@ -85,7 +76,8 @@ def extrapolated(fine: Outputs, coarse: Outputs) -> Outputs:
     The difference at the nodes of the coarser grid is interpolated linearly: it is of second order,
     so that the error is of fourth. Where the oil is stays that of the finer grid: its edge moves.
     """
-    return replace(_combined(fine, coarse), oil=fine.oil)
+    found = _combined(fine, coarse)
+    return replace(found, extras=replace(found.extras, oil=fine.extras.oil))
 
 
 def _combined(fine: AnyFields, coarse: AnyFields) -> AnyFields:
