@@ -124,19 +124,14 @@ def supply_ratio(scaled: ScaledProblem) -> float:
     return math.inf if oil is None else oil.central / flooded_oil(scaled)
 
 
-def starved_part(ratio: float, gamma: float = GAMMA) -> float:
+def starved_part(ratio: float) -> float:
     """Return the central film over that of the flooded contact by the film law [-].
 
-    Parameters
-    ----------
-    ratio : float
-        r, the oil that enters over that of the flooded contact [-].
-    gamma : float
-        Exponent of the law.
+    ``ratio`` is r, the oil that enters over that of the flooded contact [-].
     """
     if math.isinf(ratio):
         return 1.0
-    return float(ratio / (1.0 + ratio**gamma) ** (1.0 / gamma))
+    return float(ratio / (1.0 + ratio**GAMMA) ** (1.0 / GAMMA))
 
 
 def starved_degree(groups: Groups, ratio: float) -> tuple[float, float | None]:
