@@ -17,7 +17,7 @@ from tehl.contact.options import Options
 from tehl.estimate.scaling import ScaledProblem
 from tehl.post.layer import LayerDecay, layer_decay, rate_by_formula
 from tehl.post.starvation import meniscus
-from tehl.solver.judging.certify import estimate
+from tehl.solver.judging.richardson import estimate
 
 GRIDS = (129, 257, 513)
 FILMS = """

@@ -18,7 +18,7 @@ from tehl.api.results import Result
 from tehl.api.solvers import solve
 from tehl.contact.options import Options
 from tehl.post.waves import WaveResponse, wave_responses
-from tehl.solver.judging.certify import estimate
+from tehl.solver.judging.richardson import estimate
 
 PAGE = Path(__file__).parents[1] / "docs" / "validation.md"
 GRIDS = (129, 257, 513)

@@ -14,8 +14,7 @@ from tehl.base.errors import InputError
 from tehl.contact.options import Options
 from tehl.estimate.scaling import scales
 from tehl.result.solution import Status
-from tehl.solver.judging.certify import estimate
-from tehl.solver.judging.convergence import SAFETY, discretisation_bar
+from tehl.solver.judging.richardson import SAFETY, discretisation_bar, estimate
 from tests.reference import DOMAIN, moes_contact
 
 LIMITS = st.floats(0.01, 2.0)

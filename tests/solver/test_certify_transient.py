@@ -14,7 +14,8 @@ from tehl.api.results import ConvergenceError, TransientResult
 from tehl.contact.options import Options
 from tehl.estimate.scaling import scales
 from tehl.result.solution import Status
-from tehl.solver.transient.certify import estimates, grid_bar, history_bars
+from tehl.solver.judging.richardson import grid_bar
+from tehl.solver.transient.certify import estimates, history_bars
 from tests.fixtures_result import make_result
 from tests.fixtures_transient import make_transient
 from tests.reference import DOMAIN, moes_contact

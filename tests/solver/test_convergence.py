@@ -8,12 +8,10 @@ from tehl.result.solution import CycleReport
 from tehl.solver.judging.convergence import (
     LEAST_CYCLES,
     LEAST_RATE,
-    UNEVEN,
     GridTrace,
-    error_estimate,
     film_converged,
-    further_errors,
 )
+from tehl.solver.judging.grid_errors import UNEVEN, error_estimate, further_errors
 from tehl.solver.physics.thermal import LARGEST_STEP, damped
 
 

@@ -9,8 +9,7 @@ from tehl.api.solvers import solve, solve_passes, solve_transient
 from tehl.base.errors import InputError
 from tehl.contact.options import Domain, Options
 from tehl.estimate.scaling import ScaledProblem
-from tehl.estimate.starvation import starved_part
-from tehl.estimate.starvation_table import starved_degree, table
+from tehl.estimate.starvation import starved_degree, starved_part, table
 from tehl.io.store import save
 from tehl.kernels import properties, relaxation, reynolds
 from tehl.plots.oil import oil_map

@@ -11,8 +11,7 @@ from tehl.api.solvers import solve
 from tehl.contact.options import Domain, Options
 from tehl.estimate.domain import domain_error, far_field_error, recommended_domain
 from tehl.estimate.scaling import groups
-from tehl.solver.judging.certify import estimate, with_growing_spike
-from tehl.solver.judging.convergence import first_order_bar
+from tehl.solver.judging.richardson import estimate, first_order_bar, with_growing_spike
 
 
 def moes(load: float, speed: float = 10.0) -> ContactProblem:

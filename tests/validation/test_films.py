@@ -9,7 +9,7 @@ from tehl.api.problem import ContactProblem
 from tehl.api.results import Result
 from tehl.api.solvers import solve
 from tehl.contact.options import Domain, Options
-from tehl.solver.judging.certify import estimate
+from tehl.solver.judging.richardson import estimate
 from tests.reference import DOMAIN, moes_contact, read
 
 FILMS = read("films")

@@ -7,7 +7,7 @@ import pytest
 from tehl.api.results import Result
 from tehl.api.solvers import solve
 from tehl.contact.options import Options
-from tehl.solver.judging.certify import estimate
+from tehl.solver.judging.richardson import estimate
 from tests.reference import DOMAIN, heated_contact, read
 
 HEATED = read("thermal")

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self, overload
+from typing import TYPE_CHECKING, Any, Self, TypeVar, overload
 
 from tehl.api.problem import ContactProblem
 from tehl.base.lazy import lazy
@@ -179,6 +179,9 @@ def result_of(solution: Solution | TransientSolution) -> Result | TransientResul
     return Result.of(solution)
 
 
+Kind = TypeVar("Kind", Result, TransientResult)
+
+
 class ConvergenceError(plain.ConvergenceError):
     """The solver did not converge; ``result`` is the last finite state, with its history."""
 
@@ -208,17 +211,7 @@ def load(path: str | Path) -> Result | TransientResult:
     return result_of(store.load(path))
 
 
-@overload
-def load_as(kind: type[Result], path: str | Path) -> Result: ...
-
-
-@overload
-def load_as(kind: type[TransientResult], path: str | Path) -> TransientResult: ...
-
-
-def load_as(
-    kind: type[Result] | type[TransientResult], path: str | Path
-) -> Result | TransientResult:
+def load_as(kind: type[Kind], path: str | Path) -> Kind:
     """Read a result of one kind, `Result` or `TransientResult`.
 
     Raises
@@ -228,6 +221,5 @@ def load_as(
     FileFormatError
         If it is not a result, or one of the other kind.
     """
-    if kind is TransientResult:
-        return TransientResult.of(store.load_as(TransientSolution, path))
-    return Result.of(store.load_as(Solution, path))
+    solution: Any = TransientSolution if kind is TransientResult else Solution
+    return kind.of(store.load_as(solution, path))

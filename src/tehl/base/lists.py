@@ -3,6 +3,7 @@
 import csv
 import re
 import tomllib
+from collections.abc import Sequence
 from contextlib import closing
 from importlib.util import find_spec
 from pathlib import Path
@@ -16,6 +17,8 @@ _DECIMAL_COMMA = re.compile(r"^([+-]?\d+),(\d+)(?=[eE\s]|$)")
 _UNIT = re.compile(r"(.*?)\s*\[(.*)\]\s*")
 _LARGEST = 50_000_000
 """Bytes of a list."""
+_PACKAGES = {".xlsx": ("openpyxl", "xlsx"), ".parquet": ("pyarrow", "parquet")}
+"""Packages of formats, and the extras that install them."""
 
 
 def values_of_file(path: Path, column: str) -> list[Any]:
@@ -104,6 +107,16 @@ def lines_of_sheet(path: Path, what: str = "list of cases") -> list[tuple[int, l
 def stripped(cell: Any) -> Any:
     """Return a cell without blanks around its text; None if nothing is left."""
     return (cell.strip() or None) if isinstance(cell, str) else cell
+
+
+def check_format(path: Path, endings: Sequence[str], what: str) -> None:
+    """Raise an InputError if a file has none of the endings, or its format needs a package."""
+    ending = path.suffix.lower()
+    if ending not in endings:
+        known = " or ".join(endings)
+        raise InputError(f"output {path}: format not supported; {what} ends in {known}")
+    if ending in _PACKAGES:
+        check_package(*_PACKAGES[ending], path)
 
 
 def check_package(package: str, extra: str, path: Path) -> None:

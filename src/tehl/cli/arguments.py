@@ -17,5 +17,11 @@ Overrides = Annotated[
         show_default=False,
     ),
 ]
+Jobs = Annotated[
+    str | None, Option("--jobs", "-j", metavar="N", help="Processes; one per core if left out.")
+]
+Scheduler = Annotated[
+    str | None, Option(metavar="ADDRESS", help="Running dask cluster, tcp://HOST:8786.")
+]
 AsJson = Annotated[bool, Option("--json", help="Print one JSON object.")]
 Quiet = Annotated[bool, Option("--quiet", "-q", help="Show no progress.")]

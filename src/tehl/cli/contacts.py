@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 from typer import Argument, Exit, Option
 
 from tehl.base.lazy import lazy
-from tehl.cli.arguments import AsJson, Quiet
+from tehl.cli.arguments import AsJson, Jobs, Quiet, Scheduler
 from tehl.cli.ending import NOT_CONVERGED
 
 if TYPE_CHECKING:
@@ -31,12 +31,8 @@ def contacts(  # noqa: PLR0913 (the options of the command)
             help="Case file with what the rows do not state; the ball on a disc if left out.",
         ),
     ] = None,
-    jobs: Annotated[
-        str | None, Option("--jobs", "-j", metavar="N", help="Processes; one per core if left out.")
-    ] = None,
-    scheduler: Annotated[
-        str | None, Option(metavar="ADDRESS", help="Running dask cluster, tcp://HOST:8786.")
-    ] = None,
+    jobs: Jobs = None,
+    scheduler: Scheduler = None,
     as_json: AsJson = False,
     quiet: Quiet = False,
 ) -> None:

@@ -11,10 +11,11 @@ from tehl.base.errors import InputError
 from tehl.cli.lines import show
 from tehl.cli.progress import SHOWN, duration, study_progress
 from tehl.cli.study_job import number_of_workers
-from tehl.studies.answers import check_output, solve_list, write_answers
+from tehl.studies.answers import check_output, write_answers
 from tehl.studies.contacts import Contacts, read_contacts
 from tehl.studies.plan import locked
 from tehl.studies.runner import Outcome, expected_times
+from tehl.studies.runner import run as solve
 from tehl.studies.store import Store
 
 
@@ -44,8 +45,13 @@ def run(  # noqa: PLR0913 (the arguments of the command)
         try:
             expected = expected_times(found.cases, store.finished(found.cases))
             with study_progress(expected, quiet=quiet) as monitor:
-                outcome = solve_list(
-                    found, store, jobs=workers, scheduler=scheduler, forked=True, monitor=monitor
+                outcome = solve(
+                    found.cases,
+                    store,
+                    jobs=workers,
+                    scheduler=scheduler,
+                    forked=True,
+                    monitor=monitor,
                 )
         except (KeyboardInterrupt, SystemExit, OSError):
             show(

@@ -3,7 +3,7 @@
 import json
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -125,9 +125,7 @@ def _solved(
 
     A transient run whose start does not converge gives that start, a steady result.
     """
-    solve = _steady if problem.transient is None else _transient
-    if problem.has_passes:
-        solve = _passes
+    solve = _resumable if problem.has_passes or problem.transient else _steady
     try:
         result = solve(problem, options, job)
     except ConvergenceError as error:
@@ -145,29 +143,17 @@ def _steady(problem: ContactProblem, options: Options, job: Job) -> Result | Tra
         return work(problem, options, monitor=monitor)
 
 
-def _passes(problem: ContactProblem, options: Options, job: Job) -> Result | TransientResult:
-    """Solve repeated passes; when they are interrupted, a checkpoint is left beside the target."""
+def _resumable(problem: ContactProblem, options: Options, job: Job) -> Result | TransientResult:
+    """Solve repeated passes or a transient case; an interrupt leaves a checkpoint at the target."""
     with busy("loading the solver", quiet=job.quiet):
-        from tehl.api.solvers import solve_passes
+        from tehl.api.solvers import certify_transient, solve_passes, solve_transient
 
-    keep = checkpoints.Keeper(
-        checkpoint_of(job.target), fingerprint(problem, options), checkpoints.PASSES
-    )
+    kind: checkpoints.Kind[Any] = checkpoints.PASSES if problem.has_passes else checkpoints.STEPS
+    keep = checkpoints.Keeper(checkpoint_of(job.target), fingerprint(problem, options), kind)
     start = keep.begin(resume=job.resume)
     with keep.on_interrupt(), progress(problem, quiet=job.quiet) as monitor:
-        return solve_passes(problem, options, monitor=monitor, resume=start, keep=keep)
-
-
-def _transient(problem: ContactProblem, options: Options, job: Job) -> Result | TransientResult:
-    """Solve a transient case; when it is interrupted, a checkpoint is left beside the target."""
-    with busy("loading the solver", quiet=job.quiet):
-        from tehl.api.solvers import certify_transient, solve_transient
-
-    keep = checkpoints.Keeper(
-        checkpoint_of(job.target), fingerprint(problem, options), checkpoints.STEPS
-    )
-    start = keep.begin(resume=job.resume)
-    with keep.on_interrupt(), progress(problem, quiet=job.quiet) as monitor:
+        if problem.has_passes:
+            return solve_passes(problem, options, monitor=monitor, resume=start, keep=keep)
         if job.certify:
             return certify_transient(problem, options, monitor=monitor)
         return solve_transient(problem, options, monitor=monitor, resume=start, keep=keep)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 from typer import Argument, Exit, Option
 
 from tehl.base.lazy import lazy
-from tehl.cli.arguments import AsJson, Overrides, Quiet
+from tehl.cli.arguments import AsJson, Jobs, Overrides, Quiet, Scheduler
 from tehl.cli.ending import NOT_CONVERGED
 
 if TYPE_CHECKING:
@@ -23,12 +23,8 @@ def study(  # noqa: PLR0913 (the options of the command)
     output: Annotated[
         Path | None, Option("-o", "--output", metavar="DIR", help="Folder; STUDY here if left out.")
     ] = None,
-    jobs: Annotated[
-        str | None, Option("--jobs", "-j", metavar="N", help="Processes; one per core if left out.")
-    ] = None,
-    scheduler: Annotated[
-        str | None, Option(metavar="ADDRESS", help="Running dask cluster, tcp://HOST:8786.")
-    ] = None,
+    jobs: Jobs = None,
+    scheduler: Scheduler = None,
     overrides: Overrides,
     dry_run: Annotated[
         bool, Option("--dry-run", help="Estimate time, memory and disk; solve nothing.")

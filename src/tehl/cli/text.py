@@ -9,10 +9,9 @@ from tehl.io.summary import estimates
 from tehl.post.film import no_film
 from tehl.post.heat import work_error
 from tehl.post.traction import LARGEST_CREDIBLE
-from tehl.report.following import following
 from tehl.report.readable import UNTITLED, length_unit
 from tehl.report.rendering import render
-from tehl.report.rows import rows_of
+from tehl.report.rows import following, rows_of
 from tehl.result.quantity import UNITS
 from tehl.result.registry import at, named, shown_in
 from tehl.result.solution import Status

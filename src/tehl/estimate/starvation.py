@@ -16,6 +16,8 @@ References
 
 import math
 from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
 
 import numpy as np
 
@@ -23,7 +25,7 @@ from tehl.base.errors import InputError
 from tehl.base.typing import Array
 from tehl.contact.options import Domain
 from tehl.estimate.film_formulas import expected_central_film
-from tehl.estimate.scaling import ScaledProblem
+from tehl.estimate.scaling import Groups, ScaledProblem
 
 GAMMA = 3.0
 """Exponent of the film law for a circular contact."""
@@ -42,6 +44,8 @@ WIDER = 1.3
 """Factor on the sides if the surfaces pass repeatedly."""
 OUTLETS = ((3.0, 0.6), (math.inf, 5.0 / 11.0))
 """Outlet over inlet, up to these distances of the inlet: X = 0 is a node."""
+CIRCULAR = 0.1
+"""Largest difference of the ratio of the radii from one."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -120,19 +124,50 @@ def supply_ratio(scaled: ScaledProblem) -> float:
     return math.inf if oil is None else oil.central / flooded_oil(scaled)
 
 
-def starved_part(ratio: float, gamma: float = GAMMA) -> float:
+def starved_part(ratio: float) -> float:
     """Return the central film over that of the flooded contact by the film law [-].
 
-    Parameters
-    ----------
-    ratio : float
-        r, the oil that enters over that of the flooded contact [-].
-    gamma : float
-        Exponent of the law.
+    ``ratio`` is r, the oil that enters over that of the flooded contact [-].
     """
     if math.isinf(ratio):
         return 1.0
-    return float(ratio / (1.0 + ratio**gamma) ** (1.0 / gamma))
+    return float(ratio / (1.0 + ratio**GAMMA) ** (1.0 / GAMMA))
+
+
+def starved_degree(groups: Groups, ratio: float) -> tuple[float, float | None]:
+    """Return the central film over that of the flooded contact, and its error bar [-].
+
+    Linear between the contacts of ``starvation.csv``, as a factor on the film law; beyond them the
+    law alone, without an error bar.
+
+    Parameters
+    ----------
+    groups : Groups
+        Load, speed and shape of the contact.
+    ratio : float
+        r, the oil that enters over that of the flooded contact [-].
+    """
+    law, axes, factors, errors = starved_part(ratio), *table()
+    place = np.log(groups.M), groups.L, np.log(max(ratio, 1e-9))
+    inside = all(axis[0] <= at <= axis[-1] for axis, at in zip(axes, place, strict=True))
+    if not inside or abs(groups.radius_ratio - 1.0) > CIRCULAR:
+        return law, None
+    from scipy.interpolate import interpn  # noqa: PLC0415 (0.1 s, for starved contacts only)
+
+    factor, error = (float(interpn(axes, values, place)[0]) for values in (factors, errors))
+    return law * factor, law * error
+
+
+@cache
+def table() -> tuple[tuple[Array, Array, Array], Array, Array]:
+    """Return the axes log M, L and log r of the table, the film over the law, and its errors."""
+    with files(__package__).joinpath("starvation.csv").open(encoding="utf-8") as file:
+        load, speed, ratio, degree, error = np.loadtxt(file, delimiter=",", skiprows=1).T
+    loads, speeds, ratios = (np.unique(one) for one in (load, speed, ratio))
+    law = np.array([starved_part(one) for one in ratio])
+    shape = loads.size, speeds.size, ratios.size
+    axes = np.log(loads), speeds, np.log(ratios)
+    return axes, (degree / law).reshape(shape), (error / law).reshape(shape)
 
 
 def supply_error(scaled: ScaledProblem) -> float:

@@ -33,11 +33,6 @@ _DEEPEST = 8
 Model = TypeVar("Model", bound=BaseModel)
 
 
-def read_case(path: str | Path) -> ContactProblem:
-    """Return the problem of a case file as :func:`read_case_and_options`, without its options."""
-    return read_case_and_options(path)[0]
-
-
 def read_case_and_options(
     path: str | Path, overrides: Sequence[str] = ()
 ) -> tuple[ContactProblem, Options]:

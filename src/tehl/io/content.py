@@ -55,11 +55,17 @@ class Variable:
 _AXES = {"x": "X", "y": "Y", "zeta": "zeta", "time": "time"}
 _AXES |= {"frame": "frame_step", "bar": "bar_time", "pass": "pass"}
 """Array that gives the size of each dimension."""
+_PARTS: dict[str, tuple[type, Table]] = {
+    "heights": (SurfaceHeights, tables.HEIGHTS),
+    "asperities": (FilmAsperities, tables.ASPERITIES),
+    "contact": (FilmContact, tables.CONTACT),
+    "oil": (FilmOil, tables.OIL),
+    "passes": (PassHistory, tables.PASSES),
+    "shear": (FilmShear, tables.SHEAR),
+}
+"""Parts of a solution that only some contacts have, all of arrays."""
 _NOT_SCALAR = {
-    Solution: (
-        *("problem", "options", "scaled", "history"),
-        *("shear", "heat", "heights", "asperities", "contact", "oil", "passes"),
-    ),
+    Solution: ("problem", "options", "scaled", "history", "heat", *_PARTS),
     FilmHeat: tuple(column.field for column in tables.HEAT),
     TransientSolution: ("start", "history", "profiles", "frames", "bars"),
 }
@@ -143,12 +149,7 @@ def _parts(result: Solution | TransientSolution) -> Iterator[tuple[Table, Any]]:
         parts = (
             (tables.FIELDS, result),
             (tables.SCALED, result.scaled),
-            (tables.HEIGHTS, result.heights),
-            (tables.ASPERITIES, result.asperities),
-            (tables.CONTACT, result.contact),
-            (tables.OIL, result.oil),
-            (tables.PASSES, result.passes),
-            (tables.SHEAR, result.shear),
+            *((table, getattr(result, name)) for name, (_, table) in _PARTS.items()),
             (tables.HEAT, result.heat),
             ((*tables.GRIDS, *tables.CYCLES), _columns(result.history)),
         )
@@ -239,13 +240,8 @@ def _steady(arrays: Arrays, attrs: Attributes) -> Solution:
         options=Options.model_validate_json(attrs["options"]),
         scaled=Fields(**reader.columns(tables.SCALED)),
         history=_cycles(arrays),
-        shear=reader.part(FilmShear, tables.SHEAR),
         heat=None if heat is None else FilmHeat(**heat | reader.columns(tables.HEAT)),
-        heights=reader.part(SurfaceHeights, tables.HEIGHTS),
-        asperities=reader.part(FilmAsperities, tables.ASPERITIES),
-        contact=reader.part(FilmContact, tables.CONTACT),
-        oil=reader.part(FilmOil, tables.OIL),
-        passes=reader.part(PassHistory, tables.PASSES),
+        **{name: reader.part(*one) for name, one in _PARTS.items()},
     )
 
 

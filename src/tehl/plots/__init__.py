@@ -14,13 +14,19 @@ from matplotlib.figure import Figure
 from tehl.base.atomic import check_folder, replacing
 from tehl.base.errors import InputError
 from tehl.plots.animation import animate
-from tehl.plots.boundary_contact import contact_map
 from tehl.plots.convergence import residual_history
 from tehl.plots.interferogram import Optics, interferogram
 from tehl.plots.lines import centre_lines, film_distribution, pressure_surface, rough_centre_line
-from tehl.plots.maps import film_map, heights_map, micro_film_map, pressure_map, shear_stress_map
+from tehl.plots.maps import (
+    asperity_map,
+    contact_map,
+    film_map,
+    heights_map,
+    micro_film_map,
+    pressure_map,
+    shear_stress_map,
+)
 from tehl.plots.oil import oil_map, pass_history
-from tehl.plots.summits import asperity_map
 from tehl.plots.surface import surface_preview
 from tehl.plots.table_curves import curves
 from tehl.plots.table_maps import contour_map, film_deviations, moes_map

@@ -21,7 +21,7 @@ from tehl.base.errors import InputError
 from tehl.plots.frame import (
     ALONG_X,
     MICRO,
-    colour_axes,
+    colour_bar,
     dress_contact,
     figure,
     window_part,
@@ -217,5 +217,5 @@ def _film_image(axes: Axes, run: TransientSolution) -> AxesImage:
     top = high + 0.15 * (high - low)
     image = axes.imshow(films[0] * MICRO, vmin=low, vmax=top, **style)
     dress_contact(axes, run.start)
-    axes.figure.colorbar(image, cax=colour_axes(axes), extend="max", label="film h [µm]")
+    colour_bar(axes, image, "film h [µm]", extend="max")
     return image

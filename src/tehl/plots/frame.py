@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
 from matplotlib.colorbar import Colorbar
 from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
@@ -278,11 +279,12 @@ def legend_above(axes: Axes, *others: Line2D) -> None:
     axes.legend(handles=[rim, *others], fontsize=8, **place, **style)
 
 
-def colour_axes(axes: Axes) -> Axes:
-    """Return axes for a colour bar at the right of a map, as tall as the map."""
+def colour_bar(axes: Axes, mesh: ScalarMappable, label: str, **style: Any) -> Colorbar:
+    """Draw a colour bar at the right of a map, as tall as the map."""
     drawn = float(np.ptp(axes.get_ylim()) / np.ptp(axes.get_xlim())) * float(axes.get_aspect())
     thick = 0.045 * max(drawn, 1.0)
-    return axes.inset_axes((1.0 + 0.8 * thick, 0.0, thick, 1.0))
+    place = axes.inset_axes((1.0 + 0.8 * thick, 0.0, thick, 1.0))
+    return figure_of(axes).colorbar(mesh, cax=place, label=label, **style)
 
 
 def entrainment_arrow(axes: Axes) -> None:

@@ -1,4 +1,4 @@
-"""Maps of film, pressure, shear stress, heights and ripples, with the Hertz contact."""
+"""Maps of film, pressures, shear stress, heights and ripples, with the Hertz contact."""
 
 from typing import Any
 
@@ -17,7 +17,7 @@ from tehl.plots.frame import (
     MAP,
     MICRO,
     STEPS,
-    colour_axes,
+    colour_bar,
     dress_contact,
     entrainment_arrow,
     figure,
@@ -32,8 +32,10 @@ from tehl.plots.frame import (
     window_part,
     window_places,
 )
+from tehl.post.boundary_contact import touching, touching_nodes
 from tehl.post.micro_film import micro_film
 from tehl.post.roughness import in_contact, rough_film
+from tehl.post.summits import load_sharing
 from tehl.post.traction import traction as traction_of
 from tehl.result.fields import SurfaceHeights
 from tehl.result.solution import Solution
@@ -72,8 +74,7 @@ def film_map(result: Solution, *, ax: Axes | None = None, title: bool | None = T
         axes.clabel(lines, inner[1::2], fontsize=7, fmt="%.3g")
         axes.clabel(outside, fontsize=7, fmt="%.3g")
     legend_above(axes, *_mark_minimum(axes, result))
-    label = "film thickness h [µm]"
-    bar = figure_of(axes).colorbar(mesh, cax=colour_axes(axes), extend="max", label=label)
+    bar = colour_bar(axes, mesh, "film thickness h [µm]", extend="max")
     bar.ax.yaxis.set_minor_locator(NullLocator())
     bar.ax.yaxis.set_minor_formatter(NullFormatter())
     ticks = nice_levels((low, top), 8)
@@ -136,9 +137,7 @@ def pressure_map(result: Solution, *, ax: Axes | None = None, title: bool | None
     axes = map_axes(result, ax=ax, title=title)
     mesh = axes.pcolormesh(*places, pressure, cmap="cividis", **MAP)
     lines = axes.contour(*places, _smoothed(pressure), levels=levels, **_LINES)
-    mark_levels(
-        figure_of(axes).colorbar(mesh, cax=colour_axes(axes), label="pressure p [GPa]"), lines
-    )
+    mark_levels(colour_bar(axes, mesh, "pressure p [GPa]"), lines)
     return figure_of(axes)
 
 
@@ -167,15 +166,56 @@ def shear_stress_map(
         f"SRR = {result.problem.slide_roll_ratio:.4g}; traction {traction.mid_film:.4g} "
         f"at mid-film, {traction.surface_1:.4g} and {traction.surface_2:.4g} on surfaces 1 and 2"
     )
-    axes = map_axes(result, note, ax=ax, title=title)
-    places = window_places(result)
-    stress = np.hypot(shear.mid_film, shear.across)[window_part(result)] * 1e-6
-    top = float(np.max(stress, initial=0.0, where=np.isfinite(stress)))
-    span = (0.0, top if top > 0 else 1.0)
-    mesh = axes.pcolormesh(*places, stress, cmap="cividis", clim=span, **MAP)
-    lines = axes.contour(*places, stress, levels=inner_levels((0.0, top)), **_LINES)
+    stress = np.hypot(shear.mid_film, shear.across) * 1e-6
     label = "magnitude of the shear stress at mid-film [MPa]"
-    mark_levels(figure_of(axes).colorbar(mesh, cax=colour_axes(axes), label=label), lines)
+    return _map_from_zero(
+        map_axes(result, note, ax=ax, title=title), result, stress, label, lined=True
+    )
+
+
+def asperity_map(result: Solution, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
+    """Draw the pressure of the asperities [MPa] as a map, averaged over many of them.
+
+    Raises InputError if the case has none.
+    """
+    found, shared = result.asperities, load_sharing(result)
+    if found is None or shared is None:
+        raise InputError("the result has no asperities to draw: the case states none, or diverged")
+    note = (
+        f"asperities carry {100 * shared.share:.3g} % of the load on "
+        f"{100 * shared.area_part:.2g} % of the Hertz area"
+    )
+    axes, pressure = map_axes(result, note, ax=ax, title=title), found.pressure * 1e-6
+    return _map_from_zero(axes, result, pressure, "pressure of the asperities [MPa]")
+
+
+def contact_map(result: Solution, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
+    """Draw the pressure of film and contact together [GPa] where the surfaces touch, as a map.
+
+    Raises InputError if the case states no boundary film.
+    """
+    found, shared = result.contact, touching(result)
+    if found is None or shared is None:
+        raise InputError("the result has no contact to draw: the case states none, or diverged")
+    note = f"the surfaces touch on {100 * shared.area_part:.2g} % of the Hertz area"
+    if shared.patches is None:
+        note = "the surfaces touch nowhere"
+    both = np.where(touching_nodes(result), (result.pressure + found.pressure) * 1e-9, np.nan)
+    axes = map_axes(result, note, ax=ax, title=title)
+    return _map_from_zero(axes, result, both, "pressure where surfaces touch [GPa]")
+
+
+def _map_from_zero(
+    axes: Axes, result: Solution, field: Array, label: str, *, lined: bool = False
+) -> Figure:
+    """Draw a field of zero and above as a map, with contour lines or without."""
+    places, shown = window_places(result), field[window_part(result)]
+    top = float(np.max(shown, initial=0.0, where=np.isfinite(shown)))
+    span = (0.0, top if top > 0 else 1.0)
+    mesh = axes.pcolormesh(*places, shown, cmap="cividis", clim=span, **MAP)
+    bar = colour_bar(axes, mesh, label)
+    if lined:
+        mark_levels(bar, axes.contour(*places, shown, levels=inner_levels((0.0, top)), **_LINES))
     return figure_of(axes)
 
 
@@ -204,7 +244,7 @@ def heights_map(result: Solution, *, ax: Axes | None = None, title: bool | None 
     ends = {(True, True): "both", (True, False): "min", (False, True): "max"}
     beyond = ends.get((bool(heights.min() < low - slack), bool(heights.max() > high + slack)))
     label = "height of both surfaces, outwards [nm]"
-    figure_of(axes).colorbar(mesh, cax=colour_axes(axes), extend=beyond or "neither", label=label)
+    colour_bar(axes, mesh, label, extend=beyond or "neither")
     return figure_of(axes)
 
 

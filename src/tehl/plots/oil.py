@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 from tehl.plots.frame import (
     MAP,
     MICRO,
-    colour_axes,
+    colour_bar,
     figure_of,
     legend_above,
     map_axes,
@@ -42,9 +42,7 @@ def oil_map(result: Solution, *, ax: Axes | None = None, title: bool | None = Tr
     axes.set_xlim(x[0], x[-1])
     axes.set_ylim(y[0], y[-1])
     legend_above(axes, *_draw_meniscus(axes, result))
-    label = "part of the gap that is oil"
-    bar = figure_of(axes).colorbar(mesh, cax=colour_axes(axes), label=label)
-    bar.ax.set_ylim(0.0, 1.0)
+    colour_bar(axes, mesh, "part of the gap that is oil").ax.set_ylim(0.0, 1.0)
     return figure_of(axes)
 
 

@@ -28,7 +28,7 @@ from tehl.plots.frame import (
     WINDOW,
     Span,
     centre_row,
-    colour_axes,
+    colour_bar,
     dress_contact,
     entrainment_arrow,
     figure,
@@ -70,8 +70,7 @@ def mid_film_temperature(
     axes = map_axes(result, note, ax=ax, title=title)
     rise = (found.mid_film - found.inlet)[window_part(result)]
     mesh, lines = _coloured(axes, window_places(result), rise, _span(rise))
-    label = "mid-film temperature rise [K]"
-    mark_levels(figure_of(axes).colorbar(mesh, cax=colour_axes(axes), label=label), lines)
+    mark_levels(colour_bar(axes, mesh, "mid-film temperature rise [K]"), lines)
     return figure_of(axes)
 
 

@@ -22,8 +22,7 @@ from tehl.estimate.grid import Grid
 from tehl.estimate.inlet_heating import inlet_factors, inlet_heating_factor, thermal_loading
 from tehl.estimate.memory import available_memory, needed_memory
 from tehl.estimate.scaling import ScaledProblem
-from tehl.estimate.starvation import check_supply, supply_ratio
-from tehl.estimate.starvation_table import starved_degree
+from tehl.estimate.starvation import check_supply, starved_degree, supply_ratio
 from tehl.estimate.summits import SharedLoad, shared_load
 from tehl.lubricant.pressure import UNCERTAINTY
 from tehl.report.expected_heat import BodyEffect, ExpectedHeat, body_effect, expected_heat
@@ -169,9 +168,7 @@ def explain(problem: ContactProblem, options: Options | None = None) -> Explanat
         central_film=film,
         formula=likely.formula,
         films=film_estimates(scaled.groups, scaled.scales),
-        composite=problem.asperity_rms or problem.rms_roughness
-        if heights is None
-        else heights.composite,
+        composite=heights.composite if heights else problem.asperity_rms or problem.rms_roughness,
         roughness=heights,
         peclet=tuple(None if one is None else abs(one) for one in problem.solid_peclet),
         sources=_sources(problem),
@@ -212,11 +209,6 @@ def as_text(case: Explanation) -> str:
         stated=isinstance(case.options.domain, Domain),
         untitled=UNTITLED,
     ).rstrip()
-
-
-def _composite(problem: ContactProblem) -> float:
-    """Return the stated roughness of both surfaces together [m]."""
-    return problem.asperity_rms or problem.rms_roughness
 
 
 def as_summary(case: Explanation) -> dict[str, Any]:

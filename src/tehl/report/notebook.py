@@ -5,6 +5,8 @@ import io
 from html import escape
 from typing import Any
 
+from matplotlib.figure import Figure
+
 from tehl.io.summary import summary
 from tehl.plots import film_map, history
 from tehl.report.headline import headline
@@ -29,12 +31,16 @@ def result_html(result: Solution | TransientSolution) -> str:
     return f'<div style="{style}">{table}{picture}</div>'
 
 
-def image_html(figure: Any, words: str) -> str:
+def image_html(figure: Figure, words: str) -> str:
     """Return a matplotlib figure as an image in HTML."""
+    return f'<img alt="{escape(words)}" src="{data_url(figure, dpi=_DPI, bbox_inches="tight")}">'
+
+
+def data_url(figure: Figure, **style: Any) -> str:
+    """Return a figure as a data URL; ``style`` is that of ``savefig``."""
     buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=_DPI, bbox_inches="tight")
-    data = base64.b64encode(buffer.getvalue()).decode("ascii")
-    return f'<img alt="{escape(words)}" src="data:image/png;base64,{data}">'
+    figure.savefig(buffer, format="png", **style)
+    return f"data:image/png;base64,{base64.b64encode(buffer.getvalue()).decode('ascii')}"
 
 
 def _others(summary: dict[str, Any]) -> dict[str, str]:

@@ -1,11 +1,7 @@
 """A result, steady or transient, as one self-contained HTML page with its pictures inside."""
 
-import base64
-import io
 from collections.abc import Iterator
 from typing import Any
-
-from matplotlib.figure import Figure
 
 from tehl.base.errors import InputError
 from tehl.estimate.film_formulas import film_estimates
@@ -20,10 +16,10 @@ from tehl.post.roughness import rough_film
 from tehl.post.thermal_effect import ThermalEffect
 from tehl.post.transient import largest_change, passing_features
 from tehl.post.waves import PassingWave, passing_wave
-from tehl.report.following import following
+from tehl.report.notebook import data_url
 from tehl.report.readable import UNTITLED, input_rows
 from tehl.report.rendering import FILTERS, UNITS, render
-from tehl.report.rows import rows_of
+from tehl.report.rows import following, rows_of
 from tehl.result.bars import Estimate
 from tehl.result.registry import named
 from tehl.result.solution import Solution
@@ -112,7 +108,7 @@ def _shared(result: Solution | TransientSolution, pictures: Pictures, dpi: int) 
         "no_film": no_film(start),
         "rough": rough_film(start),
         "pictures": [
-            (caption, _embedded(pictures[name](result), dpi))
+            (caption, data_url(pictures[name](result), dpi=dpi))
             for name, caption in CAPTIONS.items()
             if name in pictures
         ],
@@ -180,10 +176,3 @@ def _waves(run: TransientSolution) -> Iterator[tuple[int, PassingWave | str]]:
                 yield number, passing_wave(run, number)
             except InputError as error:
                 yield number, str(error)
-
-
-def _embedded(picture: Figure, dpi: int) -> str:
-    """Return a figure as a data URL."""
-    buffer = io.BytesIO()
-    picture.savefig(buffer, format="png", dpi=dpi)
-    return f"data:image/png;base64,{base64.b64encode(buffer.getvalue()).decode('ascii')}"

@@ -1,12 +1,20 @@
-"""Rows of a text or page: the quantities of the registry that it shows, with their numbers."""
+"""What texts and pages show of a result: rows of quantities, and what follows from it by name."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 from tehl.post.following import Following
+from tehl.post.transient_numbers import (
+    friction,
+    late_extremes,
+    longer_duration,
+    why_share_unknown,
+)
 from tehl.result.quantity import Quantity
 from tehl.result.registry import dimensionless, shown_in
 from tehl.result.solution import Solution
+from tehl.result.transient import TransientSolution
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -40,3 +48,18 @@ def rows_of(result: Solution, place: str) -> Iterator[Row]:
                 scaled=None if twin is None else on_grid.get(twin.path),
                 error=one.error_in(numbers),
             )
+
+
+def following(result: Solution | TransientSolution) -> Following | dict[str, Any]:
+    """Return what follows from a solution; of a transient one what follows from its start too."""
+    start = result.start if isinstance(result, TransientSolution) else result
+    found = Following(start)
+    if isinstance(result, TransientSolution):
+        return {
+            "traction": found.traction,
+            "friction": friction(result),
+            "late_extremes": late_extremes(result),
+            "longer_duration": longer_duration(result),
+            "why_share_unknown": why_share_unknown(result),
+        }
+    return found

@@ -9,6 +9,11 @@ ORDERS = (1.4, 2.8)
 """Observed orders that count as second order."""
 
 
+def shows_second_order(order: float | None) -> bool:
+    """Whether an observed order counts as second order; None is not one."""
+    return order is not None and ORDERS[0] <= order <= ORDERS[1]
+
+
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Estimate:
     """A value with its error bar."""
@@ -39,8 +44,7 @@ class Estimate:
     @property
     def is_second_order(self) -> bool:
         """Whether the grids show second order, so that the value is extrapolated."""
-        order = self.observed_order
-        return order is not None and ORDERS[0] <= order <= ORDERS[1]
+        return shows_second_order(self.observed_order)
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)

@@ -3,7 +3,8 @@
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
-from typing import Any, Literal, Self
+from operator import attrgetter
+from typing import Any, Generic, Literal, Self, TypeVar, overload
 
 from tehl.base.errors import TehlError
 from tehl.base.typing import Array
@@ -24,6 +25,7 @@ from tehl.result.fields import (
 )
 from tehl.roughness.resolution import Resolution
 
+Value = TypeVar("Value")
 StatusKind = Literal["converged", "not_converged", "diverged", "stalled"]
 Settings = Mapping[str, bool | int | float | str | dict[str, str]]
 """Values to set in a case, by dotted keys: ``{"numerics.points": 257}``; False removes a key."""
@@ -206,6 +208,25 @@ class Extras:
     """Which part of the stated heights the grid carries; None when both surfaces are smooth."""
 
 
+class _Of(Generic[Value]):
+    """An attribute of a solution that is one of its ``account`` or of its ``extras``."""
+
+    def __init__(self, part: str) -> None:
+        self._part = part
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._get = attrgetter(f"{self._part}.{name}")
+
+    @overload
+    def __get__(self, solution: None, owner: type) -> Self: ...
+
+    @overload
+    def __get__(self, solution: "Solution", owner: type) -> Value: ...
+
+    def __get__(self, solution: "Solution | None", owner: type) -> Self | Value:
+        return self if solution is None else self._get(solution)
+
+
 @dataclass(frozen=True, kw_only=True, slots=True, repr=False)
 class Solution:
     """Fields and numbers of one steady solve; `tehl.Result` adds what follows from them.
@@ -248,80 +269,21 @@ class Solution:
         """Return the same solution with other fields, also of ``account`` and ``extras``."""
         return type(self)(**{one.name: getattr(self, one.name) for one in fields(self)} | changes)
 
-    @property
-    def status(self) -> Status:
-        """How the solve ended."""
-        return self.account.status
-
-    @property
-    def history(self) -> tuple[CycleReport, ...]:
-        """Each cycle on each grid."""
-        return self.account.history
-
-    @property
-    def errors(self) -> ErrorEstimate | None:
-        """Estimated errors; None if the solve ended too early for them."""
-        return self.account.errors
-
-    @property
-    def cost(self) -> Cost:
-        """Computing cost."""
-        return self.account.cost
-
-    @property
-    def provenance(self) -> Provenance:
-        """Versions, and when the result was made."""
-        return self.account.provenance
-
-    @property
-    def uncertainty(self) -> dict[str, Estimate]:
-        """Values of a certified result with their error bars, dimensionless, rises in kelvin."""
-        return self.account.uncertainty
-
-    @property
-    def shear(self) -> FilmShear | None:
-        """Shear stresses; None without a valid film."""
-        return self.extras.shear
-
-    @property
-    def heat(self) -> FilmHeat | None:
-        """Temperatures; None in an isothermal run."""
-        return self.extras.heat
-
-    @property
-    def heights(self) -> SurfaceHeights | None:
-        """Heights of rough surfaces; None when both are smooth."""
-        return self.extras.heights
-
-    @property
-    def asperities(self) -> FilmAsperities | None:
-        """Asperities finer than the grid; None without."""
-        return self.extras.asperities
-
-    @property
-    def contact(self) -> FilmContact | None:
-        """Contact through a boundary film; None without."""
-        return self.extras.contact
-
-    @property
-    def oil(self) -> FilmOil | None:
-        """Where the oil is; None if cavities do not conserve it."""
-        return self.extras.oil
-
-    @property
-    def supplied(self) -> Supplied | None:
-        """Supply over that of the flooded contact, and balance of the oil; None like ``oil``."""
-        return self.extras.supplied
-
-    @property
-    def passes(self) -> PassHistory | None:
-        """Earlier passes of the same surfaces and this one; None of a single film."""
-        return self.extras.passes
-
-    @property
-    def resolution(self) -> Resolution | None:
-        """Which part of the stated heights the grid carries; None when both are smooth."""
-        return self.extras.resolution
+    status = _Of[Status]("account")
+    history = _Of[tuple[CycleReport, ...]]("account")
+    errors = _Of[ErrorEstimate | None]("account")
+    cost = _Of[Cost]("account")
+    provenance = _Of[Provenance]("account")
+    uncertainty = _Of[dict[str, Estimate]]("account")
+    shear = _Of[FilmShear | None]("extras")
+    heat = _Of[FilmHeat | None]("extras")
+    heights = _Of[SurfaceHeights | None]("extras")
+    asperities = _Of[FilmAsperities | None]("extras")
+    contact = _Of[FilmContact | None]("extras")
+    oil = _Of[FilmOil | None]("extras")
+    supplied = _Of[Supplied | None]("extras")
+    passes = _Of[PassHistory | None]("extras")
+    resolution = _Of[Resolution | None]("extras")
 
     @property
     def certified(self) -> dict[str, Estimate]:

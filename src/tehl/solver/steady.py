@@ -341,12 +341,8 @@ def _result(
         errors=run.errors(),
         cost=cost,
         provenance=provenance(),
-        shear=found.shear,
-        heat=found.heat,
+        extras=found.extras,
         heights=_surfaces(run),
-        asperities=found.asperities,
-        contact=found.contact,
-        oil=found.oil,
         resolution=resolution_of(
             scaled.problem,
             (grid.dx * scaled.scales.half_width_x, grid.dy * scaled.scales.half_width_y),

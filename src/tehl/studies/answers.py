@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from tehl.api.problem import ContactProblem
 from tehl.base.atomic import replacing
-from tehl.base.errors import InputError
-from tehl.base.lists import check_package
+from tehl.base.lists import check_format
 from tehl.base.units import percentage
 from tehl.result.quantity import Quantity
 from tehl.result.registry import shown_in
@@ -21,13 +20,12 @@ from tehl.studies.contacts import (
     contacts_of,
     template_tables,
 )
-from tehl.studies.runner import QUIET, Outcome, StudyMonitor, run
+from tehl.studies.runner import QUIET, StudyMonitor, run
 from tehl.studies.store import Store, opened
 
 if TYPE_CHECKING:
     import pandas as pd
 
-FORMATS = (".csv", ".xlsx", ".parquet")
 _CHUNK = 500
 """Rows whose outcome is in memory at a time."""
 
@@ -115,13 +113,7 @@ def headings_of(lines: Iterable[Mapping[str, Any]], contacts: Contacts) -> list[
 
 def check_output(path: Path) -> None:
     """Raise if the format of the answers is not known, or needs a package that is missing."""
-    ending = path.suffix.lower()
-    if ending not in FORMATS:
-        known = ", ".join(FORMATS)
-        raise InputError(f"output {path}: format not supported; it ends in one of {known}")
-    package = {".xlsx": ("openpyxl", "xlsx"), ".parquet": ("pyarrow", "parquet")}.get(ending)
-    if package is not None:
-        check_package(*package, path)
+    check_format(path, (".csv", ".xlsx", ".parquet"), "a list")
 
 
 def write_answers(contacts: Contacts, store: Store, path: Path) -> None:
@@ -233,23 +225,8 @@ def solve_contacts(
         base, folder = template_tables(None if template is None else Path(template))
     contacts = contacts_of(frame, base, folder)
     with closing(opened(store)) as kept:
-        solve_list(contacts, kept, jobs=jobs, monitor=monitor)
+        run(contacts.cases, kept, jobs=jobs, monitor=monitor)
         lines = list(answers(contacts, kept))
     found = frame_of(headings_of(lines, contacts), lines)
     found.index = frame.index[-len(found) :]
     return found
-
-
-def solve_list(
-    contacts: Contacts,
-    store: Store,
-    *,
-    jobs: int = 1,
-    scheduler: str | None = None,
-    forked: bool = False,
-    monitor: StudyMonitor = QUIET,
-) -> Outcome:
-    """Solve the rows of a list that the store does not have; arguments as of `tehl.studies.run`."""
-    return run(
-        contacts.cases, store, jobs=jobs, scheduler=scheduler, forked=forked, monitor=monitor
-    )

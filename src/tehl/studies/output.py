@@ -1,7 +1,6 @@
 """What is made of the table of a study: pictures, and sheets of chosen columns and units."""
 
 from collections.abc import Sequence
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, Self
 
@@ -10,6 +9,7 @@ from pydantic import Field, model_validator
 from tehl.base.atomic import replacing
 from tehl.base.errors import InputError
 from tehl.base.lazy import lazy
+from tehl.base.lists import check_format
 from tehl.base.table import Table
 from tehl.base.units import Quantity
 from tehl.studies.tables import missing_column
@@ -18,8 +18,10 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
+    from tehl import plots
     from tehl.plots import table_columns, table_curves, table_maps
 else:
+    plots = lazy("tehl.plots")
     table_curves = lazy("tehl.plots.table_curves")
     table_maps = lazy("tehl.plots.table_maps")
     table_columns = lazy("tehl.plots.table_columns")
@@ -144,24 +146,17 @@ def save(picture: Picture, table: "pd.DataFrame", folder: Path) -> Path:
     folder : Path
         Where the file appears, whole or not at all.
     """
-    figure, path = draw(picture, table), folder / picture.file_name
-    with replacing(path) as temporary:
-        figure.savefig(temporary, dpi=_DPI, format=picture.format)
+    path = folder / picture.file_name
+    plots.save_picture(draw(picture, table), path, dpi=_DPI)
     return path
 
 
 # ---- sheets
 
-FORMATS = (".csv", ".xlsx")
-
 
 def check_sheet(path: Path) -> None:
     """Raise if the format of a sheet is not supported, or needs a package that is missing."""
-    ending = path.suffix.lower()
-    if ending not in FORMATS:
-        raise InputError(f"output {path}: format not supported; a sheet ends in .csv or .xlsx")
-    if ending == ".xlsx" and find_spec("openpyxl") is None:
-        raise InputError(f'output {path}: needs openpyxl; install it with pip install "tehl[xlsx]"')
+    check_format(path, (".csv", ".xlsx"), "a sheet")
 
 
 def sheet(table: "pd.DataFrame", columns: Sequence[str]) -> "pd.DataFrame":

@@ -1,8 +1,4 @@
-"""Error bars of a steady result, from three grids and one larger domain.
-
-Values of a second-order scheme on grids halved each time extrapolate to
-h = h_3 + (h_3 - h_2)/3 (docs/theory/numerics.md on stopping and errors).
-"""
+"""Error bars of a steady result, from three grids and one larger domain."""
 
 import math
 from collections.abc import Iterable
@@ -14,8 +10,14 @@ from tehl.contact.problem import ContactProblem
 from tehl.operators.heights import UnresolvedError
 from tehl.post.following import Following
 from tehl.result import registry
-from tehl.result.bars import ORDERS, Estimate
+from tehl.result.bars import Estimate
 from tehl.result.solution import NO_COST, ConvergenceError, Cost, Hint, Solution, Status
+from tehl.solver.judging.richardson import (
+    LESS_REGULAR,
+    RESIDUE,
+    estimate,
+    with_growing_spike,
+)
 from tehl.solver.judging.verdict import LARGEST_BAR, too_coarse
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.steady import solve
@@ -26,11 +28,6 @@ OUTLET_HALF = 0.5
 """X downstream of which the pressure spike is searched, in Hertz half-widths."""
 JUDGED = ("film_central", "film_minimum", "pressure_max")
 """Values whose error bars decide whether the grid is too coarse; small temperatures do not."""
-RESIDUE, LESS_REGULAR = 0.25, 1.0
-"""Least error bar over the extrapolated change, of the film, and of what follows from it less
-regularly: three grids may show second order by chance."""
-GROWING = 2.0
-"""Error bar over a change that is not smaller than the one before."""
 WITHOUT_FIRST = "The first grid is left out: each bar is the full change between the other two."
 
 AnyResult = TypeVar("AnyResult")
@@ -265,66 +262,3 @@ def _quantities(result: Solution) -> dict[str, float]:
 def spike(result: Solution) -> float:
     """Return the largest pressure downstream of X = 0.5 [-]."""
     return float(result.scaled.pressure[:, result.scaled.x > OUTLET_HALF].max())
-
-
-def with_growing_spike(highest: Estimate, middle: float, finest: float) -> Estimate:
-    """Widen the error bar of the largest pressure by the growth of the spike.
-
-    The spike grows with each finer grid, to first order, and may exceed the central pressure on
-    finer grids only: it may still grow by twice its last change.
-
-    Parameters
-    ----------
-    highest : Estimate
-        Estimate of the largest pressure [-].
-    middle, finest : float
-        Pressure of the spike on the last two grids [-].
-    """
-    reach = finest + 2.0 * max(finest - middle, 0.0) - highest.value
-    bar = max(highest.discretisation, reach)
-    return replace(highest, discretisation=bar, uncertainty=math.hypot(bar, highest.domain))
-
-
-def _without_order(first: float, last: float) -> float:
-    """Return the error bar of a value whose two last changes do not show second order.
-
-    Of lower order, the change before covers all further ones from order 0.7 on; changes that grow
-    or alternate may go on so, and a last change much smaller than the one before is chance.
-    """
-    alternates, first, last = first * last < 0.0, abs(first), abs(last)
-    if first == 0.0:  # of two grids
-        return last
-    if alternates or last >= first:
-        return GROWING * max(first, last) if last >= first else max(last, 0.25 * first)
-    is_faster = last < first / 2.0 ** ORDERS[1]
-    return max(last, 0.25 * first) if is_faster else first
-
-
-def estimate(values: tuple[float, ...], domain: float, residue: float = RESIDUE) -> Estimate:
-    """Return the Richardson extrapolation of two or three grids with its error bar.
-
-    If the grids show second order, the extrapolated value is h_3 + (h_3 - h_2)/3, and the bar its
-    difference to that with the observed order, at least ``residue`` of (h_3 - h_2)/3. If not, the
-    value is h_3, and the bar that of `_without_order`; of two grids |h_3 - h_2|. ``values`` are
-    h_1, h_2, h_3 or h_2, h_3 on grids halved each time, and ``domain`` is the change by the larger
-    domain.
-    """
-    last = values[-1] - values[-2]
-    first = values[1] - values[0] if len(values) == 3 else 0.0
-    order = math.log2(first / last) if first * last > 0 else None
-    if last == 0.0:
-        value, bar = values[-1], 0.0
-    elif order is not None and ORDERS[0] <= order <= ORDERS[1]:
-        value = values[-1] + last / 3.0
-        observed = values[-1] + last / (2.0**order - 1.0)
-        bar = max(abs(observed - value), residue * abs(last) / 3.0)
-    else:
-        value, bar = values[-1], _without_order(first, last)
-    return Estimate(
-        value=value,
-        uncertainty=math.hypot(bar, domain),
-        discretisation=bar,
-        domain=domain,
-        observed_order=order,
-        values=values,
-    )

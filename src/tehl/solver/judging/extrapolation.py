@@ -5,19 +5,11 @@ from typing import TypeVar
 
 import numpy as np
 
-from tehl.base.typing import Array
 from tehl.estimate.grid import Grid
 from tehl.estimate.scaling import ScaledProblem
 from tehl.operators.energy import FilmState
-from tehl.result.fields import (
-    Fields,
-    FilmAsperities,
-    FilmContact,
-    FilmHeat,
-    FilmOil,
-    FilmShear,
-    HeatBalance,
-)
+from tehl.result.fields import Fields, HeatBalance
+from tehl.result.solution import Extras
 from tehl.solver.cycle.level import Level
 from tehl.solver.judging.outputs import (
     film_asperities,
@@ -27,23 +19,17 @@ from tehl.solver.judging.outputs import (
     film_shear,
     newtonian_shear,
 )
-
-WEIGHT = 1.0 / 3.0
-"""Of the difference of two grids of second order: 1 / (2^2 - 1)."""
+from tehl.solver.judging.richardson import WEIGHT, extrapolated_field
 
 AnyFields = TypeVar("AnyFields")
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class Outputs:
-    """Fields of a film on one grid, on its full domain; None where the contact has none."""
+    """Fields of a film on one grid, on its full domain."""
 
     fields: Fields
-    shear: FilmShear | None = None
-    heat: FilmHeat | None = None
-    asperities: FilmAsperities | None = None
-    contact: FilmContact | None = None
-    oil: FilmOil | None = None
+    extras: Extras = Extras()  # noqa: RUF009 (frozen)
 
 
 def outputs_of(
@@ -74,11 +60,13 @@ def outputs_of(
             pressure=grid.unfold(np.maximum(level.film.p, 0.0)),
             film=grid.unfold(level.film.h),
         ),
-        shear=shear,
-        heat=heat,
-        asperities=film_asperities(level, scaled),
-        contact=film_contact(level, scaled),
-        oil=film_oil(level, scaled),
+        extras=Extras(
+            shear=shear,
+            heat=heat,
+            asperities=film_asperities(level, scaled),
+            contact=film_contact(level, scaled),
+            oil=film_oil(level, scaled),
+        ),
     )
 
 
@@ -88,7 +76,8 @@ def extrapolated(fine: Outputs, coarse: Outputs) -> Outputs:
     The difference at the nodes of the coarser grid is interpolated linearly: it is of second order,
     so that the error is of fourth. Where the oil is stays that of the finer grid: its edge moves.
     """
-    return replace(_combined(fine, coarse), oil=fine.oil)
+    found = _combined(fine, coarse)
+    return replace(found, extras=replace(found.extras, oil=fine.extras.oil))
 
 
 def _combined(fine: AnyFields, coarse: AnyFields) -> AnyFields:
@@ -99,21 +88,7 @@ def _combined(fine: AnyFields, coarse: AnyFields) -> AnyFields:
         if is_dataclass(value) and before is not None:
             changes[one.name] = _combined(value, before)
         elif isinstance(value, np.ndarray) and value.ndim > 1:
-            changes[one.name] = _of_fields(value, before)
+            changes[one.name] = extrapolated_field(value, before)
         elif isinstance(fine, HeatBalance):
             changes[one.name] = value + WEIGHT * (value - before)
     return replace(fine, **changes)  # type: ignore[type-var]
-
-
-def _of_fields(fine: Array, coarse: Array) -> Array:
-    """Return an extrapolated field, (..., ny, nx); zeros remain, and what is never negative."""
-    shared = fine[..., ::2, ::2] - coarse
-    change = np.empty_like(fine)
-    change[..., ::2, ::2] = shared
-    change[..., ::2, 1::2] = 0.5 * (shared[..., 1:] + shared[..., :-1])
-    change[..., 1::2, :] = 0.5 * (change[..., 2::2, :] + change[..., :-1:2, :])
-    found = fine + WEIGHT * change
-    if fine.min() >= 0.0:
-        np.maximum(found, 0.0, out=found)
-        found[fine == 0.0] = 0.0
-    return np.asarray(found)

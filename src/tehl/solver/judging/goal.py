@@ -14,7 +14,8 @@ from tehl.result.bars import ErrorEstimate
 from tehl.solver.cycle.continuation import Roughness
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.level import Level
-from tehl.solver.judging.convergence import GridTrace, error_estimate, single_grid_estimate
+from tehl.solver.judging.convergence import GridTrace
+from tehl.solver.judging.grid_errors import error_estimate, single_grid_estimate
 
 FACTOR = 5.0
 """Expected time on a grid over that on the next coarser one, which has a quarter of its nodes."""

@@ -4,7 +4,6 @@ The stride is the same on all grids, so the time step is proportional to the mes
 scheme is of second order in both together (docs/theory/numerics-transient.md).
 """
 
-import math
 from dataclasses import replace
 from functools import partial
 
@@ -14,15 +13,12 @@ from tehl.base.errors import InputError
 from tehl.base.typing import Array
 from tehl.contact.options import Options, can_be_halved, check_certifiable
 from tehl.contact.problem import ContactProblem
-from tehl.result.bars import Estimate
+from tehl.result.bars import Estimate, shows_second_order
 from tehl.result.solution import ConvergenceError
 from tehl.result.transient import HistoryBars, TransientSolution
 from tehl.solver.judging.certify import (
-    ORDERS,
-    RESIDUE,
     WITHOUT_FIRST,
     Companion,
-    estimate,
     halved,
     message_on,
     nodes_of,
@@ -31,6 +27,11 @@ from tehl.solver.judging.certify import (
     too_coarse_to_certify,
     widened,
     widest,
+)
+from tehl.solver.judging.richardson import (
+    estimate,
+    grid_bar,
+    order_of_history,
     with_growing_spike,
 )
 from tehl.solver.judging.verdict import LARGEST_BAR
@@ -161,7 +162,7 @@ def estimates(runs: Runs, wide: TransientSolution) -> dict[str, Estimate]:
     highest = found[-1]["pressure_max"] + float(growth[np.argmax(pressures + growth)])
     bars["pressure_max"] = with_growing_spike(bars["pressure_max"], highest, highest)
     hottest = bars.get("film_rise_max")
-    if hottest is not None and not _is_second(hottest.observed_order):  # heated by the spike
+    if hottest is not None and not hottest.is_second_order:  # heated by the spike
         bars["film_rise_max"] = with_growing_spike(hottest, *hottest.values[-2:])
     return bars
 
@@ -231,37 +232,6 @@ def _growth(runs: Runs) -> Array:
     before, now = (spike(run.start) for run in runs[-2:])
     reach = (now + GROWTH * max(now - before, 0.0)) * runs[-1].start.scales.hertz_pressure
     excess = np.full_like(finest, max(reach - float(runs[-1].history.pressure_max[0]), 0.0))
-    if _is_second(_order(_shared(runs, "pressure_max"))):
+    if shows_second_order(order_of_history(_shared(runs, "pressure_max"))):
         return excess
     return np.maximum(excess, GROWTH * (finest - middle))
-
-
-def grid_bar(series: list[Array]) -> Array:
-    """Return the discretisation error bars of a history.
-
-    They are the change between the last two grids, over 2^q - 1 if three grids show an order q near
-    two (at most two) in the mean square over time. A quarter of the root mean square over time is
-    added in quadrature, because changes pass through zero where errors need not. ``series`` are two
-    or three arrays of values at the same times, coarse to fine.
-    """
-    bar, order = np.abs(series[-1] - series[-2]), _order(series)
-    if order is not None and _is_second(order):
-        bar /= 2.0 ** min(order, 2.0) - 1.0
-    return np.hypot(bar, RESIDUE * _mean(bar))
-
-
-def _is_second(order: float | None) -> bool:
-    return order is not None and ORDERS[0] <= order <= ORDERS[1]
-
-
-def _order(series: list[Array]) -> float | None:
-    """Return the order that three grids show in the mean square over time."""
-    if len(series) < 3:
-        return None
-    first, last = _mean(series[1] - series[0]), _mean(series[2] - series[1])
-    return math.log2(first / last) if first > 0 and last > 0 else None
-
-
-def _mean(values: Array) -> float:
-    """Return the root mean square."""
-    return float(np.sqrt(np.mean(values**2)))
