@@ -104,8 +104,8 @@ def heat() -> Figure:
     axes.plot(x, h, color="0.3", lw=0.8)
     axes.axhline(0, color="0.3", lw=0.8)
     axes.set(xlim=(x[0], x[-1]), ylim=(-150, 900))
-    axes.text(0, 660, "fast surface", ha="center")
-    axes.text(0, -110, "slow surface", ha="center")
+    axes.text(0, 660, "slow surface", ha="center")
+    axes.text(0, -110, "fast surface", ha="center")
     figure = of(axes)
     figure.colorbar(mesh, ax=axes, label="temperature rise [K]")
     return figure
