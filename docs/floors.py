@@ -45,7 +45,7 @@ def floors() -> list[list[str]]:
 
 
 def drawing() -> str:
-    """Return the floors as SVG: one row per floor, one box per module or folder."""
+    """Return the floors as SVG: one row per floor, one box per room, numbers along a solve."""
     rows = floors()
     height = ROW * len(rows) + 40
     parts = [
@@ -63,10 +63,9 @@ def drawing() -> str:
         for module in modules:
             width = 7.6 * len(module) + 18
             colour = "#ffd9a8" if module in EQUATIONS else "#dbe9f6"
-            folder = (PACKAGE / module).is_dir()
             parts.append(
                 f'<rect x="{left:.1f}" y="{top}" width="{width:.1f}" height="{BOX}" rx="4"'
-                f' fill="{colour}" stroke="{"#555" if folder else "#bbb"}"/>'
+                f' fill="{colour}" stroke="#555"/>'
                 f'<text x="{left + width / 2:.1f}" y="{top + 19}"'
                 f' text-anchor="middle">{module}</text>'
             )
@@ -74,8 +73,8 @@ def drawing() -> str:
                 parts.append(badge(WAY.index(module) + 1, left + width - 2, top + 3))
             left += width + 8
     parts.append(
-        f'<text x="10" y="{height - 12}" fill="#555">A module imports from lower floors only.'
-        " Dark frames are folders; orange is where the equations are solved; numbers are the way of a case.</text></svg>"
+        f'<text x="10" y="{height - 12}" fill="#555">Imports go to lower floors only. Orange:'
+        " where the equations are solved. Numbers: the way of a case.</text></svg>"
     )
     return "\n".join(parts) + "\n"
 
