@@ -30,6 +30,11 @@ NAMES = (
 )
 WIDTH, LEFT, ROW, BOX = 860, 150, 38, 28
 EQUATIONS = ("solver", "operators", "kernels")
+WAY = (
+    *("cli", "api", "io", "contact", "estimate", "solver"),
+    *("operators", "kernels", "result", "post", "report"),
+)
+"""Modules in the order in which a case passes them."""
 
 
 def floors() -> list[list[str]]:
@@ -40,7 +45,7 @@ def floors() -> list[list[str]]:
 
 
 def drawing() -> str:
-    """Return the floors as SVG: one row per floor, one box per module or folder."""
+    """Return the floors as SVG: one row per floor, one box per room, numbers along a solve."""
     rows = floors()
     height = ROW * len(rows) + 40
     parts = [
@@ -49,7 +54,7 @@ def drawing() -> str:
         f'<rect width="{WIDTH}" height="{height}" fill="white"/>',
     ]
     for number, (name, modules) in enumerate(zip(NAMES, rows, strict=True)):
-        top = 5 + ROW * number
+        top = 8 + ROW * number
         parts.append(f'<text x="10" y="{top + 19}" fill="#555">{name}</text>')
         parts.append(
             f'<line x1="0" x2="{WIDTH}" y1="{top + ROW - 5}" y2="{top + ROW - 5}" stroke="#ddd"/>'
@@ -58,19 +63,29 @@ def drawing() -> str:
         for module in modules:
             width = 7.6 * len(module) + 18
             colour = "#ffd9a8" if module in EQUATIONS else "#dbe9f6"
-            folder = (PACKAGE / module).is_dir()
             parts.append(
                 f'<rect x="{left:.1f}" y="{top}" width="{width:.1f}" height="{BOX}" rx="4"'
-                f' fill="{colour}" stroke="{"#555" if folder else "#bbb"}"/>'
+                f' fill="{colour}" stroke="#555"/>'
                 f'<text x="{left + width / 2:.1f}" y="{top + 19}"'
                 f' text-anchor="middle">{module}</text>'
             )
+            if module in WAY:
+                parts.append(badge(WAY.index(module) + 1, left + width - 2, top + 3))
             left += width + 8
     parts.append(
-        f'<text x="10" y="{height - 12}" fill="#555">A module imports from lower floors only.'
-        " Dark frames are folders; orange is where the equations are solved.</text></svg>"
+        f'<text x="10" y="{height - 12}" fill="#555">Imports go to lower floors only. Orange:'
+        " where the equations are solved. Numbers: the way of a case.</text></svg>"
     )
     return "\n".join(parts) + "\n"
+
+
+def badge(number: int, x: float, y: float) -> str:
+    """Return a number in a circle as SVG."""
+    return (
+        f'<circle cx="{x:.1f}" cy="{y}" r="9" fill="#1f4e9c"/>'
+        f'<text x="{x:.1f}" y="{y + 4}" fill="white" font-size="11"'
+        f' text-anchor="middle">{number}</text>'
+    )
 
 
 def subject(path: Path) -> str:

@@ -16,6 +16,7 @@ from pathlib import Path
 import pandas as pd
 
 import tehl
+from tehl import plots
 
 BALL, PITCH, BALLS = 9.525e-3, 46e-3, 9
 GROOVE = -0.52 * BALL
@@ -65,3 +66,5 @@ if __name__ == "__main__":
     shown = ["ring", "radial load", "u_m [m/s]", "Hertz pressure [GPa]", "minimum film [nm]"]
     print(films[[*shown, "lambda", "regime", "status"]].to_string())
     films.to_csv(folder / "bearing_list.csv", index=False)
+    picture = plots.curves(films, "u_m [m/s]", "minimum film [nm]", "radial load", "ring")
+    picture.savefig(folder / "minimum_film.png", dpi=100)

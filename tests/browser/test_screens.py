@@ -34,7 +34,7 @@ def store(page, name):
         page.wait_for_timeout(600)
         page.screenshot(path=path)
         with Image.open(path) as image:
-            image.convert("RGB").save(path, optimize=True)
+            image.convert("RGB").quantize(256, dither=Image.Dither.NONE).save(path, optimize=True)
 
 
 @pytest.mark.parametrize("size", SIZES)

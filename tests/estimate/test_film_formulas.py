@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from tehl.api.problem import ContactProblem
 from tehl.estimate.film_formulas import (
+    FilmEstimate,
     asymptotes,
     expected_central_film,
     film_estimates,
@@ -31,11 +32,15 @@ TABLE = [
 DIGITS = 0.6e-4
 
 
+def films(problem: ContactProblem) -> dict[str, FilmEstimate]:
+    """Return the film by each formula, by the name of the formula."""
+    return {film.formula: film for film in film_estimates(groups(problem), scales(problem))}
+
+
 @pytest.mark.parametrize("row", TABLE)
 def test_the_formulas_meet_the_table(row: tuple[float, ...]):
     load, speed, nvm, hd_central, hd_minimum, ch_central, ch_minimum = row
-    problem = moes_problem(load, speed)
-    by_name = {film.formula: film for film in film_estimates(groups(problem), scales(problem))}
+    by_name = films(moes_problem(load, speed))
     hamrock, chittenden = by_name["Hamrock-Dowson"], by_name["Chittenden"]
     assert by_name["Nijenbanning-Venner-Moes"].central == pytest.approx(nvm, abs=DIGITS)
     assert hamrock.central == pytest.approx(hd_central, abs=DIGITS)
@@ -74,7 +79,8 @@ def test_the_moes_unit_of_the_circle_is_its_closed_form():
 def test_the_formulas_agree_within_their_scatter(ratio: float, load: float, speed: float):
     # 35 %: the formulas scatter by about 5 % on circles and more at both ends of the ellipses.
     problem = moes_problem(load, speed, radius_x=0.02, radius_y=0.02 * ratio)
-    nvm, _, chittenden = film_estimates(groups(problem), scales(problem))
+    by_name = films(problem)
+    nvm, chittenden = by_name["Nijenbanning-Venner-Moes"], by_name["Chittenden"]
     assert chittenden.central == pytest.approx(nvm.central, rel=0.35)
 
 
@@ -104,15 +110,13 @@ def test_the_regime_is_named(load: float, speed: float, name: str):
 
 
 def test_a_formula_out_of_its_range_reports_it():
-    problem = moes_problem(150, 10, radius_x=0.02, radius_y=0.01)
-    nvm, hamrock, chittenden = film_estimates(groups(problem), scales(problem))
-    assert not nvm.valid
-    assert not hamrock.valid
-    assert chittenden.valid
-    assert "much too thick" in chittenden.minimum_remark
-    assert nvm.minimum_remark is None
-    soft = moes_problem(100, 0.1)
-    assert not film_estimates(groups(soft), scales(soft))[1].valid
+    slender = films(moes_problem(150, 10, radius_x=0.02, radius_y=0.01))
+    assert not slender["Nijenbanning-Venner-Moes"].valid
+    assert not slender["Hamrock-Dowson"].valid
+    assert slender["Chittenden"].valid
+    assert "much too thick" in slender["Chittenden"].minimum_remark
+    assert slender["Nijenbanning-Venner-Moes"].minimum_remark is None
+    assert not films(moes_problem(100, 0.1))["Hamrock-Dowson"].valid
 
 
 @pytest.mark.parametrize(
@@ -121,8 +125,7 @@ def test_a_formula_out_of_its_range_reports_it():
 )
 def test_the_remark_on_the_minimum_depends_on_the_shape(ratio: float, load: float, words: object):
     problem = moes_problem(load, 10, radius_x=0.02, radius_y=0.02 * ratio)
-    _, hamrock, _ = film_estimates(groups(problem), scales(problem))
-    remark = hamrock.minimum_remark
+    remark = films(problem)["Hamrock-Dowson"].minimum_remark
     assert remark is None if words is None else words in remark
 
 

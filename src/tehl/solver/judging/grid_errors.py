@@ -96,14 +96,36 @@ def error_estimate(
     resolved = _resolves_spike(traces, found)
     if newtonian and not resolved:  # the stress at the spike grows with its viscosity
         found.pop("traction_mid_film", None)
-    if abs(traces[-1].measured.get("traction_mid_film", 0.0)) > LARGEST_CREDIBLE:
+    _limit_bars(found, traces, estimate.central, resolved=resolved)
+    return replace(estimate, bars=found, spike_resolved=resolved)
+
+
+def _limit_bars(
+    found: dict[str, float], traces: list[GridTrace], central: float, *, resolved: bool
+) -> None:
+    """Raise or remove the bars ``found`` of traction and largest temperature rise.
+
+    Parameters
+    ----------
+    found : dict
+        Relative bars by name, changed in place.
+    traces : list of GridTrace
+        Grids halved each time, coarsest first.
+    central : float
+        Relative bar of the central film.
+    resolved : bool
+        Whether the pressure spike is resolved.
+    """
+    friction = traces[-1].measured.get("traction_mid_film")
+    if friction is not None and abs(friction) > LARGEST_CREDIBLE:
         found.pop("traction_mid_film", None)  # it follows from the law, but no oil transmits it
     elif "traction_mid_film" in found:  # the shear rate is the sliding speed over the film
-        found["traction_mid_film"] = max(found["traction_mid_film"], estimate.central)
+        found["traction_mid_film"] = max(found["traction_mid_film"], central)
+    elif friction is not None:
+        return
     elif _is_hottest_inside(traces[-1]) and not (resolved and _slows(_excess(traces))):
         # without sliding that is where the oil flows through the spike
         found["film_rise_max"] = max(found.get("film_rise_max", 1.0), 1.0)
-    return replace(estimate, bars=found, spike_resolved=resolved)
 
 
 def _films(traces: list[GridTrace], name: str) -> list[float]:

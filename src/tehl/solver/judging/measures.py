@@ -34,7 +34,8 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
     level, scaled : Level, ScaledProblem
         The grid, and the contact.
     state : FilmState or None
-        Temperature and stress on that grid; None for an isothermal Newtonian film.
+        Temperature and stress on that grid; None for an isothermal Newtonian film, and on coarse
+        grids that are not heated: their traction would be that of a Newtonian film.
     """
     pressure, least = level.film.p, level.equations.contact_film
     found = {
@@ -47,6 +48,8 @@ def measured(level: Level, scaled: ScaledProblem, state: FilmState | None) -> di
     if level.heights is not None:
         ripple_film, ripple_pressure = ripples(level.grid.x, level.grid.y, level.film.h, pressure)
         found |= {"ripple_film": ripple_film, "ripple_pressure": ripple_pressure}
+    if state is None and scaled.problem.is_coupled:  # a coarse grid, still isothermal
+        return found
     if state is not None and state.grid != level.grid:
         return found
     if scaled.problem.slide_roll_ratio:
