@@ -360,7 +360,7 @@ def outputs(model: Model, at: Station, column: Column) -> dict[str, Array]:
         "effective": np.exp(-column.ln_eta[middle]) / column.phi[middle],
         "stretch_x": mobility(across, column.rho, column.along_x) / whole,
         "stretch_y": mobility(across, column.rho, column.along_y) / whole,
-        "askew": np.max(column.along_y / column.phi - 1.0, axis=0),
+        "excess_y": np.max(column.along_y / column.phi - 1.0, axis=0),
         "shear": at.h * (weights @ shear),
         "work": at.h * (weights @ compression),
         "enthalpy_x": at.h * (weights @ (carried * column.u)),

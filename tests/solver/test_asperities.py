@@ -618,4 +618,4 @@ def test_asperities_whose_oil_does_not_balance_fail_by_name(monkeypatch):
         solve(problem, options)
     status = failure.value.result.status
     assert status.cause == "oil_not_balanced"
-    assert "20 % of what enters is made or lost" in status.message
+    assert "mass-balance error is 20 % of the inflow" in status.message

@@ -316,7 +316,7 @@ def test_the_last_relaxation_before_newton_continues_to_the_finest_grid(
     sheared = smooth.model_copy(update={"lubricant": thinning(smooth)})
     for problem in (smooth, sheared):
         finished(problem, Options(points=33, domain=DOMAIN))
-    relaxed = [("rough", False), ("careful", False), ("gentle", True)]
+    relaxed = [("rough", False), ("careful", False), ("damped", True)]
     assert seen == [*relaxed, ("newton", True), *relaxed]
 
 

@@ -20,7 +20,7 @@ def _not_a_boolean(value: object) -> object:
 
 
 def _memory(value: object) -> object:
-    """Reject text and numbers that are no amount of memory."""
+    """Reject what is not an amount of memory."""
     unlimited = isinstance(value, float) and not math.isfinite(value)
     known = not isinstance(value, str) or re.fullmatch(r"\s*\d*\.?\d+\s*[kMGT]i?B\s*", value)
     if isinstance(value, bool) or unlimited or not known:

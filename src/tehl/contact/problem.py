@@ -215,8 +215,8 @@ def check_supply(problem: PointContact) -> None:
     supply, cavitation = problem.supply, problem.cavitation
     if supply is not None and cavitation is not None and cavitation.model == "reynolds":
         raise ValueError(
-            'cavitation.model = "reynolds" does not know how much oil there is, which [supply] '
-            'states: take "conserving", or leave out [cavitation]'
+            'cavitation.model = "reynolds" does not conserve oil, which [supply] needs: '
+            'take "conserving", or leave out [cavitation]'
         )
     if problem.has_passes and problem.transient is not None:
         raise ValueError(

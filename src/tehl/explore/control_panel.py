@@ -120,7 +120,7 @@ class KnobRow:
 
     def _moved(self, event: Any) -> None:
         place = float(plain(event.args))
-        if place != self.left_at:  # the last place comes once more after the release
+        if place != self.left_at:  # the last place is sent again after the release
             self._set(place, moving=True)
 
     def _released(self, event: Any) -> None:

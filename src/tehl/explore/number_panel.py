@@ -118,7 +118,7 @@ def value_text(one: Number) -> str:
 
 
 def _rounded(value: float, digits: int) -> str:
-    """Return a number with so many digits, without an exponent where it reads well."""
+    """Round a number to significant digits, without an exponent from 1e-5 to 1e7."""
     text = f"{value:.{digits}g}"
     if "e" in text and 1e-5 < abs(value) < 1e7:
         text = f"{float(text):.10f}".rstrip("0").rstrip(".")

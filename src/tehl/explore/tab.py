@@ -65,7 +65,7 @@ class Tab:
     that of the present contact has converged. ``latest`` is how the last solve ended.
     ``is_stepping`` while undo or redo takes another case.
 
-    ``tell`` is called with the topic of each change: "controls", "fault", "status", "picture",
+    ``notify`` is called with the topic of each change: "controls", "fault", "status", "picture",
     "numbers", "explained".
     """
 
@@ -91,7 +91,7 @@ class Tab:
         self._request = 0
         self._solved: tuple[ContactProblem, Shown] | None = None
 
-    def tell(self, topic: str) -> None:
+    def notify(self, topic: str) -> None:
         """Report a change."""
         for listener in self.listeners:
             listener(topic)
@@ -202,9 +202,9 @@ class Tab:
         had_fault, self.fault = self.fault is not None, None
         if made is not self.groups:
             self.groups = made
-            self.tell("controls")
+            self.notify("controls")
         if had_fault:
-            self.tell("fault")
+            self.notify("fault")
         self.solve()
         return True
 
@@ -213,7 +213,7 @@ class Tab:
         paths = (item.path for group in self.groups for item in group.items)
         named = (one for one in paths if text.startswith(f"{one} = "))
         self.fault = Fault(text, next(named, path))
-        self.tell("fault")
+        self.notify("fault")
 
     # ---- the result
 
@@ -239,13 +239,13 @@ class Tab:
         if self.is_old:
             self.latest = None
             self._look()
-        self.tell("status")
+        self.notify("status")
 
     def stop(self) -> None:
         """Cancel what is being solved."""
         self.solver.cancel(self.owner)
         self.is_busy, self.note = False, "stopped"
-        self.tell("status")
+        self.notify("status")
 
     def _receive(self, number: int, problem: "ContactProblem", message: Any) -> None:
         """Take a message of the worker; results of an older place of the slider are shown too."""
@@ -255,7 +255,7 @@ class Tab:
                 self._take(problem, message.shown)
         elif newest:
             self._read(message)
-        self.tell("status")
+        self.notify("status")
 
     def _take(self, problem: "ContactProblem", found: Shown) -> None:
         """Take a result; a film that did not converge is not shown."""
@@ -268,14 +268,14 @@ class Tab:
         """Take what the worker says of the newest request."""
         if isinstance(message, Explained):
             self.explained = message
-            self.tell("explained")
+            self.notify("explained")
         elif isinstance(message, Note):
             self.note = message.text
         elif isinstance(message, TooCoarse):
             self.coarse = message.text
         elif isinstance(message, Failure):
             self.fault = Fault(self.files.hidden(message.text), again=message.again)
-            self.tell("fault")
+            self.notify("fault")
         elif isinstance(message, End):
             self.is_busy, self.note = False, ""
             self.coarse = self.coarse if self.is_moving else ""
@@ -287,8 +287,8 @@ class Tab:
         solved, shown = self._solved
         self.shown = scaled_by_formula(shown, solved, self.problem) if self.is_old else shown
         self._fit()
-        self.tell("picture")
-        self.tell("numbers")
+        self.notify("picture")
+        self.notify("numbers")
 
     # ---- comparing
 
@@ -297,22 +297,22 @@ class Tab:
         if self.shown is not None and not self.is_old:
             self.pinned = Pinned(CaseText(self.case.text), self.shown)
             self.held = True
-            self.tell("picture")
-            self.tell("numbers")
+            self.notify("picture")
+            self.notify("numbers")
 
     def unpin(self) -> None:
         """Stop comparing."""
         self.pinned, self.held = None, False
         self._fit()
-        self.tell("picture")
-        self.tell("numbers")
+        self.notify("picture")
+        self.notify("numbers")
 
     def hold(self, *, held: bool) -> None:
         """Hold the scales of colours, or fit them to each result."""
         if held != self.held:
             self.held = held
             self._fit()
-            self.tell("picture")
+            self.notify("picture")
 
     def show(self, view: str) -> None:
         """Choose what is shown."""
@@ -321,7 +321,7 @@ class Tab:
             self.solve()
         if view == "fringes" and self.pinned is not None and self.pinned.shown.fringes is None:
             self._complete(self.pinned)
-        self.tell("picture")
+        self.notify("picture")
 
     def _complete(self, pinned: Pinned) -> None:
         """Compute the interferogram of a pinned state, which the worker may still hold."""
@@ -331,7 +331,7 @@ class Tab:
                 return
             if isinstance(message, Part) and message.final:
                 self.pinned = replace(pinned, shown=message.shown)
-                self.tell("picture")
+                self.notify("picture")
             elif isinstance(message, Failure):
                 self._blame(f"the interferogram of the pinned state: {message.text}", "")
 

@@ -225,8 +225,8 @@ def flux_weights(
     stencil : Stencil
         Weights of the differences.
     partial : (bool, bool, bool)
-        Whether nodes i, i - 1 and i - 2 are partly filled: what they hold is no function of their
-        film.
+        Whether nodes i, i - 1 and i - 2 are partly filled: the oil they hold does not follow from
+        their film.
     second : (bool, bool)
         Whether nodes i and i - 1 pass on oil with second order.
     i : int

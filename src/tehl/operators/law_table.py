@@ -102,13 +102,13 @@ def law_table(lubricant: Lubricant, scales: Scales) -> Laws:
         per_stress=per_stress,
         last_row=ROWS - 2,
         last_stress=STRESSES - 2,
-        gentle=gentle_stress(lubricant),
+        newtonian_limit=newtonian_limit(lubricant),
         newtonian=int(lubricant.shear.is_newtonian),
         uniform=int(lubricant.shear.yields_as_a_whole),
     )
 
 
-def gentle_stress(lubricant: Lubricant) -> float:
+def newtonian_limit(lubricant: Lubricant) -> float:
     """Return the dimensionless stress below which ln F is less than the tolerance."""
     stress = np.geomspace(1e-6, 1.0, 241)
     counts = lubricant.shear.log_thinning(stress) > TOLERANCE

@@ -43,7 +43,7 @@ _PROFILES = 45
 def centre_lines(result: Solution, *, title: bool | None = True) -> Figure:
     """Draw pressure and film along x (y = 0) and along y (x = 0), with the dry contact dashed.
 
-    Pressure [GPa] and film [um] are on twin axes; a thermal run has two more panels beside them,
+    Pressure [GPa] and film [um] share the x axis; a thermal run has two more panels beside them,
     with the temperature rises [K].
     """
     thermal = result.heat is not None

@@ -76,7 +76,7 @@ class Touching:
     patches: Patches | None
     """None where nothing touches."""
     balance: float
-    """Oil made or lost in film and contact, over the oil that enters [-]."""
+    """Mass-balance error of film and contact, over the oil that enters [-]."""
 
     @property
     def friction(self) -> float | None:
@@ -98,7 +98,7 @@ class Touching:
 
 
 def why_unknown(cells: float, error: float) -> str:
-    """Return why the grid does not know a share of the load, in words; nothing if it does.
+    """Return why a share of the load is not resolved by the grid; an empty text if it is.
 
     Parameters
     ----------

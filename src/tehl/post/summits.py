@@ -42,7 +42,7 @@ class LoadSharing:
     spots: Spots | None
     """Spots on which summits touch; None where none touches."""
     balance: float
-    """Oil made or lost in the film, over the oil that enters [-]."""
+    """Mass-balance error of the film, over the oil that enters [-]."""
 
     @property
     def friction(self) -> float:

@@ -340,7 +340,7 @@ def _about_heights(scaled: ScaledProblem, options: Options, found: Asperities) -
         )
     if found.steepest > STEEP:
         yield (
-            f"the surfaces have slopes up to {found.steepest:.2g}: Reynolds' equation needs gentle "
+            f"the surfaces have slopes up to {found.steepest:.2g}: Reynolds' equation needs small "
             "ones, check the units of height and length"
         )
     if film < found.composite:

@@ -31,12 +31,12 @@ def rows_of(result: Solution, place: str) -> Iterator[Row]:
         rolls = one.block == "traction" and not result.problem.slide_roll_ratio
         value = None if rolls else numbers.get(one.path)
         if value is not None:
-            twin = dimensionless(one)
+            other = dimensionless(one)
             yield Row(
                 name=one.words[place],
                 quantity=one,
                 value=value,
                 on_grid=on_grid.get(one.path),
-                scaled=None if twin is None else on_grid.get(twin.path),
+                scaled=None if other is None else on_grid.get(other.path),
                 error=one.error_in(numbers),
             )

@@ -9,7 +9,7 @@ from pydantic import model_validator
 from tehl.base.errors import InputError
 from tehl.base.typing import Array, np
 from tehl.roughness.expression import Place, read_formula
-from tehl.roughness.model import RoughnessModel, Wavelength, check_gentle
+from tehl.roughness.model import RoughnessModel, Wavelength, check_slope
 
 _REACH, _STEP, _COUNT = 1e-3, 5e-8, 4096
 """Half-width of the square that is sampled, step of differences [m], and number of samples."""
@@ -40,12 +40,12 @@ class Formula(RoughnessModel):
     """Shortest wave that a mesh must carry [m]; estimated if left out."""
 
     @model_validator(mode="after")
-    def _must_be_gentle(self) -> Self:
+    def _must_be_shallow(self) -> Self:
         try:
             found = _samples(self.formula)
         except InputError as error:
             raise ValueError(str(error)) from None
-        check_gentle(found.largest, wavelength=min(*found.wavelengths, 4.0 * _REACH))
+        check_slope(found.largest, wavelength=min(*found.wavelengths, 4.0 * _REACH))
         return self
 
     @property

@@ -169,10 +169,10 @@ def with_rms(stated: Any, mean: str, rms: str) -> Any:
     return {**stated, rms: of_mean}
 
 
-def check_gentle(amplitude: float, **lengths: float) -> None:
+def check_slope(amplitude: float, **lengths: float) -> None:
     """Raise ValueError if an amplitude [m] is large beside a length of its slopes [m].
 
-    Reynolds' equation requires gentle slopes, and most often a unit is wrong.
+    Reynolds' equation requires small slopes, and most often a unit is wrong.
     """
     for name, length in lengths.items():
         if not abs(amplitude) <= _STEEPEST * length:

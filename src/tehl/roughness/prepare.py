@@ -88,7 +88,7 @@ def without_outliers(values: Array, sigmas: float) -> tuple[Array, int]:
 
 
 def _usual(distances: Array) -> float:
-    """Return the root mean square of distances without those beyond five times itself."""
+    """Return the root mean square of distances without outliers, beyond five times that value."""
     while True:
         usual = math.sqrt(float(np.mean(distances**2)))
         kept = distances[distances <= _BEYOND * usual]

@@ -12,7 +12,7 @@ from tehl.base.units import Angle, Height, Number, PositiveNumber
 from tehl.roughness.model import (
     TileModel,
     Wavelength,
-    check_gentle,
+    check_slope,
     direction,
     wavelength_of,
     with_rms,
@@ -104,7 +104,7 @@ class Random(TileModel):
         if getattr(self, needed) is None:
             raise ValueError(f'{needed} is missing: give a length such as "20 um"')
         self._check_lengths(needed)
-        check_gentle(self.rms, **dict(zip((needed, f"{needed}_y"), self._lengths, strict=True)))
+        check_slope(self.rms, **dict(zip((needed, f"{needed}_y"), self._lengths, strict=True)))
         return self
 
     @model_validator(mode="after")

@@ -231,7 +231,7 @@ def try_strategies(  # noqa: PLR0913 (variants of one solve)
         run = FilmSolver(
             hierarchy, strategy, heights=heights, goal=goal, monitor=history, guess=start
         )
-        # Newton's method costs so much that the cycles before it are tried to the end
+        # Newton's method is expensive: the cycles before it are tried to the end
         only_newton_left = all(one.newton for one in rungs[number + 1 :])
         attempts.append(_run(run, force=only_newton_left))
         if attempts[-1].is_final or goal.is_over:

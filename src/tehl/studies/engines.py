@@ -40,7 +40,7 @@ _THREADS = ("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL
 _ENVIRONMENT = dict.fromkeys((*_THREADS, "PYTHONSAFEPATH"), "1")
 """Of workers: one thread; a random.py in the current folder does not shadow the library's."""
 _STARTS, _PAUSE = 3, 0.1
-"""Attempts to start workers, and seconds between them, for a dying fork server to end."""
+"""Attempts to start workers, and seconds between them, for a crashed fork server to end."""
 _GRACE = 10.0
 """Seconds for a terminated worker to end."""
 _STARTING = Lock()

@@ -55,7 +55,7 @@ def set_thinning(model: Model, line: Record) -> bool:
         for arm in (-0.5, 0.5):
             x, y = stress_at(model.terms, line, arm)
             most = max(most, largest(line.over_scale * root(x * x + y * y)))
-    thins = most > model.laws.gentle
+    thins = most > model.laws.newtonian_limit
     line.thins = 1.0 if thins else 0.0
     return thins
 
@@ -135,13 +135,14 @@ def thin(model: Model, line: Record, layers: Records, steps: int) -> None:
     """Find the mid-film stress in at most ``steps`` Newton steps, and multiply the fluidity by F.
 
     ``exponent`` is n = dln(rate)/dln(stress); ``tangent_x``, ``tangent_y`` the fluidity of a small
-    change of the stress along x or y; ``askew`` the largest excess of the latter over the fluidity.
+    change of the stress along x or y; ``excess_y`` the largest excess of ``tangent_y`` over the
+    fluidity.
     """
     for _ in range(steps):
         if stress_step(model, line, layers) < SETTLED:
             break
     along = 0.0 if model.laws.uniform else 1.0
-    askew = 0.0 * line.p
+    excess_y = 0.0 * line.p
     for k in range(layers.shape[0]):
         here = layers[k]
         x, y = stress_at(model.terms, line, _thinning_arm(model, k))
@@ -152,5 +153,5 @@ def thin(model: Model, line: Record, layers: Records, steps: int) -> None:
         here.exponent = 1.0 + bend
         here.tangent_x = fluid * (1.0 + more * x * x)
         here.tangent_y = fluid * (1.0 + more * y * y)
-        askew = greater(askew, more * y * y)
-    line.askew = largest(askew)
+        excess_y = greater(excess_y, more * y * y)
+    line.excess_y = largest(excess_y)

@@ -65,7 +65,7 @@ def _table(path: Path, header: Header) -> Array:
                 f"holds more than {LARGEST_MAP // 10**6} million heights: crop it before"
             )
     if not rows:
-        raise InputError("holds no numbers")
+        raise InputError("contains only text; expected numbers")
     return _evened(rows, marked, numbers)
 
 

@@ -183,7 +183,7 @@ def _number(root: Any, path: str, absent: float | None) -> float:
     try:
         return float(text or "")
     except ValueError:
-        raise InputError(f"has no number at {path} of its header") from None
+        raise InputError(f"lacks a number at {path} of its header") from None
 
 
 def _whole(root: Any, name: str) -> int:

@@ -254,7 +254,7 @@ class FilmSolver(GridIteration):
         # fewer cycles than MOST_CYCLES: it converged before
         falling = last.cycle < MOST_CYCLES or last.residual < self.options.tolerance
         if self.strategy.newton or self.coupling.damping < 1.0:
-            # it may start so close that its residual cannot halve; heat comes step by step
+            # it may start so close that its residual cannot halve; heat is added in increments
             falling = falling or film_converged(trace, self._coarser_trace())
         falling = falling or last.residual < 0.5 * first.residual
         change = last.mean_change if trace.steady else last.change  # single nodes may part

@@ -185,7 +185,7 @@ class Hierarchy:
             # where oil is conserved the second visit would undo the first
             twice=mesh_width > UNRESOLVED and self.expected_film > THICK and not conserves,
         )
-        # cheap on coarser grids; with 2 + 2 sweeps the film of M = 200, r = 0.2 goes to and fro
+        # cheap on coarser grids; with 2 + 2 sweeps the film of M = 200, r = 0.2 oscillates
         extra = int(conserves and levels[-1] is not self.finest)
         cycle(levels, self.coarsest.step, shape, extra)
 

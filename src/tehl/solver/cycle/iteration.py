@@ -65,11 +65,11 @@ that is always accepted, as it follows these nodes."""
 DECIDED = 0.5
 """X up to which sections must pass the same oil: the film upstream decides how much, and at the
 pressure spike a flux of a few percent more or less is local."""
-LARGEST_MADE, ROUNDING = 1e-10, 1e-13
-"""Oil made or lost between surfaces that may touch, over what passes, which takes a few more Newton
-steps, and in tight solves with asperities, over what enters, which takes ten more cycles; and
-residual from which Newton steps end if they gain no more."""
-MADE_BY_CYCLES = 0.01
+LARGEST_MASS_ERROR, ROUNDING = 1e-10, 1e-13
+"""Mass-balance error between surfaces that may touch, over what passes, which takes a few more
+Newton steps, and in tight solves with asperities, over what enters, which takes ten more cycles;
+and residual from which Newton steps end if they gain no more."""
+CYCLE_MASS_ERROR = 0.01
 """The same where surfaces touch and cycles end at the error of the grid."""
 STEADY = 1e-3
 """Mean change of the pressure that ends the cycles on a grid where surfaces may touch and that has
@@ -127,7 +127,7 @@ class GridIteration:
         self.from_hertz = False  # the present grid started from the Hertz pressure
         self.is_settled = True  # the meniscus is stationary, and the oil flux is constant
         self.oil_error = 0.0  # relative change of that flux between sections
-        self.made = np.inf  # oil made or lost between surfaces that may touch
+        self.mass_error = np.inf  # mass-balance error between surfaces that may touch
         self.is_balanced = True  # a tight solve with asperities neither makes nor loses oil
 
     @property
@@ -352,13 +352,15 @@ class GridIteration:
         heating = self.coupling.update(levels)
         report = self._report(fine, before, number, heating)
         if fine.equations.contact_film is not None and fine is self.finest:
-            before_it, self.made = self.made, contact_balance(fine)
-            rounded = report.residual <= ROUNDING and self.made > 0.5 * before_it
+            before_it, self.mass_error = self.mass_error, contact_balance(fine)
+            rounded = report.residual <= ROUNDING and self.mass_error > 0.5 * before_it
             exactly = self.strategy.newton or self.options.accuracy == "tight"
-            largest = LARGEST_MADE if exactly else MADE_BY_CYCLES
-            self.is_settled = self.made <= largest or rounded
+            largest = LARGEST_MASS_ERROR if exactly else CYCLE_MASS_ERROR
+            self.is_settled = self.mass_error <= largest or rounded
         if fine.equations.asperities is not None and self.options.accuracy == "tight":
-            self.is_balanced = fine is not self.finest or asperity_balance(fine) <= LARGEST_MADE
+            self.is_balanced = (
+                fine is not self.finest or asperity_balance(fine) <= LARGEST_MASS_ERROR
+            )
         self.monitor.cycle(report)
         return report
 

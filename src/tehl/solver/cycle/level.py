@@ -34,8 +34,8 @@ NEARER = 0.1
 Full multigrid starts near the solution, which few neighbours of a study beat."""
 FRONT_SWEEPS, FRONT_WIDTH, FRONT_RESTS = (4, 16), 6, 0.03
 """Least and most sweeps where a starved film begins, nodes to both sides, and nodes that fill or
-empty over the number of lines from which the meniscus rests. Least CPU time of 20 contacts (M 20 to
-200, r 0.2 to 4, 257 nodes) that all converge."""
+empty over the number of lines below which the meniscus is stationary. Least CPU time of 20
+contacts (M 20 to 200, r 0.2 to 4, 257 nodes) that all converge."""
 REACH = 1.5
 """Film of a smooth change of the pressure in the contact, over that change [-]: 4/pi in the middle
 of a uniform one over the Hertz circle, and somewhat more, as too little only takes longer."""

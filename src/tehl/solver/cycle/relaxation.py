@@ -52,7 +52,7 @@ LIMITED = replace(STEEP, name="limited", correction=(0.7, 0.3))
 STEEPER = Relaxation(name="steeper", threshold=10.0, point=0.25, dipole=0.1, stiff=True)
 ROUGH = Relaxation(name="rough", threshold=1.0, point=0.6, dipole=0.4, lines=4)
 CAREFUL = Relaxation(name="careful", threshold=1.0, point=0.5, dipole=0.35, lines=4, stiff=True)
-GENTLE = Relaxation(name="gentle", threshold=1.0, point=0.3, dipole=0.2, lines=4, stiff=True)
+DAMPED = Relaxation(name="damped", threshold=1.0, point=0.3, dipole=0.2, lines=4, stiff=True)
 BESIDE_NEWTON = Relaxation(name="newton", threshold=1.0, point=0.5, dipole=0.35)
 GAUSS_SEIDEL = Relaxation(name="gauss-seidel", threshold=0.0, point=0.5, dipole=0.0)
 

@@ -141,18 +141,18 @@ def film_contact(level: Level, scaled: ScaledProblem) -> FilmContact | None:
 
 
 def contact_balance(level: Level) -> float:
-    """Return the largest oil made or lost upstream of any section, in film and contact [-].
+    """Return the largest mass-balance error upstream of any section, of film and contact [-].
 
     Relative to the oil that passes through |Y| < 1 at X = 0. Cavities do not count.
     """
     grid, film = level.grid, level.film
     middle, inside = int(np.argmin(np.abs(grid.x))), np.abs(grid.y) < 1.0
     through = float(_line_weights(grid)[inside] @ (film.rho * film.h)[inside, middle])
-    return _largest_made(level) / through
+    return _largest_mass_error(level) / through
 
 
 def asperity_balance(level: Level) -> float:
-    """Return the largest oil made or lost upstream of any section of a film with asperities [-].
+    """Return the largest mass-balance error upstream of any section, with asperities [-].
 
     Relative to the oil that the surfaces bring; what leaves through the side edges counts as
     passed. Cavities do not count unless they conserve oil.
@@ -160,11 +160,11 @@ def asperity_balance(level: Level) -> float:
     if level.stencil.conserves:
         return oil_balance(level)
     entering = _line_weights(level.grid) @ (level.film.rho * level.film.h)[:, 0]
-    return _largest_made(level) / float(entering)
+    return _largest_mass_error(level) / float(entering)
 
 
-def _largest_made(level: Level) -> float:
-    """Return the largest oil made or lost in the film upstream of any section, as rho H [-]."""
+def _largest_mass_error(level: Level) -> float:
+    """Return the largest mass-balance error upstream of any section, as rho H [-]."""
     level.evaluate_residual()
     made = np.cumsum(_line_weights(level.grid) @ level.residual) * level.grid.dx
     return float(np.abs(made).max())

@@ -52,7 +52,7 @@ STARVED = 0.9
 LARGEST_COOLING = 5.0
 """Largest temperature of a film below that of all that enters it and expands adiabatically [K]."""
 LARGEST_MISSING_OIL = 0.05
-"""Largest oil made or lost in the film, over the oil that enters: the film errs about as much."""
+"""Largest mass-balance error of the film, over the oil that enters: the film errs about as much."""
 LARGEST_MISSING_HEAT = 0.3
 """Largest error of the heat balance over the heat that is turned over. In pure rolling, with little
 heat, the backflow in the inlet stores some for many sweeps."""
@@ -294,7 +294,7 @@ def _oil_status(run: FilmSolver) -> Status:
     return _failed(
         "oil_not_balanced",
         f"The oil of the film does not balance on {level.grid.nx} x {level.grid.ny} nodes: "
-        f"{percentage(missing)} of what enters is made or lost on the way.",
+        f"the mass-balance error is {percentage(missing)} of the inflow.",
         grid_hint(level.grid.points, run.hierarchy.scaled),
     )
 

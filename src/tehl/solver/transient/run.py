@@ -1,4 +1,4 @@
-"""Transient runs: the steady film at time zero, then step by step to the end."""
+"""Transient runs: the steady film at time zero, then the time steps to the end."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, replace

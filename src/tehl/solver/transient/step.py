@@ -111,7 +111,7 @@ class Stepper:
             elif self.newton is None:
                 level.set_pressure(self.predictor.onward())
             else:
-                self.newton.refresh()  # as a resumed run, which knows no earlier residuals
+                self.newton.refresh()  # as a resumed run, which has no earlier residuals
             level.pose_step(history + self.squeeze.onward(), heights, load)
             try:
                 end = self._solve(self.settings[number].name)

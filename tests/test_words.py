@@ -1,0 +1,107 @@
+"""Prose is that of the field: no private dialect in messages, docstrings, comments and pages."""
+
+import ast
+import io
+import re
+import tokenize
+from collections.abc import Iterator
+from itertools import chain
+from pathlib import Path
+
+import pytest
+
+from tests import house
+
+ROOT = Path(__file__).parents[1]
+FOLDERS = ("src", "docs", "examples", "benchmarks", "paper")
+PROSE = (".md", ".html", ".txt", ".toml", ".js")
+
+DIALECT = {
+    r"told|telling|untold": "reported, printed, shown",
+    r"nobody": "the passive, or the component",
+    r"(?<!there )(is|are|was|were|be|been) no (?!longer|more than|less than)": "is not a",
+    r"(is|are|has|have|holds?) no numbers?": "is NaN; is not a number",
+    r"(goes|go|going|went) to and fro|to and fro": "oscillates",
+    r"meniscus rests|rests of the meniscus": "the meniscus is fixed",
+    r"(made or lost|gets lost|got lost)": "mass-balance error",
+    r"in each other's way|in one another's way": "conflict",
+    r"beyond all|out of all measure": "far outside the physical range",
+    r"learnt|learns": "computed, read; extra summary blocks",
+    r"believed?|believes|believing": "accept",
+    r"let go|lets go|letting go": "release",
+    r"h[eo]ld back|holds back|holding back": "limit",
+    r"gentle|gently|gentler": "small slope; damped",
+    r"askew": "oblique",
+    r"in disorder": "not converging",
+    r"so many|as many as|so much(?! as)": "the count, with its unit",
+    r"as large as .* itself|times itself": "relative error",
+    r"no answers?|without an answer": "failed case",
+    r"(a|the) run in time|runs in time|instants? of a run": "transient run; snapshot",
+    r"twins?": "reference run",
+    r"knows? no|know nothing|knows nothing|not know": "does not use; not available",
+    r"wish(es|ed)?": "request",
+    r"refuses? an answer|refuses to answer": "reports an error",
+    r"step by step to the end": "time integration",
+    r"once more": "again",
+    r"the dying|dying|dead": "crash",
+    r"would take (it|them) for": "aliased",
+}
+"""What is not written, as regular expressions of whole words, and what is written instead."""
+
+NO_PROSE = {
+    "title name contact position id no number nr": "headings of a column that are recognised",
+}
+"""Strings that hold a word of the dialect as data."""
+
+PATTERN = re.compile("|".join(rf"\b(?:{words})\b" for words in DIALECT), re.IGNORECASE)
+
+
+def files(*suffixes: str) -> list[Path]:
+    found = chain.from_iterable((ROOT / folder).rglob("*") for folder in FOLDERS)
+    kept = (path for path in found if path.suffix in suffixes and "build" not in path.parts)
+    return sorted({*kept, *(path for path in ROOT.glob("*.md") if ".md" in suffixes)})
+
+
+def texts(path: Path) -> Iterator[tuple[int, str]]:
+    """Yield the prose of a file with its lines: all of a page, strings and comments of a module."""
+    source = path.read_text(encoding="utf-8")
+    if path.suffix != ".py":
+        yield from enumerate(source.splitlines(), 1)
+        return
+    for token in tokenize.generate_tokens(io.StringIO(source).readline):
+        if token.type == tokenize.COMMENT:
+            yield token.start[0], token.string
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            yield node.lineno, node.value
+
+
+def findings(text: str) -> list[str]:
+    """Return the words of the dialect in a text; a phrase may go on in the next line."""
+    return [] if text in NO_PROSE else [m[0] for m in PATTERN.finditer(re.sub(r"\s+", " ", text))]
+
+
+@pytest.mark.parametrize("folder", [*FOLDERS, "."])
+def test_no_file_speaks_dialect(folder):
+    found = [
+        f"{path.relative_to(ROOT)}:{line}: {word}"
+        for path in files(".py", *PROSE)
+        if path.relative_to(ROOT).parts[0] == folder or (folder == "." and path.parent == ROOT)
+        for line, text in texts(path)
+        for word in findings(text)
+    ]
+    assert found == [], "\n".join(found)
+
+
+def test_dialect_is_found():
+    assert findings("the film\n    goes to and fro") == ["goes to and fro"]
+    assert findings("there is no film") == findings("is no longer held") == []
+    assert findings("the height is no number") == ["is no "]
+
+
+def test_constants_of_one_name_have_one_value():
+    values = {}
+    for module, tree in house.trees().items():
+        for name, value in house.numeric_values(tree):
+            values.setdefault(name, {}).setdefault(value, []).append(module)
+    assert {name: found for name, found in values.items() if len(found) > 1} == {}
