@@ -15,13 +15,13 @@ from tehl.operators.jacobian import interpolation, jacobian, neighbours_of
 from tehl.result.solution import Status
 from tehl.solver import steady
 from tehl.solver.cycle import iteration
-from tehl.solver.cycle.continuation import MOST_STEPS, RAISED, raise_by_newton
+from tehl.solver.cycle.continuation import MOST_NEWTON_STEPS, RAISED, raise_by_newton
 from tehl.solver.cycle.equations import Equations
 from tehl.solver.cycle.ladder import BETWEEN_ROUGH, Strategy
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.newton import (
-    ACCURACY,
-    EXACT,
+    LINEAR_RESIDUAL,
+    RETRY_RESIDUAL,
     Newton,
     Preconditioner,
     System,
@@ -129,11 +129,11 @@ def test_a_step_that_fails_is_repeated_with_more_accurate_linear_equations(
     def misled(self: System, preconditioner: Any, accuracy: float) -> Any:
         accuracies.append(accuracy)
         change = solve_system(self, preconditioner, accuracy)
-        return -change if accuracy > EXACT else change
+        return -change if accuracy > RETRY_RESIDUAL else change
 
     monkeypatch.setattr(System, "solve", misled)
     assert newton.step() == 1.0
-    assert accuracies == [ACCURACY, EXACT]
+    assert accuracies == [LINEAR_RESIDUAL, RETRY_RESIDUAL]
     assert fine.evaluate_residual() < 0.5 * before
 
 
@@ -255,7 +255,7 @@ def test_heights_are_not_raised_again_if_the_coarser_film_is_negative(
     assert (run.status.kind, run.status.cause) == ("diverged", "grid_too_coarse")
     assert "of 33 x 33 nodes, is not positive (smallest H = -" in (run.status.message or "")
     assert "more nodes" in str(run.status.hint)
-    assert sum(report.points[0] == 65 for report in run.history) <= MOST_STEPS
+    assert sum(report.points[0] == 65 for report in run.history) <= MOST_NEWTON_STEPS
 
 
 @pytest.mark.slow

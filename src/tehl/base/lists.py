@@ -14,7 +14,7 @@ from tehl.base.errors import InputError
 
 _DECIMAL_COMMA = re.compile(r"^([+-]?\d+),(\d+)(?=[eE\s]|$)")
 _UNIT = re.compile(r"(.*?)\s*\[(.*)\]\s*")
-_LARGEST = 50_000_000
+_LARGEST_LIST = 50_000_000
 """Bytes of a list."""
 
 
@@ -53,8 +53,8 @@ def numbered_lines(path: Path, what: str = "list of cases") -> list[tuple[int, l
         ]
     shown = shortened(path)
     try:
-        if path.stat().st_size > _LARGEST:
-            raise InputError(f"{shown} is larger than {_LARGEST // 10**6} MB, so not a {what}")
+        if path.stat().st_size > _LARGEST_LIST:
+            raise InputError(f"{shown} is larger than {_LARGEST_LIST // 10**6} MB, so not a {what}")
         with path.open("rb") as start:
             encoding = encoding_of(start.read(2))
         with path.open(encoding=encoding, newline="") as file:

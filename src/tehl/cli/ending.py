@@ -28,7 +28,7 @@ EXPECTED = (_WrongCommandLine, TehlError, MemoryError, OSError, ModuleNotFoundEr
 _SIGNALS = ("SIGTERM", "SIGHUP")
 AGAIN = 0.05
 """Seconds after which a signal that a destructor has received is sent again."""
-_LONGEST = 300
+_LONGEST_MESSAGE = 300
 """Characters of a message about the command line."""
 
 
@@ -71,7 +71,7 @@ def _usage(error: Any) -> str:
         error.show()
         raise SystemExit(BAD_INPUT)
     command = error.ctx.command_path if getattr(error, "ctx", None) else "tehl"
-    short = message if len(message) <= _LONGEST else f"{message[: _LONGEST - 3]}..."
+    short = message if len(message) <= _LONGEST_MESSAGE else f"{message[: _LONGEST_MESSAGE - 3]}..."
     return f"{short}; see {command} --help"
 
 

@@ -42,7 +42,7 @@ LARGEST_COARSEST = 64
 """Most intervals along one direction of the coarsest grid, whose Newton matrix is dense."""
 LARGEST_ERROR = 0.5
 """Largest error that can be asked for."""
-FARTHEST = 1e3
+LARGEST_DOMAIN_EDGE = 1e3
 """Hertz half-widths within which a domain must stay."""
 
 
@@ -69,8 +69,8 @@ def _fault_of_edges(low: float, high: float) -> str:
         return f"must begin with its lower edge: [{high:g}, {low:g}] (unit: Hertz half-widths)"
     if not (low < -1.0 and high > 1.0):
         return "cuts the contact; must reach beyond -1 and 1 (unit: Hertz half-widths)"
-    if not max(-low, high) < FARTHEST:
-        return f"too large; must stay within {FARTHEST:g} Hertz half-widths"
+    if not max(-low, high) < LARGEST_DOMAIN_EDGE:
+        return f"too large; must stay within {LARGEST_DOMAIN_EDGE:g} Hertz half-widths"
     return ""
 
 

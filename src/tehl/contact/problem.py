@@ -19,7 +19,7 @@ from tehl.base.units import (
     SolidHeatCapacity,
     quantity,
 )
-from tehl.contact.boundary_contact import THICKEST, THINNEST
+from tehl.contact.boundary_contact import THICKEST_BOUNDARY_FILM, THINNEST_BOUNDARY_FILM
 from tehl.contact.point_contact import Contact, PointContact, Surface
 from tehl.contact.shape import reduced_radius
 from tehl.contact.summits import GreenwoodTripp
@@ -244,10 +244,10 @@ def check_contact_film(problem: PointContact) -> None:
     film = problem.contact_film
     if film is None:
         return
-    if not THINNEST <= film.thickness <= THICKEST:
+    if not THINNEST_BOUNDARY_FILM <= film.thickness <= THICKEST_BOUNDARY_FILM:
         raise ValueError(
             f"contact_film.thickness = {film.thickness:g} m is not a boundary film: it must be "
-            f'between {THINNEST:g} and {THICKEST:g} m, such as "5 nm"'
+            f'between {THINNEST_BOUNDARY_FILM:g} and {THICKEST_BOUNDARY_FILM:g} m, such as "5 nm"'
         )
     excluded = {
         "asperities": problem.asperities is not None,

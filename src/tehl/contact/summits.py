@@ -44,9 +44,9 @@ if TYPE_CHECKING:
 SummitDensity = Annotated[float, Quantity("a number per area", "1/m^2", '"1e10 1/m^2"')]
 Friction = Annotated[float, Quantity("a plain number", "-", "0.1", "non-negative")]
 
-APART, LOG_STEP = 8.0, 0.02
+LARGEST_SEPARATION, LOG_STEP = 8.0, 0.02
 """Separation over sigma beyond which no area is in contact, and step of a spline up to there."""
-FARTHEST = 35.0
+LARGEST_GAP_OVER_SIGMA = 35.0
 """Gap over sigma from which no asperity touches."""
 DEEPEST = 30.0
 """Depth over sigma from which F_n is its power of the depth."""
@@ -231,19 +231,19 @@ def gaussian_integral(n: float, gap: "Array") -> "Array":
     """
     from scipy.special import pbdv  # noqa: PLC0415 (0.1 s, for cases with asperities only)
 
-    near = np.clip(gap, -DEEPEST, FARTHEST)
+    near = np.clip(gap, -DEEPEST, LARGEST_GAP_OVER_SIGMA)
     values, _ = pbdv(-n - 1.0, near)
     found = math.gamma(n + 1.0) / math.sqrt(2.0 * math.pi) * np.exp(-0.25 * near**2) * values
     found *= (np.maximum(-gap, DEEPEST) / DEEPEST) ** n  # beyond, as the power that it tends to
-    return np.where(gap < FARTHEST, found, 0.0)
+    return np.where(gap < LARGEST_GAP_OVER_SIGMA, found, 0.0)
 
 
 def _on_map(gap: "Array") -> "Array":
-    """Return F_1 and F_2 to 1e-9, zero from `APART` on, (2, *shape of ``gap``).
+    """Return F_1 and F_2 to 1e-9, zero from `LARGEST_SEPARATION` on, (2, *shape of ``gap``).
 
     On all nodes of a grid the functions themselves take long.
     """
-    near = gap < APART
+    near = gap < LARGEST_SEPARATION
     found = np.zeros((2, *gap.shape))
     values = np.exp(_logarithms()(np.maximum(gap[near], -DEEPEST)))
     for each, value in zip(found, values, strict=True):
@@ -256,7 +256,7 @@ def _logarithms() -> "CubicSpline":
     """Return ln F_1 and ln F_2 as a spline of the separation."""
     from scipy.interpolate import CubicSpline  # noqa: PLC0415
 
-    at = np.arange(-DEEPEST, APART + LOG_STEP, LOG_STEP)
+    at = np.arange(-DEEPEST, LARGEST_SEPARATION + LOG_STEP, LOG_STEP)
     return CubicSpline(at, np.log([gaussian_integral(n, at) for n in (1.0, 2.0)]), axis=1)
 
 

@@ -8,7 +8,7 @@ from tehl.estimate.grid import Grid, can_mirror, halved_grids
 from tehl.estimate.scaling import ScaledProblem
 from tehl.roughness.model import TileModel
 
-START, SAMPLES = 0.011, 0.14
+START_TIME, SURFACE_TIME = 0.011, 0.14
 """CPU time of any solve, and of random and measured surfaces, beside the cycles [s]."""
 EACH_CYCLE, COARSEST = 0.6e-3, 2.2e-11
 """CPU time of a cycle beside its nodes, and of its dense coarsest system per cubed node [s]."""
@@ -16,7 +16,7 @@ FIRST_STEPS = 6
 """Newton steps on the coarsest grid before the first cycle."""
 PER_NODE, THINNING, HEATED = 0.24e-6, 0.35e-6, 0.76e-6
 """CPU time of a cycle per node of its finest grid [s], and what shear thinning and heat add."""
-TOUCHING, TOUCHING_CYCLE, TOUCHING_STEPS = 14e-6, 1.1e-6, 15
+TOUCHING, TOUCHING_CYCLE, EXPECTED_TOUCHING_STEPS = 14e-6, 1.1e-6, 15
 """CPU time of a Newton step per node where surfaces may touch [s], that of a cycle, and their
 number on each grid: 26 solves by Newton's method on 129 and 257 nodes took 1.3 to 22 s, half to 1.3
 times the estimate. Rough surfaces take cycles first; if they fail, ten times as long."""
@@ -24,15 +24,15 @@ FIRST_CYCLES, CYCLES, ROUGH_CYCLES = 4, 2, 8
 """Cycles on the first grid, on each finer one, and on the one where the heights are raised."""
 STARTING = 0.4
 """Cost of the start of a grid in cycles."""
-WAVE_NODES = 8.0
+NODES_PER_RESOLVED_WAVE = 8.0
 """Nodes on the shortest wave from which a grid has the heights."""
 SURPLUS = 1.5
 """Factor for the one contact in eight that takes a finer grid than planned, or a fallback, and for
 cores that other programs use too: 1.2 on a quiet machine, 1.9 with both of its cores busy."""
-FINER, THICK, VISCOUS = 1.6, 100.0, 5.5
+FINER_GRID_FACTOR, FINER_GRID_LARGEST_M, FINER_GRID_LEAST_L = 1.6, 100.0, 5.5
 """Factor where half of the thinning and heated contacts take a finer grid, and the largest M and
 least L where they do."""
-SLENDER, WIDE = 0.7, 4.0
+SLENDER_RATIO_OF_TIME, WIDE_RATIO_OF_TIME = 0.7, 4.0
 """a_y/a_x below and above which a contact takes longer."""
 HIGH, HIGHER, HEAVY = 3.0, 10.0, 2000.0
 """CPU time that eight to nine of ten solves stay below, over the one to expect; that of heated,
@@ -51,7 +51,7 @@ def seconds_range(scaled: ScaledProblem, seconds: float) -> tuple[float, float]:
         or problem.supply is not None
         or problem.contact_film is not None
         or groups.M > HEAVY
-        or not SLENDER <= groups.ellipticity <= WIDE
+        or not SLENDER_RATIO_OF_TIME <= groups.ellipticity <= WIDE_RATIO_OF_TIME
     )
     return 0.5 * seconds, (HIGHER if is_hard else HIGH) * seconds
 
@@ -70,7 +70,7 @@ def expected_seconds(scaled: ScaledProblem, options: Options) -> float:
         for grid, cycles in finer
     )
     work *= _surplus(scaled) if options.points == "auto" else 1.0
-    return START + SAMPLES * _sampled(scaled.problem) + FIRST_STEPS * newton + work
+    return START_TIME + SURFACE_TIME * _sampled(scaled.problem) + FIRST_STEPS * newton + work
 
 
 def expected_cycles(scaled: ScaledProblem, options: Options) -> list[tuple[Grid, int]]:
@@ -81,15 +81,15 @@ def expected_cycles(scaled: ScaledProblem, options: Options) -> list[tuple[Grid,
         first = next((k for k, grid in enumerate(grids[:-1]) if _has_heights(scaled, grid)), -1)
         cycles[first] = ROUGH_CYCLES
     if scaled.problem.contact_film is not None:
-        cycles = [TOUCHING_STEPS] * len(grids)
+        cycles = [EXPECTED_TOUCHING_STEPS] * len(grids)
     return [(coarsest, 0), *zip(grids, cycles, strict=True)]
 
 
 def _surplus(scaled: ScaledProblem) -> float:
     """Return the factor for grids finer than planned, and for fallbacks."""
     problem, groups = scaled.problem, scaled.entering
-    thick = groups.M < THICK and groups.L > VISCOUS
-    return FINER if problem.is_coupled and thick and not problem.is_rough else SURPLUS
+    thick = groups.M < FINER_GRID_LARGEST_M and groups.L > FINER_GRID_LEAST_L
+    return FINER_GRID_FACTOR if problem.is_coupled and thick and not problem.is_rough else SURPLUS
 
 
 def _sampled(problem: ContactProblem) -> int:
@@ -116,7 +116,7 @@ def _has_heights(scaled: ScaledProblem, grid: Grid) -> bool:
     waves = [one.roughness.shortest_wavelengths for one in (problem.surface_1, problem.surface_2)]
     along = min(wave[0] for wave in waves) / (grid.dx * scales.half_width_x)
     across = min(wave[1] for wave in waves) / (grid.dy * scales.half_width_y)
-    return min(along, across) >= WAVE_NODES
+    return min(along, across) >= NODES_PER_RESOLVED_WAVE
 
 
 def _seconds_per_node(problem: ContactProblem) -> float:

@@ -12,13 +12,13 @@ from tehl.roughness.model import Extent
 from tehl.roughness.superposition import OneRoughness, Sum
 from tehl.roughness.waves import HarmonicModel
 
-MOST_STEPS = 20_000
+MOST_TIME_STEPS = 20_000
 """Number of steps beyond which a stated duration is considered a mistake."""
 BEYOND = 1.5
 """Distance downstream of the centre at which the middle of a feature has passed [a_x]."""
 PERIODS = 2.5
 """Wavelengths of a harmonic surface that pass the centre, so that a fit over time has two."""
-LONGEST = 6.0
+LONGEST_WAVE = 6.0
 """Longest wave along x that extends a run [a_x]: longer ones tilt the surfaces as a whole."""
 
 
@@ -60,7 +60,7 @@ class Part:
         if not isinstance(self.roughness, HarmonicModel):
             return 0.0
         wave = self.roughness.shortest_wavelengths[0] / width
-        if not wave <= LONGEST:
+        if not wave <= LONGEST_WAVE:
             return 0.0
         front = transient.entrance if transient.start == "smooth" else 0.0
         return front + min(wave, 0.5 * front) + PERIODS * wave  # the second term is its fade-in
@@ -177,13 +177,13 @@ def whole_passing(scaled: ScaledProblem) -> float:
 def number_of_steps(scaled: ScaledProblem, seconds: float) -> int:
     """Return the number of time steps of ``seconds`` in the run.
 
-    Raises InputError if it exceeds `MOST_STEPS`.
+    Raises InputError if it exceeds `MOST_TIME_STEPS`.
     """
     duration = duration_of(scaled)
     steps = duration / seconds
-    if not steps <= MOST_STEPS:
+    if not steps <= MOST_TIME_STEPS:
         raise InputError(
             f"transient.duration = {duration:g} s: takes {steps:.6g} steps of {seconds:.3g} s, "
-            f"more than {MOST_STEPS}; give a shorter one, or a larger transient.stride"
+            f"more than {MOST_TIME_STEPS}; give a shorter one, or a larger transient.stride"
         )
     return math.ceil(steps * (1.0 - 1e-9))

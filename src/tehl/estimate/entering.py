@@ -9,7 +9,7 @@ from tehl.contact.options import Domain
 from tehl.estimate.film_formulas import expected_central_film
 from tehl.estimate.scaling import ScaledProblem
 
-THIN, THICK = 0.008, 0.8
+THIN_FILM_ERROR, THICK_FILM_ERROR = 0.008, 0.8
 """Error of the film per unit of ln(viscosity) that the oil has still to gain or lose in the domain:
 of a thin film at the least distance of the inlet edge, and of a thick one at three widths s."""
 DISTANCE, WIDTHS = 3.4, 3.0
@@ -59,8 +59,8 @@ def entry_error(scaled: ScaledProblem, domain: Domain) -> float:
         return 0.0
     inlet = -domain.x[0]
     kept = float(kept_part(scaled, inlet, np.zeros(1))[0])
-    thick = THICK * (WIDTHS * math.sqrt(2.0 * _film(scaled)) / inlet) ** 3
-    return contrast * kept * (THIN * (DISTANCE / inlet) ** 2 + thick)
+    thick = THICK_FILM_ERROR * (WIDTHS * math.sqrt(2.0 * _film(scaled)) / inlet) ** 3
+    return contrast * kept * (THIN_FILM_ERROR * (DISTANCE / inlet) ** 2 + thick)
 
 
 def _film(scaled: ScaledProblem) -> float:

@@ -16,7 +16,7 @@ BYTES_COUPLED, BYTES_PER_LAYER = 270, 10
 PART = 0.5
 """Part of the free memory that a solve takes unasked."""
 USUAL_LAYERS = 9
-NEGLIGIBLE = 16e6
+NEGLIGIBLE_MEMORY = 16e6
 """Need that any machine running Python can satisfy [byte]: available memory is not checked."""
 
 _LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
@@ -56,7 +56,7 @@ def check_memory(options: Options, problem: ContactProblem | None = None) -> Non
     that fits.
     """
     needed = needed_memory(options, problem)
-    available = available_memory() if needed > NEGLIGIBLE else None
+    available = available_memory() if needed > NEGLIGIBLE_MEMORY else None
     if available is None or needed <= available:
         return
     largest = int((available / _bytes_per_node(problem)) ** 0.5)

@@ -41,7 +41,7 @@ from tehl.lubricant.density import DensityLaw
 from tehl.roughness import AnyRoughness, Sum, WaveVector
 from tehl.roughness.waves import HarmonicModel
 
-_STEP = 1e5
+_PRESSURE_STEP = 1e5
 """Difference of pressure over which the bulk modulus is taken [Pa]."""
 
 
@@ -119,8 +119,10 @@ def bulk_modulus(law: DensityLaw, pressure: float, temperature: float) -> float:
     pressure, temperature : float
         State [Pa], [K].
     """
-    below, here, above = law.density(pressure + np.array([-_STEP, 0.0, _STEP]), temperature)
-    return float(here * 2.0 * _STEP / (above - below)) if above > below else math.inf
+    below, here, above = law.density(
+        pressure + np.array([-_PRESSURE_STEP, 0.0, _PRESSURE_STEP]), temperature
+    )
+    return float(here * 2.0 * _PRESSURE_STEP / (above - below)) if above > below else math.inf
 
 
 def why_no_theory(problem: ContactProblem) -> str | None:

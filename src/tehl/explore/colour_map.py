@@ -17,9 +17,15 @@ from tehl.base.typing import Array
 from tehl.explore.axes import Frame, Scale, number_text, svg, text, ticks, turned
 from tehl.explore.shown import Maps, Section, Shown
 
-_LEFT, _RIGHT, _TOP, _BOTTOM, _BARE = 58.0, 84.0, 26.0, 46.0, 14.0
+_LEFT_MARGIN, _RIGHT_MARGIN, _TOP_MARGIN, _BOTTOM_MARGIN, _BARE_MARGIN = (
+    58.0,
+    84.0,
+    26.0,
+    46.0,
+    14.0,
+)
 """Margins in pixels; the last one at the right without a colour bar."""
-_WIDEST = 400.0
+_WIDEST_IMAGE = 400.0
 """Pixels of an image; the browser draws it wider, smoothly."""
 _NUMBERS = count()
 """For names of gradients: one in a hidden drawing has no effect on another."""
@@ -114,7 +120,7 @@ def fringes_picture(shown: Shown, size: tuple[float, float]) -> Picture:
     """Draw the interferogram, which has no colour bar."""
     maps, fringes = shown.maps, shown.fringes
     assert fringes is not None
-    frame = _frame(maps, size, _BARE)
+    frame = _frame(maps, size, _BARE_MARGIN)
     place = _place(frame)
     buffer = io.BytesIO()
     Image.fromarray(fringes).save(buffer, "PNG", compress_level=1)
@@ -130,8 +136,8 @@ def section_picture(
     width, height = size[0], min(size[1], 0.55 * size[0] + 60.0)
     (left, right), _ = maps.window
     frame = Frame(
-        Scale(left, right, _LEFT, width - _RIGHT),
-        Scale(0.0, 1.0, height - _BOTTOM, _TOP),
+        Scale(left, right, _LEFT_MARGIN, width - _RIGHT_MARGIN),
+        Scale(0.0, 1.0, height - _BOTTOM_MARGIN, _TOP_MARGIN),
         width,
         height,
     )
@@ -166,7 +172,7 @@ def _around(field: Array, axis: Array, at: float) -> Array:
 
 
 def _map(maps: Maps, field: Array, look: Look, size: tuple[float, float]) -> Picture:
-    frame = _frame(maps, size, _RIGHT if look.bar else _BARE)
+    frame = _frame(maps, size, _RIGHT_MARGIN if look.bar else _BARE_MARGIN)
     place = _place(frame)
     pixels = _resampled(field, (maps.x, maps.y), frame, place)
     parts = _contours(field, (maps.x, maps.y), frame, look.levels)
@@ -191,13 +197,15 @@ def _frame(maps: Maps, size: tuple[float, float], right_margin: float) -> Frame:
     """Return the scales of a map as large as fits."""
     (left, right), (bottom, top) = maps.window
     shape = (top - bottom) / (right - left) * maps.stretch
-    width = min(size[0] - _LEFT - right_margin, (size[1] - _TOP - _BOTTOM) / shape)
+    width = min(
+        size[0] - _LEFT_MARGIN - right_margin, (size[1] - _TOP_MARGIN - _BOTTOM_MARGIN) / shape
+    )
     height = width * shape
-    full = _TOP + height + _BOTTOM
+    full = _TOP_MARGIN + height + _BOTTOM_MARGIN
     return Frame(
-        Scale(left, right, _LEFT, _LEFT + width),
-        Scale(bottom, top, full - _BOTTOM, _TOP),
-        _LEFT + width + right_margin,
+        Scale(left, right, _LEFT_MARGIN, _LEFT_MARGIN + width),
+        Scale(bottom, top, full - _BOTTOM_MARGIN, _TOP_MARGIN),
+        _LEFT_MARGIN + width + right_margin,
         full,
     )
 
@@ -215,7 +223,7 @@ def _resampled(
     field: Array, axes: tuple[Array, Array], frame: Frame, place: tuple[float, float, float, float]
 ) -> Array:
     """Return a field at the pixels of its image, from the top down."""
-    fewer = max(1.0, place[2] / _WIDEST)
+    fewer = max(1.0, place[2] / _WIDEST_IMAGE)
     columns, rows = max(2, round(place[2] / fewer)), max(2, round(place[3] / fewer))
     along = np.linspace(frame.x.low, frame.x.high, columns)
     down = np.linspace(frame.y.high, frame.y.low, rows)
@@ -357,12 +365,14 @@ def heights_picture(
     low, high = (float(value) for value in np.percentile(heights, (0.5, 99.5)))
     limits = Limits(low, high if high > low else low + 1.0)
     shape = float(np.ptp(axes[1]) / np.ptp(axes[0]))
-    width = min(size[0] - _LEFT - _RIGHT, (size[1] - _TOP - _BOTTOM) / shape)
-    full = _TOP + width * shape + _BOTTOM
+    width = min(
+        size[0] - _LEFT_MARGIN - _RIGHT_MARGIN, (size[1] - _TOP_MARGIN - _BOTTOM_MARGIN) / shape
+    )
+    full = _TOP_MARGIN + width * shape + _BOTTOM_MARGIN
     frame = Frame(
-        Scale(float(axes[0][0]), float(axes[0][-1]), _LEFT, _LEFT + width),
-        Scale(float(axes[1][0]), float(axes[1][-1]), full - _BOTTOM, _TOP),
-        _LEFT + width + _RIGHT,
+        Scale(float(axes[0][0]), float(axes[0][-1]), _LEFT_MARGIN, _LEFT_MARGIN + width),
+        Scale(float(axes[1][0]), float(axes[1][-1]), full - _BOTTOM_MARGIN, _TOP_MARGIN),
+        _LEFT_MARGIN + width + _RIGHT_MARGIN,
         full,
     )
     place, look = _place(frame), Look(limits, [], "viridis", "height outwards [nm]")

@@ -18,8 +18,8 @@ from tehl.explore.tab import Tab
 if TYPE_CHECKING:
     from tehl.explore.axes import Frame
 
-_POINTS = 13
-_MOST = 101
+_DEFAULT_POINTS = 13
+_MOST_POINTS = 101
 _ABOVE = {
     "friction": "contact.slide_roll_ratio",
     "power": "contact.slide_roll_ratio",
@@ -61,7 +61,9 @@ class CurvePanel:
             self.over = ui.select({}, label="over", on_change=self._take_range)
             self.low = ui.input("from").classes("sweep-end")
             self.high = ui.input("to").classes("sweep-end")
-            self.count = ui.number("points", value=_POINTS, min=3, max=_MOST, precision=0)
+            self.count = ui.number(
+                "points", value=_DEFAULT_POINTS, min=3, max=_MOST_POINTS, precision=0
+            )
             self.count.classes("sweep-end")
             for field in (self.quantity, self.over, self.low, self.high, self.count):
                 field.props("dense outlined options-dense")
@@ -135,7 +137,7 @@ class CurvePanel:
         except InputError as error:
             self.state.set_text(self.tab.files.hidden(str(error)))
             return
-        count = int(min(max(self.count.value or _POINTS, 3), _MOST))
+        count = int(min(max(self.count.value or _DEFAULT_POINTS, 3), _MOST_POINTS))
         places = spread(low, high, count)
         values = tuple((x, knob.stated(x, knob.unit)) for x in places)
         self.points, self.knob, self.span, self.wanted = [], knob, (low, high), count

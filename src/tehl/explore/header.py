@@ -5,7 +5,7 @@ from typing import Any
 from nicegui import ui
 
 from tehl.base.errors import InputError
-from tehl.explore.case_text import LARGEST, CaseText, template_case
+from tehl.explore.case_text import LARGEST_TEXT, CaseText, template_case
 from tehl.explore.elements import button, main_button
 from tehl.explore.jobs import End, Failure, Note
 from tehl.explore.tab import Tab
@@ -109,7 +109,7 @@ class Header:
             ui.label("Open a case").classes("dialog-title")
             upload = ui.upload(
                 label="choose or drop a case file (.toml)",
-                max_file_size=LARGEST,
+                max_file_size=LARGEST_TEXT,
                 auto_upload=True,
                 on_rejected=lambda: ui.notify(
                     "larger than 200 kB, so not a case file", type="negative"

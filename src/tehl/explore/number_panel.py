@@ -15,7 +15,7 @@ from tehl.explore.tab import Tab
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-_REACH = 0.3
+_BAR_RANGE = 0.3
 """Relative deviation at the ends of the drawn error bar."""
 _MAIN = ("h_central", "h_min", "p_max", "friction")
 """Numbers that stay in sight on a narrow screen."""
@@ -157,11 +157,11 @@ def _bar(one: Number) -> str:
     parts = ['<path d="M0 7H100" class="track"/>', '<path d="M50 2V12" class="middle"/>']
     words = "no error bar yet"
     if one.error is not None:
-        half = min(abs(one.error) / _REACH, 1.0) * 50.0
+        half = min(abs(one.error) / _BAR_RANGE, 1.0) * 50.0
         parts.insert(1, f'<path d="M{50 - half:.2f} 7H{50 + half:.2f}" class="band"/>')
         words = f"error bar {100 * abs(one.error):.2g} %"
     for author, value in one.formulas:
-        away = (value / one.value - 1.0) / _REACH
+        away = (value / one.value - 1.0) / _BAR_RANGE
         if abs(away) <= 1.0:
             at = 50 + 50 * away
             name = f"<title>{escape(author)}</title>"

@@ -13,7 +13,7 @@ from tehl.post.film import hertz_pressure
 from tehl.report.explain import Explanation
 from tehl.result.solution import Settings
 
-_ACROSS = 41
+_SECTION_POINTS = 41
 """Places across the film of a temperature section."""
 _FINE = 480
 """Pixels along x of an interferogram."""
@@ -186,7 +186,7 @@ def _section(result: Result) -> Section | None:
     rise = np.nan_to_num(heat.temperature[:, row, columns] - inlet)
     return Section(
         x=result.x[columns] * 1e6,
-        rise=_single(CubicSpline(heat.zeta, rise, axis=0)(np.linspace(0.0, 1.0, _ACROSS))),
+        rise=_single(CubicSpline(heat.zeta, rise, axis=0)(np.linspace(0.0, 1.0, _SECTION_POINTS))),
         inlet=inlet - 273.15,
     )
 

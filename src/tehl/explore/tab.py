@@ -34,7 +34,7 @@ VIEWS = {
 }
 """Views of a contact, by name."""
 _UNDONE = 50
-_ROOM = 1.1
+_LEAST_COLOUR_RANGE = 1.1
 """Largest film with a colour over the central one, at least."""
 
 Listener = Callable[[str], None]
@@ -356,7 +356,9 @@ class Tab:
                 for ends in zip(wanted["lines"], self.limits.get("lines", (0.0, 0.0)), strict=True)
             )
             before, central = self.limits.get("film"), shown.maps.central
-            if before is not None and before.high < _ROOM * central:  # it would have no colour
+            if (
+                before is not None and before.high < _LEAST_COLOUR_RANGE * central
+            ):  # it would have no colour
                 self.limits["film"] = before.joined(wanted["film"])
             wanted |= {key: value for key, value in self.limits.items() if key in wanted}
             wanted["lines"] = film, pressure  # lines stay in their frame

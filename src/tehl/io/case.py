@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 _LONG_KEY = re.compile(r"(?m)^[\s\[]*(?:[^\s.,=#]+\s*\.\s*){100}")
 """A key of more than a hundred parts."""
-_LARGEST = 10**6
+_LARGEST_CASE = 10**6
 """Bytes of a case file."""
 _DEEPEST = 8
 """Parts of the key path of an override."""
@@ -148,7 +148,7 @@ def _text(path: Path) -> str:
         if named_pipe or stat.S_ISCHR(mode) or stat.S_ISBLK(mode) or stat.S_ISSOCK(mode):
             raise InputError("not a regular file, so not a case file")
         with path.open("rb") as file:
-            content = file.read(_LARGEST + 1)
+            content = file.read(_LARGEST_CASE + 1)
     except FileNotFoundError:
         raise InputError("case file does not exist") from None
     except OSError as error:
@@ -158,8 +158,8 @@ def _text(path: Path) -> str:
 
 def text_of(content: bytes) -> str:
     """Return the text of the content of a case file; an InputError if it is not one."""
-    if len(content) > _LARGEST:
-        raise InputError(f"larger than {_LARGEST // 10**6} MB, so not a case file")
+    if len(content) > _LARGEST_CASE:
+        raise InputError(f"larger than {_LARGEST_CASE // 10**6} MB, so not a case file")
     try:
         return content.decode(encoding_of(content))
     except UnicodeDecodeError:

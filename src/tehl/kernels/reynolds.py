@@ -20,7 +20,7 @@ from tehl.kernels.properties import Film
 from tehl.kernels.raw import raw
 
 STEADILY, IN_TIME = 1, 2
-SECOND, THIRD = 1, 2
+MARK_SECOND_ORDER, MARK_THIRD_ORDER = 1, 2
 """Marks of the nodes that pass on oil with second and with third order where it is conserved."""
 
 
@@ -197,7 +197,7 @@ def _beyond(film: Film, stencil: Stencil, node: tuple[int, int], before: float) 
     j, i = node
     mass = film.rho[j, i] * film.h[j, i]
     found = 0.5 * (mass - before)
-    if film.second[j, i] == THIRD:
+    if film.second[j, i] == MARK_THIRD_ORDER:
         curved = film.rho[j, i + 1] * film.h[j, i + 1] - 2.0 * mass + before
         found += third_at(stencil, i) / (stencil.w0 - stencil.w2) * curved
     return found
@@ -309,7 +309,7 @@ def mark_second_order(film: Film, stencil: Stencil) -> None:
         if order > 2:
             for i in range(2, nx - 1):
                 if second[j, i] and not (partial[j, i] or partial[j, i + 1]):
-                    second[j, i] = THIRD
+                    second[j, i] = MARK_THIRD_ORDER
 
 
 @kernel

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 from tehl.base.table import Table
 from tehl.base.typing import Array, np
 
-LARGEST_EXPONENT = 600.0
+LARGEST_LAW_EXPONENT = 600.0
 """``exp`` of more would overflow; so thick a film is a solid for every purpose."""
 
 Values = TypeVar("Values", float, Array)
@@ -131,8 +131,8 @@ def limited(values: Any, least: float, most: float = math.inf) -> Any:
 def exponential(eta_0: Any, exponent: Any) -> Any:
     """Return ``eta_0 exp(exponent)`` without overflow, arrays written over ``exponent``."""
     if isinstance(exponent, float):
-        return eta_0 * math.exp(limited(exponent, -LARGEST_EXPONENT, LARGEST_EXPONENT))
-    np.clip(exponent, -LARGEST_EXPONENT, LARGEST_EXPONENT, out=exponent)
+        return eta_0 * math.exp(limited(exponent, -LARGEST_LAW_EXPONENT, LARGEST_LAW_EXPONENT))
+    np.clip(exponent, -LARGEST_LAW_EXPONENT, LARGEST_LAW_EXPONENT, out=exponent)
     np.exp(exponent, out=exponent)
     exponent *= eta_0
     return exponent

@@ -19,7 +19,7 @@ NEEDED = (
     "estimates it from the viscosity"
 )
 """Message on a law without a pressure coefficient."""
-_LEAST, _MOST = 1e-3, 10.0
+_LEAST_VISCOSITY, _LARGEST_VISCOSITY = 1e-3, 10.0
 """Viscosities [Pa s] between which mineral oils were measured, roughly."""
 
 
@@ -72,9 +72,9 @@ def wooster(viscosity: float) -> float:
     .. [1] G. W. Stachowiak and A. W. Batchelor, Engineering Tribology, Butterworth-Heinemann,
        chapter 2: viscosity-pressure relationship, after Wooster.
     """
-    if not _LEAST <= viscosity <= _MOST:
+    if not _LEAST_VISCOSITY <= viscosity <= _LARGEST_VISCOSITY:
         raise ValueError(
             f'has alpha = "{ESTIMATED}" at a viscosity of {viscosity:.3g} Pa s, but mineral oils '
-            f"have {_LEAST:g} to {_MOST:g} Pa s: state alpha"
+            f"have {_LEAST_VISCOSITY:g} to {_LARGEST_VISCOSITY:g} Pa s: state alpha"
         )
     return (0.6 + 0.965 * math.log10(1e3 * viscosity)) * 1e-8

@@ -16,7 +16,7 @@ import numpy as np
 
 from tehl.base.typing import Array
 
-STEP = 0.4
+LOG_QUADRATURE_STEP = 0.4
 """Step of the trapezoidal rule in ln s; its relative error is 2 exp(-pi^2/(2 STEP)) = 1e-5."""
 
 
@@ -63,9 +63,9 @@ def history(nodes: int, spacing: float) -> History:
     slowest exponentials, which have hardly decayed, are lumped into one of the same first moment.
     """
     low, high = -0.5 * np.log(nodes) - 3.0, 1.3
-    y = np.arange(low, high + STEP, STEP)
-    weight, rate = 2.0 / np.sqrt(np.pi) * STEP * np.exp(y), np.exp(2.0 * y)
-    ratio = np.exp(-STEP)
+    y = np.arange(low, high + LOG_QUADRATURE_STEP, LOG_QUADRATURE_STEP)
+    weight, rate = 2.0 / np.sqrt(np.pi) * LOG_QUADRATURE_STEP * np.exp(y), np.exp(2.0 * y)
+    ratio = np.exp(-LOG_QUADRATURE_STEP)
     lump = weight[0] * ratio / (1.0 - ratio)
     lump_rate = weight[0] * rate[0] * ratio**3 / (1.0 - ratio**3) / lump
     weight, rate = np.concatenate([[lump], weight]), np.concatenate([[lump_rate], rate])

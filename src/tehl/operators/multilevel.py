@@ -22,13 +22,13 @@ from tehl.operators.influence import Influence, dense_matrix
 
 ALONG, ACROSS = 8, 2
 """Patch half-widths on the finest grid, along the axis that is halved and across it."""
-FAR = 40
+LUMPING_DISTANCE = 40
 """Nodes beyond the patch of which the corrections are lumped."""
 SMALLEST = 400
 """Nodes at or below which the sum is direct."""
 PAD = 24
 """Ghost rows and columns of the work arrays on each side."""
-LARGEST_GROWTH = 10
+LARGEST_PATCH_GROWTH = 10
 """Most nodes by which the patch grows: it stays within the ghost rows."""
 STEPS = (1, 3, 5)
 WEIGHTS = (150.0 / 256.0, -25.0 / 256.0, 3.0 / 256.0)
@@ -118,7 +118,7 @@ class MultilevelDeformation:
         while _count(self.stages[-1].box) > SMALLEST:
             axis, fine = finer_axis(influence, stride), self.stages[-1]
             # an error on a coarse grid weighs as much as one on the finest: the patch grows
-            growth = min(2 * halved[axis], LARGEST_GROWTH)
+            growth = min(2 * halved[axis], LARGEST_PATCH_GROWTH)
             patch = patch_corrections(influence, (axis, stride[0], stride[1]), growth)
             self.stages.append(_coarser(fine.box, axis))
             self.halvings.append(_halve(patch, axis, fine, self.stages[-1]))
@@ -195,9 +195,9 @@ def patch_corrections(influence: Influence, step: tuple[int, int, int], growth: 
     """
     axis, row_stride, column_stride = step
     reach, width = ALONG + growth + 1, ACROSS + growth + 1
-    nodes = np.arange(reach + FAR)
+    nodes = np.arange(reach + LUMPING_DISTANCE)
     along = np.arange(nodes.size + STEPS[-1] + 0.0)[:, None]
-    across = np.arange(width + FAR + 0.0)[None, :]
+    across = np.arange(width + LUMPING_DISTANCE + 0.0)[None, :]
     rows, columns = (along, across) if axis == 0 else (across, along)
     kernel = influence(rows * row_stride, columns * column_stride)
     missed = kernel[nodes]

@@ -14,7 +14,7 @@ from tehl.operators.influence import Influence
 
 UPSTREAM = {1: (1.0, -1.0, 0.0), 2: (1.5, -2.0, 0.5)}
 """Weights of rho H of a node and of its upstream neighbours in the wedge, by its order [1/dx]."""
-REACH = 8
+INFLUENCE_NODES = 8
 """Nodes along a line in the influence of one node, as the line relaxation uses it."""
 
 
@@ -126,16 +126,16 @@ def steady_flux(film: Film, held: Array, spacing: float, order: int) -> Array:
 def line_influence(
     influence: Influence, parts: tuple[float, float] = (0.25, 0.25)
 ) -> tuple[Array, Array]:
-    """Return the film along a line per unit change of one node, and of a dipole, (`REACH`,) each.
+    """Return the film along a line per unit change of one node, and of a dipole.
 
-    A dipole raises one node and lowers its neighbours by ``parts`` of that, along x and along y:
-    its far field decays fast, so that it changes the film locally (Venner and Lubrecht 2000,
-    chapter 6).
+    Both have the shape (`INFLUENCE_NODES`,). A dipole raises one node and lowers its neighbours by
+    ``parts`` of that, along x and along y: its far field decays fast, so that it changes the film
+    locally (Venner and Lubrecht 2000, chapter 6).
     """
     along, aside = parts
-    line = influence(0, slice(0, REACH + 1))
-    beside = influence(1, slice(0, REACH))
-    point = line[:REACH]
-    west = line[[1, *range(REACH - 1)]]
+    line = influence(0, slice(0, INFLUENCE_NODES + 1))
+    beside = influence(1, slice(0, INFLUENCE_NODES))
+    point = line[:INFLUENCE_NODES]
+    west = line[[1, *range(INFLUENCE_NODES - 1)]]
     dipole = point - along * (west + line[1:]) - 2.0 * aside * beside
     return point.copy(), dipole

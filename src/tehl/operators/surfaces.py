@@ -27,7 +27,7 @@ LEAST_LINE = 2.0
 """Solid Peclet number from which a line source is marched: below, it has little of the full one."""
 COARSENED_FROM = 128
 """Intervals from which the full source is summed on every second node: its field is smooth."""
-TOLERANCE, ITERATIONS = 0.02, 30
+SURFACE_TOLERANCE, SURFACE_ITERATIONS = 0.02, 30
 """Of the coupled surface temperatures after each sweep; the next sweep improves them again."""
 
 
@@ -244,7 +244,9 @@ class Solids:
         right = np.concatenate([m.ravel() for m in misfits if m is not None])
         size = right.size
         operator = LinearOperator((size, size), matvec=respond, dtype=np.float64)
-        solution, _ = gmres(operator, right, rtol=TOLERANCE, restart=ITERATIONS, maxiter=1)
+        solution, _ = gmres(
+            operator, right, rtol=SURFACE_TOLERANCE, restart=SURFACE_ITERATIONS, maxiter=1
+        )
         return dict(zip(given, solution.reshape(len(given), *shape), strict=True))
 
     def _coarse(self, field: Array) -> Array:

@@ -21,7 +21,7 @@ from tehl.plots.frame import MICRO, figure_of, map_axes, window_part
 from tehl.result.solution import Solution
 
 Light = Literal["white", "dichromatic", "monochromatic"]
-_PIXELS = 900
+_PIXELS_ALONG_X = 900
 """Pixels along x; the film is interpolated so that fringes stay clean."""
 
 
@@ -118,8 +118,8 @@ def interferogram(
 
     chosen, part = Optics() if optics is None else optics, window_part(result)
     x, y = result.x[part[1]], result.y[part[0]]
-    fine_x = np.linspace(x[0], x[-1], _PIXELS)
-    fine_y = np.linspace(y[0], y[-1], max(2, round(_PIXELS * np.ptp(y) / np.ptp(x))))
+    fine_x = np.linspace(x[0], x[-1], _PIXELS_ALONG_X)
+    fine_y = np.linspace(y[0], y[-1], max(2, round(_PIXELS_ALONG_X * np.ptp(y) / np.ptp(x))))
     film, pressure = (
         np.nan_to_num(field[part], nan=0.0, posinf=0.0, neginf=0.0)
         for field in (result.film_thickness, result.pressure)

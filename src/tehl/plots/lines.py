@@ -33,7 +33,7 @@ from tehl.post.micro_film import micro_film
 from tehl.post.roughness import film_histogram, rough_film
 from tehl.result.solution import Solution
 
-_REACH = 1.25
+_LINE_HALF_WIDTHS = 1.25
 """Half-widths of the centre line between rough surfaces, on each side."""
 _AROUND = (-1.4, 1.4)
 """Part of both axes with profiles of the pressure [half-widths]."""
@@ -105,7 +105,7 @@ def rough_centre_line(
     both surfaces are smooth.
     """
     heights, row = heights_of(result).together, centre_row(result)
-    inside = np.abs(result.scaled.x) <= _REACH
+    inside = np.abs(result.scaled.x) <= _LINE_HALF_WIDTHS
     place = result.x[inside] * MICRO
     picture = figure(result, (7.6, 7.0), title=title)
     upper, lower = picture.subplots(2, 1, sharex=True, height_ratios=[1.5, 1.0])

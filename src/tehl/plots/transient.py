@@ -28,7 +28,7 @@ from tehl.result.transient import HistoryBars, TransientSolution
 
 _MOMENTS = 4
 """Moments in one picture."""
-_TALLEST = 2.2
+_FILM_AXIS_HEIGHT = 2.2
 """Height of the film axis, over the largest film in the contact."""
 _MILLISECOND = 2e-3
 """Duration from which on times are in milliseconds [s]."""
@@ -195,7 +195,7 @@ class CentreLines:
         self.lines, self.part = run.profiles, _window(run)
         self.x, right = run.x[self.part] * MICRO, axes.twinx()
         self.heights = (self.lines.height_1 + self.lines.height_2)[:, self.part] * MICRO
-        top = _TALLEST * _largest_inside(run, self.lines.film)
+        top = _FILM_AXIS_HEIGHT * _largest_inside(run, self.lines.film)
         self.ground = -0.08 * top - float(self.heights.max())
         self.bottom = -0.16 * top - float(np.ptp(self.heights))
         largest = 1.08 * float(self.lines.pressure.max()) * GIGA
@@ -251,7 +251,7 @@ def passage(run: TransientSolution, *, title: bool | None = True) -> Figure:
         axes.plot(x, first[part] * unit, color=colour, lw=1.3, label="steady film at the start")
         axes.grid(axis="y", lw=0.3)
         axes.legend(**PLAIN)
-    lower.set_ylim(0.0, _TALLEST * _largest_inside(run, found.film_largest))
+    lower.set_ylim(0.0, _FILM_AXIS_HEIGHT * _largest_inside(run, found.film_largest))
     upper.set(ylabel="pressure p [GPa]", xlim=(x[0], x[-1]))
     upper.set_ylim(bottom=0.0)
     lower.set(ylabel="film h [µm]", xlabel=ALONG_X)

@@ -11,7 +11,7 @@ from tehl.estimate.film_formulas import Lubrication, likely_film, lubrication, l
 from tehl.post.boundary_contact import touching
 from tehl.post.film import no_film
 from tehl.post.summits import load_sharing
-from tehl.post.waves.response import REACH, WaveResponse, wave_notes, wave_responses
+from tehl.post.waves.response import FIT_HALF_WIDTH, WaveResponse, wave_notes, wave_responses
 from tehl.result.solution import Solution
 from tehl.roughness.resolution import Resolution
 
@@ -19,7 +19,7 @@ QUANTILES = (0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
 """Parts of the contact whose films are reported."""
 SHALLOWEST = 0.01
 """Depth of a ripple that counts, over the mean film of the line [-]."""
-MIDDLE = 0.5
+CENTRE_RADIUS = 0.5
 """Radius of the middle of the contact, in half-widths."""
 _LINE = 0.8
 _SMOOTH = 1e-12
@@ -162,7 +162,7 @@ def ripples(x: Array, y: Array, film: Array, pressure: Array) -> tuple[float, fl
         Dimensionless.
     """
     radius = x**2 + y[:, None] ** 2
-    inside = radius < MIDDLE**2
+    inside = radius < CENTRE_RADIUS**2
     rows, columns = np.nonzero(inside)
     # a half domain stands for both halves, but its row y = 0 for itself
     weight = np.where(y[rows] == 0.0, 0.5 if y[0] == 0.0 else 1.0, 1.0)
@@ -207,7 +207,7 @@ def square(result: Solution) -> tuple[Array, ...]:
 
 def middle_film(result: Solution) -> float:
     """Return the mean film where |X|, |Y| < 0.4 [m]."""
-    part = np.ix_(*(np.abs(axis) <= REACH for axis in (result.scaled.y, result.scaled.x)))
+    part = np.ix_(*(np.abs(axis) <= FIT_HALF_WIDTH for axis in (result.scaled.y, result.scaled.x)))
     return float(result.film_thickness[part].mean())
 
 

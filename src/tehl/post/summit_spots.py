@@ -32,7 +32,7 @@ from tehl.post.traction import cell_widths
 from tehl.result.fields import FilmAsperities
 from tehl.result.solution import Solution
 
-FEWEST = 0.5
+LEAST_SPOTS = 0.5
 """Spots in the contact below which none touches."""
 
 
@@ -77,7 +77,7 @@ def spots(result: Solution, found: FilmAsperities) -> Spots | None:
     pressure = found.pressure / np.where(real > 0.0, real, 1.0)
     cells = np.outer(cell_widths(result.y), cell_widths(result.x))
     number = float((cells * density).sum())
-    if number < FEWEST:
+    if number < LEAST_SPOTS:
         return None
     most = np.unravel_index(found.pressure.argmax(), found.pressure.shape)
     rises = _flash_rises(result, law.friction * pressure, radius)

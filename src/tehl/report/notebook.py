@@ -11,7 +11,7 @@ from tehl.report.headline import headline
 from tehl.result.solution import Solution
 from tehl.result.transient import TransientSolution
 
-_DPI = 72
+_NOTEBOOK_DPI = 72
 
 
 def result_html(result: Solution | TransientSolution) -> str:
@@ -32,7 +32,7 @@ def result_html(result: Solution | TransientSolution) -> str:
 def image_html(figure: Any, words: str) -> str:
     """Return a matplotlib figure as an image in HTML."""
     buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=_DPI, bbox_inches="tight")
+    figure.savefig(buffer, format="png", dpi=_NOTEBOOK_DPI, bbox_inches="tight")
     data = base64.b64encode(buffer.getvalue()).decode("ascii")
     return f'<img alt="{escape(words)}" src="data:image/png;base64,{data}">'
 

@@ -17,7 +17,7 @@ else:
     prepare = lazy("tehl.roughness.prepare")
 
 _COARSE = 10.0
-_ALIKE = 1e-6
+_MIRROR_TOLERANCE = 1e-6
 """Largest difference of a map and its mirror image that counts as equal, over Sq."""
 _LARGE = 20.0
 
@@ -36,7 +36,7 @@ class Map(MapSettings):
         if self.y != 0.0 or direction(self.rotate)[1] != 0.0:
             return False
         heights = self._tile.heights
-        return float(abs(heights - heights[::-1]).max()) <= _ALIKE * self.rms
+        return float(abs(heights - heights[::-1]).max()) <= _MIRROR_TOLERANCE * self.rms
 
     @property
     def shortest_wavelengths(self) -> tuple[float, float]:

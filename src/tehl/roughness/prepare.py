@@ -13,7 +13,7 @@ from tehl.base.typing import Array, BoolArray
 Level = Literal["none", "mean", "plane", "quadratic"]
 Fill = Literal["auto", "linear", "nearest", "refuse"]
 
-FEW, MOST = 0.01, 0.5
+FEW_MISSING, MOST_MISSING = 0.01, 0.5
 """Share of missing points that is filled by default, and that no filling bridges."""
 _NEIGHBOURS, _EXPLAINS = 5, 7
 """Points along the edges of the windows of the medians, and of the range of these."""
@@ -131,9 +131,9 @@ def _check_gaps(missing: BoolArray, how: Fill, spikes: int) -> None:
     )
     if share == 1.0:
         raise InputError("has no point with a height")
-    if share > MOST:
+    if share > MOST_MISSING:
         raise InputError(f"{gaps}: that is too much to fill, crop the map")
-    if how == "refuse" or (how == "auto" and share > FEW):
+    if how == "refuse" or (how == "auto" and share > FEW_MISSING):
         raise InputError(f'{gaps}: crop the map, or say how to fill them, fill = "linear"')
 
 

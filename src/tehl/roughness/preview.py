@@ -14,7 +14,7 @@ from tehl.roughness.statistics import Spectrum, Statistics, share_beyond, spectr
 
 _PER_PICTURE = 900
 """Most points of a picture along an axis."""
-_WIDEST = 5.0
+_LARGEST_PICTURE_RATIO = 5.0
 """Largest size of a picture over that of its map; beyond, the map would be a dot."""
 _MARGIN = 1.05
 
@@ -131,4 +131,4 @@ def _window(found: Preview) -> Extent:
         (min(start, -half), max(end, half)) for (start, end), half in zip(box, halves, strict=True)
     )
     longest = [max(end - start for start, end in one) for one in ((x, y), box)]
-    return (x, y) if longest[0] <= _WIDEST * longest[1] else box
+    return (x, y) if longest[0] <= _LARGEST_PICTURE_RATIO * longest[1] else box

@@ -10,7 +10,7 @@ from tehl.base.typing import Array, np
 from tehl.base.units import Angle, Height
 from tehl.roughness.model import RoughnessModel, Wavelength, check_slope, direction, wavelength_of
 
-_ALIKE = 1e-9
+_EQUAL_WAVES = 1e-9
 
 
 class WaveVector(NamedTuple):
@@ -195,12 +195,12 @@ def are_even(waves: Sequence[WaveVector]) -> bool:
     mirrored = _spectrum([wave._replace(across=-wave.across) for wave in waves])
     largest = max((wave.amplitude for wave in waves), default=0.0)
     differences = (spectrum.get(key, 0j) - mirrored.get(key, 0j) for key in spectrum | mirrored)
-    return all(abs(difference) <= _ALIKE * largest for difference in differences)
+    return all(abs(difference) <= _EQUAL_WAVES * largest for difference in differences)
 
 
 def _spectrum(waves: Sequence[WaveVector]) -> dict[tuple[int, int], complex]:
     """Return complex amplitudes by wave vector, each vector in the half-plane of positive x."""
-    unit = _ALIKE * max((wave.number for wave in waves), default=1.0) or 1.0
+    unit = _EQUAL_WAVES * max((wave.number for wave in waves), default=1.0) or 1.0
     spectrum: dict[tuple[int, int], complex] = {}
     for wave in waves:
         key = (round(wave.along / unit), round(wave.across / unit))

@@ -11,7 +11,7 @@ from tehl.result.solution import NO_COST, Cost, Solution
 
 Kind = TypeVar("Kind", bound=Solution)
 
-ENOUGH, LONGEST = 0.06, 0.3
+SUFFICIENT_TIMING, LONGEST_TIMING = 0.06, 0.3
 """CPU seconds after which no further transform is timed, a few ticks of any CPU clock, and most
 seconds on a busy machine."""
 TIMED = 513
@@ -56,8 +56,8 @@ def fft_seconds(nx: int, ny: int) -> float:
         np.fft.irfft(transform, shape[1], axis=1, out=convolved)
 
     deform()
-    start, end, count = time.process_time(), time.perf_counter() + LONGEST, 0
-    while time.process_time() - start < ENOUGH and time.perf_counter() < end:
+    start, end, count = time.process_time(), time.perf_counter() + LONGEST_TIMING, 0
+    while time.process_time() - start < SUFFICIENT_TIMING and time.perf_counter() < end:
         deform()
         count += 1
     return (time.process_time() - start) / max(count, 1)

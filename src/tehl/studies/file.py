@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 Axes = Mapping[str, Sequence[Any]] | Sequence[Axis]
 
-_LARGEST = 10_000
+_MOST_CASES = 10_000
 """Cases of a study that does not state ``largest``."""
 
 
@@ -143,7 +143,7 @@ def plan_of(
 
 def _check_keys(stated: StudyFile, count: int, *, unlimited: bool) -> None:
     """Raise for too many cases, and for keys without those that they need."""
-    limit = stated.largest or _LARGEST
+    limit = stated.largest or _MOST_CASES
     if count > limit and not unlimited:
         raise InputError(
             f"has {count:,} cases, more than {limit:,}: if this is intended, state "

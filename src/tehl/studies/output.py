@@ -25,7 +25,7 @@ else:
     table_columns = lazy("tehl.plots.table_columns")
 
 Range = tuple[float, float]
-_DPI = 200
+_PICTURE_DPI = 200
 _KEYS = ("x", "y", "z", "hue", "style", "log", "map", "overlay", "file", "format", "title")
 """What ``--plot`` can state."""
 
@@ -146,7 +146,7 @@ def save(picture: Picture, table: "pd.DataFrame", folder: Path) -> Path:
     """
     figure, path = draw(picture, table), folder / picture.file_name
     with replacing(path) as temporary:
-        figure.savefig(temporary, dpi=_DPI, format=picture.format)
+        figure.savefig(temporary, dpi=_PICTURE_DPI, format=picture.format)
     return path
 
 

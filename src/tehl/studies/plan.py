@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 _SHOWN = 5
 """Labels in the name of a case."""
-_LONGEST = 60
+_LONGEST_LABEL = 60
 """Characters of a label."""
 
 
@@ -159,7 +159,7 @@ def _label(stated: Any, found: Any) -> Label:
         words = [stated[key] for key in ("law", "name", "type") if key in stated]
         if words:
             return str(words[0])
-    return json.dumps(stated, ensure_ascii=False, default=str)[:_LONGEST]
+    return json.dumps(stated, ensure_ascii=False, default=str)[:_LONGEST_LABEL]
 
 
 def _phrases(labels: Mapping[str, Label], units: Mapping[str, str]) -> Iterator[str]:
@@ -175,7 +175,7 @@ def _phrases(labels: Mapping[str, Label], units: Mapping[str, str]) -> Iterator[
 
 PLAN, TABLE, LOCK = "study.json", "table.csv", "study.lock"
 _PARQUET, _UNITS = "table.parquet", "units.json"
-_FORMAT = 1
+_PLAN_FORMAT = 1
 _REMEDY = (
     "run the study file again with -o and --replace, which writes it anew and keeps finished cases"
 )
@@ -236,7 +236,7 @@ def save_plan(plan: Plan, folder: Path) -> bool:
     """Keep a plan, so that the folder can be run again; return whether it is the first."""
     check_folder(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    content = {"tehl_study": _FORMAT, "plan": TypeAdapter(Plan).dump_python(plan, mode="json")}
+    content = {"tehl_study": _PLAN_FORMAT, "plan": TypeAdapter(Plan).dump_python(plan, mode="json")}
     path, text = folder / PLAN, json.dumps(content, default=str, indent=1)
     is_first = not path.is_file()
     if is_first or path.read_bytes() != text.encode():  # a study continues in a full folder
@@ -254,8 +254,10 @@ def load_plan(folder: Path) -> Plan:
         raise InputError(f"{folder} is not the folder of a study: it has no {PLAN}") from None
     except (OSError, ValueError) as error:
         raise FileFormatError(f"{path} cannot be read ({error}): {_REMEDY}") from None
-    if not isinstance(content, dict) or content.get("tehl_study") != _FORMAT:
-        raise FileFormatError(f"{path} is not the plan of a study of format {_FORMAT}: {_REMEDY}")
+    if not isinstance(content, dict) or content.get("tehl_study") != _PLAN_FORMAT:
+        raise FileFormatError(
+            f"{path} is not the plan of a study of format {_PLAN_FORMAT}: {_REMEDY}"
+        )
     try:
         return TypeAdapter(Plan).validate_python(content["plan"])
     except (KeyError, ValueError) as error:

@@ -39,7 +39,7 @@ _LARGEST_TASK = 32
 """Cases of a task."""
 _SHARES = 4
 """Least number of tasks left for each worker, so that all end at about the same time."""
-_SMALL = 1e-12
+_ZERO_LABEL = 1e-12
 """A label below it is next to zero."""
 _DIED = (
     "the process that solved this case died, and died again with no other case in work; the "
@@ -209,7 +209,7 @@ def _kind_and_place(case: Case) -> tuple[object, tuple[float, ...]]:
     values = case.labels.values()
     words = tuple(value for value in values if isinstance(value, str))
     # on this scale equal ratios are equal steps, far from zero
-    place = tuple(math.asinh(value / _SMALL) for value in values if not isinstance(value, str))
+    place = tuple(math.asinh(value / _ZERO_LABEL) for value in values if not isinstance(value, str))
     return (tuple(case.labels), words, case.options.points), place
 
 

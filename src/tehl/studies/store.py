@@ -22,7 +22,7 @@ from tehl.studies.case import Case, Row
 
 Keep = Literal["summary", "fields"]
 
-_FORMAT = 2
+_STORE_FORMAT = 2
 _TIMEOUT = 60.0
 """Seconds to wait for another study that writes into the same store."""
 _REMEDY = "bring back a copy of it, or remove it and all its cases are solved again"
@@ -35,7 +35,7 @@ CREATE TABLE IF NOT EXISTS rows (
     retry_settings TEXT NOT NULL, summary TEXT NOT NULL,
     cpu_seconds REAL NOT NULL, wall_seconds REAL NOT NULL
 ) WITHOUT ROWID;
-PRAGMA user_version = {_FORMAT};
+PRAGMA user_version = {_STORE_FORMAT};
 """
 
 
@@ -170,10 +170,10 @@ class Store:
         self._connection.text_factory = lambda text: text.decode("utf-8", "replace")
         with self._connected() as connection:
             version = connection.execute("PRAGMA user_version").fetchone()[0]
-            if version not in (0, _FORMAT):
+            if version not in (0, _STORE_FORMAT):
                 self.close()
                 found = f"{self._file} is a store of format {version}"
-                raise FileFormatError(f"{found}, this tehl reads {_FORMAT}: {_REMEDY}")
+                raise FileFormatError(f"{found}, this tehl reads {_STORE_FORMAT}: {_REMEDY}")
             # a kill loses nothing that was committed, and no commit waits for the disk
             with suppress(sqlite3.OperationalError):  # file systems without shared memory
                 connection.execute("PRAGMA journal_mode = WAL")

@@ -9,7 +9,7 @@ import numpy as np
 from tehl.base.typing import Array, BoolArray
 from tehl.roughness import WaveVector
 
-REACH = 1.0
+SEARCH_HALF_WIDTH = 1.0
 """Half-widths on each side of the centre in which waves are searched."""
 STRONGEST = 3
 """Most waves that are reported."""
@@ -20,10 +20,10 @@ FAINTEST = 0.1
 _CANDIDATES = 8
 # In waves over the whole region: the fewest that are searched, the least distance of peaks, and how
 # far a fit may leave its peak.
-_LONGEST, _APART, _MOVES = 1.5, 2.0, 0.35
+_LONGEST_WAVE, _APART, _MOVES = 1.5, 2.0, 0.35
 _PADDED = 4
-_NODES = 256
-_STEPS = 8
+_SEARCH_NODES = 256
+_SEARCH_STEPS = 8
 _SETTLED = 1e-6
 _UPRIGHT = math.sin(math.radians(0.5))
 
@@ -84,8 +84,8 @@ def _within(axis: Array) -> slice:
 
     Every other one would show the shortest waves as longer ones.
     """
-    inside = np.flatnonzero(np.abs(axis) <= REACH)
-    left = max(inside.size - _NODES, 0) // 2
+    inside = np.flatnonzero(np.abs(axis) <= SEARCH_HALF_WIDTH)
+    left = max(inside.size - _SEARCH_NODES, 0) // 2
     return slice(int(inside[0]) + left, int(inside[-1]) + 1 - left)
 
 
@@ -143,7 +143,7 @@ class _Region:
             distance = np.hypot((along - vector[0]) / bins[0], (across - vector[1]) / bins[1])
             return np.asarray(distance >= waves)
 
-        allowed = apart((0.0, 0.0), _LONGEST)
+        allowed = apart((0.0, 0.0), _LONGEST_WAVE)
         for wave in found:
             for sign in (1.0, -1.0):
                 allowed &= apart((sign * wave.along, sign * wave.across), _APART)
@@ -157,7 +157,7 @@ class _Region:
         """Return waves whose vectors fit best, by Gauss and Newton; none leaves its peak."""
         start, limit = np.array(vectors), _MOVES * self.bins
         place = start.copy()
-        for _ in range(_STEPS):
+        for _ in range(_SEARCH_STEPS):
             pairs, matrix = self._pairs(place)
             slopes = [
                 axis * (b * matrix[:, 2 * n] - a * matrix[:, 2 * n + 1])

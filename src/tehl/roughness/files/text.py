@@ -20,7 +20,7 @@ _LARGEST_TEXT = 10**9
 _COMMENT = ("#", "%", "//")
 _MISSING = {"": "nan", "na": "nan", "n/a": "nan", "bad": "nan", "***": "nan", "-": "nan"}
 _LEAST_COVERED = 0.5
-_DIGITS = 1e-6
+_SPACING_TOLERANCE = 1e-6
 
 
 def read_text(path: Path, layout: Layout) -> RawMap:
@@ -179,7 +179,7 @@ def _lattice(table: Array) -> RawMap:
 def _places(column: Array) -> tuple[Array, "np.ndarray"]:
     """Return the different values of a column, and which of them each row has."""
     values = np.sort(column)
-    near = _DIGITS * max(values[-1] - values[0], 0.0)
+    near = _SPACING_TOLERANCE * max(values[-1] - values[0], 0.0)
     first = np.concatenate(([True], np.diff(values) > near))
     places = values[first]
     return places, np.abs(np.searchsorted(places, column + near, side="right") - 1)

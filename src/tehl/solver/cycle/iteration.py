@@ -13,7 +13,7 @@ from tehl.operators.heights import Heights
 from tehl.result.solution import CycleReport
 from tehl.solver.cycle.anderson import Anderson
 from tehl.solver.cycle.continuation import (
-    MOST_STEPS,
+    MOST_NEWTON_STEPS,
     SMOOTH_CYCLES,
     Roughness,
     TouchingError,
@@ -24,7 +24,7 @@ from tehl.solver.cycle.ladder import Strategy
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.newton import Newton
 from tehl.solver.judging.convergence import (
-    LARGEST_CHANGE,
+    LARGEST_CYCLE_CHANGE,
     LARGEST_ROUGH_CHANGE,
     SLOW_CYCLES,
     GridTrace,
@@ -65,7 +65,7 @@ that is always accepted, as it follows these nodes."""
 DECIDED = 0.5
 """X up to which sections must pass the same oil: the film upstream decides how much, and at the
 pressure spike a flux of a few percent more or less is local."""
-LARGEST_MASS_ERROR, ROUNDING = 1e-10, 1e-13
+LARGEST_MASS_ERROR, ROUNDING_RESIDUAL = 1e-10, 1e-13
 """Mass-balance error between surfaces that may touch, over what passes, which takes a few more
 Newton steps, and in tight solves with asperities, over what enters, which takes ten more cycles;
 and residual from which Newton steps end if they gain no more."""
@@ -144,7 +144,7 @@ class GridIteration:
         by_cycles = fine.equations.contact_film is not None and not self.strategy.newton
         is_rough = self.roughness.is_on(levels) and not by_cycles  # a node that parts changes more
         trace = GridTrace(
-            largest_change=LARGEST_ROUGH_CHANGE if is_rough else LARGEST_CHANGE,
+            largest_change=LARGEST_ROUGH_CHANGE if is_rough else LARGEST_CYCLE_CHANGE,
             damping=self.coupling.damping,
             negligible=self.goal.negligible * (OSCILLATES if fine.stencil.conserves else 1.0),
             steady=STEADY if by_cycles else 0.0,
@@ -178,7 +178,7 @@ class GridIteration:
         if not finer:
             return self.strategy.patience * self.options.max_cycles
         if newton:
-            return MOST_TOUCHING if isinstance(newton, TouchingNewton) else MOST_STEPS
+            return MOST_TOUCHING if isinstance(newton, TouchingNewton) else MOST_NEWTON_STEPS
         most = MOST_CYCLES
         if equations.contact_film is not None and self.roughness.is_on(levels):
             return MOST_TOUCHING
@@ -353,7 +353,7 @@ class GridIteration:
         report = self._report(fine, before, number, heating)
         if fine.equations.contact_film is not None and fine is self.finest:
             before_it, self.mass_error = self.mass_error, contact_balance(fine)
-            rounded = report.residual <= ROUNDING and self.mass_error > 0.5 * before_it
+            rounded = report.residual <= ROUNDING_RESIDUAL and self.mass_error > 0.5 * before_it
             exactly = self.strategy.newton or self.options.accuracy == "tight"
             largest = LARGEST_MASS_ERROR if exactly else CYCLE_MASS_ERROR
             self.is_settled = self.mass_error <= largest or rounded

@@ -121,7 +121,7 @@ TOUCHING = (
         patience=2,
     ),
 )
-FIRST = 2
+THIRD_ORDER_STRATEGIES = 2
 """Strategies that are tried with a wedge of third order before one of second order."""
 STATED = {one.name: Strategy(relaxation=one) for one in (FAST, BROAD, ROBUST, GAUSS_SEIDEL)}
 
@@ -151,7 +151,7 @@ def ladder(problem: ContactProblem, options: Options, *, rough: bool) -> tuple[S
     if options.order < 3 or options.wedge_order is not None:
         return rungs
     # behind steep pressure spikes some contacts converge with second order only
-    first = FIRST if problem.asperities is None else FIRST + 1
+    first = THIRD_ORDER_STRATEGIES if problem.asperities is None else THIRD_ORDER_STRATEGIES + 1
     return (*rungs[:first], *(replace(one, wedge_order=2) for one in rungs))
 
 
@@ -163,4 +163,9 @@ def _rungs(problem: ContactProblem) -> tuple[Strategy, ...]:
     if problem.asperities is None:
         return coupled
     limited = replace(COUPLED[1], relaxation=LIMITED)
-    return (*coupled[:FIRST], limited, *coupled[FIRST:], BETWEEN_ASPERITIES[-1])
+    return (
+        *coupled[:THIRD_ORDER_STRATEGIES],
+        limited,
+        *coupled[THIRD_ORDER_STRATEGIES:],
+        BETWEEN_ASPERITIES[-1],
+    )

@@ -36,7 +36,7 @@ FRONT_SWEEPS, FRONT_WIDTH, FRONT_RESTS = (4, 16), 6, 0.03
 """Least and most sweeps where a starved film begins, nodes to both sides, and nodes that fill or
 empty over the number of lines below which the meniscus is stationary. Least CPU time of 20
 contacts (M 20 to 200, r 0.2 to 4, 257 nodes) that all converge."""
-REACH = 1.5
+FILM_PER_PRESSURE = 1.5
 """Film of a smooth change of the pressure in the contact, over that change [-]: 4/pi in the middle
 of a uniform one over the Hertz circle, and somewhat more, as too little only takes longer."""
 DRY_STEPS, DRY_PART, DRY_ERROR = 20, 0.5, 0.01
@@ -205,7 +205,7 @@ class Level:
             self.far_field.set_edges(self.film.p, h)
             self.sources.outside = self.far_field.load(h, self.equations.gap)
         self._meet()
-        self._share(REACH)
+        self._share(FILM_PER_PRESSURE)
         self._is_stale = False
         if self.stencil.conserves == reynolds.STEADILY and self.is_finest:
             self._mark_cavities()

@@ -16,11 +16,11 @@ from tehl.post.following import Following
 from tehl.result import registry
 from tehl.result.bars import ORDERS, Estimate
 from tehl.result.solution import NO_COST, ConvergenceError, Cost, Hint, Solution, Status
-from tehl.solver.judging.verdict import LARGEST_BAR, too_coarse
+from tehl.solver.judging.verdict import LARGEST_FILM_BAR, too_coarse
 from tehl.solver.monitor import SILENT, Monitor
 from tehl.solver.steady import solve
 
-WIDER = 2
+LARGER_DOMAIN_FACTOR = 2
 """Size of the larger domain over that of the result."""
 OUTLET_HALF = 0.5
 """X downstream of which the pressure spike is searched, in Hertz half-widths."""
@@ -99,7 +99,7 @@ def certify(
     message = _message(first, middle, finest, wide)
     result = result.but(status=replace(finest.status, message=message, hint=None))
     worst = widest(result.uncertainty, JUDGED)
-    if worst > LARGEST_BAR:
+    if worst > LARGEST_FILM_BAR:
         _reject(result, too_coarse_to_certify(result, worst))
     return result
 
@@ -215,7 +215,7 @@ def certifiable(options: Options) -> Options:
 def widened(options: Options, finest: Solution) -> Options:
     """Return options of the larger domain: the nodes of ``finest``, twice its mesh width."""
     x, y = (
-        (WIDER * float(edges[0]), WIDER * float(edges[-1]))
+        (LARGER_DOMAIN_FACTOR * float(edges[0]), LARGER_DOMAIN_FACTOR * float(edges[-1]))
         for edges in (finest.scaled.x, finest.scaled.y)
     )
     edges = "far_field" if options.has_far_field else "zero"

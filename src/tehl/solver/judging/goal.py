@@ -22,9 +22,9 @@ MOST_TRIES = 2
 """Finer grids that follow grids on which the cycles do not converge."""
 LEAST_HALVINGS = 3
 """Halvings of the smallest grid that is planned."""
-NEGLIGIBLE = 0.05
+NEGLIGIBLE_ITERATION_ERROR = 0.05
 """Iteration error that is accepted, over the error to reach: the error bars contain it."""
-LARGEST = 16385
+MOST_NODES_PER_AXIS = 16385
 """Most nodes along one direction."""
 
 
@@ -103,7 +103,7 @@ class Goal:
     @property
     def negligible(self) -> float:
         """Relative iteration error of the film that is always accepted [-]."""
-        return NEGLIGIBLE * self.options.target if self.is_open else 0.0
+        return NEGLIGIBLE_ITERATION_ERROR * self.options.target if self.is_open else 0.0
 
     def fitting(self, plan: Options) -> Options:
         """Return options of the planned grid, halved until it fits into the memory."""
@@ -165,8 +165,8 @@ class Goal:
             if isinstance(self.options.domain, Domain):
                 cause = "numerics.domain"
             self.obstacle = f"{percentage(errors.domain)} are due to {cause}"
-        elif max(nx, ny) > LARGEST:
-            self.obstacle = f"grids have at most {LARGEST} nodes along one direction"
+        elif max(nx, ny) > MOST_NODES_PER_AXIS:
+            self.obstacle = f"grids have at most {MOST_NODES_PER_AXIS} nodes along one direction"
         elif needed > available:
             self.obstacle = (
                 f"{nx} x {ny} nodes need {needed / 1e9:.2g} GB of memory, and "

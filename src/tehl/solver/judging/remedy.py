@@ -20,7 +20,7 @@ ERRORS = (0.5, 0.2, 0.05)
 """Relative errors of the film that are tried, coarsest first; the smallest that works is named."""
 THINNING = {"law": "eyring", "stress": "5 MPa"}
 """The shear law of a usual oil."""
-LONGER = 3.0
+TRIAL_TIME_FACTOR = 3.0
 """Time for the trials over that of the failed solve, up to ``numerics.max_time``."""
 LEAST_SECONDS = 1.0
 """Least time for the trials."""
@@ -82,7 +82,7 @@ def working_hint(
         The film that converged on the way: nothing worse is named.
     """
     now = time.perf_counter()
-    end = max(min(now + LONGER * failed.cost.wall_seconds, end), now + LEAST_SECONDS)
+    end = max(min(now + TRIAL_TIME_FACTOR * failed.cost.wall_seconds, end), now + LEAST_SECONDS)
     found = None
     least = math.inf if reached is None else reached[1]
     for trials in (_default_domain(failed), _errors(failed, least), _other_physics(failed)):

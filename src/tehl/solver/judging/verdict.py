@@ -33,7 +33,7 @@ from tehl.solver.judging.outputs import asperity_balance, contact_balance, heat_
 CONVERGED = Status(kind="converged")
 TOO_COARSE = ("grid_too_coarse", "film_not_positive")
 """Causes that a finer grid removes."""
-LARGEST_BAR = 0.5
+LARGEST_FILM_BAR = 0.5
 """Relative discretisation error of the film beyond which a grid is too coarse."""
 OPEN = 1.0
 """Relative error of the minimum between rough surfaces beyond which its value is not known. It is
@@ -119,7 +119,9 @@ def _smooth_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     if errors is None:
         return CONVERGED
     error = max(errors.discretisation_minimum, errors.discretisation_central)
-    return CONVERGED if error <= LARGEST_BAR else too_coarse(points, run.hierarchy.scaled, error)
+    return (
+        CONVERGED if error <= LARGEST_FILM_BAR else too_coarse(points, run.hierarchy.scaled, error)
+    )
 
 
 def _rough_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
@@ -135,7 +137,7 @@ def _rough_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     if errors.iteration_minimum >= 1.0:
         return not_reached(run)  # further cycles might make the minimum negative
     error, part = errors.discretisation_minimum, run.minimum_part()
-    if not max(part * error, errors.discretisation_central) <= LARGEST_BAR:
+    if not max(part * error, errors.discretisation_central) <= LARGEST_FILM_BAR:
         largest = max(error, errors.discretisation_central)
         return too_coarse(level.grid.points, run.hierarchy.scaled, largest)
     return _minimum_open(level, error) if error > OPEN else CONVERGED

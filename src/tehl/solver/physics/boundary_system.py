@@ -27,7 +27,7 @@ from tehl.operators.jacobian import Neighbours, jacobian, neighbour, rows
 from tehl.solver.cycle.level import Level
 from tehl.solver.cycle.newton import ROUNDS, VECTORS, Newton
 
-LARGEST_STEPS, FAR = (5.0, 1.0), 0.1
+LARGEST_STEPS, FAR_RESIDUAL = (5.0, 1.0), 0.1
 """Largest change of the pressure of oil per step, in Hertz pressures, and residual above which the
 second one holds. Near the solution that would leave the load out of balance."""
 OPENING = 0.1
@@ -162,7 +162,7 @@ class TouchingSystem:
         u = (np.where(self.free, change[: self.size], 0.0) + self.known_oil).reshape(shape)
         v = np.where(self.touching, change[self.size : -1], u.ravel() - contact.ravel())
         v, touching = v.reshape(shape), self.touching.reshape(shape)
-        most = LARGEST_STEPS[int(residual > FAR)]
+        most = LARGEST_STEPS[int(residual > FAR_RESIDUAL)]
         step = part * np.clip(u, -most, most)
         total = np.maximum(oil + contact + part * np.clip(v, -LARGEST_PRESS, LARGEST_PRESS), 0.0)
         inside = np.where(u < 0.0, self._by_density(oil, part * u, step), oil + step)

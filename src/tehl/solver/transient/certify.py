@@ -33,7 +33,7 @@ from tehl.solver.judging.certify import (
     widest,
     with_growing_spike,
 )
-from tehl.solver.judging.verdict import LARGEST_BAR
+from tehl.solver.judging.verdict import LARGEST_FILM_BAR
 from tehl.solver.monitor import SILENT, StepMonitor
 from tehl.solver.transient.run import solve_transient
 
@@ -109,7 +109,7 @@ def certify_transient(
         bars=history_bars(runs, wide.result),
     )
     worst = widest(result.uncertainty, JUDGED)
-    if worst > LARGEST_BAR:
+    if worst > LARGEST_FILM_BAR:
         return replace(result, status=too_coarse_to_certify(result.start, worst))
     return result
 

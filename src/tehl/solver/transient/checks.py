@@ -13,7 +13,7 @@ from tehl.operators.heights import MovingHeights, check_nodes, rounded_up
 
 LEAST_STEPS = 4.0
 """Time steps per passing wave below which the wave is aliased."""
-ROUNDING = 1e-9
+TIME_ROUNDING = 1e-9
 MISSED = 0.25
 """Largest error of a peak load at the nearest step, over the whole change of the load."""
 
@@ -42,7 +42,7 @@ def check_waves(heights: MovingHeights, grid: Grid, stride: int) -> None:
     check_nodes(min(along / grid.dx, across / grid.dy))
     for name, waves in zip(("surface_1", "surface_2"), heights.waves_per_step, strict=True):
         part = waves * stride * grid.dx
-        if part * LEAST_STEPS > 1.0 + ROUNDING:
+        if part * LEAST_STEPS > 1.0 + TIME_ROUNDING:
             smaller = f", or reduce transient.stride (now {stride})" if stride > 1 else ""
             raise InputError(
                 f"{name}.roughness: moves by {part:.3g} of its shortest wave per time step and "
