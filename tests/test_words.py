@@ -53,6 +53,17 @@ NO_PROSE = {
 }
 """Strings that hold a word of the dialect as data."""
 
+VAGUE = """
+ABOVE AGAIN APART AROUND BELOW BESIDE BEYOND BIG CLOSE COARSE DEEPEST ENOUGH EVERY FAR FARTHEST
+FEW FEWEST FINE FINER FINEST FIRST HIGH HIGHER HIGHEST HOT HOTTEST KEPT KNOWN LARGE LARGER
+LARGEST LAST LATE LATER LEAST LEFT LITTLE LONGER LONGEST LOST LOW LOWEST MANY MARGIN MIDDLE
+MISSED MORE MOST MOSTLY NEAR NEARER NEGLIGIBLE NOTHING OPEN OTHERS PART PARTS PLENTY QUICK
+RAISED REACH RESOLVED ROOM ROUNDING SEVERE SHORT SHORTEST SHOWN SLOW SLOWER SLUGGISH SMALL
+SMALLER SMALLEST STEP STEPS THICK THICKEST THIN THINNEST TIGHTER TIMES TINY TOLERANCE WHOLE WIDE
+WIDER WIDEST WORSE
+"""
+"""Names of constants that do not name a quantity."""
+
 PATTERN = re.compile("|".join(rf"\b(?:{words})\b" for words in DIALECT), re.IGNORECASE)
 
 
@@ -105,3 +116,13 @@ def test_constants_of_one_name_have_one_value():
         for name, value in house.numeric_values(tree):
             values.setdefault(name, {}).setdefault(value, []).append(module)
     assert {name: found for name, found in values.items() if len(found) > 1} == {}
+
+
+def test_constants_name_a_quantity():
+    vague = [
+        (module, name)
+        for module, tree in house.trees().items()
+        for name, _ in house.numeric_values(tree)
+        if name.strip("_") in VAGUE.split()
+    ]
+    assert vague == []

@@ -15,7 +15,7 @@ from tehl.operators.jacobian import interpolation, jacobian, neighbours_of
 from tehl.result.solution import Status
 from tehl.solver import steady
 from tehl.solver.cycle import iteration
-from tehl.solver.cycle.continuation import MOST_NEWTON_STEPS, RAISED, raise_by_newton
+from tehl.solver.cycle.continuation import MOST_NEWTON_STEPS, RAISED_RESIDUAL, raise_by_newton
 from tehl.solver.cycle.equations import Equations
 from tehl.solver.cycle.ladder import BETWEEN_ROUGH, Strategy
 from tehl.solver.cycle.level import Level
@@ -230,7 +230,7 @@ def test_heights_are_raised_on_the_finest_grid_if_the_start_from_the_coarser_fil
     monkeypatch.setattr(Newton, "line_search", failing)
     again = finished(problem, options)
     assert raised == [(33, False), (33, False), (65, True)]
-    assert plain.history[-1].residual < RAISED
+    assert plain.history[-1].residual < RAISED_RESIDUAL
     assert again.film_scaled.minimum == pytest.approx(plain.film_scaled.minimum, rel=1e-3)
     assert again.film_scaled.central == pytest.approx(plain.film_scaled.central, rel=1e-4)
 

@@ -60,11 +60,11 @@ _BAR_TEXT_WIDTH = 47
 """Characters beside a bar of 20 and the time left, in a line of 80."""
 _SILENT = 2.0
 """Seconds after which a live view that does not change shows the time."""
-_EVERY = 10.0
+_LINE_SECONDS = 10.0
 """Seconds between two plain lines of a study."""
-_ENOUGH = 3
+_LEAST_FINISHED = 3
 """Finished cases that show how long the others take."""
-SHOWN = 20
+MOST_NAMED_CASES = 20
 """Failed cases that are named."""
 
 
@@ -336,11 +336,11 @@ class StudyProgress(_Shown):
         self.done += 1
         self._worked += self._expected.get(case.key, self._usual)
         self.failed += not row.converged
-        if not row.converged and self.failed <= SHOWN:
+        if not row.converged and self.failed <= MOST_NAMED_CASES:
             cause = (row.cause or row.status).replace("_", " ")
             self.message(f"failed: {case.name}: {cause}")
         now = self._clock()
-        if self._task is None and (now - self._last >= _EVERY or not self.open):
+        if self._task is None and (now - self._last >= _LINE_SECONDS or not self.open):
             self._last = now
             self.message(self.counts)
         self._show()
@@ -362,7 +362,7 @@ class StudyProgress(_Shown):
         if self.done:
             rate = self.done / max(self._clock() - self._start, 1e-9)
             text += f", {rate:.3g} per second"
-        if self.done >= _ENOUGH:
+        if self.done >= _LEAST_FINISHED:
             pace = (self._clock() - self._start) / self._worked
             text += f", {duration(pace * max(self._work - self._worked, 0.0))} left"
         return f"{text}, {self.failed} failed" if self.failed else text

@@ -32,7 +32,7 @@ THERMAL_PROPERTIES = {
     "heat_capacity": quantity(SolidHeatCapacity),
     "conductivity": quantity(SolidConductivity),
 }
-COLDEST, HOTTEST = 200.0, 800.0
+COLDEST_TEMPERATURE, HOTTEST_TEMPERATURE = 200.0, 800.0
 """Limits of the temperature of an oil or a solid [K]."""
 LARGEST_RATIO = 1e3
 """Largest ratio of the reduced radii, either way: beyond it the contact is a line contact."""
@@ -124,10 +124,11 @@ def check_temperatures(problem: PointContact) -> None:
         "surface_2.temperature": problem.surface_2.temperature,
     }
     for key, value in stated.items():
-        if value is not None and not COLDEST <= value <= HOTTEST:
+        if value is not None and not COLDEST_TEMPERATURE <= value <= HOTTEST_TEMPERATURE:
             raise ValueError(
-                f"{key} = {value:g} K is not a temperature of a lubricated contact ({COLDEST:g} "
-                f'to {HOTTEST:g} K): a bare number is in kelvin, write "40 degC"'
+                f"{key} = {value:g} K is not a temperature of a lubricated contact "
+                f"({COLDEST_TEMPERATURE:g} to {HOTTEST_TEMPERATURE:g} K): "
+                'a bare number is in kelvin, write "40 degC"'
             )
     if oil.temperature is not None and heated is not None and oil.temperature != heated:
         raise ValueError(

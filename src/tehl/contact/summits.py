@@ -48,7 +48,7 @@ LARGEST_SEPARATION, LOG_STEP = 8.0, 0.02
 """Separation over sigma beyond which no area is in contact, and step of a spline up to there."""
 LARGEST_GAP_OVER_SIGMA = 35.0
 """Gap over sigma from which no asperity touches."""
-DEEPEST = 30.0
+LARGEST_DEPTH_OVER_SIGMA = 30.0
 """Depth over sigma from which F_n is its power of the depth."""
 DENSE, STEEP = (1e-5, 5.0), (1e-6, 0.5)
 """Limits of eta beta sigma and of sigma over beta: surfaces have 0.03 to 0.06, and 1e-4 to 1e-2."""
@@ -231,10 +231,12 @@ def gaussian_integral(n: float, gap: "Array") -> "Array":
     """
     from scipy.special import pbdv  # noqa: PLC0415 (0.1 s, for cases with asperities only)
 
-    near = np.clip(gap, -DEEPEST, LARGEST_GAP_OVER_SIGMA)
+    near = np.clip(gap, -LARGEST_DEPTH_OVER_SIGMA, LARGEST_GAP_OVER_SIGMA)
     values, _ = pbdv(-n - 1.0, near)
     found = math.gamma(n + 1.0) / math.sqrt(2.0 * math.pi) * np.exp(-0.25 * near**2) * values
-    found *= (np.maximum(-gap, DEEPEST) / DEEPEST) ** n  # beyond, as the power that it tends to
+    found *= (
+        np.maximum(-gap, LARGEST_DEPTH_OVER_SIGMA) / LARGEST_DEPTH_OVER_SIGMA
+    ) ** n  # beyond, as the power that it tends to
     return np.where(gap < LARGEST_GAP_OVER_SIGMA, found, 0.0)
 
 
@@ -245,7 +247,7 @@ def _on_map(gap: "Array") -> "Array":
     """
     near = gap < LARGEST_SEPARATION
     found = np.zeros((2, *gap.shape))
-    values = np.exp(_logarithms()(np.maximum(gap[near], -DEEPEST)))
+    values = np.exp(_logarithms()(np.maximum(gap[near], -LARGEST_DEPTH_OVER_SIGMA)))
     for each, value in zip(found, values, strict=True):
         each[near] = value
     return found
@@ -256,7 +258,7 @@ def _logarithms() -> "CubicSpline":
     """Return ln F_1 and ln F_2 as a spline of the separation."""
     from scipy.interpolate import CubicSpline  # noqa: PLC0415
 
-    at = np.arange(-DEEPEST, LARGEST_SEPARATION + LOG_STEP, LOG_STEP)
+    at = np.arange(-LARGEST_DEPTH_OVER_SIGMA, LARGEST_SEPARATION + LOG_STEP, LOG_STEP)
     return CubicSpline(at, np.log([gaussian_integral(n, at) for n in (1.0, 2.0)]), axis=1)
 
 

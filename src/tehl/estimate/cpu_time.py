@@ -10,7 +10,7 @@ from tehl.roughness.model import TileModel
 
 START_TIME, SURFACE_TIME = 0.011, 0.14
 """CPU time of any solve, and of random and measured surfaces, beside the cycles [s]."""
-EACH_CYCLE, COARSEST = 0.6e-3, 2.2e-11
+EACH_CYCLE, COARSEST_SYSTEM_TIME = 0.6e-3, 2.2e-11
 """CPU time of a cycle beside its nodes, and of its dense coarsest system per cubed node [s]."""
 FIRST_STEPS = 6
 """Newton steps on the coarsest grid before the first cycle."""
@@ -34,7 +34,7 @@ FINER_GRID_FACTOR, FINER_GRID_LARGEST_M, FINER_GRID_LEAST_L = 1.6, 100.0, 5.5
 least L where they do."""
 SLENDER_RATIO_OF_TIME, WIDE_RATIO_OF_TIME = 0.7, 4.0
 """a_y/a_x below and above which a contact takes longer."""
-HIGH, HIGHER, HEAVY = 3.0, 10.0, 2000.0
+HIGH_TIME_FACTOR, HIGHER_TIME_FACTOR, HEAVY_LOAD = 3.0, 10.0, 2000.0
 """CPU time that eight to nine of ten solves stay below, over the one to expect; that of heated,
 thinning, starved, slender and wide contacts and of those with a Moes load above the last number."""
 
@@ -50,10 +50,10 @@ def seconds_range(scaled: ScaledProblem, seconds: float) -> tuple[float, float]:
         problem.is_coupled
         or problem.supply is not None
         or problem.contact_film is not None
-        or groups.M > HEAVY
+        or groups.M > HEAVY_LOAD
         or not SLENDER_RATIO_OF_TIME <= groups.ellipticity <= WIDE_RATIO_OF_TIME
     )
-    return 0.5 * seconds, (HIGHER if is_hard else HIGH) * seconds
+    return 0.5 * seconds, (HIGHER_TIME_FACTOR if is_hard else HIGH_TIME_FACTOR) * seconds
 
 
 def expected_seconds(scaled: ScaledProblem, options: Options) -> float:
@@ -64,7 +64,7 @@ def expected_seconds(scaled: ScaledProblem, options: Options) -> float:
     long, of heated ones half to three of four: fallbacks, further grids and busy cores take longer.
     """
     (coarsest, _), *finer = expected_cycles(scaled, options)
-    newton, each = COARSEST * _nodes(coarsest) ** 3, _seconds_per_node(scaled.problem)
+    newton, each = COARSEST_SYSTEM_TIME * _nodes(coarsest) ** 3, _seconds_per_node(scaled.problem)
     work = sum(
         cycles * (EACH_CYCLE + newton) + (cycles + STARTING) * each * _nodes(grid)
         for grid, cycles in finer

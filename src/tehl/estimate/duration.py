@@ -14,7 +14,7 @@ from tehl.roughness.waves import HarmonicModel
 
 MOST_TIME_STEPS = 20_000
 """Number of steps beyond which a stated duration is considered a mistake."""
-BEYOND = 1.5
+PASSED_DISTANCE = 1.5
 """Distance downstream of the centre at which the middle of a feature has passed [a_x]."""
 PERIODS = 2.5
 """Wavelengths of a harmonic surface that pass the centre, so that a fit over time has two."""
@@ -49,7 +49,7 @@ class Part:
     def passing_time(self, units: Scales, transient: Transient) -> float:
         """Return the time in which it, and the film that it lets in, pass the contact [s]."""
         width = units.half_width_x
-        distance = max(transient.entrance + BEYOND, self._waves(width, transient)) * width
+        distance = max(transient.entrance + PASSED_DISTANCE, self._waves(width, transient)) * width
         if not self.is_endless:
             distance = max(distance, width - self.ends[0])
         # the film that a surface lets in at the inlet travels at the mean speed
@@ -164,7 +164,7 @@ def whole_passing(scaled: ScaledProblem) -> float:
     transient, units = scaled.problem.transient, scaled.scales
     if transient is None:
         return 0.0
-    before = (transient.entrance if transient.start == "smooth" else 0.0) + BEYOND
+    before = (transient.entrance if transient.start == "smooth" else 0.0) + PASSED_DISTANCE
     distances = (
         (before * units.half_width_x + part.roughness.box[0][1] - part.roughness.box[0][0], part)
         for part in parts_of(scaled)

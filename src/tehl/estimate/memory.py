@@ -13,7 +13,7 @@ BYTES_PER_NODE = 180
 """Measured peak memory of an isothermal Newtonian solve per node of the finest full grid."""
 BYTES_COUPLED, BYTES_PER_LAYER = 270, 10
 """Added by heat or shear thinning: per node, and per node and layer across the film."""
-PART = 0.5
+USABLE_MEMORY_PART = 0.5
 """Part of the free memory that a solve takes unasked."""
 USUAL_LAYERS = 9
 NEGLIGIBLE_MEMORY = 16e6
@@ -46,7 +46,7 @@ def memory_limit(options: Options) -> float:
     """Return the memory that a solve may take where its error decides the nodes [byte]."""
     if options.max_memory is not None:
         return float(options.max_memory)
-    return PART * (available_memory() or math.inf)
+    return USABLE_MEMORY_PART * (available_memory() or math.inf)
 
 
 def check_memory(options: Options, problem: ContactProblem | None = None) -> None:

@@ -10,7 +10,7 @@ from tehl.explore.axes import Frame, Scale, svg, text, turned
 from tehl.explore.shown import Line, Lines, Shown
 
 _CURVE_LEFT, _CURVE_RIGHT, _CURVE_TOP, _CURVE_BOTTOM = 62.0, 62.0, 28.0, 46.0
-_NEAR = 30.0
+_NEAR_PIXELS = 30.0
 """Pixels from the pointer within which a swept value is read."""
 
 
@@ -74,7 +74,7 @@ def nearest(points: Sequence[Point], frame: Frame, right: float) -> Point | None
     """Return the swept value nearest to a pixel along x, None if none is near."""
     known = [point for point in points if point.y is not None]
     found = min(known, key=lambda point: abs(frame.x(point.x) - right), default=None)
-    return found if found is not None and abs(frame.x(found.x) - right) < _NEAR else None
+    return found if found is not None and abs(frame.x(found.x) - right) < _NEAR_PIXELS else None
 
 
 def _centre_line(

@@ -33,7 +33,7 @@ else:
 
 QUICK_NODES, MIDDLE_NODES = 65, 129
 """Nodes per direction while a slider moves, and on the way to the accuracy of the case."""
-_KEPT = 6
+_KEPT_RESULTS = 6
 """Results kept for pictures and files."""
 
 Send = Callable[[Any], None]
@@ -210,7 +210,7 @@ class Desk:
                 found = error.result
             self.kept[key] = found
         self.kept.move_to_end(key)
-        while len(self.kept) > _KEPT:
+        while len(self.kept) > _KEPT_RESULTS:
             self.kept.popitem(last=False)
         return self.kept[key]
 

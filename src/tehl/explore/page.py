@@ -27,9 +27,9 @@ from tehl.explore.worker import Solver
 STYLE = Path(__file__).with_name("style.css")
 SCRIPT = Path(__file__).with_name("page.js")
 _MEASURE = """(size) => emit([size.width, window.innerHeight])"""
-_LATER = 10.0
+_SECOND_WORKER_SECONDS = 10.0
 """Seconds after which the second worker starts."""
-_ABOVE = 250.0
+_HEIGHT_BESIDE_PICTURE = 250.0
 """Pixels of the window above and below a picture."""
 
 
@@ -52,7 +52,7 @@ class Page:
         """Start the second worker once the first one is warm."""
         if isinstance(message, End) and self.background is not None:
             loop = asyncio.get_running_loop()
-            loop.call_later(_LATER, self.background.submit, "warm", Warm(), _ignore)
+            loop.call_later(_SECOND_WORKER_SECONDS, self.background.submit, "warm", Warm(), _ignore)
 
     def close(self) -> None:
         """End the workers."""
@@ -157,7 +157,7 @@ class TabPage:
 
     def _resized(self, event: Any) -> None:
         width, window = event.args[0] if isinstance(event.args[0], list) else event.args
-        height = max(320.0, min(float(window) - _ABOVE, 0.95 * float(width)))
+        height = max(320.0, min(float(window) - _HEIGHT_BESIDE_PICTURE, 0.95 * float(width)))
         for panel in (self.pictures, self.curves, self.movie):
             panel.resize(float(width), height)
 

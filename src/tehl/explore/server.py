@@ -38,7 +38,7 @@ TOO_LONG = (
 )
 _LONGEST_LINE = 2_100_000
 """Bytes of a request line that are read, to reply to it: browsers send up to two million."""
-_AROUND = 100_000
+_UPLOAD_MARGIN = 100_000
 """Bytes around the file in the request of an upload."""
 _QUERY_MARGIN = 500
 """Bytes beside the case in the query of an address."""
@@ -113,7 +113,7 @@ def _is_small(method: str, headers: dict[str, str]) -> bool:
     if method in ("GET", "HEAD", "OPTIONS"):
         return True
     length = headers.get("content-length", "")
-    return length.isdecimal() and int(length) <= LARGEST_UPLOAD + _AROUND
+    return length.isdecimal() and int(length) <= LARGEST_UPLOAD + _UPLOAD_MARGIN
 
 
 async def _refuse(scope: Any, receive: Any, send: Any, words: str, code: int) -> None:

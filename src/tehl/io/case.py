@@ -28,7 +28,7 @@ _LONG_KEY = re.compile(r"(?m)^[\s\[]*(?:[^\s.,=#]+\s*\.\s*){100}")
 """A key of more than a hundred parts."""
 _LARGEST_CASE = 10**6
 """Bytes of a case file."""
-_DEEPEST = 8
+_MOST_KEYS = 8
 """Parts of the key path of an override."""
 Model = TypeVar("Model", bound=BaseModel)
 
@@ -230,9 +230,9 @@ def change(tables: dict[str, Any], override: str) -> None:
         raise InputError(f"invalid override {shown(override)}: {expected}")
     if any("\ud800" <= letter <= "\udfff" for letter in override):
         raise InputError(f"invalid override {shown(override)}: not UTF-8 text")
-    if len(names) > _DEEPEST:
+    if len(names) > _MOST_KEYS:
         raise InputError(
-            f"invalid override {shown(override)}: {len(names)} parts; expected at most {_DEEPEST}"
+            f"invalid override {shown(override)}: {len(names)} parts; expected at most {_MOST_KEYS}"
         )
     node = tables
     for name in names[:-1]:

@@ -15,7 +15,7 @@ from tehl.operators.influence import Influence
 
 NEAR = (4, 10)
 """Rows and columns from the source within which a cell is split: there the plume is narrow."""
-PARTS = 5
+PARTS_PER_SIDE = 5
 """Parts of a near cell along each side; odd, so that none has a corner on the axes."""
 
 
@@ -84,13 +84,15 @@ def point_source(
     table = whole(rows[:, None], columns[None, :]) * _plume(x, y, peclet)
     near_rows = np.flatnonzero(np.abs(rows) <= NEAR[0])
     near_columns = np.flatnonzero(np.abs(columns) <= NEAR[1])
-    part = Influence(cell[1] / PARTS, cell[0] / PARTS, 1.0)
-    offsets = np.arange(PARTS) - PARTS // 2
-    j = (PARTS * rows[near_rows][:, None] + offsets[None, :]).reshape(-1, 1)
-    i = (PARTS * columns[near_columns][:, None] + offsets[None, :]).reshape(1, -1)
-    x, y = np.float64(cell[1] / PARTS) * i, np.float64(cell[0] / PARTS) * j
+    part = Influence(cell[1] / PARTS_PER_SIDE, cell[0] / PARTS_PER_SIDE, 1.0)
+    offsets = np.arange(PARTS_PER_SIDE) - PARTS_PER_SIDE // 2
+    j = (PARTS_PER_SIDE * rows[near_rows][:, None] + offsets[None, :]).reshape(-1, 1)
+    i = (PARTS_PER_SIDE * columns[near_columns][:, None] + offsets[None, :]).reshape(1, -1)
+    x, y = np.float64(cell[1] / PARTS_PER_SIDE) * i, np.float64(cell[0] / PARTS_PER_SIDE) * j
     pieces = part(j, i) * _plume(x, y, peclet)
-    near = pieces.reshape(len(near_rows), PARTS, len(near_columns), PARTS).sum(axis=(1, 3))
+    near = pieces.reshape(len(near_rows), PARTS_PER_SIDE, len(near_columns), PARTS_PER_SIDE).sum(
+        axis=(1, 3)
+    )
     table[np.ix_(near_rows, near_columns)] = near
     return table
 

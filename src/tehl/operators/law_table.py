@@ -19,8 +19,8 @@ from tehl.lubricant import Lubricant
 PER_PRESSURE = 5.1e-9
 LARGEST_PRESSURE = 8.0
 ROWS = 96
-COLDER, HOTTER = 60.0, 700.0
-COLDEST = 200.0
+KELVIN_BELOW_INLET, KELVIN_ABOVE_INLET = 60.0, 700.0
+COLDEST_TEMPERATURE = 200.0
 POLE = -60.0
 """Pole of the variable 1/(T - POLE) [K]: accurate for laws in 1/T and in T."""
 RISE = 400.0
@@ -32,7 +32,7 @@ FIT_TEMPERATURES = 48
 FIT_TOLERANCE = 2e-6
 LARGEST_FITTED_LOG_VISCOSITY = 40.0
 """ln eta up to which the polynomials meet the tolerance."""
-HOT, FAINT_WEIGHT = 300.0, 1e-4
+HOT_RISE, FAINT_WEIGHT = 300.0, 1e-4
 """Rise above the inlet [K] beyond which laws without a good fit get the weight `FAINT_WEIGHT`."""
 SOLID = 300.0
 """ln eta above which the viscosity is cut off: the film is effectively solid."""
@@ -52,8 +52,8 @@ def law_table(lubricant: Lubricant, scales: Scales) -> Laws:
     """
     per_scale = PER_PRESSURE * scales.hertz_pressure
     rows = np.linspace(0.0, np.log1p(per_scale * LARGEST_PRESSURE), ROWS)
-    coldest = max(scales.temperature - COLDER, COLDEST)
-    hottest = scales.temperature + HOTTER
+    coldest = max(scales.temperature - KELVIN_BELOW_INLET, COLDEST_TEMPERATURE)
+    hottest = scales.temperature + KELVIN_ABOVE_INLET
     ends = 1.0 / (coldest - POLE), 1.0 / (hottest - POLE)
     middle, half = 0.5 * (ends[0] + ends[1]), 0.5 * (ends[0] - ends[1])
 
@@ -119,7 +119,7 @@ def newtonian_limit(lubricant: Lubricant) -> float:
 
 def _known(warmer: Array) -> Array:
     """Return the fit weights of temperature rises [K]: small beyond those of films."""
-    return np.where(warmer < HOT, 1.0, FAINT_WEIGHT)
+    return np.where(warmer < HOT_RISE, 1.0, FAINT_WEIGHT)
 
 
 def _terms(

@@ -24,7 +24,7 @@ ALONG, ACROSS = 8, 2
 """Patch half-widths on the finest grid, along the axis that is halved and across it."""
 LUMPING_DISTANCE = 40
 """Nodes beyond the patch of which the corrections are lumped."""
-SMALLEST = 400
+DIRECT_SUM_NODES = 400
 """Nodes at or below which the sum is direct."""
 PAD = 24
 """Ghost rows and columns of the work arrays on each side."""
@@ -115,7 +115,7 @@ class MultilevelDeformation:
         self.stages = [_stage(0, ny - 1, 0, nx - 1, grid.mirror)]
         self.halvings: list[RowHalving | ColumnHalving] = []
         stride, halved = [1, 1], [0, 0]
-        while _count(self.stages[-1].box) > SMALLEST:
+        while _count(self.stages[-1].box) > DIRECT_SUM_NODES:
             axis, fine = finer_axis(influence, stride), self.stages[-1]
             # an error on a coarse grid weighs as much as one on the finest: the patch grows
             growth = min(2 * halved[axis], LARGEST_PATCH_GROWTH)

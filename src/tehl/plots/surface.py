@@ -12,7 +12,7 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 from tehl.plots.frame import BLUE, MICRO, ORANGE, PLAIN, STEPS, Picture, outline
 from tehl.roughness.preview import Preview, View, view
 
-_CLIPPED, _COUNTED = 0.1, 10**6
+_CLIPPED, _COUNTED_HEIGHTS = 0.1, 10**6
 """Percentile of the heights that colours leave out, and the number of heights it is found from."""
 _SIZE, _NARROW_SIZE = (10.5, 5.4), 8.0
 _SLENDER_MAP = 2.0
@@ -63,7 +63,7 @@ def _draw_map(axes: Axes, preview: Preview, seen: View) -> None:
     (left, right), (bottom, top) = seen.window
     factor, unit = _height_unit(preview)
     few = preview.heights.values.ravel()
-    few = few[:: max(1, few.size // _COUNTED)]
+    few = few[:: max(1, few.size // _COUNTED_HEIGHTS)]
     low, high = np.percentile(few, [_CLIPPED, 100 - _CLIPPED]) * factor
     extent = (left * MICRO, right * MICRO, bottom * MICRO, top * MICRO)
     style: dict[str, Any] = {"origin": "lower", "interpolation": "nearest", "cmap": "viridis"}

@@ -17,7 +17,7 @@ from tehl.roughness.resolution import Resolution
 
 QUANTILES = (0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
 """Parts of the contact whose films are reported."""
-SHALLOWEST = 0.01
+LEAST_RIPPLE_DEPTH = 0.01
 """Depth of a ripple that counts, over the mean film of the line [-]."""
 CENTRE_RADIUS = 0.5
 """Radius of the middle of the contact, in half-widths."""
@@ -253,7 +253,7 @@ def film_histogram(result: Solution, bins: int | Sequence[float] = 60) -> tuple[
 def _ripples(axis: Array, film: Array) -> Ripples:
     """Return the valleys of a film along ``axis`` [half-widths]."""
     line = film[np.abs(axis) <= _LINE]
-    turns = _turns(line, SHALLOWEST * float(line.mean()))
+    turns = _turns(line, LEAST_RIPPLE_DEPTH * float(line.mean()))
     # Every other turn is a valley; those at the ends lie beside one hill only.
     depths = [
         0.5 * (line[before] + line[after]) - line[here]

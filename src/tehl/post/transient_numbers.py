@@ -9,7 +9,7 @@ from tehl.estimate.scaling import ScaledProblem
 from tehl.post.boundary_contact import largest_patches, touching, why_unknown
 from tehl.result.transient import TransientSolution
 
-LATE, NOTICED, FEW_STEPS = 0.1, 0.01, 20
+LATE_PART, LATE_GROWTH, FEW_STEPS = 0.1, 0.01, 20
 """Last part of a run in which an extreme is late, by which part of it it must then have grown, and
 fewest steps that show it."""
 DURATION_FACTOR, EQUAL_DURATIONS = 2.0, 1e-9
@@ -38,7 +38,7 @@ def late_extremes(run: TransientSolution) -> tuple[str, ...]:
     transient, time = run.start.problem.transient, run.history.time
     if transient is None or transient.duration is not None or time.size < FEW_STEPS:
         return ()
-    early = time <= (1.0 - LATE) * time[-1]
+    early = time <= (1.0 - LATE_PART) * time[-1]
     extremes = (
         ("minimum film", "film_minimum", -run.history.film_minimum),
         ("largest pressure", "pressure_max", run.history.pressure_max),
@@ -48,7 +48,7 @@ def late_extremes(run: TransientSolution) -> tuple[str, ...]:
         words
         for words, name, values in extremes
         if values.max() - values[early].max()
-        > max(NOTICED * abs(values.max()), bars.get(name, 0.0))
+        > max(LATE_GROWTH * abs(values.max()), bars.get(name, 0.0))
     )
 
 

@@ -39,7 +39,7 @@ LEAST_CONFORMITY, LARGEST_CONFORMITY = 1.005, 1.25
 """Radius of the groove of a bearing over that of its ball: conformities of 0.5025 to 0.625."""
 MOLECULAR = 5e-9
 """Film below which the oil is not a continuum [m]."""
-STEEP = 0.1
+STEEP_SLOPE = 0.1
 """Slope from which on Reynolds' equation does not hold."""
 SHARP = (1e-4, 1e-2)
 """Height of asperities over the radius of their summits: of machined surfaces."""
@@ -340,7 +340,7 @@ def _about_heights(scaled: ScaledProblem, options: Options, found: Asperities) -
             f"converge; {enough} put {CONVERGES} on it, {better} the {RESOLVES} that its ripples "
             "need"
         )
-    if found.steepest > STEEP:
+    if found.steepest > STEEP_SLOPE:
         yield (
             f"the surfaces have slopes up to {found.steepest:.2g}: Reynolds' equation needs small "
             "ones, check the units of height and length"

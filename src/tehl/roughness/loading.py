@@ -28,9 +28,9 @@ from tehl.roughness.tile import Tile
 _LEAST_POINTS = 4
 _TAPER = 0.1
 _LEAST_SQ, _LARGEST_SQ = 1e-12, 10e-6
-_ROUNDING = 1e-12
+_RELATIVE_ROUNDING = 1e-12
 _PHASES = ("rad", "radian", "radians", "waves", "wave", "fringes", "fringe", "fr", "wv")
-_LARGEST_SIZE, _FINEST, _LARGEST_HEIGHT = 1.0, 1e-10, 1.0
+_LARGEST_SIZE, _LEAST_SPACING, _LARGEST_HEIGHT = 1.0, 1e-10, 1.0
 
 
 @contextmanager
@@ -166,7 +166,7 @@ def _pixel(surface: MapSettings, raw: RawMap, notes: list[str]) -> tuple[float, 
             first, second = (f"{x * 1e6:.4g} and {y * 1e6:.4g} um" for x, y in (pixel, own))
             notes.append(f"its points are taken {first} apart, though the file says {second}")
     size = (nx * pixel[0], ny * pixel[1])
-    if not (max(size) <= _LARGEST_SIZE and min(pixel) >= _FINEST):
+    if not (max(size) <= _LARGEST_SIZE and min(pixel) >= _LEAST_SPACING):
         raise InputError(
             f"has a size of {size[0]:.3g} x {size[1]:.3g} m with points {min(pixel):.3g} m "
             "apart, which is not that of a measured surface: check unit, xy_unit, pixel and size"
@@ -261,7 +261,7 @@ def _filtered(surface: MapSettings, values: Array, heights: Heights, notes: list
 
 def _check_heights(surface: MapSettings, heights: Heights, highest: float) -> None:
     """Reject heights that are constant or outside the physical range; ``highest`` in [m]."""
-    if not np.ptp(heights.values[heights.measured]) > _ROUNDING * highest:
+    if not np.ptp(heights.values[heights.measured]) > _RELATIVE_ROUNDING * highest:
         raise InputError("is constant: it has no roughness")
     off, how = heights.sq, f'after level = "{surface.level}"'
     if not off >= _LEAST_SQ:

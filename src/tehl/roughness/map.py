@@ -16,10 +16,10 @@ else:
     loading = lazy("tehl.roughness.loading")
     prepare = lazy("tehl.roughness.prepare")
 
-_COARSE = 10.0
+_COARSE_RATIO = 10.0
 _MIRROR_TOLERANCE = 1e-6
 """Largest difference of a map and its mirror image that counts as equal, over Sq."""
-_LARGE = 20.0
+_LARGE_RATIO = 20.0
 
 
 class Map(MapSettings):
@@ -102,9 +102,9 @@ class Map(MapSettings):
             sentences.append(
                 f"{sizes}: the map is smaller than the contact; {BEYOND[self.outside]}"
             )
-        elif min(extent[0] / width, extent[1] / length) > _LARGE:
+        elif min(extent[0] / width, extent[1] / length) > _LARGE_RATIO:
             sentences.append(f"{sizes}: only a small part of the map lies in the contact")
-        if max(heights.pixel) > min(width, length) / _COARSE:
+        if max(heights.pixel) > min(width, length) / _COARSE_RATIO:
             sentences.append(
                 f"the map has points {_micro(*heights.pixel)} apart and the contact measures "
                 f"{_micro(width, length)}: that is too coarse to be roughness, check its size"

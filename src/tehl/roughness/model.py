@@ -15,10 +15,10 @@ from tehl.base.table import Table
 from tehl.base.typing import Array, np
 from tehl.base.units import Height, Length, Quantity, quantity
 
-_ROUNDING = 1e-12
+_COSINE_ROUNDING = 1e-12
 _PER_MEAN = math.sqrt(0.5 * math.pi)
 """Root mean square over mean absolute height of Gaussian heights."""
-_STEEPEST = 0.25
+_LARGEST_STEEPNESS = 0.25
 
 Extent = tuple[tuple[float, float], tuple[float, float]]
 """From where to where a surface is rough along x and along y [m], perhaps without end."""
@@ -126,7 +126,7 @@ class Smooth(RoughnessModel):
 def direction(angle: float) -> tuple[float, float]:
     """Return cosine and sine of ``angle`` [rad], exact at multiples of a right angle."""
     cosine, sine = (
-        round(value) if abs(value - round(value)) < _ROUNDING else value
+        round(value) if abs(value - round(value)) < _COSINE_ROUNDING else value
         for value in (math.cos(angle), math.sin(angle))
     )
     return float(cosine), float(sine)
@@ -175,10 +175,10 @@ def check_slope(amplitude: float, **lengths: float) -> None:
     Reynolds' equation requires small slopes, and most often a unit is wrong.
     """
     for name, length in lengths.items():
-        if not abs(amplitude) <= _STEEPEST * length:
+        if not abs(amplitude) <= _LARGEST_STEEPNESS * length:
             raise ValueError(
                 f"amplitude = {amplitude:g} m is not small beside {name} = {length:g} m, at most "
-                f"{_STEEPEST:g} of it: check their units"
+                f"{_LARGEST_STEEPNESS:g} of it: check their units"
             )
 
 

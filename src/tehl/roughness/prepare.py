@@ -17,14 +17,14 @@ FEW_MISSING, MOST_MISSING = 0.01, 0.5
 """Share of missing points that is filled by default, and that no filling bridges."""
 _NEIGHBOURS, _EXPLAINS = 5, 7
 """Points along the edges of the windows of the medians, and of the range of these."""
-_BEYOND = 5.0
+_OUTLIER_SIGMAS = 5.0
 """Standard deviations beyond which a distance does not count for their size."""
-_ROUNDING = 1e-12
+_RELATIVE_ROUNDING = 1e-12
 _DEGREE = {"mean": 0, "plane": 1, "quadratic": 2}
 _ALPHA = math.sqrt(math.log(2.0) / math.pi)
 _RIM = 12
 """Points of zeros around a flat tile, after which its spline is zero to rounding."""
-_MOST_LEFT, _COUNTS = 0.5, 0.2
+_MOST_LEFT, _BEND_SHARE = 0.5, 0.2
 """Sq without the quadratic over Sq below which it is odd; share of a bend that is named."""
 
 
@@ -81,7 +81,7 @@ def without_outliers(values: Array, sigmas: float) -> tuple[Array, int]:
     explained = ndimage.maximum_filter(median, _EXPLAINS, mode="nearest")
     explained -= ndimage.minimum_filter(median, _EXPLAINS, mode="nearest")
     off = np.abs(whole - median)
-    rounding = _ROUNDING * float(np.abs(whole).max())
+    rounding = _RELATIVE_ROUNDING * float(np.abs(whole).max())
     limit = np.maximum(explained, max(sigmas * _usual(off[there]), rounding))
     spikes = there & (off > limit)
     return np.where(spikes, np.nan, values), int(spikes.sum())
@@ -91,7 +91,7 @@ def _usual(distances: Array) -> float:
     """Return the root mean square of distances without outliers, beyond five times that value."""
     while True:
         usual = math.sqrt(float(np.mean(distances**2)))
-        kept = distances[distances <= _BEYOND * usual]
+        kept = distances[distances <= _OUTLIER_SIGMAS * usual]
         if kept.size == distances.size:
             return usual
         distances = kept
@@ -285,7 +285,7 @@ def _shape(form: Form) -> str:
     bends = [
         f"of {_metres(1.0 / abs(curvature))} along {axis}"
         for axis, curvature, sag in zip("xy", form.curvatures, form.sags, strict=True)
-        if abs(sag) > _COUNTS * whole
+        if abs(sag) > _BEND_SHARE * whole
     ]
     if not bends:
         return "is twisted as a saddle"

@@ -16,7 +16,7 @@ _PER_PICTURE = 900
 """Most points of a picture along an axis."""
 _LARGEST_PICTURE_RATIO = 5.0
 """Largest size of a picture over that of its map; beyond, the map would be a dot."""
-_MARGIN = 1.05
+_PICTURE_MARGIN = 1.05
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
@@ -126,7 +126,7 @@ def _window(found: Preview) -> Extent:
     box = found.surface.box
     if found.mesh is None:
         return box
-    halves = [_MARGIN * half for half in found.mesh.half_widths]
+    halves = [_PICTURE_MARGIN * half for half in found.mesh.half_widths]
     x, y = (
         (min(start, -half), max(end, half)) for (start, end), half in zip(box, halves, strict=True)
     )

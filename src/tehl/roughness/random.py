@@ -27,7 +27,7 @@ _WIDE_RANGE, _LARGEST_RANGE = 16.0, 64.0
 _LENGTHS = ("correlation_length", "roll_off")
 _SHORTEST_LENGTH, _LONGEST_LENGTH = 1e-12, 1e6
 _LARGEST_KURTOSIS = 20.0
-_FIT_BINS, _STARTS, _MISSED = 4001, (0.0, 1.0, 3.0), 1e-3
+_FIT_BINS, _STARTS, _LARGEST_FIT_ERROR = 4001, (0.0, 1.0, 3.0), 1e-3
 """Of the fit of skewness and kurtosis: bins, first shifts, and the largest error that is left."""
 
 Seed = Annotated[int, Field(strict=True, ge=0, le=2**53)]
@@ -279,7 +279,7 @@ def _with_moments(heights: Array, skewness: float, kurtosis: float) -> Array:
         for start in (_STARTS if skewness else _STARTS[:1])
     ]
     best = min(fits, key=lambda fit: float(fit.cost))
-    if not np.abs(best.fun).max() < _MISSED:
+    if not np.abs(best.fun).max() < _LARGEST_FIT_ERROR:
         raise InputError(
             f"kurtosis = {kurtosis:g} with skewness = {skewness:g} cannot be made of these heights"
         )

@@ -27,7 +27,7 @@ from tehl.studies.store import Keep, Store
 if TYPE_CHECKING:
     import pandas as pd
 
-_SHOWN = 5
+_LABELS_IN_NAME = 5
 """Labels in the name of a case."""
 _LONGEST_LABEL = 60
 """Characters of a label."""
@@ -164,7 +164,7 @@ def _label(stated: Any, found: Any) -> Label:
 
 def _phrases(labels: Mapping[str, Label], units: Mapping[str, str]) -> Iterator[str]:
     """Yield the first labels for the name of a case: load = 20 N."""
-    for name, value in islice(labels.items(), _SHOWN):
+    for name, value in islice(labels.items(), _LABELS_IN_NAME):
         number, unit = str(value), ""
         if isinstance(value, float):
             number, unit = f"{value:.6g}", f" {units.get(name, '1')}".removesuffix(" 1")

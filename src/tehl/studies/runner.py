@@ -329,7 +329,7 @@ _ROW_BYTES, _FILE_BYTES = 3_500, 25_000
 """Of a finished case: its row; its file of fields, beside those by node."""
 _FIELD_BYTES, _LAYER_BYTES = 37, 8
 """Compressed, per node: pressure, film and shear stresses; each layer of temperature."""
-_ENOUGH = 3
+_LEAST_FINISHED = 3
 """Finished cases that show how fast this machine is."""
 
 
@@ -365,7 +365,7 @@ def forecast(
     waiting = [case for key, case in every.items() if key not in finished]
     known = {key: row.cost.cpu_seconds for key, row in finished.items() if row.cost.cpu_seconds > 0}
     estimated = sum(_seconds(every[key]) for key in known)
-    slowness = sum(known.values()) / estimated if len(known) >= _ENOUGH else 1.0
+    slowness = sum(known.values()) / estimated if len(known) >= _LEAST_FINISHED else 1.0
     seconds = [slowness * _seconds(case) for case in waiting]
     workers = max(1, min(jobs, len(waiting)))
     disk = sum(_ROW_BYTES + (_field_bytes(case) if fields else 0) for case in every.values())
@@ -378,7 +378,7 @@ def forecast(
         wall_seconds=longest + (_START_SECONDS if waiting else 0.0),
         disk_bytes=disk,
         memory_bytes=sum(needs[:workers]),
-        is_calibrated=len(known) >= _ENOUGH,
+        is_calibrated=len(known) >= _LEAST_FINISHED,
     )
 
 

@@ -23,7 +23,7 @@ BLURRED = 12.0
 """Nodes per wave below which the full correction of a grid would overshoot."""
 COMPARABLE = 8.0
 """Nodes per wave from which the film of a grid is comparable with that of the next finer one."""
-RAISED = 1e-4
+RAISED_RESIDUAL = 1e-4
 """Residual at which Newton's method continues with the next part of the heights."""
 FIRST_INCREMENT, LEAST_INCREMENT = 0.25, 0.02
 """First increment of the heights in Newton's method, and the smallest one before it fails."""
@@ -168,7 +168,7 @@ def raise_by_newton(
         part = min(known[0] + size, 1.0)
         level.apply_heights(part)
         level.set_unknowns(known[1] if before is None else _extrapolate(before, known, part))
-        steps = _steps_to(RAISED, iterate)
+        steps = _steps_to(RAISED_RESIDUAL, iterate)
         if steps is None:
             refresh()  # the preconditioner belongs to the film that diverged
             size *= INCREMENT_FACTOR

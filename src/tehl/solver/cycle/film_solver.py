@@ -11,7 +11,7 @@ from tehl.estimate.scaling import Groups
 from tehl.operators.heights import Heights, heights_of
 from tehl.result.bars import ErrorEstimate
 from tehl.result.solution import Solution
-from tehl.solver.cycle.continuation import RAISED, TouchingError
+from tehl.solver.cycle.continuation import RAISED_RESIDUAL, TouchingError
 from tehl.solver.cycle.fmg import full_multigrid
 from tehl.solver.cycle.hierarchy import Hierarchy
 from tehl.solver.cycle.iteration import LARGEST_OIL_ERROR, MOST_CYCLES, GridIteration
@@ -292,6 +292,6 @@ class FilmSolver(GridIteration):
         if not (self.strategy.newton and self.roughness.first < last <= len(self.traces)):
             return False
         level, reports = self.levels[-2], self.traces[last - 1].reports
-        solved = bool(reports) and reports[-1].residual < RAISED
+        solved = bool(reports) and reports[-1].residual < RAISED_RESIDUAL
         # below -floor: negative beyond doubt
         return solved and float(level.film.h.min()) < -level.equations.floor

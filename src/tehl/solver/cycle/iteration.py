@@ -39,7 +39,12 @@ from tehl.solver.judging.goal import Goal
 from tehl.solver.judging.measures import film_numbers, measured
 from tehl.solver.judging.outputs import asperity_balance, contact_balance, oil_balance
 from tehl.solver.monitor import Monitor
-from tehl.solver.physics.boundary_contact import CLOSE, TIGHTLY, TouchingNewton, raise_heights
+from tehl.solver.physics.boundary_contact import (
+    BALANCED_OVER_TOLERANCE,
+    BALANCED_RESIDUAL,
+    TouchingNewton,
+    raise_heights,
+)
 from tehl.solver.physics.boundary_cycle import TouchingCycle
 from tehl.solver.physics.thermal import Coupling
 
@@ -62,7 +67,7 @@ LONG_FRONT_CYCLES, LARGEST_OSCILLATION, OSCILLATES = 12, 0.7, 4.0
 """Cycles after which single nodes of a meniscus may oscillate: then the oil flux may change by this
 part of the error to reach, which its bar contains; and factor on the iteration error of the film
 that is always accepted, as it follows these nodes."""
-DECIDED = 0.5
+BALANCED_UP_TO_X = 0.5
 """X up to which sections must pass the same oil: the film upstream decides how much, and at the
 pressure spike a flux of a few percent more or less is local."""
 LARGEST_MASS_ERROR, ROUNDING_RESIDUAL = 1e-10, 1e-13
@@ -79,7 +84,7 @@ FREE_ORDERS = 4
 meniscus, and the meniscus with it."""
 EXTRAPOLATED_PART = 0.15
 """Iteration error accepted on grids that are extrapolated, over that accepted on others."""
-COMPARED = 3
+COMPARED_GRIDS = 3
 """Grids whose values make error bars."""
 ISOTHERMAL_CYCLES = 4
 """Cycles before damped heat begins."""
@@ -240,7 +245,7 @@ class GridIteration:
         for number in range(1, cycles + 1):
             self._iteration(levels, partial(self.hierarchy.cycle, levels), number)
         finer = len(self.levels) - len(levels)
-        full = self.goal.is_open or finer < COMPARED
+        full = self.goal.is_open or finer < COMPARED_GRIDS
         if self.coupling.begin(levels, finest=not finer, full=full):
             for level in levels:
                 level.set_relaxation(self.strategy.relaxation)
@@ -270,13 +275,17 @@ class GridIteration:
             levels[-1],
             coarse_grid(levels, COARSE_TOUCHING),
             order=1 if is_start else 2,
-            closing=(self._balanced_below or CLOSE) if is_last else 0.0,
+            closing=(self._balanced_below or BALANCED_RESIDUAL) if is_last else 0.0,
         )
 
     @property
     def _balanced_below(self) -> float:
         """Residual below which a tight solve balances the oil; zero at other accuracies."""
-        return TIGHTLY * self.options.tolerance if self.options.accuracy == "tight" else 0.0
+        return (
+            BALANCED_OVER_TOLERANCE * self.options.tolerance
+            if self.options.accuracy == "tight"
+            else 0.0
+        )
 
     def _cycle(self, levels: Sequence[Level]) -> Callable[[], None]:
         """Return the cycle on ``levels``, with contact if the heights of the last one may touch."""
@@ -342,7 +351,7 @@ class GridIteration:
         if fine.stencil.conserves == STEADILY:
             rests = fine.relax_fronts()
             fine.update()
-            self.oil_error = oil_balance(fine, until=DECIDED)
+            self.oil_error = oil_balance(fine, until=BALANCED_UP_TO_X)
             largest = LARGEST_OIL_ERROR if fine is self.finest else COARSE_OIL_ERROR
             may_oscillate = self.goal.is_open and number >= LONG_FRONT_CYCLES
             self.is_settled = (rests and self.oil_error <= largest) or (

@@ -29,7 +29,7 @@ PRESSURE_STEP = 1e-6
 FROZEN_BELOW = 1e-3
 """Pressure below which a coarse node beside a cavity keeps its pressure: where the film ends is
 decided on the finest grid alone."""
-NEARER = 0.1
+LEAST_GUESS_GAIN = 0.1
 """Residual of a guess over that of the interpolated coarser film, below which the guess is taken.
 Full multigrid starts near the solution, which few neighbours of a study beat."""
 FRONT_SWEEPS, FRONT_WIDTH, FRONT_RESTS = (4, 16), 6, 0.03
@@ -422,7 +422,7 @@ class Level:
         if guess.asperities is not None:
             pressure = guess.asperities.pressure / guess.scales.hertz_pressure
             self.film.asperity[:] = values_on(self.grid, guess, pressure)
-        if not self._distance() < NEARER * before:
+        if not self._distance() < LEAST_GUESS_GAIN * before:
             self.set_state(*here)
 
     def _distance(self) -> float:

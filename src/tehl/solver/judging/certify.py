@@ -29,7 +29,7 @@ JUDGED = ("film_central", "film_minimum", "pressure_max")
 RESIDUE, LESS_REGULAR = 0.25, 1.0
 """Least error bar over the extrapolated change, of the film, and of what follows from it less
 regularly: three grids may show second order by chance."""
-GROWING = 2.0
+GROWING_BAR_FACTOR = 2.0
 """Error bar over a change that is not smaller than the one before."""
 WITHOUT_FIRST = "The first grid is left out: each bar is the full change between the other two."
 
@@ -295,7 +295,7 @@ def _without_order(first: float, last: float) -> float:
     if first == 0.0:  # of two grids
         return last
     if alternates or last >= first:
-        return GROWING * max(first, last) if last >= first else max(last, 0.25 * first)
+        return GROWING_BAR_FACTOR * max(first, last) if last >= first else max(last, 0.25 * first)
     is_faster = last < first / 2.0 ** ORDERS[1]
     return max(last, 0.25 * first) if is_faster else first
 

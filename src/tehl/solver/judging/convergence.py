@@ -83,7 +83,7 @@ RISE_ERROR = 0.005
 """Relative iteration error of the largest rise that is always accepted."""
 LEAST_KELVIN = 0.02
 """Change of temperature [K] that is always accepted."""
-TIGHTER = 100.0
+KELVIN_TOLERANCE_FACTOR = 100.0
 """Tolerance of the temperature over that of the film, which the temperature follows."""
 MEAN_CHANGE, KELVIN_CHANGE = 1e-4, 3e-3
 """Sum of the pressure changes in a cycle over the sum of pressures, and largest change of
@@ -214,7 +214,7 @@ def converged(now: GridTrace, coarser: GridTrace | None, options: Options) -> bo
     if options.accuracy == "tight":
         last = now.reports[-1]
         change = max(last.residual, last.change, abs(last.load_error)) / now.damping
-        kelvin = max(abs(last.temperature_rise), 1.0) * TIGHTER * options.tolerance
+        kelvin = max(abs(last.temperature_rise), 1.0) * KELVIN_TOLERANCE_FACTOR * options.tolerance
         return change <= options.tolerance and last.temperature_change <= kelvin
     return film_converged(now, coarser) and temperature_converged(now, coarser)
 

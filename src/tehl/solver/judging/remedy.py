@@ -27,7 +27,7 @@ LEAST_SECONDS = 1.0
 Solve = Callable[[ContactProblem, Options], Solution]
 Reached = tuple[tuple[int, int], float]
 """Nodes (nx, ny) and relative error of a film that converged."""
-OTHERS = 2
+OTHER_GRIDS = 2
 """Other numbers of nodes that are tried."""
 
 
@@ -48,7 +48,7 @@ def solved_on_other_nodes(
     if failed.status.kind not in ("diverged", "stalled") or not failed.history:
         return None
     nodes = max(planned(ScaledProblem.of(failed.problem), failed.options).shape)
-    for more in [one for one in sorted(FAMILIES) if one > nodes][:OTHERS]:
+    for more in [one for one in sorted(FAMILIES) if one > nodes][:OTHER_GRIDS]:
         left = end - time.perf_counter()
         if left <= 0.0:
             break

@@ -35,13 +35,13 @@ TOO_COARSE = ("grid_too_coarse", "film_not_positive")
 """Causes that a finer grid removes."""
 LARGEST_FILM_BAR = 0.5
 """Relative discretisation error of the film beyond which a grid is too coarse."""
-OPEN = 1.0
+UNKNOWN_MINIMUM_ERROR = 1.0
 """Relative error of the minimum between rough surfaces beyond which its value is not known. It is
 one spot beside an asperity: the rest of the film may be accurate, so the result is valid."""
 BELOW_FLOOR = 0.5
 """Least film between rough surfaces over the floor of the conductance: a thinner one flows as if it
 were another film."""
-KNOWN = 0.5
+HINTED_FILM_ERROR = 0.5
 """Relative error of the minimum film at which the hint to a finer grid aims."""
 LARGEST_DOMAIN_ERROR = 0.1
 """Estimated part of the central film beyond which a domain is too small."""
@@ -140,13 +140,13 @@ def _rough_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     if not max(part * error, errors.discretisation_central) <= LARGEST_FILM_BAR:
         largest = max(error, errors.discretisation_central)
         return too_coarse(level.grid.points, run.hierarchy.scaled, largest)
-    return _minimum_open(level, error) if error > OPEN else CONVERGED
+    return _minimum_open(level, error) if error > UNKNOWN_MINIMUM_ERROR else CONVERGED
 
 
 def _minimum_open(level: Level, error: float) -> Status:
     """Return ``converged`` with a warning: the relative ``error`` of the minimum exceeds one."""
     smallest, x, y = thinnest(level)
-    factor = 2 ** math.ceil(0.5 * math.log2(error / KNOWN))  # of second order
+    factor = 2 ** math.ceil(0.5 * math.log2(error / HINTED_FILM_ERROR))  # of second order
     nodes = factor * (max(level.grid.points) - 1) + 1
     return Status(
         kind="converged",
@@ -156,7 +156,8 @@ def _minimum_open(level: Level, error: float) -> Status:
             f"most about H = {(1.0 + error) * smallest:.2g}, but its value is not known."
         ),
         hint=Hint(
-            f"at second order this would reduce the error of the minimum to {100 * KNOWN:.0f} %.",
+            f"at second order this would reduce the error of the minimum to "
+            f"{100 * HINTED_FILM_ERROR:.0f} %.",
             {"numerics.points": nodes},
         ),
     )
@@ -178,7 +179,7 @@ def is_film(level: Level, errors: ErrorEstimate | None) -> bool:
 def _no_film_status(run: FilmSolver, errors: ErrorEstimate | None) -> Status:
     """Return asperity contact, or a grid too coarse if the error leaves doubt."""
     (nx, ny), floor = run.finest.grid.points, run.finest.equations.floor
-    if errors is not None and errors.discretisation_minimum > OPEN:
+    if errors is not None and errors.discretisation_minimum > UNKNOWN_MINIMUM_ERROR:
         status = too_coarse((nx, ny), run.hierarchy.scaled, errors.discretisation_minimum)
         return replace(status, message=f"{status.message} {no_film(run.finest)}.")
     thin = int(np.count_nonzero(run.finest.film.h <= floor))

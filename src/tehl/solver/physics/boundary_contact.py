@@ -28,12 +28,12 @@ from tehl.solver.physics.boundary_system import (
     flux_difference,
 )
 
-SUFFICIENT, SHORTEST_CONTACT_STEP = 0.05, 0.12
+SUFFICIENT_DECREASE, SHORTEST_CONTACT_STEP = 0.05, 0.12
 """Least relative decrease of the residual for the whole step, and shortest part of a step, which is
 taken in any case: sets of nodes that change raise the residual for some steps."""
 MEMORY = 5
 """Steps of which the largest residual must decrease."""
-CLOSE, TIGHTLY, LARGEST_CLOSING = 1e-7, 1e-4, 1e-4
+BALANCED_RESIDUAL, BALANCED_OVER_TOLERANCE, LARGEST_CLOSING = 1e-7, 1e-4, 1e-4
 """Residual below which the oil is balanced; the same over the tolerance of a tight solve, as the
 pressure, and with it the load, moves by a thousand residuals; and its largest change by that."""
 NEAR_RESIDUAL = 1e-2
@@ -47,7 +47,7 @@ as the nodes that touch follow the error."""
 MOST_CONTACT_STEPS, QUICK_STEPS, SLOW_CONTACT_STEPS, FAILED_INCREMENT_FACTOR = 14, 6, 10, 0.35
 """Most steps per increment of the heights, steps up to which the next one is larger and beyond
 which it is smaller, and the factor on one that failed."""
-FIRST_HEIGHT_INCREMENT, LEAST_HEIGHT_INCREMENT, RAISED = 0.5, 0.01, 1e-4
+FIRST_HEIGHT_INCREMENT, LEAST_HEIGHT_INCREMENT, RAISED_RESIDUAL = 0.5, 0.01, 1e-4
 """First and smallest increment of the heights, and residual at which the next one follows."""
 
 
@@ -131,7 +131,7 @@ class TouchingNewton(TouchingOperators):
             level.set_state(*system.stepped(before, change, part, self.past[-1]))
             level.update()
             found = self.residual()
-            if found < (1.0 - SUFFICIENT * part) * largest or part < SHORTEST_CONTACT_STEP:
+            if found < (1.0 - SUFFICIENT_DECREASE * part) * largest or part < SHORTEST_CONTACT_STEP:
                 break
             part *= 0.5
         if found < NEAR_RESIDUAL and part == 1.0:
@@ -229,12 +229,12 @@ def raise_heights(level: Level, newton: TouchingNewton, iterate: Callable[[], fl
 
 
 def _solve_increment(newton: TouchingNewton, iterate: Callable[[], float]) -> int | None:
-    """Iterate until the residual is `RAISED`; return the number of steps, None on failure."""
+    """Iterate until the residual is `RAISED_RESIDUAL`; return the steps, None on failure."""
     for number in range(1, MOST_CONTACT_STEPS + 1):
         try:
             iterate()
         except ArithmeticError:
             return None
-        if newton.residual() < RAISED:
+        if newton.residual() < RAISED_RESIDUAL:
             return number
     return None

@@ -14,7 +14,7 @@ from tehl.operators.heights import MovingHeights, check_nodes, rounded_up
 LEAST_STEPS = 4.0
 """Time steps per passing wave below which the wave is aliased."""
 TIME_ROUNDING = 1e-9
-MISSED = 0.25
+LARGEST_PEAK_ERROR = 0.25
 """Largest error of a peak load at the nearest step, over the whole change of the load."""
 
 
@@ -63,7 +63,7 @@ def check_load(transient: Transient, seconds: float) -> None:
         steps = [round(time / seconds) * seconds for time in (first, last)]
         seen = math.ceil(first / seconds) * seconds <= last
         missed = min(abs(load - transient.load_at(time)) for time in steps)
-        if turns and not seen and missed > MISSED * change:
+        if turns and not seen and missed > LARGEST_PEAK_ERROR * change:
             raise InputError(
                 f"transient.load = {load:g} at {first:g} s: a peak between two time steps of "
                 f"{seconds:.3g} s, which do not resolve it; take more numerics.points, or a longer "
