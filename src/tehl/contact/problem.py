@@ -57,7 +57,7 @@ def check(problem: PointContact) -> None:
 
     Raises ValueError with one sentence on the first fault.
     """
-    check_classes(problem, "")
+    _check_classes(problem, "")
     check_radii(problem)
     check_temperatures(problem)
     check_heat(problem)
@@ -79,7 +79,7 @@ def check(problem: PointContact) -> None:
     check_size(problem)
 
 
-def check_classes(table: BaseModel, path: str) -> None:
+def _check_classes(table: BaseModel, path: str) -> None:
     """Check that laws and surfaces are those of this package, which a file can store."""
     for name in type(table).model_fields:
         value, key = getattr(table, name), f"{path}{name}"
@@ -92,7 +92,7 @@ def check_classes(table: BaseModel, path: str) -> None:
                 f"would store its parent {kind.__base__.__name__ if kind.__base__ else ''}; use a "
                 "law of tehl.lubricant or a surface of tehl.roughness"
             )
-        check_classes(value, f"{key}.")
+        _check_classes(value, f"{key}.")
 
 
 def check_size(problem: PointContact) -> None:

@@ -43,7 +43,7 @@ BAR, BAR_COUPLED, EXPECTED_BAR_MARGIN = 0.24, 1.16, 1.25
 """Factors of `expected_bar`: of all contacts, of heated and thinning ones, and the margin with
 which four of five contacts reach the error on the expected grid."""
 THIRD_ORDER_FACTOR = 0.06
-"""Factor of `third_order_bar`."""
+"""Factor of `_third_order_bar`."""
 EXTRAPOLATED, HIGHER = 0.35, (2.5, 1.5)
 """Error bar of an extrapolated film over that of the film without, where that is large; factor and
 power of that where it is small."""
@@ -156,7 +156,7 @@ def expected_bar(
     return float(factor * width**2 * loads / (film**0.59 * groups.ellipticity**1.05))
 
 
-def third_order_bar(groups: Groups, domain: Domain, nodes: float) -> float:
+def _third_order_bar(groups: Groups, domain: Domain, nodes: float) -> float:
     """Return the error bar of the film to expect with a wedge of third order.
 
     A fit to 60 contacts of bearings, gears and cams with M up to 50,000, within a factor of two in
@@ -203,7 +203,7 @@ def expected_points(  # noqa: PLR0913 (one formula)
     """
     left = max(error - far_field_error(groups, domain), 0.5 * error) / EXPECTED_BAR_MARGIN
     if order > 2:
-        bars = ((nodes, third_order_bar(groups, domain, nodes)) for nodes in FAVOURED)
+        bars = ((nodes, _third_order_bar(groups, domain, nodes)) for nodes in FAVOURED)
         return next((nodes for nodes, bar in bars if nodes > least and bar <= left), FAVOURED[-1])
     bars = (
         (nodes, expected_bar(groups, domain, nodes, is_coupled=is_coupled, film=film))

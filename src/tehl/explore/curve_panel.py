@@ -236,7 +236,7 @@ class CurvePanel:
 
     def _save(self) -> None:
         if self.points and self.knob is not None:
-            ui.download.content(table_of(self.knob, self.points), "curve.csv", "text/csv")
+            ui.download.content(_table_of(self.knob, self.points), "curve.csv", "text/csv")
 
 
 _INVITATION = (
@@ -275,7 +275,7 @@ def spread(low: float, high: float, count: int) -> tuple[float, ...]:
     return tuple(float(f"{places[k]:.5g}") for k in order)
 
 
-def table_of(knob: Knob, points: list[Swept]) -> str:
+def _table_of(knob: Knob, points: list[Swept]) -> str:
     """Return a sweep as CSV: the control, then each quantity with its relative error."""
     known = [point for point in points if point.numbers]
     keys = [one.key for one in known[0].numbers] if known else []

@@ -146,7 +146,7 @@ class Header:
         ui.download.content(self.tab.case.text, f"{self._stem()}.toml", "application/toml")
 
     def _copy_python(self) -> None:
-        ui.clipboard.write(python_of(self.tab.case.text, self._stem()))
+        ui.clipboard.write(_python_of(self.tab.case.text, self._stem()))
         ui.notify("Python code copied")
 
     def _copy_link(self) -> None:
@@ -194,7 +194,7 @@ class Header:
         self.progress.set_visibility(bool(text))
 
 
-def python_of(text: str, stem: str) -> str:
+def _python_of(text: str, stem: str) -> str:
     """Return a script that solves a case."""
     quoted = text.replace("\\", "\\\\").replace('"""', '\\"\\"\\"')
     return (

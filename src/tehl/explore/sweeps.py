@@ -55,7 +55,7 @@ class Point(Row):
     words: str = ""
 
 
-def point_of(case: Case, result: Result) -> Point:
+def _point_of(case: Case, result: Result) -> Point:
     """Return the numbers of a result, none if it did not converge."""
     status = result.status
     found = explain(case.problem, case.options)
@@ -107,7 +107,7 @@ class Sweeps(Queue):
         try:
             pool = self._ready_pool()
             if not request.is_cancelled:
-                run(cases, self._memory, engine=pool, make=point_of, monitor=monitor)
+                run(cases, self._memory, engine=pool, make=_point_of, monitor=monitor)
         except Stopped:
             pass
         except Exception:

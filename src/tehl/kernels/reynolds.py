@@ -131,7 +131,7 @@ def _subtract_wedge(
 
 
 @helper
-def third_at(stencil: Stencil, i: int) -> float:
+def _third_at(stencil: Stencil, i: int) -> float:
     """Return the weight of the third difference at the east face of column i."""
     return stencil.third if i < stencil.fore else 0.5 * stencil.third
 
@@ -150,7 +150,7 @@ def _subtract_third(
     mass = rho[j, 1] * h[j, 1]
     for i in range(1, end):
         after = rho[j, i + 1] * h[j, i + 1]
-        bent = third_at(stencil, i) * (after - 2.0 * mass + before)
+        bent = _third_at(stencil, i) * (after - 2.0 * mass + before)
         out[row, i] -= bent - curved
         before, mass, curved = mass, after, bent
 
@@ -199,7 +199,7 @@ def _beyond(film: Film, stencil: Stencil, node: tuple[int, int], before: float) 
     found = 0.5 * (mass - before)
     if film.second[j, i] == MARK_THIRD_ORDER:
         curved = film.rho[j, i + 1] * film.h[j, i + 1] - 2.0 * mass + before
-        found += third_at(stencil, i) / (stencil.w0 - stencil.w2) * curved
+        found += _third_at(stencil, i) / (stencil.w0 - stencil.w2) * curved
     return found
 
 

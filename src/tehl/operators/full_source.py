@@ -54,7 +54,7 @@ class FullSource:
         rows = np.arange(ny)
         columns = np.arange(2 * (nx - 1))
         columns = np.where(columns < nx, columns, columns - 2 * (nx - 1))
-        table = factor * point_source(rows, columns, cell, peclet)
+        table = factor * _point_source(rows, columns, cell, peclet)
         if line > 0.0:
             table[0] -= line * _line_cells(columns, cell[1])
         folded = np.minimum(np.arange(self.period[0]), self.period[0] - np.arange(self.period[0]))
@@ -71,7 +71,7 @@ class FullSource:
         return np.ascontiguousarray(convolved[:stored, :nx])
 
 
-def point_source(
+def _point_source(
     rows: IntArray, columns: IntArray, cell: tuple[float, float], peclet: float
 ) -> Array:
     """Return the integral of exp[-|B| (r - x sgn B)]/r over cells (rows, columns) from the source.

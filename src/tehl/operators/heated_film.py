@@ -58,7 +58,7 @@ class HeatedFilm:
         wedge_order : int
             Order of the upstream differences.
         """
-        return Model(self.across, self.laws, film_terms(grid, self.scaled, wedge_order))
+        return Model(self.across, self.laws, _film_terms(grid, self.scaled, wedge_order))
 
     def surface(self, grid: Grid, side: Side) -> Surface:
         """Return one surface on a grid with its line source, if any."""
@@ -88,7 +88,7 @@ def film_energy(problem: ContactProblem) -> FilmEnergy:
     return problem.heat or FilmEnergy(temperature=inlet, bulk_1=inlet, bulk_2=inlet)
 
 
-def film_terms(grid: Grid, scaled: ScaledProblem, wedge_order: int) -> Terms:
+def _film_terms(grid: Grid, scaled: ScaledProblem, wedge_order: int) -> Terms:
     """Return the dimensionless numbers of the energy equation (docs/theory/thermal.md, scaled).
 
     Parameters

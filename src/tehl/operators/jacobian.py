@@ -128,11 +128,11 @@ def rows(weights: Array) -> csr_matrix:
 
 def interpolation(fine: Grid, coarse: Grid) -> csr_matrix:
     """Return the matrix of bilinear interpolation from a coarser grid of the same domain."""
-    lines = (between(nf, nc) for nf, nc in zip(fine.shape, coarse.shape, strict=True))
+    lines = (_between(nf, nc) for nf, nc in zip(fine.shape, coarse.shape, strict=True))
     return csr_matrix(kron(*lines))
 
 
-def between(fine: int, coarse: int) -> csr_matrix:
+def _between(fine: int, coarse: int) -> csr_matrix:
     """Return the matrix of linear interpolation from ``coarse`` to ``fine`` nodes of a line."""
     place = np.arange(fine) * ((coarse - 1) / (fine - 1))
     low = np.minimum(place.astype(int), coarse - 2)

@@ -116,10 +116,10 @@ class MultilevelDeformation:
         self.halvings: list[RowHalving | ColumnHalving] = []
         stride, halved = [1, 1], [0, 0]
         while _count(self.stages[-1].box) > DIRECT_SUM_NODES:
-            axis, fine = finer_axis(influence, stride), self.stages[-1]
+            axis, fine = _finer_axis(influence, stride), self.stages[-1]
             # an error on a coarse grid weighs as much as one on the finest: the patch grows
             growth = min(2 * halved[axis], LARGEST_PATCH_GROWTH)
-            patch = patch_corrections(influence, (axis, stride[0], stride[1]), growth)
+            patch = _patch_corrections(influence, (axis, stride[0], stride[1]), growth)
             self.stages.append(_coarser(fine.box, axis))
             self.halvings.append(_halve(patch, axis, fine, self.stages[-1]))
             stride[axis] *= 2
@@ -142,7 +142,7 @@ class MultilevelDeformation:
         out[:] = finest.nodes(finest.total)
 
 
-def finer_axis(influence: Influence, stride: list[int]) -> int:
+def _finer_axis(influence: Influence, stride: list[int]) -> int:
     """Return the axis with the smaller mesh width, which is halved next.
 
     The interpolation error along an axis decays with the distance in mesh widths of that axis; this
@@ -176,7 +176,7 @@ def _count(box: Box) -> int:
     return (box.j1 - box.j0 + 1) * (box.i1 - box.i0 + 1)
 
 
-def patch_corrections(influence: Influence, step: tuple[int, int, int], growth: int) -> Array:
+def _patch_corrections(influence: Influence, step: tuple[int, int, int], growth: int) -> Array:
     """Return the kernel less its interpolation at offsets along and across the halved axis.
 
     Parameters

@@ -109,7 +109,7 @@ class Tile(Roughness):
             x, y = (
                 math.ceil(_FADED * step / own) for step, own in zip(mesh, self.pixel, strict=True)
             )
-            if is_roomy(self.heights.shape, (x, y)):
+            if _is_roomy(self.heights.shape, (x, y)):
                 return self._coarsened(mesh, (x, y), radial=radial)
             rimmed = np.pad(self.heights, ((y, y), (x, x)))
             tile = replace(self, heights=rimmed, covered=self.covered or self.heights.size)
@@ -223,7 +223,7 @@ def _on_a_mesh(coefficients: Array, rows: Support, columns: Support) -> Array:
 # ---- the filter of a mesh
 
 
-def is_roomy(shape: tuple[int, ...], rim: tuple[int, int]) -> bool:
+def _is_roomy(shape: tuple[int, ...], rim: tuple[int, int]) -> bool:
     """Return whether a rim of these widths in points makes the heights many times larger."""
     ny, nx = shape
     return (ny + 2 * rim[1]) * (nx + 2 * rim[0]) > max(

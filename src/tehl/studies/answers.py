@@ -96,7 +96,7 @@ def _obtained(row: Row | None) -> str:
     return text if worst is None else f"{text}, film to {percentage(worst)}"
 
 
-def headings_of(lines: Iterable[Mapping[str, Any]], contacts: Contacts) -> list[str]:
+def _headings_of(lines: Iterable[Mapping[str, Any]], contacts: Contacts) -> list[str]:
     """Return the columns of the answers: those of the list, and those that any line has."""
     seen = dict.fromkeys(name for line in lines for name in line)
     stated = [one.heading for one in contacts.columns if one.heading]
@@ -127,13 +127,13 @@ def check_output(path: Path) -> None:
 def write_answers(contacts: Contacts, store: Store, path: Path) -> None:
     """Write the answers as CSV, Excel or Parquet, by the ending of ``path``, or nothing."""
     check_output(path)
-    headings = headings_of(answers(contacts, store), contacts)
+    headings = _headings_of(answers(contacts, store), contacts)
     lines = answers(contacts, store)
     with replacing(path) as temporary:
         if path.suffix.lower() == ".xlsx":
             _write_sheet(headings, lines, temporary)
         else:
-            frame = frame_of(headings, lines)
+            frame = _frame_of(headings, lines)
             if path.suffix.lower() == ".csv":
                 frame.to_csv(temporary, index=False)
             else:
@@ -145,7 +145,7 @@ def write_answers(contacts: Contacts, store: Store, path: Path) -> None:
                 frame.to_parquet(temporary, index=False)
 
 
-def frame_of(headings: Sequence[str], lines: Iterable[Mapping[str, Any]]) -> "pd.DataFrame":
+def _frame_of(headings: Sequence[str], lines: Iterable[Mapping[str, Any]]) -> "pd.DataFrame":
     """Return lines as a frame with these columns."""
     import pandas as pd  # noqa: PLC0415 (0.5 s)
 
@@ -235,7 +235,7 @@ def solve_contacts(
     with closing(opened(store)) as kept:
         solve_list(contacts, kept, jobs=jobs, monitor=monitor)
         lines = list(answers(contacts, kept))
-    found = frame_of(headings_of(lines, contacts), lines)
+    found = _frame_of(_headings_of(lines, contacts), lines)
     found.index = frame.index[-len(found) :]
     return found
 

@@ -81,7 +81,7 @@ def _logarithmic(target: Lanes, rate: Lanes) -> Lanes:
 
 
 @helper
-def stress_step(model: Model, line: Record, layers: Records) -> float:
+def _stress_step(model: Model, line: Record, layers: Records) -> float:
     """Take a Newton step of the mid-film stress towards the sliding speed.
 
     The matrix is the derivative of both rates, ``phi (delta_ij + s dlnF/ds tau_i tau_j/|tau|^2)``
@@ -147,7 +147,7 @@ def thin(model: Model, line: Record, layers: Records, steps: int) -> None:
     fluidity.
     """
     for _ in range(steps):
-        if stress_step(model, line, layers) < SETTLED:
+        if _stress_step(model, line, layers) < SETTLED:
             break
     along = 0.0 if model.laws.uniform else 1.0
     excess_y = 0.0 * line.p

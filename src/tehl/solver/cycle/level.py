@@ -418,10 +418,10 @@ class Level:
             return
         self.pose_problem()
         here, before = self.state(), self._distance()
-        self.set_state(values_on(self.grid, guess, guess.scaled.pressure), guess.rigid_approach)
+        self.set_state(_values_on(self.grid, guess, guess.scaled.pressure), guess.rigid_approach)
         if guess.asperities is not None:
             pressure = guess.asperities.pressure / guess.scales.hertz_pressure
-            self.film.asperity[:] = values_on(self.grid, guess, pressure)
+            self.film.asperity[:] = _values_on(self.grid, guess, pressure)
         if not self._distance() < LEAST_GUESS_GAIN * before:
             self.set_state(*here)
 
@@ -574,7 +574,7 @@ class Level:
         self._is_stale = True
 
 
-def values_on(grid: Grid, guess: Solution, pressure: Array) -> Array:
+def _values_on(grid: Grid, guess: Solution, pressure: Array) -> Array:
     """Return a pressure of a result on ``grid``, bilinear between its nodes [-]."""
     x, y = guess.scaled.x, guess.scaled.y
     if not np.array_equal(grid.x, x):

@@ -77,7 +77,7 @@ class Smoother(Protocol):
         """
 
 
-def dipole_parts(influence: Influence, stencil: Stencil) -> tuple[float, float]:
+def _dipole_parts(influence: Influence, stencil: Stencil) -> tuple[float, float]:
     """Return the parts by which a dipole lowers each of its neighbours along x and along y.
 
     A quarter each (Venner and Lubrecht 2000) on square cells. On cells longer along one direction
@@ -160,5 +160,5 @@ def make_smoother(equations: Equations, relaxation: Relaxation) -> Smoother:
     if relaxation is GAUSS_SEIDEL:
         return PointSmoother(equations.grid, equations.influence, relaxation)
     influence, touches = equations.influence, equations.asperities is not None
-    parts = dipole_parts(influence, equations.stencil)
+    parts = _dipole_parts(influence, equations.stencil)
     return LineSmoother(equations.grid, influence, relaxation, touches=touches, parts=parts)

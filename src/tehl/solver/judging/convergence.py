@@ -308,7 +308,7 @@ def error_estimate(
             bar = changes[-1]
         bars.append(max(bar, SHARED * changes[0]) / film)
     estimate = _estimate(traces[-1], domain, *bars)
-    combined: Any = extrapolated_bars(traces, order) if extrapolate else None
+    combined: Any = _extrapolated_bars(traces, order) if extrapolate else None
     if combined is not None and (order < 3 or max(combined.values()) < max(bars)):
         estimate = replace(estimate, extrapolated=True, **combined)
     found = further_errors(traces, ROUGH_PART if rough else 1.0, domain)
@@ -333,7 +333,7 @@ def _films(traces: list[GridTrace], name: str) -> list[float]:
     return [getattr(trace, name).values[-1] for trace in traces]
 
 
-def extrapolated_bars(traces: list[GridTrace], order: int = 2) -> dict[str, float] | None:
+def _extrapolated_bars(traces: list[GridTrace], order: int = 2) -> dict[str, float] | None:
     """Return the relative error bars of a film extrapolated from the last two grids.
 
     A part of the change of the extrapolated value from the pair of grids before, at least a part of
