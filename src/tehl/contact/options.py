@@ -155,7 +155,13 @@ class Options(Table):
         return usual if self.error is None else self.error
 
     def on_points(self, nx: int, ny: int) -> "Options":
-        """Return these options with the nodes ``nx``, ``ny`` stated."""
+        """Return these options with the nodes ``nx``, ``ny`` stated.
+
+        Parameters
+        ----------
+        nx, ny : int
+            Nodes along and across the entrainment, those of the whole domain.
+        """
         return self.model_copy(update={"points": (nx, ny)})
 
     @property
@@ -210,14 +216,32 @@ def coarsenable(nodes: int) -> tuple[int, int]:
 
 
 def can_be_halved(options: Options, times: int) -> bool:
-    """Whether the grid, its intervals halved ``times`` times, still has a coarser grid."""
+    """Whether the grid, its intervals halved ``times`` times, still has a coarser grid.
+
+    Parameters
+    ----------
+    options : Options
+        With ``points`` stated: "auto" has no shape.
+    times : int
+        Halvings of the intervals along x and y.
+    """
     return min(coarsenings(nodes) for nodes in options.shape) > times
 
 
 def check_certifiable(options: Options, *, transient: bool = False) -> None:
     """Check that the grid can be halved for error bars: twice, in a transient run once.
 
-    Raises InputError when it has too few nodes.
+    Parameters
+    ----------
+    options : Options
+        With the nodes of the finest grid stated.
+    transient : bool
+        Whether the run is transient, and 65 nodes per direction suffice instead of 129.
+
+    Raises
+    ------
+    InputError
+        If the grid has too few nodes.
     """
     halvings, what, least = (1, " a transient run", 65) if transient else (2, "", 129)
     if not can_be_halved(options, halvings):

@@ -123,15 +123,35 @@ class GreenwoodTripp(_Summits):
         return shear_flow(gap) / mean_gap(gap)
 
     def unit(self, sigma: float, modulus: float) -> float:
-        """Return the pressure over F_(5/2) for sigma [m] and E' [Pa]: in Pa."""
+        """Return the pressure over F_(5/2) for sigma [m] and E' [Pa]: in Pa.
+
+        Parameters
+        ----------
+        sigma : float
+            Rms height of both surfaces together [m].
+        modulus : float
+            E' [Pa], twice the contact modulus.
+        """
         steep = math.sqrt(sigma / self.summit_radius)
         factor = 16.0 * math.sqrt(2.0) * math.pi / 15.0 * self.load_factor(sigma) ** 2
         return factor * steep * 0.5 * modulus
 
     def spots(self, gap: "Array", sigma: float) -> "tuple[Array, Array]":
-        """Return the part of the area in which asperities touch [-], and their spots per area.
+        """Return the part of the area in which asperities touch, and their spots per area.
 
-        At most one, and 4 pi eta^2 beta sigma F_1 [1/m^2].
+        Parameters
+        ----------
+        gap : Array
+            Separations of the mean planes over sigma [-].
+        sigma : float
+            Rms height of both surfaces together [m].
+
+        Returns
+        -------
+        part : Array
+            Real over nominal area [-], at most one, in the shape of ``gap``.
+        spots : Array
+            4 pi eta^2 beta sigma F_1 [1/m^2].
         """
         factor, (number, part) = self.load_factor(sigma), _on_map(gap)
         part *= (math.pi * factor) ** 2
@@ -167,7 +187,15 @@ class SurfacePatch(_Summits):
         return _curves(self.map, self.map.stamp)
 
     def unit(self, sigma: float, modulus: float) -> float:
-        """Return E*, the unit of `load`, for E' [Pa]."""
+        """Return E*, the unit of `load`, for E' [Pa].
+
+        Parameters
+        ----------
+        sigma : float
+            Not used: the slopes of a patch do not depend on it.
+        modulus : float
+            E' [Pa], twice the contact modulus.
+        """
         del sigma
         return 0.5 * modulus
 
@@ -176,13 +204,35 @@ class SurfacePatch(_Summits):
         return self.curves.load(gap)
 
     def pressure(self, gap: "Array", sigma: float, modulus: float) -> "Array":
-        """Return the pressure that the asperities carry at gaps over Sq, for E' [Pa]."""
+        """Return the pressure that the asperities carry at gaps over Sq, for E' [Pa].
+
+        Parameters
+        ----------
+        gap : Array
+            Mean gaps over the Sq of the patch [-].
+        sigma : float
+            Not used: the curves of a patch are over its own Sq.
+        modulus : float
+            E' [Pa], twice the contact modulus.
+        """
         return self.unit(sigma, modulus) * self.load(gap)
 
     def spots(self, gap: "Array", sigma: float) -> "tuple[Array, Array]":
-        """Return the part of the area in which asperities touch [-], and their spots per area.
+        """Return the part of the area in which asperities touch, and their spots per area.
 
-        Spots [1/m^2] are connected pixels of the patch.
+        Parameters
+        ----------
+        gap : Array
+            Mean gaps over the Sq of the patch [-].
+        sigma : float
+            Not used: the curves of a patch are over its own Sq.
+
+        Returns
+        -------
+        part : Array
+            Touching over nominal area [-], in the shape of ``gap``.
+        spots : Array
+            Connected groups of touching pixels [1/m^2].
         """
         del sigma
         return self.curves.touching(gap), self.curves.spots(gap)
@@ -228,15 +278,21 @@ def gaussian_integral(n: float, gap: "Array") -> "Array":
 
     By Whittaker's parabolic cylinder function, ``Gamma(n + 1) exp(-u^2/4) D_(-n-1)(u)`` over
     ``sqrt(2 pi)``.
+
+    Parameters
+    ----------
+    n : float
+        Power of the overlap: 1 for the number of spots, 2 for their area, 5/2 for the load.
+    gap : Array
+        Separations of the mean planes over sigma [-], of any shape and sign.
     """
     from scipy.special import pbdv  # noqa: PLC0415 (0.1 s, for cases with asperities only)
 
     near = np.clip(gap, -LARGEST_DEPTH_OVER_SIGMA, LARGEST_GAP_OVER_SIGMA)
     values, _ = pbdv(-n - 1.0, near)
     found = math.gamma(n + 1.0) / math.sqrt(2.0 * math.pi) * np.exp(-0.25 * near**2) * values
-    found *= (
-        np.maximum(-gap, LARGEST_DEPTH_OVER_SIGMA) / LARGEST_DEPTH_OVER_SIGMA
-    ) ** n  # beyond, as the power that it tends to
+    # beyond, as the power that it tends to
+    found *= (np.maximum(-gap, LARGEST_DEPTH_OVER_SIGMA) / LARGEST_DEPTH_OVER_SIGMA) ** n
     return np.where(gap < LARGEST_GAP_OVER_SIGMA, found, 0.0)
 
 

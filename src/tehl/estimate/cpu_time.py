@@ -44,6 +44,13 @@ def seconds_range(scaled: ScaledProblem, seconds: float) -> tuple[float, float]:
 
     Against 33 contacts of bearings, gears and cams the ratio was 0.5 to 7.2 where the error was
     reached.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        Heat, thinning, starvation, high loads and slender or wide ellipses widen the range.
+    seconds : float
+        Expected CPU time of the solve [s].
     """
     problem, groups = scaled.problem, scaled.entering
     is_hard = (
@@ -62,6 +69,13 @@ def expected_seconds(scaled: ScaledProblem, options: Options) -> float:
     The constants are a fit to 200 random contacts with M = 2 to 2000 and L = 0.5 to 20
     (``python -m benchmarks.coverage``). Of others eight to nine of ten take half to twice as
     long, of heated ones half to three of four: fallbacks, further grids and busy cores take longer.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        Its physics decide the cost of a node and a cycle.
+    options : Options
+        With ``points = "auto"`` further grids are included.
     """
     (coarsest, _), *finer = expected_cycles(scaled, options)
     newton, each = COARSEST_SYSTEM_TIME * _nodes(coarsest) ** 3, _seconds_per_node(scaled.problem)
@@ -74,7 +88,20 @@ def expected_seconds(scaled: ScaledProblem, options: Options) -> float:
 
 
 def expected_cycles(scaled: ScaledProblem, options: Options) -> list[tuple[Grid, int]]:
-    """Return the grids to expect, coarsest first, each with its number of cycles."""
+    """Return the grids to expect, coarsest first, each with its number of cycles.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        Rough and touching surfaces take more cycles.
+    options : Options
+        With ``points = "auto"`` the grid is the one on which the error is expected.
+
+    Returns
+    -------
+    list of (Grid, int)
+        The coarsest grid takes Newton steps only, so zero cycles.
+    """
     coarsest, *grids = _grids(scaled, planned(scaled, options))
     cycles = [FIRST_CYCLES] + [CYCLES] * (len(grids) - 1)
     if scaled.problem.is_rough:

@@ -93,6 +93,13 @@ def far_field_error(groups: Groups, domain: Domain) -> float:
     """Estimate the relative error of the film on a domain with the far field on its edges.
 
     Measured for M = 1 to 500 and R_y/R_x = 0.5 to 5, rounded up.
+
+    Parameters
+    ----------
+    groups : Groups
+        Moes numbers and ellipticity of the contact.
+    domain : Domain
+        Edges in Hertz half-widths.
     """
     along, across = gap_widths(groups)
     inlet, side = -domain.x[0], min(-domain.y[0], domain.y[1])
@@ -110,6 +117,13 @@ def domain_error(groups: Groups, domain: Domain) -> float:
     outside the domain is missing, and the film changes with the slope of its formula by load. Wider
     domains show 3 to 4 % at M = 5, 22 to 34 % at M = 3 and more below; this estimate is 1 to 10 and
     11 to 33 %. Elastic contacts (M > 10) lose less, by the square of the distance of the sides.
+
+    Parameters
+    ----------
+    groups : Groups
+        Moes numbers and radius ratio of the contact.
+    domain : Domain
+        Edges in Hertz half-widths.
     """
     stretch = math.sqrt(groups.radius_ratio) * groups.ellipticity
     side = stretch * min(-domain.y[0], domain.y[1])
@@ -228,6 +242,13 @@ def settled(problem: ContactProblem, options: Options) -> Options:
     """Return ``options`` that say whether the film of a contact is extrapolated.
 
     Waves of rough surfaces, nodes that touch and time steps do not show one order.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        Smooth steady films without boundary contact are extrapolated if the grid is chosen too.
+    options : Options
+        Returned as they are if they state ``extrapolate``.
     """
     if options.extrapolate is not None:
         return options
@@ -240,6 +261,13 @@ def planned(scaled: ScaledProblem, options: Options) -> Options:
     """Return ``options`` with the nodes on which the error to reach is expected.
 
     Options that state ``points`` are returned as they are.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        Its expected film, waves and inlet temperature decide the nodes.
+    options : Options
+        With the error to reach; stated ``points`` are kept.
     """
     options = settled(scaled.problem, options)
     if options.points != "auto":
@@ -275,14 +303,30 @@ def film_to_resolve(scaled: ScaledProblem) -> float | None:
 
 
 def domain_of(scaled: ScaledProblem, options: Options) -> Domain:
-    """Return the domain of a solve: the stated or the chosen one."""
+    """Return the domain of a solve: the stated or the chosen one.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        Contact for which a domain is chosen.
+    options : Options
+        ``options.domain`` is a `Domain`, or "auto" to choose one for the error to reach.
+    """
     if isinstance(options.domain, Domain):
         return options.domain
     return chosen_domain(scaled, error_of_domain(scaled, options))
 
 
 def error_of_domain(scaled: ScaledProblem, options: Options) -> float:
-    """Return the relative error of the film for which the domain is chosen [-]."""
+    """Return the relative error of the film for which the domain is chosen [-].
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        Decides whether the film is extrapolated, see :func:`settled`.
+    options : Options
+        With the error to reach; an extrapolated film leaves only a part of it to the domain.
+    """
     options = settled(scaled.problem, options)
     return options.target * (EXTRAPOLATED_DOMAIN if options.extrapolate else 1.0)
 
@@ -292,6 +336,13 @@ def chosen_domain(scaled: ScaledProblem, error: float) -> Domain:
 
     That of a starved contact contains all of its film: the pressure on its edges is zero.
     Asperities that touch lie within it.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        Contact with its supply, asperities and temperatures.
+    error : float
+        Relative error of the film due to the edges [-].
     """
     if scaled.problem.asperities is not None:
         return _around_asperities(scaled, _of_film(scaled, error))

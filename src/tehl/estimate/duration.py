@@ -47,7 +47,15 @@ class Part:
         return (first, last) if self.speed >= 0 else (-last, -first)
 
     def passing_time(self, units: Scales, transient: Transient) -> float:
-        """Return the time in which it, and the film that it lets in, pass the contact [s]."""
+        """Return the time in which it, and the film that it lets in, pass the contact [s].
+
+        Parameters
+        ----------
+        units : Scales
+            For the Hertz half-width along x [m] and the entrainment speed [m/s].
+        transient : Transient
+            Its ``entrance`` is the inlet edge of the roughness at time zero [a_x].
+        """
         width = units.half_width_x
         distance = max(transient.entrance + PASSED_DISTANCE, self._waves(width, transient)) * width
         if not self.is_endless:
@@ -104,7 +112,12 @@ def components(roughness: OneRoughness | Sum) -> tuple[OneRoughness, ...]:
 def misplaced(scaled: ScaledProblem, seconds: float) -> str | None:
     """Return why the roughness never enters the contact, or starts inside it; None if it enters.
 
-    ``seconds`` is the duration of the run [s].
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        With the roughness of both surfaces and ``transient.start``.
+    seconds : float
+        Duration of the run [s].
     """
     problem, units = scaled.problem, scaled.scales
     transient = problem.transient
@@ -175,9 +188,19 @@ def whole_passing(scaled: ScaledProblem) -> float:
 
 
 def number_of_steps(scaled: ScaledProblem, seconds: float) -> int:
-    """Return the number of time steps of ``seconds`` in the run.
+    """Return the number of time steps of the run.
 
-    Raises InputError if it exceeds `MOST_TIME_STEPS`.
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        A transient problem; its stated duration or that of the passage counts.
+    seconds : float
+        Time step [s].
+
+    Raises
+    ------
+    InputError
+        If the number exceeds `MOST_TIME_STEPS`.
     """
     duration = duration_of(scaled)
     steps = duration / seconds

@@ -53,6 +53,13 @@ def entry_error(scaled: ScaledProblem, domain: Domain) -> float:
     """Estimate the relative error of the film by the oil that bodies have not warmed or cooled yet.
 
     Measured on wider domains for M = 3, 100 and 500 with bodies 20 to 25 K off: 13, 1.0 and 0.7 %.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        Its ``groups`` hold at the inlet temperature of the oil, ``entering`` at that of the bodies.
+    domain : Domain
+        The distance of the inlet edge decides, in Hertz half-widths.
     """
     contrast = abs(math.log(scaled.entering.lambda_bar / scaled.groups.lambda_bar))
     if not contrast:

@@ -246,7 +246,15 @@ FORMULAS = (
 
 
 def film_estimates(groups: Groups, scales: Scales) -> tuple[FilmEstimate, ...]:
-    """Return the film of a contact by each formula, with remarks on its validity."""
+    """Return the film of a contact by each formula, with remarks on its validity.
+
+    Parameters
+    ----------
+    groups : Groups
+        Moes numbers, ellipticity and radius ratio.
+    scales : Scales
+        Its film scale a_x^2/R_x [m] converts H to metres.
+    """
     unit, metres, estimates = hertz_ratio_squared(groups), scales.film_thickness, []
     for formula in FORMULAS:
         film = formula.film(groups)

@@ -24,7 +24,15 @@ _LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_b
 
 
 def needed_memory(options: Options, problem: ContactProblem | None = None) -> float:
-    """Return the estimated peak memory of a solve [byte]."""
+    """Return the estimated peak memory of a solve [byte].
+
+    Parameters
+    ----------
+    options : Options
+        With the nodes of the finest grid stated.
+    problem : ContactProblem or None
+        Heat and time steps need more arrays per node; None is an isothermal steady film.
+    """
     nodes_y, nodes_x = options.shape
     return float(_bytes_per_node(problem) * nodes_y * nodes_x)
 
@@ -52,8 +60,17 @@ def memory_limit(options: Options) -> float:
 def check_memory(options: Options, problem: ContactProblem | None = None) -> None:
     """Check that the finest grid fits into the available memory.
 
-    Raises InputError if the estimated need exceeds the available memory; the message names a grid
-    that fits.
+    Parameters
+    ----------
+    options : Options
+        With the nodes of the finest grid stated.
+    problem : ContactProblem or None
+        As of :func:`needed_memory`.
+
+    Raises
+    ------
+    InputError
+        If the need exceeds the available memory; the message names a grid that fits.
     """
     needed = needed_memory(options, problem)
     available = available_memory() if needed > NEGLIGIBLE_MEMORY else None

@@ -186,7 +186,17 @@ def starved_domain(scaled: ScaledProblem) -> Domain:
 def check_supply(scaled: ScaledProblem, domain: Domain) -> None:
     """Check that a stated domain can hold the layer, and the profile covers the domain.
 
-    Raises InputError with one sentence.
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        A fully flooded one passes.
+    domain : Domain
+        Edges in Hertz half-widths.
+
+    Raises
+    ------
+    InputError
+        If the profile is too narrow, or the layer fills the gap at the inlet edge.
     """
     supply, oil, scales = scaled.problem.supply, entering_oil(scaled), scaled.scales
     if supply is None or oil is None:

@@ -141,7 +141,12 @@ def expected_waves(
 ) -> Iterator[tuple[WaveVector, LinearTheory]]:
     """Yield the stated waves of both surfaces with their ripples in the middle of the contact.
 
-    ``film`` is the expected central film [m].
+    Parameters
+    ----------
+    problem : ContactProblem
+        Oil properties are taken at the Hertz pressure and the inlet temperature.
+    film : float
+        Expected central film [m].
     """
     oil, pressure = problem.lubricant, problem.hertz.pressure
     temperature = problem.inlet_temperature
@@ -206,8 +211,12 @@ def nabla_of(wavelength: float, load: float, speed: float) -> float:
 def amplitude_reduction(nabla: float, *, ratio: float = 1.0) -> float:
     """Return the part of a wave that is left in the film in pure rolling [-], [3]_ eq. (29).
 
-    ``nabla`` is (lambda / a) sqrt(M/L), and ``ratio`` the wavelength along x over that along y,
-    zero for a transverse wave [-].
+    Parameters
+    ----------
+    nabla : float
+        (lambda / a) sqrt(M/L) [-].
+    ratio : float
+        Wavelength along x over that along y [-], zero for a transverse wave.
     """
     scaled = nabla * (math.exp(1.0 - 1.0 / ratio) if ratio > 1.0 else 1.0)
     return 1.0 / (1.0 + 0.15 * scaled + 0.015 * scaled**2)

@@ -356,9 +356,8 @@ class Tab:
                 for ends in zip(wanted["lines"], self.limits.get("lines", (0.0, 0.0)), strict=True)
             )
             before, central = self.limits.get("film"), shown.maps.central
-            if (
-                before is not None and before.high < _LEAST_COLOUR_RANGE * central
-            ):  # it would have no colour
+            # a film above the range would have no colour
+            if before is not None and before.high < _LEAST_COLOUR_RANGE * central:
                 self.limits["film"] = before.joined(wanted["film"])
             wanted |= {key: value for key, value in self.limits.items() if key in wanted}
             wanted["lines"] = film, pressure  # lines stay in their frame

@@ -54,7 +54,15 @@ Alpha = Annotated[
 
 
 def pressure_coefficient_of(alpha: float | str | None, viscosity: float) -> float:
-    """Return a stated pressure coefficient [1/Pa], or Wooster's of a ``viscosity`` [Pa s]."""
+    """Return a stated pressure coefficient [1/Pa], or Wooster's of a ``viscosity`` [Pa s].
+
+    Parameters
+    ----------
+    alpha : float, str or None
+        Stated coefficient [1/Pa]; a text selects Wooster's formula, None is zero.
+    viscosity : float
+        At ambient pressure and the inlet temperature [Pa s].
+    """
     return wooster(viscosity) if isinstance(alpha, str) else alpha or 0.0
 
 

@@ -60,7 +60,15 @@ class ShearModel(Law):
         raise NotImplementedError
 
     def thinned(self, newtonian: float, pressure: float) -> float:
-        """Return the stress [Pa] where a Newtonian film had ``newtonian`` [Pa]."""
+        """Return the stress [Pa] where a Newtonian film had ``newtonian`` [Pa].
+
+        Parameters
+        ----------
+        newtonian : float
+            Viscosity times shear rate [Pa], not negative.
+        pressure : float
+            Decides the stress scale of the law [Pa].
+        """
         scale = self.stress_scale(pressure)
         return scale * self.stress_at(newtonian / scale)
 
@@ -232,7 +240,15 @@ class Limiting(ShearModel):
         return curve + _KNEE_SLOPE * np.maximum(stress - _KNEE, 0.0)
 
     def thinned(self, newtonian: float, pressure: float) -> float:
-        """Return the stress [Pa] where a Newtonian film had ``newtonian`` [Pa], below the limit."""
+        """Return the stress [Pa] where a Newtonian film had ``newtonian`` [Pa], below the limit.
+
+        Parameters
+        ----------
+        newtonian : float
+            Viscosity times shear rate [Pa], not negative.
+        pressure : float
+            Decides the limiting stress [Pa].
+        """
         limit = self.stress_scale(pressure)
         return -limit * math.expm1(-newtonian / limit)
 
