@@ -61,7 +61,15 @@ class HeatedFilm:
         return Model(self.across, self.laws, _film_terms(grid, self.scaled, wedge_order))
 
     def surface(self, grid: Grid, side: Side) -> Surface:
-        """Return one surface on a grid with its line source, if any."""
+        """Return one surface on a grid with its line source, if any.
+
+        Parameters
+        ----------
+        grid : Grid
+            Decides the number of nodes and the mesh width of the marching weights.
+        side : Side
+            Its bulk temperature [K] holds everywhere at first; without a line source the factor is zero.
+        """
         nx, ny = grid.nx, padded_rows(grid)
         factor = side.line_factor(self.scaled.scales, self.flux_unit) if side.marches else 0.0
         return Surface(

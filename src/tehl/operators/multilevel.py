@@ -64,11 +64,27 @@ class RowHalving:
     folds: Array
 
     def gather(self, fine: Stage, coarse: Stage) -> None:
-        """Restrict the sources: P_c = I^T P."""
+        """Restrict the sources: P_c = I^T P.
+
+        Parameters
+        ----------
+        fine : Stage
+            Grid whose ``source`` is read.
+        coarse : Stage
+            Grid with half the rows; its ``source`` is overwritten.
+        """
         summation.gather_rows(fine.source, fine.box, coarse.source, coarse.box)
 
     def spread(self, fine: Stage, coarse: Stage) -> None:
-        """Interpolate the sums and add the patch corrections: w = I w_c + (K - I K_c I^T) P."""
+        """Interpolate the sums and add the patch corrections: w = I w_c + (K - I K_c I^T) P.
+
+        Parameters
+        ----------
+        fine : Stage
+            Grid whose ``total`` is overwritten, from its ``source`` and the coarse sums.
+        coarse : Stage
+            Grid with half the rows, with its ``total``.
+        """
         grids = (fine.box, coarse.total, coarse.box, fine.total)
         summation.spread_rows(fine.source, self.patch, self.folds, *grids)
 
@@ -81,12 +97,28 @@ class ColumnHalving:
     columns: summation.Columns
 
     def gather(self, fine: Stage, coarse: Stage) -> None:
-        """Restrict the sources: P_c = I^T P."""
+        """Restrict the sources: P_c = I^T P.
+
+        Parameters
+        ----------
+        fine : Stage
+            Grid whose ``source`` is read.
+        coarse : Stage
+            Grid with half the columns; its ``source`` is overwritten.
+        """
         summation.split_columns(fine.source, fine.box, self.columns)
         summation.gather_columns(self.columns, fine.box, coarse.source, coarse.box)
 
     def spread(self, fine: Stage, coarse: Stage) -> None:
-        """Interpolate the sums and add the patch corrections: w = I w_c + (K - I K_c I^T) P."""
+        """Interpolate the sums and add the patch corrections: w = I w_c + (K - I K_c I^T) P.
+
+        Parameters
+        ----------
+        fine : Stage
+            Grid whose ``total`` is overwritten; :meth:`gather` must have been called for it.
+        coarse : Stage
+            Grid with half the columns, with its ``total``.
+        """
         grids = (fine.box, coarse.total, coarse.box, fine.total)
         summation.spread_columns(self.columns, self.patch, *grids)
 
@@ -130,7 +162,15 @@ class MultilevelDeformation:
         self.flat = np.zeros(nodes[0] * nodes[1])
 
     def deflect(self, pressure: Array, out: Array) -> None:
-        """Write the deflection under ``pressure`` to ``out``."""
+        """Write the deflection under ``pressure`` to ``out``.
+
+        Parameters
+        ----------
+        pressure : Array
+            P at the nodes [-], (ny, nx), y >= 0 only on mirrored grids.
+        out : Array
+            Overwritten by the deflection [-], (ny, nx).
+        """
         finest, last = self.stages[0], self.stages[-1]
         finest.load(pressure)
         steps = list(zip(self.halvings, self.stages[:-1], self.stages[1:], strict=True))

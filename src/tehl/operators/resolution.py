@@ -75,9 +75,16 @@ def _one(
 
 
 def sample_of(roughness: AnyRoughness, problem: ContactProblem) -> Sample:
-    """Return places where ``roughness`` lies in the contact, or passes it in a transient run.
+    """Return places where a surface lies in the contact, or passes it in a transient run.
 
     They are uniform but for random shifts, so that no wave is aliased to a constant.
+
+    Parameters
+    ----------
+    roughness : AnyRoughness
+        Surface at time zero; of several positions the one with the largest Sq counts.
+    problem : ContactProblem
+        Its Hertz half-widths bound the sample [m].
     """
     half = (problem.hertz.half_width_x, problem.hertz.half_width_y)
     shifts = np.random.default_rng(0).random((2, _SAMPLES_PER_AXIS))

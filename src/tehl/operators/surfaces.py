@@ -72,13 +72,29 @@ class Side:
         return self.conductivity > 0.0 and (self.form == "full" or not self.marches)
 
     def line_factor(self, scales: Scales, flux_unit: float) -> float:
-        """Return the rise per dimensionless flux integrated over the root of the distance [K]."""
+        """Return the rise per dimensionless flux integrated over the root of the distance [K].
+
+        Parameters
+        ----------
+        scales : Scales
+            For the Hertz half-width along x [m].
+        flux_unit : float
+            Heat flux [W/m^2] of the dimensionless flux one.
+        """
         effusivity = np.pi * self.conductivity * self.capacity * self.speed
         return float(flux_unit * np.sqrt(scales.half_width_x / effusivity))
 
 
 def sides(scaled: ScaledProblem, heat: FilmEnergy) -> tuple[Side, Side]:
-    """Return both solids."""
+    """Return both solids.
+
+    Parameters
+    ----------
+    scaled : ScaledProblem
+        With the materials and the speeds of both surfaces.
+    heat : FilmEnergy
+        With the bulk temperatures [K] and the form of the source.
+    """
     problem, scales = scaled.problem, scaled.scales
     motion = problem.motion
     return (

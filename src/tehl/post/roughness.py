@@ -212,7 +212,15 @@ def middle_film(result: Solution) -> float:
 
 
 def in_contact(result: Solution, reach: float = 1.0) -> BoolArray:
-    """Return which nodes lie in the Hertz contact, (ny, nx), or in ``reach`` times its ellipse."""
+    """Return which nodes lie in the Hertz contact, (ny, nx).
+
+    Parameters
+    ----------
+    result : Solution
+        Decides the nodes.
+    reach : float
+        Size of the ellipse over that of Hertz [-].
+    """
     inside: BoolArray = result.scaled.x**2 + result.scaled.y[:, None] ** 2 < reach**2
     return inside
 
@@ -223,7 +231,15 @@ def film_in_contact(result: Solution) -> Array:
 
 
 def area_below(result: Solution, threshold: float) -> float:
-    """Return the part of the Hertz contact whose film is thinner than ``threshold`` [m]."""
+    """Return the part of the Hertz contact whose film is thinner than a threshold [-].
+
+    Parameters
+    ----------
+    result : Solution
+        Counted by its nodes in the Hertz ellipse.
+    threshold : float
+        Film thickness [m].
+    """
     return float(np.mean(film_in_contact(result) < threshold))
 
 

@@ -57,6 +57,13 @@ def real_area(result: Solution, found: FilmAsperities) -> Array:
     """Return the part of the area in which asperities touch, at each node [-].
 
     That of elastic summits, or the part on which they yield if it is larger.
+
+    Parameters
+    ----------
+    result : Solution
+        For the hardness of the softer surface [Pa]; without one, summits are elastic.
+    found : FilmAsperities
+        Pressure [Pa] and elastic area [-] of the asperities at the nodes.
     """
     problem = result.problem
     stated = (problem.surface_1.material.hardness, problem.surface_2.material.hardness)
@@ -65,7 +72,15 @@ def real_area(result: Solution, found: FilmAsperities) -> Array:
 
 
 def spots(result: Solution, found: FilmAsperities) -> Spots | None:
-    """Return the spots of a result with asperities; None where none touches."""
+    """Return the spots of a result with asperities; None where none touches.
+
+    Parameters
+    ----------
+    result : Solution
+        With the laws of asperities and of friction.
+    found : FilmAsperities
+        Pressure [Pa], area [-] and density of the spots [1/m^2] at the nodes, (ny, nx).
+    """
     law = result.problem.asperities
     if law is None or not found.area.max() > 0.0:
         return None

@@ -171,7 +171,17 @@ class _Waves:
         return [wave for wave in self.all if self.patch.holds(wave)]
 
     def theory(self, wave: WaveVector, level: FlatFilm, amplitude: float) -> LinearTheory:
-        """Return the ripples of a wave by theory."""
+        """Return the ripples of a wave by theory.
+
+        Parameters
+        ----------
+        wave : WaveVector
+            Stated or found.
+        level : FlatFilm
+            Film and oil in the middle of the contact.
+        amplitude : float
+            Of the undeformed wave [m].
+        """
         drift, straight = self.stated.get(wave, self.drift), self.patch.straight(wave)
         if drift is None:
             return level.theory(straight, amplitude, -self.problem.entrainment_speed, holds=False)
@@ -292,7 +302,15 @@ class _Fit:
         return self._pairs(field)[: self.waves]
 
     def carried(self, field: Array, wave: WaveVector) -> float:
-        """Return the amplitude of the streaks that belong to a wave."""
+        """Return the amplitude of the streaks that belong to a wave.
+
+        Parameters
+        ----------
+        field : Array
+            Film or pressure in the patch.
+        wave : WaveVector
+            A transverse one has its own streaks; one without variation along x has none.
+        """
         pairs = zip(self._pairs(field)[self.waves :], self.streaks, strict=True)
         own = (abs(p) for p, number in pairs if math.isclose(number, abs(wave.across)))
         return next(own, 0.0) if wave.along else 0.0
