@@ -219,7 +219,14 @@ def load_as(kind: type[TransientResult], path: str | Path) -> TransientResult: .
 def load_as(
     kind: type[Result] | type[TransientResult], path: str | Path
 ) -> Result | TransientResult:
-    """Read a result of one kind, `Result` or `TransientResult`.
+    """Read a result of one kind.
+
+    Parameters
+    ----------
+    kind : type
+        `Result` or `TransientResult`.
+    path : str or Path
+        A file that ``save`` or ``tehl solve`` wrote.
 
     Raises
     ------

@@ -48,10 +48,20 @@ def remove_with_parts(path: str | Path) -> None:
 
 
 def check_writable(path: str | Path, *, sources: tuple[str | Path, ...] = ()) -> None:
-    """Raise an InputError if an output file could not be written, before any work for it.
+    """Check that an output file can be written, before any work for it.
 
-    That is if ``path`` is one of the ``sources`` read for it, not a regular file or
-    write-protected, or if its folder is missing or not writable.
+    Parameters
+    ----------
+    path : str or Path
+        The output; a link is followed.
+    sources : tuple of str or Path
+        Inputs of the same command, which must not be overwritten.
+
+    Raises
+    ------
+    InputError
+        If it is one of the sources, not a regular file or write-protected, or if its folder is
+        missing or not writable.
     """
     _check_kind(path)  # an invalid name too
     shown, target = shortened(path), Path(os.path.realpath(path))

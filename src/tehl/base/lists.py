@@ -21,7 +21,17 @@ _LARGEST_LIST = 50_000_000
 def values_of_file(path: Path, column: str) -> list[Any]:
     """Return the values of one column of a CSV file, with the unit of its heading.
 
-    A file with a single column may have any heading. An InputError names file and columns.
+    Parameters
+    ----------
+    path : Path
+        CSV with a first line of headings, such as ``load [N]``.
+    column : str
+        Heading without its unit; a file with a single column may have any.
+
+    Raises
+    ------
+    InputError
+        If the column is missing or the file cannot be read; the message names file and columns.
     """
     shown = shortened(path)
     lines = lines_of_file(path)
@@ -37,15 +47,31 @@ def values_of_file(path: Path, column: str) -> list[Any]:
 def lines_of_file(path: Path, what: str = "list of cases") -> list[list[str]]:
     """Return the cells of the lines of a file that are not empty, all of the same number.
 
-    ``.xlsx`` is read as Excel, its first sheet; all others as CSV.
-
-    Messages call the file ``what``.
+    Parameters
+    ----------
+    path : Path
+        ``.xlsx`` is read as Excel, its first sheet; all others as CSV.
+    what : str
+        How messages call the file.
     """
     return [line for _, line in numbered_lines(path, what)]
 
 
 def numbered_lines(path: Path, what: str = "list of cases") -> list[tuple[int, list[str]]]:
-    """Return the same with the numbers of the lines."""
+    """Return the lines of :func:`lines_of_file` with their numbers in the file.
+
+    Parameters
+    ----------
+    path : Path
+        Excel or CSV, whose delimiter is found from the first line.
+    what : str
+        How messages call the file.
+
+    Raises
+    ------
+    InputError
+        If the file is missing, too large or cannot be read, or its lines differ in length.
+    """
     if path.suffix.lower() == ".xlsx":
         return [
             (number, ["" if cell is None else str(cell) for cell in line])
@@ -81,6 +107,13 @@ def lines_of_sheet(path: Path, what: str = "list of cases") -> list[tuple[int, l
     """Return the numbers and the cells of the rows of the first Excel sheet that are not empty.
 
     All rows have as many cells as the first one has headings; an empty cell is None.
+
+    Parameters
+    ----------
+    path : Path
+        An ``.xlsx`` file; formulas have the values that Excel stored.
+    what : str
+        How messages call the file.
     """
     check_package("openpyxl", "xlsx", path)
     from openpyxl import load_workbook  # noqa: PLC0415 (an extra)
@@ -107,7 +140,22 @@ def stripped(cell: Any) -> Any:
 
 
 def check_package(package: str, extra: str, path: Path) -> None:
-    """Raise an InputError that names the extra if a package for a format is missing."""
+    """Check that a package for a format is installed.
+
+    Parameters
+    ----------
+    package : str
+        Name by which it is imported.
+    extra : str
+        Extra of this package that installs it.
+    path : Path
+        File that needs it, named by the message.
+
+    Raises
+    ------
+    InputError
+        If it is missing; the message has the command that installs it.
+    """
     if find_spec(package) is None:
         raise InputError(f'{path}: needs {package}; install it with pip install "tehl[{extra}]"')
 
@@ -129,7 +177,15 @@ def heading(cell: str) -> tuple[str, str]:
 
 
 def value_of(cell: str, unit: str) -> object:
-    """Return the value of a cell of a column with a unit."""
+    """Return the value of a cell of a column with a unit.
+
+    Parameters
+    ----------
+    cell : str
+        Stripped text of the cell.
+    unit : str
+        Of the heading; empty, "-" and "1" leave a plain number, text or truth value.
+    """
     return f"{cell} {unit}" if unit not in ("", "-", "1") else plain_value(cell)
 
 

@@ -73,7 +73,17 @@ def case_from_tables(
 ) -> tuple[ContactProblem, Options]:
     """Return problem and options of the parsed tables of a case, checked as those of a file.
 
-    Relative paths of measured surfaces begin in ``folder``, by default the working directory.
+    Parameters
+    ----------
+    tables : Mapping
+        As of the TOML of a case file; quantities are texts with a unit, or numbers in SI.
+    folder : Path or None
+        Where relative paths of measured surfaces begin; None is the working directory.
+
+    Raises
+    ------
+    InputError
+        If a key or a value is invalid, in one sentence.
     """
     physics = {key: value for key, value in tables.items() if key != NUMERICS}
     problem = _validated(ContactProblem, physics, prefix="", folder=folder)
@@ -206,7 +216,20 @@ def changed(tables: Mapping[str, Any], path: str, value: Any) -> dict[str, Any]:
 
 
 def with_settings(options: Options, settings: "Settings") -> Options:
-    """Return options with those of ``settings`` that are numerical; an InputError if invalid."""
+    """Return options with the numerical settings of a hint.
+
+    Parameters
+    ----------
+    options : Options
+        Not changed.
+    settings : Settings
+        Values by key path, such as ``numerics.points``; paths of other tables have no effect.
+
+    Raises
+    ------
+    InputError
+        If a value is invalid.
+    """
     tables: dict[str, Any] = {NUMERICS: options.model_dump(exclude_defaults=True)}
     for path, value in settings.items():
         tables = changed(tables, path, value)
@@ -219,9 +242,19 @@ def replaced_by(path: str) -> str:
 
 
 def change(tables: dict[str, Any], override: str) -> None:
-    """Apply one override ``key.path=value`` in place; raise an InputError if it is invalid.
+    """Apply one override to the tables of a case, in place.
 
-    The value ``false`` leaves out a table.
+    Parameters
+    ----------
+    tables : dict
+        Parsed case; missing tables on the path are added.
+    override : str
+        ``key.path=value``; the value ``false`` removes a table.
+
+    Raises
+    ------
+    InputError
+        If the override is invalid; the message has the form that is expected.
     """
     key, equals, text = (part.strip() for part in override.partition("="))
     names = key.split(".")

@@ -62,7 +62,15 @@ def plain(value: Any) -> Any:
 
 
 def from_block(kind: type[Part], block: Any) -> Part | None:
-    """Return the dataclass that a block of a stored summary holds; None if it does not fit."""
+    """Return the dataclass that a block of a stored summary holds; None if it does not fit.
+
+    Parameters
+    ----------
+    kind : type
+        Dataclass with the keys of the block.
+    block : object
+        Parsed JSON of any kind, None if the summary has no such block.
+    """
     try:
         return TypeAdapter(kind).validate_python(block)
     except ValueError:  # missing, or written by another program

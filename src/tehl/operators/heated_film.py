@@ -68,7 +68,7 @@ class HeatedFilm:
         grid : Grid
             Decides the number of nodes and the mesh width of the marching weights.
         side : Side
-            Its bulk temperature [K] holds everywhere at first; without a line source the factor is zero.
+            Its bulk temperature [K] holds at first; without a line source the factor is zero.
         """
         nx, ny = grid.nx, padded_rows(grid)
         factor = side.line_factor(self.scaled.scales, self.flux_unit) if side.marches else 0.0

@@ -95,10 +95,14 @@ class PatchCurves:
 
 
 def periodic_patch(heights: Array, *, fits: bool) -> Array:
-    """Return the middle of a patch about its mean.
+    """Return the middle of a patch about its mean, continued periodically.
 
-    It has at most `LARGEST_PATCH_NODES` points along x and y, and is continued by its mirror image
-    unless its own edges fit together.
+    Parameters
+    ----------
+    heights : Array
+        (ny, nx) [m]; at most `LARGEST_PATCH_NODES` points along x and y are taken.
+    fits : bool
+        Whether opposite edges fit together; otherwise the mirror image is added along x and y.
     """
     (ny, nx), most = heights.shape, LARGEST_PATCH_NODES
     low_y, low_x = max(ny - most, 0) // 2, max(nx - most, 0) // 2

@@ -30,7 +30,15 @@ def result_html(result: Solution | TransientSolution) -> str:
 
 
 def image_html(figure: Any, words: str) -> str:
-    """Return a matplotlib figure as an image in HTML."""
+    """Return a matplotlib figure as an image in HTML.
+
+    Parameters
+    ----------
+    figure : Figure
+        Drawn as PNG; its empty margins are cut off.
+    words : str
+        Alternative text, escaped here.
+    """
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", dpi=_NOTEBOOK_DPI, bbox_inches="tight")
     data = base64.b64encode(buffer.getvalue()).decode("ascii")

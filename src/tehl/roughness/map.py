@@ -90,7 +90,13 @@ class Map(MapSettings):
         return loading.tile_of(self)
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
-        """Return sentences on what is unusual for a contact of ``width`` by ``length`` [m]."""
+        """Return sentences on what is unusual about the map for a contact.
+
+        Parameters
+        ----------
+        width, length : float
+            Axes of the Hertz ellipse along x and y [m].
+        """
         heights = self.load()
         extent = _turned(heights.size, self.rotate)
         sizes = (

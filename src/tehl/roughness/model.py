@@ -86,7 +86,13 @@ class Roughness:
         raise NotImplementedError
 
     def resolved_on(self, dx: float, dy: float) -> "Roughness":
-        """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
+        """Return the surface without the waves that a mesh cannot carry.
+
+        Parameters
+        ----------
+        dx, dy : float
+            Mesh widths along x and y [m]; no formula is filtered.
+        """
         del dx, dy
         return self
 
@@ -103,7 +109,13 @@ class RoughnessModel(Roughness, Table):
         return ENDLESS
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
-        """Return sentences on what is unusual for a contact of ``width`` by ``length`` [m]."""
+        """Return sentences on what is unusual about the surface for a contact.
+
+        Parameters
+        ----------
+        width, length : float
+            Axes of the Hertz ellipse along x and y [m].
+        """
         del width, length
         return ()
 
@@ -143,7 +155,13 @@ class TileModel(RoughnessModel):
         return self._tile.height(x, y)
 
     def resolved_on(self, dx: float, dy: float) -> Roughness:
-        """Return the surface without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry."""
+        """Return the surface without the waves that a mesh cannot carry.
+
+        Parameters
+        ----------
+        dx, dy : float
+            Mesh widths along x and y [m]; waves shorter than two of them are lost.
+        """
         return self._tile.resolved_on(dx, dy)
 
 
@@ -153,9 +171,21 @@ def wavelength_of(number: float) -> float:
 
 
 def with_rms(stated: Any, mean: str, rms: str) -> Any:
-    """Return a table with the root mean square height ``rms`` where it has the ``mean`` absolute.
+    """Return a table with the root mean square height in place of the mean absolute height.
 
-    Raises ValueError if it states both, and they differ from those of Gaussian heights.
+    Gaussian heights are assumed, Sq = sqrt(pi/2) Sa.
+
+    Parameters
+    ----------
+    stated : object
+        Table of a surface; anything else is returned as it is.
+    mean, rms : str
+        Keys of both heights.
+
+    Raises
+    ------
+    ValueError
+        If both are stated and differ.
     """
     if not isinstance(stated, Mapping) or stated.get(mean) is None:
         return stated

@@ -106,11 +106,22 @@ def _nearest(values: Array, missing: BoolArray) -> Array:
 
 
 def filled(values: Array, how: Fill, spikes: int = 0) -> Array:
-    """Return heights with their gaps, NaN or infinite, filled.
+    """Return heights with their gaps filled.
 
-    "linear" spans a membrane over each gap (Laplace's equation), "nearest" takes the nearest
-    height, "auto" is "linear" for up to 1 % of the points. Raises InputError if more are missing;
-    the message counts the ``spikes`` among them apart.
+    Parameters
+    ----------
+    values : Array
+        (ny, nx) [m]; NaN and infinite values are gaps.
+    how : {"auto", "linear", "nearest", "refuse"}
+        "linear" spans a membrane over each gap (Laplace's equation), "nearest" takes the nearest
+        height, "auto" is "linear" for up to 1 % of the points and an error beyond.
+    spikes : int
+        Gaps that were outliers, which the message counts apart.
+
+    Raises
+    ------
+    InputError
+        If more points are missing than ``how`` allows, or more than half of them.
     """
     missing = ~np.isfinite(values)
     if not missing.any():
@@ -174,7 +185,14 @@ def _with_membranes(whole: Array, missing: BoolArray) -> Array:
 def levelled(values: Array, how: Level, measured: BoolArray | None = None) -> Array:
     """Return heights without their mean, plane or quadratic form.
 
-    The form is fitted by least squares to the points that were ``measured``; None is all.
+    Parameters
+    ----------
+    values : Array
+        (ny, nx) [m], without gaps.
+    how : {"none", "mean", "plane", "quadratic"}
+        Form that is subtracted, fitted by least squares.
+    measured : BoolArray or None
+        Points that the fit takes, not those that were filled; None is all.
     """
     if how == "none":
         return values
@@ -229,7 +247,15 @@ def gaussian_mean(heights: Array, pixel: tuple[float, float], cut_off: float) ->
 
 
 def tapered(heights: Heights, width: float) -> Array:
-    """Return heights that fall to zero over ``width`` [m] at all edges, with a flat rim around."""
+    """Return heights that fall to zero at all edges, with a flat rim around.
+
+    Parameters
+    ----------
+    heights : Heights
+        (ny, nx) [m] with the distances of their points.
+    width : float
+        Distance over which they fall, by sin^2 [m]; at most half of the map.
+    """
     windows = []
     for count, step in zip(heights.values.shape, reversed(heights.pixel), strict=True):
         edge = np.minimum(np.arange(count) + 0.5, count - np.arange(count) - 0.5)
@@ -266,7 +292,15 @@ def form_of(heights: Heights) -> Form:
 
 
 def note_on_form(heights: Heights, level: Level) -> tuple[str, ...]:
-    """Return a note if more than half of Sq is a quadratic form that ``level`` has left."""
+    """Return a note if more than half of Sq is a quadratic form that is left in the heights.
+
+    Parameters
+    ----------
+    heights : Heights
+        After levelling [m].
+    level : {"none", "mean", "plane", "quadratic"}
+        Form that was subtracted; after "quadratic" there is no note.
+    """
     if level == "quadratic":
         return ()
     form = form_of(heights)

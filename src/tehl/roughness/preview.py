@@ -56,9 +56,19 @@ class Preview:
 
 
 def preview(surface: Map, mesh: Mesh | None = None) -> Preview:
-    """Return the summary of a measured surface, compared with ``mesh``.
+    """Return the summary of a measured surface.
 
-    Raises InputError as :meth:`tehl.roughness.Map.load`.
+    Parameters
+    ----------
+    surface : Map
+        Read and prepared here.
+    mesh : Mesh or None
+        Mesh of a contact, whose half-widths and filtering the summary compares with.
+
+    Raises
+    ------
+    InputError
+        As :meth:`tehl.roughness.Map.load`.
     """
     heights = surface.load()
     values, pixel = heights.values, heights.pixel

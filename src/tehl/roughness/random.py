@@ -212,7 +212,13 @@ class Random(TileModel):
         return _tile_of(self)
 
     def fits(self, width: float, length: float) -> tuple[str, ...]:
-        """Return a sentence if the surface repeats within a contact of these lengths [m]."""
+        """Return a sentence if the surface repeats within a contact.
+
+        Parameters
+        ----------
+        width, length : float
+            Axes of the Hertz ellipse along x and y [m].
+        """
         if not min(self.period) < math.hypot(width, length) or self.is_smooth:
             return ()
         along, across = (period * 1e6 for period in self.period)
@@ -222,7 +228,13 @@ class Random(TileModel):
         )
 
     def density(self, along: Array, across: Array) -> Array:
-        """Return the power spectral density, one at zero, by wave numbers along u and v [rad/m]."""
+        """Return the power spectral density, one at zero.
+
+        Parameters
+        ----------
+        along, across : Array
+            Wave numbers along both axes of the lay [rad/m], broadcast against each other.
+        """
         first, second = self._lengths
         if self.spectrum == "gaussian":
             return np.exp(-((along * first) ** 2 + (across * second) ** 2) / 4.0)

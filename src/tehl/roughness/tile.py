@@ -96,9 +96,14 @@ class Tile(Roughness):
         return np.pad(ndimage.spline_filter(self.heights, order=3, mode=mode), ((0, 1), (0, 1)))
 
     def resolved_on(self, dx: float, dy: float) -> "Tile":
-        """Return the tile without the waves that a mesh of ``dx`` by ``dy`` [m] cannot carry.
+        """Return the tile without the waves that a mesh cannot carry.
 
         The tile itself is returned when it has nothing shorter.
+
+        Parameters
+        ----------
+        dx, dy : float
+            Mesh widths along x and y [m]; for a rotated tile the larger one counts along both axes.
         """
         cosine, sine = direction(self.angle)
         radial = sine != 0 and cosine != 0

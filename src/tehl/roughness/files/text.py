@@ -31,8 +31,18 @@ def read_text(path: Path, layout: Layout) -> RawMap:
     names are its header, whose unit, conversion factor and size count; nothing and ``nan`` are
     points without a height, but a mark at the end of a row that is as long as the others without it
     is not a point.
-    ``layout`` = "auto" takes three columns as x, y and z if the first two make a lattice, and never
-    as a table. Raises InputError, with the line, if the file holds anything else.
+
+    Parameters
+    ----------
+    path : Path
+        Text in UTF-8 or UTF-16, with or without a byte order mark.
+    layout : {"auto", "matrix", "xyz"}
+        "auto" takes three columns as x, y and z, never as a table.
+
+    Raises
+    ------
+    InputError
+        With the line, if the file holds anything else.
     """
     header = Header()
     table = _table(path, header)
