@@ -13,7 +13,19 @@ from tehl.result.solution import Solution
 def contact_map(result: Solution, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
     """Draw the pressure of film and contact together [GPa] where the surfaces touch, as a map.
 
-    Raises InputError if the case states no boundary film.
+    Parameters
+    ----------
+    result : Solution
+        With a boundary film.
+    ax : Axes or None
+        Where to draw; None makes a figure.
+    title : bool or None
+        Whether a new figure has a title.
+
+    Raises
+    ------
+    InputError
+        If the case states no boundary film, or the solve diverged.
     """
     found, shared = result.contact, touching(result)
     if found is None or shared is None:

@@ -29,6 +29,15 @@ def residual_history(
 
     The axis is logarithmic, with one in kelvin at the right for a thermal run; vertical lines
     separate the grids.
+
+    Parameters
+    ----------
+    result : Solution
+        Converged or not; its ``history`` has the cycles.
+    ax : Axes or None
+        Where to draw; None makes a figure.
+    title : bool or None
+        Whether a new figure has a title.
     """
     axes = single(result, (7.0, 4.6), ax=ax, title=title)
     axes.set(xlabel="cycle", ylabel="residual, change of P, load error [-]", yscale="log")

@@ -107,7 +107,15 @@ def single(
 
 
 def empty(ax: Axes | None, size: tuple[float, float] = (7.0, 5.0)) -> Axes:
-    """Return ``ax``, or the axes of a new figure without a title."""
+    """Return the given axes, or those of a new figure without a title.
+
+    Parameters
+    ----------
+    ax : Axes or None
+        Returned as they are if given.
+    size : (float, float)
+        Width and height of a new figure [inch].
+    """
     return Picture(figsize=size, layout="constrained").add_subplot() if ax is None else ax
 
 
@@ -227,7 +235,15 @@ def window_part(result: Solution) -> tuple[slice, slice]:
 
 
 def span_part(axis: Array, span: Span) -> slice:
-    """Return the nodes of ``axis`` between two places, and one on either side."""
+    """Return the nodes between two places, and one on either side.
+
+    Parameters
+    ----------
+    axis : Array
+        Rising coordinates, at least one of which lies in the span.
+    span : (float, float)
+        Two places in the unit of ``axis``.
+    """
     inside = np.flatnonzero((axis >= span[0]) & (axis <= span[1]))
     return slice(max(int(inside[0]) - 1, 0), int(inside[-1]) + 2)
 
@@ -244,9 +260,16 @@ def centre_row(result: Solution) -> int:
 
 
 def dress_contact(axes: Axes, result: Solution) -> None:
-    """Give axes micrometres, the window and the Hertz ellipse of ``result``.
+    """Give axes micrometres, the window and the Hertz ellipse of a result.
 
     The aspect is equal, and of a slender contact stretched so that its map can be read.
+
+    Parameters
+    ----------
+    axes : Axes
+        Of a map in micrometres.
+    result : Solution
+        Gives the window and the Hertz ellipse.
     """
     widths = (result.scales.half_width_x * MICRO, result.scales.half_width_y * MICRO)
     x, y = ((low * a, high * a) for (low, high), a in zip(window(result), widths, strict=True))
@@ -263,7 +286,15 @@ def dress_contact(axes: Axes, result: Solution) -> None:
 
 
 def mark_levels(bar: Colorbar, lines: QuadContourSet) -> None:
-    """Mark contour lines and zero on a colour bar."""
+    """Mark contour lines and zero on a colour bar.
+
+    Parameters
+    ----------
+    bar : Colorbar
+        Of the map below the lines; its ticks are replaced.
+    lines : QuadContourSet
+        With levels in the unit of the bar.
+    """
     levels = np.asarray(lines.levels)
     if levels.size:
         bar.add_lines(lines)
@@ -296,12 +327,28 @@ def entrainment_arrow(axes: Axes) -> None:
 
 
 def outline(colour: str, width: float) -> list[AbstractPathEffect]:
-    """Return path effects that keep a thin line or a text legible on any ground."""
+    """Return path effects that keep a thin line or a text legible on any ground.
+
+    Parameters
+    ----------
+    colour : str
+        Of the halo, as matplotlib names it.
+    width : float
+        Of the halo together with what it surrounds [point].
+    """
     return [withStroke(linewidth=width, foreground=colour)]
 
 
 def nice_levels(span: Span, count: int) -> Array:
-    """Return about ``count`` round values from end to end of ``span`` or a little beyond."""
+    """Return round values from end to end of a span or a little beyond.
+
+    Parameters
+    ----------
+    span : (float, float)
+        Least and largest value.
+    count : int
+        Wanted number of intervals, at most.
+    """
     return np.asarray(MaxNLocator(count, steps=STEPS).tick_values(*span), dtype=np.float64)
 
 

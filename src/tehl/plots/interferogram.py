@@ -51,11 +51,17 @@ class Optics:
     """Phase between the beams at zero distance [rad]; pi makes the zeroth order dark."""
 
     def thickness(self, film: Array, density_ratio: Array | float = 1.0) -> Array:
-        r"""Return the optical thickness ``n h + n_s h_s`` [m] of a film [m] and the spacer.
+        r"""Return the optical thickness ``n h + n_s h_s`` [m] of a film and the spacer.
 
-        The index n of the oil follows its density, ``density_ratio`` times that at ambient
-        pressure, after Lorentz and Lorenz, :math:`(n^2 - 1)/(n^2 + 2) \propto \rho`: some 8 % more
-        at 0.8 GPa.
+        The index n of the oil follows its density after Lorentz and Lorenz,
+        :math:`(n^2 - 1)/(n^2 + 2) \propto \rho`: some 8 % more at 0.8 GPa.
+
+        Parameters
+        ----------
+        film : Array
+            Film thickness h [m].
+        density_ratio : Array or float
+            Density over that at ambient pressure [-].
         """
         squared = self.refractive_index**2
         refraction = (squared - 1.0) / (squared + 2.0) * density_ratio
@@ -63,9 +69,14 @@ class Optics:
         return index * film + self.spacer_index * self.spacer_thickness
 
     def reflectance(self, thickness: Array, wavelength: Array | float) -> Array:
-        """Return the reflected part of light of a wavelength in vacuum [m], by two beams.
+        """Return the reflected part of light [-], by two beams.
 
-        ``thickness`` is the optical one [m]; both are broadcast against each other.
+        Parameters
+        ----------
+        thickness : Array
+            Optical thickness [m].
+        wavelength : Array or float
+            In vacuum [m], broadcast against ``thickness``.
         """
         first = self.chromium_reflectance
         second = self.chromium_transmittance**2 * self.ball_reflectance
@@ -137,9 +148,21 @@ def interferogram(
 
 
 def colours(thickness: Array, optics: Optics) -> Array:
-    """Return the sRGB colours, 0 to 1, of an array of optical thickness [m]: one axis more.
+    """Return the colours of an array of optical thickness.
 
-    By a table over the thickness. The brightest fringe is as bright as the screen allows.
+    They are interpolated in a table over the thickness.
+
+    Parameters
+    ----------
+    thickness : Array
+        Optical thickness ``n h + n_s h_s`` [m], of any shape.
+    optics : Optics
+        Light, reflectances and phase.
+
+    Returns
+    -------
+    Array
+        sRGB from 0 to 1, one axis more than ``thickness``; the brightest fringe has 1.
     """
     top = max(float(np.max(thickness)), 1e-6)
     table = np.linspace(0.0, top, int(np.clip(top / 1e-9, 500, 20000)))

@@ -13,7 +13,19 @@ from tehl.result.solution import Solution
 def asperity_map(result: Solution, *, ax: Axes | None = None, title: bool | None = True) -> Figure:
     """Draw the pressure of the asperities [MPa] as a map, averaged over many of them.
 
-    Raises InputError if the case has none.
+    Parameters
+    ----------
+    result : Solution
+        With a law of asperities.
+    ax : Axes or None
+        Where to draw; None makes a figure.
+    title : bool or None
+        Whether a new figure has a title.
+
+    Raises
+    ------
+    InputError
+        If the case has no asperities, or the solve diverged.
     """
     found, shared = result.asperities, load_sharing(result)
     if found is None or shared is None:

@@ -24,6 +24,13 @@ def surface_preview(preview: Preview, *, title: bool | None = True) -> Figure:
 
     The picture has the map with the contact, rotated and shifted as stated, the distribution of
     heights, and the power spectral density with the waves that the mesh loses.
+
+    Parameters
+    ----------
+    preview : Preview
+        With the mesh of a contact, or without one.
+    title : bool or None
+        Whether the figure names file and statistics above.
     """
     picture, seen = Picture(figsize=_SIZE, layout="constrained"), view(preview)
     width, height = seen.size

@@ -60,7 +60,17 @@ _HIGHEST_FILM = 3.0
 def mid_film_temperature(
     result: Solution, *, ax: Axes | None = None, title: bool | None = True
 ) -> Figure:
-    """Draw the temperature rise half-way between the surfaces [K] as a map."""
+    """Draw the temperature rise half-way between the surfaces [K] as a map.
+
+    Parameters
+    ----------
+    result : Solution
+        Of a thermal run.
+    ax : Axes or None
+        Where to draw; None makes a figure.
+    title : bool or None
+        Whether a new figure has a title.
+    """
     found = _heat_of(result)[1]
     note = (
         f"oil enters at {found.inlet - 273.15:.4g} °C; largest rise {found.film_rise_max:.3g} K "
@@ -102,7 +112,15 @@ def _coloured(
 
 
 def temperature_layers(result: Solution, *, title: bool | None = True) -> Figure:
-    """Draw the temperature rise on both surfaces and on layers between, in one scale of colours."""
+    """Draw the temperature rise on both surfaces and on layers between, in one scale of colours.
+
+    Parameters
+    ----------
+    result : Solution
+        Of a thermal run.
+    title : bool or None
+        Whether the figure has a title.
+    """
     found = _heat_of(result)[1]
     layers = _layers(result)
     slender = shape(result)
@@ -146,6 +164,13 @@ def temperature_section(result: Solution, *, title: bool | None = True) -> Figur
     """Draw the temperature rise in the plane y = 0, over z/h and over z, in one scale of colours.
 
     Between its nodes across the film the temperature is a cubic spline.
+
+    Parameters
+    ----------
+    result : Solution
+        Of a thermal run.
+    title : bool or None
+        Whether the figure has a title.
     """
     from scipy.interpolate import CubicSpline  # noqa: PLC0415 (0.3 s)
 
@@ -183,7 +208,15 @@ def _mark_ends(axes: Axes, result: Solution, colour: str, width: float) -> None:
 
 
 def surface_heat(result: Solution, *, title: bool | None = True) -> Figure:
-    """Draw temperature rises [K] and heat fluxes into the solids [MW/m^2] along y = 0."""
+    """Draw temperature rises [K] and heat fluxes into the solids [MW/m^2] along y = 0.
+
+    Parameters
+    ----------
+    result : Solution
+        Of a thermal run.
+    title : bool or None
+        Whether the figure has a title.
+    """
     heat = _heat_of(result)[0]
     row = centre_row(result)
     x = result.x * MICRO
@@ -206,7 +239,15 @@ def surface_heat(result: Solution, *, title: bool | None = True) -> Figure:
 
 
 def rises(result: Solution, line: Line) -> list[tuple[Array, dict[str, Any]]]:
-    """Return the temperature rises along a grid line [K], and the style of the curve of each."""
+    """Return the temperature rises along a grid line [K], and the style of the curve of each.
+
+    Parameters
+    ----------
+    result : Solution
+        Of a thermal run.
+    line : (int or slice, int or slice)
+        Row and columns, or rows and column, of the grid.
+    """
     heat, found = _heat_of(result)
     return [
         (field[line] - found.inlet, {"label": name, "color": colour, "ls": style, "lw": 1.3})

@@ -44,6 +44,13 @@ def history(run: TransientSolution, *, title: bool | None = True) -> Figure:
 
     The upper axis is the distance that the mean of both surfaces has moved. Bands are the error
     bars of a certified run.
+
+    Parameters
+    ----------
+    run : TransientSolution
+        Traction, rise and load are drawn if they change.
+    title : bool or None
+        Whether the figure has a title.
     """
     factor, unit = time_unit(run)
     numbers, time = run.history, run.history.time * factor
@@ -111,6 +118,13 @@ def space_time(run: TransientSolution, *, title: bool | None = True) -> Figure:
 
     Lines are the paths of points on both surfaces (and of the oil between them, dotted, at the mean
     speed, where the speeds differ).
+
+    Parameters
+    ----------
+    run : TransientSolution
+        With pressure and film along y = 0 at each step.
+    title : bool or None
+        Whether the figure has a title.
     """
     factor, unit = time_unit(run)
     part = _window(run)
@@ -157,9 +171,17 @@ def moments(
 ) -> Figure:
     """Draw pressure and film along y = 0 at several moments, above the undeformed rough body.
 
-    ``times`` [s] are rounded to steps; by default they are four while the roughness passes. The
-    steady film at the start is dotted. Below zero, on the scale of the film, are the heights of
+    The steady film at the start is dotted. Below zero, on the scale of the film, are the heights of
     both bodies together.
+
+    Parameters
+    ----------
+    run : TransientSolution
+        With pressure and film along y = 0 at each step.
+    times : sequence of float or None
+        Rounded to steps [s]; None takes four while the roughness passes.
+    title : bool or None
+        Whether the figure has a title.
     """
     reached, (factor, unit) = run.history.time, time_unit(run)
     steps = moments_of(run)
@@ -236,7 +258,15 @@ def _largest_inside(run: TransientSolution, film: Array) -> float:
 
 
 def passage(run: TransientSolution, *, title: bool | None = True) -> Figure:
-    """Draw the range of film and pressure along y = 0 over the run."""
+    """Draw the range of film and pressure along y = 0 over the run.
+
+    Parameters
+    ----------
+    run : TransientSolution
+        With pressure and film along y = 0 at each step.
+    title : bool or None
+        Whether the figure has a title.
+    """
     found, start, part = envelope(run), run.profiles, _window(run)
     x = found.x[part] * MICRO
     picture = figure(run, (7.0, 6.2), title=title)

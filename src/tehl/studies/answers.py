@@ -61,6 +61,13 @@ def answers(contacts: Contacts, store: Store) -> Iterator[dict[str, Any]]:
     """Yield a line for each row: cells, answers with their bars, regime, and how it was obtained.
 
     Rows are taken from the store in parts, so that the memory does not grow with the list.
+
+    Parameters
+    ----------
+    contacts : Contacts
+        Rows of the list; one without a valid case has its message only.
+    store : Store
+        With the finished cases; a row that is missing there has no answer yet.
     """
     for first in range(0, len(contacts.rows), _CHUNK):
         part = contacts.rows[first : first + _CHUNK]
@@ -125,7 +132,17 @@ def check_output(path: Path) -> None:
 
 
 def write_answers(contacts: Contacts, store: Store, path: Path) -> None:
-    """Write the answers as CSV, Excel or Parquet, by the ending of ``path``, or nothing."""
+    """Write the answers as CSV, Excel or Parquet.
+
+    Parameters
+    ----------
+    contacts : Contacts
+        Rows of the list.
+    store : Store
+        With the finished cases.
+    path : Path
+        Ends in .csv, .xlsx or .parquet; written whole or not at all.
+    """
     check_output(path)
     headings = _headings_of(answers(contacts, store), contacts)
     lines = answers(contacts, store)
@@ -249,7 +266,23 @@ def solve_list(
     forked: bool = False,
     monitor: StudyMonitor = QUIET,
 ) -> Outcome:
-    """Solve the rows of a list that the store does not have; arguments as of `tehl.studies.run`."""
+    """Solve the rows of a list that the store does not have.
+
+    Parameters
+    ----------
+    contacts : Contacts
+        Equal rows are solved once.
+    store : Store
+        Takes each finished case; those it has are not solved again.
+    jobs : int
+        Processes on this machine.
+    scheduler : str or None
+        Address of a dask scheduler, whose workers solve instead.
+    forked : bool
+        Whether workers are forked from a process with compiled kernels.
+    monitor : StudyMonitor
+        Receives each finished case.
+    """
     return run(
         contacts.cases, store, jobs=jobs, scheduler=scheduler, forked=forked, monitor=monitor
     )

@@ -221,7 +221,17 @@ def groups_of(axes: Sequence[Axis]) -> list[list[Axis]]:
 def count_of(group: Sequence[Axis], sample: Sample | None) -> int:
     """Return the number of rows of a group of axes, before they are made.
 
-    Raises a ValueError for zipped axes of different lengths, and sampled ones without a sample.
+    Parameters
+    ----------
+    group : sequence of Axis
+        One axis, axes of one ``zip``, or all sampled ones.
+    sample : Sample or None
+        Number and method of sampled points.
+
+    Raises
+    ------
+    ValueError
+        If zipped axes differ in length, or sampled ones have no sample.
     """
     first = group[0]
     if first.is_sampled:
@@ -238,7 +248,15 @@ def count_of(group: Sequence[Axis], sample: Sample | None) -> int:
 
 
 def block_of(group: Sequence[Axis], sample: Sample | None) -> Block:
-    """Return the block of a group of axes that :func:`count_of` has accepted."""
+    """Return the block of a group of axes that :func:`count_of` has accepted.
+
+    Parameters
+    ----------
+    group : sequence of Axis
+        One axis, axes of one ``zip``, or all sampled ones.
+    sample : Sample or None
+        Places of sampled points in the unit cube.
+    """
     if sample is not None and group[0].is_sampled:
         places = sample.places(len(group))
         columns = [axis.settings(places[:, number]) for number, axis in enumerate(group)]

@@ -80,7 +80,17 @@ class Engine:
         return 1
 
     def submit(self, ticket: Ticket, function: Callable[..., Any], *arguments: Any) -> None:
-        """Call the function now, or as soon as a worker is idle."""
+        """Call a function now, or as soon as a worker is idle.
+
+        Parameters
+        ----------
+        ticket : Ticket
+            Returned with the result.
+        function : callable
+            Importable by workers, so a function of a module.
+        *arguments
+            Must be picklable.
+        """
         self._finished.append((ticket, attempt(function, *arguments)))
 
     def take(self) -> Finished:
@@ -141,7 +151,17 @@ class Pool(Engine):
         return self._jobs
 
     def submit(self, ticket: Ticket, function: Callable[..., Any], *arguments: Any) -> None:
-        """Send a task to an idle process."""
+        """Send a task to an idle process.
+
+        Parameters
+        ----------
+        ticket : Ticket
+            Returned with the result.
+        function : callable
+            Importable by workers, so a function of a module.
+        *arguments
+            Must be picklable.
+        """
         if not self._idle:
             self._idle = self._started(self._jobs - len(self._busy))
         worker = self._idle.pop()

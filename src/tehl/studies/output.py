@@ -120,7 +120,20 @@ def checked_pictures(
 
 
 def draw(picture: Picture, table: "pd.DataFrame") -> "Figure":
-    """Draw a table; raise for missing columns and for a table without converged cases."""
+    """Draw a table.
+
+    Parameters
+    ----------
+    picture : Picture
+        Columns, ranges and title.
+    table : DataFrame
+        Of a study, with title and units in ``attrs``.
+
+    Raises
+    ------
+    InputError
+        If a column is missing, or no case converged.
+    """
     if picture.map is not None:
         return table_maps.moes_map(table)
     x, y = str(picture.x), str(picture.y)
@@ -207,7 +220,17 @@ def _conversion(name: str, si: str, unit: str) -> tuple[float, float]:
 
 
 def write_sheet(table: "pd.DataFrame", path: Path, columns: Sequence[str]) -> None:
-    """Write columns of a table as CSV or Excel, by the ending of ``path``; whole or not at all."""
+    """Write columns of a table as CSV or Excel.
+
+    Parameters
+    ----------
+    table : DataFrame
+        Of a study, in SI.
+    path : Path
+        Ends in .csv or .xlsx; written whole or not at all.
+    columns : sequence of str
+        Names, each perhaps with a unit such as ``film.central [nm]``.
+    """
     check_sheet(path)
     found = sheet(table, columns)
     with replacing(path) as temporary:

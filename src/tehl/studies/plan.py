@@ -182,7 +182,15 @@ _REMEDY = (
 
 
 def store_of(plan: Plan, folder: Path) -> Store:
-    """Return the store of a study, in its folder if it names no other."""
+    """Return the store of a study, in its folder if it names no other.
+
+    Parameters
+    ----------
+    plan : Plan
+        Names the folder of the store, or none, and what is kept of a case.
+    folder : Path
+        Of the study.
+    """
     return Store(plan.store or folder, keep=plan.keep)
 
 
@@ -233,7 +241,20 @@ def _lock(file: IO[bytes], folder: Path) -> None:
 
 
 def save_plan(plan: Plan, folder: Path) -> bool:
-    """Keep a plan, so that the folder can be run again; return whether it is the first."""
+    """Keep a plan, so that the folder can be run again.
+
+    Parameters
+    ----------
+    plan : Plan
+        Axes, base case and settings.
+    folder : Path
+        Of the study; made if it is missing.
+
+    Returns
+    -------
+    bool
+        Whether the folder had no plan before.
+    """
     check_folder(folder)
     folder.mkdir(parents=True, exist_ok=True)
     content = {"tehl_study": _PLAN_FORMAT, "plan": TypeAdapter(Plan).dump_python(plan, mode="json")}
@@ -266,9 +287,21 @@ def load_plan(folder: Path) -> Plan:
 
 
 def check_same(plan: Plan, folder: Path) -> None:
-    """Raise if a folder holds a study with another base case or other axes.
+    """Check that a folder holds the same study, if any.
 
     Other values along the same axes, and another title, are accepted.
+
+    Parameters
+    ----------
+    plan : Plan
+        Of the study to run.
+    folder : Path
+        Perhaps with the plan of an earlier run.
+
+    Raises
+    ------
+    InputError
+        If the base case or the axes differ.
     """
     if not (folder / PLAN).is_file():
         return
@@ -304,7 +337,17 @@ def remove_outcome(folder: Path) -> None:
 def write_table(frame: "pd.DataFrame", folder: Path) -> list[Path]:
     """Write a table as CSV, its units beside it, and as Parquet where pyarrow is installed.
 
-    Returns the files; each appears whole or not at all.
+    Parameters
+    ----------
+    frame : DataFrame
+        With the units of its columns in ``attrs``.
+    folder : Path
+        Of the study.
+
+    Returns
+    -------
+    list of Path
+        The files; each appears whole or not at all.
     """
     written = [folder / TABLE, folder / _UNITS]
     with replacing(written[0]) as temporary:

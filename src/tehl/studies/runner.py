@@ -54,10 +54,26 @@ class StudyMonitor(Protocol):
         """Take a message to the user."""
 
     def begin(self, total: int, reused: int) -> None:
-        """Take the number of cases, and how many of them were finished before."""
+        """Receive the size of a study that begins.
+
+        Parameters
+        ----------
+        total : int
+            Cases of the study.
+        reused : int
+            Those that the store had finished before.
+        """
 
     def finished(self, case: Case, row: Row) -> None:
-        """Take a case that has just been finished."""
+        """Receive a finished case.
+
+        Parameters
+        ----------
+        case : Case
+            As it was solved, perhaps with the settings of a retry.
+        row : Row
+            Its numbers, or its failure.
+        """
 
 
 class Quiet(StudyMonitor):
@@ -383,13 +399,34 @@ def forecast(
 
 
 def expected_times(cases: Sequence[Case], finished: Mapping[str, Row]) -> dict[str, float]:
-    """Return the CPU seconds to expect of the cases that are not finished, by their keys."""
+    """Return the CPU seconds to expect of the unfinished cases, by their keys.
+
+    Parameters
+    ----------
+    cases : sequence of Case
+        All of the study; equal ones count once.
+    finished : Mapping
+        Rows by key.
+    """
     every = {case.key: case for case in cases}
     return {key: _seconds(case) for key, case in every.items() if key not in finished}
 
 
 def check_memory_of(forecast: Forecast, jobs: int) -> None:
-    """Raise an InputError if all workers together need more memory than is available."""
+    """Check that all workers together fit into the available memory.
+
+    Parameters
+    ----------
+    forecast : Forecast
+        With the memory of all workers together [byte].
+    jobs : int
+        Number of workers; a single one is not checked.
+
+    Raises
+    ------
+    InputError
+        If they need more memory than is available.
+    """
     available = available_memory()
     if available is None or forecast.memory_bytes <= available or jobs < 2:
         return

@@ -95,6 +95,13 @@ class Store:
         """Return the rows of the finished cases by key, optionally without their summaries.
 
         A case whose row is damaged is not finished.
+
+        Parameters
+        ----------
+        cases : iterable of Case
+            Looked up by their keys.
+        summaries : bool
+            Whether the numbers are read too, which takes most of the time.
         """
         columns = _COLUMNS if summaries else _COLUMNS.replace("summary", "'{}'")
         keys = json.dumps([case.key for case in cases])
@@ -209,7 +216,15 @@ class Memory(Store):
         return bool(self._known)
 
     def rows(self, cases: Iterable[Case], *, summaries: bool = True) -> dict[str, Row]:
-        """Return the rows of the finished cases by key."""
+        """Return the rows of the finished cases by key.
+
+        Parameters
+        ----------
+        cases : iterable of Case
+            Looked up by their keys.
+        summaries : bool
+            Not used: the numbers are in memory.
+        """
         del summaries
         keys = dict.fromkeys(case.key for case in cases)
         return {key: self._known[key] for key in keys if key in self._known}

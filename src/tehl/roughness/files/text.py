@@ -35,7 +35,7 @@ def read_text(path: Path, layout: Layout) -> RawMap:
     Parameters
     ----------
     path : Path
-        Text in UTF-8 or UTF-16, with or without a byte order mark.
+        Text in UTF-8, or in UTF-16 with a byte order mark.
     layout : {"auto", "matrix", "xyz"}
         "auto" takes three columns as x, y and z, never as a table.
 
