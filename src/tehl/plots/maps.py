@@ -275,8 +275,8 @@ def micro_film_map(
     result : Solution
         With at least one rough surface.
     smooth : Solution or None
-        Reference run to subtract; without it long waves are filtered off, and the ripples at the rim
-        of the contact and beyond are left blank.
+        Reference run to subtract; without it long waves are filtered off, and the ripples at
+        the rim of the contact and beyond are left blank.
     title : bool or None
         Whether the figure has a title.
 

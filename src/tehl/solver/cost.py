@@ -34,11 +34,16 @@ class Clock:
 
 
 def fft_seconds(nx: int, ny: int) -> float:
-    """Return the CPU seconds of one zero-padded FFT deformation on ``nx`` by ``ny`` nodes.
+    """Return the CPU seconds of one zero-padded FFT deformation; zero if the clock did not tick.
 
     Real transform, product with a given spectrum, inverse; full domain, period of twice the
     intervals, float64, one thread, reused buffers; mean over one interval, as a CPU clock may tick
-    at 16 ms. Zero if the clock did not tick.
+    at 16 ms.
+
+    Parameters
+    ----------
+    nx, ny : int
+        Nodes along x and y; beyond `TIMED` the time of a smaller transform is extrapolated.
     """
     if max(nx, ny) > TIMED:
         fewer = [min(n, TIMED) for n in (nx, ny)]

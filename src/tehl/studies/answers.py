@@ -67,7 +67,7 @@ def answers(contacts: Contacts, store: Store) -> Iterator[dict[str, Any]]:
     contacts : Contacts
         Rows of the list; one without a valid case has its message only.
     store : Store
-        With the finished cases; a row that is missing there has no answer yet.
+        With the finished cases; the other rows have their cells only.
     """
     for first in range(0, len(contacts.rows), _CHUNK):
         part = contacts.rows[first : first + _CHUNK]

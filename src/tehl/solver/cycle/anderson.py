@@ -27,7 +27,13 @@ class Anderson:
         self.changes: list[Array] = []
 
     def combine(self, before: Array, after: Array) -> Array:
-        """Return the start of the next cycle from start and end of the last one, each (n,)."""
+        """Return the start of the next cycle.
+
+        Parameters
+        ----------
+        before, after : Array
+            State at the start and at the end of the last cycle, (n,).
+        """
         change = after - before
         if self.changes and not _size(change) <= DROPPING_RATIO * min(map(_size, self.changes)):
             self.states, self.changes = [], []

@@ -119,9 +119,19 @@ class Roughness:
         return len(levels) > self.first
 
     def restart(self, number: int, expected_film: float) -> bool:
-        """Restart level ``number`` from the smooth film; the heights are raised there again.
+        """Restart a level from the smooth film; the heights are raised there again.
 
-        Return whether a smooth film is available; if not, the level starts from the Hertz pressure.
+        Parameters
+        ----------
+        number : int
+            Of the level, zero is the coarsest.
+        expected_film : float
+            Central film H from which the Hertz pressure starts.
+
+        Returns
+        -------
+        bool
+            Whether a smooth film is available; if not, the level starts from the Hertz pressure.
         """
         self.first = number
         self.first_comparable = max(self.first_comparable, number)

@@ -397,5 +397,13 @@ class GridIteration:
 
 
 def coarse_grid(levels: Sequence[Level], nodes: int) -> Grid:
-    """Return the coarsest grid of at least ``nodes`` along x."""
+    """Return the coarsest grid with enough nodes along x, else the finest one.
+
+    Parameters
+    ----------
+    levels : sequence of Level
+        The coarsest first.
+    nodes : int
+        Least number along x.
+    """
     return next((one.grid for one in levels if one.grid.nx >= nodes), levels[-1].grid)

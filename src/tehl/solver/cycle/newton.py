@@ -171,7 +171,15 @@ class System:
         return np.append(kept, self.newton.load_weights @ pressure)
 
     def solve(self, preconditioner: "Preconditioner", accuracy: float) -> Array:
-        """Return the Newton step of `Level.unknowns`, by GCROT to a relative residual."""
+        """Return the Newton step of `Level.unknowns`, by GCROT.
+
+        Parameters
+        ----------
+        preconditioner : Preconditioner
+            Of this or an earlier step.
+        accuracy : float
+            Relative residual at which the iteration ends [-].
+        """
         size = self.rest.size
         change, _ = gcrotmk(
             LinearOperator((size, size), matvec=self.product, dtype=float),
@@ -225,7 +233,15 @@ class Preconditioner:
         return matrix
 
     def solve(self, system: System, rest: Array) -> Array:
-        """Return an approximate solution of ``system`` for the right-hand side ``rest``."""
+        """Return an approximate solution: coarse-grid correction, then the sparse near field.
+
+        Parameters
+        ----------
+        system : System
+            Its product gives the residual after the coarse-grid correction.
+        rest : Array
+            Right-hand side, (n + 1,): the nodes, then the load.
+        """
         coarse = lu_solve(self.coarse, np.append(self.to_coarse @ rest[:-1], rest[-1]))
         change = np.append(self.to_fine @ coarse[:-1], coarse[-1])
         left = rest - system.product(change)

@@ -134,7 +134,19 @@ class LineSmoother:
         self.is_stiff = relaxation.stiff
 
     def sweep(self, film: Film, stencil: Stencil, rhs: Array, flow: FlowTable) -> None:
-        """Relax ``film.p`` in place."""
+        """Relax ``film.p`` in place.
+
+        Parameters
+        ----------
+        film : Film
+            Pressure, film and conductance of the level; ``p`` is overwritten.
+        stencil : Stencil
+            Weights of the Reynolds equation.
+        rhs : Array
+            Right-hand side of the level, (ny, nx).
+        flow : FlowTable
+            Slope of the conductance by pressure, for stiff settings only.
+        """
         if self.is_stiff:
             kernels.stiffen(film, stencil, flow, self.stiffness)
         kernels.relax_lines(film, stencil, rhs, self.workspace)
@@ -150,13 +162,33 @@ class PointSmoother:
         self.omega = relaxation.point
 
     def sweep(self, film: Film, stencil: Stencil, rhs: Array, flow: FlowTable) -> None:
-        """Relax ``film.p`` in place."""
+        """Relax ``film.p`` in place.
+
+        Parameters
+        ----------
+        film : Film
+            Pressure, film and conductance of the level; ``p`` is overwritten.
+        stencil : Stencil
+            Weights of the Reynolds equation.
+        rhs : Array
+            Right-hand side of the level, (ny, nx).
+        flow : FlowTable
+            Not used.
+        """
         del flow
         kernels.relax_points(film, stencil, rhs, self.point, self.omega)
 
 
 def make_smoother(equations: Equations, relaxation: Relaxation) -> Smoother:
-    """Return the smoother of one grid: plain Gauss-Seidel if so named, else by lines."""
+    """Return the smoother of one grid: plain Gauss-Seidel if so named, else by lines.
+
+    Parameters
+    ----------
+    equations : Equations
+        Grid, influence and stencil of the level.
+    relaxation : Relaxation
+        One of the named settings of this module.
+    """
     if relaxation is GAUSS_SEIDEL:
         return PointSmoother(equations.grid, equations.influence, relaxation)
     influence, touches = equations.influence, equations.asperities is not None

@@ -166,7 +166,15 @@ def _reject(result: Solution, status: Status) -> NoReturn:
 
 
 def not_certified(result: Solution, why: str) -> Status:
-    """Return ``not_certified``: the finest grid converged, but has no error bar."""
+    """Return ``not_certified``: the finest grid converged, but has no error bar.
+
+    Parameters
+    ----------
+    result : Solution
+        Of the finest grid; the hint names half its mesh widths.
+    why : str
+        Which run failed and how.
+    """
     nodes = 2 * max(result.scaled.x.size, result.scaled.y.size) - 1
     return Status(
         kind="not_converged",
@@ -177,18 +185,42 @@ def not_certified(result: Solution, why: str) -> Status:
 
 
 def too_coarse_to_certify(result: Solution, error: float) -> Status:
-    """Return ``grid_too_coarse`` for a certified result with a relative error bar ``error``."""
+    """Return ``grid_too_coarse`` for a certified result with a wide error bar.
+
+    Parameters
+    ----------
+    result : Solution
+        Of the finest grid.
+    error : float
+        Relative error bar of the film [-].
+    """
     return too_coarse((result.scaled.x.size, result.scaled.y.size), result.scaled_problem, error)
 
 
 def widest(uncertainty: dict[str, Estimate], names: Iterable[str]) -> float:
-    """Return the largest relative error bar; a value extrapolated to zero has an infinite one."""
+    """Return the largest relative error bar [-].
+
+    Parameters
+    ----------
+    uncertainty : dict
+        Values with their bars, by name; an extrapolated zero has an infinite relative bar.
+    names : iterable of str
+        Those that are compared.
+    """
     bars = (uncertainty[name] for name in names)
     return max(abs(bar.uncertainty / bar.value) if bar.value else math.inf for bar in bars)
 
 
 def message_on(grids: list[str], wide: str) -> str:
-    """Return how the runs ended, given for each grid and for the larger domain."""
+    """Return how the runs of a certified result ended.
+
+    Parameters
+    ----------
+    grids : list of str
+        How the run on each grid ended, the coarsest first.
+    wide : str
+        How the run on the larger domain ended.
+    """
     return f"Grids of the error bars: {', '.join(grids)}; larger domain: {wide}."
 
 
@@ -199,7 +231,15 @@ def nodes_of(options: Options) -> str:
 
 
 def halved(options: Options, times: int) -> Options:
-    """Return options of the grid with its intervals halved ``times`` times."""
+    """Return options of a coarser grid.
+
+    Parameters
+    ----------
+    options : Options
+        With the nodes stated, (n - 1) divisible by 2^times.
+    times : int
+        How often the number of intervals is halved.
+    """
     ny, nx = ((n - 1) // 2**times + 1 for n in options.shape)
     return options.on_points(nx, ny)
 
@@ -213,7 +253,15 @@ def certifiable(options: Options) -> Options:
 
 
 def widened(options: Options, finest: Solution) -> Options:
-    """Return options of the larger domain: the nodes of ``finest``, twice its mesh width."""
+    """Return options of the larger domain, on twice the mesh width.
+
+    Parameters
+    ----------
+    options : Options
+        Of the certified run.
+    finest : Solution
+        Its domain is enlarged by `LARGER_DOMAIN_FACTOR`, its number of nodes is kept.
+    """
     x, y = (
         (LARGER_DOMAIN_FACTOR * float(edges[0]), LARGER_DOMAIN_FACTOR * float(edges[-1]))
         for edges in (finest.scaled.x, finest.scaled.y)
@@ -305,9 +353,16 @@ def estimate(values: tuple[float, ...], domain: float, residue: float = RESIDUE)
 
     If the grids show second order, the extrapolated value is h_3 + (h_3 - h_2)/3, and the bar its
     difference to that with the observed order, at least ``residue`` of (h_3 - h_2)/3. If not, the
-    value is h_3, and the bar that of `_without_order`; of two grids |h_3 - h_2|. ``values`` are
-    h_1, h_2, h_3 or h_2, h_3 on grids halved each time, and ``domain`` is the change by the larger
-    domain.
+    value is h_3, and the bar that of `_without_order`; of two grids |h_3 - h_2|.
+
+    Parameters
+    ----------
+    values : tuple of float
+        h_1, h_2, h_3 or h_2, h_3 on grids halved each time, in any unit.
+    domain : float
+        Change of the value by the larger domain, in the same unit.
+    residue : float
+        Least bar over the correction [-].
     """
     last = values[-1] - values[-2]
     first = values[1] - values[0] if len(values) == 3 else 0.0

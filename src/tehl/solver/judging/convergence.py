@@ -103,8 +103,19 @@ class DivergedError(ArithmeticError):
 def check_divergence(report: CycleReport, expected_film: float, *, rough: bool) -> None:
     """Check that an iteration may still converge.
 
-    Raises DivergedError when residual, load error, film or, between rough surfaces, change are too
-    large or NaN.
+    Parameters
+    ----------
+    report : CycleReport
+        Of the last cycle.
+    expected_film : float
+        Central film H; `RUNAWAY` times it is too thick.
+    rough : bool
+        Whether the change of the pressure is limited too.
+
+    Raises
+    ------
+    DivergedError
+        If residual, load error, film or change are too large or NaN.
     """
     largest = RUNAWAY * max(expected_film, 1.0)
     numbers = abs(report.load_error) < RUNAWAY and report.film_central < largest
@@ -171,7 +182,13 @@ class GridTrace:
             trace.least_rate = max(LEAST_CONVERGENCE_RATE, 1.0 - self.damping)
 
     def note(self, central: float, minimum: float) -> None:
-        """Append the film before the first cycle."""
+        """Append the film before the first cycle.
+
+        Parameters
+        ----------
+        central, minimum : float
+            Film H of the interpolated start [-].
+        """
         self.central.values.append(central)
         self.minimum.values.append(minimum)
 
@@ -223,6 +240,13 @@ def temperature_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
     """Whether the iteration error of the largest rise is a third of its discretisation error.
 
     Or below `RISE_ERROR`, or below `LEAST_KELVIN`.
+
+    Parameters
+    ----------
+    now : GridTrace
+        Cycles on this grid.
+    coarser : GridTrace or None
+        Of the grid before, for the discretisation error; None on the first grid.
     """
     last = now.reports[-1]
     largest = LARGEST_KELVIN_CHANGE * abs(last.temperature_rise)
@@ -236,7 +260,15 @@ def temperature_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
 
 
 def film_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
-    """Whether the iteration error of the film is below a third of its discretisation error."""
+    """Whether the iteration error of the film is below a third of its discretisation error.
+
+    Parameters
+    ----------
+    now : GridTrace
+        Cycles on this grid.
+    coarser : GridTrace or None
+        Of the grid before, for the discretisation error; None on the first grid.
+    """
     if len(now.reports) < now.least_cycles:
         return False
     last = now.reports[-1]
@@ -262,7 +294,15 @@ def film_converged(now: GridTrace, coarser: GridTrace | None) -> bool:
 
 
 def stalled(now: GridTrace, patience: int = 1) -> bool:
-    """Whether the residual has not halved over the last 8 ``patience`` cycles."""
+    """Whether the residual has not halved over the last cycles.
+
+    Parameters
+    ----------
+    now : GridTrace
+        Cycles on this grid.
+    patience : int
+        Factor on the 8 cycles that are considered.
+    """
     residuals, cycles = [report.residual for report in now.reports], patience * STALL_CYCLES
     if len(residuals) <= cycles:
         return False
@@ -495,10 +535,16 @@ def first_order_bar(values: list[float]) -> float:
 def discretisation_bar(values: list[float], otherwise: float = 1.0) -> float:
     """Return the error bar of the last of two or three values on grids halved each time.
 
-    A third of the last change, times `SAFETY`, if the three values show second order;
-    ``otherwise`` times the change if not, as coarse grids may be far from their limit. If that
+    A third of the last change, times `SAFETY`, if the three values show second order. If the last
     change is less than a quarter of the one before, which second order would leave, two grids agree
     by chance, and the quarter counts.
+
+    Parameters
+    ----------
+    values : list of float
+        The coarsest grid first, in any unit.
+    otherwise : float
+        Bar over the last change without second order, as coarse grids may be far from their limit.
     """
     change = abs(values[-1] - values[-2])
     if len(values) == 3 and min(values) > 0.3 * values[-1] > 0:

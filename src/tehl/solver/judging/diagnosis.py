@@ -148,6 +148,13 @@ def likely_cause(grid: Grid, scaled: ScaledProblem) -> LikelyCause | None:
     """Return all likely causes as one, named by the first; None without any.
 
     Temperatures and sliding do not affect an isothermal Newtonian film.
+
+    Parameters
+    ----------
+    grid : Grid
+        Finest grid of the failed run.
+    scaled : ScaledProblem
+        Its expected film, temperatures and stresses are compared with limits.
     """
     found = [*_film_below_grid(grid, scaled)]
     if scaled.problem.is_coupled:
@@ -237,9 +244,16 @@ def _round(value: float) -> str:
 
 
 def grid_hint(points: tuple[int, int], scaled: ScaledProblem) -> Hint:
-    """Return the hint to the recommended grid, at least twice as fine as ``points``.
+    """Return the hint to the recommended grid, at least twice as fine as the present one.
 
     Where solids carry most of the load no film recommends one.
+
+    Parameters
+    ----------
+    points : (int, int)
+        Nodes (nx, ny) of the present grid.
+    scaled : ScaledProblem
+        With the film to resolve.
     """
     nodes = 2 * max(points) - 1
     if not solids_carry(scaled):

@@ -18,7 +18,15 @@ SPLINE_SAMPLES = 121
 
 
 def central_value(grid: Grid, field: Array) -> float:
-    """Return ``field`` at X = Y = 0: the node there, else cubic interpolation."""
+    """Return a field at X = Y = 0: the node there, else cubic interpolation.
+
+    Parameters
+    ----------
+    grid : Grid
+        On mirrored grids row 0 is the line y = 0.
+    field : Array
+        Nodal values, ``grid.shape``.
+    """
     columns, column_weights = _lagrange(grid.x, grid.dx)
     if grid.mirror:
         return float(field[0, columns] @ column_weights)
@@ -44,9 +52,16 @@ def film_summary(grid: Grid, film: Array, least: float | None = None) -> FilmSum
     """Return central and minimum film H, the minimum from a bicubic spline around its node.
 
     The valley of a side lobe is narrow and oblique to the grid: its minimum may be more than a mesh
-    width from the smallest node, beyond the reach of a quadratic through the neighbours. ``film``
-    has the shape of ``grid`` [-]. Between nodes that touch the film is the boundary film ``least``,
-    not less.
+    width from the smallest node, beyond the reach of a quadratic through the neighbours.
+
+    Parameters
+    ----------
+    grid : Grid
+        Nodes of the film.
+    film : Array
+        H at the nodes [-], ``grid.shape``.
+    least : float or None
+        Boundary film H, the minimum between nodes that touch; None where surfaces do not touch.
     """
     full = grid.unfold(film)
     row = grid.domain.y[0] + grid.dy * np.arange(grid.ny)

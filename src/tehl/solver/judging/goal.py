@@ -150,9 +150,14 @@ class Goal:
         return self.may_refine(level)
 
     def may_refine(self, level: Level, errors: ErrorEstimate | None = None) -> bool:
-        """Return whether a grid of twice the intervals may follow ``level``; else say why.
+        """Return whether a grid of twice the intervals may follow; if not, `obstacle` says why.
 
-        It would not reduce the part of the domain in the ``errors``.
+        Parameters
+        ----------
+        level : Level
+            Finest level so far.
+        errors : ErrorEstimate or None
+            Of that level; the part of the domain would not become smaller.
         """
         nx, ny = (2 * (n - 1) + 1 for n in level.grid.points)
         now, limit = time.perf_counter(), self.options.max_time

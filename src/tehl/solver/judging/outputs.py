@@ -25,7 +25,15 @@ from tehl.solver.cycle.level import Level
 
 
 def newtonian_shear(level: Level, scaled: ScaledProblem) -> FilmShear:
-    """Return the shear stress of an isothermal Newtonian film, from pressure and film."""
+    """Return the shear stress of an isothermal Newtonian film, from pressure and film.
+
+    Parameters
+    ----------
+    level : Level
+        Finest level with its pressure and film up to date.
+    scaled : ScaledProblem
+        With the slide-roll ratio and the stress unit.
+    """
     grid, groups = level.grid, scaled.groups
     slope_x, _ = pressure_slopes(grid, groups, level.film.p)
     sliding = newtonian_sliding(level, scaled)
@@ -41,7 +49,15 @@ def newtonian_shear(level: Level, scaled: ScaledProblem) -> FilmShear:
 
 
 def newtonian_sliding(level: Level, scaled: ScaledProblem) -> Array:
-    """Return the mid-film stress -SRR eta/h of an isothermal Newtonian film, ``grid.shape`` [-]."""
+    """Return the mid-film stress -SRR eta/h of an isothermal Newtonian film, ``grid.shape`` [-].
+
+    Parameters
+    ----------
+    level : Level
+        The film counts from the floor of the conductance on.
+    scaled : ScaledProblem
+        With the slide-roll ratio and the viscosity at the inlet temperature.
+    """
     problem, scales = scaled.problem, scaled.scales
     if problem.slide_roll_ratio == 0:
         return np.zeros(level.grid.shape)
@@ -116,7 +132,15 @@ def heat_balance(state: FilmState) -> HeatBalance:
 
 
 def film_asperities(level: Level, scaled: ScaledProblem) -> FilmAsperities | None:
-    """Return pressure, area and separation of asperities; None without."""
+    """Return pressure, area, spots and separation of asperities; None without.
+
+    Parameters
+    ----------
+    level : Level
+        Finest level with its separations up to date.
+    scaled : ScaledProblem
+        With the law of asperities and the rms height of both surfaces [m].
+    """
     problem, scales, grid = scaled.problem, scaled.scales, level.grid
     if problem.asperities is None:
         return None
@@ -133,7 +157,15 @@ def film_asperities(level: Level, scaled: ScaledProblem) -> FilmAsperities | Non
 
 
 def film_contact(level: Level, scaled: ScaledProblem) -> FilmContact | None:
-    """Return the pressure of contact through a boundary film; None without."""
+    """Return the pressure of contact through a boundary film; None without.
+
+    Parameters
+    ----------
+    level : Level
+        Finest level.
+    scaled : ScaledProblem
+        With the Hertz pressure [Pa].
+    """
     if level.equations.contact_film is None:
         return None
     pressure = level.grid.unfold(level.film.asperity * scaled.scales.hertz_pressure)
@@ -179,7 +211,15 @@ def _line_weights(grid: Grid) -> Array:
 
 
 def film_oil(level: Level, scaled: ScaledProblem) -> FilmOil | None:
-    """Return where the oil is; None if cavities do not conserve it."""
+    """Return where the oil is; None if cavities do not conserve it.
+
+    Parameters
+    ----------
+    level : Level
+        Finest level with the marks of partly filled nodes.
+    scaled : ScaledProblem
+        With the film scale [m].
+    """
     if not level.stencil.conserves:
         return None
     (held, passed), grid, unit = level.oil_flow(), level.grid, scaled.scales.film_thickness
@@ -203,8 +243,14 @@ def _unfold_line(grid: Grid, values: Array) -> Array:
 def oil_balance(level: Level, *, until: float = np.inf) -> float:
     """Return the largest change of the oil flux between sections across the flow, relative [-].
 
-    The flux through the side edges counts. Of the sections downstream of X = ``until`` only the
-    last one does.
+    The flux through the side edges counts.
+
+    Parameters
+    ----------
+    level : Level
+        Conserving oil in cavities.
+    until : float
+        X up to which all sections count; further downstream only the last one does.
     """
     _, passed = level.oil_flow()
     film, stencil, mirror = level.film, level.stencil, level.grid.mirror

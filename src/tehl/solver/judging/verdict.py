@@ -61,7 +61,12 @@ heat, the backflow in the inlet stores some for many sweeps."""
 def verdict(run: FilmSolver, *, reached: bool) -> Status:
     """Judge the last state of a run that stayed finite, with its film up to date.
 
-    ``reached`` is whether the cycles met the stopping criterion.
+    Parameters
+    ----------
+    run : FilmSolver
+        With its finest level and error estimates.
+    reached : bool
+        Whether the cycles met the stopping criterion.
     """
     film, errors = run.finest.film, run.errors()
     finite = np.isfinite(film.p).all() and np.isfinite(film.h).all()
@@ -167,6 +172,13 @@ def is_film(level: Level, errors: ErrorEstimate | None) -> bool:
     """Whether the film between rough surfaces is positive, between the nodes too.
 
     A film slightly below the floor of the conductance is accepted if the floor is within its error.
+
+    Parameters
+    ----------
+    level : Level
+        Finest level.
+    errors : ErrorEstimate or None
+        Its relative error of the minimum widens the acceptance, None does not.
     """
     smallest, bar = float(level.film.h.min()), 0.0
     if errors is not None:
@@ -204,7 +216,15 @@ def no_film(level: Level) -> str:
 
 
 def touching(run: FilmSolver, part: float) -> Status:
-    """Return the status of a film that is not positive with only ``part`` of the heights."""
+    """Return the status of a film that is positive only with lower heights.
+
+    Parameters
+    ----------
+    run : FilmSolver
+        Stopped while heights were raised.
+    part : float
+        Part of the heights that the film shown has, 0 to 1.
+    """
     status = _no_film_status(run, run.errors())
     message = f"{status.message} The film shown has {100 * part:.0f} % of the heights."
     return replace(status, message=message)

@@ -178,7 +178,15 @@ def close_balance(level: Level) -> bool:
 
 
 def choose_orders(level: Level, order: int = 2) -> None:
-    """Set the orders of the fluxes: 1 where surfaces touch and beside, else ``order``."""
+    """Set the orders of the fluxes: 1 where surfaces touch and beside.
+
+    Parameters
+    ----------
+    level : Level
+        Its marks of second order are overwritten.
+    order : int
+        Order elsewhere, 1 or 2.
+    """
     second = level.film.second
     if order == 1 or level.stencil.w2 == 0.0:
         second[:] = 0
@@ -201,12 +209,24 @@ def with_neighbours(marked: BoolArray) -> BoolArray:
 
 
 def raise_heights(level: Level, newton: TouchingNewton, iterate: Callable[[], float]) -> None:
-    """Raise the heights of ``level`` from the smooth film, by increments solved by ``iterate``.
+    """Raise the heights from the smooth film, increment by increment.
 
     Fluxes are of first order until all heights are there. Each increment starts from the solution
     of the last one: to extrapolate both would mix the nodes that touch.
 
-    Raises DivergedError when the smallest increment does not converge.
+    Parameters
+    ----------
+    level : Level
+        Starts without heights.
+    newton : TouchingNewton
+        Of this level.
+    iterate : callable
+        Takes one Newton step and returns the residual.
+
+    Raises
+    ------
+    DivergedError
+        When the smallest increment does not converge.
     """
     order = newton.order
     newton.set_order(1)

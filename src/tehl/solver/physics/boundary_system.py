@@ -150,13 +150,22 @@ class TouchingSystem:
     def stepped(
         self, before: tuple[Array, float, Array], change: Array, part: float, residual: float
     ) -> tuple[Array, float, Array]:
-        """Return oil pressure, rigid approach and contact pressure after ``part`` of a change.
-
-        ``residual`` is that before it: far from the solution the oil changes by less.
+        """Return oil pressure, rigid approach and contact pressure after part of a change.
 
         Where surfaces touch the sum of both pressures follows the change and the oil pressure has
         its part of it: one that falls does so by its density, whose slope at high pressure would
         take it far below the solution.
+
+        Parameters
+        ----------
+        before : (Array, float, Array)
+            Oil pressure (ny, nx), rigid approach and contact pressure (ny, nx), in Hertz scales.
+        change : Array
+            Solution of the linear system.
+        part : float
+            Step length, 0 to 1.
+        residual : float
+            Before the change: far from the solution the oil changes by less.
         """
         (oil, approach, contact), shape = before, self.shape
         u = (np.where(self.free, change[: self.size], 0.0) + self.known_oil).reshape(shape)
@@ -268,6 +277,13 @@ def beside(matrix: csr_matrix, nx: int) -> csc_matrix:
     """Return the entries of a matrix between nodes of a line, and of the next ones, as float32.
 
     The few others save no iterations, and double the cost of a factorisation.
+
+    Parameters
+    ----------
+    matrix : csr_matrix
+        Over all nodes, row by row.
+    nx : int
+        Nodes per line.
     """
     entries = matrix.tocoo()
     near = np.abs(entries.row // nx - entries.col // nx) <= 1

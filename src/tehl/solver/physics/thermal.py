@@ -183,7 +183,15 @@ class Coupling:
         return known | (state.transient.pack() if state.transient is not None else {})
 
     def unpack(self, levels: Sequence[Level], fields: dict[str, Array]) -> None:
-        """Restore the state that `pack` returned."""
+        """Restore the state that `pack` returned.
+
+        Parameters
+        ----------
+        levels : sequence of Level
+            The coarsest first; their factors are restored too.
+        fields : dict
+            Arrays by name; an empty one leaves the state as it is.
+        """
         if self.state is None or not fields:
             return
         for name in CARRIED:
@@ -196,7 +204,15 @@ class Coupling:
         self.factors = levels[-1].factors
 
     def begin_transient(self, levels: Sequence[Level], time_step: float) -> None:
-        """Make the energy equation transient, in steps of ``time_step`` [a_x / u_m]."""
+        """Make the energy equation transient.
+
+        Parameters
+        ----------
+        levels : sequence of Level
+            The coarsest first, with the factors of the steady film.
+        time_step : float
+            Step [a_x / u_m].
+        """
         self.factors = levels[-1].factors
         if self.state is not None and self.state.model.terms.heat:
             self.state.begin_transient(time_step)

@@ -150,7 +150,15 @@ def _not_certified(finest: TransientSolution, what: str, failed: Other) -> Trans
 
 
 def estimates(runs: Runs, wide: TransientSolution) -> dict[str, Estimate]:
-    """Return extremes over time with their error bars, in SI."""
+    """Return extremes over time with their error bars, in SI.
+
+    Parameters
+    ----------
+    runs : tuple of TransientSolution
+        On grids and time steps halved each time, the finest last.
+    wide : TransientSolution
+        On the larger domain, with the mesh width of the second finest run.
+    """
     end = float(runs[-1].history.time[-1])
     found, wider = [_extremes(run, end) for run in runs], _extremes(wide, end)
     bars = {
@@ -189,7 +197,15 @@ def _extremes(run: TransientSolution, end: float) -> dict[str, float]:
 
 
 def history_bars(runs: Runs, wide: TransientSolution) -> HistoryBars:
-    """Return error bars along the history, at the times that all runs share."""
+    """Return error bars along the history, at the times that all runs share.
+
+    Parameters
+    ----------
+    runs : tuple of TransientSolution
+        On grids and time steps halved each time, the finest last.
+    wide : TransientSolution
+        On the larger domain, with the mesh width of the second finest run.
+    """
     growth = _growth(runs)[:: 2 ** (len(runs) - 2)]
     return HistoryBars(
         time=_shared(runs, "time")[-1],

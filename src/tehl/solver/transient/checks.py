@@ -19,7 +19,20 @@ LARGEST_PEAK_ERROR = 0.25
 
 
 def check_stride(transient: Transient, grid: Grid) -> None:
-    """Check that two time steps pass at most an eighth of the domain."""
+    """Check that two time steps pass at most an eighth of the domain.
+
+    Parameters
+    ----------
+    transient : Transient
+        Its ``stride`` is the time step in mesh widths over u_m.
+    grid : Grid
+        With the number of nodes along x.
+
+    Raises
+    ------
+    InputError
+        If the stride is too long; the message has the longest one.
+    """
     longest = max((grid.nx - 1) // 16, 1)
     if transient.stride > longest:
         raise InputError(
@@ -52,7 +65,20 @@ def check_waves(heights: MovingHeights, grid: Grid, stride: int) -> None:
 
 
 def check_load(transient: Transient, seconds: float) -> None:
-    """Check that time steps of ``seconds`` resolve the peaks of the load."""
+    """Check that time steps resolve the peaks of the load.
+
+    Parameters
+    ----------
+    transient : Transient
+        Its ``load`` is over that of the contact, piecewise linear in time [s].
+    seconds : float
+        Time step [s].
+
+    Raises
+    ------
+    InputError
+        If a peak lies between two steps.
+    """
     levels = plateaus(transient.load)
     if not levels:
         return

@@ -94,10 +94,19 @@ class Stepper:
         self.choose(0)
 
     def step(self, heights: Array, load: float) -> StepEnd:
-        """Advance by one step to the heights of both surfaces, (ny, nx), and the load [-].
+        """Advance by one step.
 
-        Raises StepError when no relaxation converges; pressure and film are those of the last
-        attempt.
+        Parameters
+        ----------
+        heights : Array
+            Of both surfaces together [-], (ny, nx).
+        load : float
+            Over that of the contact [-].
+
+        Raises
+        ------
+        StepError
+            When no relaxation converges; pressure and film are those of the last attempt.
         """
         level, history = self.solver.finest, self._history()
         start = level.state()
