@@ -5,7 +5,7 @@ import io
 import re
 import tokenize
 from collections.abc import Iterator
-from itertools import chain
+from itertools import chain, pairwise
 from pathlib import Path
 
 import pytest
@@ -63,6 +63,9 @@ SMALLER SMALLEST STEP STEPS THICK THICKEST THIN THINNEST TIGHTER TIMES TINY TOLE
 WIDER WIDEST WORSE
 """
 """Names of constants that do not name a quantity."""
+
+FILLERS = frozenset(("case", "contact", "grid", "nodes", "result", "run"))
+"""What a type says already, so that a section need not."""
 
 PATTERN = re.compile("|".join(rf"\b(?:{words})\b" for words in DIALECT), re.IGNORECASE)
 
@@ -126,3 +129,39 @@ def test_constants_name_a_quantity():
         if name.strip("_") in VAGUE.split()
     ]
     assert vague == []
+
+
+def sections():
+    """Yield each function that has a section of parameters, with the lines of that section."""
+    for module, tree in house.trees().items():
+        for node in ast.walk(tree):
+            text = ast.get_docstring(node) or "" if isinstance(node, house.FUNCTIONS) else ""
+            found = re.search(r"^Parameters\n-+\n(.*?)(?=\n\n\w+\n---|\Z)", text, re.S | re.M)
+            if found:
+                yield f"{module}.{node.name}", node.args, found[1].splitlines()
+
+
+def names_of(lines):
+    heads = [line.partition(" : ")[0] for line in lines if line and not line.startswith(" ")]
+    return [name.strip().lstrip("*") for head in heads for name in head.split(",")]
+
+
+def test_sections_name_all_parameters():
+    wrong = {}
+    for name, args, lines in sections():
+        given = [*args.posonlyargs, *args.args, *args.kwonlyargs, args.vararg, args.kwarg]
+        needed = {one.arg for one in given if one is not None} - {"self", "cls"}
+        if set(names_of(lines)) != needed:
+            wrong[name] = needed.symmetric_difference(names_of(lines))
+    assert wrong == {}
+
+
+def test_sections_say_more_than_the_name():
+    empty = []
+    for function, _, lines in sections():
+        for head, text in pairwise(lines):
+            name, said = head.partition(" : ")[0], text.strip().lower().rstrip(".")
+            words = {name.lower(), name.lower().replace("_", " "), *FILLERS}
+            if text.startswith(" ") and said.removeprefix("the ").removeprefix("a ") in words:
+                empty.append(f"{function}: {name}")
+    assert empty == []

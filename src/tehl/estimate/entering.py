@@ -34,7 +34,7 @@ def kept_part(scaled: ScaledProblem, inlet: float, y: Array) -> Array:
     Parameters
     ----------
     scaled : ScaledProblem
-        The contact.
+        With the expected film H_c and the thermal properties of the oil.
     inlet : float
         Distance of the inlet edge [half-widths].
     y : array

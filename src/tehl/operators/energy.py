@@ -32,9 +32,9 @@ class FilmState:
     Parameters
     ----------
     grid : Grid
-        The nodes.
+        Half of the domain if it is mirrored; rows are padded to full blocks.
     film : HeatedFilm
-        The contact.
+        Laws, solids and dimensionless numbers of the energy equation.
     wedge_order : int
         Order of the upstream differences.
     finest : bool

@@ -54,7 +54,7 @@ class HeatedFilm:
         Parameters
         ----------
         grid : Grid
-            The nodes.
+            For its mesh widths and symmetry.
         wedge_order : int
             Order of the upstream differences.
         """
@@ -104,7 +104,7 @@ def _film_terms(grid: Grid, scaled: ScaledProblem, wedge_order: int) -> Terms:
     grid : Grid
         Mesh widths and symmetry.
     scaled : ScaledProblem
-        The contact.
+        With the properties of the oil at the inlet.
     wedge_order : int
         Order of the upstream differences.
     """

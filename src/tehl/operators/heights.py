@@ -180,7 +180,7 @@ class MovingHeights:
     scaled : ScaledProblem
         Surfaces and motion.
     grid : Grid
-        The nodes.
+        Heights are filtered to its mesh widths.
     entrance : float or None
         Distance upstream at which roughness without end along x starts at time zero, and from which
         it moves in [a_x]; None starts it everywhere. Features, and maps with flat surroundings,

@@ -41,7 +41,7 @@ def neighbour(
     Parameters
     ----------
     grid : Grid
-        The nodes.
+        On mirrored grids rows before y = 0 are those behind it.
     inner : array of bool, ``grid.shape``
         Nodes that are not on an edge.
     rows, columns : int

@@ -34,7 +34,7 @@ def resolution_of(problem: ContactProblem, mesh: tuple[float, float]) -> Resolut
     Parameters
     ----------
     problem : ContactProblem
-        The contact.
+        Its surfaces are sampled within the Hertz half-widths.
     mesh : (float, float)
         Mesh widths along x and y [m].
 

@@ -26,7 +26,7 @@ def steady_stencil(
     Parameters
     ----------
     grid : Grid
-        The nodes.
+        Its mesh widths are in Hertz half-widths.
     groups : Groups
         The ellipticity scales the differences along y.
     wedge_order : {1, 2, 3}

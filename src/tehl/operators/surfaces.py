@@ -125,9 +125,9 @@ class Solids:
     Parameters
     ----------
     grid : Grid
-        The nodes.
+        Its cells are the sources.
     scaled : ScaledProblem
-        Units.
+        For the half-widths [m] and the temperature rise per flux.
     both : (Side, Side)
         The solids.
     flux_unit : float

@@ -57,7 +57,7 @@ def moving_profiles(
     Parameters
     ----------
     run : TransientSolution
-        The run.
+        With the profiles along y = 0 at each step.
     surface : {1, 2}
         Which surface.
     start : float
@@ -125,7 +125,7 @@ def envelope(run: TransientSolution, *, since: float = 0.0, until: float = math.
     Parameters
     ----------
     run : TransientSolution
-        The run.
+        With the profiles along y = 0 at each step.
     since, until : float
         First and last time [s].
 
@@ -168,7 +168,7 @@ def largest_change(run: TransientSolution, name: str, sign: int) -> LargestChang
     Parameters
     ----------
     run : TransientSolution
-        The run.
+        Its first profile is the reference.
     name : {"film", "pressure"}
         Which profile.
     sign : {-1, 1}

@@ -91,7 +91,7 @@ def questions(
     Parameters
     ----------
     scaled : ScaledProblem
-        The contact.
+        With dimensionless groups, Hertz contact and expected films.
     options : Options
         Its numerics.
     heat : ExpectedHeat or None

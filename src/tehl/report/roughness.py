@@ -67,7 +67,7 @@ def asperities(
     Parameters
     ----------
     problem, options : ContactProblem, Options
-        The case.
+        Surfaces and motion, and the error to reach.
     mesh : (float, float)
         Mesh widths of the finest grid along x and y [m].
     film : float

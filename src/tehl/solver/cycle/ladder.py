@@ -132,7 +132,7 @@ def ladder(problem: ContactProblem, options: Options, *, rough: bool) -> tuple[S
     Parameters
     ----------
     problem : ContactProblem
-        The contact.
+        Supply, heat, contact and shape decide the strategies.
     options : Options
         A stated ``smoother`` is the only rung.
     rough : bool

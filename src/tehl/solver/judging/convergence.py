@@ -490,7 +490,7 @@ def single_grid_estimate(
     Parameters
     ----------
     trace : GridTrace
-        The grid.
+        Cycles on the grid, with its central film.
     mesh_width : float
         h, in Hertz half-widths.
     points : float
