@@ -61,7 +61,7 @@ WRONG = {
         b"Zygo XYZ Data\nsome more\n1 2 3\n",
         'line 2 .* header are "key: val',
     ),
-    "half npz": ("a.npz", b"PK\x03\x04" + b"\0" * 99, "not a whole .npz file"),
+    "half npz": ("a.npz", b"PK\x03\x04" + b"\0" * 99, "not a complete .npz file"),
     "binary text": ("a.txt", b"\x89PNG\xff\xfe\x00", "not a text in UTF-8"),
     "ragged": ("a.csv", b"1,2,3,4\n1,2,3\n", "line 2 has 3 numbers, .* have 4"),
     "ragged by two": ("a.csv", b"1,2,3,4\n1,2,\n", "line 2 has 2 numbers, .* have 4"),
@@ -80,7 +80,7 @@ WRONG = {
     "garbage netcdf": ("a.nc", b"\x00\x01" * 99, "is not a NetCDF file"),
     "half netcdf": ("a.nc", b"\x89HDF\r\n\x1a\n" + b"\0" * 99, "truncated or damaged"),
     "classic netcdf": ("a.nc", b"CDF\x01\0\0\0\0\0\0", "truncated or damaged"),
-    "no zip": ("a.x3p", b"PK\x03\x04" + b"\0" * 99, "not a whole x3p"),
+    "no zip": ("a.x3p", b"PK\x03\x04" + b"\0" * 99, "not a complete x3p"),
     "picture": ("a.png", b"\x89PNG", "ending that is not a format"),
     "pickle file": ("a.pkl", b"\x80\x04.", "ending that is not a format"),
     "no ending": ("a", b"1 2 3 4", "ending that is not a format"),
@@ -132,7 +132,7 @@ def test_a_flipped_byte_of_packed_heights_is_reported_or_without_effect(tmp_path
         try:
             np.testing.assert_array_equal(read(path).heights, HEIGHTS)
         except InputError as error:
-            assert "not a whole x3p" in str(error)  # noqa: PT017 (a byte may have no effect)
+            assert "not a complete x3p" in str(error)  # noqa: PT017 (a byte may have no effect)
 
 
 @pytest.mark.parametrize("encoding", ["foo", "rot13", "hex", "utf-7"])

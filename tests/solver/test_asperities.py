@@ -237,7 +237,7 @@ def test_the_balance_of_the_oil_is_printed_and_small(mixed):
     balance = mixed.load_sharing.balance
     assert 0.0 < balance < 0.02  # of the same size as the error in the inlet
     assert mixed.summary()["load_sharing"]["balance"] == balance
-    assert f"{balance:.1e} of what enters" in as_text(mixed)
+    assert f"{balance:.1e} of the inflow" in as_text(mixed)
     assert f"{balance:.1e}" in report_text(mixed, dpi=30)
 
 

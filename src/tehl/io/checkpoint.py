@@ -88,7 +88,7 @@ def read_checkpoint(path: str | Path, owner: Fingerprint) -> dict[str, NDArray[A
     InputError
         If the file does not exist, or is of another version of this package or of another case.
     FileFormatError
-        If it is not a whole checkpoint.
+        If it is not a complete checkpoint.
     """
     if not Path(path).is_file():
         raise InputError(f"checkpoint {path} does not exist")
@@ -98,7 +98,7 @@ def read_checkpoint(path: str | Path, owner: Fingerprint) -> dict[str, NDArray[A
         version, case = (str(word) for word in arrays.pop(_LABEL))
     except Exception:  # a flipped bit makes zip and array headers raise anything
         raise FileFormatError(
-            f"{path} is not a whole checkpoint: remove it to start again"
+            f"{path} is not a complete checkpoint: remove it to start again"
         ) from None
     if version != owner.version:
         raise InputError(

@@ -75,7 +75,7 @@ def read_npz(path: Path, variable: str | None) -> RawMap:
     except InputError:
         raise
     except Exception as error:  # as damaged archives raise
-        raise InputError(f"is not a whole .npz file: {_short(error)}") from None
+        raise InputError(f"is not a complete .npz file: {_short(error)}") from None
     return RawMap(heights=heights, kind=f"numpy archive, array {name}")
 
 
